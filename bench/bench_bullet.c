@@ -325,8 +325,8 @@ static uint32_t list_bullet(way *ways, bool solid) {
 }
 
 static void measure(const char *name, sbf_asset *asset, uint32_t ticks, bool quick) {
-  enum { MOST_WAYS = 24 };
-  way ways[MOST_WAYS];
+  enum { MAX_WAYS = 24 };
+  way ways[MAX_WAYS];
   scene s = make_scene(name, asset, quick ? 2 : ticks);
   bool solid = s.shape.tetrahedron_count > 0;
   uint32_t count = list_ours(ways, solid);

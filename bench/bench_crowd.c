@@ -122,12 +122,12 @@ static crowd_times run_crowd(
 }
 
 static void measure_crowds(
-    const char *name, const sbf_asset *asset, double raise_m, uint32_t most, uint32_t frames, bool quick) {
+    const char *name, const sbf_asset *asset, double raise_m, uint32_t max, uint32_t frames, bool quick) {
   static const uint32_t counts[] = {1, 10, 100};
   sbf_diagnostic error;
   sbr_model *model;
   bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
-  for (uint32_t n = 0; n < (quick ? 1 : 3) && counts[n] <= most; n++) {
+  for (uint32_t n = 0; n < (quick ? 1 : 3) && counts[n] <= max; n++) {
     double one = 0;
     uint64_t hash = 0;
     for (uint32_t threads = 1; threads <= 2; threads++) {
@@ -159,7 +159,7 @@ static double bytes_of_substep(const sbf_asset *asset) {
 static void measure_substep(const sbf_asset *asset, sbr_instructions instructions, bool quick) {
   sbf_diagnostic error;
   sbr_model *models[2];
-  double least[2] = {0, 0};
+  double min[2] = {0, 0};
   enum { SUBSTEPS = 40 };
   for (uint32_t k = 0; k < 2; k++)
     bench_require(sbr_model_create(asset,
@@ -169,11 +169,11 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
   for (uint32_t round = 0; round < (quick ? 1u : 7u); round++)
     for (uint32_t k = 0; k < 2; k++) {
       double taken = run_crowd(models[k], FLIES_M, 1, 1, quick ? 4 : 40).busy_s;
-      if (round == 0 || taken < least[k]) least[k] = taken;
+      if (round == 0 || taken < min[k]) min[k] = taken;
     }
-  double substep = (least[1] - least[0]) / SUBSTEPS;
+  double substep = (min[1] - min[0]) / SUBSTEPS;
   bench_print_row("armadillo,1,1,%s,%u,%d,%.3f,,,%.2f,%.2f", sbr_instructions_name(instructions),
-      elements_of(asset), (int)SUBSTEPS, least[0] * 1e3, substep * 1e9 / elements_of(asset),
+      elements_of(asset), (int)SUBSTEPS, min[0] * 1e3, substep * 1e9 / elements_of(asset),
       bytes_of_substep(asset) / substep * 1e-9);
   for (uint32_t k = 0; k < 2; k++) sbr_model_destroy(models[k]);
 }
@@ -183,7 +183,7 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
 static void measure_triad(const char *name, size_t size, bool quick) {
   size_t count = size / sizeof(float), rounds = quick ? 1 : 3 + ((size_t)1 << 27) / size;
   float *lists = bench_allocate(3 * count, sizeof *lists), *a = lists, *b = lists + count, *c = b + count;
-  double least = 0;
+  double min = 0;
   for (size_t i = 0; i < count; i++) a[i] = 0, b[i] = (float)i, c[i] = 2;
   for (size_t r = 0; r < rounds; r++) {
     double begin = bench_now_s();
@@ -193,10 +193,10 @@ static void measure_triad(const char *name, size_t size, bool quick) {
       for (size_t i = 0; i < count; i++) to[i] = from[i] + 0.5f * c[i];
     }
     double taken = (bench_now_s() - begin) / 8;
-    if (r == 0 || taken < least) least = taken;
+    if (r == 0 || taken < min) min = taken;
   }
   if (!(a[count / 2] >= 0)) bench_fail("the triad went wrong"); /* and is not left out for being unused */
-  bench_print_row("triad in %s,1,1,,,,%.4f,,,,%.2f", name, least * 1e3, 3 * (double)size / least * 1e-9);
+  bench_print_row("triad in %s,1,1,,,,%.4f,,,,%.2f", name, min * 1e3, 3 * (double)size / min * 1e-9);
   free(lists);
 }
 

@@ -20,7 +20,7 @@
 #include "sbrun/collision.h"
 #include "sbrun/detail.h"
 
-enum { MOST = 200, MEETING = 40, LATTICES = 20, CASES = 8, COMPARED_EVERY = 10 };
+enum { MAX = 200, MEETING = 40, LATTICES = 20, CASES = 8, COMPARED_EVERY = 10 };
 
 /* Who they are. */
 typedef struct species {
@@ -36,10 +36,10 @@ typedef struct crowd {
   const struct crowd *full; /* that it is compared with; itself: it is */
   uint32_t count;
   sbf_allocator allocator;
-  size_t held, most; /* bytes */
+  size_t held, max; /* bytes */
   sbr_world *world;
-  sbr_character_id ids[MOST];
-  bool was_away[MOST];
+  sbr_character_id ids[MAX];
+  bool was_away[MAX];
   double seconds, visits, rungs[4], coarser, returned, bytes;
   double squares, worst_square, worst_lizard; /* pixels squared */
   uint64_t vertices;
@@ -52,7 +52,7 @@ static void *counted(void *user, void *memory, size_t old_size, size_t new_size)
   if (!new_size) free(memory);
   if (new_size && !moved) return NULL;
   c->held += new_size - (memory ? old_size : 0);
-  if (c->held > c->most) c->most = c->held;
+  if (c->held > c->max) c->max = c->held;
   return moved;
 }
 
@@ -146,12 +146,12 @@ static void report(const crowd *c) {
       sqrt(c->squares / vertices), sqrt(c->worst_lizard), sqrt(c->worst_square),
       c->rungs[SBR_RUNG_SOFT] / ticks, c->coarser / ticks, c->rungs[SBR_RUNG_JIGGLE] / ticks,
       c->rungs[SBR_RUNG_BONES] / ticks, c->rungs[SBR_RUNG_AWAY] / ticks,
-      c->looks ? c->returned / c->looks : 0, c->bytes / ticks / 1e6, (double)c->most / 1e6);
+      c->looks ? c->returned / c->looks : 0, c->bytes / ticks / 1e6, (double)c->max / 1e6);
 }
 
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
-  uint32_t count = quick ? 6 : MOST, meeting = quick ? 4 : MEETING, lattices = quick ? 4 : LATTICES,
+  uint32_t count = quick ? 6 : MAX, meeting = quick ? 4 : MEETING, lattices = quick ? 4 : LATTICES,
            ticks = quick ? 12 : 210;
   uint32_t first = quick ? 2 : 30;
   sbf_asset *source = our_lizard(false);
@@ -172,9 +172,9 @@ int main(int argument_count, char **arguments) {
   open_crowd(&c[6], "lattices meeting at full detail", &c[6], &tetrahedra, lattices, true, NULL);
   open_crowd(&c[7], "lattices meeting at half a pixel", &c[6], &tetrahedra, lattices, true, &stays);
   sbf_vec3 *places[2];
-  uint32_t most =
+  uint32_t max =
       springs.vertex_count > tetrahedra.vertex_count ? springs.vertex_count : tetrahedra.vertex_count;
-  for (int k = 0; k < 2; k++) places[k] = bench_allocate(most + 1, sizeof *places[k]);
+  for (int k = 0; k < 2; k++) places[k] = bench_allocate(max + 1, sizeof *places[k]);
   for (uint32_t t = 0; t < ticks; t++) {
     sbr_view view = crowd_view(t, ticks);
     for (int k = 0; k < CASES; k++) step(&c[k], &view, t >= first);

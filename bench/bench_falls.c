@@ -39,7 +39,7 @@ typedef struct fall {
   uint32_t inside;
 } fall;
 
-static float most(float a, float b) {
+static float max(float a, float b) {
   return a > b ? a : b;
 }
 
@@ -53,7 +53,7 @@ static float length(sbf_vec3 a) {
   return sqrtf(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-static void keep_least(fall *best, const fall *now, bool first) {
+static void keep_min(fall *best, const fall *now, bool first) {
   double fall_us = first || now->fall_us < best->fall_us ? now->fall_us : best->fall_us;
   double lie_us = first || now->lie_us < best->lie_us ? now->lie_us : best->lie_us;
   *best = *now;
@@ -80,7 +80,7 @@ static float beyond_limits(sbf_quat a, sbf_quat b) {
       a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z};
   float swing = 2 * atan2f(hypotf(r.y, r.z), hypotf(r.x, r.w)), twist = fabsf(2 * atan2f(r.x, r.w));
   if (twist > 3.14159265f) twist = 6.28318531f - twist;
-  return most(most(swing - RAGDOLL_SWING, twist - RAGDOLL_TWIST), 0);
+  return max(max(swing - RAGDOLL_SWING, twist - RAGDOLL_TWIST), 0);
 }
 
 static void look_at_ragdoll(const part_state parts[RAGDOLL_PARTS], int tick, fall *f) {
@@ -89,16 +89,16 @@ static void look_at_ragdoll(const part_state parts[RAGDOLL_PARTS], int tick, fal
     for (int k = 0; k < 8; k++) {
       sbf_vec3 corner = {p->size.x * (k & 1 ? 0.5f : -0.5f), p->size.y * (k & 2 ? 0.5f : -0.5f),
           p->size.z * (k & 4 ? 0.5f : -0.5f)};
-      f->deep_m = most(f->deep_m, -plus(parts[i].center, turned(parts[i].rotation, corner)).y);
+      f->deep_m = max(f->deep_m, -plus(parts[i].center, turned(parts[i].rotation, corner)).y);
     }
-    if (tick >= RAGDOLL_TICKS - RAGDOLL_LIES) f->rest_m_s = most(f->rest_m_s, length(parts[i].velocity));
+    if (tick >= RAGDOLL_TICKS - RAGDOLL_LIES) f->rest_m_s = max(f->rest_m_s, length(parts[i].velocity));
     if (p->parent < 0) continue;
     const ragdoll_part *q = &ragdoll_parts[p->parent];
     const part_state *from = &parts[p->parent];
     sbf_vec3 a = plus(from->center, turned(from->rotation, minus(p->joint, q->middle)));
     sbf_vec3 b = plus(parts[i].center, turned(parts[i].rotation, minus(p->joint, p->middle)));
-    f->apart_m = most(f->apart_m, length(minus(a, b)));
-    f->beyond = most(f->beyond, beyond_limits(from->rotation, parts[i].rotation));
+    f->apart_m = max(f->apart_m, length(minus(a, b)));
+    f->beyond = max(f->beyond, beyond_limits(from->rotation, parts[i].rotation));
   }
 }
 
@@ -187,7 +187,7 @@ static void measure_ragdolls(bool quick) {
     bench_require(sbr_model_create(asset, &options, &model, &error), &error);
     for (int r = 0; r < rounds; r++) {
       fall f = our_ragdoll(model, ours[k].undamped, ticks);
-      keep_least(&best, &f, r == 0);
+      keep_min(&best, &f, r == 0);
     }
     static const char *const methods[2][2] = {{"direct", "direct undamped"}, {"coarse", "coarse undamped"}};
     print_ragdoll("sbrun", methods[ours[k].coarse][ours[k].undamped], (int)ours[k].steps, 1, &best);
@@ -202,7 +202,7 @@ static void measure_ragdolls(bool quick) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
       fall f = bullets_ragdoll(theirs[k][0], theirs[k][1], ticks);
-      keep_least(&best, &f, r == 0);
+      keep_min(&best, &f, r == 0);
     }
     print_ragdoll("Bullet", "sequential impulses", theirs[k][0], theirs[k][1], &best);
   }
@@ -264,7 +264,7 @@ static void look_at_cloth(const cloth *c, const sbf_vec3 *points, uint32_t tick,
   f->inside = 0;
   for (uint32_t i = 0; i < c->shape.point_count; i++) {
     float deep = BALL_M - length(points[i]);
-    f->deep_m = most(f->deep_m, deep);
+    f->deep_m = max(f->deep_m, deep);
     f->inside += deep > 1e-3f;
   }
   if (tick + 1 < c->ticks) return;
@@ -351,7 +351,7 @@ static void measure_our_cloth(
   bench_require(sbr_model_create(c->asset, &options, &model, &error), &error);
   for (int r = 0; r < rounds; r++) {
     fall f = our_cloth(c, model, points);
-    keep_least(&best, &f, r == 0);
+    keep_min(&best, &f, r == 0);
   }
   print_cloth(c, "sbrun", method, steps ? steps : sbr_model_substeps(model), 1, &best);
   if (best.inside > 0) bench_fail("%s: %u points of the cloth are in the ball", method, best.inside);
@@ -371,7 +371,7 @@ static void measure_cloths(bool quick) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
       fall f = bullets_cloth(&c, theirs[k][0], theirs[k][1], points);
-      keep_least(&best, &f, r == 0);
+      keep_min(&best, &f, r == 0);
     }
     print_cloth(&c, "Bullet", "links", theirs[k][0], theirs[k][1], &best);
   }

@@ -38,7 +38,7 @@ typedef struct walk {
   float leg_m;
   uint32_t piece_count, run_count, run;
   uint64_t hash;
-  double *least; /* of each piece, over the runs so far, in s */
+  double *min;   /* of each piece, over the runs so far, in s */
   double *means; /* of each run, in s a tick */
 } walk;
 
@@ -59,7 +59,7 @@ static void walk_once(walk *w) {
     double begin = bench_now_s();
     for (int i = 0; i < TICKS; i++) sbr_world_tick(world);
     double took = bench_now_s() - begin;
-    if (w->run == 0 || took < w->least[piece]) w->least[piece] = took;
+    if (w->run == 0 || took < w->min[piece]) w->min[piece] = took;
     sum += took;
   }
   w->means[w->run] = sum / (TICKS * w->piece_count);
@@ -84,16 +84,16 @@ static float leg_of(const sbf_asset *asset) {
 }
 
 static void print(const char *name, const sbf_asset *asset, const char *ground, const walk *w) {
-  double least = 0, worst = 0;
+  double min = 0, worst = 0;
   for (uint32_t i = 0; i < w->piece_count; i++) {
-    double us = 1e6 * w->least[i] / TICKS;
-    least += us / w->piece_count;
+    double us = 1e6 * w->min[i] / TICKS;
+    min += us / w->piece_count;
     worst = us > worst ? us : worst;
   }
   bench_spread spread = bench_spread_of(w->means, w->run_count);
   bench_print_row("%s,%u,%u,%s,%s,%.3f,%.3f,%.3f", name,
-      asset->gaits.count ? asset->gaits.at[0].legs.count : 0, asset->bones.count, ground, w->drive->name,
-      least, 1e6 * spread.median, worst);
+      asset->gaits.count ? asset->gaits.at[0].legs.count : 0, asset->bones.count, ground, w->drive->name, min,
+      1e6 * spread.median, worst);
 }
 
 static bool is_asked_for(const char *name, int argument_count, char **arguments) {
@@ -126,13 +126,13 @@ static void measure(const source *from, bool quick) {
         .leg_m = leg,
         .piece_count = piece_count,
         .run_count = run_count,
-        .least = bench_allocate(piece_count, sizeof(double)),
+        .min = bench_allocate(piece_count, sizeof(double)),
         .means = bench_allocate(run_count, sizeof(double))};
   for (uint32_t run = 0; run < run_count; run++)
     for (uint32_t i = 0; i < WALKS; i++) walk_once(&walks[run % 2 ? WALKS - 1 - i : i]);
   for (uint32_t i = 0; i < WALKS; i++) {
     print(from->name, asset, ground_names[i / DRIVES], &walks[i]);
-    free(walks[i].least);
+    free(walks[i].min);
     free(walks[i].means);
   }
   sbr_model_destroy(model);

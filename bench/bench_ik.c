@@ -33,7 +33,7 @@ typedef struct work {
   const sbri_joint_limit *limit;
   float tolerance;
   uint32_t count, passes, missed;
-  double error_sum, error_most;
+  double error_sum, error_max;
 } work;
 
 static float next(uint32_t *seed) {
@@ -61,7 +61,7 @@ static void make_targets(place kind, sbf_vec3 *targets) {
 static void solve_all(void *context) {
   work *w = context;
   w->passes = w->missed = 0;
-  w->error_sum = w->error_most = 0;
+  w->error_sum = w->error_max = 0;
   for (uint32_t i = 0; i < w->count; i++) {
     sbri_ik_joint joints[JOINTS];
     for (int k = 0; k < JOINTS; k++) {
@@ -82,7 +82,7 @@ static void solve_all(void *context) {
     w->passes += r.iterations;
     w->missed += error > (double)w->tolerance * (beyond > 0 ? 10 : 1);
     w->error_sum += error;
-    w->error_most = error > w->error_most ? error : w->error_most;
+    w->error_max = error > w->error_max ? error : w->error_max;
   }
 }
 
@@ -119,8 +119,8 @@ int main(int argument_count, char **arguments) {
           const work *w = &works[s];
           bench_print_row("%s,%s,%s,%g,%.1f,%.2f,%.3g,%.3g,%u,%u", w->with->name,
               limited ? "limited" : "free", place_names[kind], (double)w->tolerance,
-              (double)w->passes / w->count, 1e6 * cases[s].s.least / w->count, w->error_sum / w->count,
-              w->error_most, w->missed, w->count);
+              (double)w->passes / w->count, 1e6 * cases[s].s.min / w->count, w->error_sum / w->count,
+              w->error_max, w->missed, w->count);
         }
       }
   return 0;

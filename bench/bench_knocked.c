@@ -16,18 +16,18 @@
 #include "measuring.h"
 #include "sbrun/rigid.h"
 
-enum { TICKS = 180, COMPARED = 20, MOST_POINTS = 16384, MOST_BODIES = 64 };
+enum { TICKS = 180, COMPARED = 20, MAX_POINTS = 16384, MAX_BODIES = 64 };
 
 typedef struct knock {
   double tick_us;
   uint32_t body_count, point_count;
-  sbf_vec3 (*bodies)[MOST_BODIES], (*points)[MOST_POINTS]; /* (COMPARED) */
+  sbf_vec3 (*bodies)[MAX_BODIES], (*points)[MAX_POINTS]; /* (COMPARED) */
 } knock;
 
 static knock knock_of(uint32_t body_count) {
   return (knock){.body_count = body_count,
-      .bodies = bench_allocate(COMPARED, sizeof(sbf_vec3[MOST_BODIES])),
-      .points = bench_allocate(COMPARED, sizeof(sbf_vec3[MOST_POINTS]))};
+      .bodies = bench_allocate(COMPARED, sizeof(sbf_vec3[MAX_BODIES])),
+      .points = bench_allocate(COMPARED, sizeof(sbf_vec3[MAX_POINTS]))};
 }
 
 static void knock_free(knock *k) {
@@ -41,7 +41,7 @@ static void note(const sbr_world *world, sbr_character_id id, const sbf_asset *a
     k->bodies[tick][b] = sbr_character_rigid_state(world, id, b).center;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
     k->point_count +=
-        sbr_character_points(world, id, b, k->points[tick] + k->point_count, MOST_POINTS - k->point_count);
+        sbr_character_points(world, id, b, k->points[tick] + k->point_count, MAX_POINTS - k->point_count);
 }
 
 static double run(const sbf_asset *asset, const sbr_model *model, bool falls, int ticks, knock *k) {
@@ -88,7 +88,7 @@ int main(int argument_count, char **arguments) {
   knock knocks[CASES];
   double walk_us = 0;
   int rounds = quick ? 1 : 5, ticks = quick ? COMPARED : TICKS;
-  if (asset->rigid_bodies.count > MOST_BODIES) bench_fail("the lizard has too many bodies");
+  if (asset->rigid_bodies.count > MAX_BODIES) bench_fail("the lizard has too many bodies");
   for (int i = 0; i < CASES; i++) {
     sbr_model_options options = {.rigid_substeps = steps[i]};
     bench_require(sbr_model_create(asset, &options, &models[i], &error), &error);

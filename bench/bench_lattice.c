@@ -189,8 +189,8 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
   /* The cell that gives so many is named from here on, so that nothing is tried. */
   s.options.elements = 0;
   s.options.cell_m = s.cell;
-  enum { MOST_ROUNDS = 15 };
-  double pass[MOST_ROUNDS], whole[MOST_ROUNDS];
+  enum { MAX_ROUNDS = 15 };
+  double pass[MAX_ROUNDS], whole[MAX_ROUNDS];
   stuff(&s);
   for (uint32_t r = 0; r < rounds; r++) {
     double begin = processor_s();
@@ -207,7 +207,7 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
     snprintf(volume, sizeof volume, "%.4f", s.report.lattice_volume / fabs(surface.volume));
   process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
   bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%s,%.3g,%zu", surfaces[number].mesh,
-      s.report.tetrahedra, rounds, of_pass.least * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
+      s.report.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
       s.report.tetrahedra / of_pass.median, s.report.least_dihedral_deg, s.report.most_dihedral_deg, volume,
       s.report.farthest_m / s.cell, memory.peak_bytes / 1024);
   if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);

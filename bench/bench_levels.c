@@ -35,11 +35,11 @@ static uint32_t elements_of(const sbf_level *level) {
 }
 
 static void measure(const char *name, sbf_asset *source, sbf_build_options options, uint32_t rounds) {
-  enum { MOST = 8 };
+  enum { MAX = 8 };
   sbf_asset *built;
   sbf_diagnostic error;
-  stepped levels[MOST];
-  bench_case cases[MOST];
+  stepped levels[MAX];
+  bench_case cases[MAX];
   bench_require(sbf_build(source, &options, &built, NULL, &error), &error);
   sbf_asset_free(source);
   const sbf_level_list *made = &built->soft_bodies.at[0].levels;
@@ -51,7 +51,7 @@ static void measure(const char *name, sbf_asset *source, sbf_build_options optio
   for (uint32_t l = 0; l < made->count; l++) {
     const sbf_level *level = &made->at[l];
     char time[32] = ""; /* the runtime steps springs or tetrahedra where a jiggle level is asked for */
-    if (level->model != SBF_ELASTIC_MODEL_JIGGLE) snprintf(time, sizeof time, "%.1f", cases[l].s.least * 1e6);
+    if (level->model != SBF_ELASTIC_MODEL_JIGGLE) snprintf(time, sizeof time, "%.1f", cases[l].s.min * 1e6);
     bench_print_row("%s,%s,%u,%.2f,%.0f,%s", name, level->name, elements_of(level),
         1e3 * (double)level->simulation.error, (double)level->simulation.cost, time);
     sbr_world_destroy(levels[l].world);

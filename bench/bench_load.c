@@ -147,9 +147,9 @@ static void measure(const char *name, sbf_asset *asset, const char *folder, uint
     size_t bytes = file_size_of(loadings[i].path);
     const bench_spread *s = &cases[i].s;
     bench_print_row("%s,%u,%s,%s,%s,%s,%zu,%u,%.4f,%.4f,%.4f,%.1f,%.3f,%zu,%zu", name, vertices,
-        ways[i].reader, ways[i].form, ways[i].crc, ways[i].file, bytes, rounds, s->least * 1e3,
-        s->median * 1e3, s->most * 1e3, (double)bytes / s->median / 1e6,
-        cases[ASSIMP_GLB].s.median / s->median, memory.peak_bytes / 1024, memory.private_bytes / 1024);
+        ways[i].reader, ways[i].form, ways[i].crc, ways[i].file, bytes, rounds, s->min * 1e3, s->median * 1e3,
+        s->max * 1e3, (double)bytes / s->median / 1e6, cases[ASSIMP_GLB].s.median / s->median,
+        memory.peak_bytes / 1024, memory.private_bytes / 1024);
   }
   remove_files(base);
 }

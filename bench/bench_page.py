@@ -4,8 +4,8 @@ milliseconds of processor time a tick of 1/60 s, over all and in the dearest hal
 
     bench_page.py [--quick]
 
-Beside it the program's own loops of the same width and of the widest, on the same walk. --quick measures less, and fails where a scene leaves
-room for fewer than 60 ticks a second. Exits 77 where there is no Chromium."""
+Beside it the program's own loops of the same width and of the widest, on the same walk. --quick measures less: a test that every scene runs.
+Exits 1 where a scene goes wrong, 77 where there is no Chromium."""
 import csv
 import datetime
 import json
@@ -21,7 +21,6 @@ TESTS = os.path.join(HERE, os.pardir, "tests", "web")
 sys.path.insert(0, TESTS)
 import web_files  # noqa: E402
 
-LEAST_TICKS_S = 60
 WALK = ("--drive", "0.3,0", "--ground", "noise:0.1,7")
 
 
@@ -57,7 +56,6 @@ def main():
     rows = csv.writer(sys.stdout, lineterminator="\n")
     here = circumstances()
     rows.writerow(("scene", "with", "mean_ms", "dearest_ms", "ticks_s", "dearest_ticks_s", *here))
-    slow = []
     with tempfile.TemporaryDirectory() as folder:
         lizard, page = web_files.bundles(folder)["lizard"], os.path.join(folder, "lizard.html")
         web_files.run(web_files.SBFMT, "export", lizard, "-o", page)
@@ -66,13 +64,11 @@ def main():
         for scene, cost in found["scenes"].items():
             rows.writerow((scene, f"Chromium {found['browser']}", f"{cost['mean']:.2f}", f"{cost['most']:.2f}", round(1000 / cost["mean"]),
                            round(1000 / cost["most"]), *here.values()))
-            if 1000 / cost["mean"] < LEAST_TICKS_S:
-                slow.append(f"{scene}: {1000 / cost['mean']:.0f} ticks a second")
         for instructions in () if quick else ("sse2", "automatic"):
             took = native_ms(lizard, instructions, 4, 3)
             rows.writerow(("walks", f"sbfmt run, {instructions}", f"{took:.2f}", "", round(1000 / took), "", *here.values()))
-    if found["faults"] or slow:
-        sys.exit("\n".join(found["faults"] + slow))
+    if found["faults"]:
+        sys.exit("\n".join(found["faults"]))
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ typedef struct walk {
   thread_pool *pool;
   uint32_t thread_count, frame_count, run_count, run;
   uint64_t hash;
-  double *least[PART_COUNT]; /* of each frame, over the runs so far, in s */
+  double *min[PART_COUNT];   /* of each frame, over the runs so far, in s */
   double *means[PART_COUNT]; /* of each run */
   sbr_tasks workers;
   uint32_t
@@ -114,7 +114,7 @@ static void walk_once(walk *w) {
     w->now[SKIN] = skinned - stepped;
     w->now[HEALTH] = bench_now_s() - skinned;
     for (int p = 0; p < PART_COUNT; p++) {
-      if (w->run == 0 || w->now[p] < w->least[p][f]) w->least[p][f] = w->now[p];
+      if (w->run == 0 || w->now[p] < w->min[p][f]) w->min[p][f] = w->now[p];
       sums[p] += w->now[p];
     }
   }
@@ -136,7 +136,7 @@ static void open_walk(
   if (!w->pool) bench_fail("no threads");
   w->workers = thread_pool_tasks(w->pool);
   for (int p = 0; p < PART_COUNT; p++) {
-    w->least[p] = bench_allocate(frames, sizeof(double));
+    w->min[p] = bench_allocate(frames, sizeof(double));
     w->means[p] = bench_allocate(runs, sizeof(double));
   }
 }
@@ -145,14 +145,14 @@ static void close_walk(walk *w) {
   sbr_model_destroy(w->model);
   thread_pool_destroy(w->pool);
   for (int p = 0; p < PART_COUNT; p++) {
-    free(w->least[p]);
+    free(w->min[p]);
     free(w->means[p]);
   }
 }
 
-static double least_mean(const walk *w, part p) {
+static double min_mean(const walk *w, part p) {
   double sum = 0;
-  for (uint32_t f = 0; f < w->frame_count; f++) sum += w->least[p][f];
+  for (uint32_t f = 0; f < w->frame_count; f++) sum += w->min[p][f];
   return sum / w->frame_count;
 }
 
@@ -163,17 +163,17 @@ typedef struct about {
 
 static void print_walk(walk *w, const about *a) {
   for (int p = 0; p < PART_COUNT; p++) {
-    bench_spread least = bench_spread_of(w->least[p], w->frame_count);
-    double mean = least_mean(w, (part)p);
+    bench_spread min = bench_spread_of(w->min[p], w->frame_count);
+    double mean = min_mean(w, (part)p);
     bench_print_row("%s,%u,%u,%u,%u,%s,%u,%u,%.2f,%.2f,%.2f", a->name, a->points, a->springs, a->substeps,
         w->thread_count, part_names[p], w->frame_count, w->run_count, mean * 1e6,
-        bench_spread_of(w->means[p], w->run_count).median * 1e6, least.most * 1e6);
+        bench_spread_of(w->means[p], w->run_count).median * 1e6, min.max * 1e6);
   }
 }
 
 /* `once` and `twice` differ by as many substeps as the stiffest body needs. */
 static void print_substep(const walk *once, const walk *twice, const about *a) {
-  double one = (least_mean(twice, BODIES) - least_mean(once, BODIES)) / a->substeps;
+  double one = (min_mean(twice, BODIES) - min_mean(once, BODIES)) / a->substeps;
   bench_print_row("%s,%u,%u,%u,1,substep,%u,%u,%.2f,,", a->name, a->points, a->springs, a->substeps,
       once->frame_count, once->run_count, one * 1e6);
 }

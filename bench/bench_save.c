@@ -101,7 +101,7 @@ static void measure(const char *name, sbf_asset *asset, uint32_t rounds) {
     char speed[32] = "";
     if (jobs[i].size) snprintf(speed, sizeof speed, "%.1f", (double)jobs[i].size / s->median / 1e6);
     bench_print_row("%s,%s,%s,%zu,%u,%.3f,%.3f,%.3f,%s", name, actions[i].name, actions[i].form, jobs[i].size,
-        rounds, s->least * 1e3, s->median * 1e3, s->most * 1e3, speed);
+        rounds, s->min * 1e3, s->median * 1e3, s->max * 1e3, speed);
     sbf_buffer_free(&jobs[i].input);
   }
   sbf_asset_free(asset);

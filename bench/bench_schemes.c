@@ -51,16 +51,16 @@ static void stop(running *r) {
 static double time_of(
     const sbf_asset *asset, sbf_scheme scheme, uint32_t substeps, uint32_t ticks, uint32_t rounds) {
   running r = start(asset, scheme, substeps);
-  double least = INFINITY;
+  double min = INFINITY;
   for (uint32_t round = 0; round < rounds; round++) {
     sbr_character_reset(r.world, r.character);
     double before = bench_now_s();
     for (uint32_t i = 0; i < ticks; i++) sbr_world_tick(r.world);
     double took = (bench_now_s() - before) / ticks;
-    least = took < least ? took : least;
+    min = took < min ? took : min;
   }
   stop(&r);
-  return least;
+  return min;
 }
 
 static void track(const sbf_asset *asset, sbf_scheme scheme, uint32_t substeps, sbf_vec3 *tips) {

@@ -76,13 +76,13 @@ static void measure(const char *name, sbf_asset *asset) {
 
 /* ---- The shared folder ---- */
 
-enum { MOST_FILES = 256, PATH_SIZE = 1024 };
-static char found[MOST_FILES][PATH_SIZE];
+enum { MAX_FILES = 256, PATH_SIZE = 1024 };
+static char found[MAX_FILES][PATH_SIZE];
 static int found_count;
 
 static int note_file(const char *path, const struct stat *about, int kind, struct FTW *place) {
   (void)about, (void)place;
-  if (kind == FTW_F && found_count < MOST_FILES && strlen(path) < PATH_SIZE)
+  if (kind == FTW_F && found_count < MAX_FILES && strlen(path) < PATH_SIZE)
     strcpy(found[found_count++], path);
   return 0;
 }

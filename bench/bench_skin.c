@@ -68,8 +68,8 @@ static void measure(const char *name, sbf_asset *source, uint32_t rounds) {
       triangles += points->count - 2 * sizes->count;
       vertices += sbr_model_level_vertices(w.model, m, l, NULL, 0);
     }
-    bench_print_row("%s,%u,%u,%u,%.2f,%.2f,%.3f", name, l, triangles, vertices,
-        cases[l].s.least * 1e6 / CALLS, cases[l].s.median * 1e6 / CALLS, cases[l].s.least / cases[0].s.least);
+    bench_print_row("%s,%u,%u,%u,%.2f,%.2f,%.3f", name, l, triangles, vertices, cases[l].s.min * 1e6 / CALLS,
+        cases[l].s.median * 1e6 / CALLS, cases[l].s.min / cases[0].s.min);
   }
   sbr_world_destroy(w.world);
   sbr_model_destroy(w.model);

@@ -15,7 +15,7 @@
 #include "rigged_model.h"
 #include "sbfmt/convert.h"
 
-enum { MOST_MODELS = 256 };
+enum { MAX_MODELS = 256 };
 
 typedef struct rigging_errors {
   double rms, percentile, over, wrong_side; /* % */
@@ -196,7 +196,7 @@ static bool measure(const char *path, rigging_errors *errors) {
 
 /* One column of the errors, sorted: its value at a share of the models. */
 static double at_share(const rigging_errors *errors, uint32_t count, size_t field, double share) {
-  double values[MOST_MODELS];
+  double values[MAX_MODELS];
   for (uint32_t i = 0; i < count; i++) memcpy(&values[i], (const char *)&errors[i] + field, sizeof *values);
   qsort(values, count, sizeof *values, compare_doubles);
   return values[(uint32_t)(share * count)];
@@ -267,14 +267,14 @@ int main(int argument_count, char **arguments) {
       SHARED_FOLDER "/../zoo/*/*.glb", SHARED_FOLDER "/fox/*.glb", SHARED_FOLDER "/greenman/*.glb",
       SHARED_FOLDER "/kenney-fbx/*.fbx", SHARED_FOLDER "/walk-dae/*.dae"};
   bool quick = bench_is_quick(argument_count, arguments);
-  rigging_errors *errors = bench_allocate(MOST_MODELS, sizeof *errors);
+  rigging_errors *errors = bench_allocate(MAX_MODELS, sizeof *errors);
   uint32_t count = 0;
   bench_print_columns(
       "model,points,bones,shells,rms_percent,p95_percent,over_2_percent,wrong_side_percent,gait,s");
   for (size_t i = 0; i < (quick ? 1 : sizeof patterns / sizeof *patterns); i++) {
     glob_t found;
     if (glob(patterns[i], 0, NULL, &found) != 0) continue;
-    for (size_t k = 0; k < found.gl_pathc && count < MOST_MODELS; k++)
+    for (size_t k = 0; k < found.gl_pathc && count < MAX_MODELS; k++)
       if (!is_left_out(found.gl_pathv[k])) count += measure(found.gl_pathv[k], &errors[count]);
     globfree(&found);
   }

@@ -83,14 +83,14 @@ static sbf_asset *make_beam(uint32_t along) {
 
 typedef struct beam_run {
   sbr_model *model;
-  double *least; /* (ticks) s */
+  double *min; /* (ticks) s */
   uint32_t ticks;
   uint64_t hash;
 } beam_run;
 
 static void open_run(beam_run *r, const sbf_asset *asset, uint32_t substeps, uint32_t ticks) {
   sbf_diagnostic error;
-  *r = (beam_run){.ticks = ticks, .least = bench_allocate(ticks, sizeof(double))};
+  *r = (beam_run){.ticks = ticks, .min = bench_allocate(ticks, sizeof(double))};
   bench_require(
       sbr_model_create(asset, &(sbr_model_options){.substeps = substeps}, &r->model, &error), &error);
 }
@@ -108,7 +108,7 @@ static void run_once(beam_run *r, uint32_t number) {
     double begin = bench_now_s();
     sbr_world_step(world, 1 / 60.0);
     double taken = bench_now_s() - begin;
-    if (number == 0 || taken < r->least[i]) r->least[i] = taken;
+    if (number == 0 || taken < r->min[i]) r->min[i] = taken;
   }
   sbr_body_health health = sbr_character_health(world, character, 0);
   if (!health.finite || health.inverted || health.recoveries) bench_fail("the beam lost its shape");
@@ -120,22 +120,22 @@ static void run_once(beam_run *r, uint32_t number) {
 
 static double mean(const beam_run *r) {
   double sum = 0;
-  for (uint32_t i = 0; i < r->ticks; i++) sum += r->least[i] / r->ticks;
+  for (uint32_t i = 0; i < r->ticks; i++) sum += r->min[i] / r->ticks;
   return sum;
 }
 
 static void close_run(beam_run *r) {
-  free(r->least);
+  free(r->min);
   sbr_model_destroy(r->model);
 }
 
 int main(int argument_count, char **arguments) {
   static const uint32_t lengths[] = {10, 20, 40, 80, 160};
   bool quick = bench_is_quick(argument_count, arguments);
-  uint32_t most = quick ? 2 : 5;
+  uint32_t max = quick ? 2 : 5;
   double before = 0, elements_before = 0;
   bench_print_columns("tetrahedra,points,substeps,ticks,runs,frame_us,substep_us,ns_per_element,slope");
-  for (uint32_t n = 0; n < most; n++) {
+  for (uint32_t n = 0; n < max; n++) {
     sbf_asset *asset = make_beam(lengths[n]);
     uint32_t elements = asset->soft_bodies.at[0].levels.at[0].lattice.tetrahedra.count;
     uint32_t ticks = quick ? 3 : elements > 500000 ? 4 : elements > 50000 ? 20 : 60, runs = quick ? 2 : 7;

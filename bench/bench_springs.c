@@ -17,7 +17,7 @@
 #include "sbfmt/build.h"
 #include "sbfmt/mechanics.h"
 
-enum { MOST_SAMPLES = 4000, REFERENCE_ELEMENTS = 20000 };
+enum { MAX_SAMPLES = 4000, REFERENCE_ELEMENTS = 20000 };
 static const float modulus = 1e5f, poisson = 0.25f;
 
 typedef struct v3 {
@@ -209,7 +209,7 @@ static double leaving(const sbf_polygon_mesh *mesh, const sbf_level *level) {
   for (uint32_t set = 0; set < level->springs.count; set++) {
     const sbf_uint2_list *ends = &level->springs.at[set].ends;
     if (level->springs.at[set].kind != SBF_SPRING_KIND_INTERNAL) continue;
-    for (uint32_t s = 0; s < ends->count; s += ends->count / MOST_SAMPLES + 1, looked_at++) {
+    for (uint32_t s = 0; s < ends->count; s += ends->count / MAX_SAMPLES + 1, looked_at++) {
       v3 a = of(level->positions.at[ends->at[s].at[0]]);
       v3 way = minus(of(level->positions.at[ends->at[s].at[1]]), a);
       bool leaves = false;

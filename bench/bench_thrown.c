@@ -30,8 +30,8 @@
 #include "sbrun/collision.h"
 #include "sbrun/rigid.h"
 
-enum { MARKS = 11, BENDS = 5, BALLS = 6, MOST_VERTICES = 4096, SETTLES = 360, EVERY = 30, RESTS = 480 };
-enum { MOST_FIGURES = 2, MOMENTS = 4, QUICK_SHARE = 3 }; /* of all that time and those balls */
+enum { MARKS = 11, BENDS = 5, BALLS = 6, MAX_VERTICES = 4096, SETTLES = 360, EVERY = 30, RESTS = 480 };
+enum { MAX_FIGURES = 2, MOMENTS = 4, QUICK_SHARE = 3 }; /* of all that time and those balls */
 
 static const double HANGS_M = 2;
 static const float NEAR_M = 0.11f, BALL_M = 0.12f, BALL_KG = 7, BALL_M_S = 8, DEGREES = 57.29578f;
@@ -47,7 +47,7 @@ static const sbf_vec3 targets[BALLS] = {{0, 1.57f, 0}, {0.05f, 1.2f, 0}, {0.12f,
 
 typedef struct shape {
   uint32_t count;
-  sbf_vec3 at[MOST_VERTICES];
+  sbf_vec3 at[MAX_VERTICES];
 } shape;
 
 typedef struct scene {
@@ -82,8 +82,8 @@ static float dot(sbf_vec3 a, sbf_vec3 b) {
 }
 
 static void look(const scene *s, shape *to) {
-  to->count = sbr_character_skin(s->world, s->character, 0, to->at, NULL, NULL, MOST_VERTICES);
-  if (to->count > MOST_VERTICES) bench_fail("the figure has more vertices than there is room for");
+  to->count = sbr_character_skin(s->world, s->character, 0, to->at, NULL, NULL, MAX_VERTICES);
+  if (to->count > MAX_VERTICES) bench_fail("the figure has more vertices than there is room for");
 }
 
 /* Mean place of the skin that is near a place at rest. */
@@ -218,8 +218,8 @@ static result throw_all(const sbr_model *model, const sbr_model *ball, uint32_t 
 static double frames_a_second(
     const sbr_model *model, const sbr_model *ball, uint32_t figures, uint32_t frames) {
   static shape rest, now;
-  scene s[MOST_FIGURES];
-  sbr_character_id balls[MOST_FIGURES];
+  scene s[MAX_FIGURES];
+  sbr_character_id balls[MAX_FIGURES];
   sbr_world *world = make_world();
   double spent = 0;
   for (uint32_t k = 0; k < figures; k++) {

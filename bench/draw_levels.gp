@@ -14,7 +14,7 @@ set tics nomirror
 unset key
 set xrange [0.3:3e7]
 set yrange [1:100]
-set title "{/:Bold levels}: five levels of one body, 1.7 m" offset 0,-0.3
+set title "{/:Bold levels}: levels of one body, 1.7 m" offset 0,-0.3
 results = "bench/results/epyc-2-cores/levels.csv"
 # The colours of Okabe and Ito.
 plot results using (strcol(2)[1:7] eq "lattice" ? $5 : NaN):4 every ::1 with linespoints pt 7 ps 1 lw 2 lc rgb "#0072b2", \

@@ -241,6 +241,50 @@ sbf_asset *armadillo_of_tetrahedra(uint32_t elements) {
   return built;
 }
 
+/* ---- The slab ---- */
+
+enum { SLAB_SIDE = 46 }; /* points of its surface along an edge */
+
+/* A point of the box [-1, 1]^3 on the face across `axis`, on the side of `sign`. */
+static sbf_vec3 on_face(int axis, float sign, float u, float v) {
+  float at[3];
+  at[axis] = sign, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = sign * v;
+  return (sbf_vec3){at[0], at[1], at[2]};
+}
+
+sbf_asset *slab_of_tetrahedra(uint32_t elements) {
+  const uint32_t face_points = SLAB_SIDE * SLAB_SIDE, face_quads = (SLAB_SIDE - 1) * (SLAB_SIDE - 1);
+  const sbf_build_options options = {
+      .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = elements, .without_calibration = true};
+  builder b = begin(6 * face_points);
+  sbf_soft_body *body = allocate(b.asset, 1, sizeof *body);
+  uint32_t *sizes = allocate(b.asset, 6 * face_quads, sizeof *sizes), quad = 0;
+  uint32_t *corners = allocate(b.asset, 24 * (size_t)face_quads, sizeof *corners);
+  for (int face = 0; face < 6; face++)
+    for (uint32_t i = 0; i < SLAB_SIDE; i++)
+      for (uint32_t k = 0; k < SLAB_SIDE; k++) {
+        float u = 2 * (float)k / (SLAB_SIDE - 1) - 1, v = 2 * (float)i / (SLAB_SIDE - 1) - 1;
+        sbf_vec3 p = on_face(face % 3, face < 3 ? 1 : -1, u, v);
+        uint32_t at = b.point_count, *c = corners + 4 * quad;
+        b.points[b.point_count++] = (sbf_vec3){0.5f * p.x, 0.1f * p.y, 0.5f * p.z};
+        if (i + 1 == SLAB_SIDE || k + 1 == SLAB_SIDE) continue;
+        c[0] = at, c[1] = at + 1, c[2] = at + SLAB_SIDE + 1, c[3] = at + SLAB_SIDE;
+        sizes[quad++] = 4;
+      }
+  sbf_soft_body_init(body);
+  body->id = "slab";
+  body->attributes.young_modulus = 1e5f;
+  body->surface.positions = (sbf_vec3_list){b.points, b.point_count};
+  body->surface.polygon_sizes = (sbf_u32_list){sizes, quad};
+  body->surface.polygon_points = (sbf_u32_list){corners, 4 * quad};
+  b.asset->soft_bodies = (sbf_soft_body_list){body, 1};
+  sbf_asset *built;
+  sbf_diagnostic error;
+  bench_require(sbf_build(b.asset, &options, &built, NULL, &error), &error);
+  sbf_asset_free(b.asset);
+  return built;
+}
+
 /* ---- Others of them ---- */
 
 void hold_above(sbf_asset *asset, double share) {

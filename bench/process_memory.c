@@ -9,7 +9,7 @@
 
 #include "measuring.h"
 
-enum { MOST_ARGUMENTS = 8 };
+enum { MAX_ARGUMENTS = 8 };
 static const char mark[] = "--measure-memory";
 
 /* A line of /proc/self/status, in bytes. */
@@ -48,8 +48,8 @@ void process_memory_work(int argument_count, char **arguments, void (*work)(char
 }
 
 static void run_self(const char *const *arguments, int out) {
-  const char *all[MOST_ARGUMENTS + 3] = {"bench", mark};
-  for (int i = 0; i < MOST_ARGUMENTS && arguments[i]; i++) all[i + 2] = arguments[i];
+  const char *all[MAX_ARGUMENTS + 3] = {"bench", mark};
+  for (int i = 0; i < MAX_ARGUMENTS && arguments[i]; i++) all[i + 2] = arguments[i];
   if (dup2(out, STDOUT_FILENO) >= 0) execv("/proc/self/exe", (char *const *)(uintptr_t)all);
   _exit(127);
 }

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/benchmarks.md, docs/sizes.md and others from the results that are committed.
+"""Writes the tables and figures of bench/README.md and docs/*.md from the results that are committed.
 
     bench/write_tables.py [--check]      with --check, says which document is stale and changes nothing
 
 A table stands between the lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->`; it comes from
 bench/results/MACHINE/NAME.csv. A figure in a sentence stands between `<!-- figure NAME MACHINE COLUMN KEY=VALUE... -->` and
-`<!-- end -->`: the column in the row of these keys, or the least to the greatest of several rows; `over=COLUMN` and what follows name
-rows whose value it is divided by. New results: ./run bench, then copy out/bench/*.csv there."""
+`<!-- end -->`, and begins no line, since Markdown ends a paragraph there: the column in the row of these keys, or the smallest to the largest value of several rows. `over=COLUMN KEY=VALUE...` names the
+row whose value divides it. New results: ./run bench, then copy out/bench/*.csv there."""
 import csv
 import math
 import os
@@ -15,8 +15,7 @@ import shlex
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md",
-             "docs/rigid.md", "docs/web.md")
+DOCUMENTS = ["bench/README.md"] + sorted("docs/" + name for name in os.listdir(os.path.join(ROOT, "docs")) if name.endswith(".md"))
 FIGURE = re.compile(r"(<!-- figure ([^>]*?) -->)[^<]*(<!-- end -->)")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
@@ -151,35 +150,35 @@ def character_row(r):
 
 
 TABLES = {
-    "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | least angle | greatest | volume | farthest, cells | "
+    "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | min angle | max angle | volume | max distance, cells | "
                              "peak KiB", 2),
-    "springs": (springs_row, "body | method | points | elements | leaving | spread | falls | off | substeps", 2),
+    "springs": (springs_row, "body | method | points | elements | outside | spread | displacement | error | substeps", 2),
     "solids": (solids_row, "tetrahedra | points | substeps | frame, µs | substep, µs | ns for each and substep | slope", 0),
     "elements": (elements_row, "file | cell, m | points | tetrahedra | their XML | packed | × smaller | bundle, XML | "
                                "bundle, packed | packed / XML", 1),
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
-    "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
-    "progress": (progress_row, "asset | build | s | calls | longest silence, s | in", 2),
-    "gait": (gait_row, "character | legs | bones | ground | drive | least µs | median µs | worst µs", 1),
-    "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
+    "run": (run_row, "character | threads | part | springs | substeps | min µs | median µs | max µs", 3),
+    "progress": (progress_row, "asset | build | s | calls | max interval, s | pass", 2),
+    "gait": (gait_row, "character | legs | bones | ground | drive | min µs | median µs | max µs", 1),
+    "skin": (skin_row, "mesh | render level | triangles | vertices | min µs | median µs | of the full mesh", 1),
     "bullet": (bullet_row, "body | elements | engine | method | steps | iterations | threads | µs a tick | ns | error, mm | "
                            "× ours at that error", 1),
-    "godot": (godot_row, "engine | precision | stiffness | pressure | ms a frame | least volume | volume at the end | lowest point, mm", 1),
-    "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
+    "godot": (godot_row, "engine | precision | stiffness | pressure | ms a frame | min volume | volume at the end | lowest point, mm", 1),
+    "crowd": (crowd_row, "character | count | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
                          "and substep | GB/s", 1),
-    "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft "
-                           "| of them coarser | bones | away | have been away | MB at most", 1),
-    "page": (page_row, "the lizard | with | ms a tick | in the dearest half second | ticks a second | there", 2),
-    "falls": (falls_row, "scene | of it | engine | method | steps | iterations | falling, µs | lying, µs | apart, mm | beyond limits, degrees "
-                         "| deep, mm | lying, mm/s | stretched, %", 1),
-    "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bones off by, mm | points off by, mm", 1),
-    "thrown": (thrown_row, "variant | largest bend, degrees | limits broken by | hangs off its shape by, mm | moved by at most, mm "
-                           "| a ball gives, N s | bends left after 8 s | off by then, mm | one, frames/s | two at once", 1),
-    "character": (character_row, "E, kPa | tetrahedra | substeps | strain | off 20,000 by | tick, µs | skin, µs | frame, µs | worst", 0),
+    "detail": (detail_row, "levels | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft "
+                           "| of them coarser | bones | away | were away | max MB", 1),
+    "page": (page_row, "scene | program | ms a tick | in the slowest half second | ticks a second | there", 2),
+    "falls": (falls_row, "scene | elements | engine | method | steps | iterations | falling, µs | at rest, µs | joint gap, mm | limit violation, degrees "
+                         "| penetration, mm | at rest, mm/s | stretch, %", 1),
+    "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bone error, mm | point error, mm", 1),
+    "thrown": (thrown_row, "variant | max bend, degrees | limit violation, degrees | shape error at rest, mm | max displacement, mm "
+                           "| momentum per ball, N s | bend after 8 s, degrees | shape error then, mm | one, frames/s | two at once", 1),
+    "character": (character_row, "E, kPa | tetrahedra | substeps | strain | error against 20,000 | tick, µs | skin, µs | frame, µs | worst", 0),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
-    "contacts": (contacts_row, "boxes | of them | touches | tick, µs | a box, µs | touches/s | slope", 1),
-    "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
+    "contacts": (contacts_row, "layout | boxes | contacts | tick, µs | a box, µs | contacts/s | slope", 1),
+    "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | max error, m | missed", 3),
     "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
                        "packed / gzip | meshes | GLB | meshes / GLB", 1),
 }
@@ -252,18 +251,21 @@ def table(name, machine):
 
 
 def main():
-    stale = []
+    stale, broken = [], []
     for path in DOCUMENTS:
         with open(os.path.join(ROOT, path)) as file:
             text = file.read()
         fresh = BLOCK.sub(lambda match: match[1] + table(match[2], match[3]) + match[4], text)
         fresh = FIGURE.sub(lambda match: match[1] + figure(match[2]) + match[3], fresh)
+        broken += [f"{path}:{number}" for number, line in enumerate(text.split("\n"), 1) if line.startswith("<!-- figure")]
         if fresh == text:
             continue
         stale.append(path)
         if "--check" not in sys.argv:
             with open(os.path.join(ROOT, path), "w") as file:
                 file.write(fresh)
+    if broken:
+        sys.exit(f"a figure begins a line, which ends the paragraph: {', '.join(broken)}")
     if stale and "--check" in sys.argv:
         sys.exit(f"not what bench/results says: {', '.join(stale)}; run bench/write_tables.py")
     print(f"tables {'written in' if stale else 'are fresh in'}: {', '.join(stale or DOCUMENTS)}")

@@ -3,7 +3,7 @@
 
 Usage: make_packages.py --static DIR [--shared DIR] --out DIR [NAME...]
 
-    debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps is needed)
+    debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps and file are needed)
     tarball   sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
     npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
     blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library
@@ -29,10 +29,14 @@ STAMP = (2026, 1, 1, 0, 0, 0)  # the same bytes whenever it is made of the same 
 STAMP_S = 1767225600
 
 
+class CommandError(Exception):
+    """A command failed; the text has it and the end of what it printed."""
+
+
 def run(*command, folder=None):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=folder, check=False)
     if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+        raise CommandError(f"{' '.join(map(str, command))}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     return done.stdout
 
 
@@ -96,14 +100,15 @@ class Packages:
     def debian(self):
         if not self.shared:
             return "no tree of shared libraries was named"
-        if not shutil.which("dpkg-shlibdeps"):
-            return "dpkg-shlibdeps is not installed (package dpkg-dev)"
+        for command, package in (("dpkg-shlibdeps", "dpkg-dev"), ("file", "file")):
+            if not shutil.which(command):
+                return f"{command} is not installed (package {package})"
         with tempfile.TemporaryDirectory() as scratch:
             run("cpack", "-G", "DEB", "-B", scratch, folder=self.shared)
             made = glob.glob(os.path.join(scratch, "*.deb"))
             names = sorted(os.path.basename(path).split("_")[0] for path in made)
             if names != ["libsbfmt", "libsbfmt-dev", "sbfmt"]:
-                sys.exit(f"cpack made {names}")
+                return f"cpack made {names}"
             for path in made:
                 shutil.copy(path, self.out)
         return None
@@ -153,7 +158,11 @@ def make_each(packages, names):
     """Makes these; prints a row of the table for each. How many could not be made."""
     missing = 0
     for name in names:
-        why = getattr(packages, name)()
+        try:
+            why = getattr(packages, name)()
+        except CommandError as error:
+            print(error, file=sys.stderr)
+            why = "a command failed; what it printed stands above"
         print(f"{name:8}  {'NOT MADE: ' + why if why else 'made'}", flush=True)
         missing += bool(why)
     return missing

@@ -62,36 +62,6 @@ static bool progress(void *user, const char *pass, double done) {
 
 static const float LEFT_OVER = 0.25f;
 
-/* Of many findings of one kind in a row, as of a scene of a hundred bodies, the first few are printed. */
-enum { MOST_ALIKE = 6 };
-
-typedef struct findings {
-  cli_call *call;
-  int32_t code;   /* of the last one */
-  unsigned alike; /* that came in a row */
-} findings;
-
-static void end_row(const findings *f) {
-  if (f->alike <= MOST_ALIKE) return;
-  const sbf_code_info *info = sbf_code_find(f->code);
-  cli_progress_end();
-  fprintf(stderr, "sbfmt %s: and %u more such [%s]\n", f->call->verb->name, f->alike - MOST_ALIKE,
-      info ? info->name : "NONE");
-}
-
-static void report(void *user, const sbf_diagnostic *diagnostic) {
-  findings *f = user;
-  if (diagnostic->code != f->code) {
-    end_row(f);
-    f->code = diagnostic->code;
-    f->alike = 0;
-  }
-  if (++f->alike <= MOST_ALIKE)
-    cli_print_diagnostic(f->call, diagnostic);
-  else
-    cli_keep_diagnostic(f->call, diagnostic);
-}
-
 static void print_lattices(const sbf_build_report *r) {
   printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m",
       r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m);
@@ -180,11 +150,10 @@ sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error
   sbf_asset *built = NULL;
   if (!read_options(call, &options)) return SBF_FAILED;
   options.progress = progress;
-  options.report = report;
-  findings said = {.call = call};
-  options.user = &said;
+  options.report = cli_report;
+  options.user = call;
   sbf_status status = sbf_build(*asset, &options, &built, &made, error);
-  end_row(&said);
+  cli_print_counted(call);
   cli_progress_end();
   sbf_asset_free(*asset);
   *asset = built;

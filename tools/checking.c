@@ -89,5 +89,6 @@ void checked_tell(const cli_call *call, checked *one, json_t *messages) {
     else
       cli_print_diagnostic(call, d);
   }
+  cli_print_counted(call);
   if (one->found.lost) fprintf(stderr, "%s: memory ran out, some findings are not listed\n", one->path);
 }

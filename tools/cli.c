@@ -1,5 +1,6 @@
 #include "cli.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -7,6 +8,11 @@
 #include <unistd.h>
 
 #include "sbfmt/codes.h"
+
+const cli_option cli_common_options[] = {
+    {"--verbose", NULL, "print every finding (otherwise the first of each kind, and a count)"},
+    {NULL, NULL, NULL},
+};
 
 const char *cli_value(const cli_call *call, const char *name) {
   for (int i = 0; call->verb->options[i].name; i++)
@@ -28,6 +34,7 @@ bool cli_switch(const cli_call *call, const char *name) {
 
 int cli_wrong(const cli_call *call, const char *format, ...) {
   va_list arguments;
+  cli_print_counted(call);
   va_start(arguments, format);
   fprintf(stderr, "sbfmt %s: error: ", call->verb->name);
   vfprintf(stderr, format, arguments);
@@ -90,9 +97,8 @@ void cli_keep_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
   if (call->messages) json_array_append_new(call->messages, cli_diagnostic_json(d));
 }
 
-void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
+static void print_finding(const cli_call *call, const sbf_diagnostic *d) {
   cli_progress_end();
-  cli_keep_diagnostic(call, d);
   fprintf(stderr, "sbfmt %s: %s: ", call->verb->name, severity_word(d->severity));
   if (d->file[0]) fprintf(stderr, "%s:", d->file);
   if (d->line) fprintf(stderr, "%u:", d->line);
@@ -102,6 +108,72 @@ void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
   if (d->index >= 0) fprintf(stderr, " item %lld", (long long)d->index);
   if (d->offset >= 0 && !d->line) fprintf(stderr, " byte %lld", (long long)d->offset);
   fprintf(stderr, "\n");
+}
+
+/* Findings of one kind in the file at hand: of one code, whose messages differ in names and numbers alone. */
+typedef struct counted {
+  sbf_diagnostic first, last;
+  uint32_t count; /* behind the first, which was printed */
+} counted;
+static counted *counts;
+static size_t kind_count;
+
+static bool is_letter(char c) {
+  return isalnum((unsigned char)c) != 0;
+}
+
+/* Past the name in quotes or the number that the text begins with; `before` is the character ahead of it. */
+static const char *skip_name(const char *text, char before) {
+  if (isdigit((unsigned char)*text)) return text + strspn(text, "0123456789.e+-");
+  if ((*text != '"' && *text != '\'') || is_letter(before)) return text;
+  const char *end = strchr(text + 1, *text);
+  return end ? end + 1 : text;
+}
+
+static bool is_alike(const char *a, const char *b) {
+  char before = ' ';
+  for (;; before = *a, a++, b++) {
+    const char *behind_a = skip_name(a, before), *behind_b = skip_name(b, before);
+    if ((behind_a != a) != (behind_b != b)) return false;
+    a = behind_a, b = behind_b;
+    if (*a != *b) return false;
+    if (!*a) return true;
+  }
+}
+
+/* True where a finding of that kind was printed before: then it is counted. */
+static bool count_repeated(const sbf_diagnostic *d) {
+  for (size_t i = 0; i < kind_count; i++)
+    if (counts[i].first.code == d->code && is_alike(counts[i].first.message, d->message)) {
+      counts[i].count++;
+      counts[i].last = *d;
+      return true;
+    }
+  counted *grown = realloc(counts, (kind_count + 1) * sizeof *grown);
+  if (!grown) return false; /* printed, each */
+  counts = grown;
+  counts[kind_count++] = (counted){.first = *d};
+  return false;
+}
+
+void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
+  cli_keep_diagnostic(call, d);
+  bool is_foldable = d->severity != SBF_SEVERITY_ERROR && !call->verbose;
+  if (!is_foldable || !count_repeated(d)) print_finding(call, d);
+}
+
+void cli_print_counted(const cli_call *call) {
+  for (size_t i = 0; i < kind_count; i++) {
+    const counted *c = &counts[i];
+    if (c->count == 1) print_finding(call, &c->last);
+    if (c->count < 2) continue;
+    cli_progress_end();
+    fprintf(stderr, "sbfmt %s: %s: %u more findings of this kind, which --verbose prints [%s]\n",
+        call->verb->name, severity_word(c->last.severity), (unsigned)c->count, code_name(c->last.code));
+  }
+  free(counts);
+  counts = NULL;
+  kind_count = 0;
 }
 
 void cli_report(void *call, const sbf_diagnostic *d) {

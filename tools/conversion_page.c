@@ -304,12 +304,12 @@ static void put_findings(FILE *to, const json_t *r) {
 /* Bars of a histogram; `low` and `high` are what its ends mean. */
 static void put_chart(FILE *to, const char *title, const json_t *bins, const char *low, const char *high) {
   size_t count = json_array_size(bins);
-  double most = 1, width = 300.0 / (double)(count ? count : 1);
-  for (size_t i = 0; i < count; i++) most = fmax(most, (double)json_integer_value(json_array_get(bins, i)));
+  double max = 1, width = 300.0 / (double)(count ? count : 1);
+  for (size_t i = 0; i < count; i++) max = fmax(max, (double)json_integer_value(json_array_get(bins, i)));
   fprintf(to, "<div><h3>%s</h3><svg viewBox=\"0 0 300 112\" role=\"img\" aria-label=\"%s\">\n", title, title);
   fputs("<line x1=\"0\" y1=\"96.5\" x2=\"300\" y2=\"96.5\"/>\n", to);
   for (size_t i = 0; i < count; i++) {
-    double n = (double)json_integer_value(json_array_get(bins, i)), height = 92 * n / most;
+    double n = (double)json_integer_value(json_array_get(bins, i)), height = 92 * n / max;
     if (n > 0 && height < 1) height = 1;
     fprintf(to,
         "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"1\"><title>%.0f</title></rect>\n",

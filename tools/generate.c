@@ -87,6 +87,21 @@ static void put_paragraphs(FILE *file, const char *text) {
   }
 }
 
+static void man_options(FILE *file, const cli_option *options) {
+  for (const cli_option *o = options; o->name; o++) {
+    fputs(".TP\n.B ", file);
+    put_roff(file, o->name);
+    if (o->argument) {
+      fputs(" \\fI", file);
+      put_roff(file, o->argument);
+      fputs("\\fR", file);
+    }
+    fputc('\n', file);
+    put_roff(file, o->help);
+    fputc('\n', file);
+  }
+}
+
 static int man_of_verb(const cli_verb *verb, const char *folder) {
   FILE *file = open_in(folder, "sbfmt-", verb->name, ".1");
   if (!file) return SBF_FAILED;
@@ -99,19 +114,9 @@ static int man_of_verb(const cli_verb *verb, const char *folder) {
   put_roff(file, verb->synopsis);
   fputs("\n.SH DESCRIPTION\n", file);
   put_paragraphs(file, verb->details);
-  if (verb->options[0].name) fputs(".SH OPTIONS\n", file);
-  for (const cli_option *o = verb->options; o->name; o++) {
-    fputs(".TP\n.B ", file);
-    put_roff(file, o->name);
-    if (o->argument) {
-      fputs(" \\fI", file);
-      put_roff(file, o->argument);
-      fputs("\\fR", file);
-    }
-    fputc('\n', file);
-    put_roff(file, o->help);
-    fputc('\n', file);
-  }
+  fputs(".SH OPTIONS\n", file);
+  man_options(file, verb->options);
+  man_options(file, cli_common_options);
   put_exit_status(file);
   fputs(".SH SEE ALSO\n.BR sbfmt (1)\n", file);
   return close_file(file);
@@ -175,6 +180,7 @@ static int bash(const char *folder) {
     for (const cli_option *o = options; o->name; o++) bash_value(file, o);
     fputs("    esac\n    options=\"", file);
     for (const cli_option *o = options; o->name; o++) fprintf(file, "%s ", o->name);
+    for (const cli_option *o = cli_common_options; o->name; o++) fprintf(file, "%s ", o->name);
     fputs("--help\" ;;\n", file);
   }
   fputs("  esac\n  case $word in\n  -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
@@ -236,6 +242,7 @@ static int zsh(const char *folder) {
   for (int i = 0; cli_verbs[i]; i++) {
     fprintf(file, "  %s)\n    _arguments", cli_verbs[i]->name);
     for (const cli_option *o = cli_verbs[i]->options; o->name; o++) zsh_option(file, o);
+    for (const cli_option *o = cli_common_options; o->name; o++) zsh_option(file, o);
     fputs(" \\\n      '--help[what the verb takes]' '*:file:_files' ;;\n", file);
   }
   fputs("  esac\n}\nif [ \"$funcstack[1]\" = _sbfmt ]; then\n  _sbfmt \"$@\"\nelse\n  compdef _sbfmt "
@@ -281,8 +288,10 @@ static int fish(const char *folder) {
     put_fish(file, cli_verbs[i]->summary);
     fputs("'\n", file);
   }
-  for (int i = 0; cli_verbs[i]; i++)
+  for (int i = 0; cli_verbs[i]; i++) {
     for (const cli_option *o = cli_verbs[i]->options; o->name; o++) fish_option(file, cli_verbs[i]->name, o);
+    for (const cli_option *o = cli_common_options; o->name; o++) fish_option(file, cli_verbs[i]->name, o);
+  }
   return close_file(file);
 }
 

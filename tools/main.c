@@ -38,11 +38,8 @@ static void print_wrapped(const char *text, int column) {
   printf("\n");
 }
 
-static void print_verb_help(const cli_verb *verb) {
-  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n", verb->name, verb->summary, verb->name, verb->synopsis);
-  print_wrapped(verb->details, 0);
-  printf("\n");
-  for (const cli_option *o = verb->options; o->name; o++) {
+static void print_options(const cli_option *options) {
+  for (const cli_option *o = options; o->name; o++) {
     int width = printf("  %s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
     if (width > HELP_COLUMN - 1) {
       printf("\n");
@@ -51,6 +48,14 @@ static void print_verb_help(const cli_verb *verb) {
     printf("%*s", HELP_COLUMN - width, "");
     print_wrapped(o->help, HELP_COLUMN);
   }
+}
+
+static void print_verb_help(const cli_verb *verb) {
+  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n", verb->name, verb->summary, verb->name, verb->synopsis);
+  print_wrapped(verb->details, 0);
+  printf("\n");
+  print_options(verb->options);
+  print_options(cli_common_options);
 }
 
 static const cli_verb *find_verb(const char *name) {
@@ -85,6 +90,10 @@ static bool parse(cli_call *call, int count, char **arguments) {
       options_over = true;
       continue;
     }
+    if (strcmp(argument, "--verbose") == 0) {
+      call->verbose = true;
+      continue;
+    }
     int place = find_option(verb, argument, &value);
     if (place < 0) {
       cli_wrong(call, "no option %s; see sbfmt %s --help", argument, verb->name);
@@ -101,8 +110,8 @@ static bool parse(cli_call *call, int count, char **arguments) {
     call->values[place] = value ? value : arguments[++i];
     call->given[call->given_count++] = (struct cli_given){place, call->values[place]};
   }
-  if (call->input_count < verb->least_inputs ||
-      (verb->most_inputs >= 0 && call->input_count > verb->most_inputs)) {
+  if (call->input_count < verb->min_inputs ||
+      (verb->max_inputs >= 0 && call->input_count > verb->max_inputs)) {
     cli_wrong(call, "usage: sbfmt %s %s", verb->name, verb->synopsis);
     return false;
   }
@@ -158,6 +167,7 @@ static int run_call(int argc, char **argv) {
     if (!has_format || cli_word(&call, "--format", formats, 2, &format)) {
       call.json = format == 1;
       status = verb->run(&call);
+      cli_print_counted(&call);
     }
   }
   free(call.given);

@@ -79,7 +79,10 @@ static uint32_t apply_to_sections(sbf_asset *asset, sbf_section_recipe *recipes,
   for (uint32_t b = 0; name && b < asset->bones.count; b++) {
     const sbf_bone *bone = &asset->bones.at[b];
     if (!is(bone->name, name, length) && !is(bone->id, name, length)) continue;
-    sbf_material_apply(preset, &recipe_for(asset, recipes, (int32_t)b)->attributes);
+    sbf_section_recipe *recipe = recipe_for(asset, recipes, (int32_t)b);
+    sbf_material_apply(preset, &recipe->attributes);
+    recipe->rigid = false; /* who says what it is made of wants it soft */
+    recipe->proposed = false;
     found++;
   }
   if (name) return found;

@@ -59,7 +59,7 @@ static void add_tetrahedra(const sbf_level *level, mesh_quality *q) {
   for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) q->dihedrals[k] += m.dihedrals[k];
   for (uint32_t i = 0; i < tetrahedra->count; i++) {
     double ratio = mesh_radius_ratio(level->positions.at, tetrahedra->at[i].at);
-    q->least_radius_ratio = fmin(q->least_radius_ratio, ratio);
+    q->min_radius_ratio = fmin(q->min_radius_ratio, ratio);
     q->radius_ratio_sum += ratio;
     q->radius_ratios[bin_of(ratio)]++;
   }
@@ -70,18 +70,18 @@ static void add_springs(const sbf_level *level, mesh_quality *q, bool in_bins) {
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++) {
       double l = spring_length(level, &level->springs.at[s], i);
       if (in_bins) {
-        q->spring_lengths[bin_of(q->most_spring_m > 0 ? l / q->most_spring_m : 0)]++;
+        q->spring_lengths[bin_of(q->max_spring_m > 0 ? l / q->max_spring_m : 0)]++;
         continue;
       }
       q->springs++;
       q->spring_sum_m += l;
-      q->least_spring_m = fmin(q->least_spring_m, l);
-      q->most_spring_m = fmax(q->most_spring_m, l);
+      q->min_spring_m = fmin(q->min_spring_m, l);
+      q->max_spring_m = fmax(q->max_spring_m, l);
     }
 }
 
 void mesh_quality_measure(const sbf_asset *asset, const sbf_soft_body *body, mesh_quality *q) {
-  *q = (mesh_quality){.least_dihedral_deg = 180, .least_radius_ratio = 1, .least_spring_m = INFINITY};
+  *q = (mesh_quality){.least_dihedral_deg = 180, .min_radius_ratio = 1, .min_spring_m = INFINITY};
   for (int pass = 0; pass < 2; pass++)
     for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
       const sbf_soft_body *one = &asset->soft_bodies.at[i];
@@ -103,21 +103,21 @@ json_t *mesh_quality_json(const mesh_quality *q) {
     tetrahedra = json_pack("{s:I, s:I, s:f, s:f, s:f, s:o, s:f, s:f, s:o}", "count",
         (json_int_t)q->tetrahedra, "inverted", (json_int_t)q->inverted, "volume_m3", q->volume_m3,
         "least_dihedral_deg", q->least_dihedral_deg, "most_dihedral_deg", q->most_dihedral_deg, "dihedrals",
-        histogram(q->dihedrals, SBF_DIHEDRAL_BINS), "least_radius_ratio", q->least_radius_ratio,
+        histogram(q->dihedrals, SBF_DIHEDRAL_BINS), "least_radius_ratio", q->min_radius_ratio,
         "mean_radius_ratio", q->radius_ratio_sum / (double)q->tetrahedra, "radius_ratios",
         histogram(q->radius_ratios, MESH_QUALITY_BINS));
   if (q->springs)
     springs = json_pack("{s:I, s:f, s:f, s:f, s:o}", "count", (json_int_t)q->springs, "least_m",
-        q->least_spring_m, "mean_m", q->spring_sum_m / (double)q->springs, "most_m", q->most_spring_m,
-        "lengths", histogram(q->spring_lengths, MESH_QUALITY_BINS));
+        q->min_spring_m, "mean_m", q->spring_sum_m / (double)q->springs, "most_m", q->max_spring_m, "lengths",
+        histogram(q->spring_lengths, MESH_QUALITY_BINS));
   return json_pack("{s:o, s:o}", "tetrahedra", tetrahedra, "springs", springs);
 }
 
 void mesh_quality_print(const mesh_quality *q) {
   if (q->tetrahedra)
     printf("radius ratios of tetrahedra: %.3f at least, %.3f on average (1 is regular)\n",
-        q->least_radius_ratio, q->radius_ratio_sum / (double)q->tetrahedra);
+        q->min_radius_ratio, q->radius_ratio_sum / (double)q->tetrahedra);
   if (q->springs)
-    printf("lengths of springs: %.4g to %.4g m, %.4g on average\n", q->least_spring_m, q->most_spring_m,
+    printf("lengths of springs: %.4g to %.4g m, %.4g on average\n", q->min_spring_m, q->max_spring_m,
         q->spring_sum_m / (double)q->springs);
 }

@@ -15,9 +15,9 @@ typedef struct mesh_quality {
   uint64_t dihedrals[SBF_DIHEDRAL_BINS]; /* six angles a tetrahedron, by tens of degrees */
   /* Three times the radius of the sphere inside a tetrahedron over that of the sphere around it: 1 in a
    * regular one, 0 in a flat one. */
-  double least_radius_ratio, radius_ratio_sum;
+  double min_radius_ratio, radius_ratio_sum;
   uint64_t radius_ratios[MESH_QUALITY_BINS]; /* by tenths */
-  double least_spring_m, most_spring_m, spring_sum_m;
+  double min_spring_m, max_spring_m, spring_sum_m;
   uint64_t spring_lengths[MESH_QUALITY_BINS]; /* by tenths of the longest of the asset; mesh_quality_measure
                                                  only */
 } mesh_quality;

@@ -7,10 +7,10 @@ static bool read_goal(const cli_call *call, sbf_convert_options *options) {
   const char *text = cli_value(call, "--goal");
   char *end;
   if (!text) return true;
-  double least = strtod(text, &end), most = *end == ',' ? strtod(end + 1, &end) : -1;
-  if (end != text && !*end && least >= 0 && most > 0 && most <= 1 && least <= most) {
-    options->goal_minimum = least;
-    options->goal_maximum = most;
+  double min = strtod(text, &end), max = *end == ',' ? strtod(end + 1, &end) : -1;
+  if (end != text && !*end && min >= 0 && max > 0 && max <= 1 && min <= max) {
+    options->goal_minimum = min;
+    options->goal_maximum = max;
     return true;
   }
   cli_wrong(call, "--goal takes two numbers from 0 to 1, as 0.2,0.7, not '%s'", text);
@@ -72,11 +72,46 @@ static bool read_shells(const cli_call *call, pin_options *pins, sbf_convert_opt
   return true;
 }
 
+/* Names between commas, of every value of the option, in memory of its own. */
+static bool read_bones(
+    const cli_call *call, const char *option, const char ***bones, char **text, uint32_t *count) {
+  const char *value;
+  size_t size = 1, max = 1;
+  for (int at = 0; (value = cli_next_value(call, option, &at));) {
+    size += strlen(value) + 1;
+    max += strlen(value) + 1;
+  }
+  *bones = calloc(max, sizeof **bones);
+  *text = malloc(size);
+  if (!*bones || !*text) {
+    cli_wrong(call, "out of memory");
+    return false;
+  }
+  char *next = *text;
+  *count = 0;
+  for (int at = 0; (value = cli_next_value(call, option, &at));) {
+    memcpy(next, value, strlen(value) + 1);
+    for (char *name = strtok(next, ","); name; name = strtok(NULL, ",")) (*bones)[(*count)++] = name;
+    next += strlen(value) + 1;
+  }
+  return true;
+}
+
+static bool read_softness(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+  bool good = cli_number(call, "--firmness", 1e-3, 1e3, &options->firmness) &&
+              read_bones(call, "--soft", &pins->soft, &pins->soft_text, &options->soft_count) &&
+              read_bones(call, "--rigid", &pins->rigid, &pins->rigid_text, &options->rigid_count);
+  options->soft = pins->soft;
+  options->rigid = pins->rigid;
+  return good;
+}
+
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
   *pins = (pin_options){.pins = NULL};
   if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
       !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count) ||
-      !read_attachments(call, pins, options) || !read_shells(call, pins, options))
+      !read_attachments(call, pins, options) || !read_shells(call, pins, options) ||
+      !read_softness(call, pins, options))
     return false;
   options->pins = pins->pins;
   options->holds = pins->holds;
@@ -84,6 +119,10 @@ bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_optio
 }
 
 void pin_options_free(pin_options *pins) {
+  free(pins->soft);
+  free(pins->rigid);
+  free(pins->soft_text);
+  free(pins->rigid_text);
   free(pins->pins);
   free(pins->text);
   free(pins->holds);

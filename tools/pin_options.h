@@ -1,5 +1,5 @@
-/* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL`, `--shell OBJECT=BONE` and the bounds and stiffness of
- * goals, for sbf_convert. */
+/* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL`, `--shell OBJECT=BONE`, the bounds and stiffness of
+ * goals, and what is soft (`--soft`, `--rigid`, `--firmness`), for sbf_convert. */
 #ifndef PIN_OPTIONS_H
 #define PIN_OPTIONS_H
 
@@ -21,6 +21,9 @@
           "it; that object is then a rigid body and no longer drawn; may be given again"},                   \
       {"--shell", "OBJECT[#N]=BONE",                                                                         \
           "let one bone of the rig move an object, or its shell number N; may be given again"},              \
+      {"--soft", "BONE,...", "let what these bones hold of a skin be soft; '*': all; may be given again"},   \
+      {"--rigid", "BONE,...", "let what these bones hold move with them; '*': all; may be given again"},     \
+      {"--firmness", "X", "factor on the modulus of what becomes soft by itself (1)"},                       \
       {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
     "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
   }
@@ -28,7 +31,9 @@
 typedef struct pin_options {
   sbf_convert_pin *pins, *holds, *shells;
   sbf_convert_attachment *attachments;
+  const char **soft, **rigid;                          /* bones */
   char *text, *held_text, *attached_text, *shell_text; /* of all names */
+  char *soft_text, *rigid_text;
 } pin_options;
 
 /* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a

@@ -1,4 +1,4 @@
-/* How often a run's soft bodies were put back into their rest shape. */
+/* Which of a run's soft bodies lost their shape: put back into their rest shape, or crushed. */
 #ifndef RECOVERY_REPORT_H
 #define RECOVERY_REPORT_H
 
@@ -7,7 +7,11 @@
 typedef struct recovery_count {
   uint32_t last;         /* sbr_body_health.recoveries of the last frame */
   uint32_t total;        /* since the run began */
-  uint32_t row, longest; /* frames in a row, up to now and at most */
+  uint32_t rigid;        /* frames in which it moved as a rigid body */
+  uint32_t row, longest; /* frames in a row in which it was put back, up to now and at most */
+  uint32_t crushed;      /* frames in which an element had less than a fifth of its volume */
+  uint32_t crushed_row;  /* of these, up to now without one between */
+  float min_ratio;       /* least sbr_body_health.min_element_ratio */
 } recovery_count;
 
 typedef struct recovery_report {
@@ -20,9 +24,13 @@ bool recovery_report_begin(recovery_report *r, const sbf_asset *asset);
 void recovery_report_end(recovery_report *r);
 /* Once a frame and body. */
 void recovery_report_measure(recovery_report *r, uint32_t body, const sbr_body_health *health);
-/* Adds `recoveries`, the sum over all bodies, and `recovered`, the bodies of which that is not 0. */
+/* Of all bodies since the run began. */
+uint64_t recovery_report_total(const recovery_report *r);
+/* Adds `recoveries`, the sum over all bodies, `recovered`, the bodies with one, and `crushed`, the bodies
+ * with a crushed element in any frame. */
 void recovery_report_add(const recovery_report *r, const sbf_asset *asset, json_t *to);
-/* Warns on standard error of each body that was put back in several frames in a row. */
+/* Warns on standard error of each body that was put back so often that it moved as a rigid body, and of each
+ * that ends crushed. */
 void recovery_report_warn(const recovery_report *r, const sbf_asset *asset);
 
 #endif

@@ -21,7 +21,7 @@ struct result_cache {
   sbf_result_series *series;
   sbf_result_mesh mesh;
   result_body *bodies;
-  uint32_t body_count, most_points, most_tetrahedra, most_springs;
+  uint32_t body_count, max_points, max_tetrahedra, max_springs;
   uint32_t *corners;
   uint8_t *sizes;
   sbf_vec3 *read; /* (points of the largest body) */
@@ -65,9 +65,9 @@ static bool list_bodies(result_cache *r, const session *s) {
     b.spring_count = sbr_character_springs(s->world, s->character, i, NULL, 0);
     if (b.point_count == 0) continue;
     r->mesh.point_count += b.point_count, r->mesh.cell_count += cells_of(&b);
-    r->most_points = larger(r->most_points, b.point_count);
-    r->most_tetrahedra = larger(r->most_tetrahedra, b.tetrahedron_count);
-    r->most_springs = larger(r->most_springs, b.spring_count);
+    r->max_points = larger(r->max_points, b.point_count);
+    r->max_tetrahedra = larger(r->max_tetrahedra, b.tetrahedron_count);
+    r->max_springs = larger(r->max_springs, b.spring_count);
     r->bodies[r->body_count++] = b;
   }
   return r->bodies != NULL;
@@ -76,9 +76,9 @@ static bool list_bodies(result_cache *r, const session *s) {
 static bool make_room(result_cache *r) {
   size_t points = r->mesh.point_count, cells = r->mesh.cell_count;
   bool good = true;
-  r->read = calloc(r->most_points + 1, sizeof *r->read);
-  r->tetrahedra = calloc(r->most_tetrahedra + 1, sizeof *r->tetrahedra);
-  r->springs = calloc(r->most_springs + 1, sizeof *r->springs);
+  r->read = calloc(r->max_points + 1, sizeof *r->read);
+  r->tetrahedra = calloc(r->max_tetrahedra + 1, sizeof *r->tetrahedra);
+  r->springs = calloc(r->max_springs + 1, sizeof *r->springs);
   r->first = calloc(3 * points + 1, sizeof *r->first);
   r->points = calloc(3 * points + 1, sizeof *r->points);
   r->shares = calloc(points + 1, sizeof *r->shares);

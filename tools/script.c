@@ -10,13 +10,13 @@
 typedef struct command {
   const char *word;
   script_kind kind;
-  int least, most; /* numbers */
+  int min, max; /* numbers */
 } command;
 
 enum { LAYERS = 4 }; /* of sbr_character_play */
 
 static const command commands[] = {
-    {"drive", SCRIPT_DRIVE, 2, 3},       /* forward, turn, sideways */
+    {"drive", SCRIPT_DRIVE, 2, 4},       /* forward, turn, sideways, up */
     {"teleport", SCRIPT_TELEPORT, 3, 4}, /* x, y, z, heading */
     {"reset", SCRIPT_RESET, 0, 0},
     {"reach", SCRIPT_REACH, 4, 5},     /* chain, x, y, z, weight */
@@ -28,10 +28,10 @@ static const command commands[] = {
 };
 
 /* What the runtime takes all numbers for: so far away or so fast is a slip of the pen. */
-static const double MOST = 1e9;
+static const double MAX = 1e9;
 
 static bool is_number(const char *text, const char *end, double value) {
-  return end != text && fabs(value) <= MOST; /* false of what is none */
+  return end != text && fabs(value) <= MAX; /* false of what is none */
 }
 
 /* Reads `SECONDS COMMAND NUMBERS`; false where the text is something else. */
@@ -45,13 +45,13 @@ static bool parse_line(char *text, script_line *line) {
     if (strcmp(word, commands[c].word) != 0) continue;
     int count = 0;
     for (char *number; (number = strtok(NULL, " \t\r\n")) != NULL; count++) {
-      if (count == commands[c].most) return false;
+      if (count == commands[c].max) return false;
       line->numbers[count] = strtod(number, &end);
       if (!is_number(number, end, line->numbers[count]) || *end) return false;
     }
     line->kind = commands[c].kind;
     line->count = count;
-    return count >= commands[c].least;
+    return count >= commands[c].min;
   }
   return false;
 }
@@ -94,7 +94,7 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
       continue;
     }
     cli_wrong(call, "%s:%u: not a command `SECONDS COMMAND NUMBERS` in order of time, with numbers up to %g",
-        path, number, MOST);
+        path, number, MAX);
     *status = SBF_BAD_INPUT;
   }
   fclose(file);
@@ -133,10 +133,12 @@ void script_free(script *s) {
 }
 
 void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,
-    double sideways, double turn) {
-  s->speed = hypot(forward, sideways);
+    double sideways, double turn, double up) {
+  s->speed = hypot(hypot(forward, sideways), up);
   s->since_s = time_s;
   sbr_character_drive(world, character, (float)forward, (float)sideways, (float)turn);
+  if (up != 0 || s->up != 0) sbr_character_set_vertical_speed(world, character, (float)up);
+  s->up = up;
 }
 
 void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character) {
@@ -145,7 +147,7 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
     const double *n = line->numbers;
     switch (line->kind) {
     case SCRIPT_DRIVE:
-      script_drive(s, time_s, world, character, n[0], n[2], n[1]);
+      script_drive(s, time_s, world, character, n[0], n[2], n[1], n[3]);
       break;
     case SCRIPT_TELEPORT:
       sbr_character_teleport(world, character, (sbr_double3){n[0], n[1], n[2]}, (float)n[3]);

@@ -28,6 +28,7 @@ typedef struct script_line {
 typedef struct script {
   script_line *lines;
   uint32_t count, next;
+  double up;             /* vertical speed of the last drive, m/s */
   double speed, since_s; /* that the character is driven at by the last drive, m/s, and when that came */
 } script;
 
@@ -39,9 +40,9 @@ void script_free(script *s);
 /* Whether the file has the chains, clips and legs that the script names; false, with a message. */
 bool script_fits(const script *s, const cli_call *call, const char *path, const sbf_asset *asset);
 
-/* Drives the character from `time_s` on: forward and sideways, m/s, and turning, rad/s. */
+/* Drives the character from `time_s` on: forward, sideways and up, m/s, and turning, rad/s. */
 void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,
-    double sideways, double turn);
+    double sideways, double turn, double up);
 
 /* Plays what is due at `time_s`. */
 void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character);

@@ -44,11 +44,15 @@ static bool parse_ground(cli_call *call, sbr_ground *ground) {
   return true;
 }
 
-static bool parse_drive(cli_call *call, double drive[2]) {
+static bool parse_drive(cli_call *call, double drive[3]) {
   const char *text = cli_value(call, "--drive");
-  drive[0] = drive[1] = 0;
+  drive[0] = drive[1] = drive[2] = 0;
   if (!text || parse_numbers(text, 2, drive)) return true;
-  cli_wrong(call, "--drive takes a speed and a turn as M/S,RAD/S, as in 0.5,0.2, not '%s'", text);
+  if (parse_numbers(text, 3, drive)) return true;
+  cli_wrong(call,
+      "--drive takes a speed and a turn, and for what swims or flies a vertical speed, as M/S,RAD/S[,UP], as "
+      "in 0.5,0.2, not '%s'",
+      text);
   return false;
 }
 
@@ -158,7 +162,7 @@ static void begin(session *s) {
     s->frame_count = (uint32_t)s->recording.replay.frame_count;
     return;
   }
-  script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1]);
+  script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1], set->drive[2]);
   const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
   if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
   loosen_rigid_parts(s);

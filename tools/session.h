@@ -15,32 +15,30 @@
       {"--scheme", "NAME",                                                                                   \
           "automatic, symplectic, position_based, relaxation, explicit_euler, heun, block_descent "          \
           "(automatic)"},                                                                                    \
-      {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
+      {"--substeps", "N", "substeps of a control tick (as many as the scheme needs)"},                       \
       {"--instructions", "NAME",                                                                             \
           "automatic, scalar, sse2, avx2, avx512, neon; the motion is the same for all (automatic)"},        \
       {"--threads", "N", "worker threads; the motion is the same for any number (1)"},                       \
-      {"--drive", "M/S,RAD/S", "wanted speed and turn (0,0)"},                                               \
+      {"--drive", "M/S,RAD/S[,UP]", "wanted speed, turn, vertical speed (0,0,0)"},                           \
       {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \
       {"--hold", NULL, "keep the bones in their rest pose"}, {"--free", NULL, "drop every pin"},             \
-      {"--raise", "M",                                                                                       \
-          "start that much higher (0); what nothing holds starts above the ground in any case"},             \
-      {"--gravity", "M/S2", "downward (the file's)"},                                                        \
-      {"--clip", "NAME",                                                                                     \
-          "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
-      {"--level", "N", "simulation level, 0 the finest (0); of bodies that have fewer, the last"},           \
-      {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},              \
+      {"--raise", "M", "start that much higher (0); bodies without pins always start above the ground"},     \
+      {"--gravity", "M/S2", "gravity, downward (the file's)"},                                               \
+      {"--clip", "NAME", "play this clip, by name or number, in place of the gait"},                         \
+      {"--level", "N", "simulation level, 0 is the finest (0); bodies with fewer levels use their last"},    \
+      {"--ragdoll", NULL, "simulate every rigid body with a mass; only joints hold it"},                     \
       {"--strength", "TIMES",                                                                                \
-          "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no "     \
-          "bound"},                                                                                          \
-      {"--record", "OUT.sbrec", "record all that moves the character, to be played again"},                  \
-      {"--replay", "FILE.sbrec", "play what was recorded, with the same file and options, to the bit"}, {    \
-    "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
+          "drive every rigid body to its pose; the torque limit is TIMES the torque that holds its limb "    \
+          "level; 0: no limit"},                                                                             \
+      {"--record", "OUT.sbrec", "record all input of the character for --replay"},                           \
+      {"--replay", "FILE.sbrec", "replay a recording with the same file and options, equal to the bit"}, {   \
+    "--script", "FILE", "timed commands; see docs/scripts.md"                                                \
   }
 
 /* What the options say of the world and of the character in it. */
 typedef struct session_settings {
   sbr_model_options model;
-  double drive[2]; /* m/s, rad/s */
+  double drive[3]; /* m/s, rad/s, m/s upwards */
   double raise;    /* m */
   double gravity;  /* m/s^2, downward */
   double strength; /* of `driven`, as sbr_rigid_drive has it */

@@ -74,24 +74,24 @@ static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, sho
 /* Cuts the polygons of one material slot into fans of triangles. */
 static bool cut_patch(
     const sbf_render_mesh *mesh, const shown_polygons *shown, bool hard, uint32_t slot, patch *p) {
-  size_t most = 3 * (size_t)shown->points.count + 1;
-  p->triangles = malloc(most * sizeof *p->triangles);
-  p->whole = malloc(most * sizeof *p->whole);
+  size_t max = 3 * (size_t)shown->points.count + 1;
+  p->triangles = malloc(max * sizeof *p->triangles);
+  p->whole = malloc(max * sizeof *p->whole);
   p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
   if (!p->triangles || !p->whole || !p->polygons) return false;
   if (p->look.image) {
-    p->uvs = malloc(most * sizeof *p->uvs);
-    p->whole_uvs = malloc(most * sizeof *p->whole_uvs);
+    p->uvs = malloc(max * sizeof *p->uvs);
+    p->whole_uvs = malloc(max * sizeof *p->whole_uvs);
     if (!p->uvs || !p->whole_uvs) return false;
   }
   if (p->look.has_colours) {
-    p->colours = malloc(most * sizeof *p->colours);
-    p->whole_colours = malloc(most * sizeof *p->whole_colours);
+    p->colours = malloc(max * sizeof *p->colours);
+    p->whole_colours = malloc(max * sizeof *p->whole_colours);
     if (!p->colours || !p->whole_colours) return false;
   }
   if (hard) {
-    p->corners = malloc(most * sizeof *p->corners);
-    p->whole_corners = malloc(most * sizeof *p->whole_corners);
+    p->corners = malloc(max * sizeof *p->corners);
+    p->whole_corners = malloc(max * sizeof *p->whole_corners);
     if (!p->corners || !p->whole_corners) return false;
   }
   for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {

@@ -3,20 +3,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_LEGS = 16 };
-static const double BAND = 0.12; /* the lowest part of a foot's height is its sole */
+enum { MAX_LEGS = 16 };
+static const float FIRM = 0.99f, MOSTLY = 0.5f; /* shares of a vertex that the foot carries */
+static const double BAND = 0.12;                /* the lowest part of a foot's height is its sole */
 
 typedef struct sole {
-  uint32_t *vertices; /* places in the skin */
+  uint32_t *vertices; /* places in the skin; the first `firm_count` are the foot's alone */
   double *rest_y;     /* height of each above the lowest, at rest */
-  uint32_t count;
+  uint32_t count, firm_count;
   double rest_low; /* of the lowest vertex against the ground at rest */
   bool planted;
   double x, z; /* where the stance began */
 } sole;
 
 struct soles {
-  sole at[MOST_LEGS];
+  sole at[MAX_LEGS];
   uint32_t count;
   sole_report report;
 };
@@ -52,11 +53,13 @@ static bool gather(const sbf_asset *asset, int32_t foot, sole *s) {
       }
     }
   }
+  s->firm_count = s->count;
   return true;
 }
 
-/* The same of skinned meshes, where nothing soft hangs on the foot. */
-static bool gather_skinned(const sbf_asset *asset, int32_t foot, sole *s) {
+/* The same of skinned meshes, where nothing soft hangs on the foot: those of which it carries more than
+ * `above` and at most `up_to`. */
+static bool gather_skinned(const sbf_asset *asset, int32_t foot, float above, float up_to, sole *s) {
   for (uint32_t m = 0; m < asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
     uint32_t offset = skin_offset(asset, (int32_t)m), count = mesh->mesh.positions.count;
@@ -67,10 +70,17 @@ static bool gather_skinned(const sbf_asset *asset, int32_t foot, sole *s) {
       float held = 0;
       for (uint32_t k = at; k < at + mesh->skin->influence_counts.at[i]; k++)
         if (is_below(asset, (int32_t)mesh->skin->bones.at[k], foot)) held += mesh->skin->weights.at[k];
-      if (held > 0.99f) s->vertices[s->count++] = offset + i; /* others give as the leg bends */
+      if (held > above && held <= up_to) s->vertices[s->count++] = offset + i;
     }
   }
   return true;
+}
+
+/* What gives as the leg bends comes last. */
+static bool gather_firm_first(const sbf_asset *asset, int32_t foot, sole *s) {
+  if (!gather_skinned(asset, foot, FIRM, INFINITY, s)) return false;
+  s->firm_count = s->count;
+  return gather_skinned(asset, foot, MOSTLY, FIRM, s);
 }
 
 static sbf_vec3 rest_place(const sbf_asset *asset, uint32_t vertex) {
@@ -91,10 +101,14 @@ static bool keep_lowest(const sbf_asset *asset, sole *s) {
     low = fmin(low, rest_height(asset, s->vertices[i]));
     high = fmax(high, rest_height(asset, s->vertices[i]));
   }
-  uint32_t kept = 0;
-  for (uint32_t i = 0; i < s->count; i++)
-    if (rest_height(asset, s->vertices[i]) <= low + BAND * (high - low)) s->vertices[kept++] = s->vertices[i];
+  uint32_t kept = 0, firm = 0;
+  for (uint32_t i = 0; i < s->count; i++) {
+    if (rest_height(asset, s->vertices[i]) > low + BAND * (high - low)) continue;
+    firm += i < s->firm_count;
+    s->vertices[kept++] = s->vertices[i];
+  }
   s->count = kept;
+  s->firm_count = firm;
   s->rest_low = low;
   s->rest_y = malloc((kept + 1) * sizeof *s->rest_y);
   if (!s->rest_y) return false;
@@ -108,10 +122,10 @@ soles *soles_create(const session *s) {
   soles *all = calloc(1, sizeof *all);
   if (!all) return NULL;
   const sbf_gait *gait = &asset->gaits.at[0];
-  for (uint32_t l = 0; l < gait->legs.count && l < MOST_LEGS; l++) {
+  for (uint32_t l = 0; l < gait->legs.count && l < MAX_LEGS; l++) {
     sole *one = &all->at[all->count++];
     int32_t foot = asset->ik_chains.at[gait->legs.at[l].ik].end;
-    bool good = gather(asset, foot, one) && (one->count || gather_skinned(asset, foot, one));
+    bool good = gather(asset, foot, one) && (one->count || gather_firm_first(asset, foot, one));
     if (good && keep_lowest(asset, one)) continue;
     soles_destroy(all);
     return NULL;
@@ -128,27 +142,27 @@ void soles_destroy(soles *all) {
 }
 
 void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
-  sbr_leg_state legs[MOST_LEGS];
+  sbr_leg_state legs[MAX_LEGS];
   sbr_double3 origin = sbr_character_origin(s->world, s->character);
-  uint32_t leg_count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
+  uint32_t leg_count = sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
   for (uint32_t l = 0; l < all->count && l < leg_count; l++) {
     sole *one = &all->at[l];
     double x = 0, z = 0;
-    for (uint32_t i = 0; i < one->count; i++) {
+    for (uint32_t i = 0; i < one->firm_count; i++) {
       const sbf_vec3 p = skin[one->vertices[i]];
       double wx = origin.x + (double)p.x, wy = origin.y + (double)p.y, wz = origin.z + (double)p.z;
       sbf_vec3 normal;
       double depth = s->ground.height(&s->ground, wx, wz, &normal) - wy + fmin(one->rest_low, 0);
       all->report.penetration_m = fmax(all->report.penetration_m, depth);
-      x += wx / one->count;
-      z += wz / one->count;
+      x += wx / one->firm_count;
+      z += wz / one->firm_count;
     }
     if (legs[l].planted && !one->planted) {
       one->x = x;
       one->z = z;
     }
     one->planted = legs[l].planted;
-    if (one->planted && one->count)
+    if (one->planted && one->firm_count)
       all->report.slip_m = fmax(all->report.slip_m, hypot(x - one->x, z - one->z));
   }
 }
@@ -156,6 +170,11 @@ void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
 uint32_t soles_vertices(const soles *all, uint32_t leg, const uint32_t **vertices) {
   *vertices = leg < all->count ? all->at[leg].vertices : NULL;
   return leg < all->count ? all->at[leg].count : 0;
+}
+
+uint32_t soles_firm_vertices(const soles *all, uint32_t leg, const uint32_t **vertices) {
+  *vertices = leg < all->count ? all->at[leg].vertices : NULL;
+  return leg < all->count ? all->at[leg].firm_count : 0;
 }
 
 double soles_radius(const soles *all, const session *s, uint32_t leg) {

@@ -20,6 +20,8 @@ void soles_destroy(soles *soles);
 void soles_measure(soles *soles, const session *s, const sbf_vec3 *skin);
 /* Places in the skin of a leg's sole; returns how many. */
 uint32_t soles_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
+/* Those of them that the foot alone carries: others give as the leg bends. */
+uint32_t soles_firm_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
 /* How far it reaches from its middle at rest, seen from above, m; 0: nothing is seen of it. */
 double soles_radius(const soles *soles, const session *s, uint32_t leg);
 sole_report soles_report(const soles *soles);

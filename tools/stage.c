@@ -13,7 +13,7 @@ typedef struct body_look {
   uint32_t edge_count;
 } body_look;
 
-enum { MOST_LEGS = 16, PRINTS = 64 };
+enum { MAX_LEGS = 16, PRINTS = 64 };
 static const float AROUND = 1.3f; /* of a sole: its footprint is drawn so wide, to be seen round it */
 
 /* Where a foot came down. */
@@ -25,10 +25,10 @@ typedef struct footprint {
 
 struct stage {
   footprint prints[PRINTS];
-  uint32_t print_count;         /* ever; the last PRINTS are kept */
-  uint32_t print_of[MOST_LEGS]; /* of all ever, the last that each has left */
-  bool was_planted[MOST_LEGS];
-  float sole_radii[MOST_LEGS]; /* m, at rest */
+  uint32_t print_count;        /* ever; the last PRINTS are kept */
+  uint32_t print_of[MAX_LEGS]; /* of all ever, the last that each has left */
+  bool was_planted[MAX_LEGS];
+  float sole_radii[MAX_LEGS]; /* m, at rest */
   unsigned show;
   shown_skin *skin;
   body_look *bodies;
@@ -90,7 +90,7 @@ static uint32_t largest_room(const sbf_asset *asset) {
 static bool measure_soles(stage *st, const session *s) {
   if (s->asset->gaits.count == 0) return true;
   soles *all = soles_create(s);
-  for (uint32_t l = 0; all && l < MOST_LEGS; l++) st->sole_radii[l] = (float)soles_radius(all, s, l);
+  for (uint32_t l = 0; all && l < MAX_LEGS; l++) st->sole_radii[l] = (float)soles_radius(all, s, l);
   soles_destroy(all);
   return all != NULL;
 }
@@ -240,10 +240,10 @@ static void mark_line(draw_scene *scene, sbf_vec3 from, sbf_vec3 to, float dot, 
 /* Footprints as rings; from every knee a line to its pole; of a foot in the air where it goes, and the ray
  * from it down to the ground. */
 static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
-  sbr_leg_state legs[MOST_LEGS];
-  uint32_t count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
+  sbr_leg_state legs[MAX_LEGS];
+  uint32_t count = sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
   float size = 0;
-  count = count < MOST_LEGS ? count : MOST_LEGS;
+  count = count < MAX_LEGS ? count : MAX_LEGS;
   for (uint32_t i = 0; i < count; i++) {
     float length = s->asset->bones.at[leg_knee(s->asset, i)].length;
     size = length > size ? 0.25f * length : size;

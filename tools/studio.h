@@ -12,8 +12,10 @@
 #define STUDIO_OPTIONS                                                                                       \
   {"--show", "LIST",                                                                                         \
       "surface, springs, lattice, bones, hulls, strain, feet (surface; without one: bones, or hulls)"},      \
-      {"--view", "YAW,PITCH", "from where, degrees: 0 ahead, 90 its left; above (41,15)"}, {                 \
-    "--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"       \
+      {"--view", "YAW,PITCH",                                                                                \
+          "camera angles in degrees: 0 shows the front, 90 its left side; pitch from above (41,15)"},        \
+  {                                                                                                          \
+    "--render-level", "N", "mesh level, 0 is the full mesh (0); meshes with fewer levels use their last"     \
   }
 
 typedef struct studio {

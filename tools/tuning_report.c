@@ -6,23 +6,6 @@ static const tune_trial *on_front(const tuning *t, uint32_t place) {
   return &t->trials.at[t->trials.front[place]];
 }
 
-double tuning_error(const tuning *t, const tune_trial *trial) {
-  return tune_error_of(&trial->error, t->by_rms) + (t->by_rms ? t->yard.rms_m : t->yard.most_m);
-}
-
-double tuning_verified(const tuning *t) {
-  return tune_error_of(&t->verified[0], t->by_rms) + (t->by_rms ? t->other.rms_m : t->other.most_m);
-}
-
-static bool verified_meets(const tuning *t) {
-  return t->verified[0].sound && (!(t->goal.error_m > 0) || tuning_verified(t) <= t->goal.error_m);
-}
-
-/* An error asked for that would have been kept: smaller by as much as this one was missed. */
-static double advised_error(const tuning *t) {
-  return t->goal.error_m * t->goal.error_m / tuning_verified(t);
-}
-
 static void say_way(const tuning *t, const tune_trial *trial, char *text, size_t size) {
   char steps[24] = "";
   if (trial->setting.substeps)
@@ -35,12 +18,12 @@ void tuning_say_unmet(const cli_call *call, const tuning *t) {
   const tune_trial *near = on_front(t, t->chosen);
   char way[128];
   say_way(t, near, way, sizeof way);
-  double error = tuning_error(t, near);
+  double error = tune_promised(near, t->by_rms);
   if (t->verdict == TUNE_TOO_FINE)
     cli_wrong(call,
         "nothing that was tried keeps within %.3g m: the nearest is off by up to %.3g m (%s), %.2g m of it "
         "the reference's own: ask for %.3g or more, or try finer lattices with --elements and --reference",
-        t->goal.error_m, error, way, t->by_rms ? t->yard.rms_m : t->yard.most_m, error * 1.01);
+        t->goal.error_m, error, way, t->by_rms ? t->yard.rms_m : t->yard.max_m, error * 1.01);
   else if (t->verdict == TUNE_TOO_CHEAP)
     cli_wrong(call,
         "nothing that was tried takes less than %.4g us a tick here: the cheapest takes %.4g us (%s; off by "
@@ -62,23 +45,14 @@ static void print_level(const tuning *t, uint32_t number) {
   char way[128];
   say_way(t, trial, way, sizeof way);
   printf("  level %u: %s: off by %.2e m (RMS), %.2e m at most; %.0f visits, %.4g us a tick\n",
-      (unsigned)number, way, t->levels[number].rms_m, t->levels[number].most_m, trial->visits,
+      (unsigned)number, way, t->levels[number].rms_m, t->levels[number].max_m, trial->visits,
       trial->us.median);
 }
 
-static void print_verified(const tuning *t) {
-  const tune_error *v = &t->verified[0];
-  if (!v->sound) {
-    printf("driven otherwise its first level fails (%s): take another by --error or --elements\n", v->why);
-    return;
-  }
-  printf("driven otherwise its first level is off by %.2e m (RMS), %.2e m at most (%s)", v->rms_m, v->most_m,
-      v->worst);
-  if (verified_meets(t))
-    printf("%s\n", t->goal.error_m > 0 ? ": within what was asked for" : "");
-  else
-    printf(": %.3g m beyond the %.3g m asked for; --error %.2g would keep it\n",
-        tuning_verified(t) - t->goal.error_m, t->goal.error_m, advised_error(t));
+static void print_harsher(const tuning *t) {
+  const tune_error *v = &t->levels[0].trial->other;
+  printf("driven harder its first level is off by %.2e m (RMS), %.2e m at most (%s)\n", v->rms_m, v->max_m,
+      v->worst ? v->worst : "nothing measured");
 }
 
 static void print_unmeasured(const tune_yardstick *yard, const char *when) {
@@ -94,12 +68,12 @@ void tuning_print(const tuning *t) {
   printf("tried %u ways, of which %u failed and %u were refused; %u are worth having\n",
       (unsigned)t->trials.count, (unsigned)failed, (unsigned)refused, (unsigned)t->trials.front_count);
   printf("measured against %s of %u elements; by its steps that is off by %.1e m (RMS), %.1e m at most\n",
-      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->yard.rms_m, t->yard.most_m);
+      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->yard.rms_m, t->yard.max_m);
   print_unmeasured(&t->yard, "");
   if (t->meshes.note[0]) printf("no lattices were tried: %s\n", t->meshes.note);
   for (uint32_t i = 0; i < t->level_count; i++) print_level(t, i);
-  print_verified(t);
-  print_unmeasured(&t->other, " driven otherwise");
+  print_harsher(t);
+  print_unmeasured(&t->other, " driven harder");
   printf("wrote %s\n", t->out);
 }
 
@@ -111,7 +85,7 @@ static json_t *number(double value) {
 
 static json_t *error_json(const tune_error *e) {
   if (!e->sound) return json_pack("{s:b, s:s}", "sound", 0, "why", e->why);
-  return json_pack("{s:b, s:f, s:f, s:s}", "sound", 1, "rms_m", e->rms_m, "most_m", e->most_m, "worst",
+  return json_pack("{s:b, s:f, s:f, s:s}", "sound", 1, "rms_m", e->rms_m, "most_m", e->max_m, "worst",
       e->worst ? e->worst : "");
 }
 
@@ -129,14 +103,14 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
   json_object_set_new(object, "element_visits", trial->refused ? json_null() : number(trial->element_visits));
   json_object_set_new(object, "us_per_tick", trial->on_front ? number(trial->us.median) : json_null());
   json_object_set_new(object, "error", error_json(&trial->error));
+  json_object_set_new(object, "verified", trial->max_m > 0 ? error_json(&trial->other) : json_null());
   return object;
 }
 
 static json_t *level_json(const tuning *t, uint32_t number_of) {
   json_t *object = trial_json(t, t->levels[number_of].trial);
-  json_object_set_new(object, "motion_error_m", number(t->levels[number_of].most_m));
+  json_object_set_new(object, "motion_error_m", number(t->levels[number_of].max_m));
   json_object_set_new(object, "motion_error_rms_m", number(t->levels[number_of].rms_m));
-  json_object_set_new(object, "verified", error_json(&t->verified[number_of]));
   return object;
 }
 
@@ -146,17 +120,6 @@ static json_t *motions_json(const tune_yardstick *yard) {
     json_array_append_new(list, json_pack("{s:s, s:b, s:s}", "name", yard->cases[i].name, "measured",
                                     (int)!yard->unmeasured[i][0], "why", yard->unmeasured[i]));
   return list;
-}
-
-static json_t *verified_json(const tuning *t) {
-  bool met = verified_meets(t);
-  json_t *object = json_pack("{s:b, s:o}", "met", (int)met, "motions", motions_json(&t->other));
-  if (t->verified[0].sound) {
-    json_object_set_new(object, "error_m", number(tuning_verified(t)));
-    json_object_set_new(object, "beyond_m", number(met ? 0 : tuning_verified(t) - t->goal.error_m));
-    json_object_set_new(object, "advised_error_m", met ? json_null() : number(advised_error(t)));
-  }
-  return object;
 }
 
 static json_t *asked(double value) {
@@ -176,13 +139,13 @@ json_t *tuning_json(const tuning *t) {
   json_object_set_new(object, "budget_asked_us", asked(t->goal.budget_us));
   json_object_set_new(object, "reference",
       json_pack("{s:s, s:i, s:f, s:f, s:o}", "model", t->meshes.reference.name, "elements",
-          (int)t->meshes.reference.elements, "rms_m", t->yard.rms_m, "most_m", t->yard.most_m, "motions",
+          (int)t->meshes.reference.elements, "rms_m", t->yard.rms_m, "most_m", t->yard.max_m, "motions",
           motions_json(&t->yard)));
   json_object_set_new(
       object, "nearest", t->trials.front_count ? trial_json(t, on_front(t, t->chosen)) : json_null());
   json_object_set_new(object, "trials", trials);
   json_object_set_new(object, "levels", levels);
-  json_object_set_new(object, "verified", t->written ? verified_json(t) : json_null());
+  json_object_set_new(object, "verified", json_pack("{s:o}", "motions", motions_json(&t->other)));
   json_object_set_new(object, "machine",
       json_pack("{s:s, s:s, s:s, s:i, s:s}", "commit", t->machine.commit, "compiler", t->machine.compiler,
           "processor", t->machine.processor, "lanes", (int)t->machine.lanes, "date", t->machine.date));

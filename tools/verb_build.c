@@ -2,6 +2,7 @@
 #include "building.h"
 #include "material_options.h"
 #include "output_name.h"
+#include "saving.h"
 
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
@@ -17,12 +18,13 @@ static int run(cli_call *call) {
     return SBF_FAILED;
   }
   if (status == SBF_OK) status = building_run(call, &asset, &error);
-  if (status == SBF_OK) {
-    status = sbf_save_file(asset, out, NULL, &error);
-    sbf_asset_free(asset);
+  if (status != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return (int)status;
   }
-  if (status != SBF_OK) cli_print_diagnostic(call, &error);
-  return (int)status;
+  int saved = saving_run(call, call->inputs[0], out, asset, NULL);
+  sbf_asset_free(asset);
+  return saved;
 }
 
 static const cli_option options[] = {
@@ -32,8 +34,8 @@ static const cli_option options[] = {
     {NULL, NULL, NULL},
 };
 const cli_verb verb_build = {"build", "IN -o OUT [--springs METHOD] [--cell METRES] [--elements N]",
-    "make the derived parts of a bundle anew",
-    "Every part marked derived is dropped and made again from the source parts: springs or tetrahedra, pins, "
-    "embeddings, hulls.\n"
-    "Authored parts are kept as they are. The same input and options give the same bytes.",
+    "make the derived parts of a bundle again",
+    "Deletes every part marked derived and makes it again from the source parts: springs or\n"
+    "tetrahedra, pins, embeddings, hulls. Authored parts are kept. Equal input and options\n"
+    "give equal bytes. A result that `sbfmt validate` would refuse is not written.",
     options, 1, 1, run};

@@ -71,7 +71,8 @@ static int gather_cases(cli_call *call, request *r) {
   sbf_diagnostic error;
   r->all = chart_cases, r->all_count = chart_case_count;
   if (!call->input_count) return SBF_OK;
-  sbf_status status = sbf_load_file(call->inputs[0], NULL, &r->asset, &error);
+  sbf_status status = sbf_load_file(
+      call->inputs[0], &(sbf_load_options){.report = cli_report, .user = call}, &r->asset, &error);
   if (status == SBF_OK) status = chart_bundle_cases(r->asset, NULL, &r->bundle, r->bundle_cases, &error);
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   r->all = r->bundle_cases, r->all_count = CHART_BUNDLE_CASES;
@@ -79,17 +80,17 @@ static int gather_cases(cli_call *call, request *r) {
 }
 
 static bool parse(cli_call *call, request *r) {
-  long rounds = 15, most = 128, core = 0;
+  long rounds = 15, max = 128, core = 0;
   r->effort.distance_m = 5;
   r->path = cli_value(call, "-o");
   if (!choose_cases(call, r) || !cli_integer(call, "--runs", 1, 10000, &rounds) ||
-      !cli_integer(call, "--most-substeps", 1, 1024, &most) || !cli_integer(call, "--core", 0, 1023, &core) ||
+      !cli_integer(call, "--most-substeps", 1, 1024, &max) || !cli_integer(call, "--core", 0, 1023, &core) ||
       !cli_number(call, "--distance", 0.01, 1e6, &r->effort.distance_m))
     return false;
   if (!r->path && !cli_switch(call, "--jobs")) return cli_wrong(call, "say where to: -o DIR"), false;
   r->effort = (chart_effort){.rounds = (uint32_t)rounds,
       .distance_m = r->effort.distance_m,
-      .most_substeps = (uint32_t)most,
+      .max_substeps = (uint32_t)max,
       .progress = show_progress,
       .user = r};
   r->drawn = !cli_switch(call, "--no-svg");
@@ -106,8 +107,8 @@ static int print_jobs(const cli_call *call, const request *r) {
   for (uint32_t i = 0; i < r->case_count; i++)
     printf("sbfmt chart%s%s%s --case %s --runs %u --most-substeps %u --distance %g%s -o '%s'\n",
         call->input_count ? " '" : "", call->input_count ? call->inputs[0] : "", call->input_count ? "'" : "",
-        r->cases[i]->name, (unsigned)r->effort.rounds, (unsigned)r->effort.most_substeps,
-        r->effort.distance_m, r->drawn ? "" : " --no-svg", path);
+        r->cases[i]->name, (unsigned)r->effort.rounds, (unsigned)r->effort.max_substeps, r->effort.distance_m,
+        r->drawn ? "" : " --no-svg", path);
   return SBF_OK;
 }
 
@@ -275,50 +276,40 @@ static int run(cli_call *call) {
   return status;
 }
 
-static const cli_option options[] = {
-    {"--case", "NAME", "one of the cases above; several times for several (all)"},
-    {"-o", "DIR", "folder for the tables and drawings; made if it is not there"},
-    {"--runs", "N", "runs that a time is the median of (15)"},
-    {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (128)"},
-    {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
-    {"--distance", "M", "from which a character is looked at, for errors in pixels (5)"},
-    {"--map", NULL, "instead: where each scheme is sound, biased or dead"},
-    {"--cells", "N", "of a map: so many columns, half as many rows; of bodies half of both (48)"},
+static const cli_option options[] = {{"--case", "NAME", "one of the cases above; may be repeated (all)"},
+    {"-o", "DIR", "folder for tables and drawings; created if missing"},
+    {"--runs", "N", "runs per time; the median counts (15)"},
+    {"--most-substeps", "N", "substeps are 1, 2, 4 and so on, up to N (128)"},
+    {"--core", "N", "processor core to run on, from 0 (0)"},
+    {"--distance", "M", "viewing distance for errors in pixels (5)"},
+    {"--map", NULL, "draw stability maps: where each scheme is valid, biased or fails"},
+    {"--cells", "N", "columns of a map; half as many rows; maps of bodies have half of both (48)"},
     {"--redraw", "TABLE",
         "measure nothing: draw CASE.csv, with CASE-runs.csv beside it, again; several times for several"},
-    {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
-    {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
+    {"--no-svg", NULL, "write tables only; gnuplot is not needed"},
+    {"--jobs", NULL, "print one command per case, to run in parallel, and measure nothing"},
     {"--format", "text|json", "how to report (text)"}, {NULL, NULL, NULL}};
 
 const cli_verb verb_chart = {.name = "chart",
     .synopsis = "[FILE] [--case NAME] -o DIR",
     .summary = "chart speed against accuracy",
-    .details =
-        "Runs known cases by every scheme at many numbers of substeps, measures how far each is off a "
-        "converged\n"
-        "reference and what a frame of it costs on one core, and writes into the folder, for each "
-        "case, a table\n"
-        "(CASE.csv), every run's time (CASE-runs.csv) and a drawing for each measure of error "
-        "(CASE-ERROR.svg,\n"
-        "which needs gnuplot). Runs that fail are marked on top of the drawings. The folder gets all "
-        "of it or\n"
-        "nothing.\n\n"
-        "spring, chain, pendulum, beam, drop and pressure are motions, cantilever and hung come to "
-        "rest: errors\n"
-        "there are those of steps in time. cantilever-meshes and beam-meshes compare coarse meshes "
-        "with a fine\n"
-        "one: errors there are those of meshes.\n\n"
-        "With a FILE, its character's own walk, hop and shake are charted (--case walk, hop, shake): "
-        "how far the\n"
-        "skin is off, in metres and in pixels of a screen of 1080 lines that shows 60 degrees.\n\n"
-        "--map draws stability maps, by every scheme over stiffness: a mass on a spring by damping, uneven "
-        "frames,\n"
-        "one long frame and where it is let go from; a chain, a bar of tetrahedra and one of regions by the "
-        "mass at\n"
-        "the end, and the bar by Poisson's ratio; map-damping.csv and so on, and their drawings (--case "
-        "damping,\n"
-        "jitter, hitch, stretch, mass-springs, mass-tetrahedra, mass-regions, poisson).",
+    .details = "Runs known cases with every scheme at many numbers of substeps. Measures each error\n"
+               "against a converged reference and the cost of a frame on one core. Writes into the\n"
+               "folder, for each case, a table (CASE.csv), the time of every run (CASE-runs.csv) and a\n"
+               "drawing per measure of error (CASE-ERROR.svg, needs gnuplot). Failed runs are marked at\n"
+               "the top of the drawings. If anything fails, nothing is written.\n\n"
+               "spring, chain, pendulum, beam, drop and pressure are motions; cantilever and hung come\n"
+               "to rest: their errors are those of time steps. cantilever-meshes and beam-meshes compare\n"
+               "coarse meshes with a fine one: their errors are those of meshes.\n\n"
+               "With a FILE, the walk, hop and shake of its character are charted (--case walk, hop,\n"
+               "shake): the error of the skin in metres, and in pixels of a screen with 1080 lines and a\n"
+               "field of view of 60 degrees.\n\n"
+               "--map draws stability maps over stiffness for every scheme: a mass on a spring by\n"
+               "damping, jitter of the frame time, one long frame and initial stretch; a chain, a bar of\n"
+               "tetrahedra and one of regions by the mass at the end; the bar by Poisson's ratio (--case\n"
+               "damping, jitter, hitch, stretch, mass-springs, mass-tetrahedra, mass-regions, poisson).\n"
+               "Files are map-damping.csv and so on.",
     .options = options,
-    .least_inputs = 0,
-    .most_inputs = 1,
+    .min_inputs = 0,
+    .max_inputs = 1,
     .run = run};

@@ -8,15 +8,16 @@
 
 #include "building.h"
 #include "chart/out_folder.h"
-#include "checking.h"
 #include "conversion_report.h"
+#include "convert_batch.h"
 #include "material_options.h"
 #include "output_name.h"
 #include "pin_options.h"
+#include "saving.h"
 #include "sbfmt/convert.h"
 #include "sbfmt/mechanics.h"
 
-enum { MOST_PATH = 4096 };
+enum { MAX_PATH = 4096 };
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
@@ -38,8 +39,9 @@ static bool is_bundle(const char *path) {
 /* The source parts of an input; a bundle is taken as it is, to add motion to it. */
 static sbf_status read_input(cli_call *call, const char *input, const sbf_convert_options *options,
     sbf_asset **asset, sbf_diagnostic *error) {
-  sbf_status status =
-      is_bundle(input) ? sbf_load_file(input, NULL, asset, error) : sbf_convert(input, options, asset, error);
+  const sbf_load_options loading = {.report = options->report, .user = options->user};
+  sbf_status status = is_bundle(input) ? sbf_load_file(input, &loading, asset, error)
+                                       : sbf_convert(input, options, asset, error);
   int at = 0;
   for (const char *motion; status == SBF_OK && (motion = cli_next_value(call, "--motion", &at)) != NULL;) {
     status = sbf_convert_motion(*asset, motion, options, error);
@@ -75,26 +77,6 @@ static void state_figures(sbf_asset *asset) {
   asset->info.high = measures.high;
 }
 
-/* Checks the asset as `sbfmt validate` would check the file, and writes it only where it is valid: an invalid
- * bundle never takes the place of the output. */
-static int save_valid(cli_call *call, const char *input, const char *out, const sbf_asset *asset) {
-  checked found = {.path = out};
-  sbf_diagnostic error;
-  check_loaded(asset, out, &found);
-  sbf_status status = found.status;
-  if (!checked_is_valid(&found, false)) {
-    checked_tell(call, &found, NULL);
-    cli_wrong(call, "%s is not written: what %s gives has %u error%s, listed above; mend the input there",
-        out, input, found.result.errors, found.result.errors == 1 ? "" : "s");
-    if (status == SBF_OK) status = SBF_BAD_INPUT;
-  } else {
-    status = sbf_save_file(asset, out, NULL, &error);
-    if (status != SBF_OK) cli_print_diagnostic(call, &error);
-  }
-  findings_free(&found.found);
-  return (int)status;
-}
-
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
   sbf_asset *asset, *misfit = NULL;
   sbf_diagnostic error;
@@ -109,7 +91,7 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
   if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
-    int saved = save_valid(call, input, out, asset);
+    int saved = saving_run(call, input, out, asset, NULL);
     if (saved == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
     sbf_asset_free(asset);
     if (saved != SBF_OK) return saved;
@@ -123,7 +105,7 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
 
 /* That every input has a place of its own in the folder, and that the folder is there: it is made. */
 static bool prepare_folder(const cli_call *call, const char *folder) {
-  char path[MOST_PATH], other[MOST_PATH];
+  char path[MAX_PATH], other[MAX_PATH];
   for (int i = 0; i < call->input_count; i++) {
     if (!path_in(folder, call->inputs[i], path, sizeof path))
       return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder), false;
@@ -143,16 +125,20 @@ static bool prepare_folder(const cli_call *call, const char *folder) {
   return true;
 }
 
+static int convert_for_batch(cli_call *call, const char *input, const char *out, void *user) {
+  return convert(call, input, out, user);
+}
+
 static int convert_all(cli_call *call, sbf_convert_options *options) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
-  int status = SBF_OK;
-  if (folder && !prepare_folder(call, folder)) return SBF_FAILED;
-  for (int i = 0; i < call->input_count; i++) {
-    char path[MOST_PATH];
-    if (folder) path_in(folder, call->inputs[i], path, sizeof path);
-    int one = convert(call, call->inputs[i], out ? out : path, options);
-    if (one > status) status = one;
+  long jobs = 0;
+  if (!cli_integer(call, "--jobs", 1, 256, &jobs)) return SBF_FAILED;
+  if (folder) {
+    if (!prepare_folder(call, folder)) return SBF_FAILED;
+    return convert_batch(call, folder, jobs, path_in, convert_for_batch, options);
   }
+  int status = convert(call, call->inputs[0], out, options);
+  cli_print_counted(call);
   return status;
 }
 
@@ -161,7 +147,8 @@ static int run(cli_call *call) {
   static const char *const axes[] = {"y", "z"};
   static const char *const animals[] = {"none", "human", "quadruped", "reptile"}; /* as sbf_convert_limits */
   static const char *const fronts[] = {"x", "-x", "y", "-y", "z", "-z"};
-  int up = 0, front = 0, limits = 0, status = SBF_FAILED;
+  static const char *const kinds[] = {"walk", "swim", "fly", "slither", "crawl", "roll", "none"};
+  int up = 0, front = 0, limits = 0, kind = 0, status = SBF_FAILED;
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
@@ -169,11 +156,13 @@ static int run(cli_call *call) {
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
       !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--forward", fronts, 6, &front) ||
-      !cli_word(call, "--limits", animals, 4, &limits) || !building_check(call) || !materials_check(call))
+      !cli_word(call, "--limits", animals, 4, &limits) || !cli_word(call, "--gait", kinds, 7, &kind) ||
+      !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
   options.weights = cli_value(call, "--weights");
+  if (cli_value(call, "--gait")) options.gait = kinds[kind];
   if (cli_value(call, "--up")) options.up = axes[up][0];
   if (cli_value(call, "--forward")) options.forward = fronts[front];
   const char *page = cli_value(call, "--report");
@@ -191,8 +180,11 @@ static int run(cli_call *call) {
 static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
+    {"--jobs", "N", "conversions at once with --out-dir (one a processor)"},
     {"--rig", "FILE", "take the skeleton from this file"},
     {"--forward", "x|-x|y|-y|z|-z", "the input's axis that it looks along (found by its legs)"},
+    {"--gait", "walk|swim|fly|slither|crawl|roll|none",
+        "how it moves (judged by its shape, names and clips)"},
     {"--weights", "FILE|named|match|transfer|compute",
         "bones of points: of .csv or .json, by objects' names, by place, of the nearest surface, from the "
         "bones "
@@ -216,7 +208,8 @@ const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir D
     "and\n"
     "the 2012 dialect, .xml; a bundle, to add motion to. Objects become sections of the bones they "
     "hang on in\n"
-    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then "
+    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed by its shape, names and clips. "
+    "Then "
     "builds. What `sbfmt validate` would refuse is not written: its findings are listed, and the exit status "
     "is "
     "1.",

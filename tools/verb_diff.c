@@ -22,7 +22,8 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {{NULL, NULL, NULL}};
-const cli_verb verb_diff = {"diff", "A B", "say whether two files hold the same",
-    "Compares the content of two files of either form, bit by bit, apart from times measured on machines.\n"
-    "Exit status 0: the same; 1: different, with the first place where; 2: a file could not be read.",
+const cli_verb verb_diff = {"diff", "A B", "compare the content of two files",
+    "Compares two files of either form bit by bit, except for times measured on a machine.\n"
+    "Exit status 0: equal; 1: different, the first difference is printed; 2: a file could not\n"
+    "be read.",
     options, 2, 2, run};

@@ -64,26 +64,25 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.csv|.json|.pc2|.mdd",
-        "where to write; the ending says in which form"},
+        "output file; the ending selects the format"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
-    SESSION_OPTIONS("how much of the motion (.pc2 and .mdd 5, .glb none)", "frames a second (30)"),
+    SESSION_OPTIONS("length of the motion (.pc2 and .mdd 5, .glb none)", "frames a second (30)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",
     "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.csv|.json|.pc2|.mdd [--seconds S ...]",
-    "write what other programs read",
-    "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
-    "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
-    "Gmsh's .msh or VTK's .vtu; or soft and rigid bodies with their joints as MuJoCo's\n"
-    ".mjcf, +Z up, or in the 2012 dialect, .xml; all of these together as USD's text, .usda. A page, .html, "
-    "holds the character with the runtime as "
-    "WebAssembly, to be\n"
-    "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
-    "A .csv or .json holds the weights of the skins, a row for each vertex and bone, for `convert "
-    "--weights`.\n"
-    "Says what the form has no place for. With --seconds, --script or --replay\n"
-    "a .glb also holds the motion that `run` would show, 30 frames a second unless --fps says\n"
-    "otherwise: joints that move, and what the flesh does beside them as a morph target a frame.\n"
-    "A .pc2 or .mdd is that motion alone, 5 seconds unless said otherwise: places of the skin's points, a "
-    "sample a frame.",
+    "write files for other programs",
+    "The ending of OUT selects the format.\n\n"
+    ".glb: meshes with skin, joints, materials, shape keys and clips as binary glTF. With\n"
+    "--seconds, --script or --replay it also holds the motion that `run` would show, 30\n"
+    "frames a second unless --fps is given: joints are animated, and the motion of soft\n"
+    "bodies is one morph target a frame. .obj: meshes at rest, with an MTL. .tet (PhysX),\n"
+    ".node and .ele (TetGen), .msh (Gmsh), .vtu (VTK): tetrahedra. .mjcf: soft and rigid\n"
+    "bodies with joints for MuJoCo, +Z up. .xml: the same in the 2012 dialect. .usda: all of\n"
+    "these as USD text.\n\n"
+    ".html: a page with the character and the runtime as WebAssembly, which works without a\n"
+    "network: walk it, drag it, throw balls at it. .csv, .json: skin weights, one row per\n"
+    "vertex and bone, for `convert --weights`. .pc2, .mdd: the motion as a point cache of the\n"
+    "skin, one sample a frame, 5 seconds unless --seconds is given.\n\n"
+    "Content that a format cannot hold is reported.",
     options, 1, 1, run};

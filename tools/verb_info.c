@@ -147,6 +147,11 @@ static uint64_t leg_count(const sbf_asset *asset) {
   return legs;
 }
 
+/* Of the gait that moves the character: the first. */
+static const char *gait_kind(const sbf_asset *asset) {
+  return asset->gaits.count ? sbf_gait_kind_name(asset->gaits.at[0].kind) : "none";
+}
+
 json_t *bundle_description(const sbf_asset *asset, const sbf_asset_measures *measures, uint64_t bytes) {
   totals t = count(asset);
   json_t *springs = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "structural",
@@ -167,7 +172,8 @@ json_t *bundle_description(const sbf_asset *asset, const sbf_asset_measures *mea
   json_object_set_new(object, "attachments", integer(t.attachments));
   json_object_set_new(object, "rigid_bodies", integer(asset->rigid_bodies.count));
   json_object_set_new(object, "joints", integer(asset->joints.count));
-  json_object_set_new(object, "gait", json_pack("{s:o}", "legs", integer(leg_count(asset))));
+  json_object_set_new(
+      object, "gait", json_pack("{s:s, s:o}", "kind", gait_kind(asset), "legs", integer(leg_count(asset))));
   json_object_set_new(object, "levels", integer(t.levels));
   json_object_set_new(object, "bounds", bounds(measures));
   json_object_set_new(object, "mass", json_real((double)(float)measures->mass));
@@ -209,7 +215,7 @@ static const char *text_of(const json_t *object, const char *key) {
   return text && *text ? text : "-";
 }
 
-enum { MOST_COLUMNS = 40 };
+enum { MAX_COLUMNS = 40 };
 
 static void print_levels(const json_t *levels) {
   size_t i;
@@ -223,13 +229,13 @@ static void print_levels(const json_t *levels) {
 
 /* The columns that the texts of a list need. */
 static int widest(const json_t *rows, const char *key) {
-  size_t i, most = 0;
+  size_t i, max = 0;
   json_t *row;
   json_array_foreach(rows, i, row) {
     size_t length = strlen(text_of(row, key));
-    most = length > most ? length : most;
+    max = length > max ? length : max;
   }
-  return most < MOST_COLUMNS ? (int)most : MOST_COLUMNS;
+  return max < MAX_COLUMNS ? (int)max : MAX_COLUMNS;
 }
 
 static void print_sections(const json_t *object) {
@@ -277,7 +283,9 @@ static void print_text(const json_t *object, uint64_t read_bytes) {
       "tetrahedra", "embedded_vertices", "pins", "attachments", "rigid_bodies", "joints", "levels"};
   for (size_t k = 0; k < sizeof totals_shown / sizeof *totals_shown; k++)
     printf("%-18s %lld\n", totals_shown[k], number(object, totals_shown[k]));
-  printf("gait legs          %lld\n", number(json_object_get(object, "gait"), "legs"));
+  const json_t *gait = json_object_get(object, "gait");
+  printf("gait kind          %s\n", json_string_value(json_object_get(gait, "kind")));
+  printf("gait legs          %lld\n", number(gait, "legs"));
   printf("mass               %.6g kg\n", json_real_value(json_object_get(object, "mass")));
   const json_t *box = json_object_get(object, "bounds");
   for (int k = 0; json_is_object(box) && k < 3; k++)
@@ -332,11 +340,13 @@ typedef struct loaded {
 } loaded;
 
 /* Of a large packed file the outline, if it tells all figures that its lists would give; else all. */
-static sbf_status load(const char *path, bool whole, loaded *l, sbf_diagnostic *error) {
+static sbf_status load(cli_call *call, const char *path, bool whole, loaded *l, sbf_diagnostic *error) {
   struct stat file;
   l->bytes = stat(path, &file) == 0 ? (uint64_t)file.st_size : 0;
-  sbf_load_options options = {
-      .outline = !whole && l->bytes >= READ_WHOLE_BYTES, .read_bytes = &l->read_bytes};
+  sbf_load_options options = {.outline = !whole && l->bytes >= READ_WHOLE_BYTES,
+      .read_bytes = &l->read_bytes,
+      .report = cli_report,
+      .user = call};
   sbf_status status = sbf_load_file(path, &options, &l->asset, error);
   if (status != SBF_OK) return status;
   bool is_outline = options.outline && l->read_bytes > 0; /* XML counts nothing */
@@ -354,7 +364,7 @@ static int run(cli_call *call) {
   loaded l = {.asset = NULL};
   sbf_diagnostic error;
   bool with_quality = cli_switch(call, "--quality");
-  sbf_status status = load(call->inputs[0], with_quality, &l, &error);
+  sbf_status status = load(call, call->inputs[0], with_quality, &l, &error);
   if (status != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return (int)status;
@@ -371,14 +381,12 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"--format", "text|json", "how to print (text)"},
-    {"--quality", NULL, "read all of it, and tell the shape of the tetrahedra"},
+    {"--quality", NULL, "read the whole file and print the shape of the tetrahedra"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_info = {"info", "FILE [--quality] [--format json]", "say what a file holds",
-    "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are "
-    "made\n"
-    "by the rules, counted, and left out of the file. Of a packed file of a megabyte and more only the "
-    "table\n"
-    "of contents and the records are read; its bounds and mass are then those that build or conversion\n"
-    "stated.",
+const cli_verb verb_info = {"info", "FILE [--quality] [--format json]", "print what a file contains",
+    "Counts are those of the finest level of every body. An `inert` spring would join two\n"
+    "pinned points: the build counts it and leaves it out of the file. Of packed files of a\n"
+    "megabyte or more only the table of contents and the records are read; bounds and mass\n"
+    "are then those stated by the build or the conversion.",
     options, 1, 1, run};

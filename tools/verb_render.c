@@ -29,13 +29,13 @@ static bool parse_output(cli_call *call, output *kind) {
 }
 
 /* An option that one kind of film has. */
-static bool parse_own(cli_call *call, const shooting *shot, const char *option, output kind, long least,
-    long most, unsigned *to) {
+static bool parse_own(
+    cli_call *call, const shooting *shot, const char *option, output kind, long min, long max, unsigned *to) {
   long value = 0;
   if (!cli_value(call, option)) return true;
   if (shot->kind != kind)
     return cli_wrong(call, "%s is of a %s: leave it out", option, kind == OUTPUT_GIF ? "GIF" : "WebP"), false;
-  if (!cli_integer(call, option, least, most, &value)) return false;
+  if (!cli_integer(call, option, min, max, &value)) return false;
   *to = (unsigned)value;
   return true;
 }
@@ -120,21 +120,19 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.png|gif|mp4|webp", "where to draw; films need the program ffmpeg"},
+    {"-o", "OUT.png|gif|mp4|webp", "output file; films need the program ffmpeg"},
     STUDIO_OPTIONS,
     {"--size", "WxH", "pixels (1280x960, GIF and WebP 640x360, MP4 1280x720)"},
-    {"--colors", "N", "of a GIF's palette; few make it small (256)"},
-    {"--quality", "N", "of a WebP, 1 to 100 (80)"},
+    {"--colors", "N", "colours of a GIF; fewer make it smaller (256)"},
+    {"--quality", "N", "quality of a WebP, 1 to 100 (80)"},
     SESSION_OPTIONS(
-        "the moment of a picture (0), the length of a film (5)", "frames a second (GIF and WebP 25, MP4 30)"),
+        "time of a picture (0), length of a film (5)", "frames a second (GIF and WebP 25, MP4 30)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4|webp [--show LIST] [--seconds S] ...",
     "draw a picture or a film",
-    "Draws without a display. A picture shows the moment after --seconds (0), a film the time until then "
-    "(5). The\n"
-    "skin turns translucent when what lies under it is shown too; else it is drawn as its materials say, "
-    "with "
-    "base\n"
-    "colour images in PNG, JPEG and WebP. Springs are coloured by kind, or by strain.",
+    "Draws without a display. A picture shows the moment after --seconds (default 0), a film\n"
+    "the time up to it (default 5). The skin is translucent if parts below it are shown too.\n"
+    "Otherwise it is drawn with its materials and base colour images (PNG, JPEG, WebP).\n"
+    "Springs are coloured by kind or by strain.",
     options, 1, 1, run};

@@ -2,15 +2,16 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "output_name.h"
 #include "pose_file.h"
+#include "profile_report.h"
 #include "recovery_report.h"
 #include "result_cache.h"
 #include "rigid_report.h"
 #include "run_text.h"
 #include "sbfmt/export.h"
+#include "seam.h"
 #include "session.h"
 #include "walk_report.h"
 
@@ -19,25 +20,21 @@ typedef struct run_state {
   session s;
   soles *soles;
   walk_report *walk;
+  seams *seams;
   rigid_report rigid;
   recovery_report recoveries;
+  profile_report profile;
   sbf_vec3 *skin, *normals, *surface, *sample;
   uint32_t skin_count, surface_count;
   sbf_point_cache *cache;
   result_cache *results;
   bool cache_of_surface;
   pose_file poses;
-  double busy_s;                    /* spent stepping and skinning */
-  double least_volume, most_strain; /* over all frames */
+  double busy_s;                 /* spent stepping and skinning */
+  double min_volume, max_strain; /* over all frames */
   double end_volume;
   bool valid;
 } run_state;
-
-static double now_s(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool make_room(run_state *r) {
   const sbf_asset *asset = r->s.asset;
@@ -67,9 +64,9 @@ static void read_health(run_state *r) {
     r->valid = r->valid && health.finite && !health.inverted;
     recovery_report_measure(&r->recoveries, i, &health);
     r->end_volume = fmin(r->end_volume, (double)health.volume_ratio);
-    r->most_strain = fmax(r->most_strain, (double)health.max_strain);
+    r->max_strain = fmax(r->max_strain, (double)health.max_strain);
   }
-  r->least_volume = fmin(r->least_volume, r->end_volume);
+  r->min_volume = fmin(r->min_volume, r->end_volume);
 }
 
 static double energy(const run_state *r) {
@@ -99,6 +96,7 @@ static bool record(run_state *r, sbf_diagnostic *error) {
   rigid_report_measure(&r->rigid, &r->s);
   if (r->soles) soles_measure(r->soles, &r->s, r->skin);
   if (r->walk) walk_report_measure(r->walk, &r->s, r->skin);
+  seams_measure(r->seams, r->skin);
   if (r->cache && !add_to_cache(r, error)) return false;
   if (r->results && result_cache_add(r->results, &r->s, error) != SBF_OK) return false;
   return !r->poses.file || pose_file_add(&r->poses, &r->s, error) == SBF_OK;
@@ -130,7 +128,7 @@ static bool open_outputs(run_state *r, cli_call *call) {
     cli_print_diagnostic(call, &error);
     return false;
   }
-  return true;
+  return profile_report_begin(&r->profile, &r->s, call);
 }
 
 /* Keeps what was written, or none of it; false where it cannot be kept. */
@@ -142,8 +140,17 @@ static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
   if (r->results && keep && result_cache_commit(r->results, &error) != SBF_OK)
     cli_print_diagnostic(call, &error), good = false;
   if (!keep) sbf_point_cache_abandon(r->cache), result_cache_abandon(r->results);
+  if (profile_report_end(&r->profile, keep, &error) != SBF_OK)
+    cli_print_diagnostic(call, &error), good = false;
   if (pose_file_close(&r->poses, keep, &error) != SBF_OK) cli_print_diagnostic(call, &error), good = false;
   return good;
+}
+
+/* How far a character went that moves in another way than on legs. */
+static void add_distance(const run_state *r, json_t *o) {
+  const sbf_gait_list gaits = r->s.asset->gaits;
+  if (gaits.count && gaits.at[0].kind != SBF_GAIT_KIND_WALK)
+    json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
 }
 
 static void add_steps(const run_state *r, json_t *o) {
@@ -173,14 +180,17 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "substeps", json_integer(sbr_model_substeps(r->s.model)));
   json_object_set_new(o, "us_per_frame", json_real(r->s.frame ? 1e6 * r->busy_s / r->s.frame : 0));
   json_object_set_new(o, "state_hash", json_string(hash));
-  json_object_set_new(o, "valid", json_boolean(r->valid));
+  json_object_set_new(o, "valid", json_boolean(r->valid && recovery_report_total(&r->recoveries) == 0));
   recovery_report_add(&r->recoveries, r->s.asset, o);
   json_object_set_new(o, "energy", json_real(energy(r)));
   json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
-  json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
-  json_object_set_new(o, "max_strain", json_real(r->most_strain));
+  json_object_set_new(o, "volume_ratio_least", json_real(r->min_volume));
+  json_object_set_new(o, "max_strain", json_real(r->max_strain));
+  json_object_set_new(o, "seam_gap", json_real(seams_gap(r->seams)));
   recording_report(&r->s.recording, o);
+  add_distance(r, o);
   add_steps(r, o);
+  profile_report_add(&r->profile, &r->s, o);
   rigid_report_add(&r->rigid, &r->s, o); /* of what is simulated the limits of its joints, not of its pose */
   return o;
 }
@@ -190,11 +200,12 @@ static bool play(run_state *r, cli_call *call) {
   read_skin(r);
   bool good = record(r, &error);
   for (;;) {
-    double start = now_s();
+    double start_s = profile_now_s();
     if (!good || !session_step(&r->s)) break;
+    double skin_start_s = profile_now_s();
     read_skin(r);
-    r->busy_s += now_s() - start;
-    good = record(r, &error);
+    r->busy_s += profile_now_s() - start_s;
+    good = profile_report_measure(&r->profile, &r->s, skin_start_s, &error) && record(r, &error);
     if (r->s.frame % 30 == 0) cli_progress("running", (double)r->s.frame / r->s.frame_count);
   }
   cli_progress_end();
@@ -211,10 +222,11 @@ static int judge_replay(const recording *r, const cli_call *call) {
 }
 
 static int run(cli_call *call) {
-  run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
+  run_state r = {.valid = true, .min_volume = 1, .end_volume = 1};
   int status;
   if (!output_name_check(call, "--cache", (const char *const[]){".pc2", ".mdd", ".pvd", NULL}) ||
-      !output_name_check(call, "--pose", (const char *const[]){".csv", NULL}))
+      !output_name_check(call, "--pose", (const char *const[]){".csv", NULL}) ||
+      !output_name_check(call, "--trace", (const char *const[]){".json", NULL}))
     return SBF_FAILED;
   if (!session_open(&r.s, call, 5, 60, &status)) return status;
   status = SBF_FAILED;
@@ -224,6 +236,7 @@ static int run(cli_call *call) {
     rigid_report_begin(&r.rigid, &r.s);
     r.soles = soles_create(&r.s);
     r.walk = walk_report_create(&r.s, r.soles);
+    r.seams = seams_create(&r.s);
     if (play(&r, call) && session_finish(&r.s, call)) status = SBF_OK;
   }
   if (!close_outputs(&r, status == SBF_OK, call)) status = SBF_FAILED;
@@ -239,6 +252,7 @@ static int run(cli_call *call) {
     }
   }
   walk_report_destroy(r.walk);
+  seams_destroy(r.seams);
   soles_destroy(r.soles);
   free(r.skin);
   free(r.normals);
@@ -250,24 +264,29 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    SESSION_OPTIONS("how long (5)", "frames a second (60)"),
+    SESSION_OPTIONS("simulated time (5)", "frames a second (60)"),
     {"--cache", "OUT.pc2|.mdd|.pvd",
-        "write a point cache, a sample a frame; .pvd: displacement, stress and strain energy for ParaView, a "
-        "file a frame"},
-    {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
-    {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
+        "write a point cache, one sample a frame; .pvd: displacement, stress and strain energy for ParaView, "
+        "one file a frame"},
+    {"--of", "skin|surface", "content of a point cache: the skin, or the surfaces of all sections (skin)"},
+    {"--pose", "OUT.csv", "write position and rotation of every bone, one row a frame"},
+    {"--profile", NULL, "print the mean time of a tick by stage, in microseconds, and what the world holds"},
+    {"--trace", "OUT.json", "write when each stage of each tick ran, for chrome://tracing or Perfetto"},
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--ground KIND] ...",
-    "simulate and say how it went",
-    "Loads the file, steps it and prints measures: `valid` is true where no number was infinite and no\n"
-    "element inverted at any frame; `recoveries` counts how often bodies were put back into their rest\n"
-    "shape, `recovered` names these; `volume_ratio` is the least of all sections at the end,\n"
-    "`volume_ratio_least` at any frame; slip and penetration are measured on the skin's soles; docs/gait.md\n"
-    "says what else is told of who walks. With --ragdoll or --strength, `limit_excess` is by how many\n"
-    "degrees a joint's limit was broken at worst, `joint_gap` how far a joint was off, `rest_time` when\n"
-    "everything lay still (null, or -: it does not). The same call gives the same state_hash; with "
-    "--replay,\n"
-    "`replay_same` is true where every state hash was the one recorded, else the exit status is 1.",
+const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S[,UP]] [--ground KIND] ...",
+    "simulate a character and print measures",
+    "Loads the file, simulates it and prints measures of the run.\n\n"
+    "`valid` is true if at every frame all numbers were finite, no element was inverted and\n"
+    "no body was put back into its rest shape. `recoveries` counts how often bodies were put\n"
+    "back, `recovered` names them. `crushed` names bodies with an element below a fifth of\n"
+    "its volume. `volume_ratio` is the smallest ratio of all sections at the end,\n"
+    "`volume_ratio_least` at any frame. Slip and penetration are measured at the skin's\n"
+    "soles. docs/gait.md explains the measures of the gait.\n\n"
+    "With --ragdoll or --strength, `limit_excess` is the maximum angle in degrees by which a\n"
+    "joint exceeded its limit, `joint_gap` the maximum distance between the two sides of a\n"
+    "joint, and `rest_time` the time when all bodies were at rest (null or -: never).\n\n"
+    "The same call gives the same `state_hash`. With --replay, `replay_same` is true if every\n"
+    "state hash equals the recorded one; otherwise the exit status is 1.",
     options, 1, 1, run};

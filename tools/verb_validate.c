@@ -116,10 +116,13 @@ typedef struct mended {
 
 /* A file that is refused for what can be mended is loaded all the same. */
 static sbf_status load_for_mending(const char *path, sbf_asset **asset, checked *refused) {
-  sbf_load_options loading = {.check_crc = true, .mendable = true};
+  sbf_load_options loading = {
+      .check_crc = true, .mendable = true, .report = findings_take, .user = &refused->found};
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(path, &loading, asset, &error);
-  if (status != SBF_OK) check_file(path, refused); /* for all that is wrong, as without --fix */
+  if (status == SBF_OK) return SBF_OK;
+  findings_free(&refused->found);
+  check_file(path, refused); /* for all that is wrong, as without --fix */
   return status;
 }
 
@@ -128,6 +131,7 @@ static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnost
   sbf_fix_options options = {.report = findings_take, .user = &m->done};
   sbf_status status = load_for_mending(from, &asset, &m->left);
   if (status != SBF_OK) return status;
+  uint32_t left_out = (uint32_t)m->left.found.count; /* of a newer version */
   status = sbf_fix(asset, &options, &fixed, NULL, error);
   sbf_asset_free(asset);
   if (status != SBF_OK) {
@@ -138,6 +142,7 @@ static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnost
   }
   if (m->done.count) sbf_locate_findings(from, NULL, m->done.at, (uint32_t)m->done.count);
   check_loaded(fixed, to, &m->left);
+  m->left.result.warnings += left_out;
   status = sbf_save_file(fixed, to, NULL, error);
   sbf_asset_free(fixed);
   if (status != SBF_OK) {
@@ -189,7 +194,7 @@ static int fix(const cli_call *call, const char *from, const char *to) {
 static int run_fix(const cli_call *call) {
   const char *to = cli_value(call, "-o");
   if (!to) return cli_wrong(call, "--fix needs -o OUT: the file given is not changed");
-  if (call->input_count != 1) return cli_wrong(call, "--fix mends one file at a time");
+  if (call->input_count != 1) return cli_wrong(call, "--fix repairs one file at a time");
   if (!output_name_of_bundle(call, "-o")) return SBF_FAILED;
   return fix(call, call->inputs[0], to);
 }
@@ -218,17 +223,17 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"--strict", NULL, "let warnings fail as errors do"},
-    {"--fix", NULL, "mend what has one right answer, and write the result"},
-    {"-o", "OUT.sbf[z]", "the file that --fix writes, by its ending as XML or packed"},
-    {"--threads", "N", "files checked at one time (as many as there are processors)"},
+    {"--strict", NULL, "treat warnings as errors"},
+    {"--fix", NULL, "repair what has one right answer, and write the result"},
+    {"-o", "OUT.sbf[z]", "output of --fix; the ending selects XML or packed"},
+    {"--threads", "N", "files checked at the same time (number of processors)"},
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},
 };
 const cli_verb verb_validate = {"validate", "FILE|FOLDER... [--strict] [--fix -o OUT] [--format json]",
     "check files against all rules",
-    "Of a folder, every .sbf and .sbfz in it and below is checked. Every finding has a stable code, listed "
-    "in\n"
-    "spec/codes.md. Exit status 0: all are valid; 1: a file is not; 2: a file could not be read.\n"
-    "With --fix, what is told is what is left to find in the file written.",
+    "A folder stands for every .sbf and .sbfz in it and below. Every finding has a stable\n"
+    "code, listed in spec/codes.md. With --fix, the findings that remain in the written file\n"
+    "are printed. Exit status 0: all files are valid; 1: a file is not; 2: a file could not\n"
+    "be read.",
     options, 1, -1, run};

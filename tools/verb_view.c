@@ -12,7 +12,7 @@
 
 #ifdef SBFMT_WINDOW
 
-static const double FRAME_MOST_S = 0.05; /* a slower machine shows it in slow motion */
+static const double FRAME_MAX_S = 0.05; /* a slower machine shows it in slow motion */
 
 typedef struct viewing {
   viewer v;
@@ -66,7 +66,7 @@ static sbf_status show(viewing *g, sbf_diagnostic *error) {
   for (uint32_t frame = 0;
        status == SBF_OK && more && !v->quit && (g->frames == 0 || frame < (uint32_t)g->frames); frame++) {
     double now = window_seconds(&v->w), seconds = 1 / v->st.s.fps;
-    if (g->frames == 0) seconds = now - last < FRAME_MOST_S ? now - last : FRAME_MOST_S;
+    if (g->frames == 0) seconds = now - last < FRAME_MAX_S ? now - last : FRAME_MAX_S;
     last = now;
     status = show_frame(g, frame, seconds > 1e-6 ? seconds : 1e-6, &more, error);
   }
@@ -159,18 +159,19 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     STUDIO_OPTIONS,
-    {"--size", "WxH", "of the window (1280x800)"},
-    {"--frames", "N", "so many frames of 1/fps s as fast as it goes, then end (until it is closed)"},
-    {"--input", "FILE", "keys and pointer, frame by frame; see docs/view.md"},
-    {"--shot", "OUT.png", "the last frame as a picture"},
+    {"--size", "WxH", "size of the window (1280x800)"},
+    {"--frames", "N", "run N frames as fast as possible, then exit (until the window is closed)"},
+    {"--input", "FILE", "scripted keys and pointer; see docs/view.md"},
+    {"--shot", "OUT.png", "write the last frame as a picture"},
     {"--format", "text|json", "how to print (text)"},
-    SESSION_OPTIONS("how long (until it is closed)", "frames a second of --frames (60)"),
+    SESSION_OPTIONS("simulated time (until the window is closed)", "frames a second for --frames (60)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_view = {"view", "FILE [--ground KIND] [--show LIST] ...",
-    "show it in a window, to walk, drag and throw balls at",
-    "W A S D walk, Q E sideways, B throws a ball, K knocks over, R begins again, P pauses; 1 to 7 switch\n"
-    "skin, springs, lattice, bones, strain, hulls and feet; G, L, M, F choose ground, levels of bodies and\n"
-    "skin, pace; arrows, + and - turn and zoom, as the pointer does on the ground; on the body it pulls.\n"
-    "H shows the keys. Needs SDL 2 and a display.",
+    "show a character in a window and play with it",
+    "W A S D walk, Q E walk sideways, B throws a ball, K knocks it over, R restarts, P\n"
+    "pauses. 1 to 7 show or hide skin, springs, lattice, bones, strain, hulls and feet. G, L,\n"
+    "M and F select ground, simulation level, mesh level and speed. Arrow keys or dragging\n"
+    "the ground turn the view, + and - zoom. Dragging the body pulls it. H shows all keys.\n"
+    "Needs SDL 2 and a display.",
     options, 1, 1, run};

@@ -6,7 +6,7 @@
 
 #include "sbrun/animation.h"
 
-enum { MOST_LEGS = 16, MOST_HULL = 512 };
+enum { MAX_LEGS = 16, MAX_HULL = 512 };
 static const double DEGREES = 57.29577951308232;
 static const double FRAME_S = 1.0 / 60;  /* changes are counted per frame of this length */
 static const double STARTS_S = 1;        /* after a drive begins: then it should go as fast as it is driven */
@@ -33,14 +33,14 @@ typedef struct leg_track {
 
 struct walk_report {
   const soles *soles;
-  leg_track legs[MOST_LEGS];
+  leg_track legs[MAX_LEGS];
   uint32_t leg_count, frames, planted_frames, skating_frames, opposite_frames;
   int32_t body;
   double leg_length;
   double knee_step, limit_excess, support_margin, body_step, body_turn_step;
   bool has_margin;
   double driven_m, gone_m, distance_m; /* once it should be at its speed; how far it had come a frame ago */
-  point2 *points;                      /* (MOST_HULL) */
+  point2 *points;                      /* (MAX_HULL) */
   sbr_transform *bones;
   int body_samples;
   double body_at[3], body_speed[3], body_turn[3];
@@ -72,9 +72,9 @@ walk_report *walk_report_create(const session *s, const soles *feet) {
   if (!r) return NULL;
   r->soles = feet;
   r->body = gait->hips >= 0 ? gait->hips : gait->body;
-  r->points = malloc(MOST_HULL * sizeof *r->points);
+  r->points = malloc(MAX_HULL * sizeof *r->points);
   r->bones = malloc((asset->bones.count + 1u) * sizeof *r->bones);
-  for (uint32_t l = 0; l < gait->legs.count && l < MOST_LEGS; l++) {
+  for (uint32_t l = 0; l < gait->legs.count && l < MAX_LEGS; l++) {
     leg_track *leg = &r->legs[r->leg_count++];
     leg->foot = asset->ik_chains.at[gait->legs.at[l].ik].end;
     leg->lower = asset->bones.at[leg->foot].parent;
@@ -88,7 +88,7 @@ walk_report *walk_report_create(const session *s, const soles *feet) {
       leg->lower = -1;
     else
       leg->length += rest_length(asset, leg->lower, leg->upper);
-    r->leg_length += leg->length / fmin(gait->legs.count, MOST_LEGS);
+    r->leg_length += leg->length / fmin(gait->legs.count, MAX_LEGS);
   }
   if (r->points && r->bones) return r;
   walk_report_destroy(r);
@@ -123,15 +123,15 @@ static double from_segment(point2 p, point2 a, point2 b) {
 
 /* Distance of a point from the edge of the convex hull of others, positive inside (Andrew 1979). */
 static double hull_margin(point2 *points, int count, point2 p) {
-  point2 hull[2 * MOST_HULL];
+  point2 hull[2 * MAX_HULL];
   int n = 0;
   qsort(points, (size_t)count, sizeof *points, compare_points);
   for (int i = 0; i < count; i++) {
     while (n >= 2 && turn(hull[n - 2], hull[n - 1], points[i]) <= 0) n--;
     hull[n++] = points[i];
   }
-  for (int i = count - 2, least = n + 1; i >= 0; i--) {
-    while (n >= least && turn(hull[n - 2], hull[n - 1], points[i]) <= 0) n--;
+  for (int i = count - 2, min = n + 1; i >= 0; i--) {
+    while (n >= min && turn(hull[n - 2], hull[n - 1], points[i]) <= 0) n--;
     hull[n++] = points[i];
   }
   double nearest = INFINITY;
@@ -151,12 +151,12 @@ static void measure_balance(
   if (!sbr_character_center(s->world, s->character, &center)) return;
   for (uint32_t l = 0; l < r->leg_count; l++) {
     const uint32_t *vertices;
-    uint32_t n = soles_vertices(r->soles, l, &vertices), most = MOST_HULL / r->leg_count;
+    uint32_t n = soles_vertices(r->soles, l, &vertices), max = MAX_HULL / r->leg_count;
     if (!legs[l].planted) continue;
-    if (n == 0 && count < MOST_HULL)
+    if (n == 0 && count < MAX_HULL)
       r->points[count++] = (point2){(double)legs[l].foot.x, (double)legs[l].foot.z};
-    for (uint32_t i = 0; i < n && i < most; i++) {
-      sbf_vec3 p = skin[vertices[(size_t)i * n / (n < most ? n : most)]];
+    for (uint32_t i = 0; i < n && i < max; i++) {
+      sbf_vec3 p = skin[vertices[(size_t)i * n / (n < max ? n : max)]];
       r->points[count++] = (point2){(double)p.x, (double)p.z};
     }
   }
@@ -184,7 +184,7 @@ static void measure_leg(walk_report *r, const session *s, uint32_t l, const sbr_
     leg->knee_samples++;
   }
   const uint32_t *vertices;
-  uint32_t n = soles_vertices(r->soles, l, &vertices);
+  uint32_t n = soles_firm_vertices(r->soles, l, &vertices);
   point2 sole = {0, 0};
   for (uint32_t i = 0; i < n; i++) {
     sole.x += (origin.x + (double)skin[vertices[i]].x) / n;
@@ -266,9 +266,9 @@ static void measure_drive(walk_report *r, const session *s, double dt) {
 }
 
 void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin) {
-  sbr_leg_state legs[MOST_LEGS];
+  sbr_leg_state legs[MAX_LEGS];
   memset(legs, 0, sizeof legs);
-  sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
+  sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
   sbr_character_bones(s->world, s->character, r->bones, s->asset->bones.count);
   double dt = s->frame_s;
   uint32_t in_air = 0;

@@ -11,7 +11,7 @@
 #include "sbfmt/packed.h"
 #include "sbrun/collision.h"
 
-enum { MOST = 1000, RATE = 60, DRAWN_EVERY = 6 };
+enum { MAX = 1000, RATE = 60, DRAWN_EVERY = 6 };
 
 static int failed(const sbf_diagnostic *error) {
   fprintf(stderr, "%s: %s\n", error->file, error->message);
@@ -27,7 +27,7 @@ static const unsigned char *colour_of(const sbr_rung *rungs, uint32_t rung) {
 
 typedef struct crowd {
   sbr_world *world;
-  sbr_character_id ids[MOST];
+  sbr_character_id ids[MAX];
   sbr_rung rungs[16];
   uint32_t count, mesh_count, capacity;
   const sbf_asset *asset;
@@ -75,20 +75,20 @@ static bool draw(crowd *c, const sbr_view *view, const char *folder, int number)
 
 static void tell(const crowd *c, int second, double ms, double visits) {
   uint32_t on[4] = {0, 0, 0, 0}, coarser = 0;
-  double most = 0, sum = 0;
+  double max = 0, sum = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     double off = (double)sbr_character_error_px(c->world, c->ids[i]);
     uint32_t rung = sbr_character_rung(c->world, c->ids[i]);
     on[c->rungs[rung].kind]++;
     coarser += c->rungs[rung].kind == SBR_RUNG_SOFT && rung > 0;
-    most = off > most ? off : most, sum += off;
+    max = off > max ? off : max, sum += off;
   }
   fprintf(stderr, "%d s: %.2f ms a tick\n", second, ms); /* apart: what follows is the same on any machine */
   printf("%d s: %.0f visits a tick; %u soft (%u coarsely), %u jiggle, %u bones, %u away; predicted off by "
          "%.3f pixels at "
          "most, %.3f on average\n",
       second, visits, (unsigned)on[0], (unsigned)coarser, (unsigned)on[1], (unsigned)on[2], (unsigned)on[3],
-      most, sum / c->count);
+      max, sum / c->count);
 }
 
 /* What the command line asks for. */
@@ -106,7 +106,7 @@ static bool read_wishes(int argc, char **argv, wishes *w, uint32_t *count) {
   w->budget_us = argc > 4 ? (float)atof(argv[4]) : 4000;
   w->folder = argc > 5 && strcmp(argv[5], "-") != 0 ? argv[5] : NULL;
   w->close = argc == 7 && strcmp(argv[6], "close") == 0;
-  return argc >= 2 && argc <= 7 && (argc < 7 || w->close) && *count >= 1 && *count <= MOST && w->seconds >= 1;
+  return argc >= 2 && argc <= 7 && (argc < 7 || w->close) && *count >= 1 && *count <= MAX && w->seconds >= 1;
 }
 
 /* A world that chooses levels, and its crowd. */

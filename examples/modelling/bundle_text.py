@@ -70,6 +70,12 @@ def retarget_chains(text, chains):
                      for name, bones in chains.items())
 
 
+def without_poses(text):
+    """A bundle without the poses that `convert` proposes, for others to take their place."""
+    text = re.sub(r"<poses>.*?</poses>", "", text, flags=re.DOTALL)
+    return re.sub(r' rest_pose="[^"]*"', "", text)
+
+
 def make_bundle(sbfmt, model, out, poses=(), chains=None, options=(), more=""):
     """Converts the model, adds poses, chains and what more there is, as text, builds; ends the program where `sbfmt` fails."""
     with tempfile.TemporaryDirectory() as folder:
@@ -81,6 +87,7 @@ def make_bundle(sbfmt, model, out, poses=(), chains=None, options=(), more=""):
             text = stream.read()
         added = more
         if poses:
+            text = without_poses(text)
             added += "<poses>\n" + "\n".join(pose_text(p, rest_rotations(text)) for p in poses) + "\n</poses>\n"
         if chains:
             added += "<retarget_chains>\n" + retarget_chains(text, chains) + "\n</retarget_chains>\n"

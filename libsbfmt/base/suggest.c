@@ -5,9 +5,9 @@
 
 enum { LONGEST = 48 }; /* longer words are never close to anything */
 
-static size_t least(size_t a, size_t b, size_t c) {
-  size_t least_of_two = a < b ? a : b;
-  return least_of_two < c ? least_of_two : c;
+static size_t min(size_t a, size_t b, size_t c) {
+  size_t min_of_two = a < b ? a : b;
+  return min_of_two < c ? min_of_two : c;
 }
 
 /* Insertions, removals, replacements and swaps of neighbours that lead from one word to the other: the
@@ -21,7 +21,7 @@ static size_t distance(sbfi_span a, sbfi_span b) {
     row[0] = i;
     for (size_t j = 1; j <= b.length; j++) {
       bool same = a.at[i - 1] == b.at[j - 1];
-      row[j] = least(row[j - 1] + 1, above[j] + 1, above[j - 1] + !same);
+      row[j] = min(row[j - 1] + 1, above[j] + 1, above[j - 1] + !same);
       bool swapped = i > 1 && j > 1 && a.at[i - 1] == b.at[j - 2] && a.at[i - 2] == b.at[j - 1];
       if (swapped && two_above[j - 2] + 1 < row[j]) row[j] = two_above[j - 2] + 1;
     }

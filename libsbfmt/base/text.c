@@ -57,7 +57,7 @@ bool sbfi_span_next_line(sbfi_span *rest, sbfi_span *line) {
 
 /* Length of the well-formed character at `at`, 0 where there is none (Unicode 15.0, table 3-7). */
 static size_t character_length(const unsigned char *at, size_t left) {
-  unsigned char first = at[0], least = 0x80, most = 0xBF;
+  unsigned char first = at[0], min = 0x80, max = 0xBF;
   size_t length;
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first <= 0xDF)
@@ -69,11 +69,11 @@ static size_t character_length(const unsigned char *at, size_t left) {
   else
     return 0;
   if (length > left) return 0;
-  if (first == 0xE0) least = 0xA0; /* else overlong */
-  if (first == 0xED) most = 0x9F;  /* else a surrogate */
-  if (first == 0xF0) least = 0x90; /* else overlong */
-  if (first == 0xF4) most = 0x8F;  /* else above U+10FFFF */
-  if (at[1] < least || at[1] > most) return 0;
+  if (first == 0xE0) min = 0xA0; /* else overlong */
+  if (first == 0xED) max = 0x9F; /* else a surrogate */
+  if (first == 0xF0) min = 0x90; /* else overlong */
+  if (first == 0xF4) max = 0x8F; /* else above U+10FFFF */
+  if (at[1] < min || at[1] > max) return 0;
   for (size_t i = 2; i < length; i++)
     if ((at[i] & 0xC0) != 0x80) return 0;
   return length;

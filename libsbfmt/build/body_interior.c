@@ -3,7 +3,7 @@
 #include "sbfmt/mechanics.h"
 
 /* What nothing holds is so soft, in its springs, that its equations take hundreds of steps each. */
-enum { MOST_CALIBRATED_POINTS = 20000, MOST_CALIBRATED_FREE_POINTS = 1000 };
+enum { MAX_CALIBRATED_POINTS = 20000, MAX_CALIBRATED_FREE_POINTS = 1000 };
 
 sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sbf_soft_body *body) {
   sbf_body_measures measures;
@@ -23,8 +23,8 @@ bool sbfi_body_is_calibrated(const sbf_soft_body *body, sbf_build_interior inter
   sbf_body_measures measures;
   if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA) return true;
   bool is_free = body->bone == SBF_NONE && body->pins.count == 0 && body->attachments.count == 0;
-  uint32_t most = is_free ? MOST_CALIBRATED_FREE_POINTS : MOST_CALIBRATED_POINTS;
-  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > most) return false;
+  uint32_t max = is_free ? MAX_CALIBRATED_FREE_POINTS : MAX_CALIBRATED_POINTS;
+  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > max) return false;
   sbf_body_measure(body, &measures);
   return !measures.sheet && body->surface.polygon_sizes.count > 0;
 }

@@ -5,14 +5,16 @@
 #include <string.h>
 
 #include "build/body_interior.h"
+#include "build/embed/carrier.h"
 #include "build/lattice/lattice_level.h"
 #include "build/lattice/region_level.h"
 #include "build/levels/ladder.h"
 #include "build/sections/level_pins.h"
 #include "build/sections/section_level.h"
 
-enum { MOST_BRUTE_POINTS = 4096, LEAST_SHARE = 100 };
-static const double MOST_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
+enum { MAX_BRUTE_POINTS = 4096, MIN_SHARE = 100, MAX_REFINED = 3 };
+static const double MAX_OFF = 1e-3; /* of a body's size, a point carried by its lattice */
+static const double MAX_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
 
 /* For a part of the work on one body's levels. */
 static sbfi_progress stretch_of_body(sbfi_build *b, uint32_t number) {
@@ -93,8 +95,8 @@ static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_ou
 
 static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
-  if (r->calibrated == 0 || c->least < r->least_factor) r->least_factor = c->least;
-  if (c->most > r->most_factor) r->most_factor = c->most;
+  if (r->calibrated == 0 || c->min < r->least_factor) r->least_factor = c->min;
+  if (c->max > r->most_factor) r->most_factor = c->max;
   if (c->residual > r->most_residual) r->most_residual = c->residual;
   if (fabs(c->period_error) > r->most_period_error) r->most_period_error = fabs(c->period_error);
   r->calibrated++;
@@ -102,8 +104,8 @@ static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
 
 static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
-  if (r->calibrated_springs == 0 || c->least < r->least_spring_factor) r->least_spring_factor = c->least;
-  if (c->most > r->most_spring_factor) r->most_spring_factor = c->most;
+  if (r->calibrated_springs == 0 || c->min < r->least_spring_factor) r->least_spring_factor = c->min;
+  if (c->max > r->most_spring_factor) r->most_spring_factor = c->max;
   if (c->residual > r->most_spring_residual) r->most_spring_residual = c->residual;
   r->calibrated_springs++;
 }
@@ -155,6 +157,37 @@ static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladde
   return SBF_OK;
 }
 
+/* Whether weights that a file may hold carry each point of a polygon where it is: a coarse lattice misses
+ * spikes, and then what is drawn there is not where it was. */
+static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level *level, sbfi_build *b) {
+  const sbf_u32_list *corners = &body->surface.polygon_points;
+  sbfi_carrier carrier;
+  sbfi_arena own;
+  *missed = false;
+  sbfi_arena_init(&own, &b->scratch.allocator, 0);
+  bool good = sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, level, NULL, UINT32_MAX, &own);
+  for (uint32_t i = 0; good && !*missed && i < corners->count; i++)
+    *missed = (double)carrier.in_lattice[corners->at[i]].error > MAX_OFF * carrier.size;
+  sbfi_arena_free(&own);
+  return good;
+}
+
+/* Finer where nobody sizes it and it would miss a part of the surface. */
+static sbf_status make_lattice(sbfi_build *b, uint32_t number, sbfi_lattice_recipe recipe, sbf_level *level,
+    sbfi_lattice_counts *counts, sbfi_ladder *ladder, sbfi_arena *scratch) {
+  bool sized = recipe.cell > 0 || recipe.elements > 0;
+  for (int round = 0;; round++) {
+    bool missed = false;
+    sbf_status status = outcome_status(b, number,
+        sbfi_lattice_level_make(
+            level, &b->bodies[number], &recipe, b->asset, counts, ladder->progress, scratch));
+    if (status != SBF_OK || sized || round == MAX_REFINED || counts->tetrahedra == 0) return status;
+    if (!find_missed(&missed, &b->bodies[number], level, b)) return sbfi_build_no_memory(b);
+    if (!missed) return SBF_OK;
+    recipe.elements = 4 * counts->tetrahedra;
+  }
+}
+
 static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
   sbfi_lattice_recipe recipe = {
@@ -172,8 +205,7 @@ static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *l
           "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
           body->name, (unsigned)recipe.elements, b->options.error_m);
   }
-  sbf_status status = outcome_status(
-      b, number, sbfi_lattice_level_make(level, body, &recipe, b->asset, &counts, ladder->progress, scratch));
+  sbf_status status = make_lattice(b, number, recipe, level, &counts, ladder, scratch);
   if (status != SBF_OK) return status;
   if (counts.tetrahedra == 0) {
     sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
@@ -188,7 +220,7 @@ static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *l
         "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
         "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
         (unsigned)counts.thinness.thin_count, (unsigned)counts.thinness.sample_count, body->name,
-        counts.thinness.least, (double)level->cell);
+        counts.thinness.min, (double)level->cell);
   take_level(b, number, level, counts.pins);
   b->report.tetrahedra += counts.tetrahedra;
   b->report.thickened_points += counts.thickened;
@@ -242,11 +274,11 @@ static sbf_status make_level(sbfi_build *b, uint32_t number) {
   sbfi_ladder ladder;
   sbfi_ladder_init(
       &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
-  if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MOST_BRUTE_POINTS)
+  if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MAX_BRUTE_POINTS)
     status = sbfi_build_report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
         "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
         "bodies",
-        b->bodies[number].name, MOST_BRUTE_POINTS);
+        b->bodies[number].name, MAX_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
     status = make_tetrahedra(b, number, &ladder, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_SHAPE_MATCHING)
@@ -287,7 +319,7 @@ static void share_elements(sbfi_build *b) {
     sharing += b->bodies[i].levels.count == 0 &&
                sbfi_body_interior(&b->options, &b->bodies[i]) >= SBF_BUILD_INTERIOR_TETRAHEDRA;
   uint32_t share = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
-  b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
+  b->usual_elements = share > MIN_SHARE ? share : MIN_SHARE;
 }
 
 /* Tetrahedra that the options ask for of the body; 0 where nobody sizes it. */
@@ -305,19 +337,19 @@ static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body)
 
 /* Refuses what would take more than memory before any of it is made. */
 static sbf_status check_elements(sbfi_build *b) {
-  double sum = 0, most = 0;
+  double sum = 0, max = 0;
   uint32_t largest = 0;
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++) {
     double of = elements_asked_for(b, &b->bodies[i]);
     sum += of;
-    if (of > most) most = of, largest = i;
+    if (of > max) max = of, largest = i;
   }
-  if (!(sum > MOST_ELEMENTS)) return SBF_OK;
+  if (!(sum > MAX_ELEMENTS)) return SBF_OK;
   return sbfi_build_report_of_body(b, largest, SBF_CODE_LATTICE_TOO_FINE,
       "the bodies would get about %.2g tetrahedra, %.2g of them in soft body \"%s\", and %.0f are the most "
       "for "
       "all together: give a larger cell (--cell) or fewer elements (--elements)",
-      sum, most, b->bodies[largest].name, MOST_ELEMENTS);
+      sum, max, b->bodies[largest].name, MAX_ELEMENTS);
 }
 
 sbf_status sbfi_body_levels_make(sbfi_build *b) {

@@ -85,6 +85,7 @@ static sbf_status line_up_bodies(sbfi_build *b) {
   if (source) memcpy(b->bodies, b->asset->soft_bodies.at, source * sizeof *b->bodies);
   if (b->sections.count)
     memcpy(b->bodies + source, b->sections.bodies, b->sections.count * sizeof *b->bodies);
+  b->bodies_count = count;
   b->asset->soft_bodies = (sbf_soft_body_list){b->bodies, count};
   memset(b->frames, 0xff, count * sizeof *b->frames);
   return SBF_OK;
@@ -107,12 +108,28 @@ static sbf_status make_frames(sbfi_build *b) {
   return SBF_OK;
 }
 
+/* With rigid parts of skins behind the bodies or, `with` being false, without. */
+static sbf_status list_rigid_parts(sbfi_build *b, bool with) {
+  uint32_t bodies = b->bodies_count, more = with ? b->sections.rigid_count : 0;
+  sbf_soft_body *all = b->bodies;
+  if (more) {
+    all = sbfi_arena_allocate(&b->scratch, (size_t)bodies + more, sizeof *all);
+    if (!all) return sbfi_build_no_memory(b);
+    if (bodies) memcpy(all, b->bodies, bodies * sizeof *all);
+    memcpy(all + bodies, b->sections.rigid_parts, more * sizeof *all);
+  }
+  b->asset->soft_bodies = (sbf_soft_body_list){bodies + more ? all : NULL, bodies + more};
+  return SBF_OK;
+}
+
 static sbf_status make_hulls(sbfi_build *b) {
   if (b->options.without_hulls) return SBF_OK;
+  sbf_status status = list_rigid_parts(b, true);
+  if (status != SBF_OK) return status;
   if (!sbfi_section_hulls_make(b->asset, SBFI_BUILD_DERIVATION, &b->ids, &b->reporter, &b->report.hulls,
           sbfi_build_stretch(b, "hulls", 0.11, 0.15), &b->scratch))
     return sbfi_build_no_memory(b);
-  return SBF_OK;
+  return list_rigid_parts(b, false);
 }
 
 /* Authored parts name others by their places, which have moved where derived ones stood between. */
@@ -135,10 +152,12 @@ static sbf_status renumber(sbfi_build *b) {
 
 /* After the references: what is made names the new places. */
 static sbf_status make_joints(sbfi_build *b) {
-  bool wanted = b->sections.count > 0 && !b->options.without_hulls;
+  bool wanted = b->sections.count + b->sections.rigid_count > 0 && !b->options.without_hulls;
+  sbf_status status = list_rigid_parts(b, wanted);
+  if (status != SBF_OK) return status;
   if (wanted && !sbfi_section_joints_make(b->asset, SBFI_BUILD_DERIVATION, &b->ids, &b->scratch))
     return sbfi_build_no_memory(b);
-  return SBF_OK;
+  return list_rigid_parts(b, false);
 }
 
 /* Of the level of springs, where one was made. */
@@ -176,7 +195,7 @@ static sbf_status embed(sbfi_build *b) {
 
 static sbf_status make_render_levels(sbfi_build *b) {
   const sbf_build_options *o = &b->options;
-  uint32_t levels = o->render_levels || !(o->render_error_m > 0) ? o->render_levels : SBFI_MOST_RENDER_LEVELS;
+  uint32_t levels = o->render_levels || !(o->render_error_m > 0) ? o->render_levels : SBFI_MAX_RENDER_LEVELS;
   const sbfi_render_recipe recipe = {levels, o->render_error_m, SBFI_BUILD_DERIVATION};
   bool good = sbfi_render_levels_make(b->asset, &recipe, &b->report.render_levels,
       sbfi_build_stretch(b, "render levels", 0.8, 0.89), &b->scratch);

@@ -43,12 +43,12 @@ enum { SETTING_COUNT = sizeof settings / sizeof *settings };
 static const char *const interior_words[SBFI_BUILD_INTERIOR_COUNT] = {
     "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching"};
 
-static const double most_um = 4e9; /* fits 32 bits */
+static const double max_um = 4e9; /* fits 32 bits */
 
 double sbfi_build_settings_cell(double cell_m) {
   if (!(cell_m > 0)) return 0;
   double um = cell_m * 1e6;
-  if (!(um < most_um)) return most_um / 1e6;
+  if (!(um < max_um)) return max_um / 1e6;
   uint32_t whole = (uint32_t)(um + 0.5);
   return (whole ? whole : 1) / 1e6;
 }
@@ -154,7 +154,7 @@ sbf_status sbfi_build_settings_check(sbf_build_options *o, sbf_diagnostic *error
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
   if (!is_length(o->cell_m))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
-  if (o->levels > SBFI_MOST_LEVELS || o->render_levels > SBFI_MOST_RENDER_LEVELS || !is_length(o->error_m) ||
+  if (o->levels > SBFI_MAX_LEVELS || o->render_levels > SBFI_MAX_RENDER_LEVELS || !is_length(o->error_m) ||
       !is_length(o->render_error_m))
     return sbfi_diagnose(
         error, SBF_CODE_BAD_CALL, "the build options name more than 8 levels, or an error that is no length");

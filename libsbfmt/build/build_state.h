@@ -19,6 +19,7 @@ typedef struct sbfi_build {
   sbf_asset *asset; /* under construction */
   sbf_derivation *derivation;
   sbf_soft_body *bodies;
+  uint32_t bodies_count;   /* of bodies */
   sbfi_interior_map *maps; /* (bodies) of the levels made */
   bool *made;              /* (bodies) the level is made here, the body's only one */
   uint32_t *frames;        /* (bodies) first frame point of the level made; SBFI_NO_INDEX: none */

@@ -330,11 +330,11 @@ static float degrees_of(float radians) {
 static void write_limit(paper_writer *w, const sbf_limit *limit, const char *target) {
   bool is_length = limit->target <= SBF_JOINT_AXIS_LINEAR_Z || limit->target == SBF_JOINT_AXIS_DISTANCE;
   bool one_sided = limit->target == SBF_JOINT_AXIS_SWING || limit->target == SBF_JOINT_AXIS_DISTANCE;
-  float most = limit->max > -limit->min || one_sided ? limit->max : -limit->min;
+  float max = limit->max > -limit->min || one_sided ? limit->max : -limit->min;
   if (one_sided ? limit->min != 0 : limit->min != -limit->max) w->skewed_limits++;
   sbfi_text_repeat(&w->e->text, ' ', 10);
   sbfi_export_format(w->e, "<limit target=\"%s\"", target);
-  attribute(w, "angle", is_length ? most : degrees_of(most));
+  attribute(w, "angle", is_length ? max : degrees_of(max));
   end_line(w);
 }
 

@@ -81,17 +81,17 @@ static void write_texture(
 
 /* Glow beyond 1 is a factor on the colour, by an extension. */
 static void write_glow(sbfi_glb *g, sbfi_text *text, sbf_vec3 glow) {
-  float most = glow.x > glow.y ? glow.x : glow.y;
-  most = glow.z > most ? glow.z : most;
-  if (!(most > 0)) return;
+  float max = glow.x > glow.y ? glow.x : glow.y;
+  max = glow.z > max ? glow.z : max;
+  if (!(max > 0)) return;
   float colour[3] = {glow.x, glow.y, glow.z};
-  for (int k = 0; k < 3 && most > 1; k++) colour[k] /= most;
+  for (int k = 0; k < 3 && max > 1; k++) colour[k] /= max;
   sbfi_text_string(text, ",\"emissiveFactor\":");
   sbfi_glb_numbers(text, colour, 3);
-  if (most <= 1) return;
+  if (max <= 1) return;
   g->emissive_strength = true;
   sbfi_text_string(text, ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":");
-  sbfi_text_f32(text, most);
+  sbfi_text_f32(text, max);
   sbfi_text_string(text, "}}");
 }
 

@@ -47,14 +47,14 @@ static void identity_scaled(affine *to, double weight) {
 }
 
 /* By Cramer's rule; false where the determinant is below `least`. */
-static bool solve(const affine *of, const double r[3], double least, double x[3]) {
+static bool solve(const affine *of, const double r[3], double min, double x[3]) {
   double c[3];
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     c[k] = of->m[1][i] * of->m[2][j] - of->m[1][j] * of->m[2][i];
   }
   double determinant = of->m[0][0] * c[0] + of->m[0][1] * c[1] + of->m[0][2] * c[2];
-  if (!(fabs(determinant) >= least)) return false;
+  if (!(fabs(determinant) >= min)) return false;
   for (int k = 0; k < 3; k++) {
     double b[3][3];
     memcpy(b, of->m, sizeof b);
@@ -81,13 +81,13 @@ static void solve_damped(const affine *of, const double r[3], double damping, do
 }
 
 static sbf_vec3 offset_to(sbfi_glb *g, const affine *blend, sbf_vec3 rest, sbf_vec3 wanted) {
-  const double LEAST_DETERMINANT = 0.05, DAMPING = 0.01;
+  const double MIN_DETERMINANT = 0.05, DAMPING = 0.01;
   const double from[3] = {rest.x, rest.y, rest.z}, to[3] = {wanted.x, wanted.y, wanted.z};
   double r[3], x[3];
   for (int k = 0; k < 3; k++)
     r[k] =
         to[k] - blend->t[k] - blend->m[k][0] * from[0] - blend->m[k][1] * from[1] - blend->m[k][2] * from[2];
-  if (!solve(blend, r, LEAST_DETERMINANT, x)) {
+  if (!solve(blend, r, MIN_DETERMINANT, x)) {
     double squares = 0;
     solve_damped(blend, r, DAMPING, x);
     for (int k = 0; k < 3; k++) {

@@ -5,7 +5,7 @@
 
 #include "export/glb.h"
 
-enum { MOST_UV_SETS = 4 };
+enum { MAX_UV_SETS = 4 };
 
 /* The polygons of one material being written. */
 typedef struct vertices {
@@ -15,7 +15,7 @@ typedef struct vertices {
   uint32_t slot;
   uint32_t count;
   uint32_t uv_count; /* sets that have coordinates */
-  uint32_t uv_sets[MOST_UV_SETS];
+  uint32_t uv_sets[MAX_UV_SETS];
   uint32_t *corners;      /* (count) the first corner that is this vertex */
   uint32_t *first, *next; /* vertices at one point, as chains; UINT32_MAX ends */
   uint32_t *indices;      /* three a triangle */
@@ -163,17 +163,17 @@ static void gather(const sbf_skin *skin, uint32_t from, uint32_t count, uint32_t
 /* Sets of four; returns their number, and appends them to the attributes. */
 static void write_skin(const vertices *v, sbfi_text *attributes) {
   const sbf_skin *skin = v->mesh->skin;
-  uint32_t points = v->mesh->full->mesh.positions.count, most = 1, sets = 0;
+  uint32_t points = v->mesh->full->mesh.positions.count, max = 1, sets = 0;
   uint32_t *begins = sbfi_glb_room(v->g, points, sizeof *begins);
   if (!begins) return;
   for (uint32_t p = 0, at = 0; p < points; p++) {
     begins[p] = at;
     at += skin->influence_counts.at[p];
-    if (skin->influence_counts.at[p] > most) most = skin->influence_counts.at[p];
+    if (skin->influence_counts.at[p] > max) max = skin->influence_counts.at[p];
   }
   influences found = {
-      sbfi_glb_room(v->g, most, sizeof *found.bones), sbfi_glb_room(v->g, most, sizeof *found.weights), 0};
-  uint32_t room = (most + 3) / 4;
+      sbfi_glb_room(v->g, max, sizeof *found.bones), sbfi_glb_room(v->g, max, sizeof *found.weights), 0};
+  uint32_t room = (max + 3) / 4;
   uint16_t *joints = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *joints);
   float *weights = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *weights);
   if (v->g->failed) return;
@@ -276,7 +276,7 @@ static void write_mesh(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
       .next = sbfi_glb_room(g, corners, sizeof *v.next),
       .first = sbfi_glb_room(g, m->mesh.positions.count, sizeof *v.first),
       .indices = sbfi_glb_room(g, 3 * (size_t)corners, sizeof *v.indices)};
-  for (uint32_t s = 0; s < m->uv_sets.count && v.uv_count < MOST_UV_SETS; s++)
+  for (uint32_t s = 0; s < m->uv_sets.count && v.uv_count < MAX_UV_SETS; s++)
     if (m->uv_sets.at[s].coordinates.count) v.uv_sets[v.uv_count++] = s;
   if (g->failed) return;
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MESHES, NULL);

@@ -21,7 +21,7 @@ enum { FIRST_CLASS_BIT = 2, CLASSES = 31 - FIRST_CLASS_BIT, DIRECTIONS = 13 };
 struct mjcf_extent {
   const sbf_vec3 *points;
   uint32_t count;
-  float least[DIRECTIONS], most[DIRECTIONS]; /* m, along each */
+  float min[DIRECTIONS], max[DIRECTIONS]; /* m, along each */
 };
 typedef struct mjcf_extent extent;
 
@@ -29,12 +29,12 @@ static float along(sbf_vec3 p, sbf_vec3 n) {
   return p.x * n.x + p.y * n.y + p.z * n.z;
 }
 
-static void range_along(const extent *e, sbf_vec3 n, float *least, float *most) {
-  *least = INFINITY, *most = -INFINITY;
+static void range_along(const extent *e, sbf_vec3 n, float *min, float *max) {
+  *min = INFINITY, *max = -INFINITY;
   for (uint32_t i = 0; i < e->count; i++) {
     float at = along(e->points[i], n);
-    if (at < *least) *least = at;
-    if (at > *most) *most = at;
+    if (at < *min) *min = at;
+    if (at > *max) *max = at;
   }
 }
 
@@ -49,18 +49,18 @@ static sbf_vec3 direction(int k) {
 
 static extent extent_of(const sbf_vec3 *points, uint32_t count) {
   extent e = {.points = points, .count = count};
-  for (int k = 0; k < DIRECTIONS; k++) range_along(&e, direction(k), &e.least[k], &e.most[k]);
+  for (int k = 0; k < DIRECTIONS; k++) range_along(&e, direction(k), &e.min[k], &e.max[k]);
   return e;
 }
 
-static float least_width(const extent *e) {
+static float min_width(const extent *e) {
   float width = INFINITY;
-  for (int k = 0; k < DIRECTIONS; k++) width = fminf(width, e->most[k] - e->least[k]);
+  for (int k = 0; k < DIRECTIONS; k++) width = fminf(width, e->max[k] - e->min[k]);
   return width;
 }
 
 static float sunk_depth(const extent *a, const extent *b) {
-  return SUNK_SHARE * fminf(least_width(a), least_width(b));
+  return SUNK_SHARE * fminf(min_width(a), min_width(b));
 }
 
 /* Whether some face of the hull is `gap` from all of the other's points. */
@@ -74,9 +74,9 @@ static bool is_outside(const sbf_polygon_mesh *hull, const extent *other, float 
     if (!(length > 0)) continue;
     sbf_vec3 n = {(float)(area.x / length), (float)(area.y / length), (float)(area.z / length)};
     sbf_vec3 at = {(float)middle.x, (float)middle.y, (float)middle.z};
-    float least, most;
-    range_along(other, n, &least, &most);
-    if (least - along(at, n) > gap) return true;
+    float min, max;
+    range_along(other, n, &min, &max);
+    if (min - along(at, n) > gap) return true;
   }
   return false;
 }
@@ -86,7 +86,7 @@ static bool is_outside(const sbf_polygon_mesh *hull, const extent *other, float 
 static bool are_apart(const extent *a, const sbf_polygon_mesh *hull_a, const extent *b,
     const sbf_polygon_mesh *hull_b, float gap) {
   for (int k = 0; k < DIRECTIONS; k++)
-    if (fmaxf(a->least[k] - b->most[k], b->least[k] - a->most[k]) > gap) return true;
+    if (fmaxf(a->min[k] - b->max[k], b->min[k] - a->max[k]) > gap) return true;
   return (hull_a && is_outside(hull_a, b, gap)) || (hull_b && is_outside(hull_b, a, gap));
 }
 

@@ -60,9 +60,9 @@ static void take_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[
     for (unsigned k = 0; k < 6; k++) {
       bool cone = limit->target == SBF_JOINT_AXIS_SWING && k >= SBF_JOINT_AXIS_SWING_Y;
       if (k != (unsigned)limit->target && !cone) continue;
-      float least = cone ? -limit->max : limit->min;
+      float lower = cone ? -limit->max : limit->min;
       motions[k].bounded = true;
-      motions[k].min = least > motions[k].min ? least : motions[k].min;
+      motions[k].min = lower > motions[k].min ? lower : motions[k].min;
       motions[k].max = limit->max < motions[k].max ? limit->max : motions[k].max;
     }
   }

@@ -47,7 +47,7 @@ static bool fastest_of_lattice(
 static double fastest_of_sheet(
     const mjcf_flex *flex, float modulus, float thickness, const float *mass, double *sums) {
   const sbf_polygon_mesh *mesh = &flex->body->surface;
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < flex->level->positions.count; i++) sums[i] = 0;
   for (uint32_t i = 0, corner = 0; i < mesh->polygon_sizes.count; i++) {
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++) {
@@ -74,12 +74,12 @@ static double fastest_of_sheet(
     corner += mesh->polygon_sizes.at[i];
   }
   for (uint32_t i = 0; i < flex->level->positions.count; i++)
-    if (mass[i] > 0 && sums[i] / mass[i] > most) most = sums[i] / mass[i];
-  return most;
+    if (mass[i] > 0 && sums[i] / mass[i] > max) max = sums[i] / mass[i];
+  return max;
 }
 
 bool sbfi_mjcf_timestep(mjcf_writer *w, float *step) {
-  double least = LONGEST_STEP_S;
+  double min = LONGEST_STEP_S;
   for (uint32_t b = 0; b < w->e->asset->soft_bodies.count; b++) {
     const mjcf_flex *flex = &w->flexes[b];
     if (!flex->level) continue;
@@ -96,8 +96,8 @@ bool sbfi_mjcf_timestep(mjcf_writer *w, float *step) {
     if (!(w2 > 0)) continue;
     double damping = flex->body->attributes.stiffness_damping;
     double longest = sqrt(damping * damping + 4 / w2) - damping;
-    if (longest / 2 < least) least = longest / 2;
+    if (longest / 2 < min) min = longest / 2;
   }
-  *step = (float)least;
+  *step = (float)min;
   return true;
 }

@@ -131,11 +131,11 @@ static bool write_skeleton(usda_writer *w) {
 
 /* ---- Meshes ---- */
 
-static uint32_t most_influences(const usda_mesh *mesh) {
-  uint32_t most = 1;
+static uint32_t max_influences(const usda_mesh *mesh) {
+  uint32_t max = 1;
   for (uint32_t p = 0; p < mesh->full->mesh.positions.count; p++)
-    if (mesh->skin->influence_counts.at[p] > most) most = mesh->skin->influence_counts.at[p];
-  return most;
+    if (mesh->skin->influence_counts.at[p] > max) max = mesh->skin->influence_counts.at[p];
+  return max;
 }
 
 /* A row of `size` a point: of bones, or of weights; points without one get the first bone with weight 1. */
@@ -174,7 +174,7 @@ static bool write_binding(usda_writer *w, const usda_mesh *mesh) {
   if (!mesh->skin) {
     write_one_bone(w, mesh);
   } else {
-    uint32_t points = mesh->full->mesh.positions.count, size = most_influences(mesh);
+    uint32_t points = mesh->full->mesh.positions.count, size = max_influences(mesh);
     uint32_t *begins = sbfi_arena_allocate(&w->scratch, (size_t)points + 1, sizeof *begins);
     if (!begins) return false;
     for (uint32_t p = 1; p < points; p++) begins[p] = begins[p - 1] + mesh->skin->influence_counts.at[p - 1];

@@ -85,9 +85,9 @@ static void take_motions(usda_writer *w, const sbf_joint *joint, motion motions[
     if (limit->target == SBF_JOINT_AXIS_DISTANCE) distance[0] = limit->min, distance[1] = limit->max;
     for (unsigned k = 0; k < 6; k++) {
       if (!is_of(limit->target, k)) continue;
-      float least = limit->target == SBF_JOINT_AXIS_SWING ? -limit->max : limit->min;
+      float lower = limit->target == SBF_JOINT_AXIS_SWING ? -limit->max : limit->min;
       motions[k].bounded = true;
-      motions[k].min = fmaxf(motions[k].min, least);
+      motions[k].min = fmaxf(motions[k].min, lower);
       motions[k].max = fminf(motions[k].max, limit->max);
     }
   }

@@ -18,6 +18,9 @@ static const char *const scheme_values[] = {"automatic", "symplectic", "position
 static const char *const pressure_mode_values[] = {"none", "gas", "volume"};
 static const char *const weight_property_values[] = {"density", "young_modulus", "bending_stiffness", "mass_damping", "stiffness_damping", "friction", "pressure", "yield_strain", "tear_strain"};
 static const char *const ik_solver_values[] = {"two_bone", "ccd", "fabrik", "damped_least_squares", "spline"};
+static const char *const gait_kind_values[] = {"walk", "swim", "fly", "slither", "crawl", "roll", "none"};
+static const char *const wave_plane_values[] = {"lateral", "vertical"};
+static const char *const fin_motion_values[] = {"flap", "trail", "steer"};
 static const char *const chain_kind_values[] = {"lag", "distance"};
 static const char *const follower_channel_values[] = {"rotation", "position", "both", "squash", "weight"};
 static const char *const bone_axis_values[] = {"x", "y", "z"};
@@ -559,6 +562,67 @@ static const sbfi_field tail_fields[] = {
 };
 static const sbfi_element tail_element = {"tail", "tail", sizeof(sbf_tail), 0, 4, tail_fields, NULL};
 
+static const sbfi_length undulation_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
+static const sbfi_field undulation_fields[] = {
+  {.name = "bones", .type = SBFI_LIST, .number = 1, .since_minor = 0, .offset = offsetof(sbf_undulation, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &undulation_bones_index},
+  {.name = "plane", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_undulation, plane), .width = 1, .unit = "", .default_integer = 0, .values = wave_plane_values, .value_count = 2},
+  {.name = "length", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_undulation, length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "wavelength", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_undulation, wavelength), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.95f}},
+  {.name = "amplitude", .type = SBFI_VEC3, .number = 5, .since_minor = 0, .offset = offsetof(sbf_undulation, amplitude), .width = 3, .unit = "", .defaults = {0.02f, -0.08f, 0.16f}},
+  {.name = "exaggeration", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_undulation, exaggeration), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 10.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+  {.name = "strouhal_number", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_undulation, strouhal_number), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {0.3f}},
+  {.name = "idle_frequency", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_undulation, idle_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.4f}},
+  {.name = "max_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_undulation, max_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {8.0f}},
+  {.name = "heading_amplitude", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_undulation, heading_amplitude), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.7f}},
+};
+static const sbfi_element undulation_element = {"undulation", "undulation", sizeof(sbf_undulation), 0, 10, undulation_fields, NULL};
+
+static const sbfi_length fin_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
+static const sbfi_field fin_fields[] = {
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_fin, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_fin, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &fin_bones_index},
+  {.name = "motion", .type = SBFI_ENUM, .number = 3, .since_minor = 0, .offset = offsetof(sbf_fin, motion), .width = 1, .unit = "", .default_integer = 0, .values = fin_motion_values, .value_count = 3},
+  {.name = "axis", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_fin, axis), .width = 3, .unit = "", .defaults = {0.0f, 0.0f, 1.0f}},
+  {.name = "amplitude", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_fin, amplitude), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {0.4f}},
+  {.name = "mean", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_fin, mean), .width = 1, .unit = "rad", .has_range = true, .min = -3.15, .max = 3.15, .min_open = false, .max_open = false},
+  {.name = "flex", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_fin, flex), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false},
+  {.name = "lag", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_fin, lag), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 6.29, .min_open = false, .max_open = false},
+  {.name = "phase", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_fin, phase), .width = 1, .unit = "rad", .has_range = true, .min = -6.29, .max = 6.29, .min_open = false, .max_open = false},
+  {.name = "frequency", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_fin, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = 60.0, .min_open = false, .max_open = false},
+  {.name = "twist", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_fin, twist), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false},
+};
+static const sbfi_element fin_element = {"fin", "fin", sizeof(sbf_fin), 0, 11, fin_fields, NULL};
+
+static const sbfi_field wheel_fields[] = {
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_wheel, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_wheel, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "axis", .type = SBFI_VEC3, .number = 3, .since_minor = 0, .offset = offsetof(sbf_wheel, axis), .width = 3, .unit = "", .defaults = {1.0f, 0.0f, 0.0f}},
+  {.name = "radius", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_wheel, radius), .width = 1, .unit = "m", .required = true, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true},
+  {.name = "steer_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_wheel, steer_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false},
+};
+static const sbfi_element wheel_element = {"wheel", "wheel", sizeof(sbf_wheel), 0, 5, wheel_fields, NULL};
+
+static const sbfi_length tread_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
+static const sbfi_field tread_fields[] = {
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tread, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tread, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &tread_bones_index},
+};
+static const sbfi_element tread_element = {"tread", "tread", sizeof(sbf_tread), 0, 2, tread_fields, NULL};
+
+static const sbfi_field medium_fields[] = {
+  {.name = "buoyancy", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_medium, buoyancy), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 10.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+  {.name = "drag_length", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_medium, drag_length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "altitude", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_medium, altitude), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "bank", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_medium, bank), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 4.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+  {.name = "bank_limit", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_medium, bank_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.8f}},
+  {.name = "pitch_limit", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_medium, pitch_limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 1.5, .min_open = false, .max_open = false, .defaults = {0.8f}},
+  {.name = "tilt", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_medium, tilt), .width = 1, .unit = "rad", .has_range = true, .min = -1.5, .max = 1.5, .min_open = false, .max_open = false},
+  {.name = "bob", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_medium, bob), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "bob_frequency", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_medium, bob_frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = 8.0, .min_open = false, .max_open = false, .defaults = {0.8f}},
+  {.name = "glide_ratio", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_medium, glide_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+};
+static const sbfi_element medium_element = {"medium", "medium", sizeof(sbf_medium), 0, 10, medium_fields, NULL};
+
 static const sbfi_field gait_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_gait, id), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_gait, name), .width = 1, .unit = "", .default_text = ""},
@@ -576,8 +640,17 @@ static const sbfi_field gait_fields[] = {
   {.name = "legs", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_gait, legs), .width = 1, .unit = "", .element = &leg_element, .xml = "leg"},
   {.name = "head", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_gait, head), .width = 1, .unit = "", .element = &head_turn_element, .xml = "head_turn"},
   {.name = "tails", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_gait, tails), .width = 1, .unit = "", .element = &tail_element, .xml = "tail"},
+  {.name = "kind", .type = SBFI_ENUM, .number = 17, .since_minor = 2, .offset = offsetof(sbf_gait, kind), .width = 1, .unit = "", .default_integer = 0, .values = gait_kind_values, .value_count = 7},
+  {.name = "rest_pose", .type = SBFI_REF, .number = 18, .since_minor = 2, .offset = offsetof(sbf_gait, rest_pose), .width = 1, .unit = "", .target = offsetof(sbf_asset, poses), .target_name = "poses"},
+  {.name = "idle_clip", .type = SBFI_REF, .number = 19, .since_minor = 2, .offset = offsetof(sbf_gait, idle_clip), .width = 1, .unit = "", .target = offsetof(sbf_asset, clips), .target_name = "clips"},
+  {.name = "move_clip", .type = SBFI_REF, .number = 20, .since_minor = 2, .offset = offsetof(sbf_gait, move_clip), .width = 1, .unit = "", .target = offsetof(sbf_asset, clips), .target_name = "clips"},
+  {.name = "undulation", .type = SBFI_OPTIONAL, .number = 21, .since_minor = 2, .offset = offsetof(sbf_gait, undulation), .width = 1, .unit = "", .element = &undulation_element, .xml = "undulation"},
+  {.name = "fins", .type = SBFI_MANY, .number = 22, .since_minor = 2, .offset = offsetof(sbf_gait, fins), .width = 1, .unit = "", .element = &fin_element, .xml = "fin"},
+  {.name = "wheels", .type = SBFI_MANY, .number = 23, .since_minor = 2, .offset = offsetof(sbf_gait, wheels), .width = 1, .unit = "", .element = &wheel_element, .xml = "wheel"},
+  {.name = "treads", .type = SBFI_MANY, .number = 24, .since_minor = 2, .offset = offsetof(sbf_gait, treads), .width = 1, .unit = "", .element = &tread_element, .xml = "tread"},
+  {.name = "medium", .type = SBFI_OPTIONAL, .number = 25, .since_minor = 2, .offset = offsetof(sbf_gait, medium), .width = 1, .unit = "", .element = &medium_element, .xml = "medium"},
 };
-static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), SBFI_KIND('G', 'A', 'I', 'T'), 16, gait_fields, NULL};
+static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), SBFI_KIND('G', 'A', 'I', 'T'), 25, gait_fields, NULL};
 
 static const sbfi_length chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length chain_spacing_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_chain, bones)}}, "bones"}};
@@ -679,8 +752,10 @@ static const sbfi_field environment_fields[] = {
   {.name = "media_friction", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_environment, media_friction), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "control_tick", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_environment, control_tick), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = 1.0, .min_open = true, .max_open = false, .defaults = {0.016666668f}},
   {.name = "fields", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_environment, fields), .width = 1, .unit = "", .element = &force_field_element, .xml = "force_field"},
+  {.name = "has_water", .type = SBFI_BOOL, .number = 7, .since_minor = 2, .offset = offsetof(sbf_environment, has_water), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "water_level", .type = SBFI_FLOAT, .number = 8, .since_minor = 2, .offset = offsetof(sbf_environment, water_level), .width = 1, .unit = "m"},
 };
-static const sbfi_element environment_element = {"environment", "environment", sizeof(sbf_environment), 0, 6, environment_fields, NULL};
+static const sbfi_element environment_element = {"environment", "environment", sizeof(sbf_environment), 0, 8, environment_fields, NULL};
 
 static const sbfi_field relaxation_fields[] = {
   {.name = "stiffness", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_relaxation, stiffness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.3f}},
@@ -700,8 +775,10 @@ static const sbfi_field section_recipe_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_section_recipe, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
   {.name = "attributes", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_section_recipe, attributes), .width = 1, .unit = "", .element = &attributes_element, .xml = "attributes"},
   {.name = "collision", .type = SBFI_ONE, .number = 3, .since_minor = 0, .offset = offsetof(sbf_section_recipe, collision), .width = 1, .unit = "", .element = &collision_element, .xml = "collision"},
+  {.name = "rigid", .type = SBFI_BOOL, .number = 4, .since_minor = 2, .offset = offsetof(sbf_section_recipe, rigid), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 2, .offset = offsetof(sbf_section_recipe, proposed), .width = 1, .unit = "", .default_integer = 0},
 };
-static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 3, section_recipe_fields, NULL};
+static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 5, section_recipe_fields, NULL};
 
 static const sbfi_field asset_fields[] = {
   {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .default_text = "1.0"},
@@ -772,6 +849,11 @@ void sbf_ik_chain_init(sbf_ik_chain *ik_chain) { sbfi_element_init(&ik_chain_ele
 void sbf_leg_init(sbf_leg *leg) { sbfi_element_init(&leg_element, leg); }
 void sbf_head_turn_init(sbf_head_turn *head_turn) { sbfi_element_init(&head_turn_element, head_turn); }
 void sbf_tail_init(sbf_tail *tail) { sbfi_element_init(&tail_element, tail); }
+void sbf_undulation_init(sbf_undulation *undulation) { sbfi_element_init(&undulation_element, undulation); }
+void sbf_fin_init(sbf_fin *fin) { sbfi_element_init(&fin_element, fin); }
+void sbf_wheel_init(sbf_wheel *wheel) { sbfi_element_init(&wheel_element, wheel); }
+void sbf_tread_init(sbf_tread *tread) { sbfi_element_init(&tread_element, tread); }
+void sbf_medium_init(sbf_medium *medium) { sbfi_element_init(&medium_element, medium); }
 void sbf_gait_init(sbf_gait *gait) { sbfi_element_init(&gait_element, gait); }
 void sbf_chain_init(sbf_chain *chain) { sbfi_element_init(&chain_element, chain); }
 void sbf_follower_init(sbf_follower *follower) { sbfi_element_init(&follower_element, follower); }
@@ -838,6 +920,18 @@ const char *sbf_weight_property_name(sbf_weight_property value) {
 
 const char *sbf_ik_solver_name(sbf_ik_solver value) {
   return (unsigned)value < 5u ? ik_solver_values[value] : "?";
+}
+
+const char *sbf_gait_kind_name(sbf_gait_kind value) {
+  return (unsigned)value < 7u ? gait_kind_values[value] : "?";
+}
+
+const char *sbf_wave_plane_name(sbf_wave_plane value) {
+  return (unsigned)value < 2u ? wave_plane_values[value] : "?";
+}
+
+const char *sbf_fin_motion_name(sbf_fin_motion value) {
+  return (unsigned)value < 3u ? fin_motion_values[value] : "?";
 }
 
 const char *sbf_chain_kind_name(sbf_chain_kind value) {

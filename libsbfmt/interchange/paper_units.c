@@ -7,7 +7,7 @@
 #include "mechanics/vector.h"
 
 static const double TICK = 1.0 / 60;
-static const double MOST = 0.999; /* of an error that a tick takes off: a slider at 1 would be rigid */
+static const double MAX = 0.999; /* of an error that a tick takes off: a slider at 1 would be rigid */
 
 static int compare_edges(const void *a, const void *b) {
   uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
@@ -48,11 +48,11 @@ bool sbfi_paper_measure(sbf_vec3_list positions, sbf_uint4_list tetrahedra, cons
 /* What `iterations` of a slider take off an error in a tick, and the slider for it. */
 static double share_of(double slider, uint32_t iterations) {
   double left = slider < 1 ? pow(1 - slider, iterations > 1 ? iterations : 1) : 0;
-  return 1 - left < MOST ? 1 - left : MOST;
+  return 1 - left < MAX ? 1 - left : MAX;
 }
 
 static double slider_of(double share, uint32_t iterations) {
-  double held = share < 0 ? 0 : share < MOST ? share : MOST;
+  double held = share < 0 ? 0 : share < MAX ? share : MAX;
   return 1 - pow(1 - held, 1.0 / (iterations > 1 ? iterations : 1));
 }
 

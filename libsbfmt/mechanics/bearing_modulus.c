@@ -3,7 +3,7 @@
 #include <math.h>
 
 static const double GRAVITY = 9.81; /* m/s^2 */
-static const double MOST_STRAIN = 0.05;
+static const double MAX_STRAIN = 0.05;
 
 /* Of two digits, so that it reads as the round figure it is. */
 static double rounded_up(double value) {
@@ -27,7 +27,7 @@ double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_lis
     high = (sbf_vec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
   }
   double height = fmax(fmax((double)high.x - low.x, (double)high.y - low.y), (double)high.z - low.z);
-  return sbfi_modulus_to_bear(modulus, (double)attributes->density, height, MOST_STRAIN);
+  return sbfi_modulus_to_bear(modulus, (double)attributes->density, height, MAX_STRAIN);
 }
 
 /* ---- What stands on less than it carries ---- */
@@ -55,9 +55,9 @@ static double cut_of(const sbf_vec3 corners[3], float y) {
 }
 
 static void add_cuts(const sbf_vec3 corners[3], float low, float step, double areas[CUTS]) {
-  float least = fminf(corners[0].y, fminf(corners[1].y, corners[2].y));
-  float most = fmaxf(corners[0].y, fmaxf(corners[1].y, corners[2].y));
-  int first = (int)fmaxf(0, (least - low) / step - 1), end = (int)fminf(CUTS, (most - low) / step + 1);
+  float min = fminf(corners[0].y, fminf(corners[1].y, corners[2].y));
+  float max = fmaxf(corners[0].y, fmaxf(corners[1].y, corners[2].y));
+  int first = (int)fmaxf(0, (min - low) / step - 1), end = (int)fminf(CUTS, (max - low) / step + 1);
   for (int k = first; k < end; k++) areas[k] += 0.5 * cut_of(corners, low + ((float)k + 0.5f) * step);
 }
 
@@ -85,12 +85,12 @@ static double column_of(const sbf_polygon_mesh *mesh) {
 
 /* More than so many times the column is taken for a thing that does not stand on what is thin: strands, or
  * pieces that overlap. */
-static const double MOST_TIMES = 5;
+static const double MAX_TIMES = 5;
 
 double sbfi_standing_modulus(const sbf_attributes *attributes, const sbf_polygon_mesh *surface) {
   double as_column = sbfi_bearing_modulus(attributes, &surface->positions);
   if (surface->positions.count == 0) return as_column;
   double needed =
-      sbfi_modulus_to_bear(as_column, (double)attributes->density, column_of(surface), MOST_STRAIN);
-  return fmin(needed, rounded_up(MOST_TIMES * as_column));
+      sbfi_modulus_to_bear(as_column, (double)attributes->density, column_of(surface), MAX_STRAIN);
+  return fmin(needed, rounded_up(MAX_TIMES * as_column));
 }

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { MANY_POINTS = 200, PATCHES = 48, MODES = 6, LEAST_PATCH = 12 };
+enum { MANY_POINTS = 200, PATCHES = 48, MODES = 6, MIN_PATCH = 12 };
 /* Of its diagonal, so little is left of a mode that others make up. */
-static const double least_pivot = 1e-9;
+static const double min_pivot = 1e-9;
 
 static bool is_there(const sbfi_block_matrix *m, uint32_t row) {
   return m->blocks[9 * (size_t)m->diagonals[row]] > 0;
@@ -21,7 +21,7 @@ static bool make_patches(sbfi_coarse_space *c, const sbfi_block_matrix *m, sbfi_
     c->patches[i] = UINT32_MAX;
     there += is_there(m, i);
   }
-  uint32_t most = there / PATCHES > LEAST_PATCH ? there / PATCHES : LEAST_PATCH;
+  uint32_t max = there / PATCHES > MIN_PATCH ? there / PATCHES : MIN_PATCH;
   for (uint32_t left = there; left > 0; c->patch_count++) {
     while (beside == UINT32_MAX && (!is_there(m, first) || c->patches[first] != UINT32_MAX)) first++;
     uint32_t size = 0;
@@ -32,7 +32,7 @@ static bool make_patches(sbfi_coarse_space *c, const sbfi_block_matrix *m, sbfi_
       for (uint32_t k = m->begins[queue[next]]; k < m->begins[queue[next] + 1]; k++) {
         uint32_t column = m->columns[k];
         if (!is_there(m, column) || c->patches[column] != UINT32_MAX) continue;
-        if (size == most) {
+        if (size == max) {
           if (beside == UINT32_MAX) beside = column;
           continue;
         }
@@ -122,7 +122,7 @@ static void factorise(double *a, size_t size, double *row) {
       of[j] = diagonal > 0 ? row[j] / diagonal : 0;
       pivot -= row[j] * of[j];
     }
-    of[i] = pivot > least_pivot * before && before > 0 ? pivot : 0;
+    of[i] = pivot > min_pivot * before && before > 0 ? pivot : 0;
   }
 }
 

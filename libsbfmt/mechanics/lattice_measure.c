@@ -24,7 +24,7 @@ static double angle_of(double cosine) {
 
 void sbf_lattice_measure(
     const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count, sbf_lattice_measures *measures) {
-  double most = -2, least = 2; /* cosines */
+  double max = -2, min = 2; /* cosines */
   *measures = (sbf_lattice_measures){.least_dihedral_deg = 180};
   for (uint32_t t = 0; t < count; t++) {
     sbfi_d3 at[4], normals[4];
@@ -42,12 +42,12 @@ void sbf_lattice_measure(
       for (int g = 0; g < f; g++) {
         double cosine = -sbfi_d3_dot(normals[f], normals[g]);
         add_angle(measures->dihedrals, cosine);
-        most = cosine > most ? cosine : most;
-        least = cosine < least ? cosine : least;
+        max = cosine > max ? cosine : max;
+        min = cosine < min ? cosine : min;
       }
     }
   }
   if (count == 0) return;
-  measures->least_dihedral_deg = angle_of(most);
-  measures->most_dihedral_deg = angle_of(least);
+  measures->least_dihedral_deg = angle_of(max);
+  measures->most_dihedral_deg = angle_of(min);
 }

@@ -5,7 +5,7 @@
 #include "mechanics/network.h"
 #include "mechanics/static_solve.h"
 
-enum { MOST_STEPS = 200 };
+enum { MAX_STEPS = 200 };
 static const double singular = 1e-9, held = 0.1;
 
 static void hold_loose(double *block) {
@@ -62,7 +62,7 @@ uint32_t sbfi_linear_statics_solve(
   memcpy(s->p, s->z, size * sizeof *s->p);
   double left = sbfi_dot(s->r, s->z, size);
   uint32_t steps = 0;
-  for (; steps < MOST_STEPS && left > 0; steps++) {
+  for (; steps < MAX_STEPS && left > 0; steps++) {
     double work = 0;
     for (size_t i = 0; i < size; i++) work += n->masses[i / 3] > 0 ? forces[i] * displacements[i] : 0;
     if (left <= share * share * work) break;

@@ -7,15 +7,15 @@
 #include "mechanics/symmetric_eigen.h"
 #include "mechanics/vector.h"
 
-enum { MONOMIALS = 10, FIELDS = 3 * MONOMIALS, MOST_NULL = 6, INVERSE_STEPS = 4, SOLVE_STEPS = 200 };
+enum { MONOMIALS = 10, FIELDS = 3 * MONOMIALS, MAX_NULL = 6, INVERSE_STEPS = 4, SOLVE_STEPS = 200 };
 
 typedef struct basis {
   const sbf_spring_network *network;
   const double *scale_of; /* (point_count) 1 / root of the mass; 0: held, or too loose to count */
   sbfi_d3 center;
-  double shrink;                  /* 1 / size of the body */
-  uint32_t null_count;            /* fields that nothing resists */
-  double null[MOST_NULL][FIELDS]; /* their coefficients, monomial by monomial, orthonormal by mass */
+  double shrink;                 /* 1 / size of the body */
+  uint32_t null_count;           /* fields that nothing resists */
+  double null[MAX_NULL][FIELDS]; /* their coefficients, monomial by monomial, orthonormal by mass */
 } basis;
 
 static void evaluate(const basis *of, uint32_t point, double monomials[MONOMIALS]) {
@@ -33,7 +33,7 @@ static double mass_of(const basis *of, uint32_t point) {
 /* A point on one spring, where others have three and more, swings loose about it: its pendulum modes say
  * nothing of the body, and it is counted as held. */
 static void find_scales(const sbf_spring_network *network, double *scale_of) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < network->point_count; i++)
     scale_of[i] = network->anchors && network->anchors[i] > 0 ? 3 : 0;
   for (uint32_t s = 0; s < network->spring_count; s++)
@@ -41,9 +41,9 @@ static void find_scales(const sbf_spring_network *network, double *scale_of) {
   for (uint32_t t = 0; t < network->tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) scale_of[network->tetrahedra[t].at[k]] += 3;
   for (uint32_t i = 0; i < network->point_count; i++)
-    if (network->masses[i] > 0 && scale_of[i] > most) most = scale_of[i];
+    if (network->masses[i] > 0 && scale_of[i] > max) max = scale_of[i];
   for (uint32_t i = 0; i < network->point_count; i++) {
-    bool counts = network->masses[i] > 0 && (scale_of[i] > 1 || most < 3);
+    bool counts = network->masses[i] > 0 && (scale_of[i] > 1 || max < 3);
     scale_of[i] = counts ? 1 / sqrt(network->masses[i]) : 0;
   }
 }
@@ -67,7 +67,7 @@ static void place_basis(basis *of, const sbf_spring_network *network, const doub
 /* Scalar fields orthonormal by mass, `coefficients` (MONOMIALS x count) by columns. Combinations that vanish
  * at all points, as z in a flat body, are left out. */
 static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOMIALS]) {
-  double gram[MONOMIALS * MONOMIALS] = {0}, vectors[MONOMIALS * MONOMIALS], phi[MONOMIALS], most = 0;
+  double gram[MONOMIALS * MONOMIALS] = {0}, vectors[MONOMIALS * MONOMIALS], phi[MONOMIALS], max = 0;
   for (uint32_t i = 0; i < of->network->point_count; i++) {
     evaluate(of, i, phi);
     for (int a = 0; a < MONOMIALS; a++)
@@ -75,11 +75,11 @@ static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOM
   }
   sbfi_symmetric_eigen(MONOMIALS, gram, vectors);
   for (int a = 0; a < MONOMIALS; a++)
-    if (gram[a * (MONOMIALS + 1)] > most) most = gram[a * (MONOMIALS + 1)];
+    if (gram[a * (MONOMIALS + 1)] > max) max = gram[a * (MONOMIALS + 1)];
   int count = 0;
   for (int a = 0; a < MONOMIALS; a++) {
     double value = gram[a * (MONOMIALS + 1)];
-    if (!(value > 1e-10 * most)) continue;
+    if (!(value > 1e-10 * max)) continue;
     for (int m = 0; m < MONOMIALS; m++)
       coefficients[m * MONOMIALS + count] = vectors[m * MONOMIALS + a] / sqrt(value);
     count++;
@@ -207,7 +207,7 @@ static double ritz(basis *of, double threshold, double field[FIELDS]) {
       if (lowest >= 0 && value >= small[lowest * (count + 1)]) continue;
       lowest = i;
     } else {
-      if (of->null_count++ >= MOST_NULL) continue;
+      if (of->null_count++ >= MAX_NULL) continue;
       target = of->null[of->null_count - 1];
     }
     memset(target, 0, FIELDS * sizeof *target);
@@ -280,6 +280,6 @@ double sbf_network_lowest(const sbf_spring_network *network, bool refine, double
   double nothing = network->hinge_count ? NOTHING_OF_SHEETS : NOTHING;
   double value = ritz(&of, nothing * bound * bound, field);
   if (!(value > 0)) return 0;
-  if (refine && of.null_count <= MOST_NULL) value = iterate(&of, value, field, scratch);
+  if (refine && of.null_count <= MAX_NULL) value = iterate(&of, value, field, scratch);
   return sqrt(value);
 }

@@ -94,14 +94,14 @@ sbfi_strains sbfi_tetrahedron_strains(const sbfi_tetrahedron *t, const sbfi_d3 x
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) squares[3 * i + k] = sbfi_d3_dot(f.at[i], f.at[k]);
   sbfi_symmetric_eigen(3, squares, vectors);
-  int least = 0;
+  int min = 0;
   for (int i = 1; i < 3; i++)
-    if (squares[4 * i] < squares[4 * least]) least = i;
+    if (squares[4 * i] < squares[4 * min]) min = i;
   sbfi_strains strains = {0, -1};
   for (int i = 0; i < 3; i++) {
     double value = sqrt(squares[4 * i] > 0 ? squares[4 * i] : 0);
-    if (i == least && sbfi_determinant(&f) < 0) value = -value; /* turned inside out along that axis */
-    if (fabs(value - 1) > strains.most) strains.most = fabs(value - 1);
+    if (i == min && sbfi_determinant(&f) < 0) value = -value; /* turned inside out along that axis */
+    if (fabs(value - 1) > strains.max) strains.max = fabs(value - 1);
     if (value - 1 > strains.stretch) strains.stretch = value - 1;
   }
   return strains;

@@ -86,7 +86,7 @@ void sbfi_tetrahedron_product(
 void sbfi_tetrahedron_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]);
 /* Largest |s - 1| over the singular values s of F, and their largest s - 1: what yields and what tears. */
 typedef struct sbfi_strains {
-  double most, stretch;
+  double max, stretch;
 } sbfi_strains;
 sbfi_strains sbfi_tetrahedron_strains(const sbfi_tetrahedron *t, const sbfi_d3 x[4]);
 

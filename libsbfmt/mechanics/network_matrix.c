@@ -38,8 +38,8 @@ static bool take_elements(sbfi_network_matrix *m, const float *stated, sbfi_aren
 /* The pairs of points that act on each other, held ones left out. */
 static bool make_pattern(sbfi_network_matrix *m, sbfi_arena *arena) {
   const sbf_spring_network *n = m->network;
-  size_t most = 12 * (size_t)n->tetrahedron_count + 2 * (size_t)n->spring_count, count = 0;
-  uint64_t *pairs = reserve(arena, most, sizeof *pairs);
+  size_t max = 12 * (size_t)n->tetrahedron_count + 2 * (size_t)n->spring_count, count = 0;
+  uint64_t *pairs = reserve(arena, max, sizeof *pairs);
   if (!pairs) return false;
   for (uint32_t t = 0; t < n->tetrahedron_count; t++)
     for (int i = 0; i < 4; i++)

@@ -5,7 +5,7 @@
 #include "mechanics/symmetric_eigen.h"
 
 /* Flatter than this share of its height at rest an element does not flow. */
-static const double LEAST_STRETCH = 0.01;
+static const double MIN_STRETCH = 0.01;
 
 /* base^exponent, base > 0 and |exponent| <= 1: the logarithm of what many square roots leave near 1, by its
  * series, and the exponential likewise. */
@@ -43,18 +43,17 @@ bool sbfi_stretches_find(const sbfi_solid_metric *metric, const sbfi_d3 edges[3]
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) squares[3 * i + k] = sbfi_d3_dot(columns[i], columns[k]);
   sbfi_symmetric_eigen(3, squares, vectors);
-  int least = 0;
+  int min = 0;
   for (int k = 0; k < 3; k++) {
     double value = squares[4 * k];
     found->values[k] = value > 0 ? sqrt(value) : 0;
-    if (found->values[k] < found->values[least]) least = k;
+    if (found->values[k] < found->values[min]) min = k;
     for (int j = 0; j < 3; j++) {
       found->directions[k][j] = 0;
       for (int c = 0; c < 3; c++) found->directions[k][j] += l[j][c] * vectors[3 * c + k];
     }
   }
-  if (sbfi_d3_dot(edges[0], sbfi_d3_cross(edges[1], edges[2])) < 0)
-    found->values[least] = -found->values[least];
+  if (sbfi_d3_dot(edges[0], sbfi_d3_cross(edges[1], edges[2])) < 0) found->values[min] = -found->values[min];
   return true;
 }
 
@@ -64,7 +63,7 @@ bool sbfi_solid_flow(
   bool beyond = false;
   for (int k = 0; k < 3; k++) {
     double value = stretches->values[k], bound = value;
-    if (!(value > LEAST_STRETCH)) return false;
+    if (!(value > MIN_STRETCH)) return false;
     if (value > 1 + yield_strain) bound = 1 + yield_strain;
     if (value < 1 - yield_strain) bound = 1 - yield_strain;
     beyond = beyond || bound != value;

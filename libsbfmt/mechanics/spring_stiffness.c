@@ -57,8 +57,8 @@ typedef struct anchored {
   double tensor[6]; /* sum of k n n^T: xx yy zz xy yz zx */
 } anchored;
 
-enum { ANCHORED_NUMBERS = 9, MOST_RAISED = 4 /* twice the frequency */ };
-static const double least_share = 0.05;
+enum { ANCHORED_NUMBERS = 9, MAX_RAISED = 4 /* twice the frequency */ };
+static const double min_share = 0.05;
 
 /* The free end, or the point count where the spring does not join a held to a free point. */
 static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_count) {
@@ -83,8 +83,8 @@ static void fit(anchored *at) {
   double b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
   double mean_square = at->squares / at->count;
   /* With the trace kept, k = mean + b (c^2 - mean square), and c^2 lies in 0..1. */
-  double least = b > 0 ? mean - b * mean_square : mean + b * (1 - mean_square);
-  if (least < 0.1 * mean) b *= 0.9 * mean / (mean - least);
+  double min = b > 0 ? mean - b * mean_square : mean + b * (1 - mean_square);
+  if (min < 0.1 * mean) b *= 0.9 * mean / (mean - min);
   at->count = mean - b * mean_square;
   at->squares = b;
 }
@@ -94,11 +94,11 @@ static void raise(anchored *at) {
   const double *t = at->tensor;
   double matrix[9] = {t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]}, vectors[9];
   sbfi_symmetric_eigen(3, matrix, vectors);
-  double least = matrix[0] < matrix[4] ? matrix[0] : matrix[4];
-  if (matrix[8] < least) least = matrix[8];
-  double wanted = least_share / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
-  if (least < wanted) raised = least > wanted / MOST_RAISED ? wanted / least : MOST_RAISED;
-  if (least < 1e-6) raised = 1; /* no spring leads there: none can help */
+  double min = matrix[0] < matrix[4] ? matrix[0] : matrix[4];
+  if (matrix[8] < min) min = matrix[8];
+  double wanted = min_share / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
+  if (min < wanted) raised = min > wanted / MAX_RAISED ? wanted / min : MAX_RAISED;
+  if (min < 1e-6) raised = 1; /* no spring leads there: none can help */
   at->count *= raised;
   at->squares *= raised;
 }

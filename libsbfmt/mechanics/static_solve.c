@@ -6,7 +6,7 @@
 #include "mechanics/network.h"
 #include "mechanics/network_matrix.h"
 
-enum { MOST_STEPS = 100, LEAST_PRODUCTS = 200, MOST_BACKTRACKS = 40, SAID_EVERY = 32 };
+enum { MAX_STEPS = 100, MIN_PRODUCTS = 200, MAX_BACKTRACKS = 40, SAID_EVERY = 32 };
 static const double TOLERANCE = 1e-8, SUFFICIENT_FALL = 1e-4;
 
 typedef struct statics {
@@ -19,7 +19,7 @@ typedef struct statics {
   double *load;                                        /* (3 x points) N, 0 at held points */
   double *forces, *way, *residual, *z, *p, *q, *trial; /* (3 x points) */
   double rounding_j;                                   /* what the energy's sum may be wrong by */
-  uint32_t products, steps, most_steps;
+  uint32_t products, steps, max_steps;
   bool ended;
 } statics;
 
@@ -128,8 +128,8 @@ static double find_forces(const statics *s, const double *places, double *forces
 /* ---- Newton ---- */
 
 static bool goes_on(statics *s) {
-  if (!s->ended) s->ended = !sbfi_progress_say(s->problem->progress, (double)s->steps / s->most_steps);
-  return !s->ended && (s->problem->most_products == 0 || s->products < s->problem->most_products);
+  if (!s->ended) s->ended = !sbfi_progress_say(s->problem->progress, (double)s->steps / s->max_steps);
+  return !s->ended && (s->problem->max_products == 0 || s->products < s->problem->max_products);
 }
 
 static void precondition(const statics *s) {
@@ -146,7 +146,7 @@ static void find_way(statics *s, double share) {
   memcpy(s->p, s->z, size * sizeof *s->p);
   double left = sbfi_dot(s->residual, s->z, size);
   double enough = share * share * sbfi_dot(s->residual, s->residual, size);
-  for (size_t n = 0; n < LEAST_PRODUCTS + size && left > 0; n++) {
+  for (size_t n = 0; n < MIN_PRODUCTS + size && left > 0; n++) {
     if (s->products % SAID_EVERY == 0 && !goes_on(s)) return;
     sbfi_block_matrix_times(&s->derivatives.matrix, s->p, s->q);
     s->products++;
@@ -173,7 +173,7 @@ static bool go(statics *s, double *places, double *energy) {
   double slope = sbfi_dot(s->forces, s->way, size), step = 1;
   double before = sqrt(sbfi_dot(s->forces, s->forces, size));
   if (!(slope > 0)) return false;
-  for (int n = 0; n < MOST_BACKTRACKS; n++, step *= 0.5) {
+  for (int n = 0; n < MAX_BACKTRACKS; n++, step *= 0.5) {
     for (size_t i = 0; i < size; i++) s->trial[i] = places[i] + step * s->way[i];
     double reached = energy_of(s, s->trial), rounding = s->rounding_j + 1e-14 * fabs(reached);
     bool falls = reached <= *energy - SUFFICIENT_FALL * step * slope;
@@ -187,16 +187,16 @@ static bool go(statics *s, double *places, double *energy) {
   return false;
 }
 
-static double least_ratio(const statics *s, const double *places) {
-  double least = 1;
+static double min_ratio(const statics *s, const double *places) {
+  double min = 1;
   sbfi_d3 x[4];
   for (uint32_t t = 0; t < s->network->tetrahedron_count; t++) {
     if (!(s->derivatives.elements[t].volume > 0)) continue;
     corners(s, t, places, x);
     double ratio = sbfi_tetrahedron_volume_ratio(&s->derivatives.elements[t], x);
-    least = ratio < least ? ratio : least;
+    min = ratio < min ? ratio : min;
   }
-  return least;
+  return min;
 }
 
 /* Its patches go by the matrix at rest. */
@@ -210,14 +210,14 @@ static bool make_space(statics *s) {
 
 static void iterate(statics *s, double *places, sbfi_static_outcome *outcome) {
   double tolerance = s->problem->tolerance > 0 ? s->problem->tolerance : TOLERANCE;
-  s->most_steps = s->problem->most_steps ? s->problem->most_steps : MOST_STEPS;
+  s->max_steps = s->problem->max_steps ? s->problem->max_steps : MAX_STEPS;
   size_t size = 3 * (size_t)s->network->point_count;
   double load = sqrt(sbfi_dot(s->load, s->load, size)), energy = energy_of(s, places);
   double length = find_forces(s, places, s->forces), reference = load > 0 ? load : length;
   for (;;) {
     outcome->residual = reference > 0 ? length / reference : 0;
     outcome->converged = outcome->residual <= tolerance;
-    if (outcome->converged || s->steps == s->most_steps || !goes_on(s)) break;
+    if (outcome->converged || s->steps == s->max_steps || !goes_on(s)) break;
     /* As exact as the residual is small: superlinear, and no work is lost far away. */
     double share = 0.1 * sqrt(outcome->residual < 1 ? outcome->residual : 1);
     sbfi_network_matrix_fill(&s->derivatives, places);
@@ -228,7 +228,7 @@ static void iterate(statics *s, double *places, sbfi_static_outcome *outcome) {
     length = find_forces(s, places, s->forces);
   }
   outcome->energy_j = energy;
-  outcome->least_ratio = least_ratio(s, places);
+  outcome->min_ratio = min_ratio(s, places);
   outcome->steps = s->steps;
   outcome->products = s->products;
   outcome->ended = s->ended;
@@ -237,7 +237,7 @@ static void iterate(statics *s, double *places, sbfi_static_outcome *outcome) {
 bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_static_outcome *outcome,
     const sbf_allocator *allocator) {
   statics s = {.problem = problem, .network = problem->network};
-  *outcome = (sbfi_static_outcome){.least_ratio = 1};
+  *outcome = (sbfi_static_outcome){.min_ratio = 1};
   sbf_allocator chosen = sbfi_allocator_or_default(allocator);
   sbfi_arena_init(&s.arena, &chosen, 0);
   bool good = sbfi_network_matrix_make(&s.derivatives, s.network, problem->rest_lengths, &s.arena) &&

@@ -24,20 +24,20 @@ typedef struct sbfi_static_problem {
   sbf_vec3 gravity;          /* m/s^2, on every free point's mass */
   const double *forces;   /* (3 x point_count) N beside that; those on held points do not act; NULL: none */
   double tolerance;       /* residual forces' share of the load; 0: 1e-8 */
-  uint32_t most_steps;    /* of Newton's method; 0: 100 */
-  uint32_t most_products; /* of the matrix with a vector, in all; 0: as many as it takes */
+  uint32_t max_steps;     /* of Newton's method; 0: 100 */
+  uint32_t max_products;  /* of the matrix with a vector, in all; 0: as many as it takes */
   sbfi_progress progress; /* told the share of the steps; where it ends the work, that is not converged */
 } sbfi_static_problem;
 
 typedef struct sbfi_static_outcome {
   bool converged;
-  bool ended;      /* by `progress` */
-  double residual; /* length of the forces that remain over that of the load, or, without a load, over those
-                      of the start */
-  double energy_j; /* elastic less the load's work, from the positions at rest */
-  double least_ratio; /* least J of the tetrahedra, 1 where there are none: below 0 something is inside out */
-  uint32_t steps;     /* of Newton's method */
-  uint32_t products;  /* of the matrix with a vector, in all */
+  bool ended;        /* by `progress` */
+  double residual;   /* length of the forces that remain over that of the load, or, without a load, over those
+                        of the start */
+  double energy_j;   /* elastic less the load's work, from the positions at rest */
+  double min_ratio;  /* least J of the tetrahedra, 1 where there are none: below 0 something is inside out */
+  uint32_t steps;    /* of Newton's method */
+  uint32_t products; /* of the matrix with a vector, in all */
 } sbfi_static_outcome;
 
 /* `places` (3 x point_count) m: in where to start, held points where they are held (which need not be where

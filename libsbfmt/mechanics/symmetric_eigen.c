@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { MOST_SWEEPS = 60 };
+enum { MAX_SWEEPS = 60 };
 
 static void rotate(int n, double *matrix, double *vectors, int p, int q) {
   double apq = matrix[p * n + q];
@@ -30,7 +30,7 @@ void sbfi_symmetric_eigen(int n, double *matrix, double *vectors) {
   double trace = 0;
   for (int i = 0; i < n * n; i++) vectors[i] = i % (n + 1) == 0;
   for (int i = 0; i < n; i++) trace += fabs(matrix[i * n + i]);
-  for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+  for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
     double off = 0;
     for (int p = 0; p < n; p++)
       for (int q = p + 1; q < n; q++) off += fabs(matrix[p * n + q]);

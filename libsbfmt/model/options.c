@@ -36,10 +36,10 @@ sbf_load_options sbfi_load_options_of(const sbf_load_options *given) {
 }
 
 uint64_t sbfi_inflated_limit(const sbf_limits *limits, uint64_t file_bytes) {
-  const uint64_t least = (uint64_t)64 << 20, most = 4 * GIBIBYTE, factor = 64;
+  const uint64_t min = (uint64_t)64 << 20, max = 4 * GIBIBYTE, factor = 64;
   if (limits->inflated_bytes) return limits->inflated_bytes;
-  if (file_bytes <= least / factor) return least;
-  return file_bytes < most / factor ? file_bytes * factor : most;
+  if (file_bytes <= min / factor) return min;
+  return file_bytes < max / factor ? file_bytes * factor : max;
 }
 
 sbf_save_options sbfi_save_options_of(const sbf_save_options *given) {

@@ -33,17 +33,17 @@ uint32_t sbfi_version_minor(const char *version) {
 }
 
 static uint32_t minor_in_use(const sbfi_place *place) {
-  uint32_t most = 0;
+  uint32_t max = 0;
   for (uint32_t i = 0; i < place->element->field_count; i++) {
     const sbfi_field *field = &place->element->fields[i];
-    if (field->since_minor > most && !sbfi_field_is_default(place, field)) most = field->since_minor;
+    if (field->since_minor > max && !sbfi_field_is_default(place, field)) max = field->since_minor;
     for (uint32_t k = 0; field->element && k < sbfi_child_count(place->object, field); k++) {
       sbfi_place child = sbfi_place_child(place, field, k);
       uint32_t below = minor_in_use(&child);
-      most = below > most ? below : most;
+      max = below > max ? below : max;
     }
   }
-  return most;
+  return max;
 }
 
 const char *sbfi_version_to_state(const sbf_asset *asset, char text[SBFI_VERSION_TEXT]) {

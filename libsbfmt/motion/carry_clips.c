@@ -55,7 +55,7 @@ static void say(motion *m, sbf_code code, const char *format, ...) {
 /* --- What is the same for all clips ------------------------------------------------------------------- */
 
 /* Cosine of the angle between rest directions from which on two limbs are not the same thing. */
-static const double LEAST_ALIKE = -0.2;
+static const double MIN_ALIKE = -0.2;
 
 static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
   static const double along[3] = {0, 1, 0}, none[4] = {0, 0, 0, 1};
@@ -71,7 +71,7 @@ static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
       sbfi_turn_vector(m->rest[i].rotation, along, here);
       sbfi_turn_vector(source, along, there);
       double dot = here[0] * there[0] + here[1] * there[1] + here[2] * there[2];
-      if (dot > LEAST_ALIKE) sbfi_turn_between(here, there, m->align[i]);
+      if (dot > MIN_ALIKE) sbfi_turn_between(here, there, m->align[i]);
     } else if (match->part == SBFI_PART_HAND && parent != SBF_NONE &&
                m->matches[parent].part == SBFI_PART_LIMB) {
       memcpy(m->align[i], m->align[parent], sizeof none);

@@ -9,7 +9,7 @@
 
 enum {
   SBFI_PACKED_MAJOR = 1, /* the version of which this library knows everything */
-  SBFI_PACKED_MINOR = 1,
+  SBFI_PACKED_MINOR = 2,
   SBFI_PACKED_HEADER_SIZE = 64,
   SBFI_PACKED_ENTRY_SIZE = 64,
   SBFI_PACKED_ALIGN = 64,       /* chunks begin at multiples of it */
@@ -37,7 +37,7 @@ typedef enum sbfi_packed_codec { SBFI_CODEC_NONE, SBFI_CODEC_ZLIB, SBFI_CODEC_CO
 enum { SBFI_CHUNK_CRITICAL = 1, SBFI_CHUNK_SAFE_TO_COPY = 2, SBFI_CHUNK_FLAGS = 3 };
 
 typedef struct sbfi_packed_header {
-  uint16_t major, minor, least_major, least_minor;
+  uint16_t major, minor, min_major, min_minor;
   uint64_t file_size, table_offset, table_size;
   uint32_t chunk_count, table_crc;
 } sbfi_packed_header;

@@ -188,12 +188,12 @@ static sbf_status read_optional(const reading *r, const span *s, const sbfi_fiel
 
 /* Makes room for the children whose count stands next; each takes `least` bytes or more of the record. */
 static sbf_status make_children(
-    const reading *r, span *s, const sbfi_field *field, size_t least, char **children, uint32_t *count) {
+    const reading *r, span *s, const sbfi_field *field, size_t min, char **children, uint32_t *count) {
   *count = 0;
   if (s->end - s->at < 4)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "the count of `%s` is cut short", field->name);
   uint32_t stated = take_u32(s);
-  if (stated > (s->end - s->at) / least)
+  if (stated > (s->end - s->at) / min)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "%u `%s` do not fit into %zu bytes", stated,
         field->name, s->end - s->at);
   if (stated > r->reader->options.limits.list_items)

@@ -72,7 +72,7 @@ static sbf_status lay_out(layout *l, sbf_diagnostic *error) {
   }
   l->header = (sbfi_packed_header){.major = SBFI_PACKED_MAJOR,
       .minor = minor_of(l->stated.version),
-      .least_major = SBFI_PACKED_MAJOR,
+      .min_major = SBFI_PACKED_MAJOR,
       .file_size = offset,
       .table_offset = SBFI_PACKED_HEADER_SIZE,
       .table_size = count * SBFI_PACKED_ENTRY_SIZE,

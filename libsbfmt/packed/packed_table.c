@@ -10,8 +10,8 @@
 enum {
   HEADER_MAJOR = 8,
   HEADER_MINOR = 10,
-  HEADER_LEAST_MAJOR = 12,
-  HEADER_LEAST_MINOR = 14,
+  HEADER_MIN_MAJOR = 12,
+  HEADER_MIN_MINOR = 14,
   HEADER_FILE_SIZE = 16,
   HEADER_TABLE_OFFSET = 24,
   HEADER_TABLE_SIZE = 32,
@@ -53,8 +53,8 @@ void sbfi_packed_header_put(uint8_t *to, const sbfi_packed_header *header) {
   memcpy(to, SBFI_PACKED_MAGIC, 8);
   sbfi_put_u16(to + HEADER_MAJOR, header->major);
   sbfi_put_u16(to + HEADER_MINOR, header->minor);
-  sbfi_put_u16(to + HEADER_LEAST_MAJOR, header->least_major);
-  sbfi_put_u16(to + HEADER_LEAST_MINOR, header->least_minor);
+  sbfi_put_u16(to + HEADER_MIN_MAJOR, header->min_major);
+  sbfi_put_u16(to + HEADER_MIN_MINOR, header->min_minor);
   sbfi_put_u64(to + HEADER_FILE_SIZE, header->file_size);
   sbfi_put_u64(to + HEADER_TABLE_OFFSET, header->table_offset);
   sbfi_put_u64(to + HEADER_TABLE_SIZE, header->table_size);
@@ -67,8 +67,8 @@ static sbfi_packed_header get_header(const uint8_t *from) {
   return (sbfi_packed_header){
       .major = sbfi_get_u16(from + HEADER_MAJOR),
       .minor = sbfi_get_u16(from + HEADER_MINOR),
-      .least_major = sbfi_get_u16(from + HEADER_LEAST_MAJOR),
-      .least_minor = sbfi_get_u16(from + HEADER_LEAST_MINOR),
+      .min_major = sbfi_get_u16(from + HEADER_MIN_MAJOR),
+      .min_minor = sbfi_get_u16(from + HEADER_MIN_MINOR),
       .file_size = sbfi_get_u64(from + HEADER_FILE_SIZE),
       .table_offset = sbfi_get_u64(from + HEADER_TABLE_OFFSET),
       .table_size = sbfi_get_u64(from + HEADER_TABLE_SIZE),
@@ -171,15 +171,15 @@ static sbf_status check_header(
     return fault(error, SBF_CODE_PACKED_CRC, HEADER_CRC,
         "the header does not match its checksum: the file is damaged, copy it again");
   table->header = get_header(bytes);
-  if (h->least_major > SBFI_PACKED_MAJOR ||
-      (h->least_major == SBFI_PACKED_MAJOR && h->least_minor > SBFI_PACKED_MINOR))
-    return fault(error, SBF_CODE_VERSION_TOO_NEW, HEADER_LEAST_MAJOR,
-        "the file needs a reader of version %u.%u, this one is of %d.%d: update the library", h->least_major,
-        h->least_minor, SBFI_PACKED_MAJOR, SBFI_PACKED_MINOR);
-  if (h->major != SBFI_PACKED_MAJOR || h->least_major != SBFI_PACKED_MAJOR || (h->least_minor > h->minor))
+  if (h->min_major > SBFI_PACKED_MAJOR ||
+      (h->min_major == SBFI_PACKED_MAJOR && h->min_minor > SBFI_PACKED_MINOR))
+    return fault(error, SBF_CODE_VERSION_TOO_NEW, HEADER_MIN_MAJOR,
+        "the file needs a reader of version %u.%u, this one is of %d.%d: update the library", h->min_major,
+        h->min_minor, SBFI_PACKED_MAJOR, SBFI_PACKED_MINOR);
+  if (h->major != SBFI_PACKED_MAJOR || h->min_major != SBFI_PACKED_MAJOR || (h->min_minor > h->minor))
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_MAJOR,
         "the header states version %u.%u for readers from %u.%u on, which no writer does", h->major, h->minor,
-        h->least_major, h->least_minor);
+        h->min_major, h->min_minor);
   table->newer = h->minor > SBFI_PACKED_MINOR;
   if (!table->newer && !is_zero(bytes + HEADER_RESERVED, HEADER_CRC - HEADER_RESERVED))
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_RESERVED, "reserved bytes of the header are not zero");

@@ -54,7 +54,7 @@ static uint32_t count_here(sbfi_validation *v, sbf_code code, const char *path) 
   }
   for (uint32_t i = 0; i < v->tally_count; i++)
     if (v->tallies[i].code == code) return ++v->tallies[i].count;
-  if (v->tally_count == SBFI_MOST_TALLIES) sbfi_leave_place(v);
+  if (v->tally_count == SBFI_MAX_TALLIES) sbfi_leave_place(v);
   v->tallies[v->tally_count++] = (sbfi_tally){code, 1};
   return 1;
 }

@@ -12,7 +12,7 @@ typedef struct sbfi_tally {
   uint32_t count;
 } sbfi_tally;
 
-enum { SBFI_MOST_TALLIES = 16 };
+enum { SBFI_MAX_TALLIES = 16 };
 
 typedef struct sbfi_validation {
   const sbf_asset *asset;
@@ -21,7 +21,7 @@ typedef struct sbfi_validation {
   sbfi_arena scratch; /* emptied after each family of rules */
   uint32_t repeats;
   char place[256]; /* what `tallies` are about */
-  sbfi_tally tallies[SBFI_MOST_TALLIES];
+  sbfi_tally tallies[SBFI_MAX_TALLIES];
   uint32_t tally_count;
   bool out_of_memory;
 } sbfi_validation;

@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 
-enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256, MOST_ATTRIBUTES = 256 };
+enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256, MAX_ATTRIBUTES = 256 };
 
 /* Where the bytes read so far end, as far as tags go. */
 typedef struct tag_counter {
@@ -93,7 +93,7 @@ static bool count_attributes(tag_counter *tags, const char *text, size_t size) {
       tags->state = OUTSIDE;
     else if (c == '"' || c == '\'') {
       tags->quote = c;
-      if (++tags->values > MOST_ATTRIBUTES) return false;
+      if (++tags->values > MAX_ATTRIBUTES) return false;
     }
   }
   return true;
@@ -110,7 +110,7 @@ static int read_some(void *user, char *to, int room) {
   }
   if (!count_attributes(&p->tags, to, size)) {
     p->status = sbfi_diagnose(
-        p->error, SBF_CODE_XML_SYNTAX, "an element has more than %d attributes", MOST_ATTRIBUTES);
+        p->error, SBF_CODE_XML_SYNTAX, "an element has more than %d attributes", MAX_ATTRIBUTES);
     if (p->error) p->error->line = line_of(p);
     p->stopped = true;
     return -1;

@@ -3,10 +3,10 @@
 
 #include "api/api.h"
 #include "base/diagnostic.h"
+#include "body_contact/body_contacts.h"
 #include "collide/ground.h"
 #include "detail/rungs.h"
 #include "math/usable.h"
-#include "meet/meetings.h"
 #include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
@@ -20,7 +20,7 @@ sbr_character_definition sbr_default_character_definition(void) {
 static bool reserve_work(sbr_world *world, size_t more) {
   size_t needed = more;
   for (uint32_t i = 0; i < world->character_capacity; i++)
-    needed += world->characters[i].model ? world->characters[i].model->base->most_islands : 0;
+    needed += world->characters[i].model ? world->characters[i].model->base->max_islands : 0;
   if (needed <= world->work_capacity) return true;
   sbri_work *grown = world->allocator.reallocate(
       world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
@@ -50,16 +50,16 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
 }
 
 /* Beyond, numbers of single precision do not last: a tick of the least is 17 s of one of scale 1. */
-static const float LEAST_SCALE = 1e-6f, MOST_SCALE = 1e6f;
+static const float MIN_SCALE = 1e-6f, MAX_SCALE = 1e6f;
 
 static sbf_status check_definition(const sbr_character_definition *definition, sbf_diagnostic *error) {
   if (definition->cookie != CHARACTER_COOKIE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: begin the definition with sbr_default_character_definition");
-  if (!(definition->scale >= LEAST_SCALE && definition->scale <= MOST_SCALE))
+  if (!(definition->scale >= MIN_SCALE && definition->scale <= MAX_SCALE))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: scale is %g: give one from %g to %g", (double)definition->scale,
-        (double)LEAST_SCALE, (double)MOST_SCALE);
+        (double)MIN_SCALE, (double)MAX_SCALE);
   const double where[4] = {
       definition->position.x, definition->position.y, definition->position.z, (double)definition->heading};
   if (!sbri_usable(where, 4))
@@ -97,7 +97,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   sbri_room room;
   if (!sbri_room_make(&world->allocator, model->rungs[rung], &room))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
-  if (!reserve_work(world, model->most_islands) || !sbri_meetings_reserve(world, model)) {
+  if (!reserve_work(world, model->max_islands) || !sbri_body_contacts_reserve(world, model)) {
     sbri_room_free(&world->allocator, &room);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   }
@@ -109,7 +109,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .ground = definition->ground.height ? definition->ground : world->ground,
       .spare = room};
   sbri_room_swap(c);
-  if (!sbri_meet_surfaces_make(world, index)) {
+  if (!sbri_contact_surfaces_create(world, index)) {
     sbri_room_free(&world->allocator, &room);
     c->model = NULL;
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
@@ -126,8 +126,8 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
-  sbri_meet_surfaces_free(world, (uint32_t)(c - world->characters));
-  sbri_meet_forget(world, (uint32_t)(c - world->characters));
+  sbri_contact_surfaces_free(world, (uint32_t)(c - world->characters));
+  sbri_touching_pairs_remove(world, (uint32_t)(c - world->characters));
   sbri_rigid_work_free(&world->allocator, c);
   sbri_room_free(&world->allocator, &(sbri_room){c->model, c->state, c->scratch});
   sbri_room_free(&world->allocator, &c->spare);
@@ -146,6 +146,14 @@ void sbr_character_drive(
   sbri_head(c)->forward = forward;
   sbri_head(c)->sideways = sideways;
   sbri_head(c)->turn = turn;
+}
+
+void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id character, float up) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  if (!sbri_record(world, SBRI_RECORDED_VERTICAL, (const double[]){character.value, (double)up})) return;
+  sbri_character_wake(c);
+  sbri_head(c)->up = up;
 }
 
 void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused) {
@@ -183,7 +191,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_character_wake(c);
   sbri_gait_placement(sbri_gait(c), &place, &heading);
   sbr_double3 origin = sbri_head(c)->origin;
-  sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
+  sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = sbri_head(c)->up = 0;
   memset(sbri_loads(c), 0, SBR_LOAD_CAPACITY * sizeof(sbri_load));
   put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
   sbri_rigid_place(c, false);

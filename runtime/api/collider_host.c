@@ -127,7 +127,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
     c->leader = (definition->part_of.value & 0xffff) - 1;
   else if (definition->mass > 0)
     c->body = (sbri_host_body){.ease = 1 / definition->mass,
-        .turn_eases = {inverse(definition->inertia.x), inverse(definition->inertia.y),
+        .inverse_inertias = {inverse(definition->inertia.x), inverse(definition->inertia.y),
             inverse(definition->inertia.z)},
         .axes = sbri_quat_normalize(definition->inertia_axes),
         .centre = definition->centre};

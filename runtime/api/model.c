@@ -7,16 +7,16 @@
 #include "world/state.h"
 
 /* Substeps of rigid parts in a control tick. */
-enum { MOST_RIGID_SUBSTEPS = 1000 };
+enum { MAX_RIGID_SUBSTEPS = 1000 };
 
 static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic *error) {
   if (options->struct_size != 0 && options->struct_size != sizeof *options)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
         sizeof *options);
-  if (options->rigid_substeps > MOST_RIGID_SUBSTEPS)
+  if (options->rigid_substeps > MAX_RIGID_SUBSTEPS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_options: rigid_substeps is %u, at most %d",
-        (unsigned)options->rigid_substeps, (int)MOST_RIGID_SUBSTEPS);
+        (unsigned)options->rigid_substeps, (int)MAX_RIGID_SUBSTEPS);
   const double numbers[4] = {(double)options->gravity.x, (double)options->gravity.y,
       (double)options->gravity.z, (double)options->step_error_m};
   if (!sbri_usable(numbers, options->has_gravity ? 3 : 0) || !sbri_usable(numbers + 3, 1))
@@ -76,12 +76,12 @@ static uint32_t substeps_at_rest(const sbri_island *island) {
 }
 
 uint32_t sbr_model_substeps(const sbr_model *model) {
-  uint32_t most = 1;
+  uint32_t max = 1;
   for (uint32_t i = 0; model && i < model->island_count; i++) {
     uint32_t substeps = substeps_at_rest(&model->islands[i]);
-    most = substeps > most ? substeps : most;
+    max = substeps > max ? substeps : max;
   }
-  return most;
+  return max;
 }
 
 uint32_t sbr_model_body_substeps(const sbr_model *model, uint32_t soft_body) {

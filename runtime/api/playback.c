@@ -109,6 +109,9 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   case SBRI_RECORDED_DRIVE:
     sbr_character_drive(r->world, id, (float)n[1], (float)n[2], (float)n[3]);
     break;
+  case SBRI_RECORDED_VERTICAL:
+    sbr_character_set_vertical_speed(r->world, id, (float)n[1]);
+    break;
   case SBRI_RECORDED_TELEPORT:
     sbr_character_teleport(r->world, id, (sbr_double3){n[1], n[2], n[3]}, (float)n[4]);
     break;
@@ -150,11 +153,11 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
 
 /* The next whole record: its size, 0 where there is none or (`bad`) it is not one. */
 static size_t read(
-    const sbr_replay *r, size_t size, uint32_t *what, double numbers[SBRI_RECORDED_MOST], bool *bad) {
+    const sbr_replay *r, size_t size, uint32_t *what, double numbers[SBRI_RECORDED_MAX], bool *bad) {
   const unsigned char *from = r->bytes + r->at;
   size_t left = size - r->at;
   *bad = false;
-  memset(numbers, 0, SBRI_RECORDED_MOST * sizeof *numbers);
+  memset(numbers, 0, SBRI_RECORDED_MAX * sizeof *numbers);
   if (left < SBRI_RECORDED_HEAD_BYTES) return 0;
   *what = u32_at(from);
   uint32_t count = u32_at(from + 4);
@@ -173,7 +176,7 @@ static bool steps(uint32_t what) {
 
 /* Plays hashes that come next. */
 static void play_hashes(sbr_replay *r) {
-  double numbers[SBRI_RECORDED_MOST];
+  double numbers[SBRI_RECORDED_MAX];
   uint32_t what;
   bool bad;
   for (size_t size; (size = read(r, r->size, &what, numbers, &bad)) > 0 && what == SBRI_RECORDED_HASH;
@@ -186,7 +189,7 @@ sbf_status sbr_replay_begin(
   if (!replay || !world || !bytes)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_replay_begin: NULL argument");
   sbr_replay r = {.world = world, .bytes = bytes, .at = SBRI_RECORDING_MAGIC_BYTES};
-  double numbers[SBRI_RECORDED_MOST];
+  double numbers[SBRI_RECORDED_MAX];
   uint32_t what = 0;
   bool bad = false;
   *replay = (sbr_replay){.world = world, .bytes = bytes};
@@ -208,7 +211,7 @@ sbf_status sbr_replay_begin(
 }
 
 bool sbr_replay_frame(sbr_replay *r) {
-  double numbers[SBRI_RECORDED_MOST];
+  double numbers[SBRI_RECORDED_MAX];
   uint32_t what = 0;
   bool bad;
   for (size_t size; r && (size = read(r, r->size, &what, numbers, &bad)) > 0;) {

@@ -4,7 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "base/hash64.h"
-#include "meet/meetings.h"
+#include "body_contact/body_contacts.h"
 #include "pose/frames.h"
 
 typedef struct snapshot_head {
@@ -22,10 +22,10 @@ static const uint64_t MAGIC = 0x31706e7372627321; /* "!sbrsnp1" */
 
 size_t sbr_world_snapshot_size(const sbr_world *world) {
   size_t size = sizeof(snapshot_head);
-  if (world) size += sbri_meet_memory_size(world);
+  if (world) size += sbri_contact_cache_size(world);
   for (uint32_t i = 0; world && i < world->character_capacity; i++)
     if (world->characters[i].model)
-      size += sizeof(snapshot_part) + world->characters[i].model->base->most_state_size;
+      size += sizeof(snapshot_part) + world->characters[i].model->base->max_state_size;
   return world ? size : 0;
 }
 
@@ -49,8 +49,8 @@ sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t s
     memcpy(to + sizeof part, c->state, part.size);
     to += sizeof part + part.size;
   }
-  sbri_meet_memory_save(world, to);
-  to += sbri_meet_memory_size(world);
+  sbri_contact_cache_save(world, to);
+  to += sbri_contact_cache_size(world);
   memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* what other rungs would need */
   return SBF_OK;
 }
@@ -89,7 +89,7 @@ static bool fits(sbr_world *world, const unsigned char *bytes, size_t size) {
     sbri_room_free(&world->allocator, &c->spare);
     if (!sbri_room_make(&world->allocator, model, &c->spare)) return false;
   }
-  return sbri_meet_memory_size(world) <= (size_t)(end - bytes);
+  return sbri_contact_cache_size(world) <= (size_t)(end - bytes);
 }
 
 sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size) {
@@ -110,10 +110,10 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
     if (model_of(c, &part, from, part.size) != c->model) sbri_room_swap(c);
     memcpy(c->state, from, part.size);
     from += part.size;
-    sbri_meet_surfaces_choose(world, i);
+    sbri_contact_surfaces_select_level(world, i);
     sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   }
-  sbri_meet_memory_restore(world, from);
+  sbri_contact_cache_restore(world, from);
   return SBF_OK;
 }
 
@@ -157,16 +157,16 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
         (l->used_size - l->solids) / sizeof(uint32_t));
     if (c->model->base->rung_count > 1) hash_rung(&hash, c);
   }
-  for (uint32_t i = 0; world->meetings && i < world->meetings->memory_count; i++) {
-    const sbri_meet_memory *m = &world->meetings->memories[i];
-    sbfi_hash64_u64(&hash, m->names, 2);
+  for (uint32_t i = 0; world->body_contacts && i < world->body_contacts->cached_count; i++) {
+    const sbri_cached_contact *m = &world->body_contacts->cached[i];
+    sbfi_hash64_u64(&hash, m->body_ids, 2);
     sbfi_hash64_u32(&hash, &m->feature, 1);
-    sbfi_hash64_f32(&hash, &m->at.x, 3);
-    sbfi_hash64_f32(&hash, &m->force, 1);
-    sbfi_hash64_f32(&hash, &m->rub.x, 3);
-    sbfi_hash64_f32(&hash, &m->slid.x, 3);
-    sbfi_hash64_f32(&hash, &m->pull, 1);
-    if (sbri_dot(m->through, m->through) > 0) sbfi_hash64_f32(&hash, &m->through.x, 3);
+    sbfi_hash64_f32(&hash, &m->local_point.x, 3);
+    sbfi_hash64_f32(&hash, &m->normal_force, 1);
+    sbfi_hash64_f32(&hash, &m->friction_force.x, 3);
+    sbfi_hash64_f32(&hash, &m->tangent_slip.x, 3);
+    sbfi_hash64_f32(&hash, &m->external_acceleration, 1);
+    if (sbri_dot(m->common_exit, m->common_exit) > 0) sbfi_hash64_f32(&hash, &m->common_exit.x, 3);
   }
   return sbfi_hash64_value(&hash);
 }

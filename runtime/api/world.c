@@ -4,17 +4,17 @@
 
 #include "api/api.h"
 #include "base/diagnostic.h"
+#include "body_contact/body_contacts.h"
 #include "detail/choose.h"
 #include "math/usable.h"
-#include "meet/meetings.h"
 #include "step/step.h"
 
 enum {
   WORLD_COOKIE = 0x5b72776f,
   DEFAULT_CAPACITY = 16,
   DEFAULT_COLLIDERS = 64,
-  MOST_CHARACTERS = 65534,
-  MOST_COLLIDERS = 65534
+  MAX_CHARACTERS = 65534,
+  MAX_COLLIDERS = 65534
 };
 /* No frame is longer. */
 static const double LONGEST_S = 3600;
@@ -45,12 +45,12 @@ sbf_status sbr_world_create(
   double longest = definition->longest_frame_s != 0 ? definition->longest_frame_s : 0.25;
   uint32_t capacity = definition->character_capacity ? definition->character_capacity : DEFAULT_CAPACITY;
   uint32_t colliders = definition->collider_capacity ? definition->collider_capacity : DEFAULT_COLLIDERS;
-  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= LONGEST_S) || capacity > MOST_CHARACTERS ||
-      colliders > MOST_COLLIDERS)
+  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= LONGEST_S) || capacity > MAX_CHARACTERS ||
+      colliders > MAX_COLLIDERS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u or %u "
         "(to %d)",
-        tick, longest, capacity, colliders, (int)MOST_CHARACTERS);
+        tick, longest, capacity, colliders, (int)MAX_CHARACTERS);
   const double gravity[3] = {
       (double)definition->gravity.x, (double)definition->gravity.y, (double)definition->gravity.z};
   if ((definition->has_gravity && !sbri_usable(gravity, 3)) || !sbri_usable(&definition->sleep_after_s, 1))
@@ -94,7 +94,7 @@ void sbr_world_destroy(sbr_world *world) {
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
   sbri_collider_set_free(&world->colliders, &allocator);
-  sbri_meetings_free(world);
+  sbri_body_contacts_free(world);
   sbri_detail_free(world);
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);

@@ -14,16 +14,15 @@ static inline sbri_box sbri_box_of_point(sbf_vec3 x) {
   return (sbri_box){x, x};
 }
 /* Comparisons, which are an instruction each where fminf is a call. */
-static inline float sbri_least(float a, float b) {
+static inline float sbri_min(float a, float b) {
   return b < a ? b : a;
 }
-static inline float sbri_most(float a, float b) {
+static inline float sbri_max(float a, float b) {
   return b > a ? b : a;
 }
 static inline sbri_box sbri_box_join(sbri_box a, sbri_box b) {
-  return (sbri_box){
-      {sbri_least(a.low.x, b.low.x), sbri_least(a.low.y, b.low.y), sbri_least(a.low.z, b.low.z)},
-      {sbri_most(a.high.x, b.high.x), sbri_most(a.high.y, b.high.y), sbri_most(a.high.z, b.high.z)}};
+  return (sbri_box){{sbri_min(a.low.x, b.low.x), sbri_min(a.low.y, b.low.y), sbri_min(a.low.z, b.low.z)},
+      {sbri_max(a.high.x, b.high.x), sbri_max(a.high.y, b.high.y), sbri_max(a.high.z, b.high.z)}};
 }
 static inline sbri_box sbri_box_with(sbri_box a, sbf_vec3 x) {
   return sbri_box_join(a, sbri_box_of_point(x));

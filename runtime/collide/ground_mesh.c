@@ -54,9 +54,9 @@ static void find_grid(sbr_ground_mesh *m, uint32_t point_count, uint32_t triangl
   extent e = nothing;
   for (uint32_t i = 0; i < point_count; i++) take_in(&e, m->points[i]);
   double wide = (double)e.high_x - e.low_x, deep = (double)e.high_z - e.low_z;
-  double least = 1e-3 * (wide + deep) + 1e-6, cell = sqrt(wide * deep / triangle_count);
+  double min = 1e-3 * (wide + deep) + 1e-6, cell = sqrt(wide * deep / triangle_count);
   m->x = e.low_x, m->z = e.low_z;
-  m->cell_m = cell > least ? cell : least;
+  m->cell_m = cell > min ? cell : min;
   m->columns = (uint32_t)(wide / m->cell_m) + 1;
   m->rows = (uint32_t)(deep / m->cell_m) + 1;
 }

@@ -6,13 +6,13 @@
 #include "collide/touching.h"
 
 typedef struct sbri_host_body {
-  float ease;              /* 1/kg; 0: nothing moves it */
-  sbf_vec3 turn_eases;     /* 1/(kg m^2), about its principal axes */
-  sbf_quat axes;           /* from these to the shape's */
-  sbf_vec3 centre;         /* of its mass, in the shape's frame */
-  bool goes;               /* the host has told its motion: it goes on by that */
-  bool told;               /* since the last tick */
-  sbf_vec3 velocity, spin; /* m/s of the collider's place, and rad/s: as told, or gone on from that */
+  float ease;                /* 1/kg; 0: nothing moves it */
+  sbf_vec3 inverse_inertias; /* 1/(kg m^2), about its principal axes */
+  sbf_quat axes;             /* from these to the shape's */
+  sbf_vec3 centre;           /* of its mass, in the shape's frame */
+  bool goes;                 /* the host has told its motion: it goes on by that */
+  bool told;                 /* since the last tick */
+  sbf_vec3 velocity, spin;   /* m/s of the collider's place, and rad/s: as told, or gone on from that */
   sbf_vec3 told_velocity, acceleration; /* m/s and m/s^2 */
   sbf_vec3 held_along;                  /* unit, along which something else holds it; or zeros */
   sbf_vec3 handed;                      /* N s that the host has taken since it told */
@@ -23,11 +23,11 @@ typedef struct sbri_host_body {
 } sbri_host_body;
 
 /* Of a body; those beyond them are taken for something that nothing moves. */
-enum { SBRI_GUESTS = SBRI_TOUCHING };
+enum { SBRI_EXTERNAL_BODIES = SBRI_TOUCHING };
 
-/* As a body that touches it sees it through a tick (collide/guest.h), in the character's own lengths and
- * times. */
-typedef struct sbri_guest {
+/* As a body that touches it sees it through a tick (collide/external_body.h), in the character's own lengths
+ * and times. */
+typedef struct sbri_external_body {
   uint32_t leader;                     /* number of the collider with the mass */
   sbf_vec3 centre;                     /* of its mass, at the tick's beginning */
   sbf_vec3 begin_velocity, begin_spin; /* m/s and rad/s as of the present substep's beginning */
@@ -35,13 +35,13 @@ typedef struct sbri_guest {
   sbf_vec3 seen_velocity, seen_spin;   /* by which it goes in the substep */
   float elapsed_s, lever;              /* of the tick; how much more a push moves it than its velocity */
   sbf_vec3 acceleration, turning;      /* m/s^2 and rad/s^2, of all but this body's pushes */
-  float ease[6], turn_ease[6];         /* 1/kg and 1/(kg m^2): xx, yy, zz, xy, xz, yz */
-  float most_ease, most_turn_ease;     /* along and about any axis */
-} sbri_guest;
+  float ease[6], inverse_inertia[6];   /* 1/kg and 1/(kg m^2): xx, yy, zz, xy, xz, yz */
+  float max_inverse_mass, max_inverse_inertia; /* along and about any axis */
+} sbri_external_body;
 
-typedef struct sbri_guests {
+typedef struct sbri_external_bodies {
   uint32_t count;
-  sbri_guest at[SBRI_GUESTS];
-} sbri_guests;
+  sbri_external_body at[SBRI_EXTERNAL_BODIES];
+} sbri_external_bodies;
 
 #endif

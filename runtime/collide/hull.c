@@ -109,25 +109,25 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
 /* ---- Asking ---- */
 
 float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face) {
-  float most = -INFINITY;
+  float max = -INFINITY;
   *face = 0;
   for (uint32_t f = 0; f < hull->face_count; f++) {
     float height = sbri_dot(hull->faces[f].normal, x) - hull->faces[f].offset;
-    if (height > most) most = height, *face = f;
+    if (height > max) max = height, *face = f;
   }
-  return most;
+  return max;
 }
 
 static sbf_vec3 nearest_on_face(const sbri_hull *hull, const sbri_hull_face *face, sbf_vec3 x) {
   const uint32_t *c = hull->corners + face->first;
   sbf_vec3 best = hull->vertices[c[0]];
-  float least = INFINITY;
+  float min = INFINITY;
   for (uint32_t i = 2; i < face->count; i++) {
     sbf_vec3 a = hull->vertices[c[0]], b = hull->vertices[c[i - 1]], d = hull->vertices[c[i]];
     float weights[3];
     sbri_triangle_nearest(x, a, b, d, weights);
     sbf_vec3 place = sbri_triangle_place(weights, a, b, d), off = sbri_sub(x, place);
-    if (sbri_dot(off, off) < least) least = sbri_dot(off, off), best = place;
+    if (sbri_dot(off, off) < min) min = sbri_dot(off, off), best = place;
   }
   return best;
 }
@@ -138,26 +138,26 @@ float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_
   *normal = hull->faces[deepest].normal;
   *place = sbri_add_scaled(x, *normal, -depth);
   if (depth <= 0) return depth;
-  float least = INFINITY, on_it = ON_IT_SHARE * sbri_length(sbri_sub(x, hull->middle));
+  float min = INFINITY, on_it = ON_IT_SHARE * sbri_length(sbri_sub(x, hull->middle));
   for (uint32_t f = 0; f < hull->face_count; f++) {
     const sbri_hull_face *face = &hull->faces[f];
     float height = sbri_dot(face->normal, x) - face->offset;
-    if (height < 0 || height * height >= least) continue;
+    if (height < 0 || height * height >= min) continue;
     sbf_vec3 on = nearest_on_face(hull, face, x), off = sbri_sub(x, on);
     float square = sbri_dot(off, off);
-    if (square >= least) continue;
-    least = square, *place = on;
+    if (square >= min) continue;
+    min = square, *place = on;
     *normal = square > on_it * on_it ? sbri_normalize(off, face->normal) : face->normal;
   }
-  return sqrtf(least);
+  return sqrtf(min);
 }
 
 uint32_t sbri_hull_support(const sbri_hull *hull, sbf_vec3 along) {
   uint32_t best = 0;
-  float most = sbri_dot(along, hull->vertices[0]);
+  float max = sbri_dot(along, hull->vertices[0]);
   for (uint32_t i = 1; i < hull->vertex_count; i++) {
     float reach = sbri_dot(along, hull->vertices[i]);
-    if (reach > most) most = reach, best = i;
+    if (reach > max) max = reach, best = i;
   }
   return best;
 }

@@ -7,7 +7,7 @@
  * faces meet in more places. */
 static const float EDGE_SHARE = 0.05f, EDGE_M = 1e-5f;
 
-enum { MOST_CORNERS = 32 };
+enum { MAX_CORNERS = 32 };
 
 /* ---- Axes ---- */
 
@@ -87,7 +87,7 @@ static axis axis_of_edges(const sbri_placed_hull *a, const sbri_hull_edge *e, co
 }
 
 static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, axis *best) {
-  float least = best->gap + EDGE_SHARE * (reach > 0 ? reach : 0) + EDGE_M;
+  float min = best->gap + EDGE_SHARE * (reach > 0 ? reach : 0) + EDGE_M;
   sbf_vec3 middle = out_of(a, a->hull->middle);
   sbf_quat turn = sbri_quat_multiply(sbri_quat_conjugate(b->turn), a->turn);
   for (uint32_t i = 0; i < a->hull->edge_count; i++) {
@@ -101,8 +101,8 @@ static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, floa
         continue;
       axis found = axis_of_edges(a, e, b, g, middle);
       if (found.gap > reach) return false;
-      if (found.gap <= least) continue;
-      least = found.gap;
+      if (found.gap <= min) continue;
+      min = found.gap;
       *best = found;
     }
   }
@@ -116,7 +116,7 @@ void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, floa
   if (at < SBRI_PAIR_POINTS) {
     pair->count++;
   } else { /* instead of one of them, if that spans more: not of the deepest */
-    float most = 0;
+    float max = 0;
     at = UINT32_MAX;
     for (uint32_t out = 0; out < SBRI_PAIR_POINTS; out++) {
       float now = INFINITY, then = INFINITY;
@@ -126,7 +126,7 @@ void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, floa
         now = fminf(now, sbri_dot(a, a)), then = fminf(then, sbri_dot(b, b));
       }
       float gain = then - now;
-      if ((out != 0 || gap < pair->gaps[0]) && gain > most) most = gain, at = out;
+      if ((out != 0 || gap < pair->gaps[0]) && gain > max) max = gain, at = out;
     }
     if (at == UINT32_MAX && gap < pair->gaps[0]) at = 0;
     if (at == UINT32_MAX) return;
@@ -141,13 +141,13 @@ void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, floa
 
 /* Corners in turn, with their places along two directions. */
 typedef struct outline {
-  sbf_vec3 at[MOST_CORNERS];
-  float u[MOST_CORNERS], v[MOST_CORNERS];
+  sbf_vec3 at[MAX_CORNERS];
+  float u[MAX_CORNERS], v[MAX_CORNERS];
   uint32_t count;
 } outline;
 
 static void add_corner(outline *o, sbf_vec3 x, float u, float v) {
-  if (o->count == MOST_CORNERS) return;
+  if (o->count == MAX_CORNERS) return;
   o->at[o->count] = x, o->u[o->count] = u, o->v[o->count] = v;
   o->count++;
 }
@@ -159,7 +159,7 @@ static float turn_at(const outline *o, uint32_t a, uint32_t b, uint32_t c) {
 /* The outline of places, counter-clockwise (A. M. Andrew, Another efficient algorithm for convex hulls in two
  * dimensions, 1979). */
 static void make_outline(const outline *all, outline *to) {
-  uint32_t order[MOST_CORNERS], chain[2 * MOST_CORNERS], n = all->count, count = 0;
+  uint32_t order[MAX_CORNERS], chain[2 * MAX_CORNERS], n = all->count, count = 0;
   for (uint32_t i = 0; i < n; i++) {
     uint32_t k = i;
     for (; k > 0; k--) {
@@ -205,13 +205,13 @@ static void cut(const outline *from, float u0, float v0, float u1, float v1, flo
 }
 
 /* Vertices whose height over the plane n . x = offset is no more than `most`. */
-static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float most, sbf_vec3 side,
+static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float max, sbf_vec3 side,
     sbf_vec3 other_side, outline *to) {
   sbf_vec3 own = into(h, n);
-  float least = offset - sbri_dot(n, h->at);
+  float min = offset - sbri_dot(n, h->at);
   to->count = 0;
   for (uint32_t i = 0; i < h->hull->vertex_count; i++) {
-    if (h->scale * sbri_dot(own, h->hull->vertices[i]) - least > most) continue;
+    if (h->scale * sbri_dot(own, h->hull->vertices[i]) - min > max) continue;
     sbf_vec3 x = out_of(h, h->hull->vertices[i]);
     add_corner(to, x, sbri_dot(side, x), sbri_dot(other_side, x));
   }
@@ -221,12 +221,12 @@ static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float mo
 static void gather_face(
     const sbri_placed_hull *h, sbf_vec3 n, sbf_vec3 side, sbf_vec3 other_side, outline *to) {
   sbf_vec3 own = into(h, n);
-  const sbri_hull_face *most = &h->hull->faces[0];
+  const sbri_hull_face *max = &h->hull->faces[0];
   for (uint32_t f = 1; f < h->hull->face_count; f++)
-    if (sbri_dot(own, h->hull->faces[f].normal) < sbri_dot(own, most->normal)) most = &h->hull->faces[f];
+    if (sbri_dot(own, h->hull->faces[f].normal) < sbri_dot(own, max->normal)) max = &h->hull->faces[f];
   to->count = 0;
-  for (uint32_t i = 0; i < most->count; i++) {
-    sbf_vec3 x = out_of(h, h->hull->vertices[h->hull->corners[most->first + i]]);
+  for (uint32_t i = 0; i < max->count; i++) {
+    sbf_vec3 x = out_of(h, h->hull->vertices[h->hull->corners[max->first + i]]);
     add_corner(to, x, sbri_dot(side, x), sbri_dot(other_side, x));
   }
 }

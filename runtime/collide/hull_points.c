@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { MOST_SIDES = 2 * SBRI_HULL_VERTICES - 4 };
+enum { MAX_SIDES = 2 * SBRI_HULL_VERTICES - 4 };
 static const uint32_t NONE = UINT32_MAX;
 static const double STEPS = 1 << 20; /* products of three of them, summed, are below 2^63 */
 
@@ -46,7 +46,7 @@ typedef struct growing {
   double *height_of; /* of each place over its side, in steps */
   uint32_t *side_of; /* one that each lies outside of; NONE: it is inside, or on the hull */
   uint32_t count, side_count;
-  side sides[MOST_SIDES], seen[MOST_SIDES]; /* of the hull; and from the point that comes next */
+  side sides[MAX_SIDES], seen[MAX_SIDES]; /* of the hull; and from the point that comes next */
 } growing;
 
 static side make_side(const place *places, uint32_t a, uint32_t b, uint32_t c) {
@@ -74,10 +74,10 @@ static void look(growing *g, uint32_t point, uint32_t first) {
 static uint32_t furthest(
     const growing *g, double (*measure)(const place *, const uint32_t *, uint32_t), const uint32_t *from) {
   uint32_t best = NONE;
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < g->count; i++) {
     double now = measure(g->places, from, i);
-    if (now > most) most = now, best = i;
+    if (now > max) max = now, best = i;
   }
   return best;
 }
@@ -133,7 +133,7 @@ static void join(growing *g, uint32_t point, uint32_t seen_count) {
 }
 
 static void add(growing *g, uint32_t point) {
-  uint32_t new_of[MOST_SIDES], seen_count = 0, kept = 0;
+  uint32_t new_of[MAX_SIDES], seen_count = 0, kept = 0;
   for (uint32_t i = 0; i < g->side_count; i++) {
     side s = g->sides[i];
     bool seen = over(g->places, &s, point) > 0;
@@ -152,9 +152,9 @@ static void add(growing *g, uint32_t point) {
 static void grow(growing *g) {
   for (uint32_t vertices = 4; vertices < SBRI_HULL_VERTICES; vertices++) {
     uint32_t next = NONE;
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < g->count; i++)
-      if (g->side_of[i] != NONE && g->height_of[i] > most) most = g->height_of[i], next = i;
+      if (g->side_of[i] != NONE && g->height_of[i] > max) max = g->height_of[i], next = i;
     if (next == NONE) return;
     add(g, next);
   }
@@ -164,19 +164,19 @@ static void grow(growing *g) {
 
 /* A step is a power of two, so that what is rounded to one is a float again. */
 static double count_steps(growing *g, const sbf_vec3 *points, place *low) {
-  double least[3] = {INFINITY, INFINITY, INFINITY}, extent = 0, step = 1;
+  double min[3] = {INFINITY, INFINITY, INFINITY}, extent = 0, step = 1;
   for (int k = 0; k < 3; k++) {
-    double most = -INFINITY;
+    double max = -INFINITY;
     for (uint32_t i = 0; i < g->count; i++) {
       double x = (double)(k == 0 ? points[i].x : k == 1 ? points[i].y : points[i].z);
-      least[k] = x < least[k] ? x : least[k], most = x > most ? x : most;
+      min[k] = x < min[k] ? x : min[k], max = x > max ? x : max;
     }
-    extent = fmax(extent, most - least[k]);
+    extent = fmax(extent, max - min[k]);
   }
   if (!(extent > 0)) return 0;
   while (extent > (STEPS - 1) * step) step *= 2;
   while (extent <= (STEPS - 1) * step / 2) step /= 2;
-  *low = (place){rounded(least[0] / step), rounded(least[1] / step), rounded(least[2] / step)};
+  *low = (place){rounded(min[0] / step), rounded(min[1] / step), rounded(min[2] / step)};
   for (uint32_t i = 0; i < g->count; i++) {
     place at = {rounded((double)points[i].x / step), rounded((double)points[i].y / step),
         rounded((double)points[i].z / step)};

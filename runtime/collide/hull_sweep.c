@@ -7,7 +7,7 @@
 
 #include "math/vec3.h"
 
-enum { MOST_STEPS = 256 };
+enum { MAX_STEPS = 256 };
 
 sbri_placed_hull sbri_hull_on_way(const sbri_placed_hull *from, const sbri_placed_hull *to, float share) {
   sbri_placed_hull at = *from;
@@ -33,7 +33,7 @@ float sbri_hulls_sweep(const sbri_placed_hull from[2], const sbri_placed_hull to
   sbf_vec3 ways[2] = {sbri_sub(to[0].at, from[0].at), sbri_sub(to[1].at, from[1].at)};
   float way = sbri_length(sbri_sub(ways[0], ways[1])) + turning(&from[0], &to[0]) + turning(&from[1], &to[1]);
   float share = 0;
-  for (int step = 0; step < MOST_STEPS && share <= 1; step++) {
+  for (int step = 0; step < MAX_STEPS && share <= 1; step++) {
     sbri_placed_hull a = sbri_hull_on_way(&from[0], &to[0], share),
                      b = sbri_hull_on_way(&from[1], &to[1], share);
     sbri_hull_pair pair = {.gap = INFINITY};

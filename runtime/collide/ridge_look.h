@@ -48,7 +48,7 @@ static inline bool sbri_ridges_face(
 
 /* m that the edge would have to go to be out by the nearer one of the ridge's faces. */
 static inline float sbri_ridge_depth(const sbri_soft_ridge *r, const sbri_soft_edge *edge) {
-  float least = INFINITY;
+  float min = INFINITY;
   sbf_vec3 along = sbri_sub(r->edge.at[1], r->edge.at[0]);
   for (int k = 0; k < 2; k++) {
     sbf_vec3 off = sbri_sub(r->wings[k], r->edge.at[0]);
@@ -57,9 +57,9 @@ static inline float sbri_ridge_depth(const sbri_soft_ridge *r, const sbri_soft_e
     float one = sbri_dot(out, sbri_sub(r->edge.at[0], edge->at[0])),
           other = sbri_dot(out, sbri_sub(r->edge.at[0], edge->at[1]));
     float depth = one > other ? one : other;
-    least = depth < least ? depth : least;
+    min = depth < min ? depth : min;
   }
-  return least;
+  return min;
 }
 
 /* Whether they touch within the tick, come as near as `outer`, or are past each other by no more than
@@ -70,8 +70,8 @@ static inline bool sbri_ridges_look(
   if (!sbri_edges_cross(&p->edge, &q->edge, to) || !sbri_ridges_face(p, q, to)) return false;
   if (to->distance < -inner || !sbri_edges_touch(&p->edge, &q->edge, outer, to)) return false;
   if (to->distance >= -SBRI_RIDGE_ON_IT_M) return true;
-  float most = SBRI_RIDGE_NEARER * fminf(sbri_ridge_depth(p, &q->edge), sbri_ridge_depth(q, &p->edge));
-  return -to->distance <= most;
+  float max = SBRI_RIDGE_NEARER * fminf(sbri_ridge_depth(p, &q->edge), sbri_ridge_depth(q, &p->edge));
+  return -to->distance <= max;
 }
 
 #endif

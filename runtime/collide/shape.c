@@ -43,7 +43,7 @@ static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
 static bool near_triangles(
     const sbri_triangles *t, sbf_vec3 x, float reach, float depth, sbri_nearest *found) {
   sbri_bounds_walk walk;
-  float limit = reach > depth ? reach : depth, least = limit * limit, facing = -1;
+  float limit = reach > depth ? reach : depth, min = limit * limit, facing = -1;
   bool any = false;
   uint32_t i;
   sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_grown(sbri_box_of_point(x), limit));
@@ -55,9 +55,9 @@ static bool near_triangles(
     sbf_vec3 on = sbri_triangle_place(weights, a, b, d), off = sbri_sub(x, on),
              n = sbri_triangle_normal(a, b, d);
     float square = sbri_dot(off, off), height = sbri_dot(off, n);
-    if (square > least * (1 + 1e-5f) || sbri_dot(n, n) == 0) continue;
-    if (square >= least * (1 - 1e-5f) && any && !(fabsf(height) > facing)) continue;
-    least = square < least ? square : least;
+    if (square > min * (1 + 1e-5f) || sbri_dot(n, n) == 0) continue;
+    if (square >= min * (1 - 1e-5f) && any && !(fabsf(height) > facing)) continue;
+    min = square < min ? square : min;
     facing = fabsf(height), any = true;
     float distance = sqrtf(square);
     bool inside = height < 0;

@@ -32,13 +32,13 @@ static uint32_t ridges_of_hull(const sbri_hull *hull, sbri_shape_ridge *to) {
 }
 
 static float thickness_of(const sbri_hull *hull) {
-  float least = INFINITY;
+  float min = INFINITY;
   for (uint32_t f = 0; f < hull->face_count; f++) {
     const sbri_hull_face *face = &hull->faces[f];
     sbf_vec3 far = hull->vertices[sbri_hull_support(hull, sbri_scale(face->normal, -1))];
-    least = fminf(least, face->offset - sbri_dot(face->normal, far));
+    min = fminf(min, face->offset - sbri_dot(face->normal, far));
   }
-  return least;
+  return min;
 }
 
 static uint32_t ridges_of_mesh(const sbri_triangles *t, const uint32_t *sides, sbri_shape_ridge *to) {
@@ -70,11 +70,11 @@ static bool make_tree(sbr_shape *s, sbfi_arena *scratch) {
 static bool make(sbr_shape *s, sbfi_arena *scratch) {
   const sbri_triangles *t = &s->triangles;
   bool is_mesh = s->kind == SBR_SHAPE_MESH;
-  size_t most = is_mesh ? 3 * (size_t)t->count : s->hull.edge_count;
-  sbri_shape_ridge *all = sbfi_arena_allocate(scratch, most + 1, sizeof *all);
+  size_t max = is_mesh ? 3 * (size_t)t->count : s->hull.edge_count;
+  sbri_shape_ridge *all = sbfi_arena_allocate(scratch, max + 1, sizeof *all);
   if (!all) return false;
   if (is_mesh) {
-    uint32_t *sides = sbfi_arena_allocate(scratch, most + 1, sizeof *sides);
+    uint32_t *sides = sbfi_arena_allocate(scratch, max + 1, sizeof *sides);
     uint32_t *table = sbfi_arena_allocate(scratch, sbri_sides_table(t->count), sizeof *table);
     if (!sides || !table) return false;
     sbri_sides_find(t->corners, t->count, sides, table);

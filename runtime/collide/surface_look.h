@@ -48,8 +48,8 @@ static inline bool sbri_surface_found(const sbri_surface_finding *f) {
 
 /* Whether what goes so against a face is too far off to touch it within the tick, or to lie inside. */
 static inline bool sbri_surface_is_far(const sbri_surface_rule *rule, sbf_vec3 off, sbf_vec3 way) {
-  float square = sbri_dot(off, off), most = rule->outer + 2 * (fabsf(way.x) + fabsf(way.y) + fabsf(way.z));
-  return square > 1.0001f * most * most && (rule->two_sided || square > rule->inner * rule->inner);
+  float square = sbri_dot(off, off), max = rule->outer + 2 * (fabsf(way.x) + fabsf(way.y) + fabsf(way.z));
+  return square > 1.0001f * max * max && (rule->two_sided || square > rule->inner * rule->inner);
 }
 
 static inline void sbri_surface_look(const sbri_surface_rule *rule, sbf_vec3 x, sbf_vec3 own_way,

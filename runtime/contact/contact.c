@@ -1,12 +1,16 @@
 #include "contact/contact.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "collide/external_body.h"
 #include "collide/ground.h"
-#include "collide/guest.h"
 #include "contact/carried.h"
 #include "contact/self_touch.h"
 #include "contact/shape_touch.h"
+
+/* Of a body's size. */
+static const float MIN_MARGIN_SHARE = 5e-4f;
 
 /* Range of a body's points and their greatest speed. */
 typedef struct extent {
@@ -36,12 +40,14 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   return e;
 }
 
-/* Of all that may carry a sample. No mean with weights below 0 of so much lies further out than as many times
- * the range. */
+/* Of all that may carry a sample, held points on their way included. No mean with weights below 0 of so much
+ * lies further out than as many times the range. */
 static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
   extent e = extent_of(t, body);
-  for (uint32_t slot = t->island->free_count; body->held && slot < t->island->slot_count; slot++)
+  for (uint32_t slot = t->island->free_count; body->held && slot < t->island->slot_count; slot++) {
+    e.speed = fmaxf(e.speed, sbri_length(sbri_carried_velocity(t, slot)));
     extend(&e, &t->positions[slot]);
+  }
   for (int k = 0; k < 3; k++) {
     float beyond = body->sample_beyond * (e.high[k] - e.low[k]);
     e.low[k] -= beyond, e.high[k] += beyond;
@@ -93,30 +99,55 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
   }
 }
 
+/* m by which a sample may come nearer to the ground in a tick than by twice its present way: by weight, and
+ * by springs and bones that make it as fast as the fastest of the body, and more. */
+static float margin_of(const sbri_island_tick *t, const sbri_body *body, float fastest) {
+  float faster = 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
+  return t->tick_s * faster + MIN_MARGIN_SHARE * body->rest_size_m;
+}
+
+static void prepare_sample(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s,
+    float margin, const sbri_contact_tables *to) {
+  uint32_t *count = &to->touch_counts[body - t->model->bodies];
+  if (!(s->mass_kg > 0)) return;
+  sbf_vec3 x = sbri_sample_place(t, s), n;
+  float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
+  float approach = -sbri_dot(n, sbri_sample_velocity(t, s));
+  if (sbri_dot(n, x) - offset > (approach > 0 ? approach : 0) * 2 * t->tick_s + margin) return;
+  to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = *s,
+      .normal = n,
+      .offset = offset,
+      .friction_share = 1,
+      .restitution = body->restitution,
+      .collider = SBRI_NO_COLLIDER};
+}
+
+/* No sample of the group is lower. */
+static float lowest_of(const sbri_island_tick *t, const sbri_sample_group *group) {
+  float low = t->positions[group->slots[0]].y, high = low;
+  for (int k = 1; k < 4; k++) {
+    float y = t->positions[group->slots[k]].y;
+    low = y < low ? y : low, high = y > high ? y : high;
+  }
+  return low - group->beyond * (high - low);
+}
+
 /* Those whose way within the tick may end on the ground. */
 static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->touch_counts[body - t->model->bodies];
   memset(to->near_ground + first, 0, body->slot_end / SBRI_BLOCK - first);
   *count = 0;
   extent e = extent_of_samples(t, body);
-  float least = SBRI_MOTION_SHARE * body->rest_size_m, way = 2 * t->tick_s;
-  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * way + least);
+  float margin = margin_of(t, body, e.speed);
+  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * 2 * t->tick_s + margin);
   if (e.low[1] > reach) return;
-  for (uint32_t i = 0; i < body->sample_count; i++) {
-    sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
-    sbf_vec3 x = sbri_sample_place(t, &s), n;
-    if (x.y > reach || !(s.mass_kg > 0)) continue;
-    sbf_vec3 v = sbri_sample_velocity(t, &s);
-    float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
-    float speed = sbri_length(v) > e.speed ? sbri_length(v) : e.speed;
-    if (sbri_dot(n, x) - offset > speed * way + least) continue;
-    to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
-        .normal = n,
-        .offset = offset,
-        .friction_share = 1,
-        .restitution = body->restitution,
-        .collider = SBRI_NO_COLLIDER,
-        .fast_m_s = 2 * speed};
+  for (uint32_t g = 0; g < body->sample_group_count; g++) {
+    const sbri_sample_group *group = &body->sample_groups[g];
+    if (!t->island->splits && lowest_of(t, group) > reach) continue;
+    for (uint32_t i = group->first; i < group->end; i++) {
+      sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
+      prepare_sample(t, body, &s, margin, to);
+    }
   }
 }
 
@@ -156,8 +187,8 @@ static void find_alone(const sbri_island_tick *t, const sbri_body *body, const s
     }
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *s = &touches[i].sample;
-    touches[i].alone = !touches[i].guest && s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 &&
-                       s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
+    touches[i].alone = !touches[i].external_body && s->weights[0] == 1 && s->weights[1] == 0 &&
+                       s->weights[2] == 0 && s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
                        tables->slot_touches[s->slots[0]] == 1;
   }
 }
@@ -171,7 +202,7 @@ void sbri_contact_prepare(
   else
     prepare_points(t, body, tables);
   uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
-  tables->guests->count = 0;
+  tables->external_bodies->count = 0;
   sbri_shape_touches_add(t, body, tables);
   if (body->self_face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};

@@ -22,8 +22,8 @@ typedef struct sbri_contact_tables {
   float *planes;
   sbri_touch *touches;
   uint32_t *touch_counts;
-  struct sbri_guests *guests;          /* of the body */
-  const struct sbri_touching *touched; /* by the body in the tick before */
+  struct sbri_external_bodies *external_bodies; /* of the body */
+  const struct sbri_touching *touched;          /* by the body in the tick before */
   uint8_t *slot_touches;       /* (slots) scratch: how many touches move each point, as two where more */
   const sbri_skin *surface;    /* of the body, as it is carried now */
   struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */
@@ -77,8 +77,8 @@ static inline sbri_wide3 sbri_contact_gain(
   sbri_wide speed = sbri_planes_along(p, v), one = sbri_wide_all(1);
   sbri_wide3 n = p->normal, s = {v.x - n.x * speed, v.y - n.y * speed, v.z - n.z * speed};
   sbri_wide sideways = sbri_wide_sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-  sbri_wide most = friction * gain;
-  sbri_wide share = sbri_wide_min(most / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
+  sbri_wide max = friction * gain;
+  sbri_wide share = sbri_wide_min(max / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
   return (sbri_wide3){
       v.x + n.x * gain - s.x * share, v.y + n.y * gain - s.y * share, v.z + n.z * gain - s.z * share};
 }
@@ -125,8 +125,8 @@ static inline void sbri_contact_move(
 static inline void sbri_contact_bound(const sbri_contact_planes *p, sbri_wide3 from, sbri_wide3 *to,
     sbri_wide3 *v, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
-  sbri_wide least = sbri_wide_min(sbri_planes_gap(p, from), zero);
-  sbri_wide lift = sbri_wide_max(least - sbri_planes_gap(p, *to), zero);
+  sbri_wide min = sbri_wide_min(sbri_planes_gap(p, from), zero);
+  sbri_wide lift = sbri_wide_max(min - sbri_planes_gap(p, *to), zero);
   sbri_wide3 bounded = sbri_contact_gain(p, *v, lift / h, sbri_contact_friction(rule, slot));
   to->x = to->x + h * (bounded.x - v->x);
   to->y = to->y + h * (bounded.y - v->y);

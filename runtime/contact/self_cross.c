@@ -70,11 +70,10 @@ static bool are_one(const side *s, const uint32_t *c) {
 /* A touch has four points: of the triangle's corners that which has the least share gives it to the others.
  */
 static sbri_sample sample_of(const side *s, float share, const uint32_t *c, const float weights[3]) {
-  int least = weights[1] < weights[0] ? 1 : 0;
-  if (weights[2] < weights[least]) least = 2;
-  int i = (least + 1) % 3, k = (least + 2) % 3;
-  const float half = 0.5f * weights[least],
-              on[4] = {1 - share, share, -weights[i] - half, -weights[k] - half};
+  int min = weights[1] < weights[0] ? 1 : 0;
+  if (weights[2] < weights[min]) min = 2;
+  int i = (min + 1) % 3, k = (min + 2) % 3;
+  const float half = 0.5f * weights[min], on[4] = {1 - share, share, -weights[i] - half, -weights[k] - half};
   const uint32_t slots[4] = {s->ends[0], s->ends[1], c[i], c[k]};
   return sbri_self_sample(s->looking->tick->island, slots, on);
 }
@@ -99,7 +98,7 @@ static void cross(const side *s, uint32_t number) {
   l->tables->touches[l->body->first_touch + (*count)++] = (sbri_touch){.sample = sample,
       .normal = n,
       .offset = sbri_dot(n, sbri_sample_place(l->tick, &sample)),
-      .velocity = sbri_scale(n, OUT_M_S * sbri_least(crooked / CROOKED, 1)),
+      .velocity = sbri_scale(n, OUT_M_S * sbri_min(crooked / CROOKED, 1)),
       .collider = SBRI_ITSELF,
       .crosses = true};
 }

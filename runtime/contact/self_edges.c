@@ -65,9 +65,9 @@ static void meet(const sbri_self_looking *l, const edge *p, const edge *q) {
   const uint32_t slots[4] = {p->ends[0], p->ends[1], q->ends[0], q->ends[1]};
   const float *to = found.shares, weights[4] = {1 - to[0], to[0], to[1] - 1, -to[1]};
   sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
-  float most = l->body->source->collision.outer_thickness, now = found.distance;
+  float max = l->body->source->collision.outer_thickness, now = found.distance;
   sbri_self_add(l, &s, found.normal, rest_distance(l, p, q),
-      now < most ? now + COMES_OUT_SHARE * (most - now) : most, true);
+      now < max ? now + COMES_OUT_SHARE * (max - now) : max, true);
 }
 
 /* With those that come after it. */

@@ -65,5 +65,6 @@ void sbri_self_touch_follow(const sbri_island_tick *t, sbri_touch *touch) {
   if (!(s.mass_kg > 0)) return;
   touch->sample = s;
   touch->normal = sbri_scale(off, (along < 0 ? -1 : 1) / distance);
-  touch->rub = sbri_add_scaled(touch->rub, touch->normal, -sbri_dot(touch->rub, touch->normal));
+  touch->friction_impulse = sbri_add_scaled(
+      touch->friction_impulse, touch->normal, -sbri_dot(touch->friction_impulse, touch->normal));
 }

@@ -56,12 +56,12 @@ static inline sbri_sample sbri_self_sample(
   return s;
 }
 
-/* One more touch, if there is room, of what is `rest_m` apart at rest, and is to keep as much as `most_m`. */
+/* One more touch, if there is room, of what is `rest_m` apart at rest, and is to keep as much as `max_m`. */
 static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *s, sbf_vec3 normal,
-    float rest_m, float most_m, bool edges) {
+    float rest_m, float max_m, bool edges) {
   const sbri_body *body = l->body;
   uint32_t *count = &l->tables->touch_counts[body - l->tick->model->bodies];
-  float thickness = most_m;
+  float thickness = max_m;
   if (*count >= body->touch_capacity || rest_m < SBRI_SELF_TOGETHER_M || !(s->mass_kg > 0)) return;
   if (SBRI_SELF_REST_SHARE * rest_m < thickness) thickness = SBRI_SELF_REST_SHARE * rest_m;
   l->tables->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = *s,

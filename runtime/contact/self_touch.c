@@ -25,12 +25,12 @@ static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
   for (int k = 0; k < 3; k++) {
     sbf_vec3 way = sbri_self_way(l->tick, c[k]);
     p[k] = sbri_self_place(l->tick->positions, c[k]);
-    ways = sbri_most(ways, sbri_dot(way, way));
+    ways = sbri_max(ways, sbri_dot(way, way));
   }
   ball.middle = sbri_scale(sbri_add(sbri_add(p[0], p[1]), p[2]), 1.0f / 3);
   for (int k = 0; k < 3; k++) {
     sbf_vec3 off = sbri_sub(p[k], ball.middle);
-    square = sbri_most(square, sbri_dot(off, off));
+    square = sbri_max(square, sbri_dot(off, off));
   }
   ball.radius = sqrtf(square), ball.way = sqrtf(ways);
   return ball;
@@ -60,7 +60,7 @@ static place place_of(const sbri_self_looking *l, uint32_t slot) {
       .way = sbri_self_way(l->tick, slot),
       .box = sbri_self_swept(l->tick, slot, l->rule.outer)};
   float near = l->rule.outer + 2 * sbri_length(p.way);
-  p.reach = l->rule.two_sided ? near : sbri_most(near, l->rule.inner);
+  p.reach = l->rule.two_sided ? near : sbri_max(near, l->rule.inner);
   return p;
 }
 
@@ -69,8 +69,8 @@ static bool may_meet(const sbri_self_looking *l, const place *p, uint32_t number
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   const sbri_moving_ball *ball = &l->balls[number];
   sbf_vec3 off = sbri_sub(p->x, ball->middle);
-  float most = ball->radius + 2 * ball->way + p->reach;
-  return sbri_dot(off, off) <= 1.0001f * most * most && sbri_box_meets(&p->box, &l->boxes[number]) &&
+  float max = ball->radius + 2 * ball->way + p->reach;
+  return sbri_dot(off, off) <= 1.0001f * max * max && sbri_box_meets(&p->box, &l->boxes[number]) &&
          c[0] != p->slot && c[1] != p->slot && c[2] != p->slot;
 }
 

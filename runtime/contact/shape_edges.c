@@ -12,7 +12,7 @@
 /* So far beyond the normals (a sine) it is between them. */
 static const float BETWEEN = 0.1f;
 /* Weights by which a place may hang on points about another one. */
-static const float LEAST_WEIGHT = -1, MOST_WEIGHT = 2;
+static const float MIN_WEIGHT = -1, MAX_WEIGHT = 2;
 /* Smaller ones are left out. */
 static const float TRIFLE = 1e-5f;
 
@@ -42,10 +42,10 @@ static bool carry_by(const sbri_island_tick *t, const sbri_sample *near, sbf_vec
   to->weights[0] = 1;
   for (int k = 0; k < 3; k++) {
     float w = sbri_dot(off, sbri_cross(e[(k + 1) % 3], e[(k + 2) % 3])) / whole;
-    if (!(w >= LEAST_WEIGHT && w <= MOST_WEIGHT)) return false;
+    if (!(w >= MIN_WEIGHT && w <= MAX_WEIGHT)) return false;
     to->weights[k + 1] = w, to->weights[0] -= w;
   }
-  return to->weights[0] >= LEAST_WEIGHT && to->weights[0] <= MOST_WEIGHT && weigh(t, to);
+  return to->weights[0] >= MIN_WEIGHT && to->weights[0] <= MAX_WEIGHT && weigh(t, to);
 }
 
 static bool sample_between(
@@ -87,20 +87,20 @@ typedef struct looking {
 
 /* m that all of the edge would have to go to be out by the nearer one of the faces. */
 static float depth_by_faces(const sbri_soft_edge *edge, const sbri_shape_ridge *r) {
-  float least = INFINITY;
+  float min = INFINITY;
   for (int k = 0; k < 2; k++) {
     float one = sbri_dot(r->normals[k], sbri_sub(r->at[0], edge->at[0])),
           other = sbri_dot(r->normals[k], sbri_sub(r->at[0], edge->at[1]));
-    least = fminf(least, fmaxf(one, other));
+    min = fminf(min, fmaxf(one, other));
   }
-  return least;
+  return min;
 }
 
 static bool leads_out(const sbri_shape_ridge *r, sbf_vec3 n) {
   sbf_vec3 along = sbri_sub(r->at[1], r->at[0]);
-  float least = -BETWEEN * sbri_length(along);
-  return sbri_dot(sbri_cross(r->normals[0], n), along) >= least &&
-         sbri_dot(sbri_cross(n, r->normals[1]), along) >= least;
+  float min = -BETWEEN * sbri_length(along);
+  return sbri_dot(sbri_cross(r->normals[0], n), along) >= min &&
+         sbri_dot(sbri_cross(n, r->normals[1]), along) >= min;
 }
 
 static void look(const looking *l, const sbri_shape_ridge *r) {

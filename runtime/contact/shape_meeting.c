@@ -1,5 +1,5 @@
 /* A touch of a soft body with a host's shape, however it was found. */
-#include "collide/guest.h"
+#include "collide/external_body.h"
 #include "contact/shape_touch.h"
 
 void sbri_shape_touch_add(const sbri_shape_meeting *m, const sbri_sample *s, sbf_vec3 on_shape, sbf_vec3 n) {
@@ -18,8 +18,9 @@ void sbri_shape_touch_add(const sbri_shape_meeting *m, const sbri_sample *s, sbf
       .friction_share = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
       .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
       .collider = m->number};
-  sbri_guest_maker maker = {
+  sbri_external_body_maker maker = {
       t->colliders, t->origin, t->scale, t->tick_s, m->tables->touched->now, m->tables->touched->count};
-  made->guest = sbri_guest_of(m->tables->guests, &maker, &m->frame, m->number);
-  if (made->guest) made->arm = sbri_sub(place, m->tables->guests->at[made->guest - 1].centre);
+  made->external_body = sbri_external_body_of(m->tables->external_bodies, &maker, &m->frame, m->number);
+  if (made->external_body)
+    made->arm = sbri_sub(place, m->tables->external_bodies->at[made->external_body - 1].centre);
 }

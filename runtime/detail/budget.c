@@ -44,11 +44,11 @@ static void offer(const sbr_world *world, uint32_t index) {
   if (best.to != choice->rung) push(world->detail, best);
 }
 
-double sbri_budget_keep(const sbr_world *world, double visits, double most) {
+double sbri_budget_keep(const sbr_world *world, double visits, double max) {
   sbri_detail *detail = world->detail;
   detail->saving_count = 0;
-  for (uint32_t i = 0; i < detail->choice_count && visits > most; i++) offer(world, i);
-  while (visits > most && detail->saving_count > 0) {
+  for (uint32_t i = 0; i < detail->choice_count && visits > max; i++) offer(world, i);
+  while (visits > max && detail->saving_count > 0) {
     sbri_saving saving = pop(detail);
     sbri_choice *choice = &detail->choices[saving.choice];
     const sbr_rung *ladder = ladder_of(world, choice);

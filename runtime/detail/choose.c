@@ -24,8 +24,8 @@ static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float 
   bool may_coarsen = head->rung_ticks >= sbri_ticks_of(world, detail->is.stay_s);
   for (uint32_t r = 1; r <= last; r++) {
     float error = pixels * base->ladder[r].error_m;
-    float most = r > now ? detail->is.settle * detail->is.error_px : detail->is.error_px;
-    if (error <= most && (r <= now || may_coarsen)) found = r;
+    float max = r > now ? detail->is.settle * detail->is.error_px : detail->is.error_px;
+    if (error <= max && (r <= now || may_coarsen)) found = r;
   }
   return found;
 }
@@ -55,13 +55,13 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
 
 void sbri_detail_choose(sbr_world *world) {
   sbri_detail *detail = world->detail;
-  double visits = 0, most = 1e3 * (double)detail->is.budget_us / (double)detail->is.ns_per_visit;
+  double visits = 0, max = 1e3 * (double)detail->is.budget_us / (double)detail->is.ns_per_visit;
   detail->choice_count = 0;
   for (uint32_t i = 0; i < world->character_capacity; i++)
     if (choose_for(world, i, &detail->choices[detail->choice_count], &visits)) detail->choice_count++;
-  bool is_short = most > 0 && visits > most;
+  bool is_short = max > 0 && visits > max;
   detail->is_short = is_short;
-  if (is_short) visits = sbri_budget_keep(world, visits, most);
+  if (is_short) visits = sbri_budget_keep(world, visits, max);
   for (uint32_t i = 0; i < detail->choice_count; i++) {
     sbri_character *c = &world->characters[detail->choices[i].character];
     sbri_character_state *head = sbri_head(c);

@@ -51,6 +51,6 @@ float sbri_speed_factor(const sbri_character *c);
 
 /* Makes the choices coarser, the least to be seen first, until all cost no more than `most` visits of
  * `visits`; returns what they cost then. */
-double sbri_budget_keep(const sbr_world *world, double visits, double most);
+double sbri_budget_keep(const sbr_world *world, double visits, double max);
 
 #endif

@@ -16,17 +16,17 @@
 
 /* A quarter of a second, or longer where much is to fade: no vertex goes faster for it than so much of the
  * character's size a second, but for one that swings, which ends within so many radians of that. */
-static const float FADES_S = 0.25f, MOST_SIZES_1_S = 0.05f, SWINGS_RAD = 9.4f;
-static const uint32_t MOST_TICKS = 240;
+static const float FADES_S = 0.25f, MAX_SIZES_1_S = 0.05f, SWINGS_RAD = 9.4f;
+static const uint32_t MAX_TICKS = 240;
 
 /* Where it is steepest the share falls so much faster than on average. */
 static const float STEEPEST = 1.875f;
 
 /* What is taken to swing goes no farther than so many times as far as it has been seen. */
-static const float MOST_REACHES = 2;
+static const float MAX_REACHES = 2;
 
 /* How far it turns in a tick, at most: what swings faster than three moments can tell. */
-static const float MOST_TURN_RAD = 1.5f;
+static const float MAX_TURN_RAD = 1.5f;
 
 /* The bones' rung; NULL: there is none. */
 static const sbr_model *bones_of(const sbri_character *c) {
@@ -48,7 +48,7 @@ static sbf_vec3 of_point(const sbri_point *p) {
 
 static float turn_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
   float turn = c->model->base->swing_rad_s[body] * (float)world->tick_s * c->time_scale;
-  return turn < MOST_TURN_RAD ? turn : MOST_TURN_RAD;
+  return turn < MAX_TURN_RAD ? turn : MAX_TURN_RAD;
 }
 
 /* Of a spring that turns by so much in a tick, what a tick's steps change by for each metre from its rest. */
@@ -126,7 +126,7 @@ static float attach(sbri_going *g, float turn) {
   sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->place), sbri_scale(g->was, 2));
   g->still = sbri_add_scaled(g->was, bend, 1 / pull_of(turn));
   sbf_vec3 off = sbri_sub(g->place, g->still), went = sbri_sub(g->place, g->was);
-  float reach = MOST_REACHES * fmaxf(sbri_length(g->place), sbri_length(g->was));
+  float reach = MAX_REACHES * fmaxf(sbri_length(g->place), sbri_length(g->was));
   float swings = sqrtf(sbri_dot(off, off) + sbri_dot(went, went) / (turn * turn));
   if (swings <= reach) return swings;
   float share = swings < 1e6f ? reach / swings : 0;
@@ -144,7 +144,7 @@ static void go_on(sbri_going *g, float pull) {
 
 float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
   bool swings = sbri_head(c)->fade_kept && bones_of(c);
-  float most = 0;
+  float max = 0;
   make_deltas(c);
   for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
     sbri_going *all = sbri_faded(c) + first_vertex(c, m);
@@ -156,10 +156,10 @@ float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
       all[v].place = all[v].was = all[v].still = of_point(&is[v]);
       if (!swings) continue;
       all[v].was = of_point(&was[v]);
-      most = fmaxf(most, attach(&all[v], turn_of(world, c, with[v])));
+      max = fmaxf(max, attach(&all[v], turn_of(world, c, with[v])));
     }
   }
-  return most;
+  return max;
 }
 
 void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
@@ -207,11 +207,11 @@ void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
     slowest = fminf(slowest, turn_of(world, c, b));
   sbri_fade_end(c);
   if (!(off < 1e12f && swings < 1e12f)) return;
-  float most_m_s = MOST_SIZES_1_S * base->rest_size_m;
-  float swings_s = fminf(STEEPEST * sqrtf(swings) / most_m_s, SWINGS_RAD / slowest * tick_s);
-  float seconds = fmaxf(STEEPEST * sqrtf(off) / most_m_s, swings_s);
+  float max_m_s = MAX_SIZES_1_S * base->rest_size_m;
+  float swings_s = fminf(STEEPEST * sqrtf(swings) / max_m_s, SWINGS_RAD / slowest * tick_s);
+  float seconds = fmaxf(STEEPEST * sqrtf(off) / max_m_s, swings_s);
   if (!(seconds > FADES_S)) seconds = FADES_S;
   float ticks = ceilf(seconds / tick_s);
-  head->fades_ticks = head->fade_ticks = ticks < (float)MOST_TICKS ? (uint32_t)ticks : MOST_TICKS;
+  head->fades_ticks = head->fade_ticks = ticks < (float)MAX_TICKS ? (uint32_t)ticks : MAX_TICKS;
   head->fade = head->fade_before = 1;
 }

@@ -6,7 +6,7 @@
 #include "pose/frames.h"
 
 /* Farther than so many sizes of all bodies nothing is shifted: a bone that jumps does not throw them away. */
-static const float MOST_SIZES = 0.25f;
+static const float MAX_SIZES = 0.25f;
 
 static sbf_vec3 middle_of(const sbri_jiggle *jiggle, const sbr_transform *carrier) {
   return sbri_add(carrier->position, sbri_rotate(carrier->rotation, jiggle->middle));
@@ -27,7 +27,7 @@ void sbri_jiggles_place(sbri_character *c) {
 }
 
 void sbri_jiggles_tick(sbri_character *c, float tick_s) {
-  float most = MOST_SIZES * c->model->rest_size_m;
+  float max = MAX_SIZES * c->model->rest_size_m;
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
     sbri_place_follower *follower = &sbri_jiggles(c)[j];
@@ -37,7 +37,7 @@ void sbri_jiggles_tick(sbri_character *c, float tick_s) {
         sbri_follower_step_of(jiggle->frequency_hz, jiggle->damping_ratio, jiggle->response, tick_s);
     sbri_place_follower_tick(follower, middle, &step);
     sbf_vec3 shift = sbri_sub(follower->value, middle);
-    if (!(sbri_dot(shift, shift) <= most * most)) {
+    if (!(sbri_dot(shift, shift) <= max * max)) {
       sbri_place_follower_reset(follower, middle);
       shift = sbri_vec3(0, 0, 0);
     }

@@ -76,7 +76,7 @@ static void take_counts(sbri_character *c, const sbri_character *was) {
     if (!was->model->bodies[body].level) continue;
     const sbri_island_state *from = &sbri_island_states(was)[was->model->bodies[body].island];
     sbri_island_states(c)[i].recoveries = from->recoveries;
-    sbri_island_states(c)[i].recovering = from->recovering;
+    sbri_island_states(c)[i].recovery = from->recovery;
     sbri_island_states(c)[i].passes = from->passes;
     sbri_island_states(c)[i].told_asleep = from->told_asleep;
   }
@@ -124,13 +124,13 @@ static double elastic_of(const sbr_world *world, const sbri_character *c, uint32
 static void shape_within(const sbr_world *world, sbri_character *c, const sbri_character *was, uint32_t index,
     const sbri_sources *sources) {
   const sbri_body *body = &c->model->bodies[index];
-  double most_j = sbri_energies(was)[index];
+  double max_j = sbri_energies(was)[index];
   float share = 1;
   shape(c, was, body, sources, share);
   for (int n = 0; n < ATTEMPTS && body->held; n++) {
     double now = elastic_of(world, c, index);
-    if (!(now > most_j)) return;
-    share *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(most_j / now) : 0;
+    if (!(now > max_j)) return;
+    share *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(max_j / now) : 0;
     shape(c, was, body, sources, share);
   }
 }
@@ -210,7 +210,7 @@ static void go_over(const sbr_world *world, sbri_character *c) {
 /* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
 static const float JUMPS_SHARE = 0.15f;
 /* No longer is one that is to be finer kept from it, s; one that is driven elsewhere again and again. */
-static const float SWINGS_MOST_S = 1, LAGS_MOST_S = 2;
+static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
 
 /* How far a body lags more than it did at the end of this tick, as it is driven elsewhere: nothing that was
  * seen of it before tells so. Asset metres. */
@@ -231,9 +231,8 @@ static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t r
   bool finer = rung < head->rung, swings_on = finer || ladder[rung].kind == SBR_RUNG_SOFT;
   float a_metre = sbri_pixels_of(world, c) * c->scale, lags = a_metre * lags_m(world, c);
   float shows = lags + a_metre * swings_m * (swings_on ? JUMPS_SHARE : 1);
-  float most_s = lags > detail->is.error_px ? LAGS_MOST_S : SWINGS_MOST_S;
-  return shows > detail->is.error_px &&
-         !(finer && (float)head->swing_ticks++ * (float)world->tick_s > most_s);
+  float max_s = lags > detail->is.error_px ? LAGS_MAX_S : SWINGS_MAX_S;
+  return shows > detail->is.error_px && !(finer && (float)head->swing_ticks++ * (float)world->tick_s > max_s);
 }
 
 /* Where it goes, of what it is to be. */

@@ -35,7 +35,7 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
   const sbri_detail *detail = world->detail;
   const sbri_character_state *head = sbri_head(c);
   sbf_vec3 root = sbri_pose(c)[sbri_root_frame(c->model)].position;
-  float radius = radius_of(c), most = 0;
+  float radius = radius_of(c), max = 0;
   float margin = head->unseen_ticks > 0 ? MARGIN : MORE_MARGIN;
   for (uint32_t i = 0; i < detail->eye_count && head->shown != SBR_SHOWN_NEVER; i++) {
     const sbri_eye *eye = &detail->eyes[i];
@@ -48,9 +48,9 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
     bool within = distance <= radius || beyond <= radius + margin * distance;
     if (!within && head->shown != SBR_SHOWN_ALWAYS) continue;
     float near_m = fmaxf(distance - radius, NEAREST_M);
-    most = fmaxf(most, eye->pixels / near_m);
+    max = fmaxf(max, eye->pixels / near_m);
   }
-  return most;
+  return max;
 }
 
 float sbri_speed_factor(const sbri_character *c) {

@@ -1,13 +1,14 @@
 /* The body over its feet: its height and tilt are those of the ground they stand on, it leans over those that
  * bear it, comes down where a leg would not reach, and hips and chest turn with the lines of the feet. */
 #include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
 #include "math/quat.h"
 #include "math/trig.h"
 
 static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers; the
                                                                      crouch's also of the belly's room */
 static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
-static const float MOST_YAW = 0.8f;  /* rad: hips and chest turn less than so */
+static const float MAX_YAW = 0.8f;   /* rad: hips and chest turn less than so */
 static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if no nearer */
 static const float DEEPEST = 0.3f;   /* of a leg's reach: the body comes down by no more for a foot */
 static const float LOWEST = 0.3f;    /* of a leg's reach: no hip comes nearer to the ground than so */
@@ -68,10 +69,10 @@ static float line_yaw(
   sbf_vec3 left, right;
   if (!feet_center(rig, state, on_left, &left) || !feet_center(rig, state, on_right, &right)) return 0;
   sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
-  float least = NARROWEST * rig->reach * scale, more = line.x - least; /* no less, smoothly */
-  float across = least + 0.5f * (more + sqrtf(more * more + 0.25f * least * least));
+  float min = NARROWEST * rig->reach * scale, more = line.x - min; /* no less, smoothly */
+  float across = min + 0.5f * (more + sqrtf(more * more + 0.25f * min * min));
   float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, across);
-  return MOST_YAW * yaw / (MOST_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
+  return MAX_YAW * yaw / (MAX_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
 }
 
 /* Slope, as an angle, between two places `run` apart. */
@@ -88,12 +89,12 @@ static float full_reach(const sbri_leg *leg, float scale) {
 static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 away, float reach) {
   float left = reach * reach - away.x * away.x - away.z * away.z;
-  float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
+  float min = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
   /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
   float lifted = state->feet[leg].hip.y - rig->rest[rig->legs[leg].upper].position.y * input->scale;
-  float drop = away.y - sqrtf(left > least ? left : least);
-  float most = DEEPEST * reach + (lifted > 0 ? lifted : 0);
-  return drop < most ? drop : most;
+  float drop = away.y - sqrtf(left > min ? left : min);
+  float max = DEEPEST * reach + (lifted > 0 ? lifted : 0);
+  return drop < max ? drop : max;
 }
 
 /* The same with a share of its reach. */
@@ -108,7 +109,7 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
 /* How far the body may come down, as it will stand in a moment, before its belly is on the ground. */
 static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root) {
-  float most = rig->reach * input->scale, clear = CLEAR * most;
+  float max = rig->reach * input->scale, clear = CLEAR * max;
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * ROOM_S), fore, hind;
   float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
   if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
@@ -118,19 +119,19 @@ static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const
     sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->belly[k], input->scale));
     at = sbri_add(sbri_add(root->position, at), ahead);
     float room = at.y - sbri_ground_below(input, at, NULL).y - state->position.y - clear;
-    most = room < most ? room : most;
+    max = room < max ? room : max;
   }
-  float least = -RAISED * rig->reach * input->scale;
-  return most > least ? most : least;
+  float min = -RAISED * rig->reach * input->scale;
+  return max > min ? max : min;
 }
 
 /* The same for every leg and where its foot is, for the whole reach; and `spare`, for what is kept in hand.
  */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *spare) {
-  float least = state->room.value < 0 ? state->room.value : 0, most = least; /* it rises for its belly */
+  float min = state->room.value < 0 ? state->room.value : 0, max = min; /* it rises for its belly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CROUCH_S);
-  *spare = least;
+  *spare = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
@@ -141,17 +142,17 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     float drop = drop_for(rig, state, input, i, hip, ankle, 1);
     if (foot->planted) hip = sbri_add(hip, ahead);
     float early = drop_for(rig, state, input, i, hip, ankle, SPARE);
-    most = drop > most ? drop : most;
+    max = drop > max ? drop : max;
     *spare = early > *spare ? early : *spare;
   }
-  return most;
+  return max;
 }
 
 /* From how far it would come down to where no planted knee straightens, or bends, more abruptly than it can:
  * legs that stand upright alone, whose knees turn as the body goes up and down. */
 static float ease_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float down) {
-  float least = -1e6f, most = 1e6f;
+  float min = -1e6f, max = 1e6f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
@@ -163,19 +164,19 @@ static float ease_for_knees(const sbri_rig *rig, const sbri_gait_state *state, c
     if (away.y <= UPRIGHT * sbri_length(away)) continue;
     if (!sbri_knee_range(leg, foot, input, full, &shortest, &longest)) continue;
     float bent = drop_into(rig, state, input, i, away, shortest);
-    float straight = longest < full ? drop_into(rig, state, input, i, away, longest) : least;
-    most = bent < most ? bent : most;
-    least = straight > least ? straight : least;
+    float straight = longest < full ? drop_into(rig, state, input, i, away, longest) : min;
+    max = bent < max ? bent : max;
+    min = straight > min ? straight : min;
   }
-  if (down > most) down = most;
-  return down < least ? least : down;
+  if (down > max) down = max;
+  return down < min ? min : down;
 }
 
 /* The same for where every foot comes down and lifts off in a stride: the wider, the lower the body goes, and
  * stays, so that it need not bob. */
 static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbr_transform *root, const sbri_stride *stride) {
-  float most = 0;
+  float max = 0;
   for (uint32_t i = 0; stride->speed > 0 && i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
@@ -193,9 +194,9 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     float leave = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
     float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = touch > leave ? touch : leave;
     drop = drop < bound ? drop : bound;
-    most = drop > most ? drop : most;
+    max = drop > max ? drop : max;
   }
-  return most;
+  return max;
 }
 
 /* Without the crouch. */
@@ -206,6 +207,7 @@ static sbri_stance stance_over(
   bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &all);
   float raised = state->position.y;
   stance.root.position.y = raised + (on_feet ? all.y : sbri_ground_below(input, state->position, NULL).y);
+  if (!on_feet) stance.root = sbri_motion_root(rig, state, input, stance.root);
   if (!on_feet) return stance;
   stance.root.position.x += state->sway_x.value, stance.root.position.z += state->sway_z.value;
   float pitch = 0, roll = 0, share = rig->gait->body_tilt;

@@ -1,6 +1,7 @@
 /* The pose under the gait: bones against their parents, at rest, from poses keyed by the distance walked,
  * from clips that are played. */
 #include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
 
 static sbf_quat quat_at(const float *v) {
   return sbri_quat_normalize((sbf_quat){v[0], v[1], v[2], v[3]});
@@ -71,13 +72,26 @@ static void play_clip(const sbri_rig *rig, const sbri_clip_layer *layer, sbr_tra
   }
 }
 
+/* The gait's own clips, by its speed. */
+static void play_gait_clips(
+    const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
+  if (!sbri_has_motion(rig)) return;
+  const sbf_gait *gait = rig->gait;
+  const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
+  float moves = sbri_clamp(2 * sbri_motion_speed(rig, state) / (gait->walk_speed * scale), 0, 1);
+  sbri_clip_layer idle = {(uint32_t)gait->idle_clip + 1, 0, m->idle_time, 1, 1 - moves, 0, 0};
+  sbri_clip_layer move = {(uint32_t)gait->move_clip + 1, 0, m->move_time, 1, moves, 0, 0};
+  if (gait->idle_clip != SBF_NONE) play_clip(rig, &idle, locals);
+  if (gait->move_clip != SBF_NONE) play_clip(rig, &move, locals);
+}
+
 void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) {
   for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++) {
     sbri_clip_layer *layer = &state->clips[l];
     if (!layer->clip_plus_1) continue;
     const sbf_clip *clip = &rig->asset->clips.at[layer->clip_plus_1 - 1];
-    float most = layer->fade_s > 0 ? tick_s / layer->fade_s : 1, off = layer->wanted - layer->weight;
-    layer->weight += sbri_clamp(off, -most, most);
+    float max = layer->fade_s > 0 ? tick_s / layer->fade_s : 1, off = layer->wanted - layer->weight;
+    layer->weight += sbri_clamp(off, -max, max);
     layer->time_s += tick_s * layer->speed;
     if (layer->weight <= 0 && layer->wanted <= 0) layer->clip_plus_1 = 0;
     if (!(clip->duration > 0)) continue;
@@ -98,8 +112,9 @@ bool sbri_clips_play(const sbri_gait_state *state) {
 }
 
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
-  for (uint32_t i = 0; i < rig->bone_count; i++) locals[i] = rig->rest_local[i];
+  for (uint32_t i = 0; i < rig->bone_count; i++) locals[i] = rig->base_local[i];
   sbri_walk_pose(rig, state, scale, locals);
+  play_gait_clips(rig, state, scale, locals);
   for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++)
     if (state->clips[l].clip_plus_1 && state->clips[l].weight > 0) play_clip(rig, &state->clips[l], locals);
 }

@@ -56,8 +56,8 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
   sbf_vec3 way = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
   float behind = sbri_dot(away, way), beside = sbri_length(sbri_add_scaled(away, way, -behind));
   float half = stride->speed > 0 ? stride->half_m * home->speed / stride->speed : 0;
-  float least = 0.4f * stride->half_m;
-  if (half < least) half = least;
+  float min = 0.4f * stride->half_m;
+  if (half < min) half = min;
   float late = half - sbri_ahead(&home->roam, way, half); /* it comes down so much short */
   float off = (behind - late) / half, wide = 0.7f * beside / stride->half_m;
   if (behind > 0 && off < DUE) {
@@ -73,8 +73,8 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
 /* What is known of this tick when feet are chosen. */
 typedef struct choice {
   sbri_stride stride;
-  float off[SBRI_MOST_LEGS]; /* of planted feet */
-  uint32_t next;             /* bit of the foot to go next, lifted or not; 0: none */
+  float off[SBRI_MAX_LEGS]; /* of planted feet */
+  uint32_t next;            /* bit of the foot to go next, lifted or not; 0: none */
 } choice;
 
 /* How far the body goes in a time. */
@@ -84,13 +84,13 @@ static sbf_vec3 way_in(const sbri_gait_state *state, float time_s) {
 
 /* Time until the feet in the air are down; that of a step, where none is. */
 static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, float step_s) {
-  float most = 0;
+  float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_foot *foot = &state->feet[i];
     float left = foot->planted ? 0 : (1 - foot->phase) * foot->duration_s;
-    most = left > most ? left : most;
+    max = left > max ? left : max;
   }
-  return most > 0 ? most : step_s;
+  return max > 0 ? max : step_s;
 }
 
 /* The foot that should step now, or -1: the worst placed of those that want to and may. */
@@ -98,7 +98,7 @@ static int32_t choose(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, choice *c, bool *unbalanced) {
   uint32_t groups, in_air = feet_in_air(rig, state, &groups);
   int32_t best = -1, worst = -1;
-  float most = 0;
+  float max = 0;
   float wanted = state->since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
   if (state->standing_s > 0) wanted = SETTLED;
   if (state->standing_s > 0 && state->standing_s < SETTLE_AFTER_S) return -1;
@@ -107,11 +107,11 @@ static int32_t choose(
     uint32_t own = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own;
     float off = state->next == i + 1 ? c->off[i] + KEPT : c->off[i]; /* it has begun to lean for that one */
-    if (worst < 0 || off > most) worst = (int32_t)i, most = off;
+    if (worst < 0 || off > max) worst = (int32_t)i, max = off;
     if (in_air && !companion) continue;
-    float least = companion ? COMPANION : wanted;
-    if (state->standing_s > 0) least = SETTLED;
-    if (c->off[i] < least) continue;
+    float min = companion ? COMPANION : wanted;
+    if (state->standing_s > 0) min = SETTLED;
+    if (c->off[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
     bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
 #include "math/quat.h"
 #include "math/trig.h"
 #include "skeleton/rig_mass.h"
@@ -20,7 +21,7 @@ size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
                 sizeof(sbri_chain_bone) * rig->chain_bone_count +
                 sizeof(sbri_limb_target) * rig->asset->ik_chains.count +
-                sizeof(sbri_bone_follower) * rig->asset->followers.count;
+                sizeof(sbri_bone_follower) * rig->asset->followers.count + sbri_motion_size(rig);
   return (size + 15) & ~(size_t)15;
 }
 
@@ -45,12 +46,14 @@ void sbri_gait_place(
   state->tail_bone_count = rig->tail_bone_count;
   state->pace = state->limit = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
+  sbri_motion_place(rig, state, input);
   sbri_body_stand(rig, state, input);
 }
 
 void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   sbf_vec3 position = state->position;
   float heading = state->heading;
+  if (sbri_is_kind(rig, SBF_GAIT_KIND_SLITHER)) sbri_slither_place(rig, state, input);
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
     for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++) {
@@ -86,9 +89,9 @@ static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float turn = (state->limit * input->turn - state->turn) * ease;
   if (rig->leg_count) { /* of what changes fastest: a foot's home */
     float step_s = rig->gait->step_duration, round = turn * rig->spread * input->scale;
-    float most = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * step_s);
+    float max = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * step_s);
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
-    share = change > most ? most / change : 1;
+    share = change > max ? max / change : 1;
   }
   return (gain){share * ahead, share * aside, share * turn};
 }
@@ -99,7 +102,15 @@ float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_in
   return sqrtf(by.ahead * by.ahead + by.aside * by.aside + round * round);
 }
 
-float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *given) {
+  sbri_gait_input wants = sbri_motion_input(rig, given);
+  const sbri_gait_input *input = &wants;
+  if (sbri_is_afloat(rig)) {
+    sbf_vec3 way;
+    float round = sbri_afloat_move(rig, state, input, &way);
+    sbri_motion_tick(rig, state, input, way);
+    return round;
+  }
   gain by = gain_of(rig, state, input);
   state->forward += by.ahead;
   state->sideways += by.aside;
@@ -112,20 +123,21 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   } else {
     state->standing_s = 0;
   }
-  float lasting = 1, most = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
+  float lasting = 1, max = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
   float balanced =
       1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* room to lean is left to the foot that is to lift off */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
-  float pace = lasting < most ? lasting : most, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
+  float pace = lasting < max ? lasting : max, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
   state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
-  if (state->pace > most) state->pace = most;
-  float h = input->tick_s * state->pace, turned = state->turn * h;
+  if (state->pace > max) state->pace = max;
+  float h = input->tick_s * state->pace * sbri_hop_pace(rig, state, input), turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);
   state->heading = sbri_wrap_angle(state->heading + turned);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->distance_m += (double)sbri_length(step);
   sbri_walk_tick(rig, state, sbri_length(step), input->scale);
+  sbri_motion_tick(rig, state, input, step);
   return turned;
 }
 
@@ -206,6 +218,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   for (uint32_t i = 0; i < rig->asset->ik_chains.count; i++)
     targets[i].position = sbri_sub(targets[i].position, shift);
   sbri_followers_rebase(rig, state, shift);
+  sbri_motion_rebase(rig, state, shift);
 }
 
 uint32_t sbri_gait_legs(

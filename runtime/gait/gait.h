@@ -8,7 +8,7 @@
 #include "skeleton/rig.h"
 
 typedef struct sbri_gait_input {
-  float forward, sideways, turn; /* m/s, m/s, rad/s */
+  float forward, sideways, turn, up; /* m/s, m/s, rad/s, m/s */
   float tick_s;
   float scale;
   bool hold;          /* rest pose, moved rigidly */

@@ -88,7 +88,7 @@ typedef struct sbri_gait_state {
   sbri_body_steps steps;
   uint32_t foot_count, tail_bone_count;
   sbri_clip_layer clips[SBRI_CLIP_LAYERS];
-  sbri_foot feet[SBRI_MOST_LEGS];
+  sbri_foot feet[SBRI_MAX_LEGS];
   /* Behind it: tail_bone_count x {yaw, pitch} as sbri_lag, from the body's heading and the level;
    * chain_bone_count sbri_chain_bone; a sbri_limb_target for each IK chain; a sbri_bone_follower for each
    * follower. */
@@ -187,7 +187,7 @@ typedef struct sbri_stride {
   bool together;     /* feet of a group go together */
   bool balanced;     /* so slow that it goes slower rather than out of balance */
   float widest_m;    /* greatest half_m, on average over a stride */
-  sbri_home homes[SBRI_MOST_LEGS];
+  sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 

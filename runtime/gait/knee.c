@@ -58,9 +58,9 @@ bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait
   float tick = input->tick_s, change = ABRUPT * tick;
   float ends = sbri_knee_angle(leg, input->scale, sbri_leg_span(leg, input->scale, full)),
         left = ends - foot->knee;
-  float most = foot->knee_rate + change, stops = left > 0 ? approach(left, tick) : 0;
-  if (stops < most) most = stops > foot->knee_rate - change ? stops : foot->knee_rate - change;
-  float straight = foot->knee + most * tick, bent = foot->knee + (foot->knee_rate - change) * tick;
+  float max = foot->knee_rate + change, stops = left > 0 ? approach(left, tick) : 0;
+  if (stops < max) max = stops > foot->knee_rate - change ? stops : foot->knee_rate - change;
+  float straight = foot->knee + max * tick, bent = foot->knee + (foot->knee_rate - change) * tick;
   *longest = *shortest = 0;
   if (straight < ends)
     *longest = sbri_leg_upright(leg, input->scale, sbri_knee_distance(leg, input->scale, straight));

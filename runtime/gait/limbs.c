@@ -8,7 +8,7 @@ static const uint32_t LEG_PASSES = 24;
 static uint32_t take_joints(const sbri_rig *rig, int32_t root_bone, int32_t end, const sbr_transform *root,
     const sbr_transform *pose, sbri_ik_joint *joints, uint32_t *bones, sbr_transform *base) {
   uint32_t count = 0;
-  for (int32_t b = end; b >= 0 && count < SBRI_IK_MOST_JOINTS; b = rig->parents[b]) {
+  for (int32_t b = end; b >= 0 && count < SBRI_IK_MAX_JOINTS; b = rig->parents[b]) {
     bones[count++] = (uint32_t)b;
     if (b == root_bone) break;
   }
@@ -33,7 +33,7 @@ static uint32_t take_joints(const sbri_rig *rig, int32_t root_bone, int32_t end,
 /* Puts the joints' answer into the pose, all that hangs on them following. */
 static void give_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const uint32_t *bones, float weight,
     sbr_transform *pose) {
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
   sbri_ik_frames(chain, frames);
   for (uint32_t i = 0; i < chain->count; i++) {
     uint32_t b = bones[i];
@@ -55,8 +55,8 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
   bool breaks = false;
   for (int i = 0; i < 3; i++) breaks = breaks || breaks_limit(rig, own[i], pose);
   if (!breaks) return;
-  sbri_ik_joint joints[SBRI_IK_MOST_JOINTS];
-  uint32_t bones[SBRI_IK_MOST_JOINTS];
+  sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
+  uint32_t bones[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain chain = {.joints = joints,
       .target = ankle,
       .target_rotation = pose[leg->foot].rotation,
@@ -73,7 +73,7 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
     give_joints(rig, &chain, bones, 1, pose);
     return;
   }
-  sbr_transform frames[SBRI_IK_MOST_JOINTS]; /* of three bones; the others are posed after them */
+  sbr_transform frames[SBRI_IK_MAX_JOINTS]; /* of three bones; the others are posed after them */
   sbri_ik_frames(&chain, frames);
   for (uint32_t i = 0; i < chain.count; i++) pose[bones[i]] = frames[i];
 }
@@ -105,8 +105,8 @@ static sbf_vec3 pole_now(const sbri_rig *rig, const sbf_ik_chain *source, const 
 static void reach(const sbri_rig *rig, uint32_t index, const sbri_limb_target *target, float scale,
     const sbr_transform *root, sbr_transform *pose) {
   const sbf_ik_chain *source = &rig->asset->ik_chains.at[index];
-  sbri_ik_joint joints[SBRI_IK_MOST_JOINTS];
-  uint32_t bones[SBRI_IK_MOST_JOINTS];
+  sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
+  uint32_t bones[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain chain = {.joints = joints,
       .target = target->position,
       .target_rotation = target->rotation,
@@ -126,9 +126,9 @@ static void reach(const sbri_rig *rig, uint32_t index, const sbri_limb_target *t
 /* ---- Chains of one root that name `fabrik`, as a tree ---- */
 
 typedef struct limb_tree {
-  sbri_ik_joint joints[SBRI_IK_MOST_JOINTS];
-  uint32_t bones[SBRI_IK_MOST_JOINTS], parents[SBRI_IK_MOST_JOINTS], count;
-  sbri_ik_goal goals[SBRI_IK_MOST_JOINTS];
+  sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
+  uint32_t bones[SBRI_IK_MAX_JOINTS], parents[SBRI_IK_MAX_JOINTS], count;
+  sbri_ik_goal goals[SBRI_IK_MAX_JOINTS];
   uint32_t goal_count;
 } limb_tree;
 
@@ -147,7 +147,7 @@ static bool add_to_tree(
     limb_tree *tree, const sbri_ik_joint *joints, const uint32_t *bones, uint32_t count, sbf_vec3 target) {
   for (uint32_t i = 0; i < count; i++) {
     if (place_in_tree(tree, bones[i]) < tree->count) continue;
-    if (tree->count == SBRI_IK_MOST_JOINTS) return false;
+    if (tree->count == SBRI_IK_MAX_JOINTS) return false;
     tree->parents[tree->count] = i ? place_in_tree(tree, bones[i - 1]) : 0;
     tree->joints[tree->count] = joints[i];
     tree->bones[tree->count++] = bones[i];
@@ -161,8 +161,8 @@ static bool reach_as_tree(const sbri_rig *rig, const sbri_limb_target *targets, 
     const sbr_transform *root, sbr_transform *pose) {
   const sbf_ik_chain *source = &rig->asset->ik_chains.at[first];
   limb_tree tree = {.count = 0};
-  sbri_ik_joint joints[SBRI_IK_MOST_JOINTS];
-  uint32_t bones[SBRI_IK_MOST_JOINTS];
+  sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
+  uint32_t bones[SBRI_IK_MAX_JOINTS];
   sbr_transform base = *root;
   for (uint32_t i = first; i < rig->asset->ik_chains.count; i++) {
     if (!joins_tree(rig, targets, i, source->root)) continue;

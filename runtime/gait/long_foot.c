@@ -13,11 +13,11 @@ static sbf_quat undone(const sbri_rig *rig, int32_t bone, const sbr_transform *p
 
 /* How far ankle and hip are to be apart, `upright` being how far they would be; no more abruptly than the
  * knee can turn: the foot leans by what is left. */
-static float span_for(const sbri_leg *leg, sbri_foot *foot, float upright, float least,
+static float span_for(const sbri_leg *leg, sbri_foot *foot, float upright, float min,
     const sbri_gait_input *input, sbri_advance advance) {
   float scale = input->scale, full = sbri_ease_reach(upright, leg->reach * scale, leg->soft_reach);
   float span = sbri_leg_span(leg, scale, full);
-  if (span < least) span = least;
+  if (span < min) span = min;
   if (advance == SBRI_ADVANCE_TICK) {
     float wanted = sbri_knee_angle(leg, scale, span), angle = sbri_knee_follow(foot, wanted, input->tick_s);
     foot->knee_held = angle != wanted ? angle : 0;
@@ -32,8 +32,8 @@ sbf_vec3 sbri_long_foot_lean(const sbri_leg *leg, sbri_foot *foot, sbf_vec3 hip,
   sbf_vec3 toe = sbri_add(sole, sbri_rotate(foot->turned, sbri_scale(leg->toe_place, scale)));
   sbf_vec3 is = sbri_sub(ankle, toe), to_hip = sbri_sub(hip, toe), away = sbri_sub(ankle, hip);
   float length = sbri_length(is), far = sbri_length(to_hip);
-  float least = sqrtf(far * far + length * length - 2 * ALIGNED * far * length);
-  float span = span_for(leg, foot, sbri_length(away), least, input, advance);
+  float min = sqrtf(far * far + length * length - 2 * ALIGNED * far * length);
+  float span = span_for(leg, foot, sbri_length(away), min, input, advance);
   *leans = foot->turned;
   if (length <= 0 || far <= 0) return ankle;
   float cosine = sbri_clamp((far * far + length * length - span * span) / (2 * far * length), -1, 1);

@@ -1,6 +1,7 @@
 /* The pose: the spine shares the turn of hips and chest, the head leads, tails follow, legs reach for their
  * feet. */
 #include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
 #include "ik/ik.h"
 #include "ik/two_bone.h"
 #include "math/quat.h"
@@ -53,7 +54,7 @@ static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *
 
 /* By more than the gait, which keeps limits itself. */
 static bool is_animated(const sbri_rig *rig, const sbri_gait_state *state) {
-  bool animated = rig->walks.walk_count > 0;
+  bool animated = rig->walks.walk_count > 0 || rig->base_local != rig->rest_local || sbri_has_motion(rig);
   for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
   return animated;
 }
@@ -289,7 +290,7 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
 /* The gait plans for a body that is not moved by its weight, or each would answer the other. */
 static void weigh_down(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *root, sbr_transform *pose) {
-  sbf_vec3 hips[SBRI_MOST_LEGS];
+  sbf_vec3 hips[SBRI_MAX_LEGS];
   bool moved = sbri_weights_pose(rig, state, input, advance, pose);
   if (!rig->leg_count || (!moved && !sbri_clips_play(state))) return;
   for (uint32_t i = 0; moved && i < rig->leg_count; i++) hips[i] = state->feet[i].hip;
@@ -321,6 +322,7 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   }
   sbri_clips_pose(rig, state, input->scale, pose);
   pose_bones(rig, state, &stance, input->scale, pose);
+  sbri_motion_pose(rig, state, input, &stance.root, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
   sbri_squashes_pose(rig, state, input, advance, pose);
   note_hips(rig, state, &stance.root, pose);

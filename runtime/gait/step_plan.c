@@ -10,7 +10,7 @@
 #include "math/trig.h"
 
 static const float CLEAR = 0.35f;       /* of the usual lift: kept above what lies between */
-static const float MOST_OVER = 2.5f;    /* usual lifts over the highest thing on its way */
+static const float MAX_OVER = 2.5f;     /* usual lifts over the highest thing on its way */
 static const float LATEST = 0.3f;       /* of a step's time, in which a foot beside an obstacle only rises */
 static const float SOONEST = 0.6f;      /* the same, in which it makes the height between its places */
 static const float KNEE_STEP = 3.925f;  /* degrees by which a knee's turn in a frame may change in the next */
@@ -59,9 +59,9 @@ static profile look(const sbri_gait_state *state, const sbri_gait_input *input, 
     sbf_vec3 at = sbri_lerp(foot->from, foot->to, share);
     float fore = sbri_ground_below(input, sbri_add_scaled(at, way, half), NULL).y - tilt;
     float hind = sbri_ground_below(input, sbri_add_scaled(at, way, -half), NULL).y + tilt;
-    float most = sbri_ground_below(input, at, NULL).y;
-    most = fore > most ? fore : most;
-    most = hind > most ? hind : most;
+    float max = sbri_ground_below(input, at, NULL).y;
+    max = fore > max ? fore : max;
+    max = hind > max ? hind : max;
     for (int c = 0; c < 4; c++) {
       sbf_vec3 corner = {c & 1 ? sole->left : sole->right, 0, c & 2 ? sole->toe : sole->heel};
       corner =
@@ -69,10 +69,10 @@ static profile look(const sbri_gait_state *state, const sbri_gait_input *input, 
       corner = sbri_headed(state, corner);
       float from = slope_along(foot->from_normal, corner), to = slope_along(foot->to_normal, corner);
       float under = sbri_ground_below(input, sbri_add(at, corner), NULL).y - from - share * (to - from);
-      most = under > most ? under : most;
+      max = under > max ? under : max;
     }
-    p.over[k] = most - at.y;
-    if (most - higher > p.highest) p.highest = most - higher;
+    p.over[k] = max - at.y;
+    if (max - higher > p.highest) p.highest = max - higher;
   }
   return p;
 }
@@ -121,14 +121,14 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
   profile p = look(state, input, foot, &rig->legs[leg].sole);
-  float most = MOST_OVER * (usual + p.highest);
+  float max = MAX_OVER * (usual + p.highest);
   for (int tries = 0; tries < TRIES; tries++) {
     float missing = lack(foot, &p, CLEAR * usual, &when);
     if (missing <= 0) return;
     if (make_room(foot, when)) continue;
     float up = sbri_smooth(when < 0.5f ? 2 * when : 2 - 2 * when);
     foot->clearance += missing / (up > 0.5f ? up : 0.5f);
-    if (foot->clearance > most) foot->clearance = most;
+    if (foot->clearance > max) foot->clearance = max;
   }
 }
 
@@ -138,7 +138,7 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, float duration_s) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
-  float upper = l->upper_length * input->scale, lower = l->lower_length * input->scale, most = 0;
+  float upper = l->upper_length * input->scale, lower = l->lower_length * input->scale, max = 0;
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 drift = sbri_scale(
       sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)), state->pace * duration_s);
@@ -157,9 +157,9 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
     knee[2] = sbri_acos((upper * upper + lower * lower - s * s) / (2 * upper * lower));
     if (k < 0) continue;
     float bend = fabsf(knee[2] - 2 * knee[1] + knee[0]) * unit;
-    most = bend > most ? bend : most;
+    max = bend > max ? bend : max;
   }
-  return most;
+  return max;
 }
 
 float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,

@@ -12,7 +12,7 @@ static const float LEANING = 0.8f;      /* share of the hips' height that a body
 static const float SURE = 1.0f;         /* share of what a foot may roam on average that it may roam always */
 static const float STRIDE_S = 0.5f;     /* over which it is averaged how wide strides may be */
 static const float STRETCH = 0.97f;     /* of the uneased reach */
-static const float LEAST = 0.05f;       /* of a leg's length: a foot may always be so far off */
+static const float MIN = 0.05f;         /* of a leg's length: a foot may always be so far off */
 static const float PEG = 0.25f;         /* the same of a leg of one bone */
 static const float SLACK = 1.15f;       /* time of a turn, in steps */
 static const float LEAN_S = 0.12f;      /* for the body to lean before a foot lifts off */
@@ -43,9 +43,9 @@ static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_
   if (rig->leg_count != 2 || rig->has_pegs || state->together) return x;
   float ahead = state->forward * state->forward, aside = state->sideways * state->sideways;
   float round = state->turn * rig->spread, all = ahead + aside + round * round;
-  float least = BESIDE * rig->legs[leg].sole.left;
-  if (all <= 0 || fabsf(x) <= least) return x;
-  float near = x < 0 ? -least : least;
+  float min = BESIDE * rig->legs[leg].sole.left;
+  if (all <= 0 || fabsf(x) <= min) return x;
+  float near = x < 0 ? -min : min;
   return x + ahead / all * (near - x);
 }
 
@@ -84,13 +84,13 @@ float sbri_wanted_speed(
       .sideways = input->sideways,
       .turn = input->turn};
   sbf_vec3 v = sbri_body_velocity(&wanted);
-  float most = 0;
+  float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbf_vec3 arm = homes[i].arm;
     float speed = sbri_length(sbri_vec3(v.x + input->turn * arm.z, 0, v.z - input->turn * arm.x));
-    most = speed > most ? speed : most;
+    max = speed > max ? speed : max;
   }
-  return most;
+  return max;
 }
 
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -122,9 +122,9 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
   float upright = state->lowered - from.y, level = reach * reach - upright * upright;
   float height = -lowered * from.y; /* the body comes down for its feet */
-  float least = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
-  if (least > lowered * upright) least = lowered * upright;
-  if (height < least) height = least;
+  float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
+  if (min > lowered * upright) min = lowered * upright;
+  if (height < min) height = min;
   if (height < upright - state->room.value)
     height = upright - state->room.value; /* and no farther than its belly */
   if (from.y > 0) height = from.y;
@@ -148,7 +148,7 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
   float radius = circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
   float length = (l->upper_length + l->lower_length) * input->scale, away = sbri_length(roam.off);
   if (l->lower < 0) radius = away + PEG * length;
-  roam.radius = radius < away + LEAST * length ? away + LEAST * length : radius;
+  roam.radius = radius < away + MIN * length ? away + MIN * length : radius;
   return roam;
 }
 
@@ -162,19 +162,19 @@ static span span_of(const sbri_roam *roam, sbf_vec3 way) {
 }
 
 float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half) {
-  span most = span_of(roam, way);
-  float middle = 0.5f * (most.ahead - most.behind), widest = 0.5f * (most.ahead + most.behind);
-  if (half >= widest) return most.ahead;
+  span max = span_of(roam, way);
+  float middle = 0.5f * (max.ahead - max.behind), widest = 0.5f * (max.ahead + max.behind);
+  if (half >= widest) return max.ahead;
   float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide ones are about its hip */
-  if (ahead > most.ahead) return most.ahead;
-  return 2 * half - ahead > most.behind ? 2 * half - most.behind : ahead;
+  if (ahead > max.ahead) return max.ahead;
+  return 2 * half - ahead > max.behind ? 2 * half - max.behind : ahead;
 }
 
 /* Where each leg's home moves and how far about it the foot may be; half of the widest stride that all of
  * them can take, m. */
 static float look_at_homes(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
-  float most = 0;
+  float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_home *home = &s->homes[i];
     home->arm = sbri_home_arm(rig, state, input, i);
@@ -185,17 +185,17 @@ static float look_at_homes(
     sbf_vec3 way = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
     span own = span_of(&home->roam, way);
     float half = 0.5f * (own.ahead + own.behind);
-    most = i == 0 || half < most ? half : most;
+    max = i == 0 || half < max ? half : max;
   }
-  return most;
+  return max;
 }
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
-  float most = look_at_homes(rig, state, input, &s);
-  if (state->widest_m > 0) most = state->widest_m + (most - state->widest_m) * input->tick_s / STRIDE_S;
-  s.widest_m = most;
-  most *= SURE;
+  float max = look_at_homes(rig, state, input, &s);
+  if (state->widest_m > 0) max = state->widest_m + (max - state->widest_m) * input->tick_s / STRIDE_S;
+  s.widest_m = max;
+  max *= SURE;
   float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
@@ -205,27 +205,27 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float lean = rig->leg_count == 2 ? lean_two : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
   s.together =
-      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * most;
+      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * max;
   s.balanced = slow;
   if (slow) s.together = false;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
-  s.available_s = each > 0 ? most / each : 1e6f;
+  s.available_s = each > 0 ? max / each : 1e6f;
   s.duration_s = usual;
   float needed = one_by_one;
   if (slow && !s.together) { /* rather slower than out of balance */
     float others = 0.5f * s.speed * (turns - 1);
-    if (others > 0) s.available_s = most / others - lean;
-    if (needed > most) needed = most;
+    if (others > 0) s.available_s = max / others - lean;
+    if (needed > max) needed = max;
   } else if (s.together ||
-             needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
+             needed > max) { /* as much time as the reach allows: the quicker a step, the harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
     s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
     needed = each * s.duration_s;
-    if (needed > most) needed = most;
+    if (needed > max) needed = max;
   }
   float trigger = rig->gait->step_trigger * input->scale;
-  s.half_m = needed > trigger ? needed : trigger < most ? trigger : most;
+  s.half_m = needed > trigger ? needed : trigger < max ? trigger : max;
   s.spacing_m = (2 * s.half_m + s.speed * s.duration_s) / (s.together ? groups : turns);
   return s;
 }
@@ -252,7 +252,7 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
   off.y = 0;
   float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(off);
   if (l->lower < 0) radius = rest + PEG * length;
-  stance.radius = radius < rest + LEAST * length ? rest + LEAST * length : radius;
+  stance.radius = radius < rest + MIN * length ? rest + MIN * length : radius;
   return stance;
 }
 
@@ -279,7 +279,7 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
 
 float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float in_s) {
-  float least = 1, speed;
+  float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     if (state->together && rig->legs[i].group == rig->legs[leg].group) { /* it goes along, if it is behind */
@@ -288,14 +288,14 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
       if (sbri_dot(behind, sbri_home_velocity(rig, state, i, arm)) > 0) continue;
     }
     float left = left_of(rig, state, input, i, &speed);
-    if (left < least * speed * in_s) least = left / (speed * in_s);
+    if (left < min * speed * in_s) min = left / (speed * in_s);
   }
-  return least;
+  return min;
 }
 
 float sbri_pace_of(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
-  float least = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
+  float min = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
   float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     float left_s = state->feet[i].planted ? 0 : (1 - state->feet[i].phase) * state->feet[i].duration_s;
@@ -307,10 +307,10 @@ float sbri_pace_of(
     float left = left_of(rig, state, input, i, &speed), missed = state->feet[i].missed;
     if (speed <= 0) continue;
     missed /= rig->reach * input->scale;
-    if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
-    float most = sqrtf(2 * brakes * left);
-    if (most < least * speed) least = most / speed;
+    if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;
+    float max = sqrtf(2 * brakes * left);
+    if (max < min * speed) min = max / speed;
     if (left < *lasting * speed * in_air_s) *lasting = left / (speed * in_air_s);
   }
-  return least > 0 ? least : 0;
+  return min > 0 ? min : 0;
 }

@@ -4,10 +4,10 @@
 
 static const float NEEDED = 0.02f; /* of the legs' reach: how far inside before a foot lifts off */
 static const float SOUGHT = 0.05f; /* and where the body leans to */
-static const float MOST = 0.3f;    /* of the reach: farthest that it leans */
+static const float MAX = 0.3f;     /* of the reach: farthest that it leans */
 
 typedef struct polygon {
-  sbf_vec3 at[4 * SBRI_MOST_LEGS + 1];
+  sbf_vec3 at[4 * SBRI_MAX_LEGS + 1];
   uint32_t count;
 } polygon;
 
@@ -17,7 +17,7 @@ static float side(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
 
 /* Convex hull of the planted feet, one way round (Andrew 1979). */
 static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t lifted) {
-  sbf_vec3 points[4 * SBRI_MOST_LEGS];
+  sbf_vec3 points[4 * SBRI_MAX_LEGS];
   uint32_t n = 0;
   for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
     const sbri_foot *foot = &state->feet[i / 4];
@@ -31,14 +31,14 @@ static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float 
       points[k] = points[k - 1];
     points[k] = p;
   }
-  sbf_vec3 ring[8 * SBRI_MOST_LEGS + 2];
+  sbf_vec3 ring[8 * SBRI_MAX_LEGS + 2];
   uint32_t m = 0;
   for (uint32_t i = 0; i < n; i++) {
     while (m >= 2 && side(ring[m - 2], ring[m - 1], points[i]) <= 0) m--;
     ring[m++] = points[i];
   }
-  for (uint32_t i = n > 1 ? n - 1 : 0, least = m + 1; i-- > 0;) {
-    while (m >= least && side(ring[m - 2], ring[m - 1], points[i]) <= 0) m--;
+  for (uint32_t i = n > 1 ? n - 1 : 0, min = m + 1; i-- > 0;) {
+    while (m >= min && side(ring[m - 2], ring[m - 1], points[i]) <= 0) m--;
     ring[m++] = points[i];
   }
   polygon p = {.count = m > 1 ? m - 1 : m};
@@ -100,7 +100,7 @@ static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway
 
 /* The worse of the margins where the centre is and where it will be, `way` further; with it the way to more.
  */
-static float least_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_vec3 *inwards) {
+static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_vec3 *inwards) {
   sbf_vec3 then;
   float now = margin_of(hull, at, inwards), later = margin_of(hull, sbri_add(at, way), &then);
   if (later < now) *inwards = then;
@@ -126,13 +126,13 @@ sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, co
   float size = rig->reach * input->scale, sought = SOUGHT * size;
   for (int pass = 0; pass < 6; pass++) {
     sbf_vec3 inwards, at = center_at(state, sway.x, sway.z);
-    float missing = sought - least_margin(&hull, at, way, &inwards);
+    float missing = sought - min_margin(&hull, at, way, &inwards);
     if (missing <= 1e-5f * size) break;
     sbf_vec3 to_middle = sbri_vec3(middle.x - at.x, 0, middle.z - at.z);
     float away = sbri_length(to_middle); /* a small polygon has no place so far inside */
     sway = missing >= away ? sbri_add(sway, to_middle) : sbri_add_scaled(sway, inwards, missing);
     if (missing >= away) break;
   }
-  float length = sbri_length(sway), most = MOST * size;
-  return length > most ? sbri_scale(sway, most / length) : sway;
+  float length = sbri_length(sway), max = MAX * size;
+  return length > max ? sbri_scale(sway, max / length) : sway;
 }

@@ -29,9 +29,9 @@ static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, 
   if (state->standing_s > 0 || stride->speed <= 0) return home;
   sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
-  float ahead = sbri_ahead(&at->roam, way, half), most = WIDEST * rig->reach * input->scale;
+  float ahead = sbri_ahead(&at->roam, way, half), max = WIDEST * rig->reach * input->scale;
   float before = sbri_dot(sbri_sub(home, state->feet[leg].from), way); /* of the step */
-  if (before + ahead > most) ahead = most > before ? most - before : 0;
+  if (before + ahead > max) ahead = max > before ? max - before : 0;
   return sbri_add_scaled(home, way, ahead);
 }
 
@@ -74,9 +74,9 @@ static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
   float share = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->needed_s += share * (needed_s - state->needed_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
-        most = stride->available_s * stride->speed;
-  float at_most = most / (SPARE_TIME * state->needed_s); /* m/s */
-  state->limit = wanted > at_most ? at_most / wanted : 1;
+        max = stride->available_s * stride->speed;
+  float at_max = max / (SPARE_TIME * state->needed_s); /* m/s */
+  state->limit = wanted > at_max ? at_max / wanted : 1;
 }
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

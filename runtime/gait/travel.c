@@ -15,7 +15,7 @@ void sbri_gait_travel(const sbri_rig *rig, void *memory, const sbri_gait_input *
 
 void sbri_gait_arrive(const sbri_rig *rig, void *memory, const sbri_gait_input *input) {
   sbri_gait_state *state = memory;
-  uint32_t steps[SBRI_MOST_LEGS];
+  uint32_t steps[SBRI_MAX_LEGS];
   for (uint32_t i = 0; i < rig->leg_count; i++) steps[i] = state->feet[i].steps_taken;
   memset(state->feet, 0, sizeof state->feet);
   for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];

@@ -2,11 +2,10 @@
  */
 #include "gait/gait_state.h"
 
-static const float FULL_AT = 0.5f;    /* of the walking speed: from here on a walk of poses counts fully */
-static const float CATCH_UP = 4;      /* of what a walk is out of step it makes up most in half a cycle */
-static const float MOST_CATCH = 0.5f; /* of the way it goes anyway: it never goes back, nor twice as fast */
-static const float LEAST_STEP = 0.4f,
-                   MOST_STEP = 2.5f; /* of half the poses' own cycle: what counts as a step */
+static const float FULL_AT = 0.5f;   /* of the walking speed: from here on a walk of poses counts fully */
+static const float CATCH_UP = 4;     /* of what a walk is out of step it makes up most in half a cycle */
+static const float MAX_CATCH = 0.5f; /* of the way it goes anyway: it never goes back, nor twice as fast */
+static const float MIN_STEP = 0.4f, MAX_STEP = 2.5f; /* of half the poses' own cycle: what counts as a step */
 
 /* The walks below and above a speed, and how far towards the second. */
 static float between(const sbri_walks *walks, float speed, const sbri_walk **low, const sbri_walk **high) {
@@ -39,8 +38,7 @@ static void keep_step(const sbri_walks *walks, sbri_gait_state *state, float hal
     state->walk_ahead = wrapped(state->walk_phase - 0.5f * (float)half + 0.5f) - 0.5f;
     float gone = state->walk_since_m;
     bool other = state->walk_landed == (uint32_t)(2 - half); /* a step of each in turn */
-    state->walk_half_m =
-        other && gone > LEAST_STEP * half_cycle_m && gone < MOST_STEP * half_cycle_m ? gone : 0;
+    state->walk_half_m = other && gone > MIN_STEP * half_cycle_m && gone < MAX_STEP * half_cycle_m ? gone : 0;
     state->walk_landed = (uint32_t)half + 1;
     state->walk_since_m = 0;
   }
@@ -59,7 +57,7 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   if (state->standing_s > 0) state->walk_half_m = 0, state->walk_landed = 0;
   float share = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
   if (low->mirrored && !backwards) {
-    float most = MOST_CATCH * share, back = sbri_clamp(CATCH_UP * state->walk_ahead * share, -most, most);
+    float max = MAX_CATCH * share, back = sbri_clamp(CATCH_UP * state->walk_ahead * share, -max, max);
     share -= back;
     state->walk_ahead -= back;
   }
@@ -124,7 +122,7 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
     uint32_t bone = walks->bones[j];
     sbf_quat turn = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
     sbf_vec3 way = sbri_lerp(at[0].translation, at[1].translation, faster);
-    const sbr_transform *rest = &rig->rest_local[bone];
+    const sbr_transform *rest = &rig->base_local[bone];
     sbr_transform *local = &locals[bone];
     local->position = sbri_lerp(local->position, sbri_add(rest->position, way), weight);
     local->rotation = sbri_quat_blend(local->rotation, sbri_quat_multiply(rest->rotation, turn), weight);

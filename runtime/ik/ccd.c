@@ -18,7 +18,7 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, const sbr_transform *fra
 }
 
 sbri_ik_result sbri_ccd(sbri_ik_chain *chain) {
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
   sbf_vec3 target = sbri_ik_begin(chain, frames);
   uint32_t passes = 0, last = chain->count - 1;
   while (

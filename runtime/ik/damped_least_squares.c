@@ -5,9 +5,9 @@
 
 #include "ik/ik.h"
 
-static const float MOST_STEP = 0.5f;      /* of the reach: what the end is asked to move in one pass */
-static const float MOST_TURN = 0.8f;      /* rad, of a joint in one pass */
-static const float LEAST_DAMPING = 1e-5f; /* share of the reach, squared */
+static const float MAX_STEP = 0.5f;     /* of the reach: what the end is asked to move in one pass */
+static const float MAX_TURN = 0.8f;     /* rad, of a joint in one pass */
+static const float MIN_DAMPING = 1e-5f; /* share of the reach, squared */
 
 typedef struct system {
   double a[6][6], b[6];
@@ -53,9 +53,9 @@ static void add_joint(system *s, sbf_vec3 r, double unit) {
   }
 }
 
-static sbf_vec3 cut(sbf_vec3 v, float most) {
+static sbf_vec3 cut(sbf_vec3 v, float max) {
   float size = sbri_length(v);
-  return size > most ? sbri_scale(v, most / size) : v;
+  return size > max ? sbri_scale(v, max / size) : v;
 }
 
 /* What a joint's comfort asks for in this pass, a rotation vector in world axes. */
@@ -78,8 +78,8 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
   uint32_t n = chain->count;
   bool turns = chain->copy_rotation > 0;
   float unit = 0.5f * reach;
-  sbf_vec3 end = frames[n - 1].position, off = cut(sbri_sub(target, end), MOST_STEP * reach);
-  sbf_vec3 asks[SBRI_IK_MOST_JOINTS], drift = {0, 0, 0}, spin = {0, 0, 0}, turn_off = {0, 0, 0};
+  sbf_vec3 end = frames[n - 1].position, off = cut(sbri_sub(target, end), MAX_STEP * reach);
+  sbf_vec3 asks[SBRI_IK_MAX_JOINTS], drift = {0, 0, 0}, spin = {0, 0, 0}, turn_off = {0, 0, 0};
   system s;
   memset(&s, 0, sizeof s);
   s.size = turns ? 6 : 3;
@@ -99,7 +99,7 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
   const float b[6] = {move.x, move.y, move.z, turn_off.x, turn_off.y, turn_off.z};
   double square = 0;
   for (int i = 0; i < s.size; i++) s.b[i] = (double)b[i], square += s.b[i] * s.b[i];
-  double damping = 0.02 * square + (double)(LEAST_DAMPING * reach * reach);
+  double damping = 0.02 * square + (double)(MIN_DAMPING * reach * reach);
   for (int i = 0; i < s.size; i++) s.a[i][i] += damping;
   float y[6] = {0};
   solve_system(&s, y);
@@ -110,7 +110,7 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
     sbf_vec3 r = sbri_sub(end, frames[i].position);
     sbf_vec3 turn = sbri_add(asks[i], sbri_cross(r, push));
     if (turns) turn = sbri_add(turn, twist);
-    sbri_ik_turn(chain, i, sbri_quat_exp(cut(turn, MOST_TURN)), frames);
+    sbri_ik_turn(chain, i, sbri_quat_exp(cut(turn, MAX_TURN)), frames);
   }
 }
 
@@ -121,7 +121,7 @@ static bool rotation_reached(const sbri_ik_chain *chain, const sbr_transform *fr
 }
 
 sbri_ik_result sbri_damped_least_squares(sbri_ik_chain *chain) {
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
   sbf_vec3 target = sbri_ik_begin(chain, frames);
   float reach = sbri_ik_reach(chain);
   uint32_t passes = 0, last = chain->count - 1;

@@ -7,11 +7,11 @@
 enum { PATIENCE = 16 }; /* passes */
 
 typedef struct places {
-  sbf_vec3 at[SBRI_IK_MOST_JOINTS];   /* where the backward pass puts the joints */
-  sbf_vec3 sums[SBRI_IK_MOST_JOINTS]; /* of what the children ask for */
-  float counts[SBRI_IK_MOST_JOINTS];  /* how many ask; 0: nothing below has a goal */
-  float lengths[SBRI_IK_MOST_JOINTS]; /* from the parent */
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbf_vec3 at[SBRI_IK_MAX_JOINTS];   /* where the backward pass puts the joints */
+  sbf_vec3 sums[SBRI_IK_MAX_JOINTS]; /* of what the children ask for */
+  float counts[SBRI_IK_MAX_JOINTS];  /* how many ask; 0: nothing below has a goal */
+  float lengths[SBRI_IK_MAX_JOINTS]; /* from the parent */
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
 } places;
 
 static void find_frames(const sbri_ik_tree *tree, places *p) {
@@ -214,7 +214,7 @@ static void give_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
  * to go to are of no use to joints that only turn about one line. With what is left of the passes joints are
  * turned for the end's sake, one by one from where they began; the better of both answers stays. */
 static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_with, sbri_ik_result so_far) {
-  sbf_quat kept[SBRI_IK_MOST_JOINTS];
+  sbf_quat kept[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain rest = *chain;
   rest.iterations = chain->iterations - so_far.iterations;
   take_rotations(chain, kept);
@@ -229,8 +229,8 @@ static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_
 
 sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
   places p;
-  uint32_t parents[SBRI_IK_MOST_JOINTS];
-  sbf_quat began_with[SBRI_IK_MOST_JOINTS];
+  uint32_t parents[SBRI_IK_MAX_JOINTS];
+  sbf_quat began_with[SBRI_IK_MAX_JOINTS];
   take_rotations(chain, began_with);
   sbf_vec3 target = sbri_ik_begin(chain, p.frames);
   sbri_ik_goal goal = {chain->count - 1, target};

@@ -9,7 +9,7 @@
 #include "ik/joint_limit.h"
 #include "sbrun/sbrun.h"
 
-enum { SBRI_IK_MOST_JOINTS = 64 };
+enum { SBRI_IK_MAX_JOINTS = 64 };
 
 typedef struct sbri_ik_joint {
   sbf_vec3 offset;               /* of its head, in the frame of the joint before; m */
@@ -23,7 +23,7 @@ typedef struct sbri_ik_joint {
 typedef struct sbri_ik_chain {
   sbr_transform base;
   sbri_ik_joint *joints;
-  uint32_t count; /* 2 to SBRI_IK_MOST_JOINTS */
+  uint32_t count; /* 2 to SBRI_IK_MAX_JOINTS */
   sbf_vec3 target;
   sbf_quat target_rotation;
   float copy_rotation; /* share of it that the last joint takes, 0 to 1 */

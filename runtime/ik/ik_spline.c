@@ -57,8 +57,8 @@ static float lay(const sbri_ik_chain *chain, const curve *q, sbf_vec3 *places) {
 }
 
 sbri_ik_result sbri_ik_spline(sbri_ik_chain *chain) {
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
-  sbf_vec3 places[SBRI_IK_MOST_JOINTS], target = sbri_ik_begin(chain, frames);
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
+  sbf_vec3 places[SBRI_IK_MAX_JOINTS], target = sbri_ik_begin(chain, frames);
   sbf_vec3 root = frames[0].position, middle = sbri_lerp(root, target, 0.5f), bow = {0, 0, 0};
   float reach = sbri_ik_reach(chain);
   for (uint32_t i = 1; i + 1 < chain->count; i++) bow = sbri_add(bow, sbri_sub(frames[i].position, middle));
@@ -69,9 +69,9 @@ sbri_ik_result sbri_ik_spline(sbri_ik_chain *chain) {
   bow = sbri_normalize(bow, sbri_normalize(sbri_cross(along, spare), spare));
   /* How far it bows so that the last joint comes to the target. */
   float low = 0, high = 2 * reach;
-  uint32_t passes = 0, most = chain->iterations < 40 ? chain->iterations : 40;
+  uint32_t passes = 0, max = chain->iterations < 40 ? chain->iterations : 40;
   curve q = {root, middle, target};
-  for (; passes < most; passes++) {
+  for (; passes < max; passes++) {
     float height = 0.5f * (low + high);
     q.b = sbri_add_scaled(middle, bow, height);
     float beyond = lay(chain, &q, places);

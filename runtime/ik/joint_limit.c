@@ -1,8 +1,8 @@
 #include "ik/joint_limit.h"
 
 static const float PI = 3.14159265f;
-static const float MOST_TWIST = 3.1f; /* rad: a bound beyond it is told by arctangents */
-static const float SLACK = 1e-5f;     /* rad: what rounding may put beyond a bound it was cut to */
+static const float MAX_TWIST = 3.1f; /* rad: a bound beyond it is told by arctangents */
+static const float SLACK = 1e-5f;    /* rad: what rounding may put beyond a bound it was cut to */
 
 sbri_swing_twist sbri_swing_twist_of(sbf_quat q) {
   float sign = q.w < 0 ? -1.0f : 1.0f;
@@ -52,7 +52,7 @@ static sbri_swing_twist seen(const sbri_joint_limit *limit, sbf_quat local) {
 /* Tangent of half an angle, of less than half a turn. */
 static float half_tangent(float angle) {
   float s, c;
-  sbri_sincos(0.5f * sbri_clamp(angle, -MOST_TWIST, MOST_TWIST), &s, &c);
+  sbri_sincos(0.5f * sbri_clamp(angle, -MAX_TWIST, MAX_TWIST), &s, &c);
   return s / c;
 }
 
@@ -88,10 +88,10 @@ float sbri_joint_limit_excess(const sbri_joint_limit *limit, sbf_quat local) {
   if (!limit || !limit->active) return 0;
   sbri_swing_twist p = seen(limit, local);
   float unused, swing = sqrtf(p.swing_y * p.swing_y + p.swing_z * p.swing_z);
-  float most = larger(0, swing - limit->cone);
-  most = larger(most, outside(p.twist, limit->twist, &unused));
-  most = larger(most, outside(p.swing_y, limit->swing_y, &unused));
-  return larger(most, outside(p.swing_z, limit->swing_z, &unused));
+  float max = larger(0, swing - limit->cone);
+  max = larger(max, outside(p.twist, limit->twist, &unused));
+  max = larger(max, outside(p.swing_y, limit->swing_y, &unused));
+  return larger(max, outside(p.swing_z, limit->swing_z, &unused));
 }
 
 bool sbri_joint_limit_holds(const sbri_joint_limit *limit, sbf_quat local, float slack) {

@@ -33,7 +33,7 @@ sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole,
 }
 
 sbri_ik_result sbri_ik_two_bone(sbri_ik_chain *chain) {
-  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbr_transform frames[SBRI_IK_MAX_JOINTS];
   sbf_vec3 target = sbri_ik_begin(chain, frames), hip = frames[0].position, knee = frames[1].position;
   float upper = sbri_length(chain->joints[1].offset), lower = sbri_length(chain->joints[2].offset);
   sbf_vec3 middle = sbri_lerp(hip, frames[2].position, 0.5f), out = sbri_sub(knee, middle);

@@ -10,8 +10,8 @@ float sbri_sum(const float *values, size_t count) {
   return sbri_tree_sum(lanes);
 }
 
-float sbri_greatest(const float *values, size_t count, float least) {
-  float greatest = least;
+float sbri_greatest(const float *values, size_t count, float min) {
+  float greatest = min;
   for (size_t i = 0; i < count; i++) greatest = values[i] > greatest ? values[i] : greatest;
   return greatest;
 }

@@ -11,6 +11,6 @@ static inline float sbri_tree_sum(const float lanes[SBRI_BLOCK]) {
 
 /* Sum of `count` numbers, and the greatest of them (`least` where there is none). */
 float sbri_sum(const float *values, size_t count);
-float sbri_greatest(const float *values, size_t count, float least);
+float sbri_greatest(const float *values, size_t count, float min);
 
 #endif

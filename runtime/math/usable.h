@@ -5,11 +5,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define SBRI_MOST_NUMBER 1e15
+#define SBRI_MAX_NUMBER 1e15
 
 static inline bool sbri_usable(const double *numbers, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
-    if (!(numbers[i] >= -SBRI_MOST_NUMBER && numbers[i] <= SBRI_MOST_NUMBER)) return false;
+    if (!(numbers[i] >= -SBRI_MAX_NUMBER && numbers[i] <= SBRI_MAX_NUMBER)) return false;
   return true;
 }
 

@@ -35,21 +35,24 @@ typedef struct sbri_touch {
   float offset;       /* normal . x of the plane, as of the present substep's beginning */
   union {
     sbf_vec3 velocity; /* m/s, of what it stands for */
-    sbf_vec3 arm;      /* of a guest, which has its own: from its centre of mass */
+    sbf_vec3 arm;      /* of an external body, which has its own: from its centre of mass */
   };
   float friction_share, restitution; /* of the body's coefficient of friction; its own */
-  uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
-        body, against the points whose weights are below 0 */
-  bool edges;        /* of itself: the first two points against the last two */
-  bool crosses;      /* of itself: they have gone through each other */
-  bool alone;        /* the sample is one free point that no other touch moves */
-  uint8_t guest;     /* from 1 on: which of the body's guests it pushes (collide/guest.h); 0: none */
+  uint32_t collider;     /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
+            body, against the points whose weights are below 0 */
+  bool edges;            /* of itself: the first two points against the last two */
+  bool crosses;          /* of itself: they have gone through each other */
+  bool alone;            /* the sample is one free point that no other touch moves */
+  uint8_t external_body; /* from 1 on: which of the body's external bodies it pushes (collide/external
+                            body.h); 0: none */
   /* Of solvers/touches.c, from substep to substep: */
-  float gap, wanted; /* m and m/s, at the beginning of one */
-  float gain;        /* m/s that the push gives the sample along the normal */
-  sbf_vec3 rub;      /* and friction across it */
-  float pushed;      /* most of the gains in the tick */
-  sbf_vec3 given;    /* m/s that all pushes of the tick have given the sample */
+  float gap, wanted;         /* m and m/s, at the beginning of one */
+  float share;               /* of its own response that a pass answers it with; 1: it is answered in turn */
+  bool pushes;               /* or is about to, in this substep */
+  float gain;                /* m/s that the push gives the sample along the normal */
+  sbf_vec3 friction_impulse; /* and friction across it */
+  float pushed;              /* most of the gains in the tick */
+  sbf_vec3 given;            /* m/s that all pushes of the tick have given the sample */
   float
       fast_m_s; /* it nears its plane no faster in the tick, but for what springs and weight add; 0: it may */
   float idle_s; /* for how long it cannot touch */
@@ -63,8 +66,19 @@ typedef struct sbri_touch {
 typedef struct sbri_reaction {
   sbf_vec3 about, impulse, moment;
   sbf_vec3 shift, shift_turn, shift_moment;
-  float ease, turn_ease;
+  float ease, inverse_inertia;
 } sbri_reaction;
+
+/* How an island recovers, in ticks. */
+typedef struct sbri_recovery {
+  uint32_t ticks;         /* for which the router still keeps to the scheme that recovers */
+  uint32_t rigid_ticks;   /* for which its bodies still move as rigid ones */
+  uint32_t row;           /* how often it was put back into its rest shape, each soon after the last */
+  uint32_t relapse_ticks; /* within which the next time counts as one more of those */
+  uint32_t unsound_ticks; /* since the motion of its loose bodies was last kept */
+  uint32_t jumped_ticks;  /* within which a jump of what holds it may have left it crushed */
+  uint32_t crushed_ticks; /* for which it has been crushed since */
+} sbri_recovery;
 
 typedef struct sbri_island_tick {
   const sbr_model *model;
@@ -98,11 +112,13 @@ typedef struct sbri_island_tick {
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
   sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
-  struct sbri_guests *guests;                      /* (bodies of the model) collide/guest.h; NULL: none */
-  const uint32_t *touch_counts;                    /* (bodies of the model) NULL: none */
-  float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
-  float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
-  sbri_point *outer;        /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
+  struct sbri_external_bodies
+      *external_bodies;         /* (bodies of the model) collide/external_body.h; NULL: none */
+  float *touch_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
+  const uint32_t *touch_counts; /* (bodies of the model) NULL: none */
+  float *rests, *strengths;     /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
+  float *rotations;             /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
+  sbri_point *outer; /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
   float *accelerations, *older_velocities;  /* (free_count x 3) scratch, blocks as `velocities` */
   sbri_point *moves;                        /* (slot_count) scratch */
   float *edges;                             /* (links x 8 x 3) scratch */
@@ -113,11 +129,11 @@ typedef struct sbri_island_tick {
   sbri_tetrahedron_block *flowing;          /* the same where they yield or tear, else NULL */
   uint32_t *torn;                           /* (tetrahedron_count) sbri_torn_state, likewise */
   float *thinning;                          /* see sbri_island_state */
-  float *stiffening;  /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
-  float *least_ratio; /* out: least J of the tetrahedra when last looked at, 1 without them */
-  float *stretch;     /* greatest share of a spring beyond its rest length: in of the last tick, out
-                         of this one's last substep */
-  uint32_t *passes;   /* over all elements are added to; NULL: nobody counts */
+  float *stiffening; /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
+  float *min_ratio;  /* out: least J of the tetrahedra when last looked at, 1 without them */
+  float *stretch;    /* greatest share of a spring beyond its rest length: in of the last tick, out
+                        of this one's last substep */
+  uint32_t *passes;  /* over all elements are added to; NULL: nobody counts */
 } sbri_island_tick;
 
 static inline void sbri_count_passes(const sbri_island_tick *t, uint32_t passes) {

@@ -12,14 +12,14 @@
 
 /* The fastest of the body's free points, m/s; velocities of its island. */
 static inline float sbri_fastest_of(const sbri_body *body, const float *velocities) {
-  float most = 0;
+  float max = 0;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     sbf_vec3 speed = sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]);
     float square = sbri_dot(speed, speed);
-    most = square > most ? square : most;
+    max = square > max ? square : max;
   }
-  return sqrtf(most);
+  return sqrtf(max);
 }
 
 /* Metres of the world, for a place that goes `own` in the tick, of a character of that scale, on a body whose

@@ -43,7 +43,7 @@ typedef struct sbri_link_block {
 
 /* Of such a block, where some spring of the island has any. */
 typedef struct sbri_link_limits {
-  float least[SBRI_BLOCK], most[SBRI_BLOCK]; /* strain; -1 and 0: no bound */
+  float min[SBRI_BLOCK], max[SBRI_BLOCK]; /* strain; -1 and 0: no bound */
 } sbri_link_limits;
 typedef struct sbri_link_flows {
   float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
@@ -79,7 +79,7 @@ typedef struct sbri_region_block {
 } sbri_region_block;
 /* Of such a block, where some tetrahedron of the island has any. */
 typedef struct sbri_solid_limits {
-  float least[SBRI_BLOCK], most[SBRI_BLOCK]; /* strain; -1 and 0: no bound */
+  float min[SBRI_BLOCK], max[SBRI_BLOCK];    /* strain; -1 and 0: no bound */
   float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
   float tear[SBRI_BLOCK];                    /* strain; 0: never */
   float square[SBRI_BLOCK]; /* nothing is beyond while the sum of (s^2 - 1)^2 over its stretches is below */
@@ -133,6 +133,13 @@ typedef struct sbri_sample {
   uint32_t vertex;  /* of the surface; UINT32_MAX: a point of the level */
 } sbri_sample;
 
+/* Samples that the same points carry. */
+typedef struct sbri_sample_group {
+  uint32_t slots[4];
+  uint32_t first, end; /* in sbri_body.samples */
+  float beyond;        /* greatest sum of weights below 0 of one of them, as a positive number */
+} sbri_sample_group;
+
 /* A body that goes with its bone and a follower; its frame comes behind all others. */
 typedef struct sbri_jiggle {
   uint32_t body;
@@ -176,6 +183,8 @@ typedef struct sbri_body {
   float rolling_share;        /* see solvers/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;
+  const sbri_sample_group *sample_groups; /* (sample_group_count) all samples, in order */
+  uint32_t sample_group_count;
   const uint32_t
       *coarse_edges; /* (coarse_edge_count x 2) of its surface: samples, or slots where it has none */
   uint32_t coarse_edge_count;
@@ -197,7 +206,7 @@ typedef struct sbri_body {
   float gas_pa;                      /* pressure of the gas inside at rest; 0: none */
   double gas_volume_m3;              /* of that gas at rest */
   const float *gas_factors;          /* (vertices of its surface) on the pressure, of maps; NULL: none */
-  float most_gas_factor;             /* of these; 1 */
+  float max_gas_factor;              /* of these; 1 */
   double gas_turning;                /* rad^2/s^2 for each Pa, by which its faces' turning adds to a mode */
   float medium_kg_m3;                /* density of what pushes on its faces; 0: nothing does */
   const sbri_hinge *hinges;
@@ -225,9 +234,9 @@ typedef struct sbri_answers {
 
 /* The budget of an explicit scheme at rest, in substeps a tick: with more, springs are stepped by another
  * scheme and tetrahedra are softened (prepare/softening.h). A power of two. */
-enum { SBRI_MOST_SUBSTEPS = 1024 };
+enum { SBRI_MAX_SUBSTEPS = 1024 };
 /* The same for a strained body. No tick has more. */
-enum { SBRI_MOST_STRAINED_SUBSTEPS = SBRI_MOST_SUBSTEPS + SBRI_MOST_SUBSTEPS / 2 };
+enum { SBRI_MAX_STRAINED_SUBSTEPS = SBRI_MAX_SUBSTEPS + SBRI_MAX_SUBSTEPS / 2 };
 
 /* The pin set that holds a slot: of the body's level. UINT32_MAX: padding. */
 typedef struct sbri_pin_of {
@@ -295,9 +304,9 @@ typedef struct sbri_island {
   const uint32_t *cell_links;          /* (cells x 8) likewise, where link_flows is not NULL */
   uint32_t first_flow;                 /* of its links in the character's state */
   uint32_t first_thread_cell, first_thread_block, first_thread_link; /* likewise, where it frays */
-  float most_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
-  float most_push_m_s;          /* likewise, of what its velocity changes by at once */
-  double fastest_rad_s;         /* mode at rest, as stepped */
+  float max_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
+  float max_push_m_s;          /* likewise, of what its velocity changes by at once */
+  double fastest_rad_s;        /* mode at rest, as stepped */
   float softened_shear,
       softened_bulk;          /* least share of a tetrahedron's stated moduli it is stepped with; 1 */
   double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
@@ -323,8 +332,8 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t touches, touch_counts, guests, slot_touches, touching, rigid_touching, self_boxes, self_balls,
-      self_nodes, self_items, self_edges;
+  size_t touches, touch_counts, external_bodies, slot_touches, touch_weights, touching, rigid_touching,
+      self_boxes, self_balls, self_nodes, self_items, self_edges;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
@@ -370,8 +379,8 @@ struct sbr_model {
   struct sbr_model **rungs;       /* (rung_count) of the first; away has the tables of bones alone */
   sbr_rung *ladder;               /* (rung_count) likewise */
   uint32_t rung_count;            /* likewise */
-  uint32_t most_islands;          /* likewise, of a rung */
-  size_t most_state_size;         /* likewise */
+  uint32_t max_islands;           /* likewise, of a rung */
+  size_t max_state_size;          /* likewise */
   const sbri_sources **sources;   /* (rung_count of the first) for each slot; NULL: not both are soft */
   const uint32_t *first_vertices; /* (asset->render_meshes.count + 1) of each mesh among all */
   const uint32_t *swings_with; /* (all of those) the body that a vertex swings with, or how many there are */

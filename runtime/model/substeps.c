@@ -14,17 +14,17 @@
 static const double MARGIN = 1.1;
 
 /* More than any model may have, and far from where counts of them overflow. */
-enum { MOST_COUNTED = 1 << 20 };
+enum { MAX_COUNTED = 1 << 20 };
 
 uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch) {
   if (island->substeps) return island->substeps;
-  double rest = MARGIN * island->fastest_rad_s, most = 1.02 * island->bound_rad_s;
+  double rest = MARGIN * island->fastest_rad_s, max = 1.02 * island->bound_rad_s;
   double across = stretch > 0 ? stretch : 0;
-  double w = sqrt(rest * rest + across * most * most);
-  if (w > most) w = most;
+  double w = sqrt(rest * rest + across * max * max);
+  if (w > max) w = max;
   w = sqrt(w * w + MARGIN * MARGIN * island->outer_rad_s * island->outer_rad_s);
   double z = 0.5 * island->stiffness_damping_s * w;
   double needed = tick_s * w / (2 * (sqrt(1 + z * z) - z));
-  if (!(needed < MOST_COUNTED)) return MOST_COUNTED;
+  if (!(needed < MAX_COUNTED)) return MAX_COUNTED;
   return needed < 1 ? 1 : (uint32_t)needed + ((double)(uint32_t)needed < needed);
 }

@@ -9,6 +9,7 @@ sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character 
   return (sbri_gait_input){.forward = up ? head->forward : 0,
       .sideways = up ? head->sideways : 0,
       .turn = up ? head->turn : 0,
+      .up = up ? head->up : 0,
       .tick_s = (float)world->tick_s,
       .scale = c->scale,
       .hold = c->hold,

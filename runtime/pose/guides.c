@@ -91,6 +91,7 @@ void sbri_guides_stop(sbri_character *c, const sbri_island *island) {
 bool sbri_guides_rest(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_guide_motion *m = &sbri_guide_motions(c)[island->bodies[b]];
+    if (!c->model->bodies[island->bodies[b]].held) continue;
     if (sbri_dot(m->velocity, m->velocity) != 0 || sbri_dot(m->spin, m->spin) != 0) return false;
   }
   return true;

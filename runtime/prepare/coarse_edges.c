@@ -29,14 +29,14 @@ static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t
 }
 
 /* Lists the other end of each side at its lesser one: at first counts, then where the next one goes. */
-static uint32_t list_sides(const sbf_polygon_mesh *mesh, float least, uint32_t *begins, uint32_t *others) {
+static uint32_t list_sides(const sbf_polygon_mesh *mesh, float min, uint32_t *begins, uint32_t *others) {
   uint32_t vertices = mesh->positions.count, count = 0;
   for (int pass = 0; pass < 2; pass++) {
     const uint32_t *c = mesh->polygon_points.at;
     for (uint32_t p = 0; p < mesh->polygon_sizes.count; c += mesh->polygon_sizes.at[p++])
       for (uint32_t k = 0; k < mesh->polygon_sizes.at[p]; k++) {
         uint32_t a = c[k], b = c[(k + 1) % mesh->polygon_sizes.at[p]], low = a < b ? a : b;
-        if (!(sbri_length(sbri_sub(mesh->positions.at[b], mesh->positions.at[a])) > least)) continue;
+        if (!(sbri_length(sbri_sub(mesh->positions.at[b], mesh->positions.at[a])) > min)) continue;
         if (pass)
           others[begins[low + 1]++] = a + b - low;
         else
@@ -50,16 +50,16 @@ static uint32_t list_sides(const sbf_polygon_mesh *mesh, float least, uint32_t *
 static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   const sbf_polygon_mesh *mesh = &body->source->surface;
   uint32_t vertices = mesh->positions.count;
-  float least = fmaxf(OF_MARGIN * body->margin_m, OF_THICKNESS * thickness_of(body));
+  float min = fmaxf(OF_MARGIN * body->margin_m, OF_THICKNESS * thickness_of(body));
   uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)body->surface.vertex_count + 1, sizeof *ends);
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)vertices + 3, sizeof *begins);
   uint32_t *others = sbfi_arena_allocate(scratch, (size_t)mesh->polygon_points.count + 1, sizeof *others);
   if (!ends || !begins || !others) return false;
   if (!find_ends(&model->islands[body->island], body, ends)) return true;
   for (uint32_t i = 0; i < vertices + 3; i++) begins[i] = 0;
-  uint32_t most = list_sides(mesh, least, begins, others), count = 0;
-  if (!most) return true;
-  uint32_t *edges = sbfi_arena_allocate(&model->arena, 2 * (size_t)most, sizeof *edges);
+  uint32_t max = list_sides(mesh, min, begins, others), count = 0;
+  if (!max) return true;
+  uint32_t *edges = sbfi_arena_allocate(&model->arena, 2 * (size_t)max, sizeof *edges);
   if (!edges) return false;
   for (uint32_t v = 0; v < vertices; v++)
     for (uint32_t i = begins[v]; i < begins[v + 1]; i++) {

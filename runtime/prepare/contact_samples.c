@@ -4,8 +4,12 @@
  * surface's points, each by the points that carry it, all that polygons use, in the order of the source.
  * Fewer would be cheaper, but only those near the ground cost anything, and each that is left out is one that
  * dips in. Where they lie further apart than the level's own points, those of the level that lie on the
- * surface too: else a face would be borne by its corners alone, and its matter sink between them. Those come
- * first, so that what is seen has the last word in a sweep. */
+ * surface too: else a face would be borne by its corners alone, and its matter sink between them. All of
+ * them are sorted into groups that the same points carry, so that a tick looks at no sample whose points are
+ * far from everything. */
+#include <stdlib.h>
+#include <string.h>
+
 #include "math/vec3.h"
 #include "prepare/prepare.h"
 
@@ -21,10 +25,15 @@ static bool is_carried(const sbri_skin *skin) {
   return false;
 }
 
+static float weight_below_0(const sbri_sample *s) {
+  float sum = 0;
+  for (int k = 0; k < CARRIERS; k++) sum += s->weights[k] < 0 ? -s->weights[k] : 0;
+  return sum;
+}
+
 static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
-  float beyond = 0;
-  for (int k = 0; k < CARRIERS; k++) beyond += s.weights[k] < 0 ? -s.weights[k] : 0;
   if (!(s.mass_kg > 0)) return; /* goes where its bones go */
+  float beyond = weight_below_0(&s);
   body->sample_beyond = beyond > body->sample_beyond ? beyond : body->sample_beyond;
   samples[body->sample_count++] = s;
 }
@@ -49,17 +58,17 @@ static sbf_vec3 nearest_on_side(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b) {
 
 static distance distance_to(sbf_vec3 x, const sbf_vec3 corners[3]) {
   sbf_vec3 n = sbri_cross(sbri_sub(corners[1], corners[0]), sbri_sub(corners[2], corners[0]));
-  float height = sbri_dot(sbri_sub(x, corners[0]), n), area = sbri_dot(n, n), least = -1;
+  float height = sbri_dot(sbri_sub(x, corners[0]), n), area = sbri_dot(n, n), min = -1;
   bool inside = area > 0;
   for (int k = 0; k < 3; k++) {
     sbf_vec3 a = corners[k], b = corners[(k + 1) % 3];
     inside = inside && sbri_dot(sbri_cross(sbri_sub(b, a), sbri_sub(x, a)), n) >= 0;
     sbf_vec3 off = sbri_sub(x, nearest_on_side(x, a, b));
     float square = sbri_dot(off, off);
-    least = least < 0 || square < least ? square : least;
+    min = min < 0 || square < min ? square : min;
   }
-  if (inside) least = height * height / area;
-  return (distance){least, height < 0};
+  if (inside) min = height * height / area;
+  return (distance){min, height < 0};
 }
 
 typedef struct surface_points {
@@ -124,13 +133,65 @@ static void find_surface_points(const surface_points *p) {
 static void add_surface_points(
     const sbri_island *island, sbri_body *body, const surface_points *p, float edge, sbri_sample *samples) {
   for (uint32_t i = 0; i < body->level->positions.count; i++) {
-    float share = p->nearest[i].behind ? INSIDE_SHARE : OUTSIDE_SHARE, most = share * edge;
+    float share = p->nearest[i].behind ? INSIDE_SHARE : OUTSIDE_SHARE, max = share * edge;
     uint32_t slot = body->slot_from_point[i];
-    if (p->nearest[i].square < 0 || p->nearest[i].square > most * most || slot >= island->free_count)
-      continue;
+    if (p->nearest[i].square < 0 || p->nearest[i].square > max * max || slot >= island->free_count) continue;
     add_sample(body, samples,
         (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, island->masses[slot], UINT32_MAX});
   }
+}
+
+/* ---- Groups ---- */
+
+typedef struct keyed_sample {
+  sbri_sample sample;
+  uint32_t key[CARRIERS], number; /* its slots in order */
+} keyed_sample;
+
+static int compare_carriers(const keyed_sample *a, const keyed_sample *b) {
+  for (int k = 0; k < CARRIERS; k++)
+    if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
+  return 0;
+}
+
+static int compare_samples(const void *left, const void *right) {
+  const keyed_sample *a = left, *b = right;
+  int order = compare_carriers(a, b);
+  return order ? order : (a->number > b->number) - (a->number < b->number);
+}
+
+static keyed_sample keyed(const sbri_sample *s, uint32_t number) {
+  keyed_sample made = {*s, {s->slots[0], s->slots[1], s->slots[2], s->slots[3]}, number};
+  for (int i = 1; i < CARRIERS; i++)
+    for (int k = i; k > 0 && made.key[k] < made.key[k - 1]; k--) {
+      uint32_t key = made.key[k];
+      made.key[k] = made.key[k - 1], made.key[k - 1] = key;
+    }
+  return made;
+}
+
+/* Puts samples that the same points carry behind each other. */
+static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_arena *scratch) {
+  uint32_t count = body->sample_count, groups = 0;
+  keyed_sample *sorted = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *sorted);
+  if (!sorted) return false;
+  for (uint32_t i = 0; i < count; i++) sorted[i] = keyed(&samples[i], i);
+  qsort(sorted, count, sizeof *sorted, compare_samples);
+  for (uint32_t i = 0; i < count; i++) groups += i == 0 || compare_carriers(&sorted[i - 1], &sorted[i]) != 0;
+  sbri_sample_group *at = sbfi_arena_allocate(&model->arena, (size_t)groups + 1, sizeof *at);
+  if (!at) return false;
+  body->sample_groups = at, body->sample_group_count = groups;
+  at--;
+  for (uint32_t i = 0; i < count; i++) {
+    samples[i] = sorted[i].sample;
+    if (i == 0 || compare_carriers(&sorted[i - 1], &sorted[i]) != 0) {
+      *++at = (sbri_sample_group){.first = i};
+      memcpy(at->slots, sorted[i].key, sizeof at->slots);
+    }
+    at->end = i + 1;
+    at->beyond = fmaxf(at->beyond, weight_below_0(&samples[i]));
+  }
+  return true;
 }
 
 /* ---- All of them ---- */
@@ -162,7 +223,7 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   for (uint32_t v = 0; v < body->surface.vertex_count; v++) {
     if (used[v]) add_sample(body, samples, sbri_sample_of(island, &body->surface, v));
   }
-  return true;
+  return group(model, body, samples, scratch);
 }
 
 bool sbri_samples_make(sbr_model *model, sbri_body *body) {

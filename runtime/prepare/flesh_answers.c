@@ -24,12 +24,12 @@
 static const double ALONG = 3.2, BEHIND = 1e-3;
 /* The fastest mode is known from below. */
 static const double FASTEST_MARGIN = 1.1;
-enum { MOST_DEGREE = 64 };
+enum { MAX_DEGREE = 64 };
 /* A bone bears no more than so many times its own mass: what rounding and strain leave over is its own to
  * take. */
-static const float MOST_BORNE = 10;
+static const float MAX_BORNE = 10;
 /* Nor flesh whose slowest mode that stretches it has less than this damping ratio. */
-static const float LEAST_DAMPING = 0.03f;
+static const float MIN_DAMPING = 0.03f;
 
 /* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
  */
@@ -59,11 +59,11 @@ static int32_t carrier_alone(const sbri_island_maker *m) {
 static bool is_damped(const sbri_island_maker *m) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    float w = body->stretching_rad_s, least = body->alpha_1_s;
+    float w = body->stretching_rad_s, min = body->alpha_1_s;
     for (uint32_t slot = body->slot_begin; body->alphas && slot < body->slot_real_end; slot++)
-      least = body->alphas[slot] < least ? body->alphas[slot] : least;
+      min = body->alphas[slot] < min ? body->alphas[slot] : min;
     float springs = body->source->attributes.stiffness_damping * w * w;
-    if (!(least + springs >= 2 * LEAST_DAMPING * w)) return false;
+    if (!(min + springs >= 2 * MIN_DAMPING * w)) return false;
   }
   return true;
 }
@@ -130,13 +130,13 @@ static void filter(
     const sbf_spring_network *network, double square_s, double fastest, double *now, double *work) {
   size_t size = 3 * (size_t)network->point_count;
   double high = fastest > 1.5 * ALONG ? fastest : 1.5 * ALONG, middle = 0.5 * (high + ALONG),
-         half = 0.5 * (high - ALONG), first = half / middle, ratio = first, least = 1, before = middle / half;
+         half = 0.5 * (high - ALONG), first = half / middle, ratio = first, min = 1, before = middle / half;
   double *was = work, *next = work + size;
   int degree = 1;
-  for (double value = before; degree < MOST_DEGREE && 1 / value > BEHIND;
+  for (double value = before; degree < MAX_DEGREE && 1 / value > BEHIND;
        degree++) { /* T of the degree at 0 */
-    double then = 2 * middle / half * value - least;
-    least = value, value = then;
+    double then = 2 * middle / half * value - min;
+    min = value, value = then;
   }
   memcpy(was, now, size * sizeof *was);
   apply(network, middle, square_s, was, now);
@@ -220,7 +220,6 @@ void sbri_flesh_join(sbr_model *model) {
             !(island->outer_rad_s > 0);
       if (all) add_mass(island->answers, model->rigid.bodies[c].center, flesh->mass);
     }
-    flesh->bearable =
-        any && all && model->rigid.carried_masses[c] <= MOST_BORNE * model->rigid.bodies[c].mass;
+    flesh->bearable = any && all && model->rigid.carried_masses[c] <= MAX_BORNE * model->rigid.bodies[c].mass;
   }
 }

@@ -8,7 +8,7 @@
 #include "solvers/scheme.h"
 
 /* A free point without mass would answer any force at once: it gets this share of the mean. */
-static const float LEAST_MASS_SHARE = 1e-3f;
+static const float MIN_MASS_SHARE = 1e-3f;
 
 static uint32_t padded(uint32_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
@@ -86,9 +86,9 @@ static bool read_body(sbri_island_maker *m, uint32_t place) {
   }
   double sum = sbf_level_masses(body->source, body->level, held, masses);
   if (m->options->free && !share_inside(m, body, masses)) return false;
-  float least = free_count ? (float)(sum / free_count) * LEAST_MASS_SHARE : 0;
+  float min = free_count ? (float)(sum / free_count) * MIN_MASS_SHARE : 0;
   for (uint32_t i = 0; i < count; i++)
-    if (!held[i] && masses[i] < least) masses[i] = least;
+    if (!held[i] && masses[i] < min) masses[i] = min;
   return m->options->free || read_goals(m, place);
 }
 
@@ -114,20 +114,20 @@ static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
 /* Free points by falling valence, equal ones in the level's order, from slot `next` on. */
 static bool place_free(sbri_island_maker *m, uint32_t place, uint32_t next, uint32_t *slot_from_point) {
   sbri_body *body = sbri_maker_body(m, place);
-  uint32_t count = body->level->positions.count, most = 0;
+  uint32_t count = body->level->positions.count, max = 0;
   uint32_t *valences = sbri_scratch(m, count, sizeof *valences);
   if (!valences) return false;
   count_valences(m, place, valences);
-  for (uint32_t i = 0; i < count; i++) most = valences[i] > most ? valences[i] : most;
-  uint32_t *begins = sbri_scratch(m, (size_t)most + 2, sizeof *begins);
+  for (uint32_t i = 0; i < count; i++) max = valences[i] > max ? valences[i] : max;
+  uint32_t *begins = sbri_scratch(m, (size_t)max + 2, sizeof *begins);
   if (!begins) return false;
   for (uint32_t i = 0; i < count; i++)
-    if (m->frames[place][i] == SBRI_FREE) begins[most - valences[i] + 1]++;
-  for (uint32_t v = 0; v <= most; v++) begins[v + 1] += begins[v];
+    if (m->frames[place][i] == SBRI_FREE) begins[max - valences[i] + 1]++;
+  for (uint32_t v = 0; v <= max; v++) begins[v + 1] += begins[v];
   for (uint32_t i = 0; i < count; i++)
-    if (m->frames[place][i] == SBRI_FREE) slot_from_point[i] = next + begins[most - valences[i]]++;
+    if (m->frames[place][i] == SBRI_FREE) slot_from_point[i] = next + begins[max - valences[i]]++;
   body->slot_begin = next;
-  body->first_spare = next + begins[most];
+  body->first_spare = next + begins[max];
   body->slot_real_end = body->first_spare + reserve_of(m, body);
   body->slot_end = padded(body->slot_real_end);
   return true;

@@ -48,34 +48,34 @@ static uint32_t weigh(const region_weights *r, uint32_t number) {
 
 static bool open_weights(sbri_island_maker *m, const sbri_body *body, region_weights *r) {
   const sbf_shape_regions *regions = body->level->regions;
-  uint32_t count = regions->sizes.count, most = 0;
+  uint32_t count = regions->sizes.count, max = 0;
   *r = (region_weights){.island = m->island, .body = body};
   r->uses = sbri_scratch(m, body->level->positions.count, sizeof *r->uses);
   r->begins = sbri_scratch(m, (size_t)count + 1, sizeof *r->begins);
   if (!r->uses || !r->begins) return false;
   for (uint32_t i = 0; i < count; i++) {
     r->begins[i + 1] = r->begins[i] + regions->sizes.at[i];
-    most = regions->sizes.at[i] > most ? regions->sizes.at[i] : most;
+    max = regions->sizes.at[i] > max ? regions->sizes.at[i] : max;
   }
   for (uint32_t i = 0; i < regions->points.count; i++) r->uses[regions->points.at[i]]++;
-  r->weights = sbri_scratch(m, most, sizeof *r->weights);
-  r->rest = sbri_scratch(m, most, sizeof *r->rest);
+  r->weights = sbri_scratch(m, max, sizeof *r->weights);
+  r->rest = sbri_scratch(m, max, sizeof *r->rest);
   return r->weights && r->rest;
 }
 
 /* The regions that act, the largest first, equal ones in the level's order. */
 static bool sort_regions(sbri_island_maker *m, const region_weights *r, uint32_t *order, uint32_t *count) {
   const sbf_u32_list sizes = r->body->level->regions->sizes;
-  uint32_t most = 0;
-  for (uint32_t i = 0; i < sizes.count; i++) most = sizes.at[i] > most ? sizes.at[i] : most;
-  uint32_t *begins = sbri_scratch(m, (size_t)most + 2, sizeof *begins);
+  uint32_t max = 0;
+  for (uint32_t i = 0; i < sizes.count; i++) max = sizes.at[i] > max ? sizes.at[i] : max;
+  uint32_t *begins = sbri_scratch(m, (size_t)max + 2, sizeof *begins);
   if (!begins) return false;
   for (uint32_t i = 0; i < sizes.count; i++)
-    if (weigh(r, i)) begins[most - sizes.at[i] + 1]++;
-  for (uint32_t size = 0; size <= most; size++) begins[size + 1] += begins[size];
-  *count = begins[most + 1];
+    if (weigh(r, i)) begins[max - sizes.at[i] + 1]++;
+  for (uint32_t size = 0; size <= max; size++) begins[size + 1] += begins[size];
+  *count = begins[max + 1];
   for (uint32_t i = 0; i < sizes.count; i++)
-    if (weigh(r, i)) order[begins[most - sizes.at[i]]++] = i;
+    if (weigh(r, i)) order[begins[max - sizes.at[i]]++] = i;
   return true;
 }
 
@@ -119,13 +119,13 @@ static bool add_body(sbri_island_maker *m, sbri_body *body, tables *to) {
   uint32_t count = 0, *order = sbri_scratch(m, regions->sizes.count, sizeof *order);
   if (!order || !sort_regions(m, &r, order, &count)) return false;
   for (uint32_t first = 0; first < count; first += SBRI_BLOCK) {
-    uint32_t most = regions->sizes.at[order[first]];
+    uint32_t max = regions->sizes.at[order[first]];
     sbri_region_block *block = sbfi_array_push(&to->blocks, 1);
-    sbri_region_member *members = sbfi_array_push(&to->members, most);
+    sbri_region_member *members = sbfi_array_push(&to->members, max);
     if (!block || !members) return false;
-    memset(members, 0, most * sizeof *members);
-    *block = (sbri_region_block){.first_member = (uint32_t)to->members.count - most,
-        .member_count = most,
+    memset(members, 0, max * sizeof *members);
+    *block = (sbri_region_block){.first_member = (uint32_t)to->members.count - max,
+        .member_count = max,
         .damping_s = body->source->attributes.stiffness_damping};
     uint32_t here = count - first < SBRI_BLOCK ? count - first : SBRI_BLOCK;
     fill_block(&r, order + first, here, block, members);

@@ -15,8 +15,8 @@ static bool is_bounded(const sbf_attributes *is) {
  * than (2 d - d^2)^2. */
 static float square_below(const sbri_solid_limits *limits, uint32_t lane) {
   float nearest = 1;
-  if (limits->least[lane] > -1 && -limits->least[lane] < nearest) nearest = -limits->least[lane];
-  if (limits->most[lane] > 0 && limits->most[lane] < nearest) nearest = limits->most[lane];
+  if (limits->min[lane] > -1 && -limits->min[lane] < nearest) nearest = -limits->min[lane];
+  if (limits->max[lane] > 0 && limits->max[lane] < nearest) nearest = limits->max[lane];
   if (limits->rate[lane] > 0 && limits->yield[lane] < nearest) nearest = limits->yield[lane];
   if (limits->tear[lane] > 0 && limits->tear[lane] < nearest) nearest = limits->tear[lane];
   float squares = nearest * (2 - nearest);
@@ -26,7 +26,7 @@ static float square_below(const sbri_solid_limits *limits, uint32_t lane) {
 static void fill_lane(sbri_solid_limits *limits, uint32_t lane, const sbri_body *body,
     const solid_factors *by, const uint32_t *corners) {
   const sbf_attributes *is = &body->source->attributes;
-  limits->least[lane] = is->strain_min, limits->most[lane] = is->strain_max;
+  limits->min[lane] = is->strain_min, limits->max[lane] = is->strain_max;
   limits->yield[lane] = is->yield_strain * sbri_factor_of(by->yield, corners);
   limits->rate[lane] = limits->yield[lane] > 0 ? is->yield_flow : 0;
   limits->tear[lane] = is->tear_strain * sbri_factor_of(by->tear, corners);
@@ -57,7 +57,7 @@ bool sbri_solid_limits_make(sbri_island_maker *m) {
   solid_factors *factors = sbri_scratch(m, island->body_count, sizeof *factors);
   if (!limits || !elements || !factors || !find_factors(m, factors)) return false;
   for (uint32_t i = 0; i < island->tetrahedron_dense_count * SBRI_BLOCK; i++) {
-    limits[i / SBRI_BLOCK].least[i % SBRI_BLOCK] = -1;
+    limits[i / SBRI_BLOCK].min[i % SBRI_BLOCK] = -1;
     limits[i / SBRI_BLOCK].square[i % SBRI_BLOCK] = INFINITY;
   }
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -68,7 +68,7 @@ bool sbri_solid_limits_make(sbri_island_maker *m) {
       elements[at] = body->first_tetrahedron + t;
       if (!is_bounded(&body->source->attributes)) continue;
       fill_lane(to, lane, body, &factors[b], body->level->lattice.tetrahedra.at[t].at);
-      island->solids_limited = island->solids_limited || to->least[lane] > -1 || to->most[lane] > 0;
+      island->solids_limited = island->solids_limited || to->min[lane] > -1 || to->max[lane] > 0;
       island->solid_flows = island->solid_flows || to->rate[lane] > 0 || to->tear[lane] > 0;
     }
   }

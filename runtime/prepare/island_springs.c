@@ -189,18 +189,18 @@ static void put(const sbri_island *island, const cell_tables *t, uint32_t *used,
 
 /* Springs that go along with a point which splits: not more than half of what any has, since the greater
  * part stays; nor than this. */
-enum { MOST_PARTING = 32 };
+enum { MAX_PARTING = 32 };
 
 /* Room in the rows of slots that are room for points. */
 static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    uint32_t most = 0;
+    uint32_t max = 0;
     if (!sbri_body_frays(body)) continue;
     for (uint32_t slot = body->slot_begin; slot < body->first_spare; slot++)
-      most = used[slot] > most ? used[slot] : most;
-    most = most / 2 < MOST_PARTING ? most / 2 : MOST_PARTING;
-    for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) used[slot] = most;
+      max = used[slot] > max ? used[slot] : max;
+    max = max / 2 < MAX_PARTING ? max / 2 : MAX_PARTING;
+    for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) used[slot] = max;
   }
 }
 
@@ -221,10 +221,10 @@ static bool make_cells(sbri_island_maker *m) {
   }
   if (island->frays) reserve_rows(m, used);
   for (uint32_t block = 0; block < block_count; block++) {
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-      if (used[block * SBRI_BLOCK + lane] > most) most = used[block * SBRI_BLOCK + lane];
-    begins[block + 1] = begins[block] + most;
+      if (used[block * SBRI_BLOCK + lane] > max) max = used[block * SBRI_BLOCK + lane];
+    begins[block + 1] = begins[block] + max;
   }
   uint32_t cell_count = begins[block_count];
   size_t lanes = (size_t)cell_count * SBRI_BLOCK;
@@ -257,13 +257,13 @@ static bool make_cells(sbri_island_maker *m) {
 
 /* Lattices above this size have their lowest mode from above alone: refining it would take longer than a
  * tenth of a second, and what a fine lattice's mode lies above by is little. */
-enum { MOST_REFINED = 3000 };
+enum { MAX_REFINED = 3000 };
 
 /* Bones that would throw a body's points by more than this share of how far they are from what holds them
  * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
  * starts at once sways twice as far as what is drawn there slowly. A sheet has no inside: how it bends does
  * not count. */
-static const float MOST_SWAY = 0.25f;
+static const float MAX_SWAY = 0.25f;
 
 /* Of so many of a body's points its reach is found. */
 enum { REACH_SAMPLES = 256 };
@@ -289,15 +289,15 @@ static float reach_of(const sbri_body *body, uint32_t free_count) {
 static void bound_start(sbri_island *island, float sway, float w) {
   float acceleration = sway * w * w, push = sway * w;
   if (!(acceleration > 0)) return;
-  bool first = island->most_acceleration_m_s2 == 0;
-  if (first || acceleration < island->most_acceleration_m_s2) island->most_acceleration_m_s2 = acceleration;
-  if (first || push < island->most_push_m_s) island->most_push_m_s = push;
+  bool first = island->max_acceleration_m_s2 == 0;
+  if (first || acceleration < island->max_acceleration_m_s2) island->max_acceleration_m_s2 = acceleration;
+  if (first || push < island->max_push_m_s) island->max_push_m_s = push;
 }
 
 /* rad/s, of the body's lowest mode in the network, and by its regions. */
 static double lowest_of(
     const sbri_island *island, const sbri_body *body, const sbf_spring_network *own, double *scratch) {
-  double elastic = sbf_network_lowest(own, body->tetrahedron_count < MOST_REFINED, scratch);
+  double elastic = sbf_network_lowest(own, body->tetrahedron_count < MAX_REFINED, scratch);
   double regions = sbri_regions_lowest(island, body, scratch);
   return sqrt(elastic * elastic + regions * regions);
 }
@@ -321,7 +321,7 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
     double stretching = lowest_of(m->island, body, &own, scratch);
     if (!sbri_hinges_add(m->island, body, &m->scratch, &own)) return false;
     double lowest = own.hinge_count ? lowest_of(m->island, body, &own, scratch) : stretching;
-    bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)stretching);
+    bound_start(m->island, MAX_SWAY * reach_of(body, m->island->free_count), (float)stretching);
     body->lowest_rad_s = (float)lowest;
     body->stretching_rad_s = (float)stretching;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
@@ -349,16 +349,16 @@ static bool find_alphas(sbri_island_maker *m) {
     const float *factors = NULL;
     if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_MASS_DAMPING, &factors)) return false;
     if (!factors || !(stated > 0)) continue;
-    float *alphas = sbri_keep(m, free_count, sizeof *alphas), most = 0;
+    float *alphas = sbri_keep(m, free_count, sizeof *alphas), max = 0;
     if (!alphas) return false;
     for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->alpha_1_s;
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
       float alpha = rest + stated * factors[i];
       if (body->slot_from_point[i] >= free_count) continue;
       alphas[body->slot_from_point[i]] = alpha;
-      most = alpha > most ? alpha : most;
+      max = alpha > max ? alpha : max;
     }
-    body->alphas = alphas, body->alpha_1_s = most;
+    body->alphas = alphas, body->alpha_1_s = max;
   }
   return true;
 }

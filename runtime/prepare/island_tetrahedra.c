@@ -73,7 +73,7 @@ static void shut(packing *p, uint32_t place) {
     }
 }
 
-static uint32_t least_bit(uint64_t mask) {
+static uint32_t min_bit(uint64_t mask) {
   uint32_t bit = 0;
   while (!(mask >> bit & 1)) bit++;
   return bit;
@@ -87,7 +87,7 @@ static uint32_t open_block(packing *p) {
       if (p->at[i] < p->at[place]) place = i;
     shut(p, place);
   } else {
-    place = least_bit(~p->open);
+    place = min_bit(~p->open);
   }
   p->open |= UINT64_C(1) << place;
   p->at[place] = p->block_count++, p->filled[place] = 0;
@@ -104,7 +104,7 @@ static void put(packing *p, uint32_t t) {
     if (slot < p->island->free_count) fitting &= ~p->users[slot];
   }
   for (; fitting; fitting &= fitting - 1) {
-    uint32_t other = least_bit(fitting);
+    uint32_t other = min_bit(fitting);
     if (place == OPEN_BLOCKS || p->at[other] < p->at[place]) place = other;
   }
   if (place == OPEN_BLOCKS) place = open_block(p);
@@ -221,16 +221,16 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
 
 /* Greatest beta, and whether there is any. */
 static bool find_damping(sbri_island_maker *m, const float *const *factors) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
       float beta = beta_of(body, factors[b], t);
-      most = beta > most ? beta : most;
+      max = beta > max ? beta : max;
     }
   }
-  if ((double)most > m->island->stiffness_damping_s) m->island->stiffness_damping_s = (double)most;
-  return most > 0;
+  if ((double)max > m->island->stiffness_damping_s) m->island->stiffness_damping_s = (double)max;
+  return max > 0;
 }
 
 /* Mean length of their sides at rest, m. */

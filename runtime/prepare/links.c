@@ -20,7 +20,7 @@ typedef struct colouring {
   uint32_t counts[COLOURS + 1];
 } colouring;
 
-static uint32_t least_colour(const uint64_t *a, const uint64_t *b) {
+static uint32_t min_colour(const uint64_t *a, const uint64_t *b) {
   for (uint32_t word = 0; word < COLOUR_WORDS; word++) {
     uint64_t taken = (a ? a[word] : 0) | (b ? b[word] : 0);
     for (uint32_t bit = 0; bit < 64 && taken != UINT64_MAX; bit++)
@@ -34,7 +34,7 @@ static void colour(colouring *c) {
     const sbfi_spring *s = &c->island->springs[i];
     uint64_t *a = s->a < c->island->free_count ? c->used[s->a] : NULL;
     uint64_t *b = s->b < c->island->free_count ? c->used[s->b] : NULL;
-    uint32_t chosen = c->colours[i] = least_colour(a, b);
+    uint32_t chosen = c->colours[i] = min_colour(a, b);
     c->counts[chosen]++;
     if (chosen == COLOURS) continue;
     if (a) a[chosen / 64] |= UINT64_C(1) << chosen % 64;
@@ -91,7 +91,7 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
   sbri_link_block *link = &t->links[block];
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
     link->a[lane] = link->b[lane] = spare;
-    if (t->limits) t->limits[block].least[lane] = -1;
+    if (t->limits) t->limits[block].min[lane] = -1;
     if (lane >= count) continue;
     const sbfi_spring *s = &island->springs[springs[lane]];
     const sbfi_spring_bounds *is = &bounds[springs[lane]];
@@ -100,8 +100,7 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
     t->link_of_spring[springs[lane]] = block * SBRI_BLOCK + lane;
     if (t->damping) t->damping[block * SBRI_BLOCK + lane] = s->damping_ns_m;
     if (t->slack) t->slack[block * SBRI_BLOCK + lane] = s->slack;
-    if (t->limits)
-      t->limits[block].least[lane] = is->strain_min, t->limits[block].most[lane] = is->strain_max;
+    if (t->limits) t->limits[block].min[lane] = is->strain_min, t->limits[block].max[lane] = is->strain_max;
     if (!t->flows) continue;
     t->flows[block].yield[lane] = is->yield_strain;
     t->flows[block].rate[lane] = is->yield_strain > 0 ? is->yield_1_s : 0;

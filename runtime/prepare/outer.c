@@ -8,7 +8,7 @@
 
 /* A gas is reckoned with down to this share of its rest volume; what it pushes back with grows as the square.
  * Beyond, it is looked at while it runs (sbri_outer_look). */
-static const double LEAST_GAS_SHARE = 0.5;
+static const double MIN_GAS_SHARE = 0.5;
 
 static bool has_flexion(const sbf_level *level) {
   for (uint32_t s = 0; s < level->springs.count; s++)
@@ -35,7 +35,7 @@ static float mass_inverse(const sbri_island *island, uint32_t slot) {
 
 /* Gershgorin's bound of the hinges alone, rad^2/s^2; `rows` is (slot_count), 0. */
 static double hinges_bound(const sbri_island *island, const sbri_body *body, double *rows) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < body->hinge_count; i++) {
     const sbri_hinge *hinge = &body->hinges[i];
     sbf_vec3 x[4], gradients[4];
@@ -54,9 +54,9 @@ static double hinges_bound(const sbri_island *island, const sbri_body *body, dou
     for (int k = 0; k < 4; k++) {
       uint32_t slot = body->hinges[i].slots[k];
       double square = rows[slot] * (double)mass_inverse(island, slot);
-      most = square > most ? square : most;
+      max = square > max ? square : max;
     }
-  return most;
+  return max;
 }
 
 /* A point of a surface is carried by others; the lightest of them stands for it. */
@@ -92,17 +92,17 @@ static double gas_bound(const sbri_island *island, sbri_body *body) {
       turning = turn > turning ? turn : turning;
     }
   }
-  double volume = LEAST_GAS_SHARE * body->gas_volume_m3;
+  double volume = MIN_GAS_SHARE * body->gas_volume_m3;
   body->gas_turning = turning;
-  pressure *= (double)body->most_gas_factor;
-  return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / LEAST_GAS_SHARE;
+  pressure *= (double)body->max_gas_factor;
+  return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / MIN_GAS_SHARE;
 }
 
 /* The pressure's factors at the surface's vertices, where maps scale it. */
 static bool find_gas_factors(sbr_model *model, sbri_body *body) {
   const sbf_soft_body *is = body->source;
   float *factors = NULL;
-  body->most_gas_factor = 1;
+  body->max_gas_factor = 1;
   for (uint32_t m = 0; m < is->weight_maps.count; m++) {
     const sbf_weight_map *map = &is->weight_maps.at[m];
     if (map->property != SBF_WEIGHT_PROPERTY_PRESSURE) continue;
@@ -114,7 +114,7 @@ static bool find_gas_factors(sbr_model *model, sbri_body *body) {
     body->gas_factors = factors;
   }
   for (uint32_t v = 0; factors && v < body->surface.vertex_count; v++)
-    if (v == 0 || factors[v] > body->most_gas_factor) body->most_gas_factor = factors[v];
+    if (v == 0 || factors[v] > body->max_gas_factor) body->max_gas_factor = factors[v];
   return true;
 }
 

@@ -21,13 +21,13 @@ static sbf_status no_memory(sbf_diagnostic *error) {
 }
 
 /* The finest that a level of the island asks for. */
-static float least_step_error(const sbr_model *model, const sbri_island *island) {
-  float least = FLT_MAX;
+static float min_step_error(const sbr_model *model, const sbri_island *island) {
+  float min = FLT_MAX;
   for (uint32_t b = 0; b < island->body_count; b++) {
     float asked = model->bodies[island->bodies[b]].level->simulation.step_error;
-    if (asked > 0 && asked < least) least = asked;
+    if (asked > 0 && asked < min) min = asked;
   }
-  return least < FLT_MAX ? least : STEP_ERROR_M;
+  return min < FLT_MAX ? min : STEP_ERROR_M;
 }
 
 /* What the call asks for; else what the level does, and where the runtime does not have that or it cannot
@@ -49,7 +49,7 @@ static sbf_status choose_scheme(
   bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
   island->substeps_least = stated->substeps_least, island->substeps_most = stated->substeps_most;
-  island->step_error_m = options->step_error_m > 0 ? options->step_error_m : least_step_error(model, island);
+  island->step_error_m = options->step_error_m > 0 ? options->step_error_m : min_step_error(model, island);
   island->routed =
       left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
   return SBF_OK;
@@ -137,14 +137,14 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
 static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
-    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_SUBSTEPS) continue;
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MAX_SUBSTEPS) continue;
     const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
     double w =
         sqrt(island->fastest_rad_s * island->fastest_rad_s + island->outer_rad_s * island->outer_rad_s);
     return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
         "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
         "mass, less stiffness or fewer points, or step it by position_based",
-        body->id, (int)SBRI_MOST_SUBSTEPS, w);
+        body->id, (int)SBRI_MAX_SUBSTEPS, w);
   }
   return SBF_OK;
 }

@@ -5,7 +5,7 @@
 
 /* A surface that is open by no more than this share of its area, as by a stray triangle, still has a volume.
  */
-static const double MOST_OPENING = 0.05;
+static const double MAX_OPENING = 0.05;
 
 bool sbri_rest_volumes_find(sbr_model *model) {
   sbfi_arena scratch;
@@ -16,7 +16,7 @@ bool sbri_rest_volumes_find(sbr_model *model) {
     uint32_t count = body->surface.vertex_count;
     sbf_surface_measures measures;
     sbf_surface_measure(&body->source->surface, NULL, &measures);
-    if (count == 0 || measures.opening > MOST_OPENING || !(measures.volume > 0)) continue;
+    if (count == 0 || measures.opening > MAX_OPENING || !(measures.volume > 0)) continue;
     sbri_point *vertices = sbfi_arena_allocate(&scratch, count, sizeof *vertices);
     good = vertices != NULL;
     for (uint32_t i = 0; good && i < count; i++) {

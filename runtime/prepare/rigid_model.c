@@ -5,7 +5,7 @@
 #include "sbfmt/mechanics.h"
 
 /* Rows of joints that close loops are solved by a dense matrix of so many at most. */
-enum { MOST_LOOP_ROWS = 96 };
+enum { MAX_LOOP_ROWS = 96 };
 
 static const float EARTH_M_S2 = 9.81f;
 
@@ -20,15 +20,15 @@ static sbf_vec3 own_place(const sbri_rigid_body *body, sbf_vec3 place) {
 
 /* A flat or thin body has a moment of next to nothing about some axis, about which it would spin at any
  * speed: no moment is below this share of the greatest. */
-static const float LEAST_MOMENT = 1e-3f;
+static const float MIN_MOMENT = 1e-3f;
 
 static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_arena *arena) {
   sbf_rigid_measures is;
   sbf_rigid_body_measure(source, &is);
-  float most = is.inertia.x > is.inertia.y ? is.inertia.x : is.inertia.y, least;
-  least = LEAST_MOMENT * (most > is.inertia.z ? most : is.inertia.z);
-  sbf_vec3 moments = {is.inertia.x > least ? is.inertia.x : least,
-      is.inertia.y > least ? is.inertia.y : least, is.inertia.z > least ? is.inertia.z : least};
+  float max = is.inertia.x > is.inertia.y ? is.inertia.x : is.inertia.y, min;
+  min = MIN_MOMENT * (max > is.inertia.z ? max : is.inertia.z);
+  sbf_vec3 moments = {is.inertia.x > min ? is.inertia.x : min, is.inertia.y > min ? is.inertia.y : min,
+      is.inertia.z > min ? is.inertia.z : min};
   *body = (sbri_rigid_body){.source = source,
       .mass = (float)is.mass,
       .inverse_mass = inverse((float)is.mass),
@@ -159,17 +159,17 @@ static bool find_loads(sbri_rigid_model *model, sbri_rigid_joint *joints, sbfi_a
   if (!seen || !queue) return false;
   for (uint32_t b = 0; b < model->body_count; b++) seen[b] = 0;
   for (uint32_t j = 0; j < model->joint_count; j++) {
-    load least = {0, INFINITY, {0, 0, 0}};
+    load min = {0, INFINITY, {0, 0, 0}};
     for (int side = 0; side < SBRI_SIDES; side++) {
       int32_t body = joints[j].bodies[side], other = joints[j].bodies[1 - side];
       if (body < 0 || (other >= 0 && other == body)) continue;
       for (uint32_t b = 0; side == 1 && b < model->body_count; b++) seen[b] = 0;
       if (other >= 0) seen[other] = j + 1;
       load found = find_load(model, j, (uint32_t)body, seen, queue);
-      if (found.mass < least.mass) least = found;
+      if (found.mass < min.mass) min = found;
     }
-    joints[j].reach_inertia = least.moment;
-    joints[j].hold_torque = EARTH_M_S2 * sbri_length(least.first);
+    joints[j].reach_inertia = min.moment;
+    joints[j].hold_torque = EARTH_M_S2 * sbri_length(min.first);
   }
   return true;
 }
@@ -205,6 +205,6 @@ bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi
     bool own = bodies[b].mass > 0 && (bone < 0 || body_of_bone[bone] != (int32_t)b);
     own_frames[b] = own ? model->own_frame_count++ : UINT32_MAX;
   }
-  model->loop_row_capacity = model->row_count < MOST_LOOP_ROWS ? model->row_count : MOST_LOOP_ROWS;
+  model->loop_row_capacity = model->row_count < MAX_LOOP_ROWS ? model->row_count : MAX_LOOP_ROWS;
   return list_joints(model, bodies, arena) && sort_joints(model, arena) && find_loads(model, joints, arena);
 }

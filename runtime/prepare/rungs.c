@@ -12,7 +12,7 @@ static const float UNSTATED_SHARE = 0.02f;
 static const float SPRING_VISITS = 0.33f, SUBSTEP_VISITS = 150;
 static const float GAIT_VISITS = 800, FOLLOWER_VISITS = 8, AWAY_VISITS = 80;
 
-enum { MOST_RUNGS = 16 };
+enum { MAX_RUNGS = 16 };
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model's rungs");
@@ -34,13 +34,13 @@ static bool any_stepped(const sbf_asset *asset, uint32_t level) {
   return false;
 }
 
-static uint32_t most_levels(const sbf_asset *asset) {
-  uint32_t most = 0;
+static uint32_t max_levels(const sbf_asset *asset) {
+  uint32_t max = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     uint32_t count = asset->soft_bodies.at[b].levels.count;
-    most = count > most ? count : most;
+    max = count > max ? count : max;
   }
-  return most;
+  return max;
 }
 
 /* What yields or tears has a shape of its own that no other level has, and relaxation no velocities. */
@@ -131,7 +131,7 @@ static void drop_last(sbr_model *base) {
 static sbf_status make_coarser(sbr_model *base, const sbr_model_options *options, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   for (uint32_t level = options->level + 1;
-       status == SBF_OK && level < most_levels(base->asset) && base->rung_count < MOST_RUNGS - 3; level++) {
+       status == SBF_OK && level < max_levels(base->asset) && base->rung_count < MAX_RUNGS - 3; level++) {
     if (!any_stepped(base->asset, level)) continue;
     status = make_rung(base, options, (sbr_rung){.kind = SBR_RUNG_SOFT, .level = level}, error);
     if (status != SBF_OK) return status;
@@ -229,8 +229,8 @@ static bool make_sources(sbr_model *base) {
 }
 
 sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
-  model->rungs = sbfi_arena_allocate(&model->arena, MOST_RUNGS, sizeof(sbr_model *));
-  model->ladder = sbfi_arena_allocate(&model->arena, MOST_RUNGS, sizeof *model->ladder);
+  model->rungs = sbfi_arena_allocate(&model->arena, MAX_RUNGS, sizeof(sbr_model *));
+  model->ladder = sbfi_arena_allocate(&model->arena, MAX_RUNGS, sizeof *model->ladder);
   if (!model->rungs || !model->ladder) return no_memory(error);
   model->rungs[0] = model;
   model->ladder[0] = (sbr_rung){.kind = SBR_RUNG_SOFT, .level = options->level};
@@ -244,7 +244,7 @@ sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, s
   }
   for (uint32_t r = 0; r < model->rung_count; r++) {
     uint32_t islands = model->rungs[r]->island_count;
-    model->most_islands = islands > model->most_islands ? islands : model->most_islands;
+    model->max_islands = islands > model->max_islands ? islands : model->max_islands;
     if (r > 0 && model->ladder[r].error_m < model->ladder[r - 1].error_m)
       model->ladder[r].error_m = model->ladder[r - 1].error_m;
   }

@@ -29,7 +29,7 @@ static bool doubt(const sbr_model *model, const sbri_island *island, sbf_diagnos
         "body \"%s\" is too stiff for %d substeps a tick and is stepped as a softer one: where that is most, "
         "with "
         "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
-        id, (int)SBRI_MOST_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
+        id, (int)SBRI_MAX_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
   /* The number that is needed has a tenth to spare. */
   else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,

@@ -54,9 +54,9 @@ static bool make_sides(sbr_model *model, sbri_body *body) {
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body) {
   if (!body->level || !body->source->collision.self) return true;
   const sbf_polygon_mesh *mesh = &body->source->surface;
-  size_t most = mesh->polygon_points.count;
+  size_t max = mesh->polygon_points.count;
   uint32_t *slots = sbfi_arena_allocate(&model->arena, (size_t)body->surface.vertex_count + 1, sizeof *slots);
-  uint32_t *faces = sbfi_arena_allocate(&model->arena, 3 * most + 1, sizeof *faces);
+  uint32_t *faces = sbfi_arena_allocate(&model->arena, 3 * max + 1, sizeof *faces);
   if (!slots || !faces) return false;
   if (!find_slots(&model->islands[body->island], body, slots)) return true;
   const uint32_t *corners = mesh->polygon_points.at;

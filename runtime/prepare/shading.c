@@ -61,10 +61,10 @@ static bool make_sums(sbri_sum_table *table, uint32_t group_count, const uint32_
     for (uint32_t k = 0; k < mesh->polygon_sizes.at[p]; k++)
       used[group_of_corner[corner++]] += faces_of_polygon(mesh->polygon_sizes.at[p]);
   for (uint32_t block = 0; block < block_count; block++) {
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-      if (used[block * SBRI_BLOCK + lane] > most) most = used[block * SBRI_BLOCK + lane];
-    begins[block + 1] = begins[block] + most;
+      if (used[block * SBRI_BLOCK + lane] > max) max = used[block * SBRI_BLOCK + lane];
+    begins[block + 1] = begins[block] + max;
   }
   uint32_t cell_count = begins[block_count];
   sbri_sum_cell *cells = sbfi_arena_allocate(arena, cell_count ? cell_count : 1, sizeof *cells);
@@ -129,9 +129,9 @@ typedef struct grouping {
   uint32_t *first_group; /* (vertices) of the place, by its first vertex */
 } grouping;
 
-static bool begin_grouping(grouping *g, uint32_t most, uint32_t vertex_count, sbfi_arena *scratch) {
+static bool begin_grouping(grouping *g, uint32_t max, uint32_t vertex_count, sbfi_arena *scratch) {
   g->group_count = 0;
-  g->groups = sbfi_arena_allocate(scratch, most, sizeof *g->groups);
+  g->groups = sbfi_arena_allocate(scratch, max, sizeof *g->groups);
   g->first_group = sbfi_arena_allocate(scratch, vertex_count, sizeof *g->first_group);
   if (g->first_group) memset(g->first_group, 0xff, vertex_count * sizeof *g->first_group);
   return g->groups && g->first_group;

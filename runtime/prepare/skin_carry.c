@@ -146,10 +146,10 @@ static bool fill_cells(carry *c, uint32_t *counts) {
     sums[carriers[i].vertex] += carriers[i].weight;
   }
   for (uint32_t block = 0; block < block_count; block++) {
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (uint32_t v = block * SBRI_BLOCK; v < (block + 1) * SBRI_BLOCK && v < skin->vertex_count; v++)
-      most = counts[v] > most ? counts[v] : most;
-    begins[block + 1] = begins[block] + most;
+      max = counts[v] > max ? counts[v] : max;
+    begins[block + 1] = begins[block] + max;
   }
   size_t cell_count = begins[block_count];
   sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);

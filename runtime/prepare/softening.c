@@ -6,13 +6,13 @@
 #include "mechanics/network.h"
 #include "solvers/scheme.h"
 
-enum { POWER_ITERATIONS = 40, MOST_ROUNDS = 8 };
+enum { POWER_ITERATIONS = 40, MAX_ROUNDS = 8 };
 
 /* Power iteration comes from below; what it may still lack. */
 static const double POWER_MARGIN = 1.03;
 
 /* Bulk modulus is given up down to this Poisson's ratio. */
-static const double LEAST_POISSON = 0.35;
+static const double MIN_POISSON = 0.35;
 
 /* The body's fastest mode ends within this share below the limit, and is aimed at the middle of that. */
 static const double NEAR_ENOUGH = 0.97, AIM = 0.985;
@@ -27,7 +27,7 @@ static double find_limit(void) {
   double low = 0, high = 1e6;
   for (int i = 0; i < 60; i++) {
     of.fastest_rad_s = 0.5 * (low + high), of.bound_rad_s = 2 * of.fastest_rad_s;
-    bool fits = sbri_stable_substeps(&of, 1.0 / 60, 0) <= SBRI_MOST_SUBSTEPS;
+    bool fits = sbri_stable_substeps(&of, 1.0 / 60, 0) <= SBRI_MAX_SUBSTEPS;
     *(fits ? &low : &high) = of.fastest_rad_s;
   }
   return low;
@@ -61,14 +61,14 @@ static double find_square_per_pa(
 
 /* Young's modulus and Poisson's ratio with which 3 lambda + 2 mu is no more than `most`; the shares of the
  * shear and bulk moduli that are left go into the island. */
-static void soften_element(sbri_island *island, float *young, float *poisson, double most) {
+static void soften_element(sbri_island *island, float *young, float *poisson, double max) {
   double e = (double)*young, nu = (double)*poisson;
   double mu = e / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu), bulk = lambda + 2 * mu / 3;
-  double least = mu * 2 * LEAST_POISSON / (1 - 2 * LEAST_POISSON), wanted = (most - 2 * mu) / 3, share = 1;
-  if (!(3 * lambda + 2 * mu > most)) return;
-  if (wanted < least) {
-    wanted = lambda < least ? lambda : least;
-    share = most / (3 * wanted + 2 * mu);
+  double min = mu * 2 * MIN_POISSON / (1 - 2 * MIN_POISSON), wanted = (max - 2 * mu) / 3, share = 1;
+  if (!(3 * lambda + 2 * mu > max)) return;
+  if (wanted < min) {
+    wanted = lambda < min ? lambda : min;
+    share = max / (3 * wanted + 2 * mu);
   }
   double ratio = 0.5 * wanted / (wanted + mu), bulk_share = share * (wanted + 2 * mu / 3) / bulk;
   *poisson = (float)ratio, *young = (float)(2 * share * mu * (1 + ratio));
@@ -121,7 +121,7 @@ bool sbri_soften(sbri_island_maker *m, sbf_spring_network *network, double *scra
   }
   network->young_modulus = young, network->poisson_ratios = poisson;
   double cap = limit * limit; /* enough in any case, and then raised */
-  for (int round = 0; round < MOST_ROUNDS; round++) {
+  for (int round = 0; round < MAX_ROUNDS; round++) {
     soften_all(m->island, stated, count, cap, young, poisson);
     fastest = sbri_fastest(network, scratch);
     if (fastest <= limit && fastest >= NEAR_ENOUGH * limit) break;

@@ -1,6 +1,6 @@
-/* Tetrahedra too stiff for the explicit scheme's budget of SBRI_MOST_SUBSTEPS are stepped as softer ones.
+/* Tetrahedra too stiff for the explicit scheme's budget of SBRI_MAX_SUBSTEPS are stepped as softer ones.
  *
- * The budget bounds the angular frequency w of any mode at w_max = 2 SBRI_MOST_SUBSTEPS / (1.1 tick), 112,000
+ * The budget bounds the angular frequency w of any mode at w_max = 2 SBRI_MAX_SUBSTEPS / (1.1 tick), 112,000
  * rad/s at 1/60 s. Modes near that deform single elements. A compact body of n elements across then still has
  * its lowest mode at about w_max / n and sags under its weight by g (n / w_max)^2: less than a micrometre.
  * An implicit scheme at a lower cost loses more: its swings, its bounce and, unless it iterates to

@@ -13,20 +13,20 @@ typedef struct carriers {
 } carriers;
 
 static carriers carriers_of(const sbri_skin *skin, uint32_t vertex) {
-  const float least = 0.05f;
+  const float min = 0.05f;
   carriers found = {{0}, 0};
   uint32_t lane = vertex % SBRI_BLOCK;
-  float most = 0;
+  float max = 0;
   bool bound = skin->binding_count && skin->binding_of[vertex] != UINT32_MAX;
   if (!skin->cell_begins || bound) return found;
   for (uint32_t c = skin->cell_begins[vertex / SBRI_BLOCK]; c < skin->cell_begins[vertex / SBRI_BLOCK + 1];
        c++) {
     float weight = skin->cells[c].weights[lane];
-    if (weight < least || found.count == 4) continue;
+    if (weight < min || found.count == 4) continue;
     uint32_t at = found.count++;
     found.slots[at] = skin->cells[c].slots[lane];
-    if (weight <= most) continue;
-    most = weight;
+    if (weight <= max) continue;
+    max = weight;
     found.slots[at] = found.slots[0], found.slots[0] = skin->cells[c].slots[lane];
   }
   return found;

@@ -36,10 +36,10 @@ static bool fill_table(
   for (size_t i = 0; i < count; i++)
     if (shares[i].slot >= begin && shares[i].slot < body->slot_end) used[shares[i].slot - begin]++;
   for (uint32_t block = 0; block < block_count; block++) {
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (uint32_t i = block * SBRI_BLOCK; i < (block + 1) * SBRI_BLOCK; i++)
-      most = used[i] > most ? used[i] : most;
-    begins[block + 1] = begins[block] + most;
+      max = used[i] > max ? used[i] : max;
+    begins[block + 1] = begins[block] + max;
   }
   uint32_t cell_count = begins[block_count];
   sbri_carry_cell *cells = sbfi_arena_allocate(&model->arena, cell_count ? cell_count : 1, sizeof *cells);

@@ -72,7 +72,7 @@ static void write_points(const sbri_character *c, const sbri_point *from, uint32
   for (uint32_t i = 0; i < count; i++) to[i] = (sbf_vec3){from[i].x * s, from[i].y * s, from[i].z * s};
 }
 
-static uint32_t least(uint32_t a, uint32_t b) {
+static uint32_t min(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
@@ -111,7 +111,7 @@ uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id chara
   const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
   if (!made) return 0;
   const sbri_skin now = sbri_skin_now(c, made), *skin = &now;
-  uint32_t count = least(capacity, skin->vertex_count);
+  uint32_t count = min(capacity, skin->vertex_count);
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
   sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
@@ -165,7 +165,7 @@ uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id characte
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
   const sbri_skin surface = sbri_skin_now(c, &body->surface);
   sbri_skin_vertices(c->model, &surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
-  if (positions) write_points(c, vertices, least(capacity, body->surface.vertex_count), positions);
+  if (positions) write_points(c, vertices, min(capacity, body->surface.vertex_count), positions);
   return body->surface.vertex_count;
 }
 

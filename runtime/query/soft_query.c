@@ -40,12 +40,12 @@ uint32_t sbr_character_nearest_vertex(
   /* Which that call has found, in the character's own units. */
   const sbri_point *vertices = sbri_surface_vertices(c) + c->model->bodies[soft_body].first_vertex;
   sbr_double3 o = sbri_head(c)->origin;
-  double least = 0, s = (double)c->scale;
+  double min = 0, s = (double)c->scale;
   for (uint32_t i = 0; i < count; i++) {
     double x = o.x + s * (double)vertices[i].x - position.x, y = o.y + s * (double)vertices[i].y - position.y,
            z = o.z + s * (double)vertices[i].z - position.z, square = x * x + y * y + z * z;
-    if (nearest != SBR_WHOLE_BODY && !(square < least)) continue;
-    nearest = i, least = square;
+    if (nearest != SBR_WHOLE_BODY && !(square < min)) continue;
+    nearest = i, min = square;
   }
   return nearest;
 }

@@ -24,7 +24,7 @@ static const float LONGEST = 1.001f;
 
 /* No bone goes farther against its flesh in a step, as a share of the flesh's cells: that far the answers are
  * what they are at rest. */
-static const float MOST_WAY = 0.1f;
+static const float MAX_WAY = 0.1f;
 
 static float longest_step_s(const sbri_character *c) {
   return c->model->asset->environment.control_tick / SBRI_BORNE_STEPS;
@@ -58,15 +58,15 @@ static float speed_against(const sbri_character *c, const sbri_island *island, c
 }
 
 float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s) {
-  float most = tick_s / (LONGEST * longest_step_s(c));
+  float max = tick_s / (LONGEST * longest_step_s(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
     if (!hangs_on(c, i, body) || !(island->cell_m > 0)) continue;
     float speed = speed_against(c, island, &c->model->rigid.bodies[body], &sbri_rigid_bodies(c)[body]);
-    float steps = tick_s * speed / (MOST_WAY * island->cell_m);
-    most = steps > most ? steps : most;
+    float steps = tick_s * speed / (MAX_WAY * island->cell_m);
+    max = steps > max ? steps : max;
   }
-  return most;
+  return max;
 }
 
 /* ---- How heavy ---- */

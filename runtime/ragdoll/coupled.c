@@ -53,7 +53,7 @@ void sbri_coupled_begin(sbri_coupled *group) {
     tick.outer_rad_s = &now.outer_rad_s;
     sbri_outer_look(&tick);
     sbri_island_prepare_contacts(&tick, c);
-    (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovering); /* for the whole tick */
+    (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovery); /* for the whole tick */
     group->touches = group->touches || may_touch(&tick);
     sbri_coupled_need(group, &tick);
   }
@@ -94,12 +94,12 @@ static float ease_of(const sbri_character *c, uint32_t frame, float lost) {
 static float ease_of_guides(const sbri_character *c, const sbri_body *body, uint32_t place, float lost) {
   if (!body->guides) return ease_of(c, body->guide_frame, lost);
   const sbri_guide *guide = &body->guides[place];
-  float least = 1;
+  float min = 1;
   for (int k = 0; k < SBRI_GUIDES; k++) {
     float ease = guide->weights[k] > 0 ? ease_of(c, guide->frames[k], lost) : 1;
-    least = ease < least ? ease : least;
+    min = ease < min ? ease : min;
   }
-  return least;
+  return min;
 }
 
 /* Of a body that one frame guides, and every point of which loses the same share: by lanes of eight, summed
@@ -189,7 +189,7 @@ static void act_on_island(sbri_coupled *group, uint32_t index, float step_s, flo
   if (group->falls) tick.gravity = sbri_vec3(0, 0, 0);
   tick.undamped = true;
   tick.reactions = sbri_reactions(c);
-  sbri_router_scheme(&now, sbri_island_states(c)[index].recovering)->tick(&tick);
+  sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
   sbri_coupled_need_now(group, &tick);
 }
 
@@ -197,11 +197,11 @@ static sbri_reaction no_reaction(
     const sbri_character *c, const sbri_rigid_tick *t, uint32_t b, float step_s) {
   const sbri_rigid_body *is = &t->model->bodies[b];
   const sbf_vec3 *turns = &is->inverse_inertia;
-  float most = turns->x > turns->y ? turns->x : turns->y;
+  float max = turns->x > turns->y ? turns->x : turns->y;
   float share = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_swell(&t->pull, b, step_s) : 0;
   return (sbri_reaction){.about = t->bodies[b].pose.position,
       .ease = share * is->inverse_mass,
-      .turn_ease = share * (most > turns->z ? most : turns->z)};
+      .inverse_inertia = share * (max > turns->z ? max : turns->z)};
 }
 
 /* What has been moved at once against the bodies that hold it moves these by their part of it, in the step

@@ -12,14 +12,14 @@
 #include "solvers/tetrahedron_forces.h"
 
 /* More steps of rigid parts than this are not taken in a tick. */
-enum { MOST_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
+enum { MAX_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
 
 /* Way of a point against its guides in a step, as a share of its body's cells. */
-static const float MOST_WAY = 0.25f;
+static const float MAX_WAY = 0.25f;
 
 /* Greatest angular frequency times step of a bone on flesh that is stiffer than at rest, where that at rest
- * is no more than SBRI_RIGID_MOST_SWING. */
-static const float MOST_STIFFENED_SWING = 1.2f;
+ * is no more than SBRI_RIGID_MAX_SWING. */
+static const float MAX_STIFFENED_SWING = 1.2f;
 
 /* What nothing damps goes on for ever, and gains by each change of its steps near those that are just stable:
  * it takes so many times as many. */
@@ -28,7 +28,7 @@ static const float FINER_UNDAMPED = 1.25f;
 /* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
 static uint32_t rounded_steps(uint32_t steps) {
   uint32_t whole = 4;
-  while (whole < steps && whole < MOST_STEPS) whole *= 2;
+  while (whole < steps && whole < MAX_STEPS) whole *= 2;
   for (uint32_t quarter = 5; quarter < 8; quarter++)
     if (whole * quarter / 8 >= steps) return whole * quarter / 8;
   return whole;
@@ -47,7 +47,7 @@ static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
 
 /* As many as keep up with how fast all that is soft makes a body swing, at rest: always the same. */
 static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
-  return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MOST_SWING;
+  return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MAX_SWING;
 }
 
 static float tick_of(const sbri_coupled *group) {
@@ -55,7 +55,7 @@ static float tick_of(const sbri_coupled *group) {
 }
 
 static void take_steps(sbri_coupled *group, float steps) {
-  if (steps > (float)group->steps) group->steps = steps < MOST_STEPS ? (uint32_t)ceilf(steps) : MOST_STEPS;
+  if (steps > (float)group->steps) group->steps = steps < MAX_STEPS ? (uint32_t)ceilf(steps) : MAX_STEPS;
 }
 
 static bool may_be_borne(const sbri_character *c, const sbri_island *island) {
@@ -79,7 +79,7 @@ static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
 static float speed_against_guides(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot,
               *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     for (uint32_t slot = body->slot_begin; body->held && slot < body->slot_real_end; slot++) {
@@ -87,10 +87,10 @@ static float speed_against_guides(const sbri_character *c, const sbri_island *is
       const float *v = velocities + at, *u = guides + at;
       float x = v[0] - u[0], y = v[SBRI_BLOCK] - u[SBRI_BLOCK], z = v[2 * SBRI_BLOCK] - u[2 * SBRI_BLOCK];
       float square = x * x + y * y + z * z;
-      most = island->masses[slot] > 0 && square > most ? square : most;
+      max = island->masses[slot] > 0 && square > max ? square : max;
     }
   }
-  return sqrtf(most);
+  return sqrtf(max);
 }
 
 /* Looks a step of the present length ahead. */
@@ -111,7 +111,7 @@ static void look_at_ways(sbri_coupled *group) {
       any = true;
     }
     (void)sbri_guide_velocities_find(c, island, step_s);
-    take_steps(group, tick_of(group) * speed_against_guides(c, island) / (MOST_WAY * island->cell_m));
+    take_steps(group, tick_of(group) * speed_against_guides(c, island) / (MAX_WAY * island->cell_m));
   }
   if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
 }
@@ -139,7 +139,7 @@ void sbri_coupled_need_of_bones(sbri_coupled *group) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     float steps = swung_steps(c, b, tick_of(group));
     if (!sbri_rigid_is_simulated(c, b)) continue;
-    need_steps(group, steps < SBRI_RIGID_MOST_SUBSTEPS ? steps : SBRI_RIGID_MOST_SUBSTEPS, (int32_t)b);
+    need_steps(group, steps < SBRI_RIGID_MAX_SUBSTEPS ? steps : SBRI_RIGID_MAX_SUBSTEPS, (int32_t)b);
     float needed = sbri_burdens(c)[b].needed_steps;
     if (!(needed > (float)group->steps)) continue;
     float bearing = sbri_bearing_steps(c, b, tick_of(group));
@@ -159,7 +159,7 @@ void sbri_coupled_need_now(sbri_coupled *group, const sbri_island_tick *tick) {
   for (uint32_t i = 0; i < island->carrier_count; i++) {
     uint32_t b = island->carriers[i];
     if (sbri_rigid_is_simulated(c, b))
-      take_steps(group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MOST_STIFFENED_SWING);
+      take_steps(group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MAX_STIFFENED_SWING);
   }
 }
 

@@ -16,7 +16,7 @@
 static const float STILL_M_S = 0.15f, LONGEST_FALL_S = 5;
 
 /* How fast the help draws, at first and at last; its greatest accelerations, of places and of turns. */
-static const float FIRST_HZ = 1, LAST_HZ = 6, MOST_M_S2 = 40, MOST_RAD_S2 = 200;
+static const float FIRST_HZ = 1, LAST_HZ = 6, MAX_M_S2 = 40, MAX_RAD_S2 = 200;
 
 /* It has arrived when no body is farther off than this, asset metres and rad; and in any case when so much
  * longer than it should has gone. */
@@ -91,15 +91,15 @@ static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
 /* ---- From tick to tick ---- */
 
 static float fastest_of(const sbri_character *c) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!is_taken(c, b)) continue;
     sbf_vec3 turn = sbri_spin_velocity(&c->model->rigid.bodies[b], body->pose.rotation, body->spin);
     float speed = sbri_length(body->velocity) + c->model->rigid.bodies[b].radius * sbri_length(turn);
-    most = speed > most ? speed : most;
+    max = speed > max ? speed : max;
   }
-  return most;
+  return max;
 }
 
 static sbf_vec3 turn_to(const sbr_transform *to, const sbr_transform *from) {
@@ -144,9 +144,9 @@ bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   return false;
 }
 
-static sbf_vec3 bounded(sbf_vec3 v, float most) {
+static sbf_vec3 bounded(sbf_vec3 v, float max) {
   float length = sbri_length(v);
-  return length > most ? sbri_scale(v, most / length) : v;
+  return length > max ? sbri_scale(v, max / length) : v;
 }
 
 void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float step_s) {
@@ -160,8 +160,8 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float st
     sbf_vec3 turn = sbri_spin_velocity(is, body->pose.rotation, body->spin);
     sbf_vec3 pull = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
     sbf_vec3 twist = sbri_scale(turn_to(&t->targets[b], &body->pose), w * w);
-    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), share * MOST_M_S2);
-    twist = bounded(sbri_add_scaled(twist, turn, -2 * w), share * MOST_RAD_S2);
+    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), share * MAX_M_S2);
+    twist = bounded(sbri_add_scaled(twist, turn, -2 * w), share * MAX_RAD_S2);
     float carried = 1 + t->model->carried_masses[b] * is->inverse_mass;
     pull = sbri_add_scaled(pull, t->gravity, -share * is->source->gravity_scale * carried);
     body->velocity = sbri_add_scaled(body->velocity, pull, step_s);

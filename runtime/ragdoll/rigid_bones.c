@@ -31,7 +31,7 @@ void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_ve
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   drive->asleep = drive->quiet_ticks = drive->slow_ticks = drive->any = 0;
-  drive->calm_ticks = 0, drive->calm_most = drive->calm_before = 0;
+  drive->calm_ticks = 0, drive->calm_max = drive->calm_before = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
   sbri_character_wake(c);
 }

@@ -22,16 +22,16 @@ static bool is_lost(const sbri_rigid_body_state *body) {
 /* Speed of the fastest over its size, 1/s; infinite where something may not rest. */
 static float restlessness(const sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
-  float most = sbri_coupled_are_quiet(c) ? 0 : INFINITY;
+  float max = sbri_coupled_are_quiet(c) ? 0 : INFINITY;
   for (uint32_t b = 0; b < model->body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
     sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
     float share = sbri_length(body->velocity) / size + 0.5f * sbri_length(turn);
     if (body->mode == SBR_RIGID_DRIVEN || !(share <= CALM_1_S)) return INFINITY;
-    most = share > most ? share : most;
+    max = share > max ? share : max;
   }
-  return most;
+  return max;
 }
 
 /* Whether all has moved slowly for some time, and more slowly than in as much time before: what swings out
@@ -40,14 +40,14 @@ static bool is_calming(const sbr_world *world, const sbri_character *c, float sh
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   float tick_s = (float)world->tick_s * c->time_scale;
   if (!(share <= CALM_1_S)) {
-    drive->calm_ticks = 0, drive->calm_most = drive->calm_before = 0;
+    drive->calm_ticks = 0, drive->calm_max = drive->calm_before = 0;
     return false;
   }
-  drive->calm_most = share > drive->calm_most ? share : drive->calm_most;
+  drive->calm_max = share > drive->calm_max ? share : drive->calm_max;
   if (++drive->calm_ticks < world->sleep_ticks || (float)drive->calm_ticks * tick_s < CALM_S) return false;
-  bool calms = drive->calm_most <= CALMING * drive->calm_before;
-  drive->calm_before = drive->calm_most;
-  drive->calm_ticks = 0, drive->calm_most = 0;
+  bool calms = drive->calm_max <= CALMING * drive->calm_before;
+  drive->calm_before = drive->calm_max;
+  drive->calm_ticks = 0, drive->calm_max = 0;
   return calms;
 }
 

@@ -87,14 +87,14 @@ void sbri_free_turns(sbri_free_turning *t, float step_s) {
   sbri_wide3 p = turn_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, spin), w = all_times(ease, p);
   sbri_wide3 half = scale(w, half_s);
   float squares[SBRI_LANES], passes[SBRI_LANES];
-  int most = 0;
+  int max = 0;
   sbri_wide_store(squares, dot(half, half));
   for (int k = 0; k < SBRI_LANES; k++) {
     int count = passes_for(squares[k]);
-    most = count > most ? count : most;
+    max = count > max ? count : max;
     passes[k] = (float)count;
   }
-  for (int pass = 0; pass < most; pass++) {
+  for (int pass = 0; pass < max; pass++) {
     sbri_mask goes_on = sbri_wide_load(passes) > sbri_wide_all((float)pass);
     sbri_wide3 mean = scale(add(p, all_turned_back(half, p)), sbri_wide_all(0.5f));
     w = chosen(goes_on, all_times(ease, mean), w);

@@ -15,7 +15,7 @@
 static const float FIRM = 300, FIRM_ACROSS = 30;
 /* What presses with more than its body's weight, as a toe with a leg on it, grips as much harder, and no more
  * than this. */
-static const float MOST_LOAD = 1000;
+static const float MAX_LOAD = 1000;
 /* In steps that are longer than this they are so much stiffer that what lies sinks in as far. */
 static const float FIRM_STEPS_1_S = 240;
 /* What is less than this share of its body's weight, or of what presses, makes no difference. */
@@ -27,7 +27,7 @@ static const float EASE = 0.005f;
 /* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
 static const float LYING_M = 1e-4f;
 /* What lies below is moved up by this share of it a substep, and no faster than that. */
-static const float LIFT_SHARE = 0.2f, LIFT_MOST_M_S = 0.5f;
+static const float LIFT_SHARE = 0.2f, LIFT_MAX_M_S = 0.5f;
 
 static float height_at(const sbri_rigid_tick *t, float x, float z, sbf_vec3 *normal) {
   double world_x = t->origin.x + (double)t->scale * x, world_z = t->origin.z + (double)t->scale * z;
@@ -81,22 +81,23 @@ static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 turn, sbf_vec3 arm) {
   return sbri_add(velocity, sbri_cross(turn, arm));
 }
 
-static sbri_rigid_guest *guest_of(const sbri_rigid_solving *work, const sbri_ground_touch *touch) {
-  return touch->guest ? &work->guests[touch->guest - 1] : NULL;
+static sbri_rigid_external_body *external_body_of(
+    const sbri_rigid_solving *work, const sbri_ground_touch *touch) {
+  return touch->external_body ? &work->external_bodies[touch->external_body - 1] : NULL;
 }
 
 /* Of the place against what it touches. */
 static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_ground_touch *touch) {
   const sbri_part_motion *m = &work->motions[touch->body];
-  const sbri_rigid_guest *g = guest_of(work, touch);
-  sbf_vec3 under = g ? sbri_guest_velocity(&g->is, touch->guest_arm) : touch->velocity;
+  const sbri_rigid_external_body *g = external_body_of(work, touch);
+  sbf_vec3 under = g ? sbri_external_body_velocity(&g->is, touch->external_body_arm) : touch->velocity;
   return sbri_sub(velocity_at(m->velocity, m->turn, touch->arm), under);
 }
 
 /* Of what it touches, in all the tick so far. */
 static sbf_vec3 gone_with(const sbri_rigid_solving *work, const sbri_ground_touch *touch) {
-  const sbri_rigid_guest *g = guest_of(work, touch);
-  return g ? velocity_at(g->is.begin_velocity, g->is.begin_spin, touch->guest_arm) : touch->velocity;
+  const sbri_rigid_external_body *g = external_body_of(work, touch);
+  return g ? velocity_at(g->is.begin_velocity, g->is.begin_spin, touch->external_body_arm) : touch->velocity;
 }
 
 /* Neither presses at that change of velocity nor has any friction: the most of those nearby. */
@@ -137,14 +138,17 @@ void sbri_ground_touches_make(
     const sbri_rigid_body_state *s = &t->bodies[touch->body];
     sbf_vec3 n = touch->normal;
     touch->arm = sbri_rotate(s->pose.rotation, touch->at);
-    const sbri_rigid_guest *guest = guest_of(work, touch);
+    const sbri_rigid_external_body *external_body = external_body_of(work, touch);
     float plane = touch->offset + since_s * sbri_dot(n, gone_with(work, touch));
     touch->gap = sbri_dot(n, sbri_add(s->pose.position, touch->arm)) - plane;
     sbf_vec3 u = slip_of(work, touch);
     float speed = sbri_dot(n, u), lift = -LIFT_SHARE * touch->gap / step_s;
-    float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MOST_M_S ? lift : LIFT_MOST_M_S;
-    float gives = guest ? sbri_rigid_guest_ease(guest, touch->guest_arm, n) : 0, mass = body->mass;
-    if (guest && guest->is.most_ease * mass > 1) mass = 1 / guest->is.most_ease;
+    float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MAX_M_S ? lift : LIFT_MAX_M_S;
+    float gives =
+              external_body ? sbri_rigid_external_body_ease(external_body, touch->external_body_arm, n) : 0,
+          mass = body->mass;
+    if (external_body && external_body->is.max_inverse_mass * mass > 1)
+      mass = 1 / external_body->is.max_inverse_mass;
     touch->ease = ease(body, s->pose.rotation, touch->arm, n) + gives;
     float weight = 1 / touch->ease, alone = weight * (wanted - speed);
     touch->target = sbri_sub(sbri_scale(n, wanted), u);
@@ -152,14 +156,14 @@ void sbri_ground_touches_make(
     touch->bounce_m_s = 0;
     if (speed < wanted && -speed > bounce_from) {
       /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
-      sbf_vec3 falls = guest ? sbri_sub(t->gravity, guest->is.acceleration) : t->gravity;
+      sbf_vec3 falls = external_body ? sbri_sub(t->gravity, external_body->is.acceleration) : t->gravity;
       float g = -sbri_dot(n, falls), half = 0.5f * g * step_s, begin = speed + half;
       float square = begin * begin + 2 * g * (touch->gap > 0 ? touch->gap : 0);
       touch->bounce_m_s = touch->restitution * (square > 0 ? sqrtf(square) : 0) + half;
       if (!(touch->restitution > 0)) touch->bounce_m_s = 0;
     }
     float normal = work->kick_s * touch->normal_n, own = mass * sbri_length(t->gravity) * step_s;
-    float load = sbri_clamp(own > 0 ? normal / own : 1, 1, MOST_LOAD);
+    float load = sbri_clamp(own > 0 ? normal / own : 1, 1, MAX_LOAD);
     touch->stiff = firmer * FIRM * weight;
     touch->grip = load * firmer * FIRM_ACROSS * weight;
     touch->doubt = DOUBT * load * own;
@@ -176,21 +180,22 @@ void sbri_ground_touches_make(
 }
 
 /* The same to the host's body that it touches, and what couples both. */
-static void add_guest(
-    sbri_rigid_guest *g, const sbri_ground_touch *touch, float more, float grip, float across, sbf_vec3 f) {
+static void add_external_body(sbri_rigid_external_body *g, const sbri_ground_touch *touch, float more,
+    float grip, float across, sbf_vec3 f) {
   const double n[3] = {(double)touch->normal.x, (double)touch->normal.y, (double)touch->normal.z};
   const double p[3] = {(double)touch->side.x, (double)touch->side.y, (double)touch->side.z};
   double w[3][3];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       w[i][j] = (i == j ? (double)grip : 0) + (double)more * n[i] * n[j] + (double)across * p[i] * p[j];
-  sbri_rigid_guest_couple(g, touch->guest_arm, touch->arm, w);
-  sbri_rigid_guest_push(g, touch->guest_arm, sbri_scale(f, -1));
+  sbri_rigid_external_body_couple(g, touch->external_body_arm, touch->arm, w);
+  sbri_rigid_external_body_push(g, touch->external_body_arm, sbri_scale(f, -1));
 }
 
 /* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) where it sticks and
  * stiff n n^T + side_grip side side^T where it slides, and f the impulse that it has without giving way. */
-static void add_touch(sbri_node *node, const sbri_ground_touch *touch, sbri_rigid_guest *guest) {
+static void add_touch(
+    sbri_node *node, const sbri_ground_touch *touch, sbri_rigid_external_body *external_body) {
   float stiff = touch->active ? touch->stiff : 0, grip = touch->slides ? 0 : touch->grip, more = stiff - grip;
   float across = touch->slides ? touch->side_grip : 0;
   const float n[3] = {touch->normal.x, touch->normal.y, touch->normal.z};
@@ -223,14 +228,14 @@ static void add_touch(sbri_node *node, const sbri_ground_touch *touch, sbri_rigi
   sbf_vec3 moment = sbri_cross(touch->arm, f);
   const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
   for (int i = 0; i < 6; i++) node->b[i] += both[i];
-  if (guest) add_guest(guest, touch, more, grip, across, f);
+  if (external_body) add_external_body(external_body, touch, more, grip, across, f);
 }
 
 void sbri_ground_touches_add(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
     if (touch->active || touch->bound > 0)
-      add_touch(&work->system.nodes[touch->node], touch, guest_of(work, touch));
+      add_touch(&work->system.nodes[touch->node], touch, external_body_of(work, touch));
   }
 }
 
@@ -246,8 +251,8 @@ static sbf_vec3 moved_now(const sbri_rigid_solving *work, const sbri_ground_touc
   const double *x = work->system.nodes[touch->node].x;
   sbf_vec3 moved = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
       sbri_vec3((float)x[3], (float)x[4], (float)x[5]), touch->arm);
-  const sbri_rigid_guest *g = guest_of(work, touch);
-  return g ? sbri_sub(moved, sbri_rigid_guest_moved(g, touch->guest_arm)) : moved;
+  const sbri_rigid_external_body *g = external_body_of(work, touch);
+  return g ? sbri_sub(moved, sbri_rigid_external_body_moved(g, touch->external_body_arm)) : moved;
 }
 
 /* The impulse at a change of velocity: nothing but that stands in it. */
@@ -390,7 +395,9 @@ bool sbri_ground_touches_bounce(sbri_rigid_solving *work) {
     sbf_vec3 moment = sbri_cross(touch->arm, f);
     const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
     for (int k = 0; k < 6; k++) work->system.nodes[touch->node].b[k] += both[k];
-    if (touch->guest) sbri_rigid_guest_push(guest_of(work, touch), touch->guest_arm, sbri_scale(f, -1));
+    if (touch->external_body)
+      sbri_rigid_external_body_push(
+          external_body_of(work, touch), touch->external_body_arm, sbri_scale(f, -1));
     touch->more = sbri_add(touch->more, f);
     any = true;
   }

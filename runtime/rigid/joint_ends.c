@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* What is off is put right no faster than this, in m/s and rad/s. */
-static const float MOST_MEND_M_S = 20, MOST_MEND_RAD_S = 60;
+static const float MAX_MEND_M_S = 20, MAX_MEND_RAD_S = 60;
 /* A limit that is broken by more, having been found to be free, makes a step one to be taken again. */
 static const float MISSED = 2e-3f;
 
@@ -18,7 +18,7 @@ static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 apart, floa
   sbf_vec3 off = sbri_sub(wanted, apart);
   float rates[3] = {off.x / step_s, off.y / step_s, off.z / step_s}, worst = 0;
   for (int k = 0; k < 3; k++) {
-    ball->rhs[k] = (double)sbri_clamp(rates[k], -MOST_MEND_M_S, MOST_MEND_M_S);
+    ball->rhs[k] = (double)sbri_clamp(rates[k], -MAX_MEND_M_S, MAX_MEND_M_S);
     ball->flesh_rhs[k] = 0;
   }
   const float parts[3] = {fabsf(off.x), fabsf(off.y), fabsf(off.z)};
@@ -39,7 +39,7 @@ static float correct_rows(
     if (axis == SBF_JOINT_AXIS_TWIST && !at_zero) now = sbri_nearest_turn(now, row->end, row->end);
     float off = row->end - now;
     if (row->kind == SBRI_ROW_LIMIT && !((float)row->sign * off > 0)) continue;
-    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MOST_MEND_M_S, MOST_MEND_RAD_S);
+    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MAX_MEND_M_S, MAX_MEND_RAD_S);
     worst = fabsf(off) > worst ? fabsf(off) : worst;
   }
   return worst;

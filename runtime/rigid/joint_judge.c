@@ -24,15 +24,15 @@ static float of_drive(const sbri_row *row) {
 
 /* A drive's greatest impulse goes into the motions at once; it then takes no part. Where there is flesh as
  * well the row goes on as that, with the greatest impulse on top. */
-static void give_most(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
+static void give_max(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
   if (row->flesh > 0) {
-    float most = of_drive(row) > 0 ? row->most : -row->most;
+    float max = of_drive(row) > 0 ? row->max : -row->max;
     row->give = 1 / row->flesh;
-    row->target = row->give * most;
-    row->most = 0;
+    row->target = row->give * max;
+    row->max = 0;
     return;
   }
-  row->impulse = row->impulse > 0 ? row->most : -row->most;
+  row->impulse = row->impulse > 0 ? row->max : -row->max;
   row->full = true;
   row->active = false;
   for (int side = 0; side < SBRI_SIDES; side++)
@@ -73,8 +73,8 @@ static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
   const double *slow = ball->flesh_rhs;
   double turns =
       (double)sbri_length(sbri_vec3(now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]));
-  if (!(ball->dry * turns > (double)DRY_MORE * ball->most_dry)) return false;
-  double dry = ball->most_dry / turns;
+  if (!(ball->dry * turns > (double)DRY_MORE * ball->max_dry)) return false;
+  double dry = ball->max_dry / turns;
   ball->flesh += dry - ball->dry;
   ball->dry = dry;
   return true;
@@ -83,8 +83,8 @@ static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
 static bool slip_row(sbri_row *row) {
   if (!row->active || !(row->dry > 0)) return false;
   float turns = fabsf(row->target - row->give * row->impulse), pull = row->target / row->give;
-  if (!(row->dry * turns > DRY_MORE * row->most_dry)) return false;
-  float dry = row->most_dry / turns, rate = 1 / row->give + dry - row->dry;
+  if (!(row->dry * turns > DRY_MORE * row->max_dry)) return false;
+  float dry = row->max_dry / turns, rate = 1 / row->give + dry - row->dry;
   row->flesh += dry - row->dry;
   row->dry = dry;
   row->give = 1 / rate;
@@ -155,8 +155,8 @@ bool sbri_joint_rows_judge(const sbri_rigid_tick *t, sbri_rigid_solving *work, s
       row->active = sbri_limit_acts(row, speed + row->moved, step_s);
       if (!row->active) row->impulse = 0;
       changed = changed || row->active != was;
-    } else if (row->active && row->most > 0 && fabsf(of_drive(row)) > row->most * 1.0001f) {
-      give_most(work, e, row);
+    } else if (row->active && row->max > 0 && fabsf(of_drive(row)) > row->max * 1.0001f) {
+      give_max(work, e, row);
       changed = true;
     } else if (slip_row(row)) {
       slips = true;

@@ -29,8 +29,8 @@ typedef struct row_maker {
 /* A row whose rates are not yet known. */
 static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
-  row->target = row->give = row->most = row->bound = row->bounce = row->impulse = row->flesh = 0;
-  row->dry = row->most_dry = 0;
+  row->target = row->give = row->max = row->bound = row->bounce = row->impulse = row->flesh = 0;
+  row->dry = row->max_dry = 0;
   row->wanted = row->was = row->moved = row->clear = row->speed = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
@@ -81,8 +81,8 @@ static float clear_of(const sbri_row *row, const sbri_joint_place *place) {
   if (!(swing < CLEAR_SWING && w > CLEAR_TURN)) return -1;
   if (row->axis == SBF_JOINT_AXIS_SWING) return row->low > 0 ? -1 : row->high - swing;
   if (row->axis != SBF_JOINT_AXIS_TWIST) return -1;
-  float twist = 2 * fabsf(place->turn.x) / w, least = row->high < -row->low ? row->high : -row->low;
-  return least - twist;
+  float twist = 2 * fabsf(place->turn.x) / w, min = row->high < -row->low ? row->high : -row->low;
+  return min - twist;
 }
 
 /* Whether it is far from its bounds, so that there may be nothing to do for it. */
@@ -96,7 +96,7 @@ static bool is_clear(const row_maker *m, sbri_row *row) {
 }
 
 /* A length is never below 0, nor is a swing: there it has no direction either, and must hold nothing. */
-static float least_of(const sbf_limit *limit) {
+static float min_of(const sbf_limit *limit) {
   bool length = limit->target == SBF_JOINT_AXIS_SWING || limit->target == SBF_JOINT_AXIS_DISTANCE;
   return length && limit->min <= 0 ? -INFINITY : limit->min;
 }
@@ -110,7 +110,7 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   }
   sbri_row *row = add_bare_row(m, soft ? SBRI_ROW_SPRING : SBRI_ROW_LIMIT, axis);
   bool pressed = m->tick->joints[m->edge->joint].pressed >> ((m->edge->row_count - 1) & 31) & 1;
-  row->low = least_of(limit), row->high = limit->max;
+  row->low = min_of(limit), row->high = limit->max;
   if (!soft && !pressed && is_clear(m, row)) return;
   float now = sbri_joint_coordinate(m->joint, m->place, axis);
   if (axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, limit->min, limit->max);
@@ -128,7 +128,7 @@ static void add_drive(row_maker *m, const sbf_drive *drive) {
   if (drive->target == SBF_JOINT_AXIS_TWIST) off = sbri_angle_between(drive->position, now);
   sbri_row *row = add_row(m, SBRI_ROW_DRIVE, drive->target);
   soften(m, row, drive->stiffness, drive->damping, off, drive->velocity);
-  row->most = drive->maximum * m->work->kick_s;
+  row->max = drive->maximum * m->work->kick_s;
 }
 
 /* How fast the bodies turn against each other when the step begins. */
@@ -160,7 +160,7 @@ static void add_track(row_maker *m) {
   if (m->edge->ball && !(stiffness > 0)) {
     m->edge->ball->flesh = (double)(damping * m->work->kick_s);
     m->edge->ball->dry = (double)(dry * m->work->kick_s);
-    m->edge->ball->most_dry = (double)(torque * m->work->kick_s);
+    m->edge->ball->max_dry = (double)(torque * m->work->kick_s);
     return;
   }
   sbf_vec3 off = {0, 0, 0};
@@ -177,9 +177,9 @@ static void add_track(row_maker *m) {
     for (int i = 0; i < 6; i++) row->rates[SBRI_B][i] = along[i], row->rates[SBRI_A][i] = -along[i];
     row->speed = sbri_row_speed(m->work, t->model, joint, row);
     soften(m, row, stiffness, damping, sbri_dot(off, *u), 0);
-    row->most = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
+    row->max = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
     row->flesh = flesh * m->work->kick_s;
-    row->dry = dry * m->work->kick_s, row->most_dry = torque * m->work->kick_s;
+    row->dry = dry * m->work->kick_s, row->max_dry = torque * m->work->kick_s;
   }
 }
 
@@ -229,7 +229,7 @@ static void make_ball(row_maker *m) {
   put(ball->levers[SBRI_B], place->arms[SBRI_B]);
   put(ball->rhs, sbri_sub(target, slip));
   put(ball->flesh_rhs, sbri_scale(turn, -1));
-  ball->flesh = ball->dry = ball->most_dry = 0;
+  ball->flesh = ball->dry = ball->max_dry = 0;
   m->turn_rad_s = sbri_length(turn);
 }
 

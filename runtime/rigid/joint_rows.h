@@ -10,9 +10,9 @@
 #define SBRI_MEND_RAD_S 4.0f
 
 /* Within that either way: of lengths, and of angles. */
-static inline float sbri_clamped_rate(sbf_joint_axis axis, float rate, float most_m_s, float most_rad_s) {
-  float most = sbri_axis_turns(axis) ? most_rad_s : most_m_s;
-  return sbri_clamp(rate, -most, most);
+static inline float sbri_clamped_rate(sbf_joint_axis axis, float rate, float max_m_s, float max_rad_s) {
+  float max = sbri_axis_turns(axis) ? max_rad_s : max_m_s;
+  return sbri_clamp(rate, -max, max);
 }
 
 /* How fast the row's coordinate changes as the bodies move. */

@@ -9,7 +9,7 @@ static const float TURN = 6.28318530718f;
 static const double FIRM = 1e5;
 /* A small turn changes its swing and twist by no more than this times what the bodies turn against each
  * other; and so much more is let be for what comes of steps of finite length. */
-static const float REACH = 1.4f, REACH_LEAST = 0.02f;
+static const float REACH = 1.4f, REACH_MIN = 0.02f;
 
 float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *model,
     const sbri_rigid_joint *joint, const sbri_row *row) {
@@ -38,9 +38,9 @@ void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
   row->sign = low ? 1 : -1;
   row->bound = low ? row->low : row->high;
   if (row->kind != SBRI_ROW_LIMIT) return;
-  float most = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_MEND_RAD_S : SBRI_MEND_M_S;
+  float max = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_MEND_RAD_S : SBRI_MEND_M_S;
   float back = (row->bound - row->now) / step_s;
-  row->target = low ? (back > most ? most : back) : (back < -most ? -most : back);
+  row->target = low ? (back > max ? max : back) : (back < -max ? -max : back);
   row->end = row->now + step_s * row->target;
 }
 
@@ -51,7 +51,7 @@ bool sbri_limit_acts(const sbri_row *row, float speed, float step_s) {
 }
 
 float sbri_turn_reach(float turn_rad_s, float step_s) {
-  return REACH * step_s * turn_rad_s + REACH_LEAST;
+  return REACH * step_s * turn_rad_s + REACH_MIN;
 }
 
 void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e,

@@ -7,12 +7,12 @@
 enum { LYING_TICKS = 20 };
 
 /* In flight a tick has so many times fewer steps than the model says at the least. */
-enum { MOST_FEWER = 4 };
+enum { MAX_FEWER = 4 };
 /* And there goes back to fewer below this share of what those would do for. */
 static const float NEARLY = 0.75f;
 
 /* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
-static const float MOST_TURN = 0.2f;
+static const float MAX_TURN = 0.2f;
 /* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
  * that of the tick before: as light parts crack between heavy ones. */
 static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
@@ -24,7 +24,7 @@ static const float SLOW_1_S = 0.1f;
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
   if (pull->burdens && pull->burdens[body].on) return 1;
   float swell = pull->squares
-                    ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MOST_SWING * SBRI_RIGID_MOST_SWING)
+                    ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MAX_SWING * SBRI_RIGID_MAX_SWING)
                     : 0;
   return swell > 1 ? swell : 1;
 }
@@ -68,10 +68,10 @@ static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) 
 }
 
 /* As many as the model says; one where all lies; and in flight as many as keep turns and swings fine. */
-static uint32_t least_steps(const sbri_rigid_tick *t, bool lies, bool flies, float steps) {
+static uint32_t min_steps(const sbri_rigid_tick *t, bool lies, bool flies, float steps) {
   if (lies) return 1;
   if (!flies) return t->substeps;
-  uint32_t count = t->substeps > MOST_FEWER ? t->substeps / MOST_FEWER : 1;
+  uint32_t count = t->substeps > MAX_FEWER ? t->substeps / MAX_FEWER : 1;
   while (count < t->substeps && (float)count < steps) count *= 2;
   return count < t->substeps ? count : t->substeps;
 }
@@ -104,15 +104,15 @@ static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const 
 
 bool sbri_rigid_pulls_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   sbri_rigid_system *s = &work->system;
-  float most = PULLED_SWING / step_s;
-  most *= most;
+  float max = PULLED_SWING / step_s;
+  max *= max;
   for (uint32_t i = 0; i < s->node_count; i++) s->nodes[i].pulled = 0;
   for (uint32_t i = 0; i < s->edge_count; i++) note_pull(t, work, &s->edges[i]);
   bool may = false;
-  for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].pulled > most;
+  for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].pulled > max;
   if (!may) return false; /* mostly, and directions need not be looked at */
   float swings = sbri_rigid_swings(t, work);
-  return swings > most && swings > PULLED_MORE * work->swings;
+  return swings > max && swings > PULLED_MORE * work->swings;
 }
 
 /* Of the fastest body at a joint, rad/s. */
@@ -130,19 +130,19 @@ static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *wo
 
 uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   work->swings = sbri_rigid_swings(t, work);
-  float turns = t->tick_s * fastest_turn(t, work) / MOST_TURN;
-  float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MOST_SWING;
+  float turns = t->tick_s * fastest_turn(t, work) / MAX_TURN;
+  float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MAX_SWING;
   float steps = turns > swings ? turns : swings;
   /* In powers of two, and fewer than before only where a quarter would do, in flight where half would do with
    * some to spare, or what fell has landed or the other way about: a leapfrog whose steps change at every
    * turn gains by it. */
   bool lies = t->drive->slow_ticks >= LYING_TICKS, flies = is_flying(t, work), flew = t->drive->flies;
-  uint32_t count = least_steps(t, lies, flies, steps),
-           most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;
-  while ((float)count < steps && 2 * count <= most) count *= 2;
+  uint32_t count = min_steps(t, lies, flies, steps),
+           max = t->substeps > SBRI_RIGID_MAX_SUBSTEPS ? t->substeps : SBRI_RIGID_MAX_SUBSTEPS;
+  while ((float)count < steps && 2 * count <= max) count *= 2;
   uint32_t before = t->drive->substeps;
   bool nearly = flies || work->touch_count ? steps > NEARLY * (float)count : before < 4 * count;
-  if (!lies && flies == flew && before > count && before <= most && nearly) count = before;
+  if (!lies && flies == flew && before > count && before <= max && nearly) count = before;
   t->drive->substeps = count;
   t->drive->flies = flies;
   return count;

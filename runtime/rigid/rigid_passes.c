@@ -10,7 +10,7 @@
 
 #include "rigid/rigid_work.h"
 
-enum { MOST_PASSES = 40, MOST_BOUNDS = 3 };
+enum { MAX_PASSES = 40, MAX_BOUNDS = 3 };
 /* Where it is coarse touches may be off by this share of the energy by which the step changes velocities. */
 static const double LEFT = 1e-3;
 
@@ -27,9 +27,9 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       for (int j = 0; j <= k; j++) node->d[k][j] += node->burden[k][j];
     memcpy(node->b, node->push, sizeof node->b);
   }
-  sbri_rigid_guests_clear(work);
+  sbri_rigid_external_bodies_clear(work);
   sbri_ground_touches_add(work);
-  sbri_rigid_guests_factor(work);
+  sbri_rigid_external_bodies_factor(work);
   sbri_system_factor(&work->system);
 }
 
@@ -43,7 +43,7 @@ static void hold_back(sbri_rigid_solving *work, float share) {
     sbri_ground_touch *touch = &work->touches[i];
     touch->moved = sbri_lerp(touch->was, touch->moved, share);
   }
-  sbri_rigid_guests_hold_back(work, share);
+  sbri_rigid_external_bodies_hold_back(work, share);
   sbri_joint_rows_hold_back(work, share);
 }
 
@@ -70,17 +70,17 @@ static bool touches_agree(const sbri_rigid_tick *t, const sbri_rigid_solving *wo
 
 void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   sbri_rigid_system *s = &work->system;
-  int bounds = t->coarse ? 0 : MOST_BOUNDS;
-  for (int pass = 0; pass < MOST_PASSES; pass++) {
+  int bounds = t->coarse ? 0 : MAX_BOUNDS;
+  for (int pass = 0; pass < MAX_PASSES; pass++) {
     for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
-    sbri_rigid_guests_note(work);
+    sbri_rigid_external_bodies_note(work);
     for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_aim(&s->edges[e]);
     sbri_rigid_factor(t, work);
     sbri_rigid_solve(work);
     sbri_ground_touches_move(work);
     sbri_joint_rows_move(work, t->model, step_s);
     bool agree = touches_agree(t, work), all = agree && sbri_joint_rows_agree(work);
-    if (work->guest_count && pass + 1 == MOST_PASSES && !all) {
+    if (work->external_body_count && pass + 1 == MAX_PASSES && !all) {
       sbri_ground_touches_as_solved(work); /* else the host's bodies got what the hulls did not give */
       return;
     }

@@ -75,7 +75,7 @@ static void find_slope(
     }
   }
   *slope = a, *rise = q;
-  sbri_rigid_guests_slope(work, slope, rise);
+  sbri_rigid_external_bodies_slope(work, slope, rise);
 }
 
 /* What pushes one way only and the friction with it, along the way: `into` goes from that at its begin by
@@ -115,8 +115,8 @@ static double moved_by_weight(const sbri_rigid_tick *t, const sbri_rigid_solving
   double mass = 0, speed = (double)(sbri_length(t->gravity) * step_s);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     mass += (double)t->model->bodies[work->system.nodes[i].body].mass;
-  for (uint32_t i = 0; i < work->guest_count; i++) { /* to which a trifle of the bodies' is none */
-    double light = 1 / (double)work->guests[i].is.most_ease;
+  for (uint32_t i = 0; i < work->external_body_count; i++) { /* to which a trifle of the bodies' is none */
+    double light = 1 / (double)work->external_bodies[i].is.max_inverse_mass;
     mass = light < mass ? light : mass;
   }
   return mass * speed * speed;
@@ -130,14 +130,14 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   add_limits(work);
   double first = slope - pushed(work, 0);
   double last = slope + rise - pushed(work, 1), level = -(double)LEVEL * first;
-  double least_level = TRIFLE * moved_by_weight(t, work, step_s);
-  if (level < least_level) level = least_level;
+  double min_level = TRIFLE * moved_by_weight(t, work, step_s);
+  if (level < min_level) level = min_level;
   if (!(first < 0) || last <= level || last <= -(double)FAR * first) return 1;
   float low = 0, high = 1;
   for (int i = 0; i < SEARCHES; i++) {
     float share = low + (high - low) * (float)(first / (first - last));
-    float least = low + 0.02f * (high - low), most = high - 0.02f * (high - low);
-    share = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(share, least, most);
+    float min = low + 0.02f * (high - low), max = high - 0.02f * (high - low);
+    share = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(share, min, max);
     double here = slope + (double)share * rise - pushed(work, (double)share);
     if (here >= 0 && here <= level) return share;
     if (here < 0)

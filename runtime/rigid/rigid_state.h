@@ -28,17 +28,17 @@ typedef struct sbri_rigid_joint_state {
 typedef struct sbri_rigid_drive_state {
   float frequency_hz, damping_ratio, strength, joint_damping_1_s, joint_friction; /* as sbr_rigid_drive */
   uint32_t asleep, quiet_ticks;
-  uint32_t calm_ticks;          /* of the time over which it is seen whether what moves slowly calms down */
-  float calm_most, calm_before; /* 1/s: fastest body over its size in that time, and in the one before */
-  uint32_t kept_touches;        /* of the last tick */
-  uint32_t substeps;            /* of the last tick */
-  uint32_t soft_steps;          /* that its soft bodies last asked for; 0: none has */
-  uint32_t slow_ticks;          /* for how many nothing has moved but slowly */
-  float last_step_s;            /* of the last tick; 0: the bodies have just begun to move */
-  uint32_t flies;               /* in the last tick nothing was near and nothing held it */
-  uint32_t any;                 /* some body is not kinematic */
-  uint32_t posture;             /* of sbr_rigid_posture */
-  float posture_s, still_s;     /* for how long, and for how long it has lain still in that */
+  uint32_t calm_ticks;         /* of the time over which it is seen whether what moves slowly calms down */
+  float calm_max, calm_before; /* 1/s: fastest body over its size in that time, and in the one before */
+  uint32_t kept_touches;       /* of the last tick */
+  uint32_t substeps;           /* of the last tick */
+  uint32_t soft_steps;         /* that its soft bodies last asked for; 0: none has */
+  uint32_t slow_ticks;         /* for how many nothing has moved but slowly */
+  float last_step_s;           /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t flies;              /* in the last tick nothing was near and nothing held it */
+  uint32_t any;                /* some body is not kinematic */
+  uint32_t posture;            /* of sbr_rigid_posture */
+  float posture_s, still_s;    /* for how long, and for how long it has lain still in that */
   float limp_share, rest_s, rise_s; /* of sbr_rigid_fall */
 } sbri_rigid_drive_state;
 
@@ -51,10 +51,11 @@ typedef struct sbri_ground_touch {
   float offset;      /* of the plane through the ground's place, as normal.x, at the tick's beginning */
   sbf_vec3 velocity; /* m/s, of what the plane stands for */
   float friction, restitution;
-  uint32_t collider;  /* number of it, or UINT32_MAX: the ground */
-  uint32_t surface;   /* likewise, but of the ground's steps another each: what it is known again by */
-  uint32_t guest;     /* from 1 on: the copy of the host's body that it pushes (rigid_guests.h); 0: none */
-  sbf_vec3 guest_arm; /* m, from that one's centre of mass */
+  uint32_t collider; /* number of it, or UINT32_MAX: the ground */
+  uint32_t surface;  /* likewise, but of the ground's steps another each: what it is known again by */
+  uint32_t
+      external_body; /* from 1 on: the copy of the host's body that it pushes (rigid_guests.h); 0: none */
+  sbf_vec3 external_body_arm; /* m, from that one's centre of mass */
   /* Of the step before, where it is known: */
   bool known;
   uint32_t idle;   /* ticks for which it has not pressed */

@@ -15,11 +15,11 @@
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { MOST_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
+enum { MAX_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
 /* With shapes, beside its vertices with the ground. */
 enum { TOUCHES_OF_BODY = 24 };
 /* Copies of the host's bodies that have a mass; those beyond them are taken for what nothing moves. */
-enum { GUESTS = 6, GUESTS_OF_BODY = 2 };
+enum { EXTERNAL_BODIES = 6, EXTERNAL_BODIES_OF_BODY = 2 };
 
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
  * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
@@ -64,8 +64,8 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->places = carve(&at, joints + 1, sizeof *work->places);
   work->touch_capacity = sbri_rigid_touch_capacity(m);
   work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
-  work->guest_capacity = (uint32_t)(GUESTS + GUESTS_OF_BODY * bodies);
-  work->guests = carve(&at, work->guest_capacity, sizeof *work->guests);
+  work->external_body_capacity = (uint32_t)(EXTERNAL_BODIES + EXTERNAL_BODIES_OF_BODY * bodies);
+  work->external_bodies = carve(&at, work->external_body_capacity, sizeof *work->external_bodies);
   work->pushes = carve(&at, work->touch_capacity + rows, sizeof *work->pushes);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
@@ -187,7 +187,7 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
-  sbri_rigid_guests_begin(work, step_s);
+  sbri_rigid_external_bodies_begin(work, step_s);
   go_all(t, work, step_s);
 }
 
@@ -205,7 +205,7 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       spin[k] = (float)(node->inertia[k][0] * x[3] + node->inertia[k][1] * x[4] + node->inertia[k][2] * x[5]);
     s->spin = sbri_add(s->spin, sbri_vec3(spin[0], spin[1], spin[2]));
   }
-  sbri_rigid_guests_take(work);
+  sbri_rigid_external_bodies_take(work);
 }
 
 static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
@@ -216,7 +216,8 @@ static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
 static void clear_b(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++)
     memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
-  for (uint32_t i = 0; i < work->guest_count; i++) memset(work->guests[i].b, 0, sizeof work->guests[i].b);
+  for (uint32_t i = 0; i < work->external_body_count; i++)
+    memset(work->external_bodies[i].b, 0, sizeof work->external_bodies[i].b);
 }
 
 /* What an edge has done to body b in the step: an impulse, and a moment about the joint's place on b. */
@@ -262,8 +263,8 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work
 }
 
 static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  if (work->guest_count) {
-    sbri_rigid_guests_be_seen(work);
+  if (work->external_body_count) {
+    sbri_rigid_external_bodies_be_seen(work);
     sbri_rigid_factor(t, work);
   }
   clear_b(work);
@@ -288,22 +289,22 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   sbri_system_note(s);
   take_and_go(t, work, step_s);
   bool foresees = sbri_rigid_foresees(t, work);
-  const tolerance *most = t->coarse ? &ROUGH : &EXACT;
-  for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
+  const tolerance *max = t->coarse ? &ROUGH : &EXACT;
+  for (int pass = 0; pass < MAX_CORRECTIONS && s->edge_count; pass++) {
     worst = 0;
     for (uint32_t e = 0; e < s->edge_count; e++) {
       float off = sbri_joint_rows_correct(t, work, e, step_s);
       worst = off > worst ? off : worst;
     }
     if (pass == 0) curved = worst;
-    if (worst < (pass > 0 ? most->fine : foresees ? most->fine_at_once : 0)) break;
+    if (worst < (pass > 0 ? max->fine : foresees ? max->fine_at_once : 0)) break;
     clear_b(work);
     sbri_rigid_solve(work);
     sbri_system_note(s);
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
-  return worst < COARSE && curved < (foresees ? most->curved_foreseen : CURVED) &&
+  return worst < COARSE && curved < (foresees ? max->curved_foreseen : CURVED) &&
          !is_too_fast(t, work, step_s);
 }
 
@@ -317,9 +318,9 @@ static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int 
 
 /* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
-  int most = work->touch_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
+  int max = work->touch_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
   keep_bodies(t, work, depth, false);
-  if (!step(t, work, from, to) && depth + 1 < most) {
+  if (!step(t, work, from, to) && depth + 1 < max) {
     keep_bodies(t, work, depth, true);
     float middle = 0.5f * (from + to);
     substep(t, work, from, middle, depth + 1);
@@ -329,7 +330,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
   work->last_step_s = t->tick_s * (to - from);
   throw_back(t, work);
   sbri_ground_touches_tell(t, work);
-  sbri_rigid_guests_go_on(work, work->last_step_s);
+  sbri_rigid_external_bodies_go_on(work, work->last_step_s);
   note_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
@@ -340,7 +341,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
 /* The joints' pulls on bodies that have just begun to move, by short steps that are then taken back: the
  * first passes on a push that one of them was given, which is no pull, and the second has what is left. */
 static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  const float share = 1 / (float)SBRI_RIGID_MOST_SUBSTEPS;
+  const float share = 1 / (float)SBRI_RIGID_MAX_SUBSTEPS;
   work->last_step_s = share * t->tick_s;
   keep_bodies(t, work, 0, false);
   for (int k = 0; k < 2; k++) (void)step(t, work, 0, share);

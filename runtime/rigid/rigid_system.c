@@ -28,7 +28,7 @@ static int side_of(const sbri_edge *e, int32_t node) {
 
 /* Cholesky of (count x count), lower, as sbri_sym6_factor does it; a row whose pivot is below its `least`, or
  * NULL: a share of its own, gets the pivot 0. */
-static void factor_dense(double *a, uint32_t count, const double *least) {
+static void factor_dense(double *a, uint32_t count, const double *min) {
   for (uint32_t k = 0; k < count; k++) {
     double *row = a + (size_t)k * count, own = row[k];
     for (uint32_t j = 0; j < k; j++) {
@@ -39,7 +39,7 @@ static void factor_dense(double *a, uint32_t count, const double *least) {
     }
     double pivot = own;
     for (uint32_t j = 0; j < k; j++) pivot -= row[j] * row[j];
-    row[k] = pivot > (least ? least[k] : DEPENDENT * own) ? 1 / sqrt(pivot) : 0;
+    row[k] = pivot > (min ? min[k] : DEPENDENT * own) ? 1 / sqrt(pivot) : 0;
   }
 }
 

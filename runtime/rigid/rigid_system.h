@@ -31,10 +31,10 @@ typedef struct sbri_row {
   float rates[SBRI_SIDES][6]; /* of the two bodies */
   float target;               /* c, of the velocities at the substep's end */
   float give;                 /* G */
-  float most;                 /* N s or N m s: of drives; 0: no bound */
+  float max;                  /* N s or N m s: of drives; 0: no bound */
   float flesh;                /* N s or N m s per speed: of what it gives way by, no part of the drive */
   float dry;                  /* of the flesh, what stands for dry friction, */
-  float most_dry;             /* N m s, and what that may come to */
+  float max_dry;              /* N m s, and what that may come to */
   float bound;                /* of the coordinate, where it is held or limited */
   float end;            /* of the coordinate, wanted at the substep's end, where it is held or limited */
   float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
@@ -56,7 +56,7 @@ typedef struct sbri_ball {
   double levers[SBRI_SIDES][3]; /* m, from the bodies' centres of mass to the place */
   double rhs[3];                /* m/s: by how much the place of b is to change its speed against that of a */
   double flesh;                 /* N m s per rad/s, about all axes, */
-  double dry, most_dry;         /* as sbri_row has them, */
+  double dry, max_dry;          /* as sbri_row has them, */
   double flesh_rhs[3];          /* rad/s, and what it wants b's turn against a's to change by */
   double impulse[3], moment[3]; /* N s and N m s, on body b, about the place */
   sbf_vec3 end;                 /* m, along a's axes: how far apart the places are to be at the step's end */

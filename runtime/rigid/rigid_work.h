@@ -3,13 +3,13 @@
 #define SBRI_RIGID_WORK_H
 
 #include "rigid/joint_place.h"
-#include "rigid/rigid_guests.h"
+#include "rigid/rigid_external_bodies.h"
 #include "rigid/rigid_state.h"
 
 /* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
-enum { SBRI_RIGID_HALVINGS = 8, SBRI_RIGID_MOST_SUBSTEPS = 64 };
+enum { SBRI_RIGID_HALVINGS = 8, SBRI_RIGID_MAX_SUBSTEPS = 64 };
 /* Greatest angular frequency times step, by what pulled in the tick before: 2 is where a leapfrog ends. */
-#define SBRI_RIGID_MOST_SWING 0.8f
+#define SBRI_RIGID_MAX_SWING 0.8f
 
 /* How a body moves in a substep, if nothing more acts on it. */
 typedef struct sbri_part_motion {
@@ -40,8 +40,8 @@ typedef struct sbri_rigid_solving {
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
   uint32_t touch_count, touch_capacity;
-  sbri_rigid_guest *guests; /* (guest_count) of the host's bodies that have a mass */
-  uint32_t guest_count, guest_capacity;
+  sbri_rigid_external_body *external_bodies; /* (external_body_count) of the host's bodies that have a mass */
+  uint32_t external_body_count, external_body_capacity;
   sbri_push_way *pushes; /* (touch_capacity + row_count) of the way that is searched */
   uint32_t push_count;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */

@@ -8,7 +8,7 @@
 #include "rigid/rigid_work.h"
 
 /* Touches that shapes may give a body, of the room that there is for all. */
-enum { MOST_TRIANGLES = 64 };
+enum { MAX_TRIANGLES = 64 };
 
 /* How near things begin to touch: a share of the body's size, beside its way in the tick. */
 static const float NEAR_SHARE = 0.02f;
@@ -32,8 +32,9 @@ static void add_touch(const meeting *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf
   const sbri_collider *c = m->frame.collider;
   sbf_vec3 own = sbri_sub(sbri_out_of_shape(&m->frame, on_hull), m->pose.position);
   sbf_vec3 n = sbri_rotate(c->turn_from, normal), place = sbri_out_of_shape(&m->frame, on_shape);
-  uint32_t guest = sbri_rigid_guest_of(m->tick, m->work, m->number, m->node, &m->frame, m->collider);
-  sbf_vec3 centre = guest ? m->work->guests[guest - 1].is.centre : place;
+  uint32_t external_body =
+      sbri_rigid_external_body_of(m->tick, m->work, m->number, m->node, &m->frame, m->collider);
+  sbf_vec3 centre = external_body ? m->work->external_bodies[external_body - 1].is.centre : place;
   m->work->touches[m->work->touch_count++] = (sbri_ground_touch){.node = m->node,
       .body = m->number,
       .at = sbri_rotate(sbri_quat_conjugate(m->pose.rotation), own),
@@ -44,8 +45,8 @@ static void add_touch(const meeting *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf
       .restitution = sbri_restitution_with(c, m->body->source->restitution),
       .collider = m->collider,
       .surface = m->collider,
-      .guest = guest,
-      .guest_arm = sbri_sub(place, centre)};
+      .external_body = external_body,
+      .external_body_arm = sbri_sub(place, centre)};
 }
 
 static void add_pair(const meeting *m, const sbri_hull_pair *pair) {
@@ -149,7 +150,7 @@ static void meet_triangles(const meeting *m) {
   sbri_bounds_walk walk;
   uint32_t item, count = 0;
   sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_grown(bounds_of(m), m->reach));
-  while (count < MOST_TRIANGLES && sbri_bounds_walk_next(&walk, &item)) {
+  while (count < MAX_TRIANGLES && sbri_bounds_walk_next(&walk, &item)) {
     const uint32_t *c = t->corners + 3 * (size_t)item;
     const sbf_vec3 at[3] = {t->points[c[0]], t->points[c[1]], t->points[c[2]]};
     uint32_t before = m->work->touch_count;
@@ -240,14 +241,14 @@ static void meet_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
     m.hull = (sbri_placed_hull){
         &body->hull, at, sbri_quat_multiply(sbri_quat_conjugate(c->turn_from), s->pose.rotation), t->scale};
     m.radius = t->scale * body->radius;
-    float ahead = sbri_length(own_way), most = 0.5f * m.radius;
-    m.reach = t->scale * swing + (ahead < most ? ahead : most);
+    float ahead = sbri_length(own_way), max = 0.5f * m.radius;
+    m.reach = t->scale * swing + (ahead < max ? ahead : max);
     meet(&m, own_way);
   }
 }
 
 void sbri_shape_touches_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  work->guest_count = 0;
+  work->external_body_count = 0;
   if (!t->colliders || !t->colliders->tree.node_count) return;
   for (uint32_t i = 0; i < work->system.node_count; i++)
     meet_body(t, work, work->system.nodes[i].body, (int32_t)i);

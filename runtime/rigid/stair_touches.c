@@ -12,7 +12,7 @@ static const float NEAR_SHARE = 0.02f;
 /* Of the body's size, how much of a quadrant it meets. */
 static const float PIECE = 6;
 /* A body over more steps than that sees but heights: to it they are a slope. */
-enum { MOST_STEPS = 12 };
+enum { MAX_STEPS = 12 };
 
 /* y below 0, z above 0, and as wide. */
 static const sbf_vec3 corners[8] = {
@@ -102,10 +102,10 @@ bool sbri_stair_touches_find(const sbri_rigid_tick *t, sbri_rigid_solving *work,
   sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin), x = state->pose.position;
   float way = t->tick_s * (sbri_length(state->velocity) + sbri_length(t->gravity) * t->tick_s);
   float swing = t->tick_s * sbri_length(turn) * body->radius + NEAR_SHARE * body->radius;
-  float most = 0.5f * body->radius, reach = swing + (way < most ? way : most);
+  float max = 0.5f * body->radius, reach = swing + (way < max ? way : max);
   int64_t first = step_at(&s, x.z - body->radius - reach), last = step_at(&s, x.z + body->radius + reach);
-  if (last - first >= MOST_STEPS) return false;
+  if (last - first >= MAX_STEPS) return false;
   uint32_t before = work->touch_count;
   for (int64_t step = first; step <= last; step++) meet_step(&s, work, b, node, step, reach);
-  return work->touch_count > before || way <= most; /* what is fast may be through before it is near */
+  return work->touch_count > before || way <= max; /* what is fast may be through before it is near */
 }

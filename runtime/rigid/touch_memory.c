@@ -11,9 +11,9 @@ static const float SAME_SHARE = 0.05f;
 static const float NEAR_SHARE = 0.02f, FACING = 0.97f;
 enum { IDLE_TICKS = 4 };
 
-static bool is_same(const sbri_kept_touch *kept, const sbri_ground_touch *touch, float most) {
+static bool is_same(const sbri_kept_touch *kept, const sbri_ground_touch *touch, float max) {
   sbf_vec3 off = sbri_sub(kept->at, touch->at);
-  return kept->surface == touch->surface && sbri_dot(off, off) <= most * most;
+  return kept->surface == touch->surface && sbri_dot(off, off) <= max * max;
 }
 
 static void give_back(const sbri_kept_touch *kept, sbri_ground_touch *touch) {
@@ -47,7 +47,8 @@ static void bear_on(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sb
   sbri_ground_touch *touch = &work->touches[work->touch_count++];
   *touch = *by;
   touch->at = kept->at, touch->normal = kept->normal, touch->offset = kept->offset;
-  if (touch->guest) touch->guest_arm = sbri_sub(x, work->guests[touch->guest - 1].is.centre);
+  if (touch->external_body)
+    touch->external_body_arm = sbri_sub(x, work->external_bodies[touch->external_body - 1].is.centre);
   give_back(kept, touch);
 }
 
@@ -55,11 +56,11 @@ void sbri_touch_memory_recall(const sbri_rigid_tick *t, sbri_rigid_solving *work
   uint32_t count = t->drive->kept_touches, begin = 0;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
-    float most = SAME_SHARE * t->model->bodies[touch->body].radius;
-    if (touch->surface == UINT32_MAX) most = 0; /* those on the ground are vertices */
-    for (uint32_t k = 0; k < count; k++) {      /* mostly the one behind the last */
+    float max = SAME_SHARE * t->model->bodies[touch->body].radius;
+    if (touch->surface == UINT32_MAX) max = 0; /* those on the ground are vertices */
+    for (uint32_t k = 0; k < count; k++) {     /* mostly the one behind the last */
       sbri_kept_touch *kept = &t->kept[(begin + k) % count];
-      if (kept->body != touch->body || !is_same(kept, touch, most)) continue;
+      if (kept->body != touch->body || !is_same(kept, touch, max)) continue;
       kept->found = 1;
       give_back(kept, touch);
       begin = (begin + k + 1) % count;

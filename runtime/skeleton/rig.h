@@ -62,7 +62,7 @@ typedef struct sbri_bone_chain {
   uint32_t first_state; /* place of its first bone among all such chains' bones */
 } sbri_bone_chain;
 
-enum { SBRI_MOST_LEGS = 16, SBRI_BELLY = 4 };
+enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4 };
 
 /* What turns a bone beside its parent. */
 typedef enum sbri_bone_role {
@@ -85,6 +85,7 @@ typedef struct sbri_rig {
   const int32_t *parents;          /* bone_count; -1: root */
   const sbr_transform *rest;       /* bone_count, asset space */
   const sbr_transform *rest_local; /* bone_count, in the parent's rest frame; a root's as it is */
+  const sbr_transform *base_local; /* the same in the gait's rest pose */
   const float *spine_share; /* bone_count: 0 turns with the hips, 1 with the chest, -1 with its parent */
   const uint8_t *roles;     /* bone_count, of sbri_bone_role */
   const sbri_joint_limit *limits; /* bone_count, against the parent */
@@ -93,7 +94,7 @@ typedef struct sbri_rig {
   const sbri_bone_mass *masses;                /* bone_count, shares summing to 1, or all 0 */
 
   const sbf_gait *gait; /* the asset's first; NULL: the character is moved as a whole */
-  sbri_leg legs[SBRI_MOST_LEGS];
+  sbri_leg legs[SBRI_MAX_LEGS];
   uint32_t leg_count;
   const sbri_tail *tails;
   uint32_t tail_count, tail_bone_count;
@@ -109,6 +110,12 @@ typedef struct sbri_rig {
   bool has_pegs;              /* some leg has no knee */
   sbf_vec3 belly[SBRI_BELLY]; /* the lowest of the body fore and hind, left and right; asset space */
   uint32_t belly_count;
+  sbf_vec3 low, high; /* bounds at rest, asset space, of kinds of gait other than walking */
+  /* The chain of the gait's undulation: front and back end of each bone at rest, asset space; where the
+   * middle and the head of each are, from the nose, relative to the length; that, m. */
+  const sbf_vec3 *wave_joints;
+  const float *wave_middles, *wave_heads;
+  float wave_length;
 } sbri_rig;
 
 /* A long foot leans by half of what the leg would have to stretch or to bend, were it upright: how far the

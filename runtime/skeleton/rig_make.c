@@ -5,6 +5,7 @@
 #include "skeleton/rig_limits.h"
 #include "skeleton/rig_mass.h"
 #include "skeleton/rig_soles.h"
+#include "skeleton/rig_spine.h"
 #include "skeleton/rig_walks.h"
 
 /* Share of what a leg stretches from its rest that a long foot's lean adds to its reach. */
@@ -23,7 +24,8 @@ size_t sbri_rig_size(const sbf_asset *asset) {
   return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
          rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
          3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
-         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) + 16;
+         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) +
+         rounded(sbri_rig_spine_size(asset)) + 16;
 }
 
 static void *carve(char **memory, size_t size) {
@@ -109,7 +111,7 @@ static void find_fore_legs(sbri_rig *rig) {
 
 static void init_legs(sbri_rig *rig) {
   float width = 0;
-  for (uint32_t i = 0; i < rig->gait->legs.count && rig->leg_count < SBRI_MOST_LEGS; i++) {
+  for (uint32_t i = 0; i < rig->gait->legs.count && rig->leg_count < SBRI_MAX_LEGS; i++) {
     sbri_leg *leg = &rig->legs[rig->leg_count];
     if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
     rig->leg_count++;
@@ -273,7 +275,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbri_rig_find_limits(rig, limits);
   sbri_rig_find_masses(rig, masses);
   if (rig->gait) {
-    init_legs(rig);
+    if (rig->gait->kind == SBF_GAIT_KIND_WALK) init_legs(rig);
     init_tails(rig, tails);
   }
   init_chains(rig, chains);
@@ -282,4 +284,5 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   find_last_legs(rig, roles);
   sbri_rig_find_belly(rig);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
+  sbri_rig_find_spine(rig, carve(&free_memory, sbri_rig_spine_size(asset)));
 }

@@ -1,5 +1,6 @@
-/* What each bone carries: the volume of the soft bodies that hang on it; where there are none, as many points
- * of the skinned meshes as follow it. Volumes are sums of signed tetrahedra from the bone's head. */
+/* What each bone carries: the volume of the soft bodies that hang on it, or of the rigid body that a build
+ * cut from the skin; where there are none, as many points of the skinned meshes as follow it. Volumes are
+ * sums of signed tetrahedra from the bone's head. */
 #include "skeleton/rig_mass.h"
 
 #include <string.h>
@@ -29,14 +30,26 @@ static void add_points(const sbf_render_mesh *mesh, sbri_bone_mass *masses) {
     }
 }
 
-static void add_body(const sbri_rig *rig, const sbf_soft_body *body, sbri_bone_mass *masses) {
-  const sbf_polygon_mesh *m = &body->surface;
+static void add_surface(
+    const sbri_rig *rig, int32_t bone, const sbf_polygon_mesh *m, sbri_bone_mass *masses) {
   for (uint32_t p = 0, at = 0; p < m->polygon_sizes.count; at += m->polygon_sizes.at[p++]) {
     const uint32_t *corner = m->polygon_points.at + at;
     for (uint32_t k = 2; k < m->polygon_sizes.at[p]; k++)
-      add_triangle(rig, body->bone, m->positions.at[corner[0]], m->positions.at[corner[k - 1]],
+      add_triangle(rig, bone, m->positions.at[corner[0]], m->positions.at[corner[k - 1]],
           m->positions.at[corner[k]], masses);
   }
+}
+
+static void add_solid(const sbf_rigid_body *rigid, sbri_bone_mass *mass) {
+  float volume = rigid->mass / rigid->density;
+  mass->share += volume;
+  mass->place = sbri_add_scaled(mass->place, rigid->center, volume);
+}
+
+static bool has_section(const sbf_asset *asset, int32_t bone) {
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    if (asset->soft_bodies.at[i].bone == bone) return true;
+  return false;
 }
 
 void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
@@ -46,7 +59,17 @@ void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     if (asset->soft_bodies.at[i].bone < 0) continue;
     bodies = true;
-    add_body(rig, &asset->soft_bodies.at[i], masses);
+    add_surface(rig, asset->soft_bodies.at[i].bone, &asset->soft_bodies.at[i].surface, masses);
+  }
+  for (uint32_t i = 0; i < asset->rigid_bodies.count; i++) {
+    const sbf_rigid_body *rigid = &asset->rigid_bodies.at[i];
+    bool cut = rigid->hull && (rigid->derived != SBF_NONE || rigid->hull_derived != SBF_NONE);
+    if (!cut || rigid->bone < 0 || has_section(asset, rigid->bone)) continue;
+    bodies = true;
+    if (rigid->mass > 0 && rigid->density > 0)
+      add_solid(rigid, &masses[rigid->bone]);
+    else
+      add_surface(rig, rigid->bone, rigid->hull, masses);
   }
   for (uint32_t i = 0; !bodies && i < asset->render_meshes.count; i++)
     add_points(&asset->render_meshes.at[i], masses);

@@ -6,14 +6,30 @@
 static const float LARGEST = 0.6f; /* of a leg's length: half a sole */
 static const float BAND = 0.12f, TOUCHES = 0.06f;
 
+/* What is measured one after the other: how high it is, what is near the ground, what touches it. */
+enum { HEIGHT, POINTS, CUT };
+
 typedef struct foot_points {
   float low, high;
   sbri_sole sole;
   bool any, begun, touches;
 } foot_points;
 
+static float touching_height(const foot_points *f) {
+  return f->low + TOUCHES * (f->high - f->low);
+}
+
+static void take_corner(foot_points *f, float x, float z) {
+  for (int k = 0; k < 4; k++) {
+    float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
+    if (!f->touches || across * x + along * z > across * f->sole.corners[k].x + along * f->sole.corners[k].z)
+      f->sole.corners[k] = sbri_vec3(x, 0, z);
+  }
+  f->touches = true;
+}
+
 static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
-  if (pass == 0) {
+  if (pass == HEIGHT) {
     f->low = !f->any || p.y < f->low ? p.y : f->low;
     f->high = !f->any || p.y > f->high ? p.y : f->high;
     f->any = true;
@@ -32,21 +48,38 @@ static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
   s->right = x < s->right ? x : s->right;
   s->toe = z > s->toe ? z : s->toe;
   s->heel = z < s->heel ? z : s->heel;
-  if (p.y > f->low + TOUCHES * (f->high - f->low)) return;
-  for (int k = 0; k < 4; k++) {
-    float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
-    if (!f->touches || across * x + along * z > across * s->corners[k].x + along * s->corners[k].z)
-      s->corners[k] = sbri_vec3(x, 0, z);
-  }
-  f->touches = true;
+  if (p.y <= touching_height(f)) take_corner(f, x, z);
+}
+
+static bool is_in_outline(const foot_points *f, sbf_vec3 p, sbf_vec3 home) {
+  const float *outline = f->sole.outline;
+  float x = p.x - home.x, z = p.z - home.z;
+  return p.y >= f->low && p.y <= f->high && x <= outline[0] && x >= outline[1] && z <= outline[2] &&
+         z >= outline[3];
+}
+
+/* Where edges of the foot's surface pass the height that touches: of a hoof or a ball, no more than its
+ * lowest vertex may lie below. */
+static void take_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home) {
+  const uint32_t *corners = mesh->polygon_points.at;
+  float height = touching_height(f);
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 0, n = mesh->polygon_sizes.at[p]; k < n; k++) {
+      sbf_vec3 a = mesh->positions.at[corners[k]], b = mesh->positions.at[corners[(k + 1) % n]];
+      if ((a.y <= height) == (b.y <= height)) continue;
+      if (!is_in_outline(f, a, home) || !is_in_outline(f, b, home)) continue;
+      sbf_vec3 at = sbri_lerp(a, b, (height - a.y) / (b.y - a.y));
+      take_corner(f, at.x - home.x, at.z - home.z);
+    }
 }
 
 static void look_at_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
   for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
     if (body->bone < 0 || !sbri_rig_is_below(rig, body->bone, foot)) continue;
-    for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    for (uint32_t i = 0; pass < CUT && i < body->surface.positions.count; i++)
       take(f, body->surface.positions.at[i], pass, home);
+    if (pass == CUT) take_cut(f, &body->surface, home);
   }
 }
 
@@ -54,7 +87,8 @@ static void look_at_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 
   for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
     uint32_t at = 0;
-    for (uint32_t i = 0; mesh->skin && i < mesh->skin->influence_counts.count; i++) {
+    if (mesh->skin && pass == CUT) take_cut(f, &mesh->mesh, home);
+    for (uint32_t i = 0; mesh->skin && pass < CUT && i < mesh->skin->influence_counts.count; i++) {
       float held = 0;
       for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++)
         if (sbri_rig_is_below(rig, (int32_t)mesh->skin->bones.at[at], foot))
@@ -67,7 +101,7 @@ static void look_at_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 
 void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
   foot_points f = {.any = false};
   int32_t foot = leg->has_toe ? leg->toe : leg->foot;
-  for (int pass = 0; pass < 2; pass++) {
+  for (int pass = HEIGHT; pass <= CUT; pass++) {
     bool bodies = false;
     for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
       bodies = bodies || sbri_rig_is_below(rig, rig->asset->soft_bodies.at[b].bone, foot);
@@ -78,14 +112,14 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
   }
   /* Its middle is what stands on the ground. Nothing is seen of the foot, or something far from it hangs on
    * it: a small sole below the ankle will do. */
-  float length = leg->upper_length + leg->lower_length, least = 0.02f * length;
+  float length = leg->upper_length + leg->lower_length, min = 0.02f * length;
   float x = 0.5f * (f.sole.left + f.sole.right), z = 0.5f * (f.sole.toe + f.sole.heel);
   if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0};
-  float most = LARGEST * length;
-  float wide = sbri_clamp(f.sole.left - x, least, most), along = sbri_clamp(f.sole.toe - z, least, most);
+  float max = LARGEST * length;
+  float wide = sbri_clamp(f.sole.left - x, min, max), along = sbri_clamp(f.sole.toe - z, min, max);
   leg->sole = (sbri_sole){.left = wide, .right = -wide, .toe = along, .heel = -along};
   for (int k = 0; k < 4; k++)
-    leg->sole.outline[k] = sbri_clamp(f.sole.outline[k] - (k < 2 ? x : z), -most, most);
+    leg->sole.outline[k] = sbri_clamp(f.sole.outline[k] - (k < 2 ? x : z), -max, max);
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = sbri_sub(f.sole.corners[k], sbri_vec3(x, 0, z));
     leg->sole.corners[k] =

@@ -117,13 +117,13 @@ static void find_legs(sbri_walks *walks, const sbri_rig *rig) {
 
 void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
   const sbf_asset *asset = rig->asset;
-  size_t most = frame_count(asset);
+  size_t max = frame_count(asset);
   *walks = (sbri_walks){.first_leg = -1, .other_leg = -1};
-  if (!most) return;
+  if (!max) return;
   sbri_walk *walk = memory; /* what needs the widest steps first */
-  sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + most);
-  sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + most);
-  uint32_t *place_of = (uint32_t *)(void *)(posed + most * rig->bone_count),
+  sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + max);
+  sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + max);
+  uint32_t *place_of = (uint32_t *)(void *)(posed + max * rig->bone_count),
            *bones = place_of + rig->bone_count;
   walks->walks = walk;
   walks->bones = bones;

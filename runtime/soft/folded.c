@@ -14,7 +14,7 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
 
-/* A surface that holds less than this share of its volume will not come back by itself. */
+/* A body with less than this share of its volume will not come back by itself. */
 static const double FOLDED_SHARE = 0.1;
 
 /* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
@@ -26,17 +26,26 @@ static const double STUCK_SHARE = 0.8;
 
 /* Shares of what an island holds all of whose elements are strained by a tenth: what a knot holds at least
  * where the load is known, and where it is not; and what is wild, strains of 14 %. */
-static const double KNOT_SHARE = 0.02, LOOSE_KNOT_SHARE = 0.1, WILD_SHARE = 2;
+static const double KNOT_SHARE = 0.02, LOOSE_KNOT_SHARE = 0.1, UNSTABLE_SHARE = 2;
+
+/* What holds a body presses it where its rest shape would lie so deep: a share of the body's size. */
+static const float PRESSED_SHARE = 0.01f;
 
 /* Tetrahedra so many times as stiff as at rest may be wild. */
 static const float STIFFENED = 2;
 
-static bool encloses_nothing(const sbri_character *c, const sbri_island *island) {
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!(body->rest_volume_m3 > 0)) continue;
-    if (sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3) return true;
-  }
+/* Of a body of tetrahedra it is their volume: a bent surface of few vertices encloses less than what it is
+ * drawn around. That is looked at only where the least of them leaves it open. */
+static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
+  if (body->tetrahedron_count && !island->solid_flows)
+    return (double)min < FOLDED_SHARE && sbri_lattice_share(c, body) < FOLDED_SHARE;
+  return body->rest_volume_m3 > 0 &&
+         sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3;
+}
+
+static bool is_any_empty(const sbri_character *c, const sbri_island *island, float min) {
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (is_empty(c, island, &c->model->bodies[island->bodies[b]], min)) return true;
   return false;
 }
 
@@ -67,9 +76,9 @@ static double kinetic_of(const sbri_character *c, const sbri_island *island) {
   return energy;
 }
 
-/* What elements hold as they are, or where all are strained by a tenth. */
+/* What elements hold as they are, or where all are strained by a tenth; volume times bulk modulus. */
 typedef struct elastic {
-  double now_j, tenth_j;
+  double now_j, tenth_j, bulk_j;
 } elastic;
 
 static void add_tetrahedra(const sbri_body *body, const sbri_point *positions, elastic *sum) {
@@ -83,6 +92,7 @@ static void add_tetrahedra(const sbri_body *body, const sbri_point *positions, e
     }
     sum->now_j += sbfi_tetrahedron_energy(&element, x);
     sum->tenth_j += 0.01 * element.volume * element.lame.mu;
+    sum->bulk_j += element.volume * (element.lame.lambda - element.lame.mu / 3);
   }
 }
 
@@ -103,7 +113,7 @@ static void add_regions(
 }
 
 static elastic elastic_of(const sbri_character *c, const sbri_island *island, const sbri_point *positions) {
-  elastic sum = {sbfi_springs_energy(island->springs, island->spring_count, &positions->x, 4), 0};
+  elastic sum = {sbfi_springs_energy(island->springs, island->spring_count, &positions->x, 4), 0, 0};
   for (uint32_t i = 0; i < island->spring_count; i++) {
     double tenth = 0.1 * island->springs[i].rest_length_m;
     sum.tenth_j += 0.5 * island->springs[i].stiffness_n_m * tenth * tenth;
@@ -157,6 +167,38 @@ static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
   return false;
 }
 
+/* Pressed onto something by what holds it: its rest shape would be in there too. */
+static bool is_pressed_by_holders(const sbri_character *c, const sbri_island *island) {
+  sbri_point *rest = sbri_begins(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (!body->held) continue;
+    float max = PRESSED_SHARE * body->rest_size_m;
+    sbri_guide_places(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+    sbri_held_places(island, sbri_deltas(c), rest);
+    const sbri_touch *touches = sbri_touches(c) + body->first_touch;
+    for (uint32_t i = 0; i < sbri_touch_counts(c)[island->bodies[b]]; i++) {
+      sbf_vec3 at = {0, 0, 0};
+      for (int k = 0; k < 4; k++) {
+        const sbri_point *p = &rest[touches[i].sample.slots[k]];
+        at = sbri_add_scaled(at, sbri_vec3(p->x, p->y, p->z), touches[i].sample.weights[k]);
+      }
+      if (touches[i].collider != SBRI_ITSELF && touches[i].offset - sbri_dot(touches[i].normal, at) > max)
+        return true;
+    }
+    const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
+    const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      if (!near_ground[slot / SBRI_BLOCK]) continue;
+      const float *plane = planes + 4 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
+      const sbri_point *p = &rest[slot];
+      if (plane[3 * SBRI_BLOCK] - sbri_dot(n, sbri_vec3(p->x, p->y, p->z)) > max) return true;
+    }
+  }
+  return false;
+}
+
 static bool is_held(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!c->model->bodies[island->bodies[b]].held) return false;
@@ -175,47 +217,63 @@ static double rest_energy(const sbri_character *c, const sbri_island *island, sb
   return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
 }
 
-/* More than what bodies of that size hold that lie in their own weight: a column strained by e bears m g l e
- * / 4, and holds 100 e^2 times what it does at a tenth. Four times that, for none is a column. */
-static double weight_bears(const sbri_character *c, const sbri_island *island, double tenth_j, sbf_vec3 g) {
+/* The island's weight times the size of its largest body, J. */
+static double load_of(const sbri_character *c, const sbri_island *island, sbf_vec3 g) {
   double weight = 0, size = 0;
   for (uint32_t slot = 0; slot < island->free_count; slot++)
     weight += (double)(island->masses[slot] * fabsf(island->gravity_scales[slot]));
   for (uint32_t b = 0; b < island->body_count; b++)
     size = fmax(size, (double)c->model->bodies[island->bodies[b]].rest_size_m);
-  double load = weight * (double)sbri_length(g) * size;
-  return tenth_j > 0 ? load * load / (400 * tenth_j) : 0;
+  return weight * (double)sbri_length(g) * size;
 }
 
-/* Of springs it is told at each look. Of other elements that would cost as much as a substep of theirs: they
- * are looked at while they are wild, or may be by what their steps have seen. */
+/* More than what bodies of that size hold that lie in their own weight: a column strained by e bears m g l e
+ * / 4, and holds 100 e^2 times what it does at a tenth. Four times that, for none is a column. */
+static double weight_bears(double load_j, double tenth_j) {
+  return tenth_j > 0 ? load_j * load_j / (400 * tenth_j) : 0;
+}
+
+/* Whether an element is crushed and weight cannot be the cause: its pressure would compress by load / bulk,
+ * and four times that where a corner bears it. */
+static bool is_crushed(const sbri_island_state *state, double load_j, double bulk_j) {
+  return state->min_ratio < SBRI_CRUSHED_RATIO && 4 * load_j < (1 - (double)SBRI_CRUSHED_RATIO) * bulk_j;
+}
+
+/* Springs are looked at each time. For other elements that would cost as much as a substep of theirs: they
+ * are looked at while they are wild, or may be by what their steps have seen. Soft ones may hold little
+ * energy where they are crushed, as after a pin has jumped over its neighbours. */
 static bool is_looked_at(const sbri_island *island, const sbri_island_state *state) {
   if (island->scheme->forceless || island->link_flows || island->solid_flows) return false;
-  return state->wild || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED;
+  return state->unstable || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED ||
+         state->min_ratio < SBRI_CRUSHED_RATIO;
 }
 
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_island_state *state = &sbri_island_states(c)[index];
-  bool wild = state->wild;
-  if (is_squeezed(c, island) || sbri_island_is_loaded(c, index)) return (sbri_shape){.wild = wild};
-  if (!(state->least_ratio > 0) || encloses_nothing(c, island))
-    return (sbri_shape){.folded = true, .heaped = true, .wild = true};
+  bool unstable = state->unstable;
+  if (is_squeezed(c, island) || is_pressed_by_holders(c, island) || sbri_island_is_loaded(c, index))
+    return (sbri_shape){.unstable = unstable};
+  if (!(state->min_ratio > 0) || is_any_empty(c, island, state->min_ratio))
+    return (sbri_shape){.folded = true, .heaped = true, .unstable = true};
   if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};
   elastic elements = elastic_of(c, island, positions);
-  double more = elements.now_j, least = KNOT_SHARE * elements.tenth_j;
+  double more = elements.now_j, min = KNOT_SHARE * elements.tenth_j;
   bool told = !island->has_outer && is_held(c, island) && !touches_ground(c, island);
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   if (told)
     more += weight_of(island, positions, g) - rest_energy(c, island, g);
   else
-    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}),
-        least = LOOSE_KNOT_SHARE * elements.tenth_j + weight_bears(c, island, elements.tenth_j, g);
-  bool strained = more > least, stuck = more > STUCK_SHARE * (double)state->excess_j;
-  sbri_shape shape = {.told = told, .excess_j = (float)more, .heaped = more > WILD_SHARE * elements.tenth_j};
-  shape.wild = shape.heaped || (wild && strained);
-  shape.folded = strained && stuck && (told || (wild && !island->has_outer)) &&
+    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_SHARE * elements.tenth_j;
+  double load = told ? 0 : load_of(c, island, g);
+  if (!told && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
+  bool strained = more > min, stuck = more > STUCK_SHARE * (double)state->excess_j;
+  sbri_shape shape = {
+      .told = told, .excess_j = (float)more, .heaped = more > UNSTABLE_SHARE * elements.tenth_j};
+  shape.crushed = told && state->min_ratio < SBRI_CRUSHED_RATIO;
+  shape.unstable = shape.heaped || (unstable && strained);
+  shape.folded = strained && stuck && (told || (unstable && !island->has_outer)) &&
                  kinetic_of(c, island) < MOVING_SHARE * more;
   return shape;
 }

@@ -27,8 +27,8 @@ static bool find_velocities(
     v[0] = x * rate, v[SBRI_BLOCK] = y * rate, v[2 * SBRI_BLOCK] = z * rate;
     farthest = square > farthest ? square : farthest;
   }
-  float most = body->rest_size_m + 0.05f * c->model->rest_size_m;
-  return !(farthest > most * most);
+  float max = body->rest_size_m + 0.05f * c->model->rest_size_m;
+  return !(farthest > max * max);
 }
 
 /* Gives the body's points what its guides' velocity, as that of a rigid body, has changed by in the tick
@@ -37,12 +37,12 @@ static bool find_velocities(
 static void soften_start(sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_rigid_motion *is, const sbri_guide_motion *was, float tick_s) {
   const sbri_point *from = sbri_begins(c) + island->first_slot;
-  float most = fminf(island->most_acceleration_m_s2 * tick_s, island->most_push_m_s);
+  float max = fminf(island->max_acceleration_m_s2 * tick_s, island->max_push_m_s);
   sbf_vec3 push = sbri_sub(is->velocity, was->velocity), turn = sbri_sub(is->spin, was->spin);
-  if (island->scheme->forceless || !(most > 0)) return;
+  if (island->scheme->forceless || !(max > 0)) return;
   float bound =
       sbri_length(push) + (sbri_length(turn) + sbri_dot(was->spin, was->spin) * tick_s) * body->rest_size_m;
-  if (!(bound > most)) return;
+  if (!(bound > max)) return;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -50,8 +50,8 @@ static void soften_start(sbri_character *c, const sbri_island *island, const sbr
     sbf_vec3 change = sbri_add(push, sbri_cross(turn, arm)), inward = sbri_cross(was->spin, arm);
     change = sbri_add_scaled(change, sbri_cross(was->spin, inward), tick_s);
     float size = sbri_length(change);
-    if (!(island->masses[slot] > 0) || !(size > most)) continue;
-    change = sbri_scale(change, 1 - most / size);
+    if (!(island->masses[slot] > 0) || !(size > max)) continue;
+    change = sbri_scale(change, 1 - max / size);
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
   }
 }
@@ -83,6 +83,26 @@ static void ride(sbri_character *c, const sbri_island *island, uint32_t index, f
   move_along(c, island, tick_s);
 }
 
+/* A jump of what holds a body within itself may leave it crushed; looked for so many ticks after. */
+enum { JUMPED_TICKS = 240 };
+
+/* Whether guides go farther against the body as a rigid one than half a cell: with two frames each goes half
+ * of the way. */
+static bool is_torn_apart(const sbri_character *c, const sbri_island *island, const sbri_body *body,
+    const sbri_rigid_motion *is, float tick_s) {
+  const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  float max = 0.5f * island->cell_m / tick_s;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    const sbri_point *p = &sbri_begins(c)[island->first_slot + slot];
+    const float *v = guides + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), is->center);
+    sbf_vec3 off = sbri_sub(
+        sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), sbri_add(is->velocity, sbri_cross(is->spin, arm)));
+    if (island->masses[slot] > 0 && sbri_dot(off, off) > max * max) return true;
+  }
+  return false;
+}
+
 bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s) {
   bool jumped = false;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -107,6 +127,8 @@ bool sbri_island_follow(sbri_character *c, const sbri_island *island, uint32_t i
     if (!body->held) continue;
     sbri_rigid_motion now = motion_of(c, island, body);
     soften_start(c, island, body, &now, motion, tick_s);
+    if (body->guides && island->cell_m > 0 && is_torn_apart(c, island, body, &now, tick_s))
+      sbri_island_states(c)[index].recovery.jumped_ticks = JUMPED_TICKS;
     *motion = (sbri_guide_motion){now.velocity, now.spin};
   }
   return true;

@@ -41,12 +41,18 @@ static void look_at_springs(const sbri_character *c, const sbri_island *island, 
 typedef struct solid_health {
   double energy_j;
   float max_strain;
+  float min_ratio; /* J */
   bool inverted;
   uint32_t torn;
 } solid_health;
 
 static sbfi_d3 place_of(const sbri_point *p) {
   return (sbfi_d3){p->x, p->y, p->z};
+}
+
+static void see_ratio(solid_health *found, double ratio) {
+  found->inverted = found->inverted || !(ratio > 0);
+  found->min_ratio = ratio < (double)found->min_ratio ? (float)ratio : found->min_ratio;
 }
 
 /* As it was made. */
@@ -59,7 +65,7 @@ static void look_at_tetrahedron(
     x[k] = place_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
   sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
   found->energy_j += sbfi_tetrahedron_energy(&element, x);
-  found->inverted = found->inverted || !(sbfi_determinant(&f) > 0);
+  see_ratio(found, sbfi_determinant(&f));
   double square = 0;
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) {
@@ -67,7 +73,7 @@ static void look_at_tetrahedron(
       square += off * off;
     }
   if (!(square > (double)found->max_strain * (double)found->max_strain)) return;
-  float strain = (float)sbfi_tetrahedron_strains(&element, x).most;
+  float strain = (float)sbfi_tetrahedron_strains(&element, x).max;
   found->max_strain = strain > found->max_strain ? strain : found->max_strain;
 }
 
@@ -99,12 +105,12 @@ static void look_at_flowing(const sbri_character *c, const sbri_body *body, cons
   }
   double off = ratio - 1 - mu / lambda;
   found->energy_j += volume * (0.5 * mu * (squares - 3) + 0.5 * lambda * off * off - 0.5 * mu * mu / lambda);
-  found->inverted = found->inverted || !(ratio > 0);
+  see_ratio(found, ratio);
 }
 
 static solid_health look_at_tetrahedra(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions) {
-  solid_health found = {0, 0, false, 0};
+  solid_health found = {.min_ratio = 1};
   bool flows = c->model->islands[body->island].solid_flows;
   for (uint32_t t = 0; t < body->tetrahedron_count; t++)
     if (flows)
@@ -141,7 +147,7 @@ double sbri_region_look(const sbri_region_block *block, const sbri_region_member
 
 static solid_health look_at_regions(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
-  solid_health found = {0, 0, false, 0};
+  solid_health found = {.min_ratio = 1};
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     const sbri_region_block *block = &island->region_blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
@@ -192,8 +198,23 @@ double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const
   return sbri_skin_volume(&body->surface, vertices);
 }
 
+double sbri_lattice_share(const sbri_character *c, const sbri_body *body) {
+  const sbri_island *island = &c->model->islands[body->island];
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  double now = 0, rest = 0;
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
+    const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[at / SBRI_BLOCK];
+    sbfi_d3 x0 = place_of(&positions[block->corners[0][lane]]), edges[3];
+    for (int k = 0; k < 3; k++) edges[k] = sbfi_d3_sub(place_of(&positions[block->corners[k + 1][lane]]), x0);
+    now += sbfi_d3_dot(edges[0], sbfi_d3_cross(edges[1], edges[2]));
+    rest += 1 / (double)block->inverse_volume[lane];
+  }
+  return rest > 0 ? now / rest : 1;
+}
+
 sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c, uint32_t soft_body) {
-  sbr_body_health health = {.volume_ratio = 1, .finite = true};
+  sbr_body_health health = {.volume_ratio = 1, .min_element_ratio = 1, .finite = true};
   const sbri_body *body = &c->model->bodies[soft_body];
   if (!body->level) return health;
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]), *island = &now;
@@ -201,6 +222,7 @@ sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   health.asleep = sbri_island_states(c)[body->island].asleep;
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
+  health.rigid = sbri_island_states(c)[body->island].recovery.rigid_ticks > 0;
   health.finite = is_finite(body, positions, velocities);
   look_at_springs(c, island, body, positions, &health);
   solid_health solid = look_at_tetrahedra(c, body, positions);
@@ -208,13 +230,14 @@ sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c
   health.unsplit = sbri_island_states(c)[body->island].unsplit;
   if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
   health.inverted = solid.inverted;
+  health.min_element_ratio = solid.min_ratio;
   solid_health regions = look_at_regions(island, body, positions);
   if (regions.max_strain > health.max_strain) health.max_strain = regions.max_strain;
   solid.energy_j += regions.energy_j;
   if (body->rest_volume_m3 > 0) {
     double volume = sbri_surface_volume(c, body, sbri_positions(c));
     health.volume_ratio = (float)(volume / body->rest_volume_m3);
-    health.inverted = health.inverted || !(volume > 0);
+    health.inverted = health.inverted || (!body->tetrahedron_count && !(volume > 0));
   }
   find_energies(world, c, body, positions, velocities, solid.energy_j, &health);
   return health;

@@ -19,10 +19,11 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   if (!sbri_island_follow(c, island, index, tick_s)) return;
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   sbri_island_tuck(c, island);
+  sbri_island_keep_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);
   tick.outer_rad_s = &now.outer_rad_s;
   if (!island->scheme->forceless) sbri_outer_look(&tick), sbri_island_prepare_contacts(&tick, c);
-  sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering)->tick(&tick);
+  sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery)->tick(&tick);
   sbri_island_tell(&tick, c);
   if (island->splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   (void)sbri_island_recover(world, c, index, NULL);

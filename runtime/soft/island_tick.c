@@ -1,6 +1,6 @@
 /* What a tick of an island is put together from: its tables, its points, what it may touch, and what it tells
  * of that. */
-#include "collide/guest.h"
+#include "collide/external_body.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
@@ -35,7 +35,7 @@ void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
     tables.surface = &surface;
-    tables.guests = &sbri_guests_of(c)[tick->island->bodies[b]];
+    tables.external_bodies = &sbri_external_bodies_of(c)[tick->island->bodies[b]];
     tables.touched = &sbri_soft_touching(c)[tick->island->bodies[b]];
     tables.self_boxes = sbri_self_boxes(c) + body->first_self_face;
     tables.self_balls = sbri_self_balls(c) + body->first_self_face;
@@ -57,7 +57,7 @@ sbri_island_tick sbri_island_tick_of(
       .island = island,
       .tick_s = tick_s,
       .share = 1,
-      .meets = world->meetings != NULL,
+      .meets = world->body_contacts != NULL,
       .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
       .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
       .origin = sbri_head(c)->origin,
@@ -78,7 +78,8 @@ sbri_island_tick sbri_island_tick_of(
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .touches = sbri_touches(c),
       .touch_counts = sbri_touch_counts(c),
-      .guests = sbri_guests_of(c),
+      .touch_weights = sbri_touch_weights(c) + first,
+      .external_bodies = sbri_external_bodies_of(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
@@ -102,7 +103,7 @@ sbri_island_tick sbri_island_tick_of(
       .stretch = &sbri_island_states(c)[index].stretch,
       .passes = &sbri_island_states(c)[index].passes,
       .stiffening = &sbri_island_states(c)[index].stiffening,
-      .least_ratio = &sbri_island_states(c)[index].least_ratio};
+      .min_ratio = &sbri_island_states(c)[index].min_ratio};
 }
 
 void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c) {

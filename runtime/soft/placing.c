@@ -3,6 +3,7 @@
 
 #include "collide/ground.h"
 #include "math/quat.h"
+#include "mechanics/shape_region.h"
 #include "soft/soft.h"
 #include "solvers/scheme.h"
 #include "tear/tear.h"
@@ -55,9 +56,9 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   stop(c, island_index);
   sbri_island_states(c)[island_index].stretch = island->rest_stretch;
   sbri_island_states(c)[island_index].stiffening = 1;
-  sbri_island_states(c)[island_index].least_ratio = 1;
+  sbri_island_states(c)[island_index].min_ratio = 1;
   sbri_island_states(c)[island_index].folded_ticks = 0;
-  sbri_island_states(c)[island_index].wild = 0;
+  sbri_island_states(c)[island_index].unstable = 0;
   sbri_island_states(c)[island_index].excess_j = 0;
   sbri_island_states(c)[island_index].calm_ticks = 0;
 }
@@ -82,6 +83,37 @@ static bool middle_of(const sbri_body *body, const sbri_point *positions, sbf_ve
     sum = sbri_add(sum, sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z));
   *middle = sbri_scale(sum, count ? 1 / (float)count : 0);
   return count > 0 && sbri_dot(*middle, *middle) < 1e12f;
+}
+
+/* By how much the body is turned at `positions` from its rest shape. */
+static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
+  sbfi_region_sums sums = {0};
+  sbfi_d3 moment = {0, 0, 0};
+  double weight = 0;
+  for (int pass = 0; pass < 2; pass++)
+    for (uint32_t slot = body->slot_begin; slot < body->first_spare; slot++) {
+      const sbri_point *r = &island->rest[slot], *x = &positions[slot];
+      sbfi_d3 rest = {r->x, r->y, r->z}, at = {x->x, x->y, x->z};
+      double m = (double)island->masses[slot];
+      if (pass == 0)
+        moment = sbfi_d3_add(moment, sbfi_d3_scale(rest, m)), weight += m;
+      else if (m > 0)
+        sbfi_region_add(&sums, m, sbfi_d3_sub(rest, sbfi_d3_scale(moment, 1 / weight)), at);
+    }
+  if (!(weight > 0)) return sbri_quat_identity();
+  sbfi_region_fit fit = sbfi_region_fit_of(&sums);
+  return sbri_quat_from_axes(
+      sbfi_d3_rounded(fit.columns[0]), sbfi_d3_rounded(fit.columns[1]), sbfi_d3_rounded(fit.columns[2]));
+}
+
+static void turn_body(
+    sbri_character *c, const sbri_body *body, sbri_point *positions, sbf_vec3 about, sbf_quat turn) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    sbri_point *p = &positions[slot];
+    sbf_vec3 at = sbri_add(about, sbri_rotate(turn, sbri_sub(sbri_vec3(p->x, p->y, p->z), about)));
+    *p = (sbri_point){at.x, at.y, at.z, 0};
+  }
+  turn_regions(c, body, NULL, turn);
 }
 
 static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
@@ -114,8 +146,11 @@ void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, con
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 middle = {0, 0, 0};
     bool good = !body->held && middle_of(body, before, &middle);
-    if (body->slot_end > body->slot_begin)
-      middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
+    if (body->slot_end == body->slot_begin) continue;
+    middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
+    if (!good) continue;
+    sbf_quat lay = rotation_of(island, body, before);
+    middles[body->slot_begin + 1] = (sbri_point){lay.x, lay.y, lay.z, lay.w};
   }
   sbri_island_place_at_rest(c, island_index);
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -124,6 +159,11 @@ void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, con
     if (body->slot_end == body->slot_begin || !(middles[body->slot_begin].w > 0)) continue;
     const sbri_point *was = &middles[body->slot_begin];
     if (!middle_of(body, positions, &now)) continue;
+    const sbri_point *lay = was + 1;
+    sbf_quat frame = sbri_deltas(c)[turning_frame(c, body)].rotation;
+    turn_body(c, body, positions, now,
+        sbri_quat_normalize(
+            sbri_quat_multiply((sbf_quat){lay->x, lay->y, lay->z, lay->w}, sbri_quat_conjugate(frame))));
     shift(body, positions, sbri_sub(sbri_vec3(was->x, was->y, was->z), now));
     shift(body, positions, sbri_vec3(0, depth_of(c, body, positions, ground), 0));
   }

@@ -16,7 +16,7 @@
 enum { FOLDED_TICKS = 24, CALMED_TICKS = 12, LOOK_EVERY = 4 };
 
 /* What no load explains, and calming does not calm for so many, goes round in steps that are not stable. */
-enum { WILD_TICKS = 36 };
+enum { UNSTABLE_TICKS = 36 };
 
 /* For so long at most, where loads that nobody knows may be what strains a body: once each time that it gets
  * wild, so that what is meant to be as strained as that is left alone then. */
@@ -30,6 +30,10 @@ static bool are_sound(const float *numbers, size_t count) {
   uint32_t lost = 0;
   for (size_t i = 0; i < count; i++) lost += !(fabsf(numbers[i]) < LOST_BEYOND);
   return lost == 0;
+}
+
+static bool are_velocities_sound(const sbri_character *c, const sbri_island *island) {
+  return are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count);
 }
 
 /* What holds a body feels nothing of it; so where that is simulated, whoever steps both does it. */
@@ -46,15 +50,153 @@ static void calm(sbri_character *c, uint32_t index, bool coupled) {
   }
 }
 
-static void put_back(sbri_character *c, uint32_t index) {
-  const sbri_island *island = &c->model->islands[index];
+/* ---- The motion that loose bodies keep ---- */
+
+static float *velocity_at(const sbri_character *c, const sbri_island *island, uint32_t slot) {
+  return sbri_velocities(c) + 3 * (size_t)(island->first_slot + slot / SBRI_BLOCK * SBRI_BLOCK) +
+         slot % SBRI_BLOCK;
+}
+
+static sbri_rigid_motion motion_of(
+    const sbri_character *c, const sbri_island *island, const sbri_body *body) {
+  return sbri_rigid_motion_find(island, body, sbri_positions(c) + island->first_slot,
+      sbri_velocities(c) + 3 * (size_t)island->first_slot);
+}
+
+/* Springs twice as long as at rest, or tetrahedra so much stiffer, may be about to burst. */
+static const float SOUND_STRETCH = 0.5f, SOUND_STIFFENING = 4;
+
+static bool is_sound(const sbri_island_state *state) {
+  return !state->recovery.ticks && !state->unstable && state->min_ratio > 0 &&
+         state->stretch < SOUND_STRETCH && state->stiffening < SOUND_STIFFENING;
+}
+
+void sbri_island_keep_motions(sbri_character *c, uint32_t index) {
+  const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!is_sound(state) || island->scheme->forceless || !are_velocities_sound(c, island)) return;
+  state->recovery.unsound_ticks = 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (body->held) continue;
+    sbri_rigid_motion m = motion_of(c, island, body);
+    sbri_guide_motions(c)[island->bodies[b]] = (sbri_guide_motion){m.velocity, m.spin};
+  }
+}
+
+/* Of a body with that inertia, J a kg; against its middle. */
+static float turning_energy(const sbri_rigid_motion *m, sbf_vec3 spin) {
+  float size = sbri_length(spin);
+  if (!(size > 0)) return 0;
+  return 0.5f * size * size * sbri_inertia_about(m->inertia, sbri_scale(spin, 1 / size)) / m->mass_kg;
+}
+
+/* How the body moved when it was last sound, and, where nothing is near that may hold it up, what weight has
+ * given it since. */
+static sbri_guide_motion motion_by_now(
+    const sbri_character *c, const sbri_island *island, uint32_t body_index, sbf_vec3 fallen) {
+  const sbri_body *body = &c->model->bodies[body_index];
+  sbri_guide_motion m = sbri_guide_motions(c)[body_index];
+  if (sbri_touch_counts(c)[body_index] > 0) return m;
+  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
+    if (sbri_near_ground(c)[island->first_slot / SBRI_BLOCK + block]) return m;
+  m.velocity = sbri_add(m.velocity, fallen);
+  return m;
+}
+
+/* What the body moves by once it is in its rest shape: as it does now, or, where that has more energy than
+ * its weight can have given to what it had when it was last sound, by what it had then. */
+static sbri_guide_motion motion_to_keep(const sbr_world *world, const sbri_character *c,
+    const sbri_island *island, uint32_t body_index, bool numbers_are_sound) {
+  const sbri_body *body = &c->model->bodies[body_index];
+  const sbri_recovery *recovery = &sbri_island_states(c)[body->island].recovery;
+  sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
+  float passed_s = (float)(recovery->unsound_ticks + 1) * (float)world->tick_s * c->time_scale;
+  sbf_vec3 fallen = sbri_scale(g, body->source->attributes.gravity_scale * passed_s);
+  sbri_guide_motion was = sbri_guide_motions(c)[body_index];
+  sbri_guide_motion expected = motion_by_now(c, island, body_index, fallen);
+  if (!numbers_are_sound) return expected;
+  float speed = sbri_length(was.velocity) + sbri_length(fallen);
+  sbri_rigid_motion now = motion_of(c, island, body);
+  if (!(now.mass_kg > 0)) return expected;
+  float max = 0.5f * speed * speed + turning_energy(&now, was.spin);
+  float has = 0.5f * sbri_dot(now.velocity, now.velocity) + turning_energy(&now, now.spin);
+  return has <= max ? (sbri_guide_motion){now.velocity, now.spin} : expected;
+}
+
+static void set_motion(
+    sbri_character *c, const sbri_island *island, const sbri_body *body, const sbri_guide_motion *motion) {
+  sbri_rigid_motion lies = motion_of(c, island, body);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    const sbri_point *p = &sbri_positions(c)[island->first_slot + slot];
+    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), lies.center);
+    sbf_vec3 goes = sbri_add(motion->velocity, sbri_cross(motion->spin, arm));
+    float *v = velocity_at(c, island, slot);
+    v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
+  }
+}
+
+/* ---- Putting back ---- */
+
+/* What is put back so often, each time so soon after the last, moves as a rigid body for a while: at first
+ * for this long, then for twice as long and so on up to eight times. */
+enum { RELAPSE_TICKS = 30, ROW_BEFORE_RIGID = 3, RIGID_TICKS = 60, MAX_DOUBLINGS = 3 };
+
+static void count_put_back(sbri_recovery *recovery, bool may_be_rigid) {
+  recovery->row = recovery->relapse_ticks > 0 ? recovery->row + 1 : 1;
+  recovery->ticks = SBRI_RECOVERING_TICKS;
+  recovery->rigid_ticks = 0;
+  if (may_be_rigid && recovery->row >= ROW_BEFORE_RIGID) {
+    uint32_t doublings = recovery->row - ROW_BEFORE_RIGID;
+    recovery->rigid_ticks = RIGID_TICKS << (doublings < MAX_DOUBLINGS ? doublings : MAX_DOUBLINGS);
+  }
+  recovery->relapse_ticks = RELAPSE_TICKS + recovery->rigid_ticks;
+}
+
+static void count_tick(sbri_recovery *recovery) {
+  recovery->unsound_ticks++;
+  if (recovery->jumped_ticks > 0) recovery->jumped_ticks--;
+  if (recovery->relapse_ticks > 0) recovery->relapse_ticks--;
+  if (recovery->rigid_ticks > 0) recovery->rigid_ticks--;
+}
+
+/* Whether a jump of what holds it has left the island in a crushed shape, though from its rest shape another
+ * may be reached. It is tried once: where all shapes are crushed it goes back to that. */
+static bool is_crushed_by_jump(sbri_recovery *recovery, const sbri_shape *shape) {
+  bool crushed = shape->crushed && recovery->jumped_ticks > 0;
+  recovery->crushed_ticks = crushed ? recovery->crushed_ticks + LOOK_EVERY : 0;
+  if (recovery->crushed_ticks < FOLDED_TICKS) return false;
+  recovery->jumped_ticks = recovery->crushed_ticks = 0;
+  return true;
+}
+
+static void put_back(
+    const sbr_world *world, sbri_character *c, uint32_t index, bool numbers_are_sound, bool coupled) {
+  const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  sbri_point *kept =
+      sbri_velocity_points(c) + island->first_slot; /* a loose body has a block of slots at least */
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (body->slot_begin == body->slot_end) continue;
+    sbri_guide_motion m = motion_to_keep(world, c, island, island->bodies[b], numbers_are_sound);
+    kept[body->slot_begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
+    kept[body->slot_begin + 1] = (sbri_point){m.spin.x, m.spin.y, m.spin.z, 0};
+  }
   sbri_island_unflow(c, index);
   sbri_island_place_where_it_is(c, index, &c->ground);
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (body->held || body->slot_begin == body->slot_end || island->scheme->forceless) continue;
+    const sbri_point *v = &kept[body->slot_begin], *w = v + 1;
+    sbri_guide_motion m = {{v->x, v->y, v->z}, {w->x, w->y, w->z}};
+    set_motion(c, island, body, &m);
+    sbri_guide_motions(c)[island->bodies[b]] = m;
+  }
   state->recoveries++;
-  state->recovering = SBRI_RECOVERING_TICKS;
+  count_put_back(&state->recovery, !coupled && !island->scheme->forceless);
 }
 
 bool sbri_island_recover(
@@ -62,28 +204,30 @@ bool sbri_island_recover(
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
-      !are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
+      !are_velocities_sound(c, island)) {
     if (lost) lost->mass = 0;
-    put_back(c, index);
+    put_back(world, c, index, false, lost != NULL);
     return true;
   }
+  count_tick(&state->recovery);
   if (state->calm_ticks > 0) {
     state->calm_ticks--;
     calm(c, index, lost != NULL);
   }
   if ((world->ticks + index) % LOOK_EVERY) return false;
   sbri_shape shape = sbri_shape_of(world, c, index);
-  if (!shape.wild)
+  if (!shape.unstable)
     state->calm_ticks = 0;
-  else if ((shape.told || !state->wild) && !island->scheme->forceless)
+  else if ((shape.told || !state->unstable) && !island->scheme->forceless)
     state->calm_ticks = CALM_TICKS;
-  state->wild = shape.wild ? state->wild + LOOK_EVERY : 0;
+  state->unstable = shape.unstable ? state->unstable + LOOK_EVERY : 0;
   state->excess_j = shape.excess_j;
   state->folded_ticks = shape.folded ? state->folded_ticks + LOOK_EVERY : 0;
-  if (shape.folded) state->recovering = SBRI_RECOVERING_TICKS;
-  bool stays = state->folded_ticks >= (shape.wild && shape.told ? CALMED_TICKS : FOLDED_TICKS);
-  if (!stays && !(shape.told && shape.heaped && state->wild >= WILD_TICKS)) return false;
+  if (shape.folded) state->recovery.ticks = SBRI_RECOVERING_TICKS;
+  bool stays = state->folded_ticks >= (shape.unstable && shape.told ? CALMED_TICKS : FOLDED_TICKS);
+  bool jumped = is_crushed_by_jump(&state->recovery, &shape);
+  if (!stays && !jumped && !(shape.told && shape.heaped && state->unstable >= UNSTABLE_TICKS)) return false;
   if (lost) *lost = sbri_island_momentum(c, index);
-  put_back(c, index);
+  put_back(world, c, index, true, lost != NULL);
   return true;
 }

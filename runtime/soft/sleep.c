@@ -25,11 +25,11 @@ static bool is_quiet(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    float most = QUIET_1_S * body->rest_size_m;
+    float max = QUIET_1_S * body->rest_size_m;
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
       const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
-      if (!(square <= most * most)) return false;
+      if (!(square <= max * max)) return false;
     }
   }
   return true;
@@ -39,12 +39,12 @@ static bool is_quiet(const sbri_character *c, const sbri_island *island) {
 static bool is_moved(sbri_character *c, const sbri_island *island) {
   const sbri_point *held = sbri_positions(c) + island->first_slot;
   sbri_point *targets = sbri_targets(c) + island->first_slot;
-  float most = TREMBLE * c->model->rest_size_m;
+  float max = TREMBLE * c->model->rest_size_m;
   sbri_held_places(island, sbri_deltas(c), targets);
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
     sbf_vec3 off = {
         targets[slot].x - held[slot].x, targets[slot].y - held[slot].y, targets[slot].z - held[slot].z};
-    if (!(sbri_dot(off, off) <= most * most)) return true;
+    if (!(sbri_dot(off, off) <= max * max)) return true;
   }
   return false;
 }
@@ -91,8 +91,9 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
 bool sbri_island_is_quiet(const sbri_character *c, uint32_t index) {
   const sbri_island_state *state = &sbri_island_states(c)[index];
   const sbri_island *island = &c->model->islands[index];
-  return !state->recovering && !sbri_island_is_loaded(c, index) && !state->folded_ticks && !state->wild &&
-         sbri_guides_rest(c, island) && sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
+  return !state->recovery.ticks && !sbri_island_is_loaded(c, index) && !state->folded_ticks &&
+         !state->unstable && sbri_guides_rest(c, island) && sbri_tears_of(c)[index].count == 0 &&
+         is_quiet(c, island);
 }
 
 void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {

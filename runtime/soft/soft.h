@@ -16,7 +16,7 @@ void sbri_island_unflow(sbri_character *c, uint32_t island);
 /* The same for one island, with the present `deltas`. */
 void sbri_island_place_at_rest(sbri_character *c, uint32_t island);
 /* The same, but bodies that nothing holds stay where they are: the middle of each where it was, or above the
- * ground if that reaches higher. */
+ * ground if that reaches higher, turned as it was. */
 void sbri_island_place_where_it_is(sbri_character *c, uint32_t island, const sbr_ground *ground);
 /* An island goes where its frames have gone from `previous_deltas` to `deltas`, keeping its shape, and stops.
  */
@@ -80,6 +80,8 @@ sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, 
 /* Volume within a body's surface as `points` of its character lie; uses scratch of the body's own island, so
  * that tasks may call it side by side. */
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points);
+/* Volume of a body's tetrahedra against rest, where they neither yield nor tear. */
+double sbri_lattice_share(const sbri_character *c, const sbri_body *body);
 
 /* One region of shape matching: adds its energy; the greatest way of a point from its place, as a share of
  * the region's size. */
@@ -96,13 +98,17 @@ void sbri_pin_forces_find(const sbr_world *world, sbri_character *c, uint32_t is
 
 /* ---- soft/folded.c ---- */
 
+/* An element with less than this share of its volume is crushed. */
+#define SBRI_CRUSHED_RATIO 0.2f
+
 /* How an island looks as it now is. */
 typedef struct sbri_shape {
   bool folded;    /* it has lost its shape, and will not find it again by itself should that last */
   bool heaped;    /* so strained that it was thrown about or put so */
-  bool wild;      /* the same, or not yet back from there */
+  bool unstable;  /* the same, or not yet back from there */
   float excess_j; /* what it holds beyond its rest shape; 0: not looked at */
   bool told;      /* all that loads it is known, so that no load is what strains it */
+  bool crushed;   /* an element is, of a body of which all loads are known */
 } sbri_shape;
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t island);
 
@@ -118,10 +124,14 @@ sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t islan
 
 /* Of its speed against what holds it, or against its own rigid motion, a calmed body keeps this in a tick. */
 #define SBRI_CALM_KEPT 0.7f
+/* Before a tick: keeps how the island's loose bodies move, unless it is in trouble. */
+void sbri_island_keep_motions(sbri_character *c, uint32_t island);
 /* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
- * good; whether it has done that. `lost`: NULL, or the caller steps what holds it as well: calms, in the next
- * tick, what moves against that, and gives it what rest shapes have not of the momentum before, which is put
- * there; its mass is 0 where that was lost with its numbers. */
+ * good; whether it has done that. Loose bodies keep their momentum, or, where they have gained more than
+ * weight gives, that which they had when they were last sound. What is put back three times in a row moves as
+ * a rigid body for a second or more. `lost`: NULL, or the caller steps what holds it as well: calms, in the
+ * next tick, what moves against that, and gives it what rest shapes have not of the momentum before, which is
+ * put there; its mass is 0 where that was lost with its numbers. */
 bool sbri_island_recover(
     const sbr_world *world, sbri_character *c, uint32_t island, sbri_whole_momentum *lost);
 

@@ -57,10 +57,10 @@ static inline void sbri_uncrush(
     rate += sbri_dot(gradients[k], sbri_held_gain(t, slots[k]));
   }
   if (!(sum > 0)) return;
-  float share = missing / sum, most = SBRI_CRUSH_STEP * t->island->cell_m, way = share * sqrtf(steepest);
-  if (most > 0 && way > most) share *= most / way;
+  float share = missing / sum, max = SBRI_CRUSH_STEP * t->island->cell_m, way = share * sqrtf(steepest);
+  if (max > 0 && way > max) share *= max / way;
   float push = rate < 0 ? -rate / (sum + held) : 0;
-  if (way > most) push = 0; /* so flat that it has no direction to speak of */
+  if (way > max) push = 0; /* so flat that it has no direction to speak of */
   for (int k = 0; k < 4; k++) {
     if (slots[k] >= t->island->free_count) {
       sbri_held_push(t, slots[k], sbri_scale(gradients[k], push));
@@ -85,7 +85,7 @@ SBRI_INLINE sbri_wide sbri_ratio_of(
 
 /* Whether the wall is looked for. */
 static inline bool sbri_is_crushed(const sbri_island_tick *t) {
-  return t->island->tetrahedron_dense_count > 0 && *t->least_ratio < SBRI_CRUSH_NEAR;
+  return t->island->tetrahedron_dense_count > 0 && *t->min_ratio < SBRI_CRUSH_NEAR;
 }
 
 /* For schemes that do not look at J while they go through a tick. */
@@ -94,10 +94,10 @@ static inline void sbri_crush_look(const sbri_island_tick *t) {
   sbri_watch_begin(&watch);
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      float *least = watch.least_ratio + lane;
-      sbri_wide_store(least, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(least)));
+      float *min = watch.min_ratio + lane;
+      sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(min)));
     }
-  *t->least_ratio = sbri_watch_least_ratio(&watch);
+  *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
 
 /* One sweep; whether any was crushed. All lanes of a block are looked at before any is moved: some blocks'

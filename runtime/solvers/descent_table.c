@@ -4,7 +4,7 @@
 
 #include "mechanics/neo_hookean.h"
 
-enum { MOST_COLOURS = 64 };
+enum { MAX_COLOURS = 64 };
 
 /* Who has which elements: of each free slot, those from begins[slot] on. */
 typedef struct ends {
@@ -66,8 +66,8 @@ static void colour_points(descent_maker *m, uint32_t *count) {
     if (!(m->island->masses[slot] > 0)) continue;
     avoid(m, false, &m->springs, slot, &taken);
     avoid(m, true, &m->solids, slot, &taken);
-    while (colour < MOST_COLOURS && taken >> colour & 1) colour++;
-    if (colour == MOST_COLOURS) colour--;
+    while (colour < MAX_COLOURS && taken >> colour & 1) colour++;
+    if (colour == MAX_COLOURS) colour--;
     m->colours[slot] = (uint8_t)(colour + 1);
     if (colour + 1 > *count) *count = colour + 1;
   }
@@ -146,7 +146,7 @@ static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
 }
 
 static bool add_colour(descent_maker *m, uint32_t colour) {
-  uint32_t slots[SBRI_BLOCK], count = 0, width = colour == MOST_COLOURS ? 1 : SBRI_BLOCK;
+  uint32_t slots[SBRI_BLOCK], count = 0, width = colour == MAX_COLOURS ? 1 : SBRI_BLOCK;
   for (uint32_t slot = 0; slot < m->island->free_count; slot++) {
     if (m->colours[slot] != colour) continue;
     slots[count++] = slot;

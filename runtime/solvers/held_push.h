@@ -25,7 +25,7 @@ static inline sbf_vec3 sbri_shifted_place(const sbri_island_tick *t, uint32_t sl
   sbf_vec3 at = {p->x, p->y, p->z};
   if (!r) return at;
   sbf_vec3 turn = sbri_cross(r->shift_turn, sbri_sub(at, r->about));
-  return sbri_add(at, sbri_add_scaled(sbri_scale(r->shift, r->ease), turn, r->turn_ease));
+  return sbri_add(at, sbri_add_scaled(sbri_scale(r->shift, r->ease), turn, r->inverse_inertia));
 }
 
 static inline sbf_vec3 sbri_reaction_arm(const sbri_island_tick *t, const sbri_reaction *r, uint32_t slot) {
@@ -37,7 +37,7 @@ static inline float sbri_held_ease(const sbri_island_tick *t, uint32_t slot, sbf
   const sbri_reaction *r = sbri_reaction_at(t, slot);
   if (!r) return 0;
   sbf_vec3 turn = sbri_cross(sbri_reaction_arm(t, r, slot), d);
-  return r->ease * sbri_dot(d, d) + r->turn_ease * sbri_dot(turn, turn);
+  return r->ease * sbri_dot(d, d) + r->inverse_inertia * sbri_dot(turn, turn);
 }
 
 /* By how much its velocity is to change by all that its body has been pulled with, m/s. */
@@ -45,7 +45,7 @@ static inline sbf_vec3 sbri_held_gain(const sbri_island_tick *t, uint32_t slot) 
   const sbri_reaction *r = sbri_reaction_at(t, slot);
   if (!r) return sbri_vec3(0, 0, 0);
   sbf_vec3 turn = sbri_cross(r->moment, sbri_reaction_arm(t, r, slot));
-  return sbri_add_scaled(sbri_scale(r->impulse, r->ease), turn, r->turn_ease);
+  return sbri_add_scaled(sbri_scale(r->impulse, r->ease), turn, r->inverse_inertia);
 }
 
 static inline void sbri_held_push(const sbri_island_tick *t, uint32_t slot, sbf_vec3 impulse) {

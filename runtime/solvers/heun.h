@@ -120,7 +120,7 @@ static inline void sbri_heun_evaluate(const sbri_island_tick *t, float h, float 
 }
 
 /* The tick in units of its 2^-10th, and how far and how fast it has come in them. */
-enum { SBRI_HEUN_UNITS = SBRI_MOST_SUBSTEPS };
+enum { SBRI_HEUN_UNITS = SBRI_MAX_SUBSTEPS };
 
 static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;

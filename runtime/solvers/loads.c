@@ -37,11 +37,11 @@ static sbf_vec3 hold_impulse(
     off = sbri_add_scaled(off, sbri_vec3(x->x, x->y, x->z), load->at.weights[k]);
     v = sbri_add_scaled(v, sbri_slot_velocity(t, velocities, load->at.slots[k]), load->at.weights[k]);
   }
-  float k = load->stiffness, kc = h * k + load->damping, most = load->max_force * h;
+  float k = load->stiffness, kc = h * k + load->damping, max = load->max_force * h;
   sbf_vec3 impulse =
       sbri_scale(sbri_add_scaled(sbri_scale(off, k), v, kc), -h / (1 + h * kc * load->inverse_mass));
   float size = sbri_length(impulse);
-  return size > most ? sbri_scale(impulse, most / size) : impulse;
+  return size > max ? sbri_scale(impulse, max / size) : impulse;
 }
 
 void sbri_loads_act(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h) {

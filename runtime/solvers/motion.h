@@ -243,7 +243,7 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
  * goes wrong then is recovered from. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  return needed < SBRI_MOST_STRAINED_SUBSTEPS ? needed : SBRI_MOST_STRAINED_SUBSTEPS;
+  return needed < SBRI_MAX_STRAINED_SUBSTEPS ? needed : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 
 /* Remembers the greatest of the lanes. */

@@ -6,7 +6,7 @@
 #include "solvers/surface_forces.h"
 
 /* A gas pushes no harder than at this share of its rest volume, inside out or not. */
-static const double LEAST_GAS_SHARE = 0.02;
+static const double MIN_GAS_SHARE = 0.02;
 
 /* What a gas may stiffen by from one look to the next. */
 static const double GAS_MARGIN = 1.25;
@@ -115,8 +115,8 @@ static void add_medium(const sbri_island_tick *t, const sbri_body *body, const s
 }
 
 static double gas_volume_now(const sbri_body *body, const sbri_point *vertices) {
-  double volume = volume_of(&body->surface, vertices), least = LEAST_GAS_SHARE * body->gas_volume_m3;
-  return volume > least ? volume : least;
+  double volume = volume_of(&body->surface, vertices), min = MIN_GAS_SHARE * body->gas_volume_m3;
+  return volume > min ? volume : min;
 }
 
 /* `pressure` times the gradient of the volume, and times each face's mean of the factors (NULL: 1). */
@@ -247,7 +247,7 @@ static double gas_square(const sbri_island_tick *t, const sbri_body *body) {
     sum += (double)t->island->inverse_masses[slot] * (double)sbri_dot(g, g);
   }
   double volume = gas_volume_now(body, vertices),
-         pressure = fabs((double)(body->gas_pa * body->most_gas_factor)) * body->gas_volume_m3 / volume;
+         pressure = fabs((double)(body->gas_pa * body->max_gas_factor)) * body->gas_volume_m3 / volume;
   return pressure / volume * sum + pressure * body->gas_turning;
 }
 
@@ -277,7 +277,7 @@ double sbri_outer_energy(
   sbri_island_tick t = {.island = island, .positions = (sbri_point *)(uintptr_t)positions};
   carry_vertices(&t, &body->surface, false, vertices);
   double share = volume_of(&body->surface, vertices) / body->gas_volume_m3;
-  double reckoned = share > LEAST_GAS_SHARE ? share : LEAST_GAS_SHARE;
+  double reckoned = share > MIN_GAS_SHARE ? share : MIN_GAS_SHARE;
   double grown = (double)sbri_log((float)reckoned) + (share - reckoned) / reckoned;
   return energy - (double)body->gas_pa * body->gas_volume_m3 * grown;
 }

@@ -10,8 +10,8 @@
  * them is not symmetric: where it does not resolve the fastest mode, it turns some modes' errors into motion.
  * A cube of 64 kg dropped by 1 m came to 1.5e8 J with 0.6 times as many (nu = 0.499), and to 7 times its
  * energy with 0.07 times as many (nu = 0.3). */
-enum { LEAST_SUBSTEPS = 8, SPRING_FACTOR = 4, SOLID_FACTOR = 2 };
-enum { MOST_SPRING_SUBSTEPS = 128, MOST_DOUBLED_SUBSTEPS = 64 };
+enum { MIN_SUBSTEPS = 8, SPRING_FACTOR = 4, SOLID_FACTOR = 2 };
+enum { MAX_SPRING_SUBSTEPS = 128, MAX_DOUBLED_SUBSTEPS = 64 };
 
 /* Of springs that are to recover for some ticks and are stepped explicitly else, and of those so stiff that
  * the most would leave them several times too soft too. */
@@ -25,13 +25,13 @@ uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
   double outer = MARGIN * tick_s * island->outer_rad_s / 2; /* gas and bending are not swept */
   bool solid = island->tetrahedron_count > 0;
   bool few = island->scheme != &sbri_position_based || stable > HOPELESS_SUBSTEPS;
-  uint32_t factor = SPRING_FACTOR, most = MOST_SPRING_SUBSTEPS;
-  if (solid) factor = SOLID_FACTOR, most = stable > MOST_DOUBLED_SUBSTEPS ? stable : MOST_DOUBLED_SUBSTEPS;
-  if (solid && most > SBRI_MOST_SUBSTEPS) most = SBRI_MOST_SUBSTEPS;
-  if (!solid && few) factor = 1, most = FEW_SUBSTEPS;
+  uint32_t factor = SPRING_FACTOR, max = MAX_SPRING_SUBSTEPS;
+  if (solid) factor = SOLID_FACTOR, max = stable > MAX_DOUBLED_SUBSTEPS ? stable : MAX_DOUBLED_SUBSTEPS;
+  if (solid && max > SBRI_MAX_SUBSTEPS) max = SBRI_MAX_SUBSTEPS;
+  if (!solid && few) factor = 1, max = FEW_SUBSTEPS;
   stable *= factor;
-  if (outer > most) most = outer < SBRI_MOST_SUBSTEPS ? (uint32_t)outer + 1 : SBRI_MOST_SUBSTEPS;
-  return stable < LEAST_SUBSTEPS ? LEAST_SUBSTEPS : stable > most ? most : stable;
+  if (outer > max) max = outer < SBRI_MAX_SUBSTEPS ? (uint32_t)outer + 1 : SBRI_MAX_SUBSTEPS;
+  return stable < MIN_SUBSTEPS ? MIN_SUBSTEPS : stable > max ? max : stable;
 }
 
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {

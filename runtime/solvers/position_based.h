@@ -9,11 +9,12 @@
  * others, Small Steps in Physics Simulation, 2019, for why one sweep of many substeps beats many sweeps of
  * one). Springs go in colours, eight at a time; then tetrahedra (tetrahedron_sweep.h).
  *
- * One spring is stable at any stiffness and any step; tetrahedra that share points need substeps that resolve
- * their fastest mode (position_based.c). Bias against the energy, of a mode of frequency w: damped at the
- * ratio w h / 2, slow by (w h)^2 / 3, exactly as by implicit Euler; and springs that share points rest softer
- * than they are by about k/m h^2, since each is settled while the others wait (measured: 0.8 % in a hanging
- * chain whose fastest mode turns by 0.19 in a substep). Angular momentum is kept to the second order.
+ * A single spring is stable at any step; tetrahedra that share points need substeps that resolve their
+ * fastest mode (position_based.c). Bias against the energy, of a mode of frequency w: damped at the ratio w h
+ * / 2, slow by (w h)^2 / 3, exactly as by implicit Euler; and springs that share points rest softer than they
+ * are by about k/m h^2, since each is settled while the others wait (measured: 0.8 % in a hanging chain whose
+ * fastest mode turns by 0.19 in a substep). A body that turns by w loses w^2 h of its angular velocity a
+ * second.
  *
  * What a sweep works on are displacements since the tick's beginning, `moves`, with the inverse mass as their
  * fourth number: small numbers, of which small corrections are not lost, wherever the body is.
@@ -191,12 +192,12 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
   }
 }
 
-/* Whether nothing looks at places between substeps, so that the end of one and the beginning of the next may
- * be one pass over the points. */
+/* Whether nothing reads or moves positions between substeps, so that the end of one and the beginning of the
+ * next may be one pass over the points, which leaves positions where the tick began. */
 static inline bool sbri_moves_alone(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   bool alone = !t->outer && !t->rests && !t->reactions && !island->link_limits && !island->solid_limits &&
-               !island->link_damping && !island->tetrahedron_damping;
+               !island->link_damping && !island->tetrahedron_damping && !sbri_is_crushed(t);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
     alone =
@@ -245,7 +246,7 @@ static inline uint32_t sbri_position_substeps_now(const sbri_island_tick *t) {
   uint32_t at_rest = sbri_position_substeps(island, t->tick_s);
   if (island->substeps || island->tetrahedron_block_count == 0) return at_rest;
   uint32_t now = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), island->rest_stretch);
-  now = now < SBRI_MOST_SUBSTEPS ? now : SBRI_MOST_SUBSTEPS;
+  now = now < SBRI_MAX_SUBSTEPS ? now : SBRI_MAX_SUBSTEPS;
   return now > at_rest ? now : at_rest;
 }
 
@@ -280,7 +281,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
         sbri_moves_end_body(t, body, h);
     }
     sbri_carry_held(t, share);
-    if (solid && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
+    if (solid && !alone && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
     sbri_count_passes(t, 1);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);

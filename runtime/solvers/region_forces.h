@@ -38,13 +38,13 @@ SBRI_INLINE sbri_wide3 sbri_wide_turned(const sbri_wide_columns *m, sbri_wide3 v
 
 /* x of g x = b for the symmetric g = (xx, yy, zz, xy, yz, zx), where its determinant is above `least` times
  * the cube of its trace; else b over half the trace, or 0 where that is none. */
-SBRI_INLINE sbri_wide3 sbri_wide_solve(const sbri_wide g[6], sbri_wide3 b, float least) {
+SBRI_INLINE sbri_wide3 sbri_wide_solve(const sbri_wide g[6], sbri_wide3 b, float min) {
   sbri_wide3 u = {g[0], g[3], g[5]}, v = {g[3], g[1], g[4]}, w = {g[5], g[4], g[2]};
   sbri_wide3 vw = sbri_wide3_cross(v, w), wu = sbri_wide3_cross(w, u), uv = sbri_wide3_cross(u, v);
   sbri_wide zero = sbri_wide_all(0), half = sbri_wide_all(0.5f), det = sbri_wide3_dot(u, vw);
   sbri_wide trace = g[0] + g[1] + g[2];
   trace = sbri_wide_max(trace, zero - trace);
-  sbri_mask good = det > sbri_wide_all(least) * trace * trace * trace;
+  sbri_mask good = det > sbri_wide_all(min) * trace * trace * trace;
   sbri_wide size = sbri_wide_select(good, det, half * trace);
   sbri_wide share = sbri_wide_select(size > sbri_wide_all(1e-30f), sbri_wide_all(1) / size, zero);
   sbri_wide3 solved = {sbri_wide3_dot(vw, b), sbri_wide3_dot(wu, b), sbri_wide3_dot(uv, b)};

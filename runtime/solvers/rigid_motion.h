@@ -24,8 +24,8 @@ static inline sbri_wide3 sbri_velocity_at(const float *velocities, uint32_t slot
 /* The inertia matrix (xx, yy, zz, xy, xz, yz) solved for the spin. A body on a line has no inertia about it:
  * a millionth of the trace is added so that it has no spin about it either. */
 static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
-  float least = 1e-6f * (inertia[0] + inertia[1] + inertia[2]);
-  float a = inertia[0] + least, b = inertia[1] + least, c = inertia[2] + least;
+  float min = 1e-6f * (inertia[0] + inertia[1] + inertia[2]);
+  float a = inertia[0] + min, b = inertia[1] + min, c = inertia[2] + min;
   float d = inertia[3], e = inertia[4], f = inertia[5];
   sbf_vec3 x = {b * c - f * f, e * f - c * d, d * f - b * e};
   sbf_vec3 y = {x.y, a * c - e * e, d * e - a * f}, z = {x.z, y.z, a * b - d * d};

@@ -3,15 +3,15 @@
 #include "math/vec3.h"
 #include "solvers/tetrahedron_forces.h"
 
-static uint32_t most_strained(const sbri_island *island, double tick_s) {
-  uint32_t least = island->tetrahedron_count ? SBRI_TROUBLED_SOLID_SUBSTEPS : SBRI_TROUBLED_SUBSTEPS;
-  uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->rest_stretch), most = at_rest + at_rest / 2;
-  if (most < least) return least;
-  return most < SBRI_MOST_STRAINED_SUBSTEPS ? most : SBRI_MOST_STRAINED_SUBSTEPS;
+static uint32_t max_strained(const sbri_island *island, double tick_s) {
+  uint32_t min = island->tetrahedron_count ? SBRI_TROUBLED_SOLID_SUBSTEPS : SBRI_TROUBLED_SUBSTEPS;
+  uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->rest_stretch), max = at_rest + at_rest / 2;
+  if (max < min) return min;
+  return max < SBRI_MAX_STRAINED_SUBSTEPS ? max : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 
 bool sbri_router_begins_explicit(const sbri_island *island) {
-  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_SUBSTEPS;
+  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MAX_SUBSTEPS;
 }
 
 static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
@@ -38,20 +38,24 @@ static float greatest_square(const sbri_island_tick *t) {
   return greatest;
 }
 
-const sbri_scheme *sbri_router_scheme(const sbri_island *island, uint32_t recovering) {
-  return island->routed && recovering > 0 ? &sbri_position_based : island->scheme;
+const sbri_scheme *sbri_router_scheme(const sbri_island *island, const sbri_recovery *recovery) {
+  if (recovery->rigid_ticks > 0) return &sbri_rigid_shape;
+  return island->routed && recovery->ticks > 0 ? &sbri_position_based : island->scheme;
 }
 
-const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, uint32_t *recovering) {
+static bool is_in_trouble(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  if (!island->routed) return island->scheme;
   uint32_t substeps = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
   float reach = island->cell_m * (float)substeps / t->tick_s;
-  bool trouble = substeps > most_strained(island, t->tick_s) || !(*t->least_ratio > 0) ||
-                 (reach > 0 && greatest_square(t) > reach * reach);
-  if (trouble)
-    *recovering = SBRI_RECOVERING_TICKS;
-  else if (*recovering > 0)
-    --*recovering;
-  return sbri_router_scheme(island, *recovering);
+  bool strained = island->routed && substeps > max_strained(island, t->tick_s);
+  return strained || !(*t->min_ratio > 0) || (reach > 0 && greatest_square(t) > reach * reach);
+}
+
+const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, sbri_recovery *recovery) {
+  if (t->island->scheme->forceless) return t->island->scheme;
+  if (recovery->rigid_ticks == 0 && is_in_trouble(t))
+    recovery->ticks = SBRI_RECOVERING_TICKS;
+  else if (recovery->ticks > 0)
+    --recovery->ticks;
+  return sbri_router_scheme(t->island, recovery);
 }

@@ -24,6 +24,8 @@ struct sbri_scheme {
 
 extern const sbri_scheme sbri_symplectic, sbri_relaxation, sbri_explicit_euler, sbri_heun,
     sbri_position_based, sbri_block_descent;
+/* For bodies that none of these can step; hosts cannot ask for it. */
+extern const sbri_scheme sbri_rigid_shape;
 
 static inline const char *sbri_scheme_refuses(
     const sbri_scheme *scheme, const sbr_model *model, const sbri_island *island) {

@@ -16,7 +16,7 @@
 
 /* No side of a rest shape becomes so many times as thin (the square of it): what is as crushed yields no
  * more. */
-#define SBRI_MOST_THINNING 64.0
+#define SBRI_MAX_THINNING 64.0
 /* Limits are swept until none is off by more than this strain. */
 #define SBRI_LIMIT_TOLERANCE 1e-3
 enum { SBRI_LIMIT_SWEEPS = 4 };
@@ -104,7 +104,7 @@ static inline void sbri_yield_solid(
     const sbri_tetrahedron_block *made = &t->island->tetrahedron_blocks[block - t->flowing];
     for (int i = 0; i < 3; i++) {
       float thinning = (float)(metric->at[i] * per_metric) / made->stiffness[i][lane];
-      if (thinning > (float)SBRI_MOST_THINNING) return;
+      if (thinning > (float)SBRI_MAX_THINNING) return;
       if (thinning > *t->thinning) *t->thinning = thinning;
     }
     for (int i = 0; i < 6; i++) block->stiffness[i][lane] = (float)(metric->at[i] * per_metric);
@@ -126,18 +126,18 @@ static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_so
 /* Whether it was beyond by more than a little. */
 static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_lane *e) {
   const sbri_solid_limits *is = &t->island->solid_limits[e->block];
-  double most = 1 + (double)is->most[e->lane], least = 1 + (double)is->least[e->lane];
+  double max = 1 + (double)is->max[e->lane], min = 1 + (double)is->min[e->lane];
   sbfi_solid_metric metric;
   sbfi_stretches stretches;
   sbfi_d3 d[3];
   bool moved = false;
-  if (!(is->most[e->lane] > 0 || is->least[e->lane] > -1)) return false;
+  if (!(is->max[e->lane] > 0 || is->min[e->lane] > -1)) return false;
   if (!sbri_solid_stretches(t, e, d, &metric, &stretches)) return false;
   for (int k = 0; k < 3; k++) {
     double value = stretches.values[k];
-    bool is_long = is->most[e->lane] > 0 && value > most;
-    if (!is_long && !(is->least[e->lane] > -1 && value < least)) continue;
-    double bound = is_long ? most : least;
+    bool is_long = is->max[e->lane] > 0 && value > max;
+    if (!is_long && !(is->min[e->lane] > -1 && value < min)) continue;
+    double bound = is_long ? max : min;
     moved = moved || fabs(value - bound) > SBRI_LIMIT_TOLERANCE;
     sbri_limit_stretch(t, e, &stretches, k, bound);
   }

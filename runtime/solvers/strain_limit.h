@@ -21,7 +21,7 @@
 #define SBRI_LIMIT_SLACK 2e-6f
 /* No turn becomes faster or slower by more than this share as its arm is made shorter or longer: what lies in
  * a heap is not to be thrown about. */
-#define SBRI_LIMIT_MOST_TURN 0.2f
+#define SBRI_LIMIT_MAX_TURN 0.2f
 
 static inline void sbri_shift_slot(
     const sbri_island_tick *t, uint32_t slot, sbf_vec3 way, sbf_vec3 velocity_change) {
@@ -47,9 +47,9 @@ static inline sbf_vec3 sbri_pushed_velocity(const sbri_island_tick *t, uint32_t 
 /* What keeps the angular momentum of an arm along n whose ends have been moved against each other, by `moved`
  * N s^2 at masses, to the length `bound`: an impulse across it, of the speed between its ends. */
 static inline sbf_vec3 sbri_limit_turn(sbf_vec3 speed, sbf_vec3 n, float moved, float sum, float bound) {
-  float share = moved / bound, most = SBRI_LIMIT_MOST_TURN / sum;
+  float share = moved / bound, max = SBRI_LIMIT_MAX_TURN / sum;
   if (!(bound > 0)) return sbri_vec3(0, 0, 0);
-  share = share > most ? most : share < -most ? -most : share;
+  share = share > max ? max : share < -max ? -max : share;
   return sbri_scale(sbri_add_scaled(speed, n, -sbri_dot(speed, n)), share);
 }
 
@@ -95,10 +95,10 @@ static inline void sbri_limit_strains(const sbri_island_tick *t) {
       sbri_wide3 q = sbri_wide_gather(t->positions, link->b + lane);
       sbri_wide x = q.x - p.x, y = q.y - p.y, z = q.z - p.z, one = sbri_wide_all(1), zero = sbri_wide_all(0);
       sbri_wide length = sbri_wide_sqrt(x * x + y * y + z * z), rest = sbri_wide_load(rests + lane);
-      sbri_wide most = sbri_wide_load(limits->most + lane);
-      sbri_wide longest = rest * (one + most), shortest = rest * (one + sbri_wide_load(limits->least + lane));
+      sbri_wide max = sbri_wide_load(limits->max + lane);
+      sbri_wide longest = rest * (one + max), shortest = rest * (one + sbri_wide_load(limits->min + lane));
       sbri_mask long_one =
-          (most > zero) & (length > longest * sbri_wide_all(1 + SBRI_LIMIT_SLACK)) & (rest > zero);
+          (max > zero) & (length > longest * sbri_wide_all(1 + SBRI_LIMIT_SLACK)) & (rest > zero);
       sbri_mask short_one = length < shortest * sbri_wide_all(1 - SBRI_LIMIT_SLACK);
       if (!sbri_mask_any(long_one | short_one)) continue;
       float lengths[SBRI_LANES], bounds[SBRI_LANES];

@@ -18,7 +18,7 @@ static inline bool sbri_may_stiffen(const sbri_island_tick *t) {
 }
 
 /* In fewer, what lies on the ground is pressed so hard against it by its weight that it would hop. */
-enum { SBRI_LEAST_TOUCHING_SUBSTEPS = 5 };
+enum { SBRI_MIN_TOUCHING_SUBSTEPS = 5 };
 
 static inline bool sbri_touches_any(const sbri_island_tick *t) {
   bool any = false;
@@ -41,8 +41,8 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   bool solid = island->tetrahedron_block_count > 0, may_stiffen = sbri_may_stiffen(t);
   uint32_t left = sbri_substeps_now(t, t->tick_s);
-  float least = t->share * SBRI_LEAST_TOUCHING_SUBSTEPS;
-  if (solid && (float)left < least && !island->substeps && sbri_touches_any(t)) left = (uint32_t)ceilf(least);
+  float min = t->share * SBRI_MIN_TOUCHING_SUBSTEPS;
+  if (solid && (float)left < min && !island->substeps && sbri_touches_any(t)) left = (uint32_t)ceilf(min);
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);
   sbri_remember_held(t);
@@ -53,8 +53,8 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     if (looks && !last && may_stiffen) {
       sbri_outer_look(t);
       uint32_t needed = sbri_substeps_now(t, rest),
-               most = s < SBRI_MOST_STRAINED_SUBSTEPS ? SBRI_MOST_STRAINED_SUBSTEPS - s : 0;
-      needed = needed < most ? needed : most;
+               max = s < SBRI_MAX_STRAINED_SUBSTEPS ? SBRI_MAX_STRAINED_SUBSTEPS - s : 0;
+      needed = needed < max ? needed : max;
       if (needed > left) left = needed, h = rest / (float)left;
     }
     bool damps = last || s % damp_every == 0;

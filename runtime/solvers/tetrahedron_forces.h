@@ -33,8 +33,8 @@ SBRI_INLINE sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
 
 /* How much faster than at rest the running state may swing, and how near to inside out it is; a lane each. */
 typedef struct sbri_tetrahedron_watch {
-  float stiffening[SBRI_BLOCK];  /* greatest share of an element's stiffness to that at rest, a bound */
-  float least_ratio[SBRI_BLOCK]; /* least J */
+  float stiffening[SBRI_BLOCK]; /* greatest share of an element's stiffness to that at rest, a bound */
+  float min_ratio[SBRI_BLOCK];  /* least J */
 } sbri_tetrahedron_watch;
 
 /* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V): its
@@ -58,16 +58,15 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   a = sbri_wide_max(a, side * sbri_wide3_dot(n2, n2) / sbri_wide_max(k22, tiny));
   a = sbri_wide_max(a, side * sbri_wide3_dot(n3, n3) / sbri_wide_max(k33, tiny));
   /* a is lambda |cof F g|^2 / (mu |g|^2). */
-  sbri_wide share = sbri_wide_max(shear, tiny), most = sbri_wide_max(bulk + shear, tiny);
+  sbri_wide share = sbri_wide_max(shear, tiny), max = sbri_wide_max(bulk + shear, tiny);
   sbri_wide off = ratio - sbri_wide_all(1), curved = bulk * off - shear;
   curved = sbri_wide_max(sbri_wide_max(curved, zero - curved) - shear, zero);
-  sbri_wide stiffening = (sbri_wide_all(1) + a) * share / most + curved / most;
+  sbri_wide stiffening = (sbri_wide_all(1) + a) * share / max + curved / max;
   sbri_mask real = shear > zero;
-  sbri_wide before = sbri_wide_load(watch->stiffening + lane),
-            least = sbri_wide_load(watch->least_ratio + lane);
+  sbri_wide before = sbri_wide_load(watch->stiffening + lane), min = sbri_wide_load(watch->min_ratio + lane);
   sbri_wide_store(
       watch->stiffening + lane, sbri_wide_select(real, sbri_wide_max(stiffening, before), before));
-  sbri_wide_store(watch->least_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, least), least));
+  sbri_wide_store(watch->min_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, min), min));
 }
 
 /* Viscous forces, taken off f, at the rates w of the edges d: -beta V F S g_i, S Hooke's stress of the rate
@@ -197,7 +196,7 @@ static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetra
 }
 
 static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
-  for (int lane = 0; lane < SBRI_BLOCK; lane++) watch->stiffening[lane] = 0, watch->least_ratio[lane] = 1;
+  for (int lane = 0; lane < SBRI_BLOCK; lane++) watch->stiffening[lane] = 0, watch->min_ratio[lane] = 1;
 }
 static inline float sbri_watch_stiffening(const sbri_tetrahedron_watch *watch) {
   float greatest = 1;
@@ -205,11 +204,11 @@ static inline float sbri_watch_stiffening(const sbri_tetrahedron_watch *watch) {
     greatest = watch->stiffening[lane] > greatest ? watch->stiffening[lane] : greatest;
   return greatest;
 }
-static inline float sbri_watch_least_ratio(const sbri_tetrahedron_watch *watch) {
-  float least = 1;
+static inline float sbri_watch_min_ratio(const sbri_tetrahedron_watch *watch) {
+  float min = 1;
   for (int lane = 0; lane < SBRI_BLOCK; lane++)
-    least = watch->least_ratio[lane] < least ? watch->least_ratio[lane] : least;
-  return least;
+    min = watch->min_ratio[lane] < min ? watch->min_ratio[lane] : min;
+  return min;
 }
 
 /* The forces, and if `looks` what is watched into the tick's state. */
@@ -219,16 +218,16 @@ static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool looks) 
   sbri_tetrahedron_forces(t, looks ? &watch : NULL);
   if (!looks) return;
   *t->stiffening = sbri_watch_stiffening(&watch);
-  *t->least_ratio = sbri_watch_least_ratio(&watch);
+  *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
 
 /* As many substeps as that time takes at rest are stable for `time_s` where tetrahedra are stiffer than at
  * rest as last looked at: frequencies grow by the root of it, and what their own damping asks for by all of
  * it. */
 static inline double sbri_stiffened_time(const sbri_island_tick *t, float time_s) {
-  const float most = 1e4f; /* beyond it nothing would help */
+  const float max = 1e4f; /* beyond it nothing would help */
   float share = *t->stiffening * *t->thinning;
-  if (!(share < most)) share = most;
+  if (!(share < max)) share = max;
   return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? share : sqrtf(share));
 }
 

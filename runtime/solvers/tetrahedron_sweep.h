@@ -132,12 +132,12 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
   sbri_wide k00 = k11 + k22 + k33 + two * (k12 + k23 + k31), n00 = n11 + n22 + n33 + two * (n12 + n23 + n31);
   sbri_wide reach = sbri_wide_all(0.6f) * (u0.w * k00 + u1.w * k11 + u2.w * k22 + u3.w * k33);
   sbri_wide sides = u0.w * n00 + u1.w * n11 + u2.w * n22 + u3.w * n33;
-  sbri_wide e = sbri_wide_max(squares - two, squares * sbri_wide_all(1.0f / 3)), most = sbri_wide_all(1e18f);
+  sbri_wide e = sbri_wide_max(squares - two, squares * sbri_wide_all(1.0f / 3)), max = sbri_wide_all(1e18f);
   sbri_wide size = sbri_wide_max(s, sbri_wide_all(0) - s), square = sbri_wide_all(step->square);
   sbri_wide across = square * reach * (one + size * over_shear * (half + half * e));
   sbri_wide curved = sbri_wide_max(shear + bulk * areas + two * s * per_area * squares, shear);
   sbri_wide along = square * sides * inverse_volume * over_areas * curved;
-  across = sbri_wide_min(across, most), along = sbri_wide_min(along, most);
+  across = sbri_wide_min(across, max), along = sbri_wide_min(along, max);
   sbri_wide a = (one + across) / (one + across + across * across);
   sbri_wide b = (one + along) / (one + along + along * along);
   sbri_wide pull = a * q - b * p;

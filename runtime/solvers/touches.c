@@ -2,16 +2,17 @@
 
 #include <math.h>
 
-#include "collide/guest.h"
+#include "collide/external_body.h"
 #include "contact/self_touch.h"
 #include "math/vec3.h"
 #include "solvers/held_push.h"
 
-/* While some speed changes by more than this in a sweep, another follows, in m/s. */
-static const float SETTLED_M_S = 1e-3f;
+/* While some speed changes by more than this in a pass, another follows, in m/s: up to the passes that are
+ * enough at rest, and up to the most. */
+static const float SETTLED_M_S = 1e-3f, STRUCK_M_S = 0.05f;
 
 /* What could not reach its plane in the substep if it were this much faster waits for the next one, in m/s:
- * most places near the ground do not touch it, and none of them is to cost sixteen sweeps. */
+ * most places near the ground do not touch it, and none of them is to cost passes. */
 static const float NEAR_M_S = 1;
 
 /* A point that is no higher over its plane touches it. */
@@ -20,9 +21,10 @@ static const float TOUCHES_M = 1e-5f;
 /* Friction at this share of its limit slides. */
 static const float SLIDES_SHARE = 0.999f;
 
-/* A light guest hangs from all that touches it at once. */
-enum { MOST_SWEEPS = 16, MOST_GUEST_SWEEPS = 64 };
-static const float FINER_WITH_GUESTS = 10;
+/* In one substep. By row sums two are enough where there are pushes to go on from; a light external body
+ * hangs from all that touches it at once. */
+enum { PASSES = 2, MAX_PASSES = 16, MAX_EXTERNAL_BODY_PASSES = 64 };
+static const float FINER_WITH_EXTERNAL_BODIES = 10;
 
 typedef struct touching {
   const sbri_island_tick *tick;
@@ -30,23 +32,33 @@ typedef struct touching {
   float *velocities;
   sbri_touch *touches;
   uint32_t count;
-  sbri_guests *guests; /* NULL: there are none */
+  sbri_external_bodies *external_bodies; /* NULL: there are none */
+  bool in_turn; /* each push sees those before it; else all are found together, by row sums */
+  bool changed; /* others push, or may, than in the substep before */
 } touching;
 
 static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
   uint32_t count = sbri_touch_count(t, body);
-  sbri_guests *guests = count && t->guests ? &t->guests[body - t->model->bodies] : NULL;
-  if (guests && !guests->count) guests = NULL;
-  return (touching){t, body, velocities, t->touches + body->first_touch, count, guests};
+  sbri_external_bodies *external_bodies =
+      count && t->external_bodies ? &t->external_bodies[body - t->model->bodies] : NULL;
+  if (external_bodies && !external_bodies->count) external_bodies = NULL;
+  return (touching){.tick = t,
+      .body = body,
+      .velocities = velocities,
+      .touches = t->touches + body->first_touch,
+      .count = count,
+      .external_bodies = external_bodies,
+      .in_turn = external_bodies != NULL};
 }
 
-static sbri_guest *guest_of(const touching *c, const sbri_touch *touch) {
-  return &c->guests->at[touch->guest - 1];
+static sbri_external_body *external_body_of(const touching *c, const sbri_touch *touch) {
+  return &c->external_bodies->at[touch->external_body - 1];
 }
 
 /* Of what the touch stands for. */
 static sbf_vec3 velocity_under(const touching *c, const sbri_touch *touch) {
-  return touch->guest ? sbri_guest_velocity(guest_of(c, touch), touch->arm) : touch->velocity;
+  return touch->external_body ? sbri_external_body_velocity(external_body_of(c, touch), touch->arm)
+                              : touch->velocity;
 }
 
 /* Whether simulated bodies that hold points of the touch feel it: what flesh does to itself, they get back.
@@ -104,8 +116,8 @@ static void move(const touching *c, const sbri_touch *touch, sbf_vec3 moved, boo
 }
 
 /* The other side of what changes the sample's velocity by `faster`. */
-static void push_guest(const touching *c, const sbri_touch *touch, sbf_vec3 faster) {
-  sbri_guest_push(guest_of(c, touch), touch->arm, sbri_scale(faster, -touch->sample.mass_kg));
+static void push_external_body(const touching *c, const sbri_touch *touch, sbf_vec3 faster) {
+  sbri_external_body_push(external_body_of(c, touch), touch->arm, sbri_scale(faster, -touch->sample.mass_kg));
 }
 
 static float friction_of(const touching *c, const sbri_touch *touch, const sbri_contact_rule *rule) {
@@ -132,9 +144,9 @@ static float wanted_of(const sbri_touch *touch, float speed, const sbri_contact_
 /* How long a place so far from its plane cannot get there, by what it was taken for a place that may touch
  * within the tick: its speed, twice, and what springs and weight add, which grows with the square of time. */
 static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
-  float most = SBRI_MOTION_SHARE * c->body->rest_size_m, way = touch->fast_m_s * c->tick->tick_s;
-  if (!(gap > 0) || !(touch->fast_m_s > 0) || !(most > 0)) return 0;
-  return c->tick->tick_s * (2 * gap / (way + sqrtf(way * way + 4 * most * gap)));
+  float max = SBRI_MOTION_SHARE * c->body->rest_size_m, way = touch->fast_m_s * c->tick->tick_s;
+  if (!(gap > 0) || !(touch->fast_m_s > 0) || !(max > 0)) return 0;
+  return c->tick->tick_s * (2 * gap / (way + sqrtf(way * way + 4 * max * gap)));
 }
 
 /* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
@@ -151,7 +163,7 @@ static float held_ease(const touching *c, const sbri_sample *s) {
       weight += s->weights[i];
       arm = sbri_add_scaled(arm, sbri_reaction_arm(c->tick, r, s->slots[i]), s->weights[i]);
     }
-    if (r && first) sum += r->ease * weight * weight + r->turn_ease * sbri_dot(arm, arm);
+    if (r && first) sum += r->ease * weight * weight + r->inverse_inertia * sbri_dot(arm, arm);
   }
   return sum;
 }
@@ -166,13 +178,18 @@ static float mass_of(const touching *c, const sbri_sample *s) {
 }
 
 /* Says whether it may touch. */
-static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+static bool begin(touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   if (touch->collider == SBRI_ITSELF && !touch->crosses) sbri_self_touch_follow(c->tick, touch);
   if (is_felt(c, touch)) touch->sample.mass_kg = mass_of(c, &touch->sample);
   sbf_vec3 v = velocity_of(c, touch);
-  float speed = sbri_dot(touch->normal, sbri_sub(v, c->guests ? velocity_under(c, touch) : touch->velocity));
+  float speed =
+      sbri_dot(touch->normal, sbri_sub(v, c->external_bodies ? velocity_under(c, touch) : touch->velocity));
   touch->gap = gap_of(c, touch);
   touch->wanted = wanted_of(touch, speed, rule);
+  c->in_turn = c->in_turn || touch->collider == SBRI_ITSELF;
+  bool pushes = touch->gain > 0 || touch->gap + rule->step_s * speed < 0;
+  c->changed = c->changed || pushes != touch->pushes;
+  touch->pushes = pushes;
   if (touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed)) return true;
   touch->idle_s = idle_time(c, touch, touch->gap - rule->step_s * NEAR_M_S);
   return false;
@@ -199,9 +216,9 @@ static void answer_alone(const touching *c, sbri_touch *touch, const sbri_contac
     return;
   }
   sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
-  float size = sbri_length(sideways), most = friction_of(c, touch, rule) * touch->gain;
-  touch->rub = sbri_scale(sideways, size > most ? -most / size : -1);
-  sbf_vec3 change = sbri_add_scaled(touch->rub, n, touch->gain);
+  float size = sbri_length(sideways), max = friction_of(c, touch, rule) * touch->gain;
+  touch->friction_impulse = sbri_scale(sideways, size > max ? -max / size : -1);
+  sbf_vec3 change = sbri_add_scaled(touch->friction_impulse, n, touch->gain);
   velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
   float up = lift_of(touch, rule);
   if (up > 0) x->x += up * n.x, x->y += up * n.y, x->z += up * n.z;
@@ -209,7 +226,7 @@ static void answer_alone(const touching *c, sbri_touch *touch, const sbri_contac
 }
 
 /* Answers those that are alone, and brings those others that may touch to the front; how many. */
-static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
+static uint32_t begin_all(touching *c, const sbri_contact_rule *rule) {
   uint32_t near = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     sbri_touch *touch = &c->touches[i];
@@ -226,69 +243,115 @@ static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   sbf_vec3 v = sbri_sub(velocity_of(c, touch), touch->velocity), n = touch->normal;
-  float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
+  float speed = sbri_dot(n, v), gain = touch->gain + touch->share * (touch->wanted - speed);
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
-  sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
-  float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
-  if (size > most) rub = sbri_scale(rub, most / size);
-  sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
-  touch->gain = gain, touch->rub = rub;
+  sbf_vec3 friction_impulse =
+      sbri_add_scaled(touch->friction_impulse, sbri_add_scaled(v, n, -speed), -touch->share);
+  float size = sbri_length(friction_impulse), max = friction_of(c, touch, rule) * gain;
+  if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
+  sbf_vec3 change =
+      sbri_add_scaled(sbri_sub(friction_impulse, touch->friction_impulse), n, gain - touch->gain);
+  touch->gain = gain, touch->friction_impulse = friction_impulse;
   push(c, touch, change);
   return sbri_length(change);
 }
 
-/* The same against a guest: what that gives way by is not the sample's to gain. */
-static float correct_with_guest(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+/* The same against an external body: what that gives way by is not the sample's to gain. */
+static float correct_with_external_body(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
-  const sbri_guest *g = guest_of(c, touch);
-  sbf_vec3 arm = touch->arm, v = sbri_sub(velocity_of(c, touch), sbri_guest_velocity(g, arm)),
+  const sbri_external_body *g = external_body_of(c, touch);
+  sbf_vec3 arm = touch->arm, v = sbri_sub(velocity_of(c, touch), sbri_external_body_velocity(g, arm)),
            n = touch->normal;
-  float along = 1 + s->mass_kg * sbri_dot(n, sbri_guest_answer(g, arm, n));
-  float across = 1 + s->mass_kg * g->lever * (g->most_ease + sbri_dot(arm, arm) * g->most_turn_ease);
+  float along = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_answer(g, arm, n));
+  float across =
+      1 + s->mass_kg * g->lever * (g->max_inverse_mass + sbri_dot(arm, arm) * g->max_inverse_inertia);
   float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed) / along;
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
-  sbf_vec3 rub = sbri_add_scaled(touch->rub, sbri_add_scaled(v, n, -speed), -1 / across);
-  float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
-  if (size > most) rub = sbri_scale(rub, most / size);
-  sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
-  touch->gain = gain, touch->rub = rub;
+  sbf_vec3 friction_impulse =
+      sbri_add_scaled(touch->friction_impulse, sbri_add_scaled(v, n, -speed), -1 / across);
+  float size = sbri_length(friction_impulse), max = friction_of(c, touch, rule) * gain;
+  if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
+  sbf_vec3 change =
+      sbri_add_scaled(sbri_sub(friction_impulse, touch->friction_impulse), n, gain - touch->gain);
+  touch->gain = gain, touch->friction_impulse = friction_impulse;
   push(c, touch, change);
-  push_guest(c, touch, change);
-  return sbri_length(change) * (FINER_WITH_GUESTS + s->mass_kg * g->most_ease);
+  push_external_body(c, touch, change);
+  return sbri_length(change) * (FINER_WITH_EXTERNAL_BODIES + s->mass_kg * g->max_inverse_mass);
+}
+
+/* The shares by row sums: 1 / sum_k |w_k| W_k / m_k in place of 1 / sum_k w_k^2 / m_k, W_k the sum of |w| of
+ * all that push the point k. */
+static void share_out(const touching *c) {
+  const sbri_island *island = c->tick->island;
+  float *sums = c->tick->touch_weights;
+  for (uint32_t i = 0; i < c->count; i++)
+    for (int k = 0; k < 4; k++) sums[c->touches[i].sample.slots[k]] = 0;
+  for (uint32_t i = 0; i < c->count; i++)
+    for (int k = 0; c->touches[i].pushes && k < 4; k++)
+      sums[c->touches[i].sample.slots[k]] += fabsf(c->touches[i].sample.weights[k]);
+  for (uint32_t i = 0; i < c->count; i++) {
+    const sbri_sample *s = &c->touches[i].sample;
+    float sum = 0;
+    for (int k = 0; k < 4; k++)
+      if (s->slots[k] < island->free_count)
+        sum += fabsf(s->weights[k]) * sums[s->slots[k]] * island->inverse_masses[s->slots[k]];
+    c->touches[i].share = c->touches[i].pushes ? 1 / (sum * s->mass_kg) : 0;
+  }
+}
+
+/* Gives each its share, and says after how many passes small changes are left. */
+static int begin_passes(const touching *c) {
+  bool pushed = false;
+  if (!c->in_turn && c->changed) share_out(c);
+  for (uint32_t i = 0; i < c->count; i++) {
+    if (c->in_turn) c->touches[i].share = 1;
+    pushed = pushed || c->touches[i].gain > 0;
+  }
+  if (c->external_bodies) return MAX_EXTERNAL_BODY_PASSES;
+  return c->in_turn || !pushed ? MAX_PASSES : PASSES;
+}
+
+/* Goes on from the pushes of the substep before. */
+static void push_as_before(const touching *c) {
+  for (uint32_t i = 0; i < c->count; i++) {
+    const sbri_touch *touch = &c->touches[i];
+    if (!(touch->gain > 0)) continue;
+    sbf_vec3 change = sbri_add_scaled(touch->friction_impulse, touch->normal, touch->gain);
+    push(c, touch, change);
+    if (touch->external_body) push_external_body(c, touch, change);
+  }
+}
+
+static void lift(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  if (!(touch->gain > 0 && lift_of(touch, rule) > 0)) return;
+  touch->gap = gap_of(c, touch); /* of what others that share its points have left */
+  float up = lift_of(touch, rule);
+  if (up > 0) move(c, touch, sbri_scale(touch->normal, up), is_felt(c, touch));
 }
 
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, velocities);
-  const bool with = c.guests != NULL; /* few have: loops without look no further */
-  int most_sweeps = MOST_SWEEPS;
-  if (with) sbri_guests_begin(c.guests, rule->step_s), most_sweeps = MOST_GUEST_SWEEPS;
+  if (c.external_bodies) sbri_external_bodies_begin(c.external_bodies, rule->step_s);
   c.count = begin_all(&c, rule);
-  for (uint32_t i = 0; i < c.count; i++) {
-    const sbri_touch *touch = &c.touches[i];
-    if (!(touch->gain > 0)) continue;
-    sbf_vec3 change = sbri_add_scaled(touch->rub, touch->normal, touch->gain);
-    push(&c, touch, change);
-    if (with && touch->guest) push_guest(&c, touch, change);
-  }
-  float most = SETTLED_M_S;
-  for (int sweep = 0; sweep < most_sweeps && most >= SETTLED_M_S; sweep++) {
-    most = 0;
+  const int passes = begin_passes(&c), max_passes = passes > MAX_PASSES ? passes : MAX_PASSES;
+  push_as_before(&c);
+  float max = STRUCK_M_S;
+  for (int pass = 0; pass < max_passes && max >= (pass < passes ? SETTLED_M_S : STRUCK_M_S); pass++) {
+    max = 0;
     for (uint32_t i = 0; i < c.count; i++) {
-      sbri_touch *touch = &c.touches[sweep % 2 ? c.count - 1 - i : i];
-      float change = with && touch->guest ? correct_with_guest(&c, touch, rule) : correct(&c, touch, rule);
-      most = change > most ? change : most;
+      sbri_touch *touch = &c.touches[pass % 2 ? c.count - 1 - i : i];
+      float change =
+          touch->external_body ? correct_with_external_body(&c, touch, rule) : correct(&c, touch, rule);
+      max = change > max ? change : max;
     }
   }
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
     touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
-    if (!(touch->gain > 0 && lift_of(touch, rule) > 0)) continue;
-    touch->gap = gap_of(&c, touch); /* of what others that share its points have left */
-    float up = lift_of(touch, rule);
-    if (up > 0) move(&c, touch, sbri_scale(touch->normal, up), is_felt(&c, touch));
+    lift(&c, touch, rule);
   }
 }
 
@@ -301,22 +364,23 @@ sbri_sliding sbri_touches_sliding(
     if (!(touch->gain > 0) || touch->collider == SBRI_ITSELF) continue;
     float mass = touch->sample.mass_kg, limit = friction_of(&c, touch, rule) * touch->gain;
     sum.load += mass * touch->gain, sum.limit += mass * limit;
-    if (limit > 0 && sbri_length(touch->rub) > SLIDES_SHARE * limit)
-      sum.friction = sbri_add_scaled(sum.friction, touch->rub, mass);
+    if (limit > 0 && sbri_length(touch->friction_impulse) > SLIDES_SHARE * limit)
+      sum.friction = sbri_add_scaled(sum.friction, touch->friction_impulse, mass);
   }
   return sum;
 }
 
 void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s) {
   touching c = touching_of(t, body, t->velocities);
-  const bool with = c.guests != NULL;
+  const bool with = c.external_bodies != NULL;
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
     touch->offset += step_s * sbri_dot(touch->normal, with ? velocity_under(&c, touch) : touch->velocity);
     if (touch->gain > 0)
-      touch->given = sbri_add(touch->given, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
+      touch->given =
+          sbri_add(touch->given, sbri_add_scaled(touch->friction_impulse, touch->normal, touch->gain));
   }
-  if (with) sbri_guests_go_on(c.guests, step_s);
+  if (with) sbri_external_bodies_go_on(c.external_bodies, step_s);
 }
 
 static void tell_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
@@ -353,15 +417,15 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
   touching c = touching_of(t, body, t->velocities);
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
-    float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
+    float min = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = min - gap_of(&c, touch);
     if (!(lift > 0)) continue;
     sbf_vec3 v = sbri_sub(velocity_of(&c, touch), velocity_under(&c, touch)), n = touch->normal;
     float gain = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
-    float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
-    sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
+    float size = sbri_length(sideways), max = friction_of(&c, touch, rule) * gain;
+    sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > max ? -max / size : -1);
     push(&c, touch, change);
-    if (touch->guest) push_guest(&c, touch, change);
+    if (touch->external_body) push_external_body(&c, touch, change);
     move(&c, touch, sbri_scale(change, rule->step_s), false); /* they go by the push */
     touch->given = sbri_add(touch->given, change);
   }

@@ -2,12 +2,17 @@
  * that of each point that carries it by w_i / m_i as much, over the sum of w_i^2 / m_i: as forces on the
  * surface act.
  *
- * Places share their points, so that a push at one is felt at others. All pushes of a substep are found
- * together, in turn, each being corrected by what the others have left of it, and never below nothing
- * (projected Gauss-Seidel over gathered impulses; E. Catto, Iterative Dynamics with Temporal Coherence,
- * 2005); those of the substep before are where it begins. What rests is so borne by the same pushes all the
- * time: pushes that only add up would make it hop. Rules of friction, restitution and depth are those of
- * contact/contact.h. */
+ * Places share their points, so that a push at one is felt at others. All pushes of a substep are found in
+ * passes, each push being corrected by what the others have left of it, and never below nothing (projected
+ * Gauss-Seidel over gathered impulses; E. Catto, Iterative Dynamics with Temporal Coherence, 2005); those of
+ * the substep before are where it begins. What rests is so borne by the same pushes all the time: pushes that
+ * only add up would make it hop.
+ *
+ * A push is answered by the sum of its row of responses instead of the diagonal, over those that push or are
+ * about to: by Gershgorin's theorem no pass overshoots, and an even pressure is exact at once, so that few
+ * passes do. Where the other side has a mass, or is the body itself, pushes are answered in full, one
+ * after the other, in more passes. Rules of friction, restitution and depth are those of contact/contact.h.
+ */
 #ifndef SBRI_TOUCHES_H
 #define SBRI_TOUCHES_H
 

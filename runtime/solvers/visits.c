@@ -72,13 +72,13 @@ static bool walk(visit_list *list, sbf_spring_kind kind, sbfi_arena *scratch) {
 }
 
 bool sbri_visits_make(sbr_model *model, sbri_island *island) {
-  size_t most = 0;
+  size_t max = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbf_level *level = model->bodies[island->bodies[b]].level;
-    for (uint32_t s = 0; s < level->springs.count; s++) most += 2 * (size_t)level->springs.at[s].ends.count;
+    for (uint32_t s = 0; s < level->springs.count; s++) max += 2 * (size_t)level->springs.at[s].ends.count;
   }
   visit_list list = {.island = island};
-  list.at = sbfi_arena_allocate(&model->arena, most ? most : 1, sizeof *list.at);
+  list.at = sbfi_arena_allocate(&model->arena, max ? max : 1, sizeof *list.at);
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   bool good = list.at != NULL;

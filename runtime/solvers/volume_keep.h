@@ -27,11 +27,11 @@
 #include "solvers/motion.h"
 
 /* No more than this share of the volume is regained in a step: a body turned inside out comes back slowly. */
-#define SBRI_MOST_VOLUME_SHARE 0.1f
+#define SBRI_MAX_VOLUME_SHARE 0.1f
 
 /* Steps in a substep, while more than this share of the volume was missing before the last one: that leaves
  * about its square. */
-enum { SBRI_MOST_VOLUME_STEPS = 4 };
+enum { SBRI_MAX_VOLUME_STEPS = 4 };
 #define SBRI_VOLUME_SHARE_LEFT 0.01f
 
 /* A point this near to the ground rests on it, in m. */
@@ -109,7 +109,7 @@ static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_b
 }
 
 static inline float sbri_reaction_ease(const sbri_reaction *r, sbf_vec3 push, sbf_vec3 turn) {
-  return r->ease * sbri_dot(push, push) + r->turn_ease * sbri_dot(turn, turn);
+  return r->ease * sbri_dot(push, push) + r->inverse_inertia * sbri_dot(turn, turn);
 }
 
 /* What the held points' bodies add to that sum where they give way. */
@@ -179,7 +179,7 @@ static inline void sbri_volume_faces_before(
 static inline float sbri_volume_step(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
   sbri_point *faces = t->surface_faces + body->first_face;
-  float rest = (float)body->rest_volume_m3, most = SBRI_MOST_VOLUME_SHARE * rest;
+  float rest = (float)body->rest_volume_m3, max = SBRI_MAX_VOLUME_SHARE * rest;
   float missing = rest - sbri_volume_within(t, body, t->positions, faces) - *owed;
   const bool shared = sbri_volume_is_shared(t, body);
   if (shared) sbri_volume_faces_before(t, body, faces, rule->step_s);
@@ -193,7 +193,7 @@ static inline float sbri_volume_step(
   if (hold.by && body->volume_held_count > 0) held = sbri_reaction_ease(hold.by, push, turn);
   if (shared) held = sbri_volume_held_ease(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
-  float s = (missing > most ? most : missing < -most ? -most : missing) / (sum + held);
+  float s = (missing > max ? max : missing < -max ? -max : missing) / (sum + held);
   *owed += s * held;
   if (hold.by) {
     hold.by->impulse = sbri_add_scaled(hold.by->impulse, push, -s / rule->step_s);
@@ -226,7 +226,7 @@ static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
   sbri_touches_remember(t, body);
   float owed = 0;
-  for (int i = 0; i < SBRI_MOST_VOLUME_STEPS; i++) {
+  for (int i = 0; i < SBRI_MAX_VOLUME_STEPS; i++) {
     float missing = sbri_volume_step(t, body, &rule, &owed);
     if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) break;
   }

@@ -1,14 +1,14 @@
 /* One control tick of a character: its gait, what is rigid of it, and the frames that its soft bodies follow.
  */
+#include "body_contact/body_contacts.h"
 #include "detail/rungs.h"
-#include "meet/meetings.h"
 #include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "step/step.h"
 
 bool sbri_character_is_grouped(const sbr_world *world, const sbri_character *c) {
-  return world->meetings && world->meetings->group_of[c - world->characters] != UINT32_MAX;
+  return world->body_contacts && world->body_contacts->group_of[c - world->characters] != UINT32_MAX;
 }
 
 static void note_landing(sbri_character *c) {
@@ -21,7 +21,7 @@ static void note_landing(sbri_character *c) {
 void sbri_character_tick(sbr_world *world, sbri_character *c) {
   c->event_count = 0;
   if (!c->model || sbri_character_sleeps(world, c)) return;
-  if (!sbri_head(c)->paused && !world->meetings) sbri_rung_change(world, c); /* else before: step.c */
+  if (!sbri_head(c)->paused && !world->body_contacts) sbri_rung_change(world, c); /* else before: step.c */
   for (uint32_t i = 0; i < c->model->island_count; i++)
     sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
   sbri_character_rebase(c);

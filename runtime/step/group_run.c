@@ -1,14 +1,14 @@
 /* The tick of characters that meet each other: they step along with each other, in one task.
  *
  * All steps are as long for all, as short as the one needs that needs the shortest, and before each the
- * touches between them push (meet/push.c). Within a step everybody does what it does alone. What is crushed
- * stiffens, so after each step all are asked again, and if someone needs shorter ones the rest of the tick is
- * divided anew. */
+ * touches between them push (body_contact/contact_step.c). Within a step everybody does what it does alone.
+ * What is crushed stiffens, so after each step all are asked again, and if someone needs shorter ones the
+ * rest of the tick is divided anew. */
 #include <string.h>
 
+#include "body_contact/body_contacts.h"
 #include "detail/rungs.h"
 #include "math/vec3.h"
-#include "meet/meetings.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "solvers/outer_forces.h"
@@ -19,24 +19,24 @@
 #include "tear/tear.h"
 
 /* Of a tick: touches that change within one are answered well by no fewer. */
-enum { LEAST_STEPS = 4, MOST_STEPS = 128 };
+enum { MIN_STEPS = 4, MAX_STEPS = 128 };
 /* And soft bodies that press on each other by no fewer, for each substep that they need alone. */
 enum { STEPS_OF_SOFT = 2 };
 
-static sbri_meet_member member_of(const sbr_world *world, sbri_character *c, sbr_double3 origin) {
+static sbri_group_member member_of(const sbr_world *world, sbri_character *c, sbr_double3 origin) {
   sbr_double3 own = sbri_head(c)->origin;
-  sbri_meet_member m = {.character = c,
+  sbri_group_member m = {.character = c,
       .offset = {(float)(own.x - origin.x), (float)(own.y - origin.y), (float)(own.z - origin.z)},
       .scale = c->scale,
-      .speed = c->scale * c->time_scale,
+      .velocity_scale = c->scale * c->time_scale,
       .mass = c->scale * c->scale * c->scale,
       .tick_s = (float)world->tick_s * c->time_scale};
-  m.held_rate = 1 / m.tick_s;
+  m.pinned_rate = 1 / m.tick_s;
   return m;
 }
 
 /* Soft bodies that are stepped here, one by one; the others along with rigid parts, or alone. */
-static bool is_own(const sbri_meet_member *m, uint32_t island) {
+static bool is_own(const sbri_group_member *m, uint32_t island) {
   const sbri_character *c = m->character;
   return !sbri_island_is_coupled(c, island) && !c->model->islands[island].scheme->forceless &&
          !sbri_island_states(c)[island].asleep;
@@ -59,27 +59,28 @@ static void hold(sbri_character *c, const sbri_island *island) {
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) begins[slot] = positions[slot];
 }
 
-static uint32_t begin_island(const sbr_world *world, sbri_meet_member *m, uint32_t index) {
+static uint32_t begin_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   (void)sbri_island_follow(c, &now, index, m->tick_s); /* what has jumped goes on from there */
   sbri_island_tuck(c, &now);
+  sbri_island_keep_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.outer_rad_s = &now.outer_rad_s;
   sbri_outer_look(&tick);
   sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
   sbri_island_prepare_contacts(&tick, c);
-  (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering);
+  (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery);
   uint32_t steps = steps_of(&tick);
   hold(c, &now);
   return steps;
 }
 
-static uint32_t begin(const sbr_world *world, sbri_meet_member *m) {
+static uint32_t begin(const sbr_world *world, sbri_group_member *m) {
   sbri_character *c = m->character;
-  uint32_t most = LEAST_STEPS;
-  if (sbri_rigid_parts_begin(world, c, &m->parts) && m->parts.tick.substeps > most)
-    most = m->parts.tick.substeps;
+  uint32_t max = MIN_STEPS;
+  if (sbri_rigid_parts_begin(world, c, &m->parts) && m->parts.tick.substeps > max)
+    max = m->parts.tick.substeps;
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!is_own(m, i)) {
@@ -87,16 +88,16 @@ static uint32_t begin(const sbr_world *world, sbri_meet_member *m) {
       continue;
     }
     uint32_t steps = begin_island(world, m, i);
-    most = steps > most ? steps : most;
+    max = steps > max ? steps : max;
   }
-  return most;
+  return max;
 }
 
 /* ---- Steps ---- */
 
 /* Returns how many such steps of a tick it needs by now. */
 static uint32_t advance_island(
-    const sbr_world *world, sbri_meet_member *m, uint32_t index, float from, float to) {
+    const sbr_world *world, sbri_group_member *m, uint32_t index, float from, float to) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_point *targets = sbri_targets(c) + now.first_slot;
@@ -113,33 +114,33 @@ static uint32_t advance_island(
   tick.tick_s *= share, tick.share = share;
   tick.outer_rad_s = &now.outer_rad_s;
   sbri_outer_look(&tick);
-  sbri_router_scheme(&now, sbri_island_states(c)[index].recovering)->tick(&tick);
+  sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
   if (now.scheme->sweeps || now.substeps) return 0;
   tick.tick_s = m->tick_s, tick.share = 1;
   return steps_of(&tick);
 }
 
 /* Likewise. */
-static uint32_t advance(const sbr_world *world, sbri_meet_member *m, float from, float to) {
+static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from, float to) {
   sbri_character *c = m->character;
-  uint32_t most = 0;
+  uint32_t max = 0;
   if (m->parts.steps) {
     sbri_rigid_advance(&m->parts.tick, &m->parts.work, from, to);
     sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* which the step had for its own */
-    most = m->parts.coupled.any ? m->parts.coupled.steps : 0;
+    max = m->parts.coupled.any ? m->parts.coupled.steps : 0;
   }
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     uint32_t steps = is_own(m, i) ? advance_island(world, m, i, from, to) : 0;
-    most = steps > most ? steps : most;
+    max = steps > max ? steps : max;
   }
-  m->reached = to;
-  m->held_rate = 1 / (m->tick_s * (to - from));
-  return most;
+  m->tick_fraction = to;
+  m->pinned_rate = 1 / (m->tick_s * (to - from));
+  return max;
 }
 
 /* ---- After ---- */
 
-static void end_island(const sbr_world *world, sbri_meet_member *m, uint32_t index) {
+static void end_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
@@ -150,7 +151,7 @@ static void end_island(const sbr_world *world, sbri_meet_member *m, uint32_t ind
   sbri_island_may_sleep(world, c, index);
 }
 
-static void end(const sbr_world *world, sbri_meet_member *m) {
+static void end(const sbr_world *world, sbri_group_member *m) {
   sbri_character *c = m->character;
   if (m->parts.steps) sbri_rigid_parts_end(&m->parts);
   sbri_jiggles_tick(c, m->tick_s);
@@ -163,43 +164,44 @@ static void end(const sbr_world *world, sbri_meet_member *m) {
 
 /* Up to one of few numbers: steps that change from tick to tick drive what swings. */
 static uint32_t rounded_steps(uint32_t steps) {
-  uint32_t rounded = LEAST_STEPS;
+  uint32_t rounded = MIN_STEPS;
   while (rounded < steps) rounded = rounded % 3 ? rounded / 2 * 3 : rounded / 3 * 4;
-  return rounded < MOST_STEPS ? rounded : MOST_STEPS;
+  return rounded < MAX_STEPS ? rounded : MAX_STEPS;
 }
 
 /* Whether something is led out from deep within another: that presses evenly, at no more than its speed, and
  * is no blow that shorter steps would answer better. */
-static bool is_led_out(const sbr_world *world, const sbri_meet_group *group) {
-  const sbri_meet_touch *touches = world->meetings->touches + group->first_touch;
+static bool is_led_out(const sbr_world *world, const sbri_contact_group *group) {
+  const sbri_contact *touches = world->body_contacts->contacts + group->first_contact;
   bool any = false;
-  for (uint32_t i = 0; i < group->touch_count; i++) any |= touches[i].goes_out || touches[i].goes_through;
+  for (uint32_t i = 0; i < group->contact_count; i++)
+    any |= touches[i].exits_nearest || touches[i].exits_common;
   return any;
 }
 
-static void run_steps(const sbr_world *world, sbri_meet_group *group, uint32_t steps) {
-  sbri_meet_member *members = world->meetings->members + group->first_member;
+static void run_steps(const sbr_world *world, sbri_contact_group *group, uint32_t steps) {
+  sbri_group_member *members = world->body_contacts->members + group->first_member;
   bool led_out = is_led_out(world, group);
   float begin = 0, from = 0; /* of the steps that are as long as each other */
   for (uint32_t done = 0; done < steps;) {
     float to = begin + (1 - begin) * ((float)(done + 1) / (float)steps);
-    uint32_t most = 0;
-    sbri_meet_push(world, group, from == 0);
+    uint32_t max = 0;
+    sbri_contacts_solve(world, group, from == 0);
     for (uint32_t i = 0; i < group->member_count; i++) {
       uint32_t own = advance(world, &members[i], from, to);
-      most = own > most ? own : most;
+      max = own > max ? own : max;
     }
     done++, from = to;
-    uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(most) * 0.9999f);
+    uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(max) * 0.9999f);
     if (done == steps || led_out || left <= steps - done) continue;
     begin = to, steps = left, done = 0;
-    sbri_meet_go_on(world->meetings, group, (float)world->tick_s * (1 - begin) / (float)steps);
+    sbri_contacts_rescale(world->body_contacts, group, (float)world->tick_s * (1 - begin) / (float)steps);
   }
 }
 
-void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
-  sbri_meet_member *members = world->meetings->members + group->first_member;
-  uint32_t steps = LEAST_STEPS;
+void sbri_group_run(sbr_world *world, sbri_contact_group *group) {
+  sbri_group_member *members = world->body_contacts->members + group->first_member;
+  uint32_t steps = MIN_STEPS;
   for (uint32_t i = 0; i < group->member_count; i++) {
     members[i] = member_of(world, members[i].character, group->origin);
     uint32_t own = begin(world, &members[i]);
@@ -208,11 +210,11 @@ void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
   steps = rounded_steps(steps);
   for (uint32_t i = 0; i < group->member_count; i++)
     if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
-  sbri_meet_movers_list(world->meetings, group);
-  sbri_meet_touches_find(world, group);
+  sbri_solver_bodies_list(world->body_contacts, group);
+  sbri_narrow_phase_update(world, group);
   group->step_s = (float)world->tick_s / (float)steps;
-  sbri_meet_recall(world->meetings, group, group->step_s);
+  sbri_contacts_load_cached(world->body_contacts, group, group->step_s);
   run_steps(world, group, steps);
-  sbri_meet_look(world->meetings, group);
+  sbri_contacts_finish_tick(world->body_contacts, group);
   for (uint32_t i = 0; i < group->member_count; i++) end(world, &members[i]);
 }

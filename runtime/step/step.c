@@ -2,12 +2,13 @@
  * task touches nothing that another one does, so neither the number of threads nor their order shows. */
 #include <string.h>
 
+#include "body_contact/body_contacts.h"
 #include "detail/choose.h"
 #include "math/vec3.h"
-#include "meet/meetings.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "solvers/scheme.h"
+#include "step/stage_clock.h"
 #include "step/step.h"
 #include "tear/tear.h"
 
@@ -22,7 +23,7 @@ static void change_rung(void *context, uint32_t index) {
   sbri_character *c = &world->characters[index];
   if (!c->model || sbri_head(c)->paused || sbri_head(c)->asleep) return;
   sbri_rung_change(world, c);
-  sbri_meet_surfaces_choose(world, index);
+  sbri_contact_surfaces_select_level(world, index);
 }
 
 static void tick_island(void *context, uint32_t index) {
@@ -35,7 +36,7 @@ static void tick_island(void *context, uint32_t index) {
 
 static void tick_group(void *context, uint32_t index) {
   sbr_world *world = context;
-  sbri_group_run(world, &world->meetings->groups[index]);
+  sbri_group_run(world, &world->body_contacts->groups[index]);
 }
 
 static void run(sbr_world *world, sbr_task *task, size_t count) {
@@ -55,23 +56,29 @@ static void follow_tears(sbr_world *world) {
 
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
+  sbri_stages_begin(world);
   sbri_colliders_begin_tick(&world->colliders, world->tick_s);
-  if (world->meetings) sbri_meet_near_find(world);
+  sbri_stage_end(world, SBR_STAGE_COLLIDERS);
+  if (world->body_contacts) sbri_near_characters_find(world);
   if (world->detail) sbri_detail_choose(world);
   sbri_rooms_tend(world);
-  if (world->meetings) {
-    run(world, change_rung, world->character_capacity);
-    sbri_meet_pairs_find(world);
-  }
+  if (world->body_contacts) run(world, change_rung, world->character_capacity);
+  sbri_stage_end(world, SBR_STAGE_DETAIL);
+  if (world->body_contacts) sbri_broad_phase_update(world);
+  sbri_stage_end(world, SBR_STAGE_BROAD_PHASE);
   run(world, tick_character, world->character_capacity);
-  if (world->meetings) {
-    run(world, tick_group, world->meetings->group_count);
-    sbri_meet_remember(world);
+  sbri_stage_end(world, SBR_STAGE_ANIMATION);
+  if (world->body_contacts) {
+    run(world, tick_group, world->body_contacts->group_count);
+    sbri_contacts_store(world);
   }
+  sbri_stage_end(world, SBR_STAGE_CONTACT_GROUPS);
   sbri_work_list(world);
   run(world, tick_island, world->work_count);
+  sbri_stage_end(world, SBR_STAGE_ISLANDS);
   follow_tears(world);
   sbri_tick_events_gather(world);
-  if (world->meetings) sbri_meet_tell(world);
+  if (world->body_contacts) sbri_report_touching_pairs(world);
   sbri_tick_sleep_note(world);
+  sbri_stage_end(world, SBR_STAGE_EVENTS);
 }

@@ -37,9 +37,9 @@ void sbri_character_tick(sbr_world *world, sbri_character *c);
 
 /* ---- step/group_run.c ---- */
 
-struct sbri_meet_group;
+struct sbri_contact_group;
 /* The tick of a group, after its characters' gaits. */
-void sbri_group_run(sbr_world *world, struct sbri_meet_group *group);
+void sbri_group_run(sbr_world *world, struct sbri_contact_group *group);
 
 /* ---- step/tick_events.c ---- */
 

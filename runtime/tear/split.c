@@ -12,7 +12,7 @@
 #include "tear/tear.h"
 
 /* Of a point with more tetrahedra around it only so many are looked at. */
-enum { MOST_AROUND = 192 };
+enum { MAX_AROUND = 192 };
 
 static void unsplit_springs(sbri_character *c, const sbri_island *island) {
   uint32_t blocks = island->free_count / SBRI_BLOCK, cells = island->cell_begins[blocks];
@@ -57,7 +57,7 @@ typedef struct splitting {
   const sbri_island *island;
   const uint32_t *torn;
   sbri_tetrahedron_block *blocks;
-  uint32_t elements[MOST_AROUND], corners[MOST_AROUND], parts[MOST_AROUND], count, part_count;
+  uint32_t elements[MAX_AROUND], corners[MAX_AROUND], parts[MAX_AROUND], count, part_count;
 } splitting;
 
 static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int copy) {
@@ -71,7 +71,7 @@ static void look_around(splitting *s, uint32_t slot) {
   uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
   s->count = 0;
   for (uint32_t i = table->around_begins[origin]; i < table->around_begins[origin + 1]; i++)
-    for (uint32_t k = 0; k < 4 && s->count < MOST_AROUND; k++) {
+    for (uint32_t k = 0; k < 4 && s->count < MAX_AROUND; k++) {
       uint32_t element = table->around[i];
       if (s->torn[element] || *corner(s, element, k, 0) != slot) continue;
       s->elements[s->count] = element, s->corners[s->count] = k, s->parts[s->count++] = SBRI_UNUSED;
@@ -79,7 +79,7 @@ static void look_around(splitting *s, uint32_t slot) {
 }
 
 static void flood(splitting *s, uint32_t from) {
-  uint32_t queue[MOST_AROUND], end = 1;
+  uint32_t queue[MAX_AROUND], end = 1;
   queue[0] = from, s->parts[from] = s->part_count;
   for (uint32_t next = 0; next < end; next++)
     for (uint32_t k = 0; k < 4; k++) { /* sides that have the point */

@@ -16,11 +16,11 @@
 #include "tear/spring_network.h"
 
 /* Points of more springs do not split: hubs in the middle of sections, which join all there is. */
-enum { MOST_SPRINGS = 192 };
+enum { MAX_SPRINGS = 192 };
 
 typedef struct spring_star {
-  uint32_t links[MOST_SPRINGS], others[MOST_SPRINGS];
-  uint32_t parts[MOST_SPRINGS]; /* the first of its springs that it hangs together with */
+  uint32_t links[MAX_SPRINGS], others[MAX_SPRINGS];
+  uint32_t parts[MAX_SPRINGS]; /* the first of its springs that it hangs together with */
   uint32_t count;
 } spring_star;
 
@@ -55,7 +55,7 @@ static bool look_around(const fraying *f, const sbri_network *network, uint32_t 
   uint32_t origin = f->origins[slot];
   star->count = 0;
   for (sbri_network_end end = {0}; sbri_network_next(network, slot, &end);) {
-    if (star->count == MOST_SPRINGS) return false;
+    if (star->count == MAX_SPRINGS) return false;
     star->links[star->count] = end.link, star->others[star->count] = end.other;
     star->parts[star->count] = star->count, star->count++;
   }
@@ -153,7 +153,7 @@ static uint32_t split(fraying *f, uint32_t slot) {
   if (!look_around(f, &f->rest, f->origins[slot], &f->made)) return 0;
   float all = 0, mass = island->masses[slot], left = mass;
   uint32_t unsplit = 0;
-  bool leaving[MOST_SPRINGS];
+  bool leaving[MAX_SPRINGS];
   for (uint32_t i = 0; i < f->now.count; i++) {
     all += stiffness_of(f, slot, i);
     leaving[i] = f->now.parts[i] == i && leaves(f, i);

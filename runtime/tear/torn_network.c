@@ -9,7 +9,7 @@
 
 #include "math/vec3.h"
 
-enum { MOST_SPRINGS_APART = 3, CARRIERS = 4 };
+enum { MAX_SPRINGS_APART = 3, CARRIERS = 4 };
 
 void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
@@ -26,7 +26,7 @@ static bool is_near(const sbri_torn_network *t, const sbri_network *network, uin
   uint32_t end = 1, step_end = 1;
   bool found = from == to;
   t->queue[0] = from, t->seen[from] = 0;
-  for (uint32_t next = 0, steps = 0; next < end && steps < MOST_SPRINGS_APART && !found; steps++) {
+  for (uint32_t next = 0, steps = 0; next < end && steps < MAX_SPRINGS_APART && !found; steps++) {
     for (; next < step_end && !found; next++)
       for (sbri_network_end e = {0}; !found && sbri_network_next(network, t->queue[next], &e);) {
         found = e.other == to;
@@ -85,13 +85,13 @@ static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t 
 /* The carrier by whose side most of the vertex is carried. */
 static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
   uint32_t best = 0;
-  float most = -1;
+  float max = -1;
   for (uint32_t k = 0; k < CARRIERS; k++) {
     float sum = 0;
     for (uint32_t l = 0; l < CARRIERS; l++)
       if (is->weights[l] > 0 && copy_beside(t, is->slots[k], is->slots[l]) != SBRI_UNUSED)
         sum += is->weights[l];
-    if (is->weights[k] > 0 && sum > most + 1e-4f) best = k, most = sum;
+    if (is->weights[k] > 0 && sum > max + 1e-4f) best = k, max = sum;
   }
   return best;
 }

@@ -14,7 +14,7 @@
 #include "tear/torn_network.h"
 
 /* The way from one corner's tetrahedron to the next one's goes through no more sides than this. */
-enum { MOST_SIDES = 6 };
+enum { MAX_SIDES = 6 };
 
 static void mend(sbri_character *c, const sbri_skin *skin) {
   if (!skin->binding_count) return;
@@ -136,7 +136,7 @@ static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest
   bool found = false;
   queue[0] = from, stamps[from] = 1, steps[from] = 0;
   for (uint32_t next = 0; next < end && !found; next++)
-    for (uint32_t k = 0; k < 4 && steps[queue[next]] < MOST_SIDES; k++) {
+    for (uint32_t k = 0; k < 4 && steps[queue[next]] < MAX_SIDES; k++) {
       uint32_t other = t->island->tears->neighbours[queue[next]][k];
       if (other == UINT32_MAX || stamps[other] || (!at_rest && t->torn[other])) continue;
       stamps[other] = 1, steps[other] = steps[queue[next]] + 1;

@@ -135,8 +135,10 @@ static void place_scratch(sbr_model *model, const extents *e) {
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, e->touches, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
-  l->guests = place(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_guests));
+  l->external_bodies =
+      place(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
   l->slot_touches = place(&end, slots, 1);
+  l->touch_weights = place(&end, slots, sizeof(float));
   l->self_boxes = place(&end, e->self_faces, sizeof(sbri_box));
   l->self_balls = place(&end, e->self_faces, sizeof(sbri_moving_ball));
   l->self_nodes = place(&end, 2 * e->self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
@@ -183,6 +185,6 @@ void sbri_layouts_make(sbr_model *model) {
     sbr_model *one = model->rungs[r];
     make_layout(one);
     model->ladder[r].bytes = sbri_room_size(one);
-    if (one->layout.state_size > model->most_state_size) model->most_state_size = one->layout.state_size;
+    if (one->layout.state_size > model->max_state_size) model->max_state_size = one->layout.state_size;
   }
 }

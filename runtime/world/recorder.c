@@ -31,7 +31,8 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_SOFT_IMPULSE] = 6,
     [SBRI_RECORDED_SOFT_FORCE] = 7,
     [SBRI_RECORDED_SOFT_HOLD] = 9,
-    [SBRI_RECORDED_SOFT_RELEASE] = 3};
+    [SBRI_RECORDED_SOFT_RELEASE] = 3,
+    [SBRI_RECORDED_VERTICAL] = 2};
 
 uint32_t sbri_recorded_count(sbri_recorded what) {
   return counts[what];
@@ -49,7 +50,7 @@ static void put_double(unsigned char *to, double value) {
 }
 
 bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
-  unsigned char bytes[SBRI_RECORDED_HEAD_BYTES + SBRI_RECORDED_MOST * SBRI_RECORDED_NUMBER_BYTES];
+  unsigned char bytes[SBRI_RECORDED_HEAD_BYTES + SBRI_RECORDED_MAX * SBRI_RECORDED_NUMBER_BYTES];
   if (!sbri_usable(numbers, counts[what])) return false;
   if (!world->record.write) return true;
   put_u32(bytes, (uint32_t)what);

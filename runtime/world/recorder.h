@@ -33,10 +33,11 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_SOFT_FORCE,    /* body, vertex, force, seconds */
   SBRI_RECORDED_SOFT_HOLD,     /* body, vertex, target, frequency, damping ratio, greatest force */
   SBRI_RECORDED_SOFT_RELEASE,  /* body, vertex */
+  SBRI_RECORDED_VERTICAL,      /* vertical speed */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 
-enum { SBRI_RECORDED_MOST = 11 }; /* numbers of one */
+enum { SBRI_RECORDED_MAX = 11 }; /* numbers of one */
 
 /* Whether the numbers are usable (math/usable.h): where they are not nothing is recorded, and the call that
  * they were of does nothing. */

@@ -12,7 +12,7 @@
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
 
-enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS + 1 }; /* feet go up and down, and it lands */
+enum { SBRI_TICK_EVENTS = 2 * SBRI_MAX_LEGS + 1 }; /* feet go up and down, and it lands */
 
 /* What has become of a polygon. */
 enum { SBRI_POLYGON_TORN = 1 };
@@ -33,21 +33,21 @@ typedef struct sbri_character_state {
   uint32_t unseen_ticks;            /* for how long no view has it */
   uint32_t fade_kept;               /* it goes over in the next tick, and is looked at meanwhile */
   uint32_t swing_ticks;             /* for how long a change has been put off because it swings */
-  uint32_t unused;                  /* to the next double */
+  float up;                         /* wanted vertical speed, m/s */
 } sbri_character_state;
 
 typedef struct sbri_island_state {
   float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
   float stiffening;      /* greatest share of a tetrahedron's stiffness to that at rest then, 1 at rest */
-  float least_ratio;     /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
+  float min_ratio;       /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
   float thinning;        /* greatest g.g of a yielded rest shape to that it was made with, 1 as made */
   uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
-  uint32_t wild;         /* for how many ticks its shape has been (soft/folded.c) */
+  uint32_t unstable;     /* for how many ticks its shape has been (soft/folded.c) */
   float excess_j;        /* of energy, likewise; 0: not looked at */
   uint32_t calm_ticks;   /* for which its motion is still taken out of it */
   uint32_t recoveries;
-  uint32_t unsplit;     /* points that a tear should have split, and there was no room */
-  uint32_t recovering;  /* ticks for which the router still keeps to the scheme that recovers */
+  uint32_t unsplit; /* points that a tear should have split, and there was no room */
+  sbri_recovery recovery;
   uint32_t asleep;      /* it is not stepped */
   uint32_t told_asleep; /* what the host was last told of that */
   uint32_t quiet_ticks; /* for how long it has been as slow as a sleeper */
@@ -55,7 +55,8 @@ typedef struct sbri_island_state {
   uint32_t passes;      /* over its elements, since it was made */
 } sbri_island_state;
 
-/* How what holds a body moved in the last tick, as a rigid body. */
+/* How what holds a body moved in the last tick, as a rigid body; of a loose body, how it itself moved when it
+ * was last sound. */
 typedef struct sbri_guide_motion {
   sbf_vec3 velocity, spin; /* of its middle, m/s; rad/s */
 } sbri_guide_motion;
@@ -188,13 +189,15 @@ SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /
 SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
 SBRI_SCRATCH_PART(frayed, uint8_t, c->model->layout.frayed)  /* (slot_count) likewise: near a torn spring */
 SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)      /* (slot_count / 8) */
-SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)           /* (samples of all bodies) */
-SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)   /* (bodies) */
-SBRI_SCRATCH_PART(guests_of, struct sbri_guests, c->model->layout.guests)  /* (bodies) */
-SBRI_SCRATCH_PART(slot_touches, uint8_t, c->model->layout.slot_touches)    /* (slot_count) */
-SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching) /* (bodies) */
-SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)    /* (slot_count / 8) */
+SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)         /* (samples of all bodies) */
+SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts) /* (bodies) */
+SBRI_SCRATCH_PART(
+    external_bodies_of, struct sbri_external_bodies, c->model->layout.external_bodies) /* (bodies) */
+SBRI_SCRATCH_PART(touch_weights, float, c->model->layout.touch_weights)                /* (slot_count) */
+SBRI_SCRATCH_PART(slot_touches, uint8_t, c->model->layout.slot_touches)                /* (slot_count) */
+SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)             /* (bodies) */
+SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching)      /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
 SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, c->model->layout.self_balls)
 SBRI_SCRATCH_PART(

@@ -3,6 +3,7 @@
 #define SBRI_WORLD_H
 
 #include "collide/colliders.h"
+#include "sbrun/debug.h"
 #include "world/recorder.h"
 #include "world/state.h"
 
@@ -32,15 +33,18 @@ struct sbr_world {
       ahead_units; /* by how much the last tick lies beyond the sampled moment; may lag by SBRI_TIME_SLACK */
   uint64_t stamp;  /* counts sampled moments; from 1 */
   sbri_collider_set colliders;
-  struct sbri_meetings *meetings; /* meet/meetings.h; NULL: bodies of characters do not meet each other */
-  struct sbri_detail *detail;     /* detail/choose.h; NULL: rungs are the host's */
-  sbri_character *characters;     /* (character_capacity) */
+  struct sbri_body_contacts
+      *body_contacts; /* body_contact/body_contacts.h; NULL: bodies of characters do not meet each other */
+  struct sbri_detail *detail; /* detail/choose.h; NULL: rungs are the host's */
+  sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of this tick, character after character */
   size_t work_count, work_capacity;
   uint32_t sleep_ticks; /* of rest before sleep; 0: nothing sleeps */
   uint32_t awake_count; /* soft bodies stepped in the last tick */
   sbr_event events[SBRI_EVENTS];
+  sbr_clock clock;                 /* now_s NULL: ticks are not timed */
+  sbr_profile profile;             /* of the last tick that was timed */
   sbr_record_output record;        /* write NULL: it is not recorded */
   uint64_t recorded_at;            /* tick of the last hash in it */
   uint64_t event_head, event_tail; /* numbers of the next one written and read */

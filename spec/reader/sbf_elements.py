@@ -22,6 +22,9 @@ attachment_rule: explicit inside_hull
 weight_property: density young_modulus bending_stiffness mass_damping stiffness_damping friction pressure yield_strain tear_strain
 scheme: automatic symplectic position_based relaxation explicit_euler heun block_descent
 ik_solver: two_bone ccd fabrik damped_least_squares spline
+gait_kind: walk swim fly slither crawl roll none
+wave_plane: lateral vertical
+fin_motion: flap trail steer
 chain_kind: lag distance
 follower_channel: rotation position both squash weight
 bone_axis: x y z
@@ -411,6 +414,15 @@ gait GAIT
   legs: many(leg) as=<leg>
   head: optional(head_turn) as=<head_turn>
   tails: many(tail) as=<tail>
+  kind: enum(gait_kind) default=walk since=2
+  rest_pose: ref(poses) since=2
+  idle_clip: ref(clips) since=2
+  move_clip: ref(clips) since=2
+  undulation: optional(undulation) as=<undulation> since=2
+  fins: many(fin) as=<fin> since=2
+  wheels: many(wheel) as=<wheel> since=2
+  treads: many(tread) as=<tread> since=2
+  medium: optional(medium) as=<medium> since=2
 leg
   name: string
   ik: ref(ik_chains) required
@@ -429,6 +441,49 @@ tail
   frequency: float default=1.2 range=(0,inf)
   damping_ratio: float default=0.25 range=[0,inf)
   limit: float default=0.6 range=[0,3.15]
+undulation
+  bones: uint[] below=asset.bones
+  plane: enum(wave_plane) default=lateral
+  length: float range=[0,inf)
+  wavelength: float default=0.95 range=(0,inf)
+  amplitude: vec3 default=0.02,-0.08,0.16
+  exaggeration: float default=1 range=[0,10]
+  strouhal_number: float default=0.3 range=(0,inf)
+  idle_frequency: float default=0.4 range=[0,inf)
+  max_frequency: float default=8 range=(0,inf)
+  heading_amplitude: float default=0.7 range=[0,1.5]
+fin
+  name: string
+  bones: uint[] below=asset.bones
+  motion: enum(fin_motion) default=flap
+  axis: vec3 default=0,0,1
+  amplitude: float default=0.4 range=[0,3.15]
+  mean: float range=[-3.15,3.15]
+  flex: float range=[0,3.15]
+  lag: float range=[0,6.29]
+  phase: float range=[-6.29,6.29]
+  frequency: float range=[0,60]
+  twist: float range=[0,3.15]
+wheel
+  name: string
+  bone: ref(bones) required
+  axis: vec3 default=1,0,0
+  radius: float required range=(0,inf)
+  steer_limit: float range=[0,1.5]
+tread
+  name: string
+  bones: uint[] below=asset.bones
+medium
+  buoyancy: float default=1 range=[0,10]
+  drag_length: float range=[0,inf)
+  altitude: float range=[0,inf)
+  bank: float default=1 range=[0,4]
+  bank_limit: float default=0.8 range=[0,1.5]
+  pitch_limit: float default=0.8 range=[0,1.5]
+  tilt: float range=[-1.5,1.5]
+  bob: float range=[0,inf)
+  bob_frequency: float default=0.8 range=[0,8]
+  glide_ratio: float range=[0,inf)
 chain
   id: id required
   name: string
@@ -488,6 +543,8 @@ environment
   media_friction: float range=[0,inf)
   control_tick: float default=0.016666668 range=(0,1]
   fields: many(force_field) as=<force_field>
+  has_water: bool default=false since=2
+  water_level: float since=2
 force_field
   id: id required
   name: string
@@ -505,13 +562,15 @@ section_recipe
   bone: ref(bones)
   attributes: one(attributes)
   collision: one(collision)
+  rigid: bool default=false since=2
+  proposed: bool default=false since=2
 extension
   name: string required
   required: bool default=false
   data: text
 """
 
-KNOWN_VERSION = (1, 1)  # the version of the format that this reader knows
+KNOWN_VERSION = (1, 2)  # the version of the format that this reader knows
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4, "quat": 4, "uint2": 2, "uint4": 4}
 CHILDREN = ("one", "optional", "many")
 

@@ -46,7 +46,7 @@ class Options(fixtures.SceneTest):
         for interior, model in (("none", "springs"), ("lattice", "springs"), ("tetrahedra", "tetrahedra")):
             self.build.interior = interior
             self.assertEqual(self.export().soft_bodies[0].levels[0].model, model)
-        self.build.levels = 2
+        self.build.levels, self.build.size_by, self.build.elements = 2, "ELEMENTS", 3000  # a coarse level is left out where it is off
         self.assertEqual(len(self.export().soft_bodies[0].levels), 2)
 
     def test_bending_springs_may_be_left_out(self):

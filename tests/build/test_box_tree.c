@@ -39,12 +39,11 @@ START_TEST(of_equals_the_lowest_number)
   for (int i = 0; i < 100; i++) boxes[i] = (sbfi_box){{1, 1, 1}, {2, 2, 2}};
   sbfi_box_tree tree;
   ck_assert(sbfi_box_tree_build(&tree, boxes, 100, &arena));
-  double least = INFINITY;
-  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &least), 0);
-  ck_assert(least == 1);
+  double min = INFINITY;
+  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &min), 0);
+  ck_assert(min == 1);
   /* What the caller has already is not beaten by an equal. */
-  ck_assert_uint_eq(
-      sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &least), UINT32_MAX);
+  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &min), UINT32_MAX);
   double places[100];
   for (int i = 0; i < 100; i++) places[i] = 5;
   ck_assert_uint_eq(
@@ -64,8 +63,8 @@ START_TEST(every_item_is_found)
   ck_assert(sbfi_box_tree_build(&tree, boxes, 1000, &arena));
   ck_assert_uint_le(tree.node_count, 2000);
   for (uint32_t i = 0; i < 1000; i++) {
-    double least = INFINITY, at[3] = {boxes[i].low[0] + 0.2, boxes[i].low[1] - 0.3, boxes[i].low[2] + 0.1};
-    ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, at, box_distance, boxes, &least), i);
+    double min = INFINITY, at[3] = {boxes[i].low[0] + 0.2, boxes[i].low[1] - 0.3, boxes[i].low[2] + 0.1};
+    ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, at, box_distance, boxes, &min), i);
   }
 }
 END_TEST
@@ -76,12 +75,11 @@ START_TEST(boxes_without_size_or_bound)
       {{0, 0, 0}, {0, 0, 0}}, {{7, 0, 0}, {7, 0, 0}}, {{0, 7, 0}, {0, 7, 0}}, {{0, 0, 7}, {0, 0, 7}}};
   sbfi_box_tree tree;
   ck_assert(sbfi_box_tree_build(&tree, boxes, 6, &arena));
-  double least = INFINITY;
-  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){1, 1, 1}, box_distance, boxes, &least), 1);
+  double min = INFINITY;
+  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){1, 1, 1}, box_distance, boxes, &min), 1);
   ck_assert(sbfi_box_tree_build(&tree, boxes, 0, &arena));
-  least = INFINITY;
-  ck_assert_uint_eq(
-      sbfi_box_tree_nearest(&tree, (double[]){1, 1, 1}, box_distance, boxes, &least), UINT32_MAX);
+  min = INFINITY;
+  ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){1, 1, 1}, box_distance, boxes, &min), UINT32_MAX);
 }
 END_TEST
 

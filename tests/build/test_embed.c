@@ -201,6 +201,63 @@ START_TEST(of_two_bodies_on_a_bone_the_nearer)
 }
 END_TEST
 
+static void check_place(const sbf_level *level, const sbf_embedding *embedding, uint32_t i, sbf_vec3 p) {
+  const float w[4] = {embedding->weights.at[i].x, embedding->weights.at[i].y, embedding->weights.at[i].z,
+      embedding->weights.at[i].w};
+  float at[3] = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 q = level->positions.at[embedding->points.at[i].at[k]];
+    ck_assert_float_ge(w[k], -0.501f);
+    ck_assert_float_le(w[k], 1.501f);
+    at[0] += w[k] * q.x, at[1] += w[k] * q.y, at[2] += w[k] * q.z;
+  }
+  ck_assert_float_eq_tol(at[0], p.x, 1e-4f);
+  ck_assert_float_eq_tol(at[1], p.y, 1e-4f);
+  ck_assert_float_eq_tol(at[2], p.z, 1e-4f);
+}
+
+static bool is_pinned_to(const sbf_level *level, uint32_t point, int32_t bone) {
+  for (uint32_t s = 0; s < level->pins.count; s++)
+    for (uint32_t i = 0; i < level->pins.at[s].points.count; i++)
+      if (level->pins.at[s].points.at[i] == point && level->pins.at[s].bone == bone) return true;
+  return false;
+}
+
+/* A sword in the hand: its tip is twenty hands away. */
+START_TEST(what_is_far_from_a_pinned_body_follows_its_bone)
+{
+  const sbf_vec3 positions[] = {{1, 0.6f, 0}, {1, 20, 0}, {4, 12, -7}};
+  mesh.mesh.positions = (sbf_vec3_list){positions, 3};
+  mesh.bone = 1;
+  sbf_asset *built = build(NULL);
+  const sbf_level *level = &built->soft_bodies.at[1].levels.at[0];
+  const sbf_embedding *embedding = embedding_of(built, 1);
+  for (uint32_t i = 0; i < 3; i++) check_place(level, embedding, i, positions[i]);
+  for (uint32_t i = 1; i < 3; i++)
+    for (int k = 0; k < 4; k++) ck_assert(is_pinned_to(level, embedding->points.at[i].at[k], 1));
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(a_body_without_pins_gets_none_by_what_it_carries)
+{
+  const sbf_vec3 positions[] = {{1, 0.6f, 0}, {1, 20, 0}};
+  mesh.mesh.positions = (sbf_vec3_list){positions, 2};
+  mesh.bone = 1;
+  sbf_asset *built;
+  sbf_diagnostic error;
+  sbf_build_report report;
+  const sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_NONE};
+  ck_assert_int_eq(sbf_build(asset, &options, &built, &report, &error), SBF_OK);
+  const sbf_level *level = &built->soft_bodies.at[1].levels.at[0];
+  ck_assert_uint_eq(level->pins.count, 0);
+  ck_assert_uint_eq(level->positions.count, 26);
+  check_place(level, embedding_of(built, 1), 0, positions[0]);
+  ck_assert_uint_ge(report.warnings, 1);
+  sbf_asset_free(built);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("embed");
   TCase *c = tcase_create("embed");
@@ -213,6 +270,8 @@ static Suite *suite(void) {
   tcase_add_test(c, nothing_carries_a_mesh_apart);
   tcase_add_test(c, authored_embeddings_stay);
   tcase_add_test(c, of_two_bodies_on_a_bone_the_nearer);
+  tcase_add_test(c, what_is_far_from_a_pinned_body_follows_its_bone);
+  tcase_add_test(c, a_body_without_pins_gets_none_by_what_it_carries);
   suite_add_tcase(s, c);
   return s;
 }

@@ -83,20 +83,22 @@ END_TEST
 
 /* ---- The example ---- */
 
-/* Of every piece of the lattice. */
+/* Of every piece of the lattice; points in no tetrahedron are no piece of it. */
 static void check_held(const sbf_level *level, const char *name) {
   uint32_t points = level->positions.count;
   uint32_t *parents = sbfi_arena_allocate(&arena, points, sizeof *parents);
   uint32_t *list = sbfi_arena_allocate(&arena, points, sizeof *list);
-  uint8_t *held = sbfi_arena_allocate(&arena, points, 1);
+  uint8_t *held = sbfi_arena_allocate(&arena, points, 1), *used = sbfi_arena_allocate(&arena, points, 1);
   sbf_level_held_points(level, held);
   sbfi_sets_begin(parents, points);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
-    for (int k = 1; k < 4; k++)
+    for (int k = 0; k < 4; k++) {
+      used[level->lattice.tetrahedra.at[t].at[k]] = 1;
       sbfi_sets_join(parents, level->lattice.tetrahedra.at[t].at[0], level->lattice.tetrahedra.at[t].at[k]);
+    }
   for (uint32_t root = 0; root < points; root++) {
     uint32_t count = 0;
-    if (parents[root] != root) continue;
+    if (parents[root] != root || !used[root]) continue;
     for (uint32_t i = 0; i < points; i++)
       if (held[i] && sbfi_set_root(parents, i) == root) list[count++] = i;
     double width = sbfi_farthest_line_of(level->positions.at, list, count).width;

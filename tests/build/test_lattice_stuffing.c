@@ -88,10 +88,10 @@ static void check_conforming(const sbfi_tetrahedra *made) {
   free(faces);
 }
 
-static void check_volume(const sbfi_tetrahedra *made, double most) {
+static void check_volume(const sbfi_tetrahedra *made, double max) {
   sbf_lattice_measures quality;
   sbf_lattice_measure(made->positions, made->at, made->count, &quality);
-  ck_assert_double_le(quality.volume, most);
+  ck_assert_double_le(quality.volume, max);
   ck_assert_double_ge(quality.least_dihedral_deg, 10);
   ck_assert_double_le(quality.most_dihedral_deg, 165);
 }

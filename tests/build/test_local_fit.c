@@ -35,14 +35,14 @@ static held_body hold(sbf_polygon_mesh mesh, int axis, double low, double high) 
   held_body made = {shape_add_body(asset, "body", &mesh, false), axis, 0};
   uint32_t points = mesh.positions.count, count = 0;
   uint32_t *held = sbf_asset_allocate(asset, points, sizeof *held);
-  double least = INFINITY, most = -INFINITY;
+  double min = INFINITY, max = -INFINITY;
   for (uint32_t i = 0; i < points; i++) {
-    least = fmin(least, along(mesh.positions.at[i], axis));
-    most = fmax(most, along(mesh.positions.at[i], axis));
+    min = fmin(min, along(mesh.positions.at[i], axis));
+    max = fmax(max, along(mesh.positions.at[i], axis));
   }
   for (uint32_t i = 0; i < points; i++)
-    if (along(mesh.positions.at[i], axis) <= least + low * (most - least) + 1e-6) held[count++] = i;
-  made.beyond = least + high * (most - least);
+    if (along(mesh.positions.at[i], axis) <= min + low * (max - min) + 1e-6) held[count++] = i;
+  made.beyond = min + high * (max - min);
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   sbf_pin_set_init(pins);
   pins->points = (sbf_u32_list){held, count};
@@ -117,8 +117,8 @@ static shares_off compare(const held_body *of, uint32_t elements) {
     ck_assert(sbfi_level_calibrate(
         &level, of->body, NULL, &reference, false, 1.0 / 60, asset, &calibration, (sbfi_progress){0}, NULL));
     sbfi_reference_free(&reference);
-    ck_assert_double_ge(calibration.least, 0.05);
-    ck_assert_double_le(calibration.most, 4);
+    ck_assert_double_ge(calibration.min, 0.05);
+    ck_assert_double_le(calibration.max, 4);
     for (int way = 0; way < 4; way++)
       (local ? off.local : off.one)[way] = yields(of, &level, way) / yields(of, &fine, way) - 1;
   }
@@ -126,9 +126,9 @@ static shares_off compare(const held_body *of, uint32_t elements) {
 }
 
 static double worst(const double shares[4], int from) {
-  double most = 0;
-  for (int way = from; way < 4; way++) most = fmax(most, fabs(shares[way]));
-  return most;
+  double max = 0;
+  for (int way = from; way < 4; way++) max = fmax(max, fabs(shares[way]));
+  return max;
 }
 
 /* Bent by its weight alone in the fit; along itself, where it gives a hundredth as much, it stays too soft.

@@ -78,7 +78,7 @@ static uint32_t state = 1;
 static double farthest_sample(const sbf_polygon_mesh *from, const sbf_polygon_mesh *to, int samples) {
   sbfi_arena arena;
   sbfi_triangle_tree a, b;
-  double most = 0;
+  double max = 0;
   sbfi_arena_init(&arena, NULL, 0);
   ck_assert(sbfi_triangle_tree_build(&a, from, &arena) && sbfi_triangle_tree_build(&b, to, &arena));
   for (uint32_t t = 0; t < a.triangle_count; t++)
@@ -91,10 +91,10 @@ static double farthest_sample(const sbf_polygon_mesh *from, const sbf_polygon_me
           p->y + s * (q->y - p->y) + r * (o->y - p->y), p->z + s * (q->z - p->z) + r * (o->z - p->z)};
       double squared = INFINITY;
       sbfi_triangle_tree_nearest(&b, at, &squared);
-      if (squared > most) most = squared;
+      if (squared > max) max = squared;
     }
   sbfi_arena_free(&arena);
-  return sqrt(most);
+  return sqrt(max);
 }
 
 static void check_error(const sbf_render_mesh *mesh, const sbf_render_level *level) {

@@ -1,6 +1,7 @@
 #include "build/sections/section_blend.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "harness.h"
 #include "skinned_limb.h"
@@ -22,7 +23,7 @@ static double smoothed(float slope, float authored_slope) {
   sbfi_skin_union skin, authored;
   sbfi_topology t;
   uint32_t left;
-  double most = 0;
+  double max = 0;
   sbfi_arena_init(&arena, NULL, 0);
   sbf_asset *asset = tube(slope, &skin, &arena), *other = tube(authored_slope, &authored, &arena);
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
@@ -36,7 +37,7 @@ static double smoothed(float slope, float authored_slope) {
     for (uint32_t h = before.hold_begins[p]; h < before.hold_begins[p + 1]; h++)
       old[before.holds[h].bone] += (double)before.holds[h].weight;
     ck_assert_double_eq_tol(weights[0] + weights[1], 1, 1e-5);
-    most = fmax(most, fabs(weights[0] - old[0]));
+    max = fmax(max, fabs(weights[0] - old[0]));
     /* A smoothed step still goes over from one bone to the other about the joint. */
     if (skin.mesh.positions.at[p].y < 0.5f) ck_assert_double_gt(weights[0], 0.9);
     if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_double_gt(weights[1], 0.9);
@@ -44,7 +45,7 @@ static double smoothed(float slope, float authored_slope) {
   sbfi_arena_free(&arena);
   sbf_asset_free(asset);
   sbf_asset_free(other);
-  return most;
+  return max;
 }
 
 START_TEST(a_step_becomes_a_slope)
@@ -63,6 +64,23 @@ START_TEST(flips_are_judged_by_the_weights_as_authored)
 }
 END_TEST
 
+/* The same polygons in another order: every seventh, and again. */
+static void reorder_polygons(sbf_polygon_mesh *mesh, sbfi_arena *arena) {
+  uint32_t count = mesh->polygon_sizes.count, corners = mesh->polygon_points.count;
+  uint32_t *points = sbfi_arena_allocate(arena, corners, sizeof *points);
+  uint32_t *sizes = sbfi_arena_allocate(arena, count, sizeof *sizes);
+  ck_assert(points && sizes);
+  uint32_t to = 0, corner = 0;
+  for (uint32_t turn = 0; turn < 7; turn++)
+    for (uint32_t p = 0, at = 0; p < count; at += mesh->polygon_sizes.at[p++]) {
+      if (p % 7 != turn) continue;
+      memcpy(points + corner, mesh->polygon_points.at + at, mesh->polygon_sizes.at[p] * sizeof *points);
+      corner += sizes[to++] = mesh->polygon_sizes.at[p];
+    }
+  mesh->polygon_points.at = points;
+  mesh->polygon_sizes.at = sizes;
+}
+
 /* Weights go from triangle to triangle: on a fine skin sweeps alone leave thousands that tear. */
 START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
 {
@@ -77,7 +95,9 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   ck_assert(sbfi_skins_choose(asset, chosen, &chosen_count, &arena));
   ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
+  reorder_polygons(&skin.mesh, &arena);
   const sbfi_skin_union authored = skin;
+  ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   /* As on the coarse tube: the slope is no longer than it has to be. */
@@ -92,6 +112,60 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   }
   sbfi_arena_free(&arena);
   sbf_asset_free(asset);
+}
+END_TEST
+
+START_TEST(the_order_of_polygons_changes_nothing)
+{
+  sbfi_arena arena;
+  sbfi_skin_union skins[2];
+  uint32_t left;
+  sbfi_arena_init(&arena, NULL, 0);
+  for (int i = 0; i < 2; i++) {
+    sbfi_topology t;
+    sbf_asset *asset = tube(0, &skins[i], &arena);
+    if (i) reorder_polygons(&skins[i].mesh, &arena);
+    const sbfi_skin_union authored = skins[i];
+    ck_assert(sbfi_topology_build(&t, &skins[i].mesh, &arena));
+    ck_assert(sbfi_section_blend_smooth(&skins[i], &authored, &t, asset, NULL, &left, &arena));
+    sbf_asset_free(asset);
+  }
+  uint32_t points = skins[0].mesh.positions.count;
+  for (uint32_t p = 0; p <= points; p++) ck_assert_uint_eq(skins[0].hold_begins[p], skins[1].hold_begins[p]);
+  for (uint32_t h = 0; h < skins[0].hold_begins[points]; h++) {
+    ck_assert_uint_eq(skins[0].holds[h].bone, skins[1].holds[h].bone);
+    ck_assert_float_eq(skins[0].holds[h].weight, skins[1].holds[h].weight);
+  }
+  sbfi_arena_free(&arena);
+}
+END_TEST
+
+/* Points beside a joint that are to keep their weights: on one side the slope goes to the other; on both
+ * sides there is no room for it, and they give way. */
+START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
+{
+  for (int both = 0; both < 2; both++) {
+    sbfi_arena arena;
+    sbfi_skin_union skin;
+    sbfi_topology t;
+    uint32_t left, changed = 0;
+    sbfi_arena_init(&arena, NULL, 0);
+    sbf_asset *asset = tube(0, &skin, &arena);
+    const sbfi_skin_union authored = skin;
+    uint32_t points = skin.mesh.positions.count;
+    uint8_t *fixed = sbfi_arena_allocate(&arena, points, 1);
+    ck_assert_ptr_nonnull(fixed);
+    for (uint32_t p = 0; p < points; p++)
+      fixed[p] = skin.mesh.positions.at[p].y < 0.95f || (both && skin.mesh.positions.at[p].y > 1.05f);
+    ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
+    ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, fixed, &left, &arena));
+    ck_assert_uint_eq(left, 0);
+    for (uint32_t p = 0; p < points; p++)
+      changed += fixed[p] && skin.hold_begins[p + 1] - skin.hold_begins[p] != 1;
+    ck_assert(both ? changed > 0 : changed == 0);
+    sbfi_arena_free(&arena);
+    sbf_asset_free(asset);
+  }
 }
 END_TEST
 
@@ -123,6 +197,8 @@ static Suite *suite(void) {
   tcase_add_test(c, a_gentle_slope_stays);
   tcase_add_test(c, flips_are_judged_by_the_weights_as_authored);
   tcase_add_test(c, a_step_on_a_fine_skin_becomes_a_slope);
+  tcase_add_test(c, the_order_of_polygons_changes_nothing);
+  tcase_add_test(c, fixed_points_keep_their_weights_as_long_as_others_can_give_way);
   tcase_add_test(c, memory_does_not_grow_with_bones_times_points);
   suite_add_tcase(s, c);
   return s;

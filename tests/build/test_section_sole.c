@@ -27,13 +27,13 @@ static sbf_asset *standing(bool on_a_leg) {
 }
 
 /* Least share of the first bone in the points up to a height, and how many points are marked as soles. */
-static float least_share(bool on_a_leg, float height, uint32_t *marked) {
+static float min_share(bool on_a_leg, float height, uint32_t *marked) {
   sbf_asset *asset = standing(on_a_leg);
   sbfi_arena arena;
   sbfi_skin_union skin;
   uint8_t chosen[1];
   uint32_t count;
-  float least = 1;
+  float min = 1;
   sbfi_arena_init(&arena, NULL, 0);
   ck_assert(sbfi_skins_choose(asset, chosen, &count, &arena));
   ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
@@ -48,26 +48,26 @@ static float least_share(bool on_a_leg, float height, uint32_t *marked) {
     }
     ck_assert_float_eq_tol(sum, 1, 1e-5f);
     *marked += soles[p];
-    if (skin.mesh.positions.at[p].y <= height && own < least) least = own;
+    if (skin.mesh.positions.at[p].y <= height && own < min) min = own;
   }
   sbfi_arena_free(&arena);
   sbf_asset_free(asset);
-  return least;
+  return min;
 }
 
 START_TEST(a_sole_is_its_foots_alone)
 {
   uint32_t marked;
-  ck_assert_float_eq_tol(least_share(true, 0.1f, &marked), 1, 1e-6f);
+  ck_assert_float_eq_tol(min_share(true, 0.1f, &marked), 1, 1e-6f);
   ck_assert_uint_gt(marked, 0);
-  ck_assert_float_lt(least_share(true, 0.9f, &marked), 0.7f); /* above it all is as it was */
+  ck_assert_float_lt(min_share(true, 0.9f, &marked), 0.7f); /* above it all is as it was */
 }
 END_TEST
 
 START_TEST(what_stands_on_no_leg_is_left_alone)
 {
   uint32_t marked;
-  ck_assert_float_lt(least_share(false, 0.1f, &marked), 0.99f);
+  ck_assert_float_lt(min_share(false, 0.1f, &marked), 0.99f);
   ck_assert_uint_eq(marked, 0);
 }
 END_TEST

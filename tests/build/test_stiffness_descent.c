@@ -13,7 +13,7 @@ static sbf_asset *asset, *built;
 static sbfi_arena arena;
 static sbfi_level_statics statics;
 static sbfi_linear_statics linear;
-static double *gives[SBFI_MOST_LOADS];
+static double *gives[SBFI_MAX_LOADS];
 static const sbfi_wanted wanted = {.gives = (const double *const *)gives};
 static const sbfi_factor_bounds bounds = {0.125, 16, 4, 1e-3, 25};
 
@@ -69,7 +69,7 @@ END_TEST
  * more than four times what the most tightly held one was. */
 START_TEST(bounds_hold)
 {
-  double left, most = 0;
+  double left, max = 0;
   const float *from = stated();
   const sbf_spring_network *n = &statics.network;
   double *sums = sbfi_arena_allocate(&arena, n->point_count, 2 * sizeof *sums),
@@ -89,9 +89,9 @@ START_TEST(bounds_hold)
     }
   }
   for (uint32_t i = 0; i < n->point_count; i++)
-    if (n->masses[i] > 0) most = fmax(most, before[i] / n->masses[i]);
+    if (n->masses[i] > 0) max = fmax(max, before[i] / n->masses[i]);
   for (uint32_t i = 0; i < n->point_count; i++)
-    if (n->masses[i] > 0) ck_assert_double_le(sums[i] / n->masses[i], 4.001 * most);
+    if (n->masses[i] > 0) ck_assert_double_le(sums[i] / n->masses[i], 4.001 * max);
 }
 END_TEST
 

@@ -30,7 +30,7 @@ static void teardown(void) {
   sbfi_arena_free(&arena);
 }
 
-static double least_weight(uint32_t tetrahedron, sbf_vec3 at) {
+static double min_weight(uint32_t tetrahedron, sbf_vec3 at) {
   double weights[4];
   ck_assert(sbfi_tetrahedron_weigh(
       lattice.made.positions, lattice.made.at[tetrahedron].at, sbfi_d3_of(at), weights));
@@ -48,15 +48,15 @@ static double size_of_weights(uint32_t tetrahedron, sbf_vec3 at) {
 
 /* Of a point outside, by all four sides. */
 static double distance_from(uint32_t tetrahedron, sbf_vec3 at) {
-  double corners[4][3], unused[3], least = INFINITY;
+  double corners[4][3], unused[3], min = INFINITY;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 p = lattice.made.positions[lattice.made.at[tetrahedron].at[k]];
     corners[k][0] = p.x, corners[k][1] = p.y, corners[k][2] = p.z;
   }
   for (int k = 0; k < 4; k++)
-    least = fmin(least, sbfi_triangle_closest(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4],
-                            (double[]){at.x, at.y, at.z}, unused));
-  return sqrt(least);
+    min = fmin(min, sbfi_triangle_closest(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4],
+                        (double[]){at.x, at.y, at.z}, unused));
+  return sqrt(min);
 }
 
 START_TEST(points_inside_are_found_as_by_looking_at_all)
@@ -66,7 +66,7 @@ START_TEST(points_inside_are_found_as_by_looking_at_all)
         -0.8f + 1.6f * (float)(i % 7) / 6, -0.8f + 1.6f * (float)(i % 11) / 10, -0.8f + (float)i / 200};
     sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&finder, at);
     uint32_t first = 0;
-    while (least_weight(first, at) < -1e-9) first++;
+    while (min_weight(first, at) < -1e-9) first++;
     ck_assert_uint_eq(found.tetrahedron, first);
     ck_assert_double_eq(found.distance, 0);
   }
@@ -81,7 +81,7 @@ START_TEST(points_outside_know_how_far)
     sbf_vec3 at = {(float)(1 + away), 0.21f - 0.01f * (float)i, 0.1f};
     sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&finder, at);
     if (at.y > -0.3f) ck_assert_double_eq_tol(found.distance, away, 1e-5 + 1e-6 * away);
-    double weight = least_weight(found.tetrahedron, at);
+    double weight = min_weight(found.tetrahedron, at);
     ck_assert_double_lt(weight, 0);
     ck_assert_double_gt(weight, -6 * (away / 0.37 + 0.3));
   }
@@ -114,12 +114,12 @@ START_TEST(points_outside_have_the_smallest_weights)
     float out = 1.01f + 0.004f * (float)i;
     sbf_vec3 at = {out * (float)(i % 5 - 2) / 2, out * (float)(i % 3 - 1), out};
     sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&finder, at);
-    double least = INFINITY;
-    for (uint32_t t = 0; t < lattice.made.count; t++) least = fmin(least, distance_from(t, at));
-    ck_assert_double_eq_tol(found.distance, least, 1e-9);
-    ck_assert_double_le(distance_from(found.tetrahedron, at), least + finder.radius / 2 + 1e-9);
+    double min = INFINITY;
+    for (uint32_t t = 0; t < lattice.made.count; t++) min = fmin(min, distance_from(t, at));
+    ck_assert_double_eq_tol(found.distance, min, 1e-9);
+    ck_assert_double_le(distance_from(found.tetrahedron, at), min + finder.radius / 2 + 1e-9);
     for (uint32_t t = 0; t < lattice.made.count; t++)
-      if (distance_from(t, at) < least + finder.radius / 2 - 1e-9)
+      if (distance_from(t, at) < min + finder.radius / 2 - 1e-9)
         ck_assert_double_ge(size_of_weights(t, at), size_of_weights(found.tetrahedron, at) - 1e-9);
   }
 }

@@ -20,10 +20,10 @@ static void teardown(void) {
   sbfi_arena_free(&arena);
 }
 
-static bool covered(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, double most) {
+static bool covered(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, double max) {
   const double corners[3][3] = {{(double)a.x, (double)a.y, (double)a.z},
       {(double)b.x, (double)b.y, (double)b.z}, {(double)c.x, (double)c.y, (double)c.z}};
-  return sbfi_triangle_is_covered(&tree, corners, most);
+  return sbfi_triangle_is_covered(&tree, corners, max);
 }
 
 START_TEST(over_many_triangles)

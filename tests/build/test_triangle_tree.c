@@ -40,8 +40,8 @@ START_TEST(nearest_as_by_trying_all)
   for (int i = 0; i < 500; i++) {
     sbf_vec3 p = {
         random_between(&state, -2, 2), random_between(&state, -2, 2), random_between(&state, -2, 2)};
-    double least = INFINITY, best = INFINITY;
-    uint32_t found = sbfi_triangle_tree_nearest(&tree, p, &least), expected = UINT32_MAX;
+    double min = INFINITY, best = INFINITY;
+    uint32_t found = sbfi_triangle_tree_nearest(&tree, p, &min), expected = UINT32_MAX;
     for (uint32_t t = 0; t < tree.triangle_count; t++) {
       double d = triangle_distance(&tree, t, p);
       if (d < best) {
@@ -49,7 +49,7 @@ START_TEST(nearest_as_by_trying_all)
         expected = t;
       }
     }
-    ck_assert(least == best);
+    ck_assert(min == best);
     ck_assert_uint_eq(found, expected);
   }
 }
@@ -60,12 +60,12 @@ START_TEST(a_bound_is_kept)
   sbf_polygon_mesh mesh = shape_cube(asset, 2, 2, (sbf_vec3){0, 0, 0});
   sbfi_triangle_tree tree;
   ck_assert(sbfi_triangle_tree_build(&tree, &mesh, &arena));
-  double least = 0.5;
-  ck_assert_uint_eq(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){3, 0, 0}, &least), UINT32_MAX);
-  ck_assert(least == 0.5);
-  least = 4.5;
-  ck_assert_uint_ne(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){3, 0.1f, 0}, &least), UINT32_MAX);
-  ck_assert_double_eq_tol(least, 4, 1e-9);
+  double min = 0.5;
+  ck_assert_uint_eq(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){3, 0, 0}, &min), UINT32_MAX);
+  ck_assert(min == 0.5);
+  min = 4.5;
+  ck_assert_uint_ne(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){3, 0.1f, 0}, &min), UINT32_MAX);
+  ck_assert_double_eq_tol(min, 4, 1e-9);
 }
 END_TEST
 
@@ -124,9 +124,9 @@ START_TEST(empty_mesh)
   sbf_polygon_mesh mesh;
   sbf_polygon_mesh_init(&mesh);
   sbfi_triangle_tree tree;
-  double least = INFINITY;
+  double min = INFINITY;
   ck_assert(sbfi_triangle_tree_build(&tree, &mesh, &arena));
-  ck_assert_uint_eq(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){0, 0, 0}, &least), UINT32_MAX);
+  ck_assert_uint_eq(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){0, 0, 0}, &min), UINT32_MAX);
   ck_assert_uint_eq(
       sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0, 0}, INFINITY), UINT32_MAX);
 }

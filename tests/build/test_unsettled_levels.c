@@ -34,13 +34,13 @@ static sbf_asset *build_bar(const sbf_vec3 *places, uint32_t count, uint32_t ele
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   uint32_t *points = sbf_asset_allocate(asset, count, sizeof *points);
   for (uint32_t p = 0; p < count; p++) {
-    float least = 1e9f;
+    float min = 1e9f;
     for (uint32_t i = 0; i < bar.positions.count; i++) {
       sbf_vec3 at = bar.positions.at[i];
       float x = at.x - places[p].x, y = at.y - places[p].y, z = at.z - places[p].z;
       float squared = x * x + y * y + z * z;
-      if (squared >= least) continue;
-      least = squared;
+      if (squared >= min) continue;
+      min = squared;
       points[p] = i;
     }
   }

@@ -272,6 +272,18 @@ START_TEST(a_thick_part_keeps_its_shoulder)
 }
 END_TEST
 
+/* A bone along the middle of another is nearest to nothing. */
+START_TEST(bones_deep_in_a_body_are_idle)
+{
+  make_arm(60, false);
+  uint32_t twig = tubes_add_bone(tubes, "twig", 0, (sbfi_d3){1.2, 0, 0}, (sbfi_d3){1.7, 0, 0});
+  tubes->bones[twig].length = 0.5f;
+  compute_tubes();
+  for (uint32_t b = 0; b < 3; b++) ck_assert_float_eq(weights.idle_lengths[b], 0);
+  ck_assert_float_eq_tol(weights.idle_lengths[twig], 0.5f / 3.4f, 0.01f);
+}
+END_TEST
+
 /* A leg that ends below and behind the ankle: the heel is the foot's, though both bones are as far. */
 START_TEST(a_foot_holds_its_heel)
 {
@@ -481,6 +493,7 @@ static Suite *suite(void) {
   tcase_add_test(c, eyes_follow_the_head_that_holds_them);
   tcase_add_test(c, frames_and_controls_hold_nothing);
   tcase_add_test(c, a_thick_part_keeps_its_shoulder);
+  tcase_add_test(c, bones_deep_in_a_body_are_idle);
   tcase_add_test(c, a_foot_holds_its_heel);
   tcase_add_test(c, ends_of_bones_hold_nothing);
   tcase_add_test(c, trees_of_handles_hold_nothing);

@@ -60,7 +60,7 @@ void dropped_ball_check(const dropped_ball *ball) {
   double bulk = (double)is->young_modulus / (3 * (1 - 2 * (double)is->poisson_ratio));
   double speed = sqrt(2 * 9.81 * height), sound = sqrt((double)is->young_modulus / density);
   sbr_body_health health = sbr_character_health(d.world, d.id, 0);
-  double most = energy_of(&health) + 1e-3 * health.potential_j;
+  double max = energy_of(&health) + 1e-3 * health.potential_j;
   char name[96];
   snprintf(name, sizeof name, "%s, radius %g m, nu %g, from %g m", ball->preset, radius,
       (double)is->poisson_ratio, height);
@@ -69,11 +69,11 @@ void dropped_ball_check(const dropped_ball *ball) {
     sbr_world_step(d.world, 1.0 / 60);
     health = sbr_character_health(d.world, d.id, 0);
     ck_assert_msg(health.finite, "%s, tick %d", name, i);
-    ck_assert_msg(energy_of(&health) <= most, "%s, tick %d: %g of %g J", name, i, energy_of(&health), most);
+    ck_assert_msg(energy_of(&health) <= max, "%s, tick %d: %g of %g J", name, i, energy_of(&health), max);
   }
-  /* An impact at v strains what it meets by v / c: faster than sound it crushes elements past recovery, as in
-   * the falls of flesh from 1 m at 1.02 c, of which two of thirty are put back once: one stays in a knot, one
-   * of 10 mm at nu = 0.499 loses its numbers in the tick of the impact. */
+  /* An impact at v strains what it meets by v / c: faster than sound it can fold elements past recovery, as
+   * in the falls of flesh from 1 m at 1.02 c, of which one of thirty stays in a knot (25 mm, nu = 0.3) and is
+   * put back. */
   ck_assert_msg(health.recoveries <= (speed > sound), "%s: %u recoveries", name, health.recoveries);
   double off = fabs((double)health.volume_ratio - 1), by_weight = density * 9.81 * 2 * radius / bulk;
   ck_assert_msg(off <= 0.05 + by_weight, "%s: volume %g", name, (double)health.volume_ratio);

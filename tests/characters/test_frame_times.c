@@ -10,7 +10,7 @@
 #include "sbfmt/convert.h"
 #include "sbrun/sbrun.h"
 
-enum { SECONDS = 4, TICKS = 60 * SECONDS + 30, MOST_BONES = 64 };
+enum { SECONDS = 4, TICKS = 60 * SECONDS + 30, MAX_BONES = 64 };
 
 typedef struct example {
   const char *name, *mesh, *rig;
@@ -51,7 +51,7 @@ static stage stage_of(const example *e) {
     s.asset = built;
   }
   ck_assert_uint_eq(s.asset->gaits.at[0].legs.count, e->legs);
-  ck_assert_uint_le(s.asset->bones.count, MOST_BONES);
+  ck_assert_uint_le(s.asset->bones.count, MAX_BONES);
   ck_assert_msg(sbr_model_create(s.asset, NULL, &s.model, &error) == SBF_OK, "%s", error.message);
   return s;
 }
@@ -124,7 +124,7 @@ START_TEST(every_tick_has_one_state)
 END_TEST
 
 typedef struct shown {
-  sbr_transform bones[MOST_BONES];
+  sbr_transform bones[MAX_BONES];
   sbr_double3 origin;
 } shown;
 
@@ -133,7 +133,7 @@ static void watch(const stage *s, int fps, shown *seconds) {
   walk w = begin(s);
   for (int second = 0; second < SECONDS; second++) {
     for (int i = 0; i < fps; i++) sbr_world_step(w.world, 1.0 / fps);
-    sbr_character_bones(w.world, w.character, seconds[second].bones, MOST_BONES);
+    sbr_character_bones(w.world, w.character, seconds[second].bones, MAX_BONES);
     seconds[second].origin = sbr_character_origin(w.world, w.character);
   }
   sbr_world_destroy(w.world);

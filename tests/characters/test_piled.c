@@ -5,7 +5,7 @@
 #include "sbrun/collision.h"
 #include "skin_depth.h"
 
-enum { MOST = 1024, TICKS = 400 };
+enum { MAX = 1024, TICKS = 400 };
 
 static sbf_asset *armadillo(const char *path, float young_pa) {
   const sbf_convert_options convert = {.unit_m = 0.0666f}; /* which makes it 1 m tall */
@@ -20,25 +20,25 @@ static sbf_asset *armadillo(const char *path, float young_pa) {
   sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
   body->attributes.young_modulus = young_pa;
   level->lattice.young_modulus = (sbf_f32_list){NULL, 0};
-  ck_assert_uint_le(body->surface.positions.count, MOST);
+  ck_assert_uint_le(body->surface.positions.count, MAX);
   return built;
 }
 
-static uint32_t look(const sbr_world *world, sbr_character_id who, sbf_vec3 at[MOST]) {
+static uint32_t look(const sbr_world *world, sbr_character_id who, sbf_vec3 at[MAX]) {
   sbr_double3 o = sbr_character_origin(world, who);
-  uint32_t count = sbr_character_surface(world, who, 0, at, MOST);
+  uint32_t count = sbr_character_surface(world, who, 0, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
   return count;
 }
 
 static double deepest(const sbf_polygon_mesh *mesh, const sbf_vec3 *in, const sbf_vec3 *at, uint32_t count) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < count; i++) {
     double deep = skin_depth(mesh, in, at[i], UINT32_MAX);
-    if (deep > most) most = deep;
+    if (deep > max) max = deep;
   }
-  return most;
+  return max;
 }
 
 /* From 20 m: no deeper at last than the thickness within which faces answer for themselves. */
@@ -73,7 +73,7 @@ START_TEST(armadillos_dropped_hard_come_apart)
     ck_assert(sbr_character_create(world, model, &at, &who[i], NULL) == SBF_OK);
   }
   for (int t = 0; t < TICKS; t++) sbr_world_tick(world);
-  static sbf_vec3 at[2][MOST];
+  static sbf_vec3 at[2][MAX];
   const sbf_polygon_mesh *mesh = &asset->soft_bodies.at[0].surface;
   for (int i = 0; i < 2; i++) (void)look(world, who[i], at[i]);
   double one = deepest(mesh, at[0], at[1], mesh->positions.count),

@@ -87,12 +87,12 @@ START_TEST(a_tetrahedron_keeps_its_energy)
   level->lattice.tetrahedra = (sbf_uint4_list){one, 1};
   chart_track t;
   move(asset, 9.81f, 64, 60, &t);
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < t.ticks; i++) {
     ck_assert_double_eq_tol(t.energy_j[i], t.energy_j[0], 1e-6 * (1 + t.kinetic_j[i]));
-    most = fmax(most, t.kinetic_j[i]);
+    max = fmax(max, t.kinetic_j[i]);
   }
-  ck_assert_double_gt(most, 0.1);
+  ck_assert_double_gt(max, 0.1);
   chart_track_free(&t);
 }
 END_TEST

@@ -7,11 +7,11 @@ START_TEST(quartiles_lie_between_samples)
 {
   double samples[] = {4, 1, 3, 2};
   chart_spread s = chart_spread_of(samples, 4);
-  ck_assert_double_eq(s.least, 1);
+  ck_assert_double_eq(s.min, 1);
   ck_assert_double_eq(s.low, 1.75);
   ck_assert_double_eq(s.median, 2.5);
   ck_assert_double_eq(s.high, 3.25);
-  ck_assert_double_eq(s.most, 4);
+  ck_assert_double_eq(s.max, 4);
   ck_assert_uint_eq(s.outliers, 0);
 }
 END_TEST
@@ -22,8 +22,8 @@ START_TEST(what_is_far_off_is_counted_and_stays)
   chart_spread s = chart_spread_of(samples, 9);
   ck_assert_uint_eq(s.outliers, 2);
   ck_assert_double_eq(s.median, 12);
-  ck_assert_double_eq(s.most, 100);
-  ck_assert_double_eq(s.least, -50);
+  ck_assert_double_eq(s.max, 100);
+  ck_assert_double_eq(s.min, -50);
 }
 END_TEST
 
@@ -31,7 +31,7 @@ START_TEST(one_sample_is_all_of_them)
 {
   double sample = 7;
   chart_spread s = chart_spread_of(&sample, 1);
-  ck_assert(s.least == 7 && s.low == 7 && s.median == 7 && s.high == 7 && s.most == 7 && s.outliers == 0);
+  ck_assert(s.min == 7 && s.low == 7 && s.median == 7 && s.high == 7 && s.max == 7 && s.outliers == 0);
 }
 END_TEST
 

@@ -60,3 +60,32 @@ class Bvh:
             own = tuple(own[r][:3] + (place[r],) for r in range(3))
             found.append(product(found[parent], own) if parent is not None else own)
         return found
+
+
+def write_bvh(path, joints, end=(0, 0, 0), frames=1):
+    """Joints by (name, parent or None, position), at rest in every frame. A joint called "..._end" is its parent's end
+    site; joints without children end where `end` says."""
+    places = {name: place for name, _, place in joints}
+    children = {}
+    for name, parent, _ in joints:
+        children.setdefault(parent, []).append(name)
+
+    def lines(name, parent, pad):
+        is_end = name.endswith("_end")
+        offset = [a - b for a, b in zip(places[name], places.get(parent, (0, 0, 0)))]
+        yield pad + ("End Site" if is_end else f"{'JOINT' if parent else 'ROOT'} {name}")
+        yield pad + "{"
+        yield pad + "  OFFSET {:.6f} {:.6f} {:.6f}".format(*offset)
+        if not is_end:
+            yield pad + "  CHANNELS 3 Zrotation Xrotation Yrotation"
+            for child in children.get(name, []):
+                yield from lines(child, name, pad + "  ")
+            if name not in children:
+                yield from (pad + "  End Site", pad + "  {", pad + "    OFFSET {} {} {}".format(*end), pad + "  }")
+        yield pad + "}"
+
+    channels = 3 * sum(not name.endswith("_end") for name in places)
+    text = ["HIERARCHY", *lines(children[None][0], None, ""), "MOTION", f"Frames: {frames}", "Frame Time: 0.04",
+            *[" ".join(["0"] * channels)] * frames]
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(text) + "\n")

@@ -1,10 +1,14 @@
 """Weights of a conversion against those of the original: how many points have the same, how far posed skins are apart."""
 
+import csv
+import math
 import os
 
 import obj_variants
-from bundle_file import Bundle, apply, inverse, product
+from bundle_file import Bundle, apply, inverse, matrix_of, product
+from glb_file import Glb
 from sbfmt_program import call
+from skinned_glb import SkinnedGlb
 
 
 def weights_by_vertex(path):
@@ -58,6 +62,71 @@ class Original:
         return mean
 
 
+def save_in_a_pose(path, saved_path, turns):
+    """Writes the binary glTF with nodes turned, {name: quaternion}, as a program saves it in the middle of a movement.
+    Returns the motion of each node's frame that this makes, by name, in the space of the file."""
+    file = Glb(path)
+    before = file.worlds({}, 0)
+    saved = SkinnedGlb.of(path)
+    for node in saved.json["nodes"]:
+        if node.get("name") in turns:
+            turned = product(matrix_of((0, 0, 0), node.get("rotation", (0, 0, 0, 1))), matrix_of((0, 0, 0), turns[node["name"]]))
+            node["rotation"] = quaternion_of(turned)
+    saved.write(saved_path)
+    after = Glb(saved_path).worlds({}, 0)
+    return {node.get("name"): product(after[i], inverse(before[i])) for i, node in enumerate(file.nodes)}
+
+
+def add_clip(path, animated_path, name, turns, seconds):
+    """Writes the binary glTF with a clip that turns nodes from rest, {name: quaternion at the end}."""
+    file = SkinnedGlb.of(path)
+    times, clip = file.accessor([0.0, seconds], "f", "SCALAR", min=[0.0], max=[seconds]), {"name": name, "samplers": [], "channels": []}
+    for i, node in enumerate(file.json["nodes"]):
+        if node.get("name") not in turns:
+            continue
+        rest = node.get("rotation", [0, 0, 0, 1])
+        end = quaternion_of(product(matrix_of((0, 0, 0), rest), matrix_of((0, 0, 0), turns[node["name"]])))
+        keys = file.accessor([rest, end], "f", "VEC4")
+        clip["channels"].append({"sampler": len(clip["samplers"]), "target": {"node": i, "path": "rotation"}})
+        clip["samplers"].append({"input": times, "output": keys})
+    file.json["animations"].append(clip)
+    file.write(animated_path)
+
+
+def quaternion_of(m):
+    """Of a rotation by less than half a turn about any axis."""
+    w = max(1 + m[0][0] + m[1][1] + m[2][2], 0) ** 0.5 / 2
+    return [(m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w), (m[1][0] - m[0][1]) / (4 * w), w]
+
+
+def posed(original, motions):
+    """The original's OBJ as drawn with its bones moved so, each corner with a normal of its own."""
+    obj, blended = original.obj.copy(), []
+    for weights in original.weights:
+        blended.append([[sum(motions[b][r][k] * w for b, w in weights.items()) for k in range(4)] for r in range(3)])
+    obj.points = [apply(m, p) for m, p in zip(blended, obj.points)]
+    obj.normals, faces = [], []
+    for name, material, corners in obj.faces:
+        own = []
+        for point, uv, normal in corners:
+            rows = [row[:3] for row in blended[point]]
+            cofactors = [cross(rows[(r + 1) % 3], rows[(r + 2) % 3]) for r in range(3)]
+            own.append((point, uv, len(obj.normals)))
+            obj.normals.append(unit([sum(c * x for c, x in zip(row, original.obj.normals[normal])) for row in cofactors]))
+        faces.append((name, material, own))
+    obj.faces = faces
+    return obj
+
+
+def cross(a, b):
+    return tuple(a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3))
+
+
+def unit(v):
+    length = sum(x * x for x in v) ** 0.5 or 1
+    return tuple(x / length for x in v)
+
+
 def difference(a, b):
     return max((abs(a.get(bone, 0) - b.get(bone, 0)) for bone in {*a, *b}), default=0)
 
@@ -91,24 +160,46 @@ def share_of_equal(original, variant, path, within=1e-3):
     return max(straight, exchanged) / max(len(found), 1)
 
 
-def posed_errors(original, variant, path, clips=3, frames=4):
-    """Distances between the variant's points as posed by their weights and by those expected of them, in shares of
-    the longest side: by frames of the file's clips."""
-    bundle, found = Bundle(path), weights_by_vertex(path)
-    places = [place for _, place in found.values()]
-    size = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3))
-    index = {name: i for i, name in enumerate(bundle.bone_names())}
-    errors = []
+def walk_motions(path, folder, seconds=2, frames=6):
+    """How a built bundle's bones have moved from rest, by name, at frames of its own walk, swim or flight."""
+    bundle, out = Bundle(path), os.path.join(folder, "walk.csv")
+    made = call("run", path, "--seconds", seconds, "--drive", "0.4,0", "--pose", out)
+    if made.status:
+        raise RuntimeError(made.err)
+    rest, poses = dict(zip(bundle.bone_names(), bundle.rest)), {}
+    with open(out, encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            place, turn = ([float(row[k]) for k in keys] for keys in (("px", "py", "pz"), ("qx", "qy", "qz", "qw")))
+            pose = product(matrix_of(place, turn), inverse(rest[row["bone"]]))
+            poses.setdefault(int(row["frame"]), {})[row["bone"]] = pose
+    last = max(poses)
+    return [poses[last * (i + 1) // frames] for i in range(frames)]
+
+
+def clip_motions(path, clips=3, frames=4):
+    """The same at frames of the clips."""
+    bundle, found = Bundle(path), []
     for clip in bundle.clips[:clips]:
         tracks = bundle.tracks(clip)
         for frame in range(frames):
             pose = bundle.pose(tracks, float(clip.get("duration", 1)) * (frame + 0.5) / frames)
-            moved = {name: product(pose[i], inverse(bundle.rest[i])) for name, i in index.items()}
-            for vertex, (weights, place) in found.items():
-                expected = original.expected(variant.origins[vertex])
-                if not expected:
-                    continue
-                there, wanted = (tuple(sum(apply(moved[b], place)[k] * w for b, w in of.items()) for k in range(3))
-                                 for of in (weights, expected))
-                errors.append(sum((x - y) ** 2 for x, y in zip(there, wanted)) ** 0.5 / size)
+            found.append({name: product(pose[i], inverse(bundle.rest[i])) for i, name in enumerate(bundle.bone_names())})
+    return found
+
+
+def posed_errors(original, variant, path, motions):
+    """Distances between the variant's points as posed by their weights and by those expected of them, in shares of
+    the longest side, over all motions of the bones."""
+    found = weights_by_vertex(path)
+    places = [place for _, place in found.values()]
+    size = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3))
+    errors = []
+    for vertex, (weights, place) in found.items():
+        expected = original.expected(variant.origins[vertex])
+        if not expected:
+            continue
+        for motion in motions:
+            there, wanted = (tuple(sum(apply(motion[b], place)[k] * w for b, w in of.items()) for k in range(3))
+                             for of in (weights, expected))
+            errors.append(math.dist(there, wanted) / size)
     return sorted(errors)

@@ -55,7 +55,7 @@ class FilesThatBreakOthers(ProgramTest):
         good = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
         self.fails(BAD_INPUT, "convert", shared("bad", "malformed.obj"), good, shared("bad", "empty.obj"), "--out-dir",
                    self.folder)
-        self.assert_empty_folder(but=["lizard.sbf"])
+        self.assert_empty_folder(but=["lizard.sbf", ".sbfmt", "summary.tsv"])
 
 
 class BundlesThatAreNotValid(ProgramTest):
@@ -80,7 +80,7 @@ class BundlesThatAreNotValid(ProgramTest):
         for name, content in (*self.OVERLAP, ("cube.obj", CUBE)):
             write_bytes(self.path(name), content)
         self.fails(BAD_INPUT, "convert", self.path("o.ele"), self.path("cube.obj"), "--out-dir", self.path("out"))
-        self.assertEqual(os.listdir(self.path("out")), ["cube.sbf"])
+        self.assertEqual(sorted(os.listdir(self.path("out"))), [".sbfmt", "cube.sbf", "summary.tsv"])
 
     def test_what_can_be_mended_is_mended_and_told(self):
         """Repeated tetrahedra, a leaf drawn from both sides, an image path that leads out of the folder."""
@@ -156,7 +156,7 @@ class Calls(ProgramTest):
                           ("convert", self.file, "-o", self.path("x"), "--up", "x"),
                           ("build", self.file, "-o", self.path("x"), "--springs", "rubber"),
                           ("run", self.file, "--seconds", "-1"), ("run", self.file, "--seconds", "nan"),
-                          ("run", self.file, "--drive", "0.5"), ("run", self.file, "--drive", "0.5,0.2,1"),
+                          ("run", self.file, "--drive", "0.5"), ("run", self.file, "--drive", "0.5,0.2,1,2"),
                           ("run", self.file, "--ground", "mud"), ("run", self.file, "--ground", "slope:60"),
                           ("run", self.file, "--scheme", "magic"), ("run", self.file, "--threads", "0"),
                           ("run", self.file, "--cache", self.path("x.pc2"), "--of", "hair")):
@@ -195,7 +195,7 @@ class Calls(ProgramTest):
     def test_the_folder_of_many_is_made(self):
         mesh, folder = write_bytes(self.path("cube.obj"), CUBE), self.path("out")
         self.good("convert", mesh, "--out-dir", folder)
-        self.assertEqual(os.listdir(folder), ["cube.sbf"])
+        self.assertEqual(sorted(os.listdir(folder)), [".sbfmt", "cube.sbf", "summary.tsv"])
         self.good("convert", mesh, "--out-dir", folder)
         self.assertIn("make it first", self.fails(FAILED, "convert", mesh, "--out-dir", self.path("no/such")))
         self.assertIn("name a folder", self.fails(FAILED, "convert", mesh, "--out-dir", mesh))
@@ -314,7 +314,7 @@ class DamagedBundles(ProgramTest):
                b"</skeleton><fog density='2'><x>1</x></fog></sbf>"
         self.good("unpack", write_bytes(self.path("x.sbf"), text), "-o", self.path("y.sbf"))
         self.assertEqual(read_bytes(self.path("y.sbf")).split(b"\n", 1)[1],
-                         b'<sbf version="1.1">\n  <skeleton>\n    <bone id="a" head="0 0 0"/>\n  </skeleton>\n</sbf>\n')
+                         b'<sbf version="1.2">\n  <skeleton>\n    <bone id="a" head="0 0 0"/>\n  </skeleton>\n</sbf>\n')
 
 
 @needs_lizard

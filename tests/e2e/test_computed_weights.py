@@ -4,6 +4,7 @@ import math
 import os
 
 from bundle_file import Bundle
+from bvh_file import Bvh, write_bvh
 from rigged_weights import weights_by_vertex
 from skinned_glb import tube as tube_y
 from sbfmt_program import ProgramTest, main
@@ -40,16 +41,7 @@ def write_arm(path):
 
 
 def write_bones(path, shift=0.0):
-    text, pad = ["HIERARCHY"], ""
-    for i, (name, x) in enumerate(BONES):
-        offset = (x - BONES[i - 1][1]) if i else x
-        text += [f"{pad}{'JOINT' if i else 'ROOT'} {name}", pad + "{", f"{pad} OFFSET {offset} {shift if not i else 0} 0",
-                 f"{pad} CHANNELS 3 Zrotation Xrotation Yrotation"]
-        pad += " "
-    text += [pad + "End Site", pad + "{", f"{pad} OFFSET 0.9 0 0", pad + "}"] + ["}"] * len(BONES)
-    text += ["MOTION", "Frames: 1", "Frame Time: 0.04", " ".join(["0"] * 3 * len(BONES)), ""]
-    with open(path, "w", encoding="ascii") as stream:
-        stream.write("\n".join(text))
+    write_bvh(path, [(name, BONES[i - 1][0] if i else None, (x, shift, 0)) for i, (name, x) in enumerate(BONES)], (0.9, 0, 0))
 
 
 def write_person(obj_path, bvh_path, angle=45):
@@ -67,26 +59,16 @@ def write_person(obj_path, bvh_path, angle=45):
         first += len(points)
     with open(obj_path, "w", encoding="ascii") as stream:
         stream.write("\n".join(lines) + "\n")
-    text = ["HIERARCHY", "ROOT Hips", "{", " OFFSET 0 1 0", " CHANNELS 3 Zrotation Xrotation Yrotation"]
-
-    def chain(*joints):
-        for name, *offset in joints:
-            text.append(f" JOINT {name}" if name else " End Site")
-            text.extend([" {", "  OFFSET {} {} {}".format(*offset)])
-            if name:
-                text.append("  CHANNELS 3 Zrotation Xrotation Yrotation")
-        text.extend(["}"] * len(joints))
-
+    joints = [("Hips", None, (0, 1, 0)), ("Spine", "Hips", (0, 1.8, 0)), ("Head", "Spine", (0, 2.1, 0)),
+              ("Head_end", "Head", (0, 2.3, 0))]
     for side, name in ((1, "Left"), (-1, "Right")):
-        chain((name + "UpLeg", side * 0.15, 0, 0), (name + "Leg", 0, -0.5, 0), (name + "Foot", 0, -0.45, 0), (None, 0, 0, 0.1))
-    text += [" JOINT Spine", " {", " OFFSET 0 0.8 0", " CHANNELS 3 Zrotation Xrotation Yrotation"]
-    for side, name in ((1, "Left"), (-1, "Right")):
-        chain((name + "Arm", side * 0.2, 0.05, 0), (name + "ForeArm", side * 0.6, 0, 0), (name + "Hand", side * 0.5, 0, 0),
-              (None, side * 0.2, 0, 0))
-    chain(("Head", 0, 0.3, 0), (None, 0, 0.2, 0))
-    text += ["}", "}", "MOTION", "Frames: 2", "Frame Time: 0.04"] + [" ".join(["0"] * 45)] * 2 + [""]
-    with open(bvh_path, "w", encoding="ascii") as stream:
-        stream.write("\n".join(text))
+        joints += [(name + "UpLeg", "Hips", (side * 0.15, 1, 0)), (name + "Leg", name + "UpLeg", (side * 0.15, 0.5, 0)),
+                   (name + "Foot", name + "Leg", (side * 0.15, 0.05, 0)),
+                   (name + "Foot_end", name + "Foot", (side * 0.15, 0.05, 0.1)),
+                   (name + "Arm", "Spine", (side * 0.2, 1.85, 0)), (name + "ForeArm", name + "Arm", (side * 0.8, 1.85, 0)),
+                   (name + "Hand", name + "ForeArm", (side * 1.3, 1.85, 0)),
+                   (name + "Hand_end", name + "Hand", (side * 1.5, 1.85, 0))]
+    write_bvh(bvh_path, joints, frames=2)
     return starts
 
 
@@ -139,6 +121,21 @@ class ComputedWeights(ProgramTest):
         done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
                          self.path("person.sbf"))
         self.assertNotIn("limbs were turned", done.err)
+
+    def test_targets_that_lie_outside_do_not_count(self):
+        """Animators pull feet and hands by bones that hang on the root: they lie in no body, and most of their length
+        is outside."""
+        write_person(self.path("person.obj"), self.path("person.bvh"), 0)
+        bones = Bvh(self.path("person.bvh"))
+        joints = [("World", None, (0, 0, -3)), ("Pole", "World", (4, 4, -4))]
+        joints += [(name, bones.names[parent] if parent is not None else "World", tuple(row[3] for row in frame))
+                   for name, parent, frame in zip(bones.names, bones.parents, bones.worlds())]
+        joints += [("Aim" + name, "World", place) for name, _, place in joints if name.endswith(("Hand", "Foot"))]
+        write_bvh(self.path("person.bvh"), joints)
+        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
+        self.assertNotIn("RIG_OBJECT_APART", done.err)
+        self.assertNotIn("moved by", done.err)
+        self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"]["legs"], 2)
 
     def test_shells_follow_the_bones_they_are_given_to(self):
         weights, _ = self.weights("--shell", "buttons#2=hand")

@@ -43,11 +43,13 @@ class Levels(ProgramTest):
 
     def test_error_takes_the_coarsest_that_meets_it(self):
         counts = []
-        for error in (0.1, 0.005):
+        for error in (0.1, 0.0015):
             level = self.converted("--error", str(error)).find("soft_body/level")
             self.assertLessEqual(float(level.find("simulation").get("error")), error)
+            # None is taken that is off by a quarter under some load, however small its error in metres.
+            self.assertLessEqual(float(level.find(".//calibration").get("residual")), 0.25)
             counts.append(count_of(level.find("tetrahedron_mesh/tetrahedra")) // 4)
-        self.assertLess(counts[0], 120)
+        self.assertLess(counts[0], 1000)
         self.assertGreater(counts[1], 3 * counts[0])
 
 

@@ -60,9 +60,33 @@ class ManyInputs(ProgramTest):
         files = {"good": good, "faulty": faulty, "absent": self.path("absent.obj")}
         out = self.path("out")
         for names, _ in self.expect_worst(files, "convert", "--no-build", "--out-dir", out):
-            self.assertEqual(os.listdir(out), ["cube.sbf"] if "good" in names else [])
-            for name in os.listdir(out):
+            made = [name for name in os.listdir(out) if name.endswith(".sbf")]
+            self.assertEqual(made, ["cube.sbf"] if "good" in names else [])
+            for name in made:
                 os.remove(os.path.join(out, name))
+
+    def test_unchanged_inputs_are_left_out(self):
+        out = self.path("out")
+        inputs = [write_bytes(self.path(name + ".obj"), CUBE.encode()) for name in ("a", "b", "c")]
+
+        def unchanged(*options):
+            done = call("convert", *inputs, "--no-build", "--out-dir", out, *options)
+            self.assertEqual(done.status, 0, done.err)
+            return int(done.out.split("3 files, ")[1].split(" unchanged")[0])
+
+        self.assertEqual(unchanged(), 0)
+        rows = open(os.path.join(out, "summary.tsv")).read().splitlines()
+        self.assertEqual([row.split("\t")[:3] for row in rows[1:]],
+                         [[name + ".obj", "converted", "none"] for name in ("a", "b", "c")])
+        self.assertEqual(unchanged("--jobs", "3"), 3)
+        self.assertEqual(unchanged("--unit", "2"), 0)  # other options
+        self.assertEqual(unchanged("--unit", "2"), 3)
+        write_bytes(inputs[1], CUBE.replace("0.2", "0.3").encode())
+        self.assertEqual(unchanged("--unit", "2"), 2)
+        write_bytes(self.path("c.mtl"), b"newmtl m\n")  # what lies beside it counts
+        self.assertEqual(unchanged("--unit", "2"), 2)
+        os.remove(os.path.join(out, "a.sbf"))
+        self.assertEqual(unchanged("--unit", "2"), 2)
 
 
 if __name__ == "__main__":

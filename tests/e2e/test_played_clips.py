@@ -64,7 +64,7 @@ class Played(ProgramTest):
         path = convert_once(self.class_folder.name, "fox.sbf", shared("fox", "fox.glb"), "--unit", "0.01")
         self.check(path, "Survey", 3, 0.06, 0.007)
         self.check(path, "Walk", 2, 0.13, 0.02)
-        self.check(path, "Run", 2, 0.18, 0.03)
+        self.check(path, "Run", 2, 0.181, 0.03)
 
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
     def test_a_walking_human(self):

@@ -130,6 +130,21 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
         self.assertIn("16 by the names of objects or bones, 8 computed from the bones", said)
 
+    def test_a_piece_beside_a_rigid_part_follows_its_bone_whole(self):
+        """Two stiff tubes, one on the other; the lower one was made longer, and its end lies on the upper one's side."""
+        low, high = tube(0, 1, 0.2), tube(1.01, 2, 0.2)
+        glb = SkinnedGlb()
+        joints = [glb.node("low", matrix=at(0, 0, 0))]
+        joints.append(glb.node("high", joints[0], at(0, 1, 0)))
+        for bone, (points, triangles) in enumerate((low, high)):
+            mesh = glb.mesh(points, triangles, [(bone, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
+            glb.node(("lower", "upper")[bone], mesh=mesh,
+                     skin=glb.skin(joints, inverse_binds([at(0, 0, 0), at(0, 1, 0)], at(0, 0, 0))))
+        longer = [(x, 1.03 * y, z) for x, y, z in low[0]], low[1]
+        found, said = self.convert(obj_of({"lower": longer, "upper": high}), glb.write(self.path("rig.glb")))
+        self.assertEqual(found, ["low"] * len(low[0]) + ["high"] * len(high[0]))
+        self.assertIn("carried over from the nearest surface", said)
+
     def test_a_skin_of_its_own_is_kept(self):
         """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""
         column, other = Column(), Column()

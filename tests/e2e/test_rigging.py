@@ -1,12 +1,17 @@
 """OBJ files with a rig in another file: where they lie, which bones move them, what is refused."""
 
 import json
+import math
 import os
+import tempfile
 
 import obj_variants as variants
 from bundle_file import Bundle
-from rigged_weights import Original, difference, posed_errors, share_of_equal, weights_by_vertex
-from sbfmt_program import ROOT, ProgramTest, main, read_text, write_bytes
+from bvh_file import write_bvh
+from glb_file import Glb
+from rigged_weights import (Original, add_clip, difference, posed, posed_errors, save_in_a_pose, share_of_equal,
+                            walk_motions, weights_by_vertex)
+from sbfmt_program import ROOT, ProgramTest, main, read_text, shared, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 SNAKE = os.path.join(ROOT, "examples", "snake", "snake.glb")
@@ -32,34 +37,9 @@ def same_mesh(obj):
 def write_bones(bundle_path, path, scale=1):
     """The bundle's bones at rest as a BVH: no mesh, no unit."""
     bundle = Bundle(bundle_path)
-    children = {}
-    for i, parent in enumerate(bundle.parents):
-        children.setdefault(parent, []).append(i)
-
-    def heads(i):
-        return [row[3] for row in bundle.rest[i]]
-
-    def lines(i, depth):
-        pad, above = "  " * depth, bundle.parents[i]
-        offset = [scale * (a - b) for a, b in zip(heads(i), heads(above) if above is not None else (0, 0, 0))]
-        kind = "ROOT" if above is None else "JOINT"
-        yield f"{pad}{kind} {bundle.bone_names()[i].replace(' ', '_')}"
-        yield pad + "{"
-        yield f"{pad}  OFFSET {offset[0]:.6f} {offset[1]:.6f} {offset[2]:.6f}"
-        yield f"{pad}  CHANNELS 3 Zrotation Xrotation Yrotation"
-        for child in children.get(i, []):
-            yield from lines(child, depth + 1)
-        if not children.get(i):
-            yield f"{pad}  End Site"
-            yield pad + "  {"
-            yield f"{pad}    OFFSET 0 0 0"
-            yield pad + "  }"
-        yield pad + "}"
-
-    text = ["HIERARCHY", *lines(children[None][0], 0), "MOTION", "Frames: 1", "Frame Time: 0.04",
-            " ".join(["0"] * 3 * len(bundle.bones))]
-    with open(path, "w", encoding="utf-8") as stream:
-        stream.write("\n".join(text) + "\n")
+    names = [name.replace(" ", "_") for name in bundle.bone_names()]
+    write_bvh(path, [(names[i], None if parent is None else names[parent], [scale * row[3] for row in bundle.rest[i]])
+                     for i, parent in enumerate(bundle.parents)])
 
 
 class ByPlace(ProgramTest):
@@ -82,8 +62,8 @@ class ByPlace(ProgramTest):
                     self.assertIn(said, result.err)
 
     def test_it_becomes_what_the_file_of_both_becomes(self):
-        self.good("convert", CALF, "-o", self.path("original.sbf"))
-        self.convert(variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y"))))
+        self.good("convert", CALF, "--soft", "*", "-o", self.path("original.sbf"))
+        self.convert(variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y"))), "--soft", "*")
         reports, walks = [], []
         for name in "original.sbf", "out.sbf":
             reports.append(self.json_of("info", self.path(name)))
@@ -128,6 +108,148 @@ class ByPlace(ProgramTest):
         self.assert_empty_folder(but=["in.obj"])
 
 
+class InSavedPose(ProgramTest):
+    """A rig whose file was saved in the middle of a movement, and an OBJ that a program wrote of it as it stands there."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+        turns = {bone: (0.25 * (-1) ** i, 0.1, 0, (1 - 0.0725) ** 0.5) for i, bone in
+                 enumerate(sorted({bone for weights in cls.calf.weights for bone in weights} - {"hips"}))}
+        cls.rig = cls.made("saved.glb")
+        cls.motions = save_in_a_pose(CALF, cls.rig, turns)
+
+    def check(self, obj, within):
+        """Weights, places and normals are those of the skin as it was bound."""
+        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+        size = variants.size_of(self.calf.obj)
+        for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items():
+            for origin in obj.origins[vertex]:
+                self.assertLess(math.dist(place, self.calf.places[origin]), within * size)
+
+    def test_it_is_taken_back_to_the_bind_pose(self):
+        obj = posed(self.calf, self.motions)
+        self.assertGreater(max(map(math.dist, obj.points, self.calf.obj.points)), 0.1)
+        variants.write(obj, self.path("in.obj"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("stands as", done.err)
+        self.assertIn(f"{len(obj.points)} of the rig's own mesh, by place", done.err)
+        self.check(obj, 1e-5)
+        self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
+        back = variants.read(self.path("back.obj"))
+        self.assertEqual(len(back.faces), len(obj.faces))
+        for (_, _, found), (_, _, wanted) in zip(back.faces, self.calf.obj.faces):
+            for (_, _, a), (_, _, b) in zip(found, wanted):
+                self.assertLess(math.dist(back.normals[a], self.calf.obj.normals[b]), 1e-3)
+
+    def test_units_axes_and_order_are_found_there_too(self):
+        obj = variants.shuffled(variants.moved(posed(self.calf, self.motions), 0.01, ("x", "-z", "y")))
+        variants.write(obj, self.path("in.obj"), 6)
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("turned by -90 degrees about x", done.err)
+        self.check(obj, 1e-4)
+
+    def test_the_bind_pose_is_found_in_such_a_file(self):
+        variants.write(self.calf.obj, self.path("in.obj"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertNotIn("stands as", done.err)
+        self.check(self.calf.obj, 1e-5)
+
+    def test_an_edited_mesh_is_taken_back_by_the_weights_beside_it(self):
+        obj = variants.jiggled(posed(self.calf, self.motions), 1, 0.003)
+        variants.write(obj, self.path("in.obj"), 6)
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("stands as", done.err)
+        self.assertIn("carried over from the nearest surface", done.err)
+        gaps = sorted(math.dist(place, self.calf.places[vertex]) / variants.size_of(self.calf.obj)
+                      for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items())
+        self.assertLess(gaps[int(0.99 * len(gaps))], 0.015)
+
+    def test_real_files_saved_in_a_pose(self):
+        """Each vertex has the weights that the file states for it."""
+        paths = [p for p in (shared("..", "zoo", "animals_pack", "Horse.glb"), shared("snake", "snake.glb"))
+                 if os.path.exists(p)]
+        if not paths:
+            self.skipTest("the files of ../shared are not there")
+        for path in paths:
+            with self.subTest(path):
+                places, faces, stated = drawn_mesh(Glb(path))
+                variants.write(variants.Obj(places, [], [], faces), self.path("in.obj"))
+                done = self.good("convert", self.path("in.obj"), "--rig", path, "--no-build", "-o", self.path("out.sbf"))
+                self.assertIn("stands as", done.err)
+                found = weights_by_vertex(self.path("out.sbf"))
+                equal = sum(difference(weights, stated[v]) <= 1e-3 for v, (weights, _) in found.items())
+                self.assertGreaterEqual(equal, 0.999 * len(found))
+
+
+def drawn_mesh(file):
+    """Points as drawn, faces, and weights by names of joints, of all skinned vertices in the order of the file."""
+    places, faces, stated = file.skinned(file.worlds({}, 0)), [], []
+    for node, primitive in file.primitives():
+        names = [file.nodes[j].get("name") for j in file.json["skins"][file.nodes[node]["skin"]]["joints"]]
+        indices = [i[0] for i in file.accessor(primitive["indices"])]
+        faces += [("all", None, [(len(stated) + i, None, None) for i in indices[k:k + 3]]) for k in range(0, len(indices), 3)]
+        for joints, weights in zip(file.accessor(primitive["attributes"]["JOINTS_0"]),
+                                   file.accessor(primitive["attributes"]["WEIGHTS_0"])):
+            of = {}
+            for joint, weight in zip(joints, weights):
+                if weight > 0:
+                    of[names[joint]] = of.get(names[joint], 0) + weight / sum(weights)
+            stated.append(of)
+    return places, faces, stated
+
+
+class AtAMomentOfAClip(ProgramTest):
+    """An OBJ that a program wrote of a rigged file while it played one of its clips."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+        cls.bones = sorted({bone for weights in cls.calf.weights for bone in weights} - {"hips"})
+        cls.rig, still = cls.made("played.glb"), cls.made("still.glb")
+        add_clip(CALF, still, "still", {bone: (0, 0, 0.01, 0.99995) for bone in cls.bones[:2]}, 0.5)
+        add_clip(still, cls.rig, "kick", cls.turns(1), 1.0)
+
+    @classmethod
+    def turns(cls, time):
+        """Of bone i about its x and z, in turn to either side."""
+        half = 0.35 * time
+        return {bone: ((-1) ** i * 0.8 * math.sin(half), 0, 0.6 * math.sin(half), math.cos(half))
+                for i, bone in enumerate(cls.bones)}
+
+    def write_posed(self, time, change=lambda obj: obj):
+        motions = save_in_a_pose(CALF, self.path("pose.glb"), self.turns(time))
+        obj = change(posed(self.calf, motions))
+        variants.write(obj, self.path("in.obj"), 6)
+        return obj
+
+    def check(self, obj, time):
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn(f"{time:.3f} s after the start of its clip 'kick'", done.err)
+        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+        size = variants.size_of(self.calf.obj)
+        for vertex, (_, place) in weights_by_vertex(self.path("out.sbf")).items():
+            for origin in obj.origins[vertex]:
+                self.assertLess(math.dist(place, self.calf.places[origin]), 1e-4 * size)
+        return done
+
+    def test_a_frame(self):
+        self.check(self.write_posed(5 / 24), 5 / 24)
+
+    def test_between_frames_in_centimetres_split_and_shuffled(self):
+        z_up = ("x", "-z", "y")
+        obj = self.write_posed(0.7331, lambda obj: variants.shuffled(variants.by_material(variants.moved(obj, 0.01, z_up))))
+        self.assertIn("turned by -90 degrees about x", self.check(obj, 0.7331).err)
+
+    def test_a_mesh_of_another_pose_is_not_taken_for_one(self):
+        motions = save_in_a_pose(CALF, self.path("pose.glb"), {b: (0, 0, 0.2, 0.98) for b in self.bones[::3]})
+        variants.write(posed(self.calf, motions), self.path("in.obj"), 6)
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        self.assertNotIn("of its clip", done.err)
+
+
 class ByNearness(ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -137,6 +259,8 @@ class ByNearness(ProgramTest):
     def test_edited_meshes_move_as_the_original(self):
         kinds = {"a third of its points moved": variants.jiggled, "simplified": variants.simplified,
                  "subdivided": variants.subdivided}
+        self.good("convert", CALF, "-o", self.path("walking.sbf"))
+        motions = walk_motions(self.path("walking.sbf"), self.folder)
         for name, change in kinds.items():
             with self.subTest(name):
                 obj = variants.moved(change(self.calf.obj), 0.01, ("x", "-z", "y"))
@@ -144,8 +268,8 @@ class ByNearness(ProgramTest):
                 result = self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o",
                                    self.path("out.sbf"))
                 self.assertIn("carried over from the nearest surface", result.err)
-                errors = posed_errors(self.calf, obj, self.path("out.sbf"), clips=1, frames=2)
-                self.assertLess(errors[int(0.99 * len(errors))] if errors else 0, 0.01)
+                errors = posed_errors(self.calf, obj, self.path("out.sbf"), motions)
+                self.assertLess(errors[int(0.99 * len(errors))], 0.01)
                 found = weights_by_vertex(self.path("out.sbf"))
                 unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
                 self.assertLess(len(unlike), 0.01 * len(found))
@@ -323,6 +447,25 @@ class FromBones(ProgramTest):
         self.assertEqual(len(report["bundle"]["bones"]), len(Bundle(self.calf.bundle).bones))
         self.assertIn("IMPORT_RIG_OUTSIDE", [note["code"] for note in report["notes"]])
         self.assertTrue(report["pictures"] or report["drawing_failed"])
+
+    def test_bones_that_fit_a_part_of_the_mesh_are_refused(self):
+        """A fish's and a snake's bones lie inside a calf's trunk, at some scale."""
+        variants.write(self.calf.obj, self.path("in.obj"))
+        for name in "koi", "snake":
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                write_bones(Original(os.path.join(ROOT, "examples", name, name + ".glb"), folder).bundle, self.path("other.bvh"))
+                call = ("convert", self.path("in.obj"), "--rig", self.path("other.bvh"), "--no-build")
+                said = self.fails(1, *call, "-o", self.path("out.sbf"))
+                self.assertRegex(said, r"reach over \d+ % of its length alone.*RIG_MISFIT|only \d+ % of the bones' length")
+                self.assert_empty_folder(but=["in.obj", "other.bvh"])
+
+    def test_a_body_as_wide_as_long_is_turned_forwards(self):
+        """The dragon's wings reach as far as its tail; bones of an odd unit fit at many scales."""
+        dragon = Original(os.path.join(ROOT, "examples", "dragon", "dragon.glb"), self.folder)
+        write_bones(dragon.bundle, self.path("dragon.bvh"), 37)
+        variants.write(variants.moved(dragon.obj, 0.01, ("x", "-z", "y")), self.path("in.obj"), 6)
+        done = self.good("convert", self.path("in.obj"), "--rig", self.path("dragon.bvh"), "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("laid over the rig: turned by -90 degrees about x", done.err)
 
     def test_a_mesh_of_one_triangle_is_refused(self):
         triangle = variants.Obj([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [],

@@ -242,7 +242,7 @@ class Run(ProgramTest):
 
     def test_a_bad_script_is_refused_with_its_line(self):
         for text, line in (("0 jump\n", 1), ("1 reset\n0 reset\n", 2), ("0 drive 1\n", 1), ("\n# x\n0 teleport 1 2\n", 3),
-                           ("0 drive 1 2 3 4\n", 1), ("soon reset\n", 1), ("-1 reset\n", 1), ("0 pause now\n", 1),
+                           ("0 drive 1 2 3 4 5\n", 1), ("soon reset\n", 1), ("-1 reset\n", 1), ("0 pause now\n", 1),
                            ("0 drive nan 0\n", 1), ("0 teleport 0 inf 0\n", 1), ("nan reset\n", 1), ("0 drive 1e300 0\n", 1),
                            ("0 reset" + " " * 600 + "1 reset\n", 1), ("0 reset\n1 play 99\n", 2), ("0 play 0.5 1 0 4\n", 1),
                            ("0 reach 99 0 0 0\n", 1), ("0 release -1\n", 1), ("0 pivot 4\n", 1)):

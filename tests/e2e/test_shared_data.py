@@ -56,7 +56,7 @@ NOTES = {
     "lizard/lizart.glb": {JOINED, "IMPORT_INSIDE_OUT"},
     "mocap/cmu_01_01.bvh": {"IMPORT_NO_MESH", "IMPORT_GROUND"},
     "sausage/sausage_7500_ascii.fbx": {JOINED}, "sausage/sausage_blender_7400.fbx": {JOINED, POSE},
-    "snake/snake.glb": {JOINED, POSE}, "spider/spider.glb": {JOINED, POSE},
+    "snake/snake.glb": {JOINED, POSE, "IMPORT_GROUND"}, "spider/spider.glb": {JOINED, POSE},
     "walk-dae/walk.dae": {JOINED, "IMPORT_FACING", "IMPORT_GROUND"},  # along +X
 }
 

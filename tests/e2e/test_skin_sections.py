@@ -1,5 +1,5 @@
-"""A character that is one skinned mesh: cut into sections, built again, walked, and left to its bones where that is asked
-for. Real ones where they are at hand."""
+"""A character that is one skinned mesh: all of it cut into sections, built again, walked, and left to its bones where that is
+asked for (test_softness.py has what is soft by default). Real ones where they are at hand."""
 
 import json
 import os
@@ -51,7 +51,7 @@ class SkinSections(ProgramTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.calf = convert_once(cls.class_folder.name, "calf.sbf", CALF)
+        cls.calf = convert_once(cls.class_folder.name, "calf.sbf", CALF, "--soft", "*")
 
     def walks(self, path, walks=True):
         report = self.json_of("run", path, "--seconds", "2", "--drive", "0.3,0")
@@ -98,7 +98,7 @@ class SkinSections(ProgramTest):
         for name, (bone, *boxes) in WORN.items():
             with self.subTest(name):
                 out = self.path(name + ".sbf")
-                self.good("convert", wearing(self.path(name + ".glb"), bone, *boxes), "-o", out, "--material", "tail2=rubber")
+                self.good("convert", wearing(self.path(name + ".glb"), bone, *boxes), "-o", out, "--soft", "*", "--material", "tail2=rubber")
                 carried, worn, skin = skin_of(out)
                 self.assertTrue(all(carried.values()))
                 self.assertEqual(carried, bare)
@@ -140,7 +140,7 @@ class SkinSections(ProgramTest):
 
     def test_materials_of_sections(self):
         out, again = self.path("flesh.sbf"), self.path("again.sbf")
-        self.good("convert", CALF, "-o", out, "--material", "flesh", "--material", "tail2=rubber")
+        self.good("convert", CALF, "-o", out, "--soft", "*", "--material", "flesh", "--material", "tail2=rubber")
 
         def moduli(path):
             return {b.get("name"): b.find("attributes").get("young_modulus")
@@ -157,7 +157,7 @@ class SkinSections(ProgramTest):
 
     def test_what_is_painted_on_the_skin_is_held(self):
         out, again = self.path("held.sbf"), self.path("again.sbf")
-        self.good("convert", CALF, "-o", out, "--hold", "head", "--hold", "tail3=tail2", "--goal", "0,0.8")
+        self.good("convert", CALF, "-o", out, "--soft", "*", "--hold", "head", "--hold", "tail3=tail2", "--goal", "0,0.8")
         root = ElementTree.parse(out).getroot()
         painted = {s.get("name"): s for s in root.findall("render_mesh/pins/pin_set")}
         self.assertEqual({name: s.get("bone") for name, s in painted.items()}, {"head": None, "tail3": "bone.tail2"})
@@ -186,7 +186,7 @@ class SkinSections(ProgramTest):
                 self.skipTest("no shared data")
             with self.subTest(file[-1]):
                 out = self.path(f"{number}.sbf")
-                self.good("convert", path, "-o", out)
+                self.good("convert", path, "-o", out, "--soft", "*")
                 self.assertGreaterEqual(len(self.json_of("info", out)["sections"]), sections)
                 self.assertLessEqual({m["code"] for m in self.json_of("validate", out)["messages"]}, ABOUT_THE_SOURCE)
                 self.walks(out, walks)

@@ -72,7 +72,8 @@ class Standing(ProgramTest):
         self.good("convert", wedges, "-o", self.file)
         report = self.json_of("run", self.file, "--seconds", "2")
         self.assertTrue(report["valid"])
-        self.assertGreater(report["volume_ratio_least"], 0.25)
+        # The finest of them, refined until no vertex lies far outside of its element, are pressed flattest.
+        self.assertGreater(report["volume_ratio_least"], 0.2)
 
 
 if __name__ == "__main__":

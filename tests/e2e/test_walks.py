@@ -13,7 +13,7 @@ EXAMPLE = {}
 THESIS = {}
 
 # Of a caterpillar's stumps, driven beyond what they last at: they hang on a chain that goes its own way.
-CRAWLS = {"stance_slip": 0.00085, "skate_ratio": 0.004, "knee_speed_step": 10.5, "body_speed_step": 0.0023}
+CRAWLS = {"stance_slip": 0.0023, "skate_ratio": 0.004, "knee_speed_step": 12.3, "body_speed_step": 0.0029}
 
 # On flat ground: files, options, and what is not met.
 OTHERS = {
@@ -23,13 +23,14 @@ OTHERS = {
     "spider": ((ROOT, "examples", "spider", "spider.glb"), (), {}),
     "kenney": ((shared("kenney-fbx"), "kenney_character.fbx"), (), {}),
     "greenman": ((shared("greenman"), "greenman.glb"), (), {
-        "flat, 0.1": {"support_margin": -0.35}, "flat, 0.3": {"support_margin": -0.36}}),
+        "flat, 0.1": {"support_margin": -0.34}, "flat, 0.3": {"support_margin": -0.34}}),
     "fox": ((shared("fox"), "fox.glb"), ("--unit", "0.01"), {}),
     "walkdae": ((shared("walk-dae"), "walk.dae"), (), {}),
-    "spiderglb": ((shared("spider"), "spider.glb"), (), {}),
+    # With its abdomen as its idle clip holds it, the body drops once where eight legs run up stairs.
+    "spiderglb": ((shared("spider"), "spider.glb"), (), {"stairs of a quarter leg, 3": {"body_speed_step": 0.0929}}),
     "caterpillar": ((ROOT, "examples", "caterpillar", "caterpillar.glb"), (), {
         "flat, 2": CRAWLS, "flat, 3": CRAWLS, "flat, turning on the spot": CRAWLS, "flat, a curve": CRAWLS,
-        "flat, forward, then back": {**CRAWLS, "stance_slip": 0.0017}}),
+        "flat, forward, then back": CRAWLS}),
 }
 
 # All walks on every ground: nothing is missed.
@@ -39,13 +40,13 @@ EVERYWHERE = ("spiderglb",)
 OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
 OFF_FLAT = {
     "pup": {},
-    "calf": {},
+    "calf": {"stairs of a quarter leg, 3": {"penetration": 0.00103}},
     "yeti": {},
-    "kenney": {"stairs of a quarter leg, 0.3": {"support_margin": -0.039},
-               **{f"noise, {speed}": {"penetration": 0.0024, "stance_slip": 0.0025} for speed in OFF_FLAT_SPEEDS}},
-    "walkdae": {"slope of 20°, 0.1": {"support_margin": -0.062}, "slope of 20°, 0.3": {"support_margin": -0.042},
-                "stairs of a quarter leg, 1": {"body_speed_step": 0.03, "body_turn_step": 1.7},
-                "stairs of a quarter leg, 3": {"body_speed_step": 0.0531, "body_turn_step": 3.2}},
+    "kenney": {"stairs of a quarter leg, 0.3": {"support_margin": -0.041},
+               **{f"noise, {speed}": {"penetration": 0.0061} for speed in OFF_FLAT_SPEEDS}},
+    "walkdae": {"slope of 20°, 0.1": {"support_margin": -0.066}, "slope of 20°, 0.3": {"support_margin": -0.042},
+                "stairs of a quarter leg, 1": {"body_speed_step": 0.0301, "body_turn_step": 1.71},
+                "stairs of a quarter leg, 3": {"body_speed_step": 0.0542, "body_turn_step": 3.2}},
     "spider": {},
     "fox": {},
 }

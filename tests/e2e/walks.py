@@ -1,6 +1,6 @@
 """Walks that characters are judged by: speed x ground x command, what `run` measures of them, and what was asked for.
 
-As a program it measures every walk of the files it is given and writes the tables of docs/gait.md:
+As a program it measures every walk of the files it is given and writes the tables of bench/results/any-machine/walks.md:
 
     python3 tests/e2e/walks.py example.sbf [MORE.sbf ...]
 """

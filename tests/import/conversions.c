@@ -105,7 +105,7 @@ void check_near(sbf_vec3 is, double x, double y, double z, double within) {
 
 /* --- Scenes by hand ---------------------------------------------------------------------------------- */
 
-enum { MOST_NODES = 64, MOST_MESHES = 16, MOST_CLIPS = 4 };
+enum { MAX_NODES = 96, MAX_MESHES = 48, MAX_CLIPS = 4 };
 
 static void *give(sbfi_scene *scene, size_t count, size_t size) {
   void *memory = sbfi_arena_allocate(&scene->arena, count, size);
@@ -119,14 +119,14 @@ void scene_begin(sbfi_scene *scene) {
   ck_assert(harness_write(file, "made by hand", 12));
   ck_assert(sbfi_scene_init(scene, NULL, 0, file));
   scene->format = "glb";
-  scene->nodes = give(scene, MOST_NODES, sizeof *scene->nodes);
-  scene->meshes = give(scene, MOST_MESHES, sizeof *scene->meshes);
-  scene->clips = give(scene, MOST_CLIPS, sizeof *scene->clips);
+  scene->nodes = give(scene, MAX_NODES, sizeof *scene->nodes);
+  scene->meshes = give(scene, MAX_MESHES, sizeof *scene->meshes);
+  scene->clips = give(scene, MAX_CLIPS, sizeof *scene->clips);
 }
 
 int32_t scene_node(
     sbfi_scene *scene, const char *name, int32_t parent, bool bone, double x, double y, double z) {
-  ck_assert_uint_lt(scene->node_count, MOST_NODES);
+  ck_assert_uint_lt(scene->node_count, MAX_NODES);
   sbfi_scene_node *node = (sbfi_scene_node *)(uintptr_t)&scene->nodes[scene->node_count];
   *node = (sbfi_scene_node){.name = name, .parent = parent, .local = sbfi_matrix_identity(), .is_bone = bone};
   node->local.at[0][3] = x;
@@ -145,7 +145,7 @@ sbfi_scene_mesh *scene_box(
   static const uint32_t faces[6][4] = {
       {1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
   static const sbf_vec3 outwards[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  ck_assert_uint_lt(scene->mesh_count, MOST_MESHES);
+  ck_assert_uint_lt(scene->mesh_count, MAX_MESHES);
   sbfi_scene_mesh *mesh = (sbfi_scene_mesh *)(uintptr_t)&scene->meshes[scene->mesh_count++];
   sbf_vec3 *points = give(scene, 8, sizeof *points), *normals = give(scene, 6, sizeof *normals);
   uint32_t *sources = give(scene, 8, sizeof *sources), *starts = give(scene, 7, sizeof *starts);
@@ -216,7 +216,7 @@ void scene_skin(sbfi_scene *scene, sbfi_scene_mesh *mesh, uint32_t joint_count, 
 }
 
 sbfi_scene_channel *scene_clip(sbfi_scene *scene, const char *name, float duration_s, uint32_t count) {
-  ck_assert_uint_lt(scene->clip_count, MOST_CLIPS);
+  ck_assert_uint_lt(scene->clip_count, MAX_CLIPS);
   sbfi_scene_clip *clip = (sbfi_scene_clip *)(uintptr_t)&scene->clips[scene->clip_count++];
   sbfi_scene_channel *channels = give(scene, count, sizeof *channels);
   *clip = (sbfi_scene_clip){name, duration_s, count, channels};

@@ -326,7 +326,7 @@ START_TEST(clips_have_their_lengths)
   static const struct {
     const char *file;
     float duration_s;
-    uint32_t channels, most_keys;
+    uint32_t channels, max_keys;
   } clips[] = {{"mocap/cmu_01_01.bvh", 2751 / 120.0f, 31, 2752}, {"walk-dae/walk.dae", 5.79167f, 31, 139},
       {"fox/fox.glb", 3.41667f, 20, 83}, {"snake/snake.glb", 0.666667f, 11, 17}};
   sbfi_scene scene;
@@ -334,12 +334,12 @@ START_TEST(clips_have_their_lengths)
   const sbfi_scene_clip *clip = &scene.clips[0];
   ck_assert_float_eq_tol(clip->duration_s, clips[_i].duration_s, 1e-3f);
   ck_assert_uint_eq(clip->channel_count, clips[_i].channels);
-  uint32_t most = 0;
+  uint32_t max = 0;
   for (uint32_t i = 0; i < clip->channel_count; i++) {
     ck_assert(scene.nodes[clip->channels[i].node].is_bone);
-    if (clip->channels[i].rotation_count > most) most = clip->channels[i].rotation_count;
+    if (clip->channels[i].rotation_count > max) max = clip->channels[i].rotation_count;
   }
-  ck_assert_uint_eq(most, clips[_i].most_keys);
+  ck_assert_uint_eq(max, clips[_i].max_keys);
   sbfi_scene_free(&scene);
 }
 END_TEST

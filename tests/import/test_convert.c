@@ -61,8 +61,9 @@ START_TEST(the_lizard_of_obj_and_rig)
   ck_assert_uint_eq(strlen(a->info.sources.at[1].sha256), 64);
   ck_assert_str_eq(a->info.title, "liz");
   ck_assert_uint_eq(converted_count(&c, SBF_CODE_MATERIAL_GUESSED), 1);
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_WEIGHTS), 1); /* and nothing else is said */
-  ck_assert_uint_eq(c.note_count, 2);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_WEIGHTS), 1);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_GAIT_KIND), 1); /* and nothing else is said */
+  ck_assert_uint_eq(c.note_count, 3);
   converted_free(&c);
 }
 END_TEST

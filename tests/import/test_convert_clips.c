@@ -256,15 +256,15 @@ START_TEST(real_clips_say_what_their_files_say)
   const sbf_clip *clip = clip_named(c.asset, known->clip);
   ck_assert_double_eq_tol((double)clip->duration, known->duration, 1e-5);
   ck_assert_int_eq(clip->loop, known->loop);
-  uint32_t most = 0;
+  uint32_t max = 0;
   float last = 0;
   for (uint32_t i = 0; i < clip->tracks.count; i++) {
     const sbf_f32_list times = clip->tracks.at[i].times;
-    if (times.count <= most) continue;
-    most = times.count;
-    last = times.at[most - 1];
+    if (times.count <= max) continue;
+    max = times.count;
+    last = times.at[max - 1];
   }
-  ck_assert_uint_eq(most, known->keys);
+  ck_assert_uint_eq(max, known->keys);
   frame f = frame_at(c.asset, clip, bone_named(c.asset, known->moved), last);
   check_place(&f, known->x, known->y, known->z, 2e-4);
   converted_free(&c);

@@ -68,6 +68,62 @@ START_TEST(other_bones_stay)
 }
 END_TEST
 
+/* A leg of two bones and a target without skin where it ends: the target becomes its ankle. */
+START_TEST(a_target_ends_its_leg)
+{
+  static const uint32_t spread[8] = {1, 1, 0, 0, 1, 1, 0, 0}; /* by y: the lower half to the shin */
+  for (int away = 0; away < 2; away++) {
+    sbfi_scene scene;
+    converted c;
+    int32_t joints[2];
+    scene_begin(&scene);
+    int32_t root = scene_node(&scene, "root", SBF_NONE, true, 0, 0, 0);
+    int32_t body = scene_node(&scene, "body", root, true, 0, 2, 0);
+    joints[0] = scene_node(&scene, "thigh", body, true, 0.25, 0, 0);
+    joints[1] = scene_node(&scene, "shin", joints[0], true, 0, -1, 0);
+    scene_node(&scene, "target", root, true, 0.25, 0, away ? 0.5 : 0);
+    int32_t skin = scene_node(&scene, "skin", SBF_NONE, false, 0, 0, 0);
+    scene_local(&scene, skin)->at[1][1] = 32;
+    scene_end(&scene);
+    scene_skin(&scene, scene_box(&scene, skin, 0.03125, 0.25, 0.03125, 0, false), 2, joints, spread);
+    scene_box(&scene, scene_node(&scene, "trunk", body, false, 0, 0, 0), 0.5, 0, 0, 0, false);
+    scene_end(&scene);
+    converted_scene(&c, &scene, &scene, NULL);
+    int32_t target = bone_named(c.asset, "target");
+    ck_assert_str_eq(c.asset->bones.at[c.asset->bones.at[target].parent].name, away ? "root" : "shin");
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
+}
+END_TEST
+
+/* A foot whose skin goes on in that of the shin hangs on the shin, wherever the shin points. */
+START_TEST(skin_says_where_a_foot_belongs)
+{
+  static const uint32_t spread[8] = {2, 2, 1, 1, 2, 2, 1, 1};
+  sbfi_scene scene;
+  converted c;
+  int32_t joints[3];
+  scene_begin(&scene);
+  int32_t root = scene_node(&scene, "root", SBF_NONE, true, 0, 0, 0);
+  int32_t body = scene_node(&scene, "body", root, true, 0, 2, 0);
+  joints[0] = scene_node(&scene, "thigh", body, true, 0.25, 0, 0);
+  joints[1] = scene_node(&scene, "shin", joints[0], true, 0, -1, 0);
+  joints[2] = scene_node(&scene, "foot", root, true, 0.5, 0.5, 1);
+  int32_t skin = scene_node(&scene, "skin", SBF_NONE, false, 0, 0, 0);
+  scene_skin(&scene, scene_box(&scene, skin, 0.25, 0.25, 0.25, 0, false), 3, joints, spread);
+  int32_t upper = scene_node(&scene, "upper", SBF_NONE, false, 0, 0, 0);
+  static const uint32_t all_of_thigh[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+  scene_skin(&scene, scene_box(&scene, upper, 0.25, 0.25, 1.5, 0, false), 3, joints, all_of_thigh);
+  scene_end(&scene);
+  converted_scene(&c, &scene, &scene, NULL);
+  int32_t foot = bone_named(c.asset, "foot");
+  ck_assert_str_eq(c.asset->bones.at[c.asset->bones.at[foot].parent].name, "shin");
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
 START_TEST(real_rigs)
 {
   static const struct {
@@ -96,6 +152,8 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_foot_on_the_root_hangs_on_its_limb);
   tcase_add_test(tests, other_bones_stay);
+  tcase_add_test(tests, a_target_ends_its_leg);
+  tcase_add_test(tests, skin_says_where_a_foot_belongs);
   tcase_add_test(tests, real_rigs);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -290,11 +290,11 @@ END_TEST
 START_TEST(a_face_has_a_bounded_number_of_corners)
 {
   sbfi_obj_text text;
-  size_t most = 65535, length = strlen(four);
-  char *bytes = malloc(length + 2 * most + 8);
+  size_t max = 65535, length = strlen(four);
+  char *bytes = malloc(length + 2 * max + 8);
   memcpy(bytes, four, length);
   bytes[length++] = 'f';
-  for (size_t i = 0; i < most; i++) bytes[length++] = ' ', bytes[length++] = (char)('1' + i % 4);
+  for (size_t i = 0; i < max; i++) bytes[length++] = ' ', bytes[length++] = (char)('1' + i % 4);
   sbf_diagnostic error = {0};
   ck_assert_int_eq(sbfi_obj_text_read(&text, bytes, length, NULL, &error), SBF_OK);
   sbfi_obj_text_free(&text);

@@ -25,7 +25,7 @@ def make(asked):
     command = [sys.executable, "-B", os.path.join(asked.source, "cmake", "make_packages.py"), "--static", asked.build, "--shared",
                asked.shared, "--out", out]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode and "NOT MADE" not in done.stdout:
+    if done.returncode and ("NOT MADE" not in done.stdout or "a command failed" in done.stdout):
         sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     print(done.stdout, flush=True)
     return out

@@ -33,13 +33,13 @@ START_TEST(volume_by_tributary_area)
   ck_assert_double_eq_tol(sbf_level_masses(body, &level, NULL, masses), 8, 1e-5); /* 1000 kg/m^3 * 8 litres */
   ck_assert_double_eq_tol(sum(), 8, 1e-5);
   /* 24 squares: a corner has a quarter of three, the middle of a side of two times two, of a face of four. */
-  float least = 1e9f, most = 0;
+  float min = 1e9f, max = 0;
   for (int i = 0; i < 26; i++) {
-    if (masses[i] < least) least = masses[i];
-    if (masses[i] > most) most = masses[i];
+    if (masses[i] < min) min = masses[i];
+    if (masses[i] > max) max = masses[i];
   }
-  ck_assert_float_eq_tol(least, 8 / 24.0f * 0.75f, 1e-5f);
-  ck_assert_float_eq_tol(most, 8 / 24.0f, 1e-5f);
+  ck_assert_float_eq_tol(min, 8 / 24.0f * 0.75f, 1e-5f);
+  ck_assert_float_eq_tol(max, 8 / 24.0f, 1e-5f);
 }
 END_TEST
 

@@ -41,7 +41,7 @@ static void solve(statics *s, sbf_vec3 gravity) {
   ck_assert(sbfi_static_solve(&problem, s->places, &s->outcome, NULL));
   ck_assert_msg(s->outcome.converged, "residual %g after %u steps", s->outcome.residual, s->outcome.steps);
   ck_assert_double_le(s->outcome.residual, 1e-8);
-  ck_assert_double_gt(s->outcome.least_ratio, 0);
+  ck_assert_double_gt(s->outcome.min_ratio, 0);
 }
 
 /* Mean displacement of the points of the far end. */
@@ -204,7 +204,7 @@ END_TEST
 START_TEST(what_nothing_holds_does_not_converge)
 {
   statics s = begin(3, 1, 0.4, 1000);
-  sbfi_static_problem problem = {.network = &s.network, .gravity = {0, -9.81f, 0}, .most_steps = 10};
+  sbfi_static_problem problem = {.network = &s.network, .gravity = {0, -9.81f, 0}, .max_steps = 10};
   ck_assert(sbfi_static_solve(&problem, s.places, &s.outcome, NULL));
   ck_assert(!s.outcome.converged);
   ck_assert_double_gt(s.outcome.residual, 0.5);

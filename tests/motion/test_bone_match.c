@@ -3,11 +3,11 @@
 #include "harness.h"
 #include "motion/carried_motion.h"
 
-enum { MOST = 16 };
+enum { MAX = 16 };
 
 static sbf_asset *skeleton(const char *const *names) {
   sbf_asset *asset = sbf_asset_create(NULL);
-  sbf_bone *bones = sbf_asset_allocate(asset, MOST, sizeof *bones);
+  sbf_bone *bones = sbf_asset_allocate(asset, MAX, sizeof *bones);
   for (; names[asset->bones.count]; asset->bones.count++) {
     sbf_bone *bone = &bones[asset->bones.count];
     sbf_bone_init(bone);
@@ -21,7 +21,7 @@ static sbf_asset *skeleton(const char *const *names) {
 
 static void expect(const char *const *from, const char *const *to, const int32_t *sources) {
   sbf_asset *a = skeleton(from), *b = skeleton(to);
-  sbfi_bone_match matches[MOST];
+  sbfi_bone_match matches[MAX];
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, NULL, 0);
   ck_assert_int_ge(sbfi_match_bones(a, b, &scratch, matches), 0);
@@ -79,7 +79,7 @@ START_TEST(chains_come_first)
   sbf_asset *a = skeleton(a_names), *b = skeleton(b_names);
   a->retarget_chains = (sbf_retarget_chain_list){&a_chain, 1};
   b->retarget_chains = (sbf_retarget_chain_list){&b_chain, 1};
-  sbfi_bone_match matches[MOST];
+  sbfi_bone_match matches[MAX];
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, NULL, 0);
   ck_assert_int_eq(sbfi_match_bones(a, b, &scratch, matches), 2);
@@ -103,7 +103,7 @@ START_TEST(chains_tell_parts_that_names_do_not)
   sbf_asset *a = skeleton(names), *b = skeleton(names);
   for (uint32_t i = 1; i < 8; i++) ((sbf_bone *)(uintptr_t)b->bones.at)[i].parent = 0;
   b->retarget_chains = (sbf_retarget_chain_list){chains, 2};
-  sbfi_bone_match matches[MOST];
+  sbfi_bone_match matches[MAX];
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, NULL, 0);
   ck_assert_int_eq(sbfi_match_bones(a, b, &scratch, matches), 8);

@@ -28,7 +28,7 @@ START_TEST(test_the_best_filter_is_the_one_that_leaves_least)
   uint8_t stored[2 * BYTES];
   sbfi_packed_coder coder;
   sbfi_packed_filter found;
-  size_t size, least = SIZE_MAX;
+  size_t size, min = SIZE_MAX;
   cases[_i].fill(values);
   sbfi_packed_coder_init(&coder, NULL, 6);
   ck_assert(sbfi_packed_best_filter(&coder, values, BYTES, 4, &found));
@@ -37,9 +37,9 @@ START_TEST(test_the_best_filter_is_the_one_that_leaves_least)
     ck_assert_int_eq(sbfi_packed_deflate(&coder, (const uint8_t *)values, BYTES, (sbfi_packed_filter)f, 1,
                          stored, sizeof stored, &size),
         SBFI_CODED);
-    if (f == (int)found) least = size;
+    if (f == (int)found) min = size;
   }
-  ck_assert(found == SBFI_FILTER_NONE ? least >= BYTES : least < BYTES);
+  ck_assert(found == SBFI_FILTER_NONE ? min >= BYTES : min < BYTES);
   sbfi_packed_coder_free(&coder);
 }
 END_TEST

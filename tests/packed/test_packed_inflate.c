@@ -6,7 +6,7 @@
 
 #include "harness.h"
 
-enum { MOST = 300000 };
+enum { MAX = 300000 };
 
 static uint32_t state;
 static uint32_t chance(void) {
@@ -43,14 +43,14 @@ static size_t deflated(const uint8_t *bytes, size_t size, int level, int strateg
 
 START_TEST(test_what_zlib_deflates_comes_back)
 {
-  static const size_t sizes[] = {0, 1, 2, 100, 5000, 70000, MOST};
+  static const size_t sizes[] = {0, 1, 2, 100, 5000, 70000, MAX};
   static const int strategies[] = {Z_DEFAULT_STRATEGY, Z_FILTERED, Z_HUFFMAN_ONLY, Z_RLE, Z_FIXED};
-  uint8_t *stored = malloc(2 * MOST), *back = malloc(MOST + 1);
+  uint8_t *stored = malloc(2 * MAX), *back = malloc(MAX + 1);
   for (uint32_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
     for (int level = 0; level <= 9; level += 3)
       for (uint32_t s = 0; s < sizeof strategies / sizeof *strategies; s++) {
         uint8_t *bytes = content(7 * i + s, sizes[i]);
-        size_t size = deflated(bytes, sizes[i], level, strategies[s], stored, 2 * MOST);
+        size_t size = deflated(bytes, sizes[i], level, strategies[s], stored, 2 * MAX);
         back[sizes[i]] = 0xee;
         ck_assert_msg(sbfi_inflate(stored, size, back, sizes[i]), "%zu bytes, level %d, strategy %d",
             sizes[i], level, strategies[s]);

@@ -59,7 +59,7 @@ static sbf_status load_minor(const hand_made *r, uint16_t minor, sbf_asset **ass
   uint8_t *file = calloc(size, 1);
   const sbfi_packed_header header = {.major = 1,
       .minor = minor,
-      .least_major = 1,
+      .min_major = 1,
       .file_size = size,
       .table_offset = 64,
       .table_size = 64,

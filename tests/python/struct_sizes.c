@@ -9,6 +9,7 @@
 #include "sbfmt/validate.h"
 #include "sbrun/animation.h"
 #include "sbrun/detail.h"
+#include "sbrun/soft_body.h"
 
 #define SIZE(type) printf(#type " %zu\n", sizeof(type))
 #define OFFSET(type, member) printf(#type "." #member " %zu\n", offsetof(type, member))
@@ -39,6 +40,15 @@ int main(void) {
   SIZE(sbr_rung);
   SIZE(sbr_detail_definition);
   SIZE(sbr_view);
+  SIZE(sbr_soft_motion);
+  SIZE(sbr_soft_hold);
+  SIZE(sbr_pin_reaction);
+  SIZE(sbr_tetrahedron_state);
+  SIZE(sbr_spring_state);
+  OFFSET(sbr_soft_hold, max_force);
+  OFFSET(sbr_pin_reaction, torque);
+  OFFSET(sbr_tetrahedron_state, torn);
+  OFFSET(sbr_spring_state, energy);
   OFFSET(sbf_load_options, check_crc);
   OFFSET(sbf_load_options, extension_count);
   OFFSET(sbf_load_options, copy_file);
@@ -76,6 +86,7 @@ int main(void) {
   OFFSET(sbr_view, lines);
   OFFSET(sbr_body_health, elastic_j);
   OFFSET(sbr_body_health, asleep);
+  OFFSET(sbr_body_health, min_element_ratio);
   OFFSET(sbf_export_options, report);
   OFFSET(sbf_export_options, render_level);
   OFFSET(sbf_diagnostic, path);

@@ -17,7 +17,7 @@ if not os.path.exists(os.environ.get("SBFMT_LIBRARY", "")):
     print("skipped: SBFMT_LIBRARY names no shared library")
     sys.exit(77)
 import sbfmt  # noqa: E402
-from sbfmt import detail, library, runtime  # noqa: E402
+from sbfmt import detail, library, runtime, soft_body  # noqa: E402
 
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.obj")
 RIG = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
@@ -183,7 +183,7 @@ class Binary(ModuleTest):
         for line in told:
             name, number = line.rsplit(" ", 1)
             struct, _, member = name.partition(".")
-            mirrored = {**library.OPTIONS, **runtime.STRUCTS, **detail.STRUCTS}[struct]
+            mirrored = {**library.OPTIONS, **runtime.STRUCTS, **detail.STRUCTS, **soft_body.STRUCTS}[struct]
             found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
             self.assertEqual(found, int(number), name)
 

@@ -88,15 +88,15 @@ static const struct {
 } quarters[] = {{"quarters.jpg", "JPEG", JPEG_DRAWN, 255},
     {"quarters_progressive.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters_inks.jpg", "JPEG", JPEG_DRAWN, 255},
     {"quarters.webp", "WebP", WEBP_DRAWN, 255}, {"quarters_alpha.webp", "WebP", WEBP_DRAWN, 64}};
-enum { QUARTERS = sizeof quarters / sizeof *quarters, MOST_BYTES = 4096 };
+enum { QUARTERS = sizeof quarters / sizeof *quarters, MAX_BYTES = 4096 };
 
 static uint8_t *read_image(const char *name, size_t *count) {
   char path[256];
   snprintf(path, sizeof path, "tests/render/images/%s", name);
   FILE *file = fopen(harness_source(path), "rb");
-  uint8_t *bytes = malloc(MOST_BYTES);
+  uint8_t *bytes = malloc(MAX_BYTES);
   ck_assert_msg(file && bytes, "%s", path);
-  *count = fread(bytes, 1, MOST_BYTES, file);
+  *count = fread(bytes, 1, MAX_BYTES, file);
   fclose(file);
   return bytes;
 }

@@ -98,13 +98,13 @@ END_TEST
 START_TEST(bobbing_is_smoothed)
 {
   draw_camera camera = framed_at(0, 0, 0);
-  float most = 0;
+  float max = 0;
   for (int i = 0; i < 250; i++) {
     draw_camera best = framed_at(0, 0.1f * sinf(15 * 0.04f * (float)i), 0);
     draw_camera_follow(&camera, &best, 0.04f);
-    if (i > 100) most = fmaxf(most, fabsf(camera.subject.y));
+    if (i > 100) max = fmaxf(max, fabsf(camera.subject.y));
   }
-  ck_assert_float_lt(most, 0.03f);
+  ck_assert_float_lt(max, 0.03f);
 }
 END_TEST
 

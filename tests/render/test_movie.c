@@ -152,8 +152,8 @@ START_TEST(wrong_calls)
   static const struct {
     draw_movie_kind kind;
     uint32_t width, height, fps;
-  } calls[] = {{DRAW_MOVIE_GIF, 8, 8, 0}, {DRAW_MOVIE_GIF, 8, 8, DRAW_MOVIE_LOOP_FPS_MOST + 1},
-      {DRAW_MOVIE_MP4, 8, 8, 241}, {DRAW_MOVIE_WEBP, 8, 8, DRAW_MOVIE_LOOP_FPS_MOST + 1},
+  } calls[] = {{DRAW_MOVIE_GIF, 8, 8, 0}, {DRAW_MOVIE_GIF, 8, 8, DRAW_MOVIE_LOOP_FPS_MAX + 1},
+      {DRAW_MOVIE_MP4, 8, 8, 241}, {DRAW_MOVIE_WEBP, 8, 8, DRAW_MOVIE_LOOP_FPS_MAX + 1},
       {DRAW_MOVIE_GIF, 0, 8, 25}, {DRAW_MOVIE_MP4, 1, 8, 25}};
   draw_movie *movie;
   sbf_diagnostic error = {0};

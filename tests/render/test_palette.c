@@ -23,14 +23,14 @@ START_TEST(diverging_is_even_about_rest)
 {
   draw_colour_map map;
   draw_colour_map_init_diverging(&map);
-  draw_colour least = draw_colour_map_at_strain(&map, -0.1f, 0.1f);
+  draw_colour min = draw_colour_map_at_strain(&map, -0.1f, 0.1f);
   draw_colour rest = draw_colour_map_at_strain(&map, 0, 0.1f);
-  draw_colour most = draw_colour_map_at_strain(&map, 0.1f, 0.1f);
-  ck_assert_int_gt(least.b, least.r + 80);
-  ck_assert_int_gt(most.r, most.b + 80);
+  draw_colour max = draw_colour_map_at_strain(&map, 0.1f, 0.1f);
+  ck_assert_int_gt(min.b, min.r + 80);
+  ck_assert_int_gt(max.r, max.b + 80);
   ck_assert_int_lt(abs(rest.r - rest.b), 20);
-  ck_assert_float_gt(lightness(rest), 2 * lightness(least));
-  ck_assert_float_eq_tol(lightness(least), lightness(most), 0.06f);
+  ck_assert_float_gt(lightness(rest), 2 * lightness(min));
+  ck_assert_float_eq_tol(lightness(min), lightness(max), 0.06f);
 }
 END_TEST
 

@@ -33,10 +33,10 @@ RUNTIME = {
     "tear": ["math", "model", "world"],
     "soft": ["math", "collide", "model", "contact", "skin", "solvers", "gait", "world", "pose", "tear"],
     "ragdoll": ["math", "solvers", "rigid", "gait", "world", "pose", "tear", "soft"],
-    "meet": ["math", "collide", "model", "solvers", "rigid", "world", "ragdoll"],
+    "body_contact": ["math", "collide", "model", "solvers", "rigid", "world", "ragdoll"],
     "detail": ["math", "skin", "gait", "world", "pose", "soft", "ragdoll"],
-    "step": ["math", "collide", "solvers", "rigid", "gait", "world", "pose", "tear", "soft", "ragdoll", "meet", "detail"],
-    "api": ["math", "collide", "model", "solvers", "kernels", "prepare", "rigid", "gait", "world", "pose", "soft", "ragdoll", "meet",
+    "step": ["math", "collide", "solvers", "rigid", "gait", "world", "pose", "tear", "soft", "ragdoll", "body_contact", "detail"],
+    "api": ["math", "collide", "model", "solvers", "kernels", "prepare", "rigid", "gait", "world", "pose", "soft", "ragdoll", "body_contact",
             "detail", "step"],
     "query": ["math", "skeleton", "collide", "model", "skin", "rigid", "gait", "world", "pose", "soft", "ragdoll", "detail"],
 }
@@ -73,7 +73,7 @@ HEADER_BOX = {
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange",
     "sbrun/sbrun.h": "runtime", "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime",
     "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
-    "sbrun/soft_body.h": "runtime",
+    "sbrun/soft_body.h": "runtime", "sbrun/debug.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

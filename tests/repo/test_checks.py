@@ -115,6 +115,13 @@ class Names(unittest.TestCase):
         self.assertEqual(len(check_names.faults_of({"a/x.c": 10, "b/x.c": 10})), 1)
         self.assertEqual(len(check_names.faults_of({"a/x.c": 5000, "libsbfmt/generated/y.c": 5000})), 1)
 
+    def test_private_words(self):
+        good = '#include "collide/guest.h"\n/* The guest_list */ int almost, max_speed; char *t = "least_value"; // touch_it\n'
+        self.assertEqual(check_names.name_faults_of("a/contacts.c", good + "int most_residual;\n"), [])
+        for text in ("int most_speed;", "enum { LEAST_SIZE };", "f(a->guest);"):
+            self.assertEqual(len(check_names.name_faults_of("a/b.c", text)), 1, text)
+        self.assertEqual(len(check_names.name_faults_of("a/guest_list.c", "int a;")), 1)
+
 
 class Words(unittest.TestCase):
     def test_words(self):
@@ -135,8 +142,25 @@ class Docs(unittest.TestCase):
         self.assertEqual(check_docs.compile_faults('#include "sbfmt/io.h"\nint main(void) { return 0; }\n', compiler), [])
         self.assertEqual(len(check_docs.compile_faults("int main(void) { return sbr_none(); }\n", compiler)), 1)
 
+    def test_sizes(self):
+        good = {"CHANGELOG.md": 6144, "docs/media/a.webp": 12_000_000, "a.c": 10**9}
+        self.assertEqual(check_docs.size_faults(good, {"docs/a.md": 20000, "docs/b.md": 15000, "spec/sbf.md": 12000, "bench/README.md": 10**6}), [])
+        bad = {"CHANGELOG.md": 6145, "docs/media/a.webp": 12_000_000, "runtime/b.PNG": 1}
+        self.assertEqual(len(check_docs.size_faults(bad, {"docs/a.md": 20000, "docs/b.md": 15001, "spec/a.md": 12001})), 4)
+
+    def test_private_words(self):
+        self.assertEqual(check_docs.word_faults("It reports `told`, see [x](tell.md) and *Mend files*.\n```c\nbool told;\n```\n"), [])
+        self.assertEqual(len(check_docs.word_faults("The host is told what was\nmended.")), 2)
+
     def test_links(self):
-        self.assertEqual(check_docs.LINK.findall("[a](b/c.md) [d](e.md#f) [g](#h)"), ["b/c.md", "e.md"])
+        other = "# One\n\n## A `b`, c: d\n\n## A `b`, c: d\n"
+        self.assertEqual(check_docs.anchors(other), {"one", "a-b-c-d", "a-b-c-d-1"})
+
+        def faults(text):
+            return check_docs.link_faults("docs/ik.md", text, read=lambda path: other)
+        good = "# Here\n[a](../README.md) [b](../README.md#a-b-c-d-1) [c](#here) [d](https://e.org/#f)"
+        self.assertEqual(faults(good), [])
+        self.assertEqual(len(faults("[a](no.md) [b](../README.md#none) [c](#there)")), 3)
 
 
 class Symbols(unittest.TestCase):

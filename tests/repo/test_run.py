@@ -39,12 +39,12 @@ class Calls(unittest.TestCase):
     def test_help(self):
         done = call("help")
         self.assertEqual(done.returncode, 0)
-        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "mutants", "abi", "format"):
+        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "mutants", "abi", "docs", "format"):
             self.assertIn(f"\n  {command} ", done.stdout)
         self.assertEqual(call().stdout, done.stdout)
 
     def test_wrong_calls(self):
-        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"], ["package", "rpm"],
+        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"], ["docs", "now"], ["package", "rpm"],
                           ["package", "--check", "deb"], ["test", "--all", "--systems"]):
             done = call(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
@@ -120,7 +120,7 @@ class Packages(unittest.TestCase):
 
     def test_user_without_a_godot_is_told_what_to_type(self):
         there = {name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "cmake", "clang", "wasm-ld", "npm", "debootstrap",
-                                             "dpkg-shlibdeps")}
+                                             "dpkg-shlibdeps", "file")}
         path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 1000", "sudo": "exit 1", **there})
         done = call("package", path=path)
         self.assertEqual(done.returncode, 2)
@@ -145,13 +145,16 @@ class Packages(unittest.TestCase):
 
 
 class Table(unittest.TestCase):
-    def test_a_package_that_is_not_made_is_counted_and_told(self):
+    def test_a_package_that_is_not_made_is_counted_and_reported(self):
         class Some:
             npm, tarball = staticmethod(lambda: "there is no npm"), staticmethod(lambda: None)
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
-            self.assertEqual(make_packages.make_each(Some, ["npm", "tarball"]), 1)
-        self.assertEqual(said.getvalue(), "npm       NOT MADE: there is no npm\ntarball   made\n")
+            debian = staticmethod(lambda: make_packages.run("sh", "-c", "echo no room >&2; exit 3"))
+        said, complained = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complained):
+            self.assertEqual(make_packages.make_each(Some, ["npm", "debian", "tarball"]), 2)
+        self.assertEqual(said.getvalue(), "npm       NOT MADE: there is no npm\n"
+                                          "debian    NOT MADE: a command failed; what it printed stands above\ntarball   made\n")
+        self.assertIn("no room", complained.getvalue())
 
 
 if __name__ == "__main__":

@@ -84,13 +84,13 @@ sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3
 }
 
 void collision_check_over(scene *s, float (*over)(const scene *), bool meets) {
-  float least = 9;
+  float min = 9;
   for (int i = 0; i < 60; i++) {
     scene_ticks(s, 1);
-    least = fminf(least, over(s));
+    min = fminf(min, over(s));
   }
   if (meets)
-    ck_assert_float_ge(least, 0.002f);
+    ck_assert_float_ge(min, 0.002f);
   else
-    ck_assert_float_le(least, -0.05f);
+    ck_assert_float_le(min, -0.05f);
 }

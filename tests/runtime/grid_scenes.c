@@ -6,14 +6,14 @@
 #include "harness.h"
 #include "math/vec3.h"
 
-enum { MOST_POINTS = 640 };
+enum { MAX_POINTS = 640 };
 
 static bool joined(const grid *g, uint32_t a, uint32_t b) {
   return g->cut == 0 || (a / g->columns < g->cut) == (b / g->columns < g->cut);
 }
 
 static void add_surface(scene *s, const grid *g) {
-  static uint32_t sizes[MOST_POINTS], corners[4 * MOST_POINTS];
+  static uint32_t sizes[MAX_POINTS], corners[4 * MAX_POINTS];
   uint32_t count = 0;
   for (uint32_t a = 0; a + g->columns < g->columns * g->rows; a++) {
     const uint32_t square[4] = {a, a + g->columns, a + g->columns + 1, a + 1};
@@ -28,11 +28,11 @@ static void add_surface(scene *s, const grid *g) {
 }
 
 scene grid_begin(const grid *g) {
-  static float masses[MOST_POINTS], stiffness[6 * MOST_POINTS];
-  static sbf_uint2 ends[6 * MOST_POINTS];
+  static float masses[MAX_POINTS], stiffness[6 * MAX_POINTS];
+  static sbf_uint2 ends[6 * MAX_POINTS];
   scene s = scene_begin();
   uint32_t count = g->columns * g->rows, springs = 0;
-  ck_assert_uint_le(count, MOST_POINTS);
+  ck_assert_uint_le(count, MAX_POINTS);
   for (uint32_t i = 0; i < count; i++) {
     static const int steps[6][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}};
     masses[i] = g->point_kg;

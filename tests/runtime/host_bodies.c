@@ -89,10 +89,10 @@ double host_body_speed(const host_body *b) {
 
 /* Its fastest in so many ticks. */
 double host_body_fastest(scene *s, host_body *b, uint32_t ticks) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < ticks; i++) {
     host_body_go(s, b, 1, -10);
-    most = host_body_speed(b) > most ? host_body_speed(b) : most;
+    max = host_body_speed(b) > max ? host_body_speed(b) : max;
   }
-  return most;
+  return max;
 }

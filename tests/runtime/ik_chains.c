@@ -36,7 +36,7 @@ void ik_chain_bent(ik_chain_fixture *f) {
     f->joints[i].rotation = sbri_quat_about(sbri_vec3(1, 0, 0), 0.2f);
 }
 
-void ik_chain_limit(ik_chain_fixture *f, float most) {
+void ik_chain_limit(ik_chain_fixture *f, float max) {
   /* The joint's +X is the link's +Y. */
   sbf_quat turn = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(1, 0, 0));
   f->limit = (sbri_joint_limit){.before = turn,
@@ -44,7 +44,7 @@ void ik_chain_limit(ik_chain_fixture *f, float most) {
       .twist = {-0.5f, 0.5f},
       .swing_y = {-3.2f, 3.2f},
       .swing_z = {-3.2f, 3.2f},
-      .cone = most,
+      .cone = max,
       .active = true};
   for (int i = 1; i + 1 < IK_CHAIN_JOINTS; i++) f->joints[i].limit = &f->limit;
 }
@@ -66,7 +66,7 @@ static sbf_vec3 end_of(const ik_chain_fixture *f) {
   return frames[IK_CHAIN_JOINTS - 1].position;
 }
 
-void ik_expect_reaches(ik_method *solve, float most_passes, int least) {
+void ik_expect_reaches(ik_method *solve, float max_passes, int min) {
   uint32_t seed = 5, passes = 0;
   int reached = 0;
   for (int i = 0; i < 200; i++) {
@@ -80,11 +80,11 @@ void ik_expect_reaches(ik_method *solve, float most_passes, int least) {
     reached += r.reached;
     passes += r.iterations;
   }
-  ck_assert_int_ge(reached, least);
-  ck_assert_float_le((float)passes / 200, most_passes);
+  ck_assert_int_ge(reached, min);
+  ck_assert_float_le((float)passes / 200, max_passes);
 }
 
-void ik_expect_keeps_limits(ik_method *solve, int least) {
+void ik_expect_keeps_limits(ik_method *solve, int min) {
   uint32_t seed = 11;
   int reached = 0;
   for (int i = 0; i < 200; i++) {
@@ -96,10 +96,10 @@ void ik_expect_keeps_limits(ik_method *solve, int least) {
     reached += solve(&f.chain).reached;
     ck_assert_float_le(ik_chain_excess(&f), 2e-5f);
   }
-  ck_assert_int_ge(reached, least);
+  ck_assert_int_ge(reached, min);
 }
 
-void ik_expect_keeps_hinges(ik_method *solve, int least) {
+void ik_expect_keeps_hinges(ik_method *solve, int min) {
   static const sbf_vec3 axes[2] = {{1, 0, 0}, {0, 0, 1}}; /* by turns */
   sbri_joint_limit hinges[2];
   uint32_t seed = 13;
@@ -128,7 +128,7 @@ void ik_expect_keeps_hinges(ik_method *solve, int least) {
       ck_assert_float_le(sbri_length(still), 1e-4f);
     }
   }
-  ck_assert_int_ge(reached, least);
+  ck_assert_int_ge(reached, min);
 }
 
 void ik_expect_stretches_to(ik_method *solve) {

@@ -17,7 +17,7 @@ void ik_chain_straight(ik_chain_fixture *f);
 /* The same bent by 0.2 rad at every joint, about X. */
 void ik_chain_bent(ik_chain_fixture *f);
 /* Every joint but the first and the last may bend by `most` rad. */
-void ik_chain_limit(ik_chain_fixture *f, float most);
+void ik_chain_limit(ik_chain_fixture *f, float max);
 /* By how much its worst joint breaks its limit, rad. */
 float ik_chain_excess(const ik_chain_fixture *f);
 
@@ -27,11 +27,11 @@ sbf_vec3 ik_random_place(uint32_t *seed, float radius);
 sbf_quat ik_random_rotation(uint32_t *seed);
 
 typedef sbri_ik_result ik_method(sbri_ik_chain *chain);
-/* What every iterative method must do; `most_passes` is the mean over reachable targets it may take. */
-void ik_expect_reaches(ik_method *solve, float most_passes, int least_of_200);
-void ik_expect_keeps_limits(ik_method *solve, int least_of_200);
+/* What every iterative method must do; `max_passes` is the mean over reachable targets it may take. */
+void ik_expect_reaches(ik_method *solve, float max_passes, int min_of_200);
+void ik_expect_keeps_limits(ik_method *solve, int min_of_200);
 /* The same of hinges whose axes turn by turn are square to each other. */
-void ik_expect_keeps_hinges(ik_method *solve, int least);
+void ik_expect_keeps_hinges(ik_method *solve, int min);
 void ik_expect_stretches_to(ik_method *solve);
 void ik_expect_bows_to_pole(ik_method *solve);
 void ik_expect_copies_rotation(ik_method *solve);

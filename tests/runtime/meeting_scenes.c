@@ -80,22 +80,22 @@ double meeting_deepest(const scene *s) {
   const sbri_island *island = &c->model->islands[0];
   const sbri_point *p = sbri_positions(c) + island->first_slot;
   const sbri_rigid_body_state *b = sbri_rigid_bodies(c);
-  double most = -9;
+  double max = -9;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     uint32_t face;
     sbf_vec3 off = sbri_sub(sbri_vec3(p[slot].x, p[slot].y, p[slot].z), b->pose.position);
     if (!(island->masses[slot] > 0)) continue;
-    most = fmax(most, -(double)sbri_hull_depth(&c->model->rigid.bodies[0].hull,
-                          sbri_rotate(sbri_quat_conjugate(b->pose.rotation), off), &face));
+    max = fmax(max, -(double)sbri_hull_depth(&c->model->rigid.bodies[0].hull,
+                        sbri_rotate(sbri_quat_conjugate(b->pose.rotation), off), &face));
   }
-  return most;
+  return max;
 }
 
 double meeting_fastest(const scene *s, sbr_character_id who) {
   const sbri_character *c = sbri_character_of(s->world, who);
-  double most = 0;
+  double max = 0;
   for (uint32_t k = 0; k < c->model->island_count; k++)
     for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
-      most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
-  return most;
+      max = fmax(max, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
+  return max;
 }

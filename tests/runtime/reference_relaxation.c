@@ -94,8 +94,8 @@ static void add_inside(reference_section *s) {
 }
 
 static void finish_section(reference_section *s) {
-  uint32_t most = s->surface_count + 1 + s->face_count;
-  s->at = realloc(s->at, most * sizeof *s->at);
+  uint32_t max = s->surface_count + 1 + s->face_count;
+  s->at = realloc(s->at, max * sizeof *s->at);
   add_inside(s);
   uint32_t points = s->point_count;
   s->before = malloc(points * sizeof *s->before);

@@ -58,12 +58,12 @@ scene whole_person(void) {
 }
 
 float person_fastest(const scene *s) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < PARTS; b++) {
     sbf_vec3 v = rigid_state(s, b).velocity;
-    most = larger(most, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
+    max = larger(max, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
   }
-  return most;
+  return max;
 }
 
 void person_shove(const scene *s, uint32_t body, sbf_vec3 impulse) {

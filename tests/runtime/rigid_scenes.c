@@ -10,8 +10,8 @@ const sbf_quat rigid_along_z = {0, -0.70710678f, 0, 0.70710678f};
 scene rigid_begin(void) {
   scene s = scene_begin();
   s.asset->soft_bodies = (sbf_soft_body_list){NULL, 0};
-  sbf_rigid_body *bodies = sbf_asset_allocate(s.asset, RIGID_MOST, sizeof *bodies);
-  sbf_joint *joints = sbf_asset_allocate(s.asset, RIGID_MOST, sizeof *joints);
+  sbf_rigid_body *bodies = sbf_asset_allocate(s.asset, RIGID_MAX, sizeof *bodies);
+  sbf_joint *joints = sbf_asset_allocate(s.asset, RIGID_MAX, sizeof *joints);
   ck_assert(bodies && joints);
   s.asset->rigid_bodies = (sbf_rigid_body_list){bodies, 0};
   s.asset->joints = (sbf_joint_list){joints, 0};
@@ -41,7 +41,7 @@ sbf_rigid_body *rigid_body(scene *s, uint32_t number) {
 
 uint32_t rigid_box(scene *s, sbf_vec3 center, sbf_vec3 size, float mass) {
   uint32_t number = s->asset->rigid_bodies.count++;
-  ck_assert_uint_lt(number, RIGID_MOST);
+  ck_assert_uint_lt(number, RIGID_MAX);
   sbf_rigid_body *body = rigid_body(s, number);
   sbf_rigid_body_init(body);
   body->id = "box";
@@ -60,7 +60,7 @@ static sbf_frame frame_in(const scene *s, int32_t body, sbf_vec3 place, sbf_quat
 
 sbf_joint *rigid_joint(scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf_vec3 place, sbf_quat axes) {
   uint32_t number = s->asset->joints.count++;
-  ck_assert_uint_lt(number, RIGID_MOST);
+  ck_assert_uint_lt(number, RIGID_MAX);
   sbf_joint *joint = (sbf_joint *)(uintptr_t)&s->asset->joints.at[number];
   sbf_joint_init(joint);
   joint->id = "joint";

@@ -5,7 +5,7 @@
 #include "sbrun/rigid.h"
 #include "scenes.h"
 
-enum { RIGID_MOST = 64 };
+enum { RIGID_MAX = 64 };
 
 /* As scene_begin, without soft bodies; the character stands at the height 0, far above the ground, and its
  * anchor frame is the world's. Add bodies and joints, then scene_start. */

@@ -80,14 +80,14 @@ uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions) {
 }
 
 double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count) {
-  double most = 0;
+  double max = 0;
   for (uint32_t v = 0; v < count; v++) {
     double x = (double)a[v].x - (double)b[v].x, y = (double)a[v].y - (double)b[v].y;
     double z = (double)a[v].z - (double)b[v].z;
     double square = x * x + y * y + z * z;
-    if (square > most) most = square; /* fmax here breaks gcc 12 for aarch64 */
+    if (square > max) max = square; /* fmax here breaks gcc 12 for aarch64 */
   }
-  return sqrt(most);
+  return sqrt(max);
 }
 
 double rung_scene_apart(const scene *a, const scene *b) {

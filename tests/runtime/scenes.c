@@ -212,9 +212,9 @@ void scene_embed(scene *s, sbf_level *level, const lattice_box *box) {
     double best = -1e9, w[4];
     for (uint32_t t = 0; t < box->tetrahedron_count; t++) {
       weights_of(box, t, vertices->at[v], w);
-      double least = fmin(fmin(w[0], w[1]), fmin(w[2], w[3]));
-      if (least <= best) continue;
-      best = least;
+      double min = fmin(fmin(w[0], w[1]), fmin(w[2], w[3]));
+      if (min <= best) continue;
+      best = min;
       points[v] = box->tetrahedra[t];
       weights[v] = (sbf_vec4){(float)w[0], (float)w[1], (float)w[2], (float)w[3]};
     }

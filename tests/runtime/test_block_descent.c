@@ -100,14 +100,14 @@ START_TEST(nothing_is_too_stiff)
     x[i].x += 0.4f * ((float)(state >> 8) / 16777216 - 0.5f);
     x[i].y += 0.4f * ((float)(state * 7 >> 8) / 16777216 - 0.5f);
   }
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
     sbr_body_health health = sbr_character_health(s.world, s.character, 0);
     ck_assert(health.finite);
-    if (i > 60) most = fmax(most, health.kinetic_j);
+    if (i > 60) max = fmax(max, health.kinetic_j);
   }
-  ck_assert_double_lt(most, 5);
+  ck_assert_double_lt(max, 5);
   sbr_body_health health = sbr_character_health(s.world, s.character, 0);
   if (_i == 0) ck_assert(!health.inverted);
   scene_free(&s);

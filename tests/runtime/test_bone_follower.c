@@ -57,15 +57,15 @@ START_TEST(a_step_of_the_pose_is_followed_exactly_at_any_tick)
       gait_stage s;
       double h = 0.001 * times_ms[k];
       begin(&s, lifts ? SBF_FOLLOWER_CHANNEL_POSITION : SBF_FOLLOWER_CHANNEL_ROTATION, (float)h, 1);
-      double most = 0;
+      double max = 0;
       for (int i = 1; (double)i * h < 2.5; i++) {
         tick(&s);
         double is = lifts ? (double)(s.pose[1].position.y - 0.5f) / 0.3
                           : (double)sbri_quat_log(s.pose[1].rotation).x / 0.8;
         ck_assert_double_eq_tol(is, response(i * h, h), 2e-4);
-        most = is > most ? is : most;
+        max = is > max ? is : max;
       }
-      ck_assert_double_gt(most, 1.1); /* it swings over */
+      ck_assert_double_gt(max, 1.1); /* it swings over */
       gait_stage_end(&s);
     }
 }

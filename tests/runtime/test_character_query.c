@@ -61,11 +61,11 @@ END_TEST
 
 START_TEST(they_belong_to_the_state)
 {
-  enum { MOST = 1 << 20 };
-  static unsigned char kept[MOST];
+  enum { MAX = 1 << 20 };
+  static unsigned char kept[MAX];
   scene s = swinging(SBF_SCHEME_SYMPLECTIC, 2, 0, true);
   size_t size = sbr_world_snapshot_size(s.world);
-  ck_assert_uint_le(size, MOST);
+  ck_assert_uint_le(size, MAX);
   ck_assert_int_eq(sbr_world_snapshot_save(s.world, kept, size), SBF_OK);
   scene_ticks(&s, 5);
   ck_assert_uint_eq(sbr_character_passes(s.world, s.character, 0), 10);

@@ -184,13 +184,13 @@ START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
   scene_free(&alone);
   sbr_detail_definition how = sbr_default_detail_definition();
   how.error_px = 1e-3f; /* all as fine as can be, but */
-  double all = CROWD * (double)rungs[0].visits, most = 6 * (double)rungs[0].visits;
-  how.budget_us = (float)(most * (double)how.ns_per_visit * 1e-3);
+  double all = CROWD * (double)rungs[0].visits, max = 6 * (double)rungs[0].visits;
+  how.budget_us = (float)(max * (double)how.ns_per_visit * 1e-3);
   crowd c = make_crowd(&how, NULL);
   look(&c, -6, 90);
-  ck_assert(all > most);
-  ck_assert_msg(sbr_world_visits(c.s.world) <= most, "%g of %g visits", sbr_world_visits(c.s.world), most);
-  ck_assert(sbr_world_visits(c.s.world) > 0.6 * most);
+  ck_assert(all > max);
+  ck_assert_msg(sbr_world_visits(c.s.world) <= max, "%g of %g visits", sbr_world_visits(c.s.world), max);
+  ck_assert(sbr_world_visits(c.s.world) > 0.6 * max);
   ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
   ck_assert_uint_gt(rung_of(&c, CROWD - 1), RUNG_FINE);
   for (uint32_t i = 1; i < CROWD; i++) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));

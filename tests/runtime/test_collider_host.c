@@ -7,15 +7,15 @@
 #include "rigid_scenes.h"
 
 /* A body of the host, which goes by what its collider was pushed with. */
-typedef struct guest {
+typedef struct external_body {
   sbr_shape *shape;
   sbr_collider_id id;
   double mass, at[3], velocity[3], spin[3]; /* kg, m, m/s, kg m^2/s about its middle */
-} guest;
+} external_body;
 
-static guest guest_of(
+static external_body external_body_of(
     scene *s, sbr_shape_definition form, double mass, sbr_double3 at, sbr_double3 velocity) {
-  guest g = {.shape = collision_shape(form), .mass = mass, .at = {at.x, at.y, at.z}};
+  external_body g = {.shape = collision_shape(form), .mass = mass, .at = {at.x, at.y, at.z}};
   g.velocity[0] = velocity.x, g.velocity[1] = velocity.y, g.velocity[2] = velocity.z;
   sbr_collider_definition d = sbr_default_collider_definition();
   d.shape = g.shape, d.position = at, d.friction = 0.5f, d.restitution = 0;
@@ -25,7 +25,7 @@ static guest guest_of(
 
 /* It takes the push that it got, and its way of the next tick; turning does not show in a ball, nor in what
  * little a box turns. */
-static void guest_tick(scene *s, guest *g, double tick_s) {
+static void external_body_tick(scene *s, external_body *g, double tick_s) {
   sbr_collider_move(s->world, g->id,
       (sbr_double3){g->at[0] + tick_s * g->velocity[0], g->at[1] + tick_s * g->velocity[1],
           g->at[2] + tick_s * g->velocity[2]},
@@ -41,7 +41,7 @@ static void guest_tick(scene *s, guest *g, double tick_s) {
   }
 }
 
-static scene_momentum all_of(const scene *s, const guest *g) {
+static scene_momentum all_of(const scene *s, const external_body *g) {
   scene_momentum m = scene_momentum_of(s);
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -69,9 +69,10 @@ START_TEST(a_ball_and_a_cloth_keep_their_momentum)
   collision_sheet(&s, 0, (sbf_vec3){0, 0.5f, 0}, 1, 12, false);
   s.model_options.scheme = schemes[_i];
   scene_start(&s);
-  guest g = guest_of(&s, collision_ball(0.3f), 0.5, (sbr_double3){0.1, 0, 0.05}, (sbr_double3){1, 3, 0});
+  external_body g =
+      external_body_of(&s, collision_ball(0.3f), 0.5, (sbr_double3){0.1, 0, 0.05}, (sbr_double3){1, 3, 0});
   scene_momentum before = all_of(&s, &g);
-  for (int i = 0; i < 60; i++) guest_tick(&s, &g, 1.0 / 60);
+  for (int i = 0; i < 60; i++) external_body_tick(&s, &g, 1.0 / 60);
   scene_momentum after = all_of(&s, &g);
   ck_assert_double_lt(g.velocity[1], 2.9); /* it has given some of it away */
   ck_assert_double_gt(g.spin[2] * g.spin[2] + g.spin[0] * g.spin[0], 1e-8);
@@ -93,10 +94,11 @@ START_TEST(boxes_keep_their_momentum)
   rigid_body(&s, 0)->restitution = _i ? 0.5f : 0;
   scene_start(&s);
   sbr_character_rigid_push(s.world, s.character, 0, (sbr_double3){0, 0.8, 0.05}, (sbf_vec3){0.3f, -3, 0});
-  guest g = guest_of(&s, collision_box(0.3f, 0.3f, 0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
+  external_body g = external_body_of(
+      &s, collision_box(0.3f, 0.3f, 0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 2);
   scene_momentum before = all_of(&s, &g);
-  for (int i = 0; i < 40; i++) guest_tick(&s, &g, 1.0 / 60);
+  for (int i = 0; i < 40; i++) external_body_tick(&s, &g, 1.0 / 60);
   scene_momentum after = all_of(&s, &g);
   ck_assert_double_lt(g.velocity[1], -0.3);
   assert_kept(&after, &before, 1e-4, 5e-3);
@@ -120,7 +122,8 @@ START_TEST(what_lies_weighs)
   s.character_definition.scale = scale;
   s.world_definition.sleep_after_s = 0.3;
   scene_start(&s);
-  guest g = guest_of(&s, collision_box(1, 1, 1), 1, (sbr_double3){0, -1, 0}, (sbr_double3){0, 0, 0});
+  external_body g =
+      external_body_of(&s, collision_box(1, 1, 1), 1, (sbr_double3){0, -1, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 50);
   bool slept = false;
   for (int i = 0; i < 60; i++) {
@@ -153,7 +156,7 @@ START_TEST(each_of_many_bears_its_share)
   sbf_vec3 at[MANY];
   float masses[MANY], stiffness[MANY - 1];
   sbf_uint2 ends[MANY - 1];
-  guest guests[MANY];
+  external_body external_bodies[MANY];
   for (uint32_t i = 0; i < MANY; i++) {
     at[i] = (sbf_vec3){0.2f * (float)i, 0.011f, 0}, masses[i] = 1 + 0.1f * (float)i;
     if (i > 0) ends[i - 1] = (sbf_uint2){{i - 1, i}}, stiffness[i - 1] = 50;
@@ -164,17 +167,18 @@ START_TEST(each_of_many_bears_its_share)
   s.character_definition.position = (sbr_double3){0, 1000, 0};
   scene_start(&s);
   for (uint32_t i = 0; i < MANY; i++)
-    guests[i] = guest_of(&s, collision_box(0.05f, 0.05f, 0.05f), 1, (sbr_double3){(double)at[i].x, -0.05, 0},
-        (sbr_double3){0, 0, 0});
+    external_bodies[i] = external_body_of(&s, collision_box(0.05f, 0.05f, 0.05f), 1,
+        (sbr_double3){(double)at[i].x, -0.05, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 90);
-  for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_push(s.world, guests[i].id);
+  for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_push(s.world, external_bodies[i].id);
   scene_ticks(&s, 1);
   for (uint32_t i = 0; i < MANY; i++) {
     float weight = masses[i] * 9.81f / 60;
-    ck_assert_float_eq_tol(sbr_collider_take_push(s.world, guests[i].id).impulse.y, -weight, 0.02f * weight);
+    ck_assert_float_eq_tol(
+        sbr_collider_take_push(s.world, external_bodies[i].id).impulse.y, -weight, 0.02f * weight);
   }
   scene_free(&s);
-  for (uint32_t i = 0; i < MANY; i++) sbr_shape_destroy(guests[i].shape);
+  for (uint32_t i = 0; i < MANY; i++) sbr_shape_destroy(external_bodies[i].shape);
 }
 END_TEST
 

@@ -64,12 +64,12 @@ START_TEST(a_dropped_body_comes_to_rest_on_the_ground)
   double y = center(&s).y;
   ck_assert_double_ge(lowest(&s), 0.5 - 1e-4);
   ck_assert_double_eq_tol(y, 0.6, 0.01);
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
-    most = fmax(most, fabs(center(&s).y - y));
+    max = fmax(max, fabs(center(&s).y - y));
   }
-  ck_assert_double_lt(most, 1e-4); /* no jitter */
+  ck_assert_double_lt(max, 1e-4); /* no jitter */
   scene_free(&s);
 }
 END_TEST

@@ -45,7 +45,7 @@ START_TEST(all_that_polygons_use_is_sampled)
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *sample = &body_of(&s)->samples[i];
     float sum = 0, inverse = 0;
-    sbf_vec3 place = {0, 0, 0}, rest = body->surface.positions.at[i];
+    sbf_vec3 place = {0, 0, 0}, rest = body->surface.positions.at[sample->vertex];
     for (int k = 0; k < 4; k++) {
       const sbri_point *p = &island->rest[sample->slots[k]];
       float w = sample->weights[k];
@@ -134,6 +134,7 @@ START_TEST(a_push_is_a_force_at_that_place)
       .targets = sbri_positions(c),
       .begins = sbri_positions(c),
       .touches = &touch,
+      .touch_weights = sbri_touch_weights(c),
       .touch_counts = counts};
   for (uint32_t slot = 0; slot < tick.island->free_count; slot++) {
     float *v = sbri_triple(tick.velocities, slot);

@@ -6,7 +6,7 @@
 #include "scenes.h"
 
 typedef struct drop_result {
-  double least_volume, lowest_m, speed_m_s; /* the first two at any tick, the last at the end */
+  double min_volume, lowest_m, speed_m_s; /* the first two at any tick, the last at the end */
 } drop_result;
 
 static sbf_vec3 before[512], after[512];
@@ -31,7 +31,7 @@ static drop_result drop(sbf_scheme scheme, sbf_vec3 size, uint32_t cells) {
     sbr_body_health health = sbr_character_health(s.world, s.character, 0);
     ck_assert(health.finite);
     ck_assert_uint_eq(health.recoveries, 0);
-    r.least_volume = fmin(r.least_volume, (double)health.volume_ratio);
+    r.min_volume = fmin(r.min_volume, (double)health.volume_ratio);
     count = scene_read(&s, 0, after, 512);
     double origin = sbr_character_origin(s.world, s.character).y;
     for (uint32_t i = 0; i < count; i++) r.lowest_m = fmin(r.lowest_m, origin + (double)after[i].y);
@@ -50,7 +50,7 @@ static const sbf_scheme schemes[] = {
 START_TEST(a_dropped_section_keeps_its_volume_above_the_ground)
 {
   drop_result r = drop(schemes[_i], (sbf_vec3){0.2f, 0.3f, 0.4f}, 2);
-  ck_assert_double_gt(r.least_volume, 0.95);
+  ck_assert_double_gt(r.min_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
   ck_assert_double_lt(r.speed_m_s, 0.02);
 }
@@ -60,7 +60,7 @@ END_TEST
 START_TEST(a_slender_section_does_so_too)
 {
   drop_result r = drop(schemes[_i], (sbf_vec3){0.1f, 0.1f, 0.5f}, 2);
-  ck_assert_double_gt(r.least_volume, 0.95);
+  ck_assert_double_gt(r.min_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
   ck_assert_double_lt(r.speed_m_s, 0.02);
 }
@@ -69,7 +69,7 @@ END_TEST
 START_TEST(a_finer_surface_changes_nothing_of_it)
 {
   drop_result r = drop(schemes[_i], (sbf_vec3){0.2f, 0.3f, 0.4f}, 4);
-  ck_assert_double_gt(r.least_volume, 0.95);
+  ck_assert_double_gt(r.min_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
   ck_assert_double_lt(r.speed_m_s, 0.02);
 }

@@ -59,9 +59,9 @@ static const struct {
 /* It had been off by 1 to 6 mm, and the bone turned by what the flesh pulled with. */
 START_TEST(it_keeps_its_shape)
 {
-  enum { MOST = 256 };
+  enum { MAX = 256 };
   scene s = limb_of(falls[_i].damping_ratio);
-  sbf_vec3 rest[MOST], at[MOST];
+  sbf_vec3 rest[MAX], at[MAX];
   float tick_s = falls[_i].tick_s > 0 ? falls[_i].tick_s : 1.0f / 60;
   s.asset->environment.control_tick = tick_s;
   s.world_definition.control_tick_s = (double)tick_s;
@@ -70,12 +70,12 @@ START_TEST(it_keeps_its_shape)
   s.model_options.scheme = falls[_i].scheme;
   s.model_options.substeps = falls[_i].substeps;
   scene_start(&s);
-  uint32_t count = scene_read(&s, 0, rest, MOST);
+  uint32_t count = scene_read(&s, 0, rest, MAX);
   ck_assert_uint_gt(count, 8);
   sbf_vec3 began = rigid_state(&s, LIMB).center;
   for (int tick = 0; tick < 40; tick++) {
     sbr_world_tick(s.world);
-    (void)scene_read(&s, 0, at, MOST);
+    (void)scene_read(&s, 0, at, MAX);
     sbf_vec3 now = rigid_state(&s, LIMB).center;
     for (uint32_t i = 0; i < count; i++) {
       float x = at[i].x - rest[i].x - (now.x - began.x), y = at[i].y - rest[i].y - (now.y - began.y),

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "body_contact/body_contacts.h"
 #include "collision_scenes.h"
 #include "harness.h"
-#include "meet/meetings.h"
 #include "meeting_scenes.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
@@ -14,7 +14,7 @@
 /* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart; its lattice is of 18 x 2 x 2 cells,
  * its skin of 24 x 3 x 3 squares. */
 enum { LONG = 18, WIDE = 2, SKIN_LONG = 24, SKIN_WIDE = 3 };
-enum { SKIN_MOST = (SKIN_LONG + 1) * (SKIN_WIDE + 1) * (SKIN_WIDE + 1) };
+enum { SKIN_MAX = (SKIN_LONG + 1) * (SKIN_WIDE + 1) * (SKIN_WIDE + 1) };
 static const float LEG = 0.36f, THICK = 0.1f, GAP = 0.08f;
 static const sbf_vec3 weight = {0, -9.81f, 0};
 
@@ -34,11 +34,11 @@ static sbf_vec3 bent_from(uint32_t x, uint32_t y, uint32_t z, uint32_t length, u
 
 /* The skin's vertices, those on the outside alone. */
 static void skin_surface(scene *s, uint32_t body) {
-  enum { MOST_FACES = 4 * SKIN_LONG * SKIN_WIDE + 2 * SKIN_WIDE * SKIN_WIDE };
+  enum { MAX_FACES = 4 * SKIN_LONG * SKIN_WIDE + 2 * SKIN_WIDE * SKIN_WIDE };
   const uint32_t cells[3] = {SKIN_LONG, SKIN_WIDE, SKIN_WIDE};
-  uint32_t *sizes = sbf_asset_allocate(s->asset, MOST_FACES, sizeof *sizes), numbers[SKIN_MOST];
-  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * MOST_FACES, sizeof *corners);
-  sbf_vec3 *at = sbf_asset_allocate(s->asset, SKIN_MOST, sizeof *at);
+  uint32_t *sizes = sbf_asset_allocate(s->asset, MAX_FACES, sizeof *sizes), numbers[SKIN_MAX];
+  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * MAX_FACES, sizeof *corners);
+  sbf_vec3 *at = sbf_asset_allocate(s->asset, SKIN_MAX, sizeof *at);
   uint32_t faces = 0, points = 0;
   ck_assert(sizes && corners && at);
   memset(numbers, 0xff, sizeof numbers);
@@ -97,14 +97,14 @@ static void start(scene *s) {
 /* ---- How deep skins lie in each other ---- */
 
 typedef struct placed_skin {
-  sbf_vec3 at[SKIN_MOST];
+  sbf_vec3 at[SKIN_MAX];
   uint32_t count;
 } placed_skin;
 
 static placed_skin skin_of(const scene *s, sbr_character_id who) {
   placed_skin skin;
   sbr_double3 o = sbr_character_origin(s->world, who);
-  skin.count = sbr_character_surface(s->world, who, 0, skin.at, SKIN_MOST);
+  skin.count = sbr_character_surface(s->world, who, 0, skin.at, SKIN_MAX);
   for (uint32_t i = 0; i < skin.count; i++)
     skin.at[i] = (sbf_vec3){skin.at[i].x + (float)o.x, skin.at[i].y + (float)o.y, skin.at[i].z + (float)o.z};
   return skin;
@@ -115,18 +115,18 @@ static double depth_in(const scene *s, const placed_skin *skin, sbf_vec3 x, uint
 }
 
 static double deepest(const scene *s, const placed_skin *a, const placed_skin *b) {
-  double most = 0;
-  for (uint32_t v = 0; v < a->count; v++) most = fmax(most, depth_in(s, b, a->at[v], UINT32_MAX));
-  for (uint32_t v = 0; v < b->count; v++) most = fmax(most, depth_in(s, a, b->at[v], UINT32_MAX));
-  return most;
+  double max = 0;
+  for (uint32_t v = 0; v < a->count; v++) max = fmax(max, depth_in(s, b, a->at[v], UINT32_MAX));
+  for (uint32_t v = 0; v < b->count; v++) max = fmax(max, depth_in(s, a, b->at[v], UINT32_MAX));
+  return max;
 }
 
 /* Of a skin in itself: looked at from just inside each vertex, where it is once inside by itself. */
 static double deepest_in_itself(const scene *s, const placed_skin *skin) {
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  static sbf_vec3 normals[SKIN_MOST];
+  static sbf_vec3 normals[SKIN_MAX];
   const uint32_t *c = mesh->polygon_points.at;
-  double most = 0;
+  double max = 0;
   memset(normals, 0, sizeof normals);
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++, c += 4) {
     sbf_vec3 n =
@@ -135,9 +135,9 @@ static double deepest_in_itself(const scene *s, const placed_skin *skin) {
   }
   for (uint32_t v = 0; v < skin->count; v++) {
     sbf_vec3 in = sbri_scale(normals[v], -5e-4f / sbri_length(normals[v]));
-    most = fmax(most, depth_in(s, skin, sbri_add(skin->at[v], in), v));
+    max = fmax(max, depth_in(s, skin, sbri_add(skin->at[v], in), v));
   }
-  return most;
+  return max;
 }
 
 /* ---- Itself ---- */
@@ -145,7 +145,7 @@ static double deepest_in_itself(const scene *s, const placed_skin *skin) {
 /* The upper leg sinks onto the lower one, and lies there; without `self` it sinks into it. */
 START_TEST(a_skin_lies_on_itself)
 {
-  double most[2] = {0, 0};
+  double max[2] = {0, 0};
   for (int self = 0; self < 2; self++) {
     scene s = begin_bar(self, true, 3e4f);
     s.asset->environment.gravity = weight;
@@ -153,14 +153,14 @@ START_TEST(a_skin_lies_on_itself)
     for (int i = 0; i < 360; i++) {
       scene_ticks(&s, 1);
       placed_skin skin = skin_of(&s, s.character);
-      if (i % 5 == 0) most[self] = fmax(most[self], deepest_in_itself(&s, &skin));
+      if (i % 5 == 0) max[self] = fmax(max[self], deepest_in_itself(&s, &skin));
     }
     ck_assert(!sbr_character_health(s.world, s.character, 0).inverted);
     if (self) ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
     scene_free(&s);
   }
-  ck_assert_double_ge(most[0], 0.02);
-  ck_assert_double_le(most[1], 0.004);
+  ck_assert_double_ge(max[0], 0.02);
+  ck_assert_double_le(max[1], 0.004);
 }
 END_TEST
 
@@ -186,7 +186,7 @@ START_TEST(sections_that_touch_at_rest_hang_together)
     scene_section(
         &s, b, (sbf_vec3){0, 0, 0.199f * (float)b + (b == 2 ? 0.02f : 0)}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 3);
   start(&s);
-  const uint8_t *together = s.world->meetings->together[0];
+  const uint8_t *together = s.world->body_contacts->rest_relations[0];
   ck_assert_uint_eq(together[1], 1);
   ck_assert_uint_eq(together[3], 1);
   ck_assert_uint_eq(together[2], 0);
@@ -225,16 +225,16 @@ START_TEST(skins_of_two_push_each_other_off)
   sbr_character_id other;
   scene s = begin_two(-0.65f, 0.05f, &other);
   move(&s, other, 2);
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
-    most = fmax(most, deepest(&s, &one, &two));
+    max = fmax(max, deepest(&s, &one, &two));
   }
   placed_skin begin = skin_of(&s, s.character);
   scene_ticks(&s, 1);
   placed_skin end = skin_of(&s, s.character);
-  ck_assert_double_le(most, 0.006);
+  ck_assert_double_le(max, 0.006);
   ck_assert_double_ge(way_of(&begin, &end), 0.8 / 60);
   scene_free(&s);
 }
@@ -293,16 +293,16 @@ START_TEST(what_is_thrown_down_hard_comes_apart)
   for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
     sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] =
         -speeds_m_s[fast];
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
     if (i > 60 || i % 3) continue;
     placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
     double deep = deepest(&s, &one, &two);
-    most = deep > most ? deep : most;
+    max = deep > max ? deep : max;
   }
   placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
-  if (fast) ck_assert_double_ge(most, 0.02);
+  if (fast) ck_assert_double_ge(max, 0.02);
   ck_assert_double_le(deepest(&s, &one, &two), 0.004);
   scene_free(&s);
 }

@@ -9,7 +9,7 @@
 #include "skin_depth.h"
 #include "world/world.h"
 
-enum { CELLS = 6, MOST = 64, PLACES = 24 };
+enum { CELLS = 6, MAX = 64, PLACES = 24 };
 static const float LENGTH = 0.6f, THICK = 0.06f;
 
 typedef struct lies {
@@ -40,9 +40,9 @@ static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, boo
 }
 
 /* Places of a body's vertices, from the second character on that character's. */
-static void look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MOST]) {
+static void look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
   sbr_double3 o = sbr_character_origin(s->world, who), own = sbr_character_origin(s->world, s->character);
-  uint32_t count = sbr_character_surface(s->world, who, body, at, MOST);
+  uint32_t count = sbr_character_surface(s->world, who, body, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = sbri_add(at[i], sbri_vec3((float)(o.x - own.x), (float)(o.y - own.y), (float)(o.z - own.z)));
 }
@@ -50,7 +50,7 @@ static void look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 a
 /* How deep edges of the one are in the other, m. */
 static double deepest_edge(
     const sbf_polygon_mesh *one, const sbf_vec3 *at, const sbf_polygon_mesh *other, const sbf_vec3 *others) {
-  double most = 0;
+  double max = 0;
   const uint32_t *c = one->polygon_points.at;
   for (uint32_t p = 0; p < one->polygon_sizes.count; c += one->polygon_sizes.at[p++])
     for (uint32_t k = 0; k < one->polygon_sizes.at[p]; k++)
@@ -58,9 +58,9 @@ static double deepest_edge(
         uint32_t to = (k + 1) % one->polygon_sizes.at[p];
         if (c[k] > c[to]) continue;
         sbf_vec3 x = sbri_lerp(at[c[k]], at[c[to]], (float)i / PLACES);
-        most = fmax(most, skin_depth(other, others, x, UINT32_MAX));
+        max = fmax(max, skin_depth(other, others, x, UINT32_MAX));
       }
-  return most;
+  return max;
 }
 
 static double deepest(
@@ -69,7 +69,7 @@ static double deepest(
 }
 
 static double deepest_of_bars(const scene *s, sbr_character_id other, uint32_t body) {
-  static sbf_vec3 a[MOST], b[MOST];
+  static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   look(s, s->character, 0, a), look(s, other, body, b);
   return deepest(mesh, a, mesh, b);
@@ -116,28 +116,28 @@ START_TEST(bars_that_fall_across_each_other_do_not_pass)
   add_bar(&s, 1, &(lies){{0.01f, d->height + far_of(d), 0.012f}, d->heading, d->roll}, 1e6f, false);
   meeting_start(&s);
   scene_ticks(&s, 1);
-  double first = scene_energy_of(&s), most = 0;
+  double first = scene_energy_of(&s), max = 0;
   scene_ticks(&s, ticks_until_hit(d->height));
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     ck_assert_double_le(scene_energy_of(&s), first);
-    most = fmax(most, deepest_of_bars(&s, s.character, 1));
+    max = fmax(max, deepest_of_bars(&s, s.character, 1));
   }
-  ck_assert_double_le(most, d->may);
+  ck_assert_double_le(max, d->may);
   scene_free(&s);
 }
 END_TEST
 
 /* For a second neither goes deeper into the other than 2 mm. */
 static void check_over_beam(scene *s, const sbf_polygon_mesh *hull, const sbf_vec3 *beam) {
-  static sbf_vec3 at[MOST];
-  double most = 0;
+  static sbf_vec3 at[MAX];
+  double max = 0;
   for (int i = 0; i < 60; i++) {
     scene_ticks(s, 1);
     look(s, s->character, 0, at);
-    most = fmax(most, deepest(&s->asset->soft_bodies.at[0].surface, at, hull, beam));
+    max = fmax(max, deepest(&s->asset->soft_bodies.at[0].surface, at, hull, beam));
   }
-  ck_assert_double_le(most, 0.002);
+  ck_assert_double_le(max, 0.002);
 }
 
 /* A kinematic rigid beam lies on its edge under one. */
@@ -208,7 +208,7 @@ START_TEST(a_bar_lies_over_a_narrow_box)
   collision_collider(&s, shape, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 240);
   ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
-  static sbf_vec3 at[MOST];
+  static sbf_vec3 at[MAX];
   look(&s, s.character, 0, at);
   for (uint32_t i = 0; i < scene_body(&s, 0)->surface.positions.count; i++)
     ck_assert_float_ge(at[i].y, 0.03f); /* its ends hang */
@@ -235,17 +235,17 @@ START_TEST(what_is_thrown_keeps_its_momentum)
   for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
     sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -3;
   scene_momentum was = scene_momentum_of(&s);
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 40; i++) {
     scene_ticks(&s, 1);
-    most = fmax(most, deepest_of_bars(&s, other, 0));
+    max = fmax(max, deepest_of_bars(&s, other, 0));
   }
   scene_momentum is = scene_momentum_of(&s);
   for (int k = 0; k < 3; k++) {
     ck_assert_double_eq_tol(was.linear[k], is.linear[k], 1e-5 * 1.5 * was.mass);
     ck_assert_double_eq_tol(was.angular[k], is.angular[k], 2e-4 * 1.5 * was.mass * (double)LENGTH);
   }
-  ck_assert_double_le(most, 0.01);
+  ck_assert_double_le(max, 0.01);
   scene_free(&s);
 }
 END_TEST

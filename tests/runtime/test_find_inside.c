@@ -11,7 +11,7 @@
 #include "world/world.h"
 
 /* A capsule of eight sides: rings as far apart as it is thick, or further. */
-enum { SIDES = 8, MOST_RINGS = 24, MOST = SIDES * MOST_RINGS + 2, CELLS = 12 };
+enum { SIDES = 8, MAX_RINGS = 24, MAX = SIDES * MAX_RINGS + 2, CELLS = 12 };
 static const float LENGTH = 0.6f;
 
 static sbf_polygon_mesh capsule(sbf_asset *asset, uint32_t rings, float radius) {
@@ -20,7 +20,7 @@ static sbf_polygon_mesh capsule(sbf_asset *asset, uint32_t rings, float radius) 
   sbf_vec3 *at = sbf_asset_allocate(asset, SIDES * rings + 2, sizeof *at);
   uint32_t *sizes = sbf_asset_allocate(asset, faces, sizeof *sizes);
   uint32_t *corners = sbf_asset_allocate(asset, 4 * (size_t)faces, sizeof *corners);
-  ck_assert(at && sizes && corners && rings <= MOST_RINGS);
+  ck_assert(at && sizes && corners && rings <= MAX_RINGS);
   for (uint32_t i = 0; i < rings * SIDES; i++) {
     float turn = 6.2831853f * ((float)(i % SIDES) + 0.5f) / SIDES, inner = LENGTH - 2 * radius;
     at[i] = (sbf_vec3){
@@ -59,9 +59,9 @@ static scene begin_capsule(uint32_t rings, float radius) {
   return s;
 }
 
-static void look(const scene *s, sbr_character_id who, sbf_vec3 at[MOST]) {
+static void look(const scene *s, sbr_character_id who, sbf_vec3 at[MAX]) {
   sbr_double3 o = sbr_character_origin(s->world, who);
-  uint32_t count = sbr_character_surface(s->world, who, 0, at, MOST);
+  uint32_t count = sbr_character_surface(s->world, who, 0, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
 }
@@ -82,7 +82,7 @@ static uint32_t crossings(const sbf_polygon_mesh *mesh, const sbf_vec3 *one, con
 }
 
 static uint32_t crossings_of(const scene *s, sbr_character_id one, sbr_character_id other) {
-  static sbf_vec3 a[MOST], b[MOST];
+  static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   look(s, one, a), look(s, other, b);
   return crossings(mesh, a, b) + crossings(mesh, b, a);
@@ -155,10 +155,10 @@ static bool box_holds(const scene *s, sbf_vec3 size, sbf_vec3 x) {
 /* Places of the box's edges in the skin, and of the skin's in the box, of many of each. */
 static uint32_t places_inside(const scene *s, sbf_vec3 size) {
   enum { PLACES = 40 };
-  static sbf_vec3 at[MOST];
+  static sbf_vec3 at[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   uint32_t count = 0;
-  (void)sbr_character_surface(s->world, s->character, 0, at, MOST);
+  (void)sbr_character_surface(s->world, s->character, 0, at, MAX);
   for (uint32_t k = 0; k < 8; k++)
     for (uint32_t axis = 1; axis < 8; axis *= 2)
       for (int i = 0; i <= PLACES && !(k & axis); i++) {

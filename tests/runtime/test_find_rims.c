@@ -59,10 +59,10 @@ static float height_over(const sbf_vec3 p[2], const sbf_vec3 q[2]) {
 static float over(const scene *s) {
   sbf_vec3 p[ROWS], q[ROWS];
   find_middle_line(s, 0, p), find_middle_line(s, 1, q);
-  float least = INFINITY;
+  float min = INFINITY;
   for (uint32_t i = 0; i + 1 < ROWS; i++)
-    for (uint32_t k = 0; k + 1 < ROWS; k++) least = fminf(least, height_over(p + i, q + k));
-  return least;
+    for (uint32_t k = 0; k + 1 < ROWS; k++) min = fminf(min, height_over(p + i, q + k));
+  return min;
 }
 
 /* One falls across the other, which is held at its ends, from 10 cm and at up to 10 m/s, square to it or not

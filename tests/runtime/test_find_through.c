@@ -12,7 +12,7 @@
 #include "world/world.h"
 
 /* A soft bar along X about its character; its lattice is of 15 x 3 x 3 cells, its skin of 24 x 4 x 4. */
-enum { LONG = 15, WIDE = 3, SKIN_LONG = 24, SKIN_WIDE = 4, MOST = 512 };
+enum { LONG = 15, WIDE = 3, SKIN_LONG = 24, SKIN_WIDE = 4, MAX = 512 };
 static const float LENGTH = 0.6f, THICK = 0.1f;
 
 /* About `center`, along X or along Z. */
@@ -50,9 +50,9 @@ static sbr_character_id another(scene *s, sbf_vec3 off, float heading) {
   return id;
 }
 
-static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MOST]) {
+static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
   sbr_double3 o = sbr_character_origin(s->world, who);
-  uint32_t count = sbr_character_surface(s->world, who, body, at, MOST);
+  uint32_t count = sbr_character_surface(s->world, who, body, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
   return count;
@@ -60,14 +60,14 @@ static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_ve
 
 /* Of the first body of one in the last of the other. */
 static double deepest(const scene *s, sbr_character_id one, sbr_character_id other) {
-  static sbf_vec3 a[MOST], b[MOST];
+  static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   uint32_t count = look(s, one, 0, a);
   ck_assert_uint_eq(look(s, other, s->asset->soft_bodies.count - 1, b), count);
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < count; i++)
-    most = fmax(most, fmax(skin_depth(mesh, b, a[i], UINT32_MAX), skin_depth(mesh, a, b[i], UINT32_MAX)));
-  return most;
+    max = fmax(max, fmax(skin_depth(mesh, b, a[i], UINT32_MAX), skin_depth(mesh, a, b[i], UINT32_MAX)));
+  return max;
 }
 
 /* Where the second lies: by so much off, and turned about Y. */
@@ -180,7 +180,7 @@ END_TEST
 START_TEST(parts_that_overlap_at_rest_stay_quiet)
 {
   scene s = begin_two_bars((sbf_vec3){0.02f, 0.03f * (float)_i, 0.05f});
-  static sbf_vec3 before[MOST], after[MOST];
+  static sbf_vec3 before[MAX], after[MAX];
   uint32_t count = look(&s, s.character, 1, before);
   ck_assert_double_ge(deepest(&s, s.character, s.character), 0.01);
   for (int i = 0; i < 120; i++) {

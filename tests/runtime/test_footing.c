@@ -138,14 +138,14 @@ END_TEST
 
 /* How deep any point of a sole is in the ground on its way, and at rest; m. */
 static float deepest(const gait_stage *w) {
-  float most = 0;
+  float max = 0;
   for (int l = 0; l < 4; l++) {
     const sbri_foot *foot = &w->state->feet[l];
     sbf_vec3 unused;
     double ground = w->ground.height(&w->ground, (double)foot->ground.x, (double)foot->ground.z, &unused);
-    most = fmaxf(most, (float)ground - foot->ground.y - foot->lift);
+    max = fmaxf(max, (float)ground - foot->ground.y - foot->lift);
   }
-  return most;
+  return max;
 }
 
 /* Boards and a pole lie across the way, narrower than a step and higher than one is lifted by itself. */
@@ -162,13 +162,13 @@ START_TEST(feet_go_over_what_lies_between)
   gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
   w.ground = sbr_ground_obstacles(&set);
   w.input.forward = 0.25f;
-  float most = 0, lift = 0;
+  float max = 0, lift = 0;
   for (int i = 0; i < 1200; i++) {
     gait_stage_ticks(&w, 1);
-    most = fmaxf(most, deepest(&w));
+    max = fmaxf(max, deepest(&w));
     for (int l = 0; l < 4; l++) lift = fmaxf(lift, w.state->feet[l].lift);
   }
-  ck_assert_float_le(most, 1e-3f);
+  ck_assert_float_le(max, 1e-3f);
   ck_assert_float_gt(lift, 0.055f);
   ck_assert_float_gt(w.state->position.z, 2.5f); /* it has come by all of them */
   gait_stage_end(&w);

@@ -73,12 +73,12 @@ START_TEST(lanes_turn_as_each_alone)
     sbf_vec3 spins[SBRI_LANES];
     for (int k = 0; k < SBRI_LANES; k++) {
       static const float fast[4] = {1e-4f, 0.03f, 1, 30};
-      float most = fast[(round + k) % 4];
+      float max = fast[(round + k) % 4];
       sbf_vec3 at = {2 + next_share(&seed), 2 + next_share(&seed), 2 + next_share(&seed)};
       bodies[k] = (sbri_rigid_body){.inertia = at, .inverse_inertia = {1 / at.x, 1 / at.y, 1 / at.z}};
       turns[k] = sbri_quat_normalize(
           (sbf_quat){next_share(&seed), next_share(&seed), next_share(&seed), next_share(&seed)});
-      spins[k] = sbri_vec3(most * next_share(&seed), most * next_share(&seed), most * next_share(&seed));
+      spins[k] = sbri_vec3(max * next_share(&seed), max * next_share(&seed), max * next_share(&seed));
       sbri_free_turning_put(&turning, k, &bodies[k], turns[k], spins[k]);
     }
     sbri_free_turns(&turning, 1.0f / 120);

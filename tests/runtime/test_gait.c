@@ -9,12 +9,12 @@
 #include "quadruped.h"
 #include "sbfmt/asset.h"
 
-enum { MOST_BONES = 32, TICKS_A_SECOND = 60 };
+enum { MAX_BONES = 32, TICKS_A_SECOND = 60 };
 
 typedef struct walk {
   gait_stage on;
   uint32_t events;
-  float worst_slip, worst_stretch, most_lift;
+  float worst_slip, worst_stretch, max_lift;
   uint32_t opposite_in_air;
   sbf_vec3 stance[4];
   bool was_planted[4];
@@ -61,7 +61,7 @@ static void tick(walk *w) {
       if (slip > w->worst_slip) w->worst_slip = slip;
     } else {
       groups |= 1u << leg->group;
-      if (legs[l].foot.y > w->most_lift) w->most_lift = legs[l].foot.y;
+      if (legs[l].foot.y > w->max_lift) w->max_lift = legs[l].foot.y;
     }
     float upper = length_between(w, (uint32_t)leg->upper, (uint32_t)leg->lower) - leg->upper_length;
     float lower = length_between(w, (uint32_t)leg->lower, (uint32_t)leg->foot) - leg->lower_length;
@@ -120,7 +120,7 @@ START_TEST(walks_forward_step_by_step)
   sbri_gait_placement(w.on.state, &place, &heading);
   ck_assert_float_eq_tol(place.z, 3, 0.1f);
   ck_assert_double_eq_tol(sbri_gait_distance(w.on.state), 3, 0.1);
-  ck_assert_float_eq_tol(w.most_lift, 0.04f, 0.002f);
+  ck_assert_float_eq_tol(w.max_lift, 0.04f, 0.002f);
   ck_assert_uint_gt(w.events, 60);
   gait_stage_end(&w.on);
 }
@@ -368,7 +368,7 @@ START_TEST(nothing_jumps_where_headings_begin_again)
   walk w;
   begin(&w, flat, 0);
   run(&w, 2, 0, 0, 1.4f);
-  sbr_transform before[MOST_BONES];
+  sbr_transform before[MAX_BONES];
   for (int i = 0; i < 10 * TICKS_A_SECOND; i++) {
     memcpy(before, w.on.pose, w.on.rig.bone_count * sizeof *before);
     tick(&w);

@@ -112,12 +112,12 @@ START_TEST(a_sheet_holds_what_falls_on_it)
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0.05f, 0.3f, 0}, (sbf_vec3){0.2f, 0.1f, 0.2f}, 0.1f);
   meeting_start(&s);
-  double least = 9;
+  double min = 9;
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
-    least = fmin(least, (double)rigid_state(&s, 0).center.y);
+    min = fmin(min, (double)rigid_state(&s, 0).center.y);
   }
-  ck_assert_double_ge(least, -0.4);
+  ck_assert_double_ge(min, -0.4);
   ck_assert_double_le(size(rigid_state(&s, 0).velocity), 0.05);
   scene_free(&s);
 }
@@ -155,13 +155,13 @@ START_TEST(cloth_lies_over_a_ball_that_moves)
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.6f, 0.6f, 0.6f}, 4);
   meeting_ball(&s, 0, 0.3f);
   meeting_start(&s);
-  double most = -9;
+  double max = -9;
   for (int i = 0; i < 150; i++) {
     if (i == 60) meeting_throw(&s, s.character, 0, (sbf_vec3){6, 0, 0});
     scene_ticks(&s, 1);
-    most = fmax(most, meeting_deepest(&s));
+    max = fmax(max, meeting_deepest(&s));
   }
-  ck_assert_double_le(most, -5e-4);
+  ck_assert_double_le(max, -5e-4);
   ck_assert_float_ge(rigid_state(&s, 0).center.x, 0.5f);
   scene_free(&s);
 }
@@ -173,9 +173,9 @@ enum { CELLS = 3 };
 
 /* The sides of the box over all its points. */
 static void cube_surface(scene *s, uint32_t body, const lattice_box *box) {
-  enum { MOST = 6 * CELLS * CELLS };
-  uint32_t *sizes = sbf_asset_allocate(s->asset, MOST, sizeof *sizes);
-  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * MOST, sizeof *corners);
+  enum { MAX = 6 * CELLS * CELLS };
+  uint32_t *sizes = sbf_asset_allocate(s->asset, MAX, sizeof *sizes);
+  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * MAX, sizeof *corners);
   sbf_vec3 *at = sbf_asset_allocate(s->asset, box->point_count, sizeof *at);
   uint32_t count = 0;
   ck_assert(sizes && corners && at);
@@ -210,13 +210,13 @@ static void cube(scene *s, uint32_t body, sbf_vec3 low, float side, float densit
 }
 
 /* Least and most height of a body's points, relative to the character's origin. */
-static void heights(const scene *s, uint32_t body, float *least, float *most) {
+static void heights(const scene *s, uint32_t body, float *min, float *max) {
   static sbf_vec3 at[512];
   uint32_t count = scene_read(s, body, at, 512);
-  *least = 1e9f, *most = -1e9f;
+  *min = 1e9f, *max = -1e9f;
   for (uint32_t i = 0; i < count; i++) {
-    *least = at[i].y < *least ? at[i].y : *least;
-    *most = at[i].y > *most ? at[i].y : *most;
+    *min = at[i].y < *min ? at[i].y : *min;
+    *max = at[i].y > *max ? at[i].y : *max;
   }
 }
 
@@ -239,11 +239,11 @@ START_TEST(soft_cubes_stand_on_each_other)
   cube(&s, 1, (sbf_vec3){0.04f, 0.305f, 0.05f}, 0.2f, 1000);
   cube(&s, 2, (sbf_vec3){0.06f, 0.509f, 0.08f}, 0.15f, 500);
   meeting_start(&s);
-  float least[3], most[3];
+  float min[3], max[3];
   scene_ticks(&s, 300);
-  for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &least[i], &most[i]); }
-  for (int i = 0; i < 2; i++) ck_assert_float_ge(least[i + 1], most[i] - 0.01f);
-  ck_assert_float_ge(most[2], 0.62f);
+  for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &min[i], &max[i]); }
+  for (int i = 0; i < 2; i++) ck_assert_float_ge(min[i + 1], max[i] - 0.01f);
+  ck_assert_float_ge(max[2], 0.62f);
   scene_ticks(&s, 60);
   ck_assert_double_le(fastest_of(&s), 1e-3);
   scene_free(&s);

@@ -6,8 +6,8 @@
 #include "collide/shape.h"
 #include "harness.h"
 
-enum { MOST = 2000 };
-static sbf_vec3 points[MOST];
+enum { MAX = 2000 };
+static sbf_vec3 points[MAX];
 static uint32_t random_state;
 
 /* From -1 to 1. */
@@ -107,13 +107,13 @@ START_TEST(many_points)
 {
   sbfi_arena arena;
   random_state = 1;
-  for (uint32_t i = 0; i < MOST; i++) {
+  for (uint32_t i = 0; i < MAX; i++) {
     sbf_vec3 at = sbri_vec3(random_number(), random_number(), random_number());
     points[i] = sbri_normalize(at, at);
   }
-  sbri_point_hull hull = hull_of(MOST, &arena);
+  sbri_point_hull hull = hull_of(MAX, &arena);
   ck_assert_uint_eq(hull.vertex_count, SBRI_HULL_VERTICES);
-  expect_around(&hull, MOST, 1, 0.02);
+  expect_around(&hull, MAX, 1, 0.02);
   sbfi_arena_free(&arena);
 }
 END_TEST

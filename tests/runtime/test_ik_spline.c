@@ -15,13 +15,13 @@ START_TEST(ends_at_the_target_on_one_smooth_bow)
     ck_assert_float_le(r.error, 0.02f);
     sbr_transform frames[IK_CHAIN_JOINTS];
     sbri_ik_frames(&f.chain, frames);
-    float least = 1;
+    float min = 1;
     for (int k = 2; k < IK_CHAIN_JOINTS; k++) {
       sbf_vec3 a = sbri_sub(frames[k - 1].position, frames[k - 2].position);
       sbf_vec3 b = sbri_sub(frames[k].position, frames[k - 1].position);
-      least = fminf(least, sbri_dot(a, b));
+      min = fminf(min, sbri_dot(a, b));
     }
-    ck_assert_float_ge(least, -0.5f); /* no sharp bends */
+    ck_assert_float_ge(min, -0.5f); /* no sharp bends */
   }
 }
 END_TEST

@@ -54,16 +54,16 @@ static float spin(const scene *s) {
 START_TEST(each_swing_is_shorter_by_what_friction_takes)
 {
   scene s = arm_of(_i, 0.6f, FRICTION);
-  float turned_at = 0.6f, most = 0, before = 0.6f;
+  float turned_at = 0.6f, max = 0, before = 0.6f;
   int swings = 0;
   for (int i = 0; i < 600; i++) {
     scene_ticks(&s, 1);
     float now = angle(&s);
-    most = fmaxf(most, now * turned_at < 0 ? fabsf(now) : 0);
-    if (most > 0.1f && fabsf(now) < most - 1e-4f && fabsf(before) >= most) { /* it turned there */
-      ck_assert_float_eq_tol(cosf(most) - cosf(turned_at), FRICTION * (fabsf(turned_at) + most), 4e-3f);
-      turned_at = now > 0 ? most : -most;
-      most = 0, swings++;
+    max = fmaxf(max, now * turned_at < 0 ? fabsf(now) : 0);
+    if (max > 0.1f && fabsf(now) < max - 1e-4f && fabsf(before) >= max) { /* it turned there */
+      ck_assert_float_eq_tol(cosf(max) - cosf(turned_at), FRICTION * (fabsf(turned_at) + max), 4e-3f);
+      turned_at = now > 0 ? max : -max;
+      max = 0, swings++;
     }
     before = now;
   }

@@ -74,15 +74,15 @@ START_TEST(a_hinge_swings_as_a_pendulum)
   double t = period(&s, 0, SBF_JOINT_AXIS_TWIST, 0, 1200);
   double expected = 1.0731820 * 2 * PI * sqrt((1 + small_box) / G);
   ck_assert_double_eq_tol(t / expected, 1, 5e-4);
-  double most = 0;
+  double max = 0;
   for (int i = 0; i < 600; i++) {
     sbr_world_tick(s.world);
     sbr_joint_state now = rigid_joint_state(&s, 0);
-    most = fmax(most, fabs((double)now.coordinates[SBF_JOINT_AXIS_TWIST]));
+    max = fmax(max, fabs((double)now.coordinates[SBF_JOINT_AXIS_TWIST]));
     ck_assert_float_le(now.apart, 1e-5f);
     ck_assert_float_le(now.bent, 1e-5f);
   }
-  ck_assert_double_eq_tol(most, PI / 3, 0.01); /* after half a minute, neither gained nor lost */
+  ck_assert_double_eq_tol(max, PI / 3, 0.01); /* after half a minute, neither gained nor lost */
   scene_free(&s);
 }
 END_TEST

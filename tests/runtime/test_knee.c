@@ -6,19 +6,19 @@
 #include "quadruped.h"
 
 static const float TICK_S = 1.0f / 60, DEGREES = 57.2957795f;
-static const float MOST = 4.6f; /* degrees that a knee's turn in a tick changes by in the next */
+static const float MAX = 4.6f; /* degrees that a knee's turn in a tick changes by in the next */
 
 /* Greatest change of a knee's turn from tick to tick as it goes after `wanted` for so many ticks; the knee is
  * left where it came to. */
 static float follow(sbri_foot *foot, float (*wanted)(int), int count) {
-  float most = 0, before = foot->knee_rate;
+  float max = 0, before = foot->knee_rate;
   for (int i = 0; i < count; i++) {
     float to = wanted(i);
     sbri_knee_keep(foot, sbri_knee_follow(foot, to, TICK_S), to, TICK_S);
-    most = fmaxf(most, fabsf(foot->knee_rate - before) * TICK_S * DEGREES);
+    max = fmaxf(max, fabsf(foot->knee_rate - before) * TICK_S * DEGREES);
     before = foot->knee_rate;
   }
-  return most;
+  return max;
 }
 
 static sbri_foot at_rest(float angle) {
@@ -41,7 +41,7 @@ static float snaps_straight(int tick) {
 START_TEST(a_knee_catches_up_without_a_jerk_and_stays)
 {
   sbri_foot foot = at_rest(1);
-  ck_assert_float_le(follow(&foot, jumps, 60), MOST);
+  ck_assert_float_le(follow(&foot, jumps, 60), MAX);
   ck_assert_float_eq(foot.knee, 1.6f);
   ck_assert_float_le(fabsf(foot.knee_rate), 1e-3f);
 }
@@ -62,7 +62,7 @@ END_TEST
 START_TEST(a_knee_comes_to_rest_where_the_leg_is_straight)
 {
   sbri_foot foot = at_rest(2);
-  ck_assert_float_le(follow(&foot, snaps_straight, 60), MOST + 0.5f); /* its own start is as abrupt */
+  ck_assert_float_le(follow(&foot, snaps_straight, 60), MAX + 0.5f); /* its own start is as abrupt */
   ck_assert_float_eq_tol(foot.knee, 3.14159265f, 1e-4f);
 }
 END_TEST
@@ -88,16 +88,16 @@ START_TEST(a_leg_that_stands_stops_before_it_is_straight)
   ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)); /* it does not turn */
   foot.knee = foot.knee_wanted = 2.9f;
   foot.knee_rate = 0.12f / TICK_S; /* it would be straight in two ticks more */
-  float before = foot.knee_rate, most = 0;
+  float before = foot.knee_rate, max = 0;
   for (int i = 0; i < 30; i++) {
     if (!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)) break;
     ck_assert_float_le(shortest, longest);
     float angle = sbri_knee_angle(&leg, 1, longest);
     sbri_knee_keep(&foot, angle, angle, TICK_S);
-    most = fmaxf(most, fabsf(foot.knee_rate - before) * TICK_S * DEGREES);
+    max = fmaxf(max, fabsf(foot.knee_rate - before) * TICK_S * DEGREES);
     before = foot.knee_rate;
   }
-  ck_assert_float_le(most, MOST + 0.2f); /* single precision says little of a leg that is nearly straight */
+  ck_assert_float_le(max, MAX + 0.2f); /* single precision says little of a leg that is nearly straight */
   ck_assert_float_eq_tol(foot.knee, 3.14159265f, 0.02f);
   foot.knee_rate = 10, foot.knee_known = 1;
   ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest));
@@ -117,21 +117,21 @@ START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
   gait_stage_begin(&stage, quadruped_asset());
   stage.ground.height = kerbs;
   stage.input.forward = 1.1f;
-  float rates[4] = {0}, most = 0;
+  float rates[4] = {0}, max = 0;
   uint32_t held = 0, known[4] = {0};
   for (int i = 0; i < 600; i++) {
     gait_stage_ticks(&stage, 1);
     for (int l = 0; l < 4; l++) {
       const sbri_foot *foot = &stage.state->feet[l];
       float change = fabsf(foot->knee_rate - rates[l]) * TICK_S * DEGREES;
-      if (!foot->planted && known[l] == 2) most = fmaxf(most, change);
+      if (!foot->planted && known[l] == 2) max = fmaxf(max, change);
       rates[l] = foot->knee_rate, known[l] = foot->knee_known;
       held += foot->knee_held > 0;
     }
   }
   ck_assert_float_gt(stage.state->position.z, 1.5f);
   ck_assert_uint_gt(held, 0);
-  ck_assert_float_le(most, MOST);
+  ck_assert_float_le(max, MAX);
   gait_stage_end(&stage);
 }
 END_TEST

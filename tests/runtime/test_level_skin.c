@@ -42,14 +42,14 @@ static scene box_with_level(uint32_t *corners_used) {
 
 /* Each of the level's vertices is, bit for bit, where the full skin has it. */
 static void expect_same(const scene *s, const uint32_t *point_of) {
-  enum { MOST = 64 };
-  sbf_vec3 full[MOST], few[MOST], normals[MOST];
-  uint32_t vertices[MOST];
-  ck_assert_uint_eq(sbr_model_level_vertices(s->model, 0, 1, vertices, MOST), 8);
-  uint32_t count = sbr_character_skin(s->world, s->character, 0, full, NULL, NULL, MOST);
+  enum { MAX = 64 };
+  sbf_vec3 full[MAX], few[MAX], normals[MAX];
+  uint32_t vertices[MAX];
+  ck_assert_uint_eq(sbr_model_level_vertices(s->model, 0, 1, vertices, MAX), 8);
+  uint32_t count = sbr_character_skin(s->world, s->character, 0, full, NULL, NULL, MAX);
   ck_assert_uint_eq(count, 56);
   memset(few, 0x55, sizeof few);
-  ck_assert_uint_eq(sbr_character_level_skin(s->world, s->character, 0, 1, few, normals, NULL, MOST), 8);
+  ck_assert_uint_eq(sbr_character_level_skin(s->world, s->character, 0, 1, few, normals, NULL, MAX), 8);
   for (uint32_t i = 0; i < 8; i++) {
     bool known = false;
     for (int k = 0; k < 8; k++) known |= point_of[k] == vertices[i];
@@ -107,12 +107,12 @@ START_TEST(skinned_as_the_full_mesh_is)
   mesh->skin = skin;
   s.character_definition.heading = 0.7f;
   scene_start(&s);
-  enum { MOST = 64 };
-  sbf_vec3 full[MOST], few[MOST];
-  uint32_t vertices[MOST];
-  sbr_model_level_vertices(s.model, 0, 1, vertices, MOST);
-  sbr_character_skin(s.world, s.character, 0, full, NULL, NULL, MOST);
-  ck_assert_uint_eq(sbr_character_level_skin(s.world, s.character, 0, 1, few, NULL, NULL, MOST), 8);
+  enum { MAX = 64 };
+  sbf_vec3 full[MAX], few[MAX];
+  uint32_t vertices[MAX];
+  sbr_model_level_vertices(s.model, 0, 1, vertices, MAX);
+  sbr_character_skin(s.world, s.character, 0, full, NULL, NULL, MAX);
+  ck_assert_uint_eq(sbr_character_level_skin(s.world, s.character, 0, 1, few, NULL, NULL, MAX), 8);
   for (uint32_t i = 0; i < 8; i++) ck_assert_mem_eq(&few[i], &full[vertices[i]], sizeof *few);
   scene_free(&s);
 }

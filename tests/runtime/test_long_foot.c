@@ -4,7 +4,7 @@
 #include "harness.h"
 #include "math/quat.h"
 
-static const float TICK_S = 1.0f / 60, MOST = 4.6f * 3.14159265f / 180; /* rad a tick in a tick */
+static const float TICK_S = 1.0f / 60, MAX = 4.6f * 3.14159265f / 180; /* rad a tick in a tick */
 
 /* A leg of two bones of 1 m, its hip 1 m up, and a foot 0.8 m high that stands upright before it on its toe.
  */
@@ -78,19 +78,19 @@ START_TEST(a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it)
 {
   sbri_leg leg = long_legged();
   sbri_foot foot = standing();
-  float before = 0, most = 0;
+  float before = 0, max = 0;
   for (int i = 0; i < 60; i++) {
     float ahead = i < 20 ? 1.2f : 1.6f; /* the body is thrown back in one tick */
     sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_TICK);
     ck_assert_float_eq_tol(sbri_length(sbri_sub(ankle, sbri_vec3(0, 0.1f, ahead))), 0.8f, 1e-4f);
     ck_assert_float_eq_tol(sbri_knee_angle(&leg, 1, from_hip(ankle, 1)), foot.knee, 2e-3f);
-    if (i > 2) most = fmaxf(most, fabsf(foot.knee_rate - before) * TICK_S);
+    if (i > 2) max = fmaxf(max, fabsf(foot.knee_rate - before) * TICK_S);
     before = foot.knee_rate;
     sbf_vec3 again = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_NOT); /* the same pose once more */
     ck_assert_float_le(sbri_length(sbri_sub(again, ankle)), 1e-5f);
   }
-  ck_assert_float_le(most, MOST);
-  ck_assert_float_gt(most, 0.5f * MOST);
+  ck_assert_float_le(max, MAX);
+  ck_assert_float_gt(max, 0.5f * MAX);
   ck_assert_float_eq(foot.knee, foot.knee_wanted); /* caught up */
 }
 END_TEST

@@ -20,7 +20,7 @@ START_TEST(cloth_does_not_go_into_a_ball)
   for (int i = 0; i < 2 * HEIGHTS; i++) {
     scene s = meeting_begin(weight);
     float thick = thicknesses[_i % 3], height = heights[i % HEIGHTS], aside = i < HEIGHTS ? 0 : 1;
-    double most = -9;
+    double max = -9;
     scene_bodies(&s, 1);
     collision_sheet(
         &s, 0, (sbf_vec3){0.13f * aside, RADIUS + thick + height, 0.07f * aside}, 1, cells[_i / 3], false);
@@ -33,12 +33,12 @@ START_TEST(cloth_does_not_go_into_a_ball)
     scene_ticks(&s, (int)(60 * sqrtf(2 * height / 9.81f)) - 6);
     for (int tick = 0; tick < 40; tick++) {
       scene_ticks(&s, 1);
-      most = fmax(most, meeting_deepest(&s));
+      max = fmax(max, meeting_deepest(&s));
     }
     bool coarse = cells[_i / 3] == 6 && height == 10, bare = cells[_i / 3] < 24 && thick < 0.02f;
     double may = coarse ? 7e-3 : bare ? 3.5e-3 : 3e-3;
-    ck_assert_msg(most <= may - (double)thick, "%u cells, %g m thick, from %g m, %g m aside: %g m in",
-        cells[_i / 3], (double)thick, (double)height, 0.13 * (double)aside, most);
+    ck_assert_msg(max <= may - (double)thick, "%u cells, %g m thick, from %g m, %g m aside: %g m in",
+        cells[_i / 3], (double)thick, (double)height, 0.13 * (double)aside, max);
     scene_free(&s);
   }
 }

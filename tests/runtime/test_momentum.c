@@ -11,7 +11,7 @@
 #include "math/vec3.h"
 #include "rigid_scenes.h"
 
-enum { LONG = 9, WIDE = 3, GRID = LONG * WIDE * WIDE, MOST_SPRINGS = 13 * GRID };
+enum { LONG = 9, WIDE = 3, GRID = LONG * WIDE * WIDE, MAX_SPRINGS = 13 * GRID };
 static const float STEP_M = 0.05f, POINT_KG = 0.02f, BOX_KG = 0.5f;
 
 typedef enum elastic { TETRAHEDRA, SPRINGS, REGIONS } elastic;
@@ -28,8 +28,8 @@ static sbf_vec3 grid_place(uint32_t i) {
 /* Each point to each neighbour of the 26. */
 static sbf_level *grid_springs(scene *s) {
   sbf_vec3 at[GRID];
-  float kg[GRID], k[MOST_SPRINGS];
-  sbf_uint2 ends[MOST_SPRINGS];
+  float kg[GRID], k[MAX_SPRINGS];
+  sbf_uint2 ends[MAX_SPRINGS];
   uint32_t count = 0;
   for (uint32_t i = 0; i < GRID; i++) at[i] = grid_place(i), kg[i] = POINT_KG;
   for (uint32_t i = 0; i < GRID; i++)

@@ -9,11 +9,11 @@
 #include "skin_depth.h"
 
 /* A cube of flesh that stands on y = 0; its skin is finer than its lattice. */
-enum { CELLS = 5, SQUARES = 6, MOST = 6 * SQUARES * SQUARES + 2 };
+enum { CELLS = 5, SQUARES = 6, MAX = 6 * SQUARES * SQUARES + 2 };
 static const float SIDE = 0.3f;
 
 typedef struct placed {
-  sbf_vec3 at[MOST], middle;
+  sbf_vec3 at[MAX], middle;
 } placed;
 
 /* Two of them, the upper one so high above the other, and so far aside. */
@@ -39,21 +39,21 @@ static scene begin(
 static placed skin_of(const scene *s, sbr_character_id who) {
   placed p = {.middle = {0, 0, 0}};
   sbr_double3 o = sbr_character_origin(s->world, who);
-  ck_assert_uint_eq(sbr_character_surface(s->world, who, 0, p.at, MOST), MOST);
-  for (uint32_t i = 0; i < MOST; i++) {
+  ck_assert_uint_eq(sbr_character_surface(s->world, who, 0, p.at, MAX), MAX);
+  for (uint32_t i = 0; i < MAX; i++) {
     p.at[i] = sbri_add(p.at[i], sbri_vec3((float)o.x, (float)o.y, (float)o.z));
-    p.middle = sbri_add_scaled(p.middle, p.at[i], 1.0f / MOST);
+    p.middle = sbri_add_scaled(p.middle, p.at[i], 1.0f / MAX);
   }
   return p;
 }
 
 static double deepest(const scene *s, const placed *a, const placed *b) {
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  double most = 0;
-  for (uint32_t v = 0; v < MOST; v++)
-    most = fmax(most,
+  double max = 0;
+  for (uint32_t v = 0; v < MAX; v++)
+    max = fmax(max,
         fmax(skin_depth(mesh, b->at, a->at[v], UINT32_MAX), skin_depth(mesh, a->at, b->at[v], UINT32_MAX)));
-  return most;
+  return max;
 }
 
 static double aside_of(const placed *lower, const placed *upper) {
@@ -63,7 +63,7 @@ static double aside_of(const placed *lower, const placed *upper) {
 /* What presses in is met as it does, so that faces are near and none looks for a way out. */
 START_TEST(a_blow_drives_no_deeper_than_faces_are_looked_for)
 {
-  double height = _i + 1, most = 0, aside = 0;
+  double height = _i + 1, max = 0, aside = 0;
   sbr_character_id upper;
   scene s = begin(8e4f, 0.2f, height, 3e-4, &upper);
   uint32_t blow = (uint32_t)(60 * sqrt(2 * height / 9.81));
@@ -71,11 +71,11 @@ START_TEST(a_blow_drives_no_deeper_than_faces_are_looked_for)
   for (int i = 0; i < 14; i++) {
     scene_ticks(&s, 1);
     placed a = skin_of(&s, s.character), b = skin_of(&s, upper);
-    most = fmax(most, deepest(&s, &a, &b));
+    max = fmax(max, deepest(&s, &a, &b));
     aside = fmax(aside, aside_of(&a, &b));
   }
-  ck_assert_double_ge(most, 0.001);
-  ck_assert_double_le(most, 0.009); /* of the 0.01 that they are looked for */
+  ck_assert_double_ge(max, 0.001);
+  ck_assert_double_le(max, 0.009); /* of the 0.01 that they are looked for */
   ck_assert_double_le(aside, 0.006);
   scene_free(&s);
 }
@@ -86,16 +86,16 @@ START_TEST(cubes_that_fall_on_each_other_stand)
 {
   sbr_character_id upper;
   scene s = begin(2e5f, 1, 0.3, _i ? 3e-4 : 0, &upper);
-  double most = 0, aside = 0;
+  double max = 0, aside = 0;
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
     if (i < 10 || (i > 40 && i % 8)) continue;
     placed a = skin_of(&s, s.character), b = skin_of(&s, upper);
-    most = fmax(most, deepest(&s, &a, &b));
+    max = fmax(max, deepest(&s, &a, &b));
     aside = fmax(aside, aside_of(&a, &b));
   }
   placed a = skin_of(&s, s.character), b = skin_of(&s, upper);
-  ck_assert_double_le(most, 0.004);
+  ck_assert_double_le(max, 0.004);
   ck_assert_double_le(aside, 0.008);
   ck_assert_double_ge((double)(b.middle.y - a.middle.y), 0.29);
   scene_free(&s);

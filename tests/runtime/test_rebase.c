@@ -22,12 +22,12 @@ START_TEST(what_flies_far_keeps_its_shape)
   s.world_definition.gravity = (sbf_vec3){pull, 0, 0};
   scene_start(&s);
   double begin = sbr_character_origin(s.world, s.character).x + (double)scene_point(&s, 0, 0).x;
-  float most = 0;
+  float max = 0;
   for (int i = 0; i < TICKS; i++) {
     scene_ticks(&s, 1);
-    most = fmaxf(most, sbr_character_health(s.world, s.character, 0).max_strain);
+    max = fmaxf(max, sbr_character_health(s.world, s.character, 0).max_strain);
   }
-  ck_assert_float_le(most, bounds[_i]); /* a centimetre at 150 m/s goes 250 times its size in a tick */
+  ck_assert_float_le(max, bounds[_i]); /* a centimetre at 150 m/s goes 250 times its size in a tick */
   sbf_vec3 at = scene_point(&s, 0, 0);
   double way = sbr_character_origin(s.world, s.character).x + (double)at.x - begin;
   double exact = 0.5 * (double)pull * SECONDS * SECONDS;

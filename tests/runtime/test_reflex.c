@@ -29,15 +29,15 @@ static float worst_limit(const scene *s) {
 
 /* How far a body goes in this tick beside its way in the one before, at most, m. */
 static float worst_jump(const scene *s, sbf_vec3 places[PARTS], sbf_vec3 ways[PARTS]) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < PARTS; b++) {
     sbf_vec3 now = rigid_state(s, b).center, was = places[b];
     sbf_vec3 way = {now.x - was.x, now.y - was.y, now.z - was.z};
     sbf_vec3 d = {way.x - ways[b].x, way.y - ways[b].y, way.z - ways[b].z};
-    most = larger(most, sqrtf(d.x * d.x + d.y * d.y + d.z * d.z));
+    max = larger(max, sqrtf(d.x * d.x + d.y * d.y + d.z * d.z));
     places[b] = now, ways[b] = way;
   }
-  return most;
+  return max;
 }
 
 /* The events of landing since the last call, and where the last of them was. */

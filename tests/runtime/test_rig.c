@@ -152,12 +152,52 @@ START_TEST(limits_of_a_joint_narrow_each_other)
 }
 END_TEST
 
+/* A foot of an octahedron: a vertex on the ground, a ring of four a half of its height above. */
+START_TEST(a_round_sole_is_as_wide_as_what_is_near_the_ground)
+{
+  enum { HAND = 16 };
+  const float radius = 0.05f, height = 0.12f;
+  sbf_asset *asset = quadruped_asset();
+  sbf_vec3 home = asset->bones.at[HAND].head, top = {home.x, height, home.z}, bottom = {home.x, 0, home.z};
+  sbf_vec3 at[6] = {bottom, {home.x - radius, height / 2, home.z}, {home.x, height / 2, home.z - radius},
+      {home.x + radius, height / 2, home.z}, {home.x, height / 2, home.z + radius}, top};
+  const uint32_t sizes[8] = {3, 3, 3, 3, 3, 3, 3, 3};
+  const uint32_t points[24] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 5, 2, 1, 5, 3, 2, 5, 4, 3, 5, 1, 4};
+  const uint32_t counts[6] = {1, 1, 1, 1, 1, 1}, bones_of[6] = {HAND, HAND, HAND, HAND, HAND, HAND};
+  const float weights[6] = {1, 1, 1, 1, 1, 1};
+  sbf_skin skin;
+  sbf_skin_init(&skin);
+  skin.influence_counts = (sbf_u32_list){counts, 6};
+  skin.bones = (sbf_u32_list){bones_of, 6};
+  skin.weights = (sbf_f32_list){weights, 6};
+  sbf_render_mesh mesh;
+  sbf_render_mesh_init(&mesh);
+  mesh.mesh =
+      (sbf_polygon_mesh){.positions = {at, 6}, .polygon_sizes = {sizes, 8}, .polygon_points = {points, 24}};
+  mesh.skin = &skin;
+  asset->render_meshes = (sbf_render_mesh_list){&mesh, 1};
+  gait_stage s;
+  gait_stage_begin(&s, asset);
+  const sbri_leg *leg = NULL;
+  for (uint32_t l = 0; l < s.rig.leg_count; l++)
+    if (s.rig.legs[l].foot == HAND) leg = &s.rig.legs[l];
+  ck_assert_ptr_nonnull(leg);
+  /* At 6 % of its height it is 12 % of its ring. */
+  for (int k = 0; k < 4; k++) {
+    const sbf_vec3 corner = leg->sole.corners[k];
+    ck_assert_float_eq_tol(fabsf(corner.x) + fabsf(corner.z), 0.12f * radius, 1e-5f);
+  }
+  gait_stage_end(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("rig");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, legs_are_three_bones_or_a_peg_or_have_a_toe);
   tcase_add_test(tests, a_character_walks_on_pegs);
   tcase_add_test(tests, limits_of_a_joint_narrow_each_other);
+  tcase_add_test(tests, a_round_sole_is_as_wide_as_what_is_near_the_ground);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

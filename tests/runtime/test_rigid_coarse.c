@@ -34,27 +34,27 @@ static scene begin(bool whole, bool stairs, bool coarse) {
 }
 
 static float fastest(const scene *s, uint32_t parts) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < parts; b++) {
     sbf_vec3 v = rigid_state(s, b).velocity;
-    most = larger(most, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
+    max = larger(max, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
   }
-  return most;
+  return max;
 }
 
 /* How deep the lowest corner is in level ground. */
 static float depth(const scene *s, uint32_t parts) {
   const sbri_rigid_model *model = &s->model->rigid;
-  float least = 0;
+  float min = 0;
   double o = sbr_character_origin(s->world, s->character).y;
   for (uint32_t b = 0; b < parts; b++) {
     const sbr_transform *pose = &sbri_rigid_bodies(&s->world->characters[0])[b].pose;
     for (uint32_t i = 0; i < model->bodies[b].vertex_count; i++) {
       sbf_vec3 at = sbri_rotate(pose->rotation, model->bodies[b].vertices[i]);
-      least = fminf(least, (float)(o + (double)pose->position.y + (double)at.y));
+      min = fminf(min, (float)(o + (double)pose->position.y + (double)at.y));
     }
   }
-  return -least;
+  return -min;
 }
 
 static fall falls(bool whole, bool stairs, bool coarse, sbf_vec3 shove) {

@@ -37,7 +37,7 @@ static double apart(const scene *a, const scene *b, uint32_t body) {
 START_TEST(flight_takes_few_steps)
 {
   scene s = thrown(SHOVES[_i], 0), fine = thrown(SHOVES[_i], FINE);
-  static const uint32_t most[2] = {TICKS * 11 / 10, TICKS * 16 / 10};
+  static const uint32_t max[2] = {TICKS * 11 / 10, TICKS * 16 / 10};
   uint32_t steps = 0;
   float off = 0, beyond = 0;
   double worst = 0;
@@ -51,7 +51,7 @@ START_TEST(flight_takes_few_steps)
     }
     for (uint32_t b = 0; b < ALL_PARTS; b++) worst = fmax(worst, apart(&s, &fine, b));
   }
-  ck_assert_uint_le(steps, most[_i]);
+  ck_assert_uint_le(steps, max[_i]);
   ck_assert_float_le(off, 3e-5f);
   ck_assert_float_le(beyond, 0.00349f);
   ck_assert_double_le(worst, 0.04);
@@ -79,13 +79,13 @@ START_TEST(steps_go_back_after_a_strike)
   s.world_definition.sleep_after_s = 0;
   scene_start(&s);
   person_shove(&s, 1, (sbf_vec3){40, 0, _i ? -150 : 110});
-  uint32_t steps = 0, most = 0;
+  uint32_t steps = 0, max = 0;
   for (int t = 0; t < 2 * TICKS; t++) {
     sbr_world_tick(s.world);
     steps += steps_of(&s);
-    most = steps_of(&s) > most ? steps_of(&s) : most;
+    max = steps_of(&s) > max ? steps_of(&s) : max;
   }
-  ck_assert_uint_ge(most, 8);
+  ck_assert_uint_ge(max, 8);
   ck_assert_uint_le(steps, 2 * TICKS * 9 / 2);
   scene_free(&s);
 }

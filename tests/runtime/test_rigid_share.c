@@ -68,10 +68,10 @@ static float spin(const scene *s, uint32_t body) {
 /* Where the drive and the weight are even: the drive as a spring, or cut at its strength. */
 static float even(float share) {
   sbr_rigid_drive drive = sbr_default_rigid_drive();
-  float w = TURN * drive.frequency_hz, spring = share * MOMENT * w * w, most = share * drive.strength;
-  if (most < 1) {
-    float cut = acosf(most);
-    if (spring * cut >= most * KG * G * REACH_M) return cut;
+  float w = TURN * drive.frequency_hz, spring = share * MOMENT * w * w, max = share * drive.strength;
+  if (max < 1) {
+    float cut = acosf(max);
+    if (spring * cut >= max * KG * G * REACH_M) return cut;
   }
   float angle = 0;
   for (int i = 0; i < 50; i++) angle = KG * G * REACH_M * cosf(angle) / spring;
@@ -228,7 +228,7 @@ END_TEST
 
 /* What an arm's turning may change by in a tick: what weight, a whole drive and the damping of both can do.
  */
-static float most_change(float damped_rad_s) {
+static float max_change(float damped_rad_s) {
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   float about_end = KG * REACH_M * REACH_M; /* less than its own moment about the joint */
   return (KG * G * REACH_M * (1 + drive.strength) / about_end + drive.joint_damping_1_s * damped_rad_s) / 60;
@@ -249,7 +249,7 @@ START_TEST(shares_change_without_a_jump)
     scene_ticks(&s, 1);
     for (uint32_t i = 0; i < ARMS; i++) {
       float now = spin(&s, i + 1), place = sag(&s, i + 1), faster = fmaxf(now, before[i]);
-      ck_assert_float_le(fabsf(now - before[i]), most_change(faster));
+      ck_assert_float_le(fabsf(now - before[i]), max_change(faster));
       ck_assert_float_le(fabsf(place - was[i]), 1.1f * faster / 60 + 1e-3f);
       before[i] = now, was[i] = place;
       lowest = fmaxf(lowest, place);
@@ -271,7 +271,7 @@ START_TEST(what_is_let_go_keeps_its_speed)
   float kept = spin(&s, 1);
   ck_assert_float_ge(kept, 0.9f * SWING * TURN * HZ);
   scene_ticks(&s, 1);
-  ck_assert_float_le(fabsf(spin(&s, 1) - kept), most_change(kept));
+  ck_assert_float_le(fabsf(spin(&s, 1) - kept), max_change(kept));
   scene_free(&s);
 }
 END_TEST

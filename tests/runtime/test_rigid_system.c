@@ -45,7 +45,7 @@ START_TEST(light_chains_hold_heavy_bobs)
 }
 END_TEST
 
-static void falls_from_level(float ratio, int ticks, double most_apart, double most_drift) {
+static void falls_from_level(float ratio, int ticks, double max_apart, double max_drift) {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
   chain(&s, 10, ratio, (float)(PI / 2));
@@ -56,8 +56,8 @@ static void falls_from_level(float ratio, int ticks, double most_apart, double m
     worst = fmax(worst, (double)worst_apart(&s, 10));
     drift = fmax(drift, fabs(rigid_energy(&s, 10) - begin) / (mass * 9.81 * 2));
   }
-  ck_assert_double_le(worst, most_apart);
-  ck_assert_double_le(drift, most_drift);
+  ck_assert_double_le(worst, max_apart);
+  ck_assert_double_le(drift, max_drift);
   scene_free(&s);
 }
 
@@ -165,14 +165,14 @@ START_TEST(a_net_holds)
   rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, -1, 0, (sbf_vec3){0, 0, 0}, rigid_along_x);
   scene_start(&s);
   float apart = 0;
-  double began = rigid_energy(&s, SIDE * SIDE), most = 0;
+  double began = rigid_energy(&s, SIDE * SIDE), max = 0;
   for (int i = 0; i < 300; i++) {
     sbr_world_tick(s.world);
     for (uint32_t j = 0; j < s.asset->joints.count; j++) apart = fmaxf(apart, rigid_joint_state(&s, j).apart);
-    most = fmax(most, fabs(rigid_energy(&s, SIDE * SIDE) - began));
+    max = fmax(max, fabs(rigid_energy(&s, SIDE * SIDE) - began));
   }
   ck_assert_float_le(apart, 2e-4f);
-  ck_assert_double_le(most, 2); /* of 7 J, by which it falls until its middle hangs below */
+  ck_assert_double_le(max, 2); /* of 7 J, by which it falls until its middle hangs below */
   scene_free(&s);
 }
 END_TEST

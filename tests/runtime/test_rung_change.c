@@ -62,14 +62,14 @@ START_TEST(energy_does_not_rise_and_the_motion_goes_on)
   sbr_world_step(s.world, 1e-9); /* nothing but the change, and a tick */
   ck_assert_msg(rung_scene_elastic(&s) < 1.5 * elastic, "%g J to %g", elastic, rung_scene_elastic(&s));
   ck_assert_msg(rung_scene_kinetic(&s) < 1.1 * kinetic, "%g J to %g", kinetic, rung_scene_kinetic(&s));
-  double most = 0;
+  double max = 0;
   for (int t = 0; t < 120; t++) {
     rung_scene_ticks(&s, &other, 1);
-    most = fmax(most, rung_scene_elastic(&s));
+    max = fmax(max, rung_scene_elastic(&s));
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);
   }
   ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
-  ck_assert_msg(most < 2 * fmax(elastic, rung_scene_elastic(&other)), "%g J up to %g", elastic, most);
+  ck_assert_msg(max < 2 * fmax(elastic, rung_scene_elastic(&other)), "%g J up to %g", elastic, max);
   ck_assert_msg(rung_scene_apart(&s, &other) < 2e-3, "%g m", rung_scene_apart(&s, &other));
   scene_free(&s);
   scene_free(&other);
@@ -169,19 +169,19 @@ START_TEST(jiggle_follows_its_bone)
   ck_assert_msg(steady < 2e-3, "%g m", steady); /* it turns: its middle speeds up by 0.4 m/s^2 */
   sbr_character_drive(s.world, s.character, -0.5f, 0, 0);
   sbr_character_drive(bones.world, bones.character, -0.5f, 0, 0);
-  double most = 0;
+  double max = 0;
   for (int t = 0; t < 60; t++) {
     scene_ticks(&s, 1);
     scene_ticks(&bones, 1);
     count = rung_scene_skin(&s, a);
     rung_scene_skin(&bones, b);
-    most = fmax(most, rung_scene_farthest(a, b, count));
+    max = fmax(max, rung_scene_farthest(a, b, count));
     sbf_vec3 off = {a[0].x - b[0].x, a[0].y - b[0].y, a[0].z - b[0].z};
     for (uint32_t v = 0; v < count; v++) { /* as one piece */
       ck_assert(fabsf(a[v].x - b[v].x - off.x) < 1e-5f && fabsf(a[v].z - b[v].z - off.z) < 1e-5f);
     }
   }
-  ck_assert_msg(most > 3e-3 && most < 3e-2, "%g m", most);
+  ck_assert_msg(max > 3e-3 && max < 3e-2, "%g m", max);
   for (int t = 0; t < 300; t++) scene_ticks(&s, 1), scene_ticks(&bones, 1);
   rung_scene_skin(&s, a);
   rung_scene_skin(&bones, b);

@@ -63,7 +63,7 @@ START_TEST(who_is_alone_is_bones_and_comes_back_before_it_is_met)
 {
   pair p = make(NULL, true);
   uint32_t contacts = 0;
-  double most[2] = {0, 0}, nearest = APART_M;
+  double max[2] = {0, 0}, nearest = APART_M;
   bool was_bones = false;
   for (int t = 0; t < 900; t++) {
     go(&p, t, 0.05);
@@ -75,7 +75,7 @@ START_TEST(who_is_alone_is_bones_and_comes_back_before_it_is_met)
       uint32_t rung = sbr_character_rung(p.s.world, p.ids[k]);
       was_bones = was_bones || (t < 120 && rung == RUNG_BONES);
       if (apart < 0.4) ck_assert_msg(rung <= RUNG_COARSE, "%d on %u at %g m", k, rung, apart);
-      if (apart < 0.22) most[k] = fmax(most[k], bent(&p, k));
+      if (apart < 0.22) max[k] = fmax(max[k], bent(&p, k));
       ck_assert(sbr_character_health(p.s.world, p.ids[k], 0).finite);
     }
   }
@@ -84,7 +84,7 @@ START_TEST(who_is_alone_is_bones_and_comes_back_before_it_is_met)
   ck_assert_msg(nearest < 0.16, "%g m", nearest);
   for (int k = 0; k < 2; k++) {
     ck_assert_uint_eq(sbr_character_rung(p.s.world, p.ids[k]), RUNG_BONES);
-    ck_assert_msg(most[k] > 0.05, "%g J", most[k]);
+    ck_assert_msg(max[k] > 0.05, "%g J", max[k]);
   }
   scene_free(&p.s);
 }
@@ -115,21 +115,21 @@ END_TEST
 START_TEST(who_touches_changes_its_lattice_and_goes_on_touching)
 {
   pair p = make(NULL, false), stays = make(NULL, false);
-  double most = 0, most_staying = 0, least = 1e9;
+  double max = 0, max_staying = 0, min = 1e9;
   for (int t = 0; t < 470; t++) {
     go(&p, t, 0.05), go(&stays, t, 0.05);
     if (t > 380 && t % 20 == 0) sbr_character_set_rung(p.s.world, p.ids[0], t / 20 % 2);
     scene_ticks(&p.s, 1), scene_ticks(&stays.s, 1);
     if (t <= 380) continue;
     for (int k = 0; k < 2; k++) {
-      most = fmax(most, bent(&p, k)), most_staying = fmax(most_staying, bent(&stays, k));
-      least = fmin(least, bent(&p, k));
+      max = fmax(max, bent(&p, k)), max_staying = fmax(max_staying, bent(&stays, k));
+      min = fmin(min, bent(&p, k));
       sbr_body_health health = sbr_character_health(p.s.world, p.ids[k], 0);
       ck_assert(health.finite && health.recoveries == 0);
     }
   }
-  ck_assert_msg(most < 2.5 * most_staying, "%g J, %g without a change", most, most_staying);
-  ck_assert_msg(least > 0.02, "%g J", least); /* nobody goes through the other */
+  ck_assert_msg(max < 2.5 * max_staying, "%g J, %g without a change", max, max_staying);
+  ck_assert_msg(min > 0.02, "%g J", min); /* nobody goes through the other */
   scene_free(&p.s), scene_free(&stays.s);
 }
 END_TEST

@@ -64,7 +64,7 @@ static void end(swinging *w) {
 static double jump(int motion, uint32_t from, uint32_t to, int at) {
   swinging w = begin(motion, from, at - 20), stays = begin(motion, from, at - 20),
            bones = begin(motion, RUNG_BONES, at - 20);
-  double most = 0, reach = 1e-6;
+  double max = 0, reach = 1e-6;
   for (int t = at - 20; t < at; t++) {
     swing(&w, t, 1), swing(&stays, t, 1), swing(&bones, t, 1);
     reach = fmax(reach, rung_scene_apart(&stays.s, &bones.s));
@@ -72,12 +72,12 @@ static double jump(int motion, uint32_t from, uint32_t to, int at) {
   sbr_character_set_rung(w.s.world, w.s.character, to);
   for (int t = at; t < at + 2; t++) {
     swing(&w, t, 1), swing(&stays, t, 1);
-    most = fmax(most, rung_scene_apart(&w.s, &stays.s));
+    max = fmax(max, rung_scene_apart(&w.s, &stays.s));
     if (sbr_character_fade(w.s.world, w.s.character) < 1) break;
   }
   ck_assert(sbr_character_fade(w.s.world, w.s.character) < 1);
   end(&w), end(&stays), end(&bones);
-  return reach > 1e-3 ? most / reach : 0; /* a jiggle does not feel what strikes it */
+  return reach > 1e-3 ? max / reach : 0; /* a jiggle does not feel what strikes it */
 }
 
 START_TEST(hardly_anything_of_a_swing_jumps)

@@ -85,7 +85,7 @@ START_TEST(a_stiff_body_is_stepped_explicitly)
   ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_symplectic);
   ck_assert_uint_gt(sbr_model_substeps(s.model), 256);
   scene_ticks(&s, 10);
-  ck_assert_uint_eq(sbri_island_states(&s.world->characters[0])[0].recovering, 0);
+  ck_assert_uint_eq(sbri_island_states(&s.world->characters[0])[0].recovery.ticks, 0);
   ck_assert(sbr_character_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }

@@ -207,13 +207,13 @@ START_TEST(elements_may_be_listed_the_other_way_round)
       ck_assert_uint_le(count, 128);
       scene_free(&s);
     }
-    float most = 0;
+    float max = 0;
     for (uint32_t i = 0; i < count; i++)
-      most = fmaxf(
-          most, fmaxf(fabsf(places[1][i].x - places[0][i].x),
-                    fmaxf(fabsf(places[1][i].y - places[0][i].y), fabsf(places[1][i].z - places[0][i].z))));
+      max = fmaxf(
+          max, fmaxf(fabsf(places[1][i].x - places[0][i].x),
+                   fmaxf(fabsf(places[1][i].y - places[0][i].y), fabsf(places[1][i].z - places[0][i].z))));
     static const float within[SCHEME_COUNT] = {2e-6f, 2e-6f, 2e-4f, 2e-6f, 2e-6f, 2e-5f, 1e-2f};
-    ck_assert_msg(most < within[_i], "solid %d: %g m", solid, (double)most);
+    ck_assert_msg(max < within[_i], "solid %d: %g m", solid, (double)max);
   }
 }
 END_TEST

@@ -189,14 +189,14 @@ END_TEST
 /* However coarse the error that is asked for, or fine: as with just so many substeps, powers of two. */
 START_TEST(heun_keeps_the_bounds_of_the_file)
 {
-  const uint32_t least[] = {48, 0, 0, 0}, most[] = {0, 9, 0, 0}, of_host[] = {0, 0, 64, 8};
+  const uint32_t min[] = {48, 0, 0, 0}, max[] = {0, 9, 0, 0}, of_host[] = {0, 0, 64, 8};
   const float error[] = {1, 1e-9f, 1e-3f, 1e-3f};
   float places[4];
   for (int k = 0; k < 4; k++) {
     scene s = oscillator(HEUN, of_host[k]);
     sbf_simulation *simulation = &((sbf_level *)scene_body(&s, 0)->levels.at)->simulation;
     simulation->step_error = error[k];
-    simulation->substeps_least = least[k], simulation->substeps_most = most[k];
+    simulation->substeps_least = min[k], simulation->substeps_most = max[k];
     scene_start(&s);
     scene_ticks(&s, 45);
     places[k] = scene_point(&s, 0, 1).x;

@@ -52,9 +52,9 @@ static scene folded_strip(bool meets, float friction) {
 }
 
 /* Of the upper leg's points the least height over the lower leg's at the same distance from the bend. */
-static double least_gap(const scene *s) {
+static double min_gap(const scene *s) {
   sbf_vec3 at[POINTS];
-  double least = 1e9;
+  double min = 1e9;
   scene_read(s, 0, at, POINTS);
   for (int u = 28; u < LONG; u++)
     for (int w = 0; w < WIDE; w++)
@@ -62,29 +62,29 @@ static double least_gap(const scene *s) {
         sbf_vec3 p = at[u * WIDE + w], a = at[k * WIDE + w], b = at[(k + 1) * WIDE + w];
         float t = (p.x - a.x) / (b.x - a.x);
         if (!(t >= 0 && t <= 1)) continue;
-        least = fmin(least, (double)(p.y - (a.y + t * (b.y - a.y))));
+        min = fmin(min, (double)(p.y - (a.y + t * (b.y - a.y))));
       }
-  return least;
+  return min;
 }
 
 /* The upper leg, which nothing holds at its end, falls onto the lower one and lies there; without `self` it
  * falls through. */
 START_TEST(a_folding_strip_lies_on_itself)
 {
-  double least[2] = {1e9, 1e9}, end[2];
+  double min[2] = {1e9, 1e9}, end[2];
   for (int meets = 0; meets < 2; meets++) {
     scene s = folded_strip(meets, 1);
     for (int i = 0; i < 40; i++) {
       scene_ticks(&s, 1);
-      least[meets] = fmin(least[meets], least_gap(&s));
+      min[meets] = fmin(min[meets], min_gap(&s));
     }
-    end[meets] = least_gap(&s);
+    end[meets] = min_gap(&s);
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);
     ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
     scene_free(&s);
   }
-  ck_assert_double_lt(least[0], -0.01);
-  ck_assert_double_ge(least[1], 0.002);
+  ck_assert_double_lt(min[0], -0.01);
+  ck_assert_double_ge(min[1], 0.002);
   ck_assert_double_ge(end[1], 0.003);
 }
 END_TEST
@@ -107,7 +107,7 @@ START_TEST(a_folded_strip_lies_still)
       ck_assert_float_le(60 * sbri_length(sbri_sub(now[k], before[k])), 1e-3f);
   }
   for (int k = FIRST; k < POINTS; k++) ck_assert_float_le(sbri_length(sbri_sub(now[k], begin[k])), 1e-4f);
-  ck_assert_double_ge(least_gap(&s), 0.0049);
+  ck_assert_double_ge(min_gap(&s), 0.0049);
   scene_free(&s);
 }
 END_TEST

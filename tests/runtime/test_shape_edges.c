@@ -24,14 +24,14 @@ static sbr_shape *beam_of(int kind) {
 /* Height of the lowest of the sheet's sides along x where they are over the beam's middle. */
 static float over(const scene *s) {
   sbf_vec3 at[ROW * ROW];
-  float least = 9;
+  float min = 9;
   scene_read(s, 0, at, ROW * ROW);
   for (uint32_t i = 0; i < ROW * ROW; i++) {
     if (i % ROW == CELLS || at[i].x * at[i + 1].x > 0) continue;
     float share = at[i].x / (at[i].x - at[i + 1].x);
-    least = fminf(least, at[i].y + share * (at[i + 1].y - at[i].y));
+    min = fminf(min, at[i].y + share * (at[i + 1].y - at[i].y));
   }
-  return least;
+  return min;
 }
 
 /* Four points a side, none over the beam: it hangs over it for a second and a half, where it fell past it. */

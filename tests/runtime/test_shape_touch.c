@@ -14,16 +14,16 @@ static scene begin(void) {
 
 enum { CELLS = 24, POINTS = (CELLS + 1) * (CELLS + 1) };
 
-static double least_distance(const scene *s, sbf_vec3 center) {
+static double min_distance(const scene *s, sbf_vec3 center) {
   sbf_vec3 at[POINTS];
-  double least = 1e9;
+  double min = 1e9;
   uint32_t count = scene_read(s, 0, at, POINTS);
   for (uint32_t i = 0; i < count; i++) {
     double x = (double)(at[i].x - center.x), y = (double)(at[i].y - center.y),
            z = (double)(at[i].z - center.z);
-    least = fmin(least, sqrt(x * x + y * y + z * z));
+    min = fmin(min, sqrt(x * x + y * y + z * z));
   }
-  return least;
+  return min;
 }
 
 /* No point within the ball, on the way or at the end; it hangs on it. */
@@ -37,7 +37,7 @@ START_TEST(cloth_lies_over_a_ball)
   collision_collider(&s, shape, (sbr_double3){0, 0, 0});
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
-    ck_assert_double_ge(least_distance(&s, (sbf_vec3){0, 0, 0}), 0.3 - 1e-4);
+    ck_assert_double_ge(min_distance(&s, (sbf_vec3){0, 0, 0}), 0.3 - 1e-4);
   }
   sbf_vec3 middle = scene_point(&s, 0, POINTS / 2);
   ck_assert_double_ge((double)middle.y, 0.25);
@@ -66,9 +66,9 @@ START_TEST(no_point_goes_into_a_ball)
     scene_ticks(&s, falls - 6);
     for (int tick = 0; tick < 40; tick++) {
       scene_ticks(&s, 1);
-      double least = least_distance(&s, (sbf_vec3){0, 0, 0});
-      ck_assert_msg(least >= 0.3 + (double)thick - 1e-4, "%u cells, %g m thick, from %g m: %g m off",
-          cells[_i], (double)thick, (double)height, least);
+      double min = min_distance(&s, (sbf_vec3){0, 0, 0});
+      ck_assert_msg(min >= 0.3 + (double)thick - 1e-4, "%u cells, %g m thick, from %g m: %g m off", cells[_i],
+          (double)thick, (double)height, min);
     }
     scene_free(&s);
   }

@@ -30,10 +30,10 @@ START_TEST(the_skin_lies_at_rest_to_begin_with)
 {
   scene s = box(3);
   scene_start(&s);
-  enum { MOST = 128 };
-  sbf_vec3 positions[MOST], normals[MOST];
+  enum { MAX = 128 };
+  sbf_vec3 positions[MAX], normals[MAX];
   const sbf_vec3_list *rest = &s.asset->render_meshes.at[0].mesh.positions;
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, positions, normals, NULL, MOST), rest->count);
+  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, positions, normals, NULL, MAX), rest->count);
   for (uint32_t i = 0; i < rest->count; i++) {
     ck_assert_float_le(distance(positions[i], rest->at[i]), 1e-6f);
     ck_assert_float_eq_tol(sbri_length(normals[i]), 1, 1e-6f);

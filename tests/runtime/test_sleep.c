@@ -161,13 +161,13 @@ START_TEST(what_moves_it_wakes_it)
   scene_ticks(&s, 20);
   ck_assert_uint_eq(sbr_world_awake(s.world), 0);
   float before = scene_point(&s, 0, 3).y;
-  uint32_t most = 0;
+  uint32_t max = 0;
   causes[_i].act(&s);
   for (int i = 0; i < 6; i++) {
     scene_ticks(&s, 1);
-    most = sbr_world_awake(s.world) > most ? sbr_world_awake(s.world) : most;
+    max = sbr_world_awake(s.world) > max ? sbr_world_awake(s.world) : max;
   }
-  ck_assert_uint_ge(most, causes[_i].awake);
+  ck_assert_uint_ge(max, causes[_i].awake);
   scene_ticks(&s, 300);
   float moved = scene_point(&s, 0, 3).y - before;
   if (causes[_i].act == raise_ground) ck_assert_float_eq_tol(moved, 0.02f, 0.003f);

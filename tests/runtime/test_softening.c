@@ -63,12 +63,12 @@ START_TEST(no_more_than_the_budget_asks_for)
   const sbri_island *island = &s.model->islands[0];
   uint32_t substeps = sbr_model_substeps(s.model);
   ck_assert_ptr_eq(island->scheme, &sbri_symplectic);
-  ck_assert_uint_le(substeps, SBRI_MOST_SUBSTEPS);
+  ck_assert_uint_le(substeps, SBRI_MAX_SUBSTEPS);
   if (_i == 0) {
     ck_assert_float_eq(island->softened_bulk, 1);
     ck_assert_float_eq(island->softened_shear, 1);
   } else {
-    ck_assert_uint_ge(substeps, 96 * SBRI_MOST_SUBSTEPS / 100);
+    ck_assert_uint_ge(substeps, 96 * SBRI_MAX_SUBSTEPS / 100);
     ck_assert_float_lt(island->softened_bulk, 1);
   }
   if (_i == 1) ck_assert_float_gt(island->softened_shear, 0.2f); /* the bulk modulus goes first */

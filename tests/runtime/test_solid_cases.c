@@ -127,12 +127,12 @@ START_TEST(errors_fall_with_the_order)
 {
   /* 1 for all but Heun's method, which has 2. */
   static const double orders[] = {1, 1, 2, 1};
-  static const uint32_t least[] = {16, 64, 16, 256};
+  static const uint32_t min[] = {16, 64, 16, 256};
   static sbf_vec3 exact[64], places[64];
   double errors[2] = {0, 0};
   swing(SBF_SCHEME_HEUN, 512, exact);
   for (uint32_t n = 0; n < 2; n++) {
-    swing(schemes[_i], least[_i] << n, places);
+    swing(schemes[_i], min[_i] << n, places);
     for (uint32_t i = 0; i < box.point_count; i++) {
       double off = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(places[i]), sbfi_d3_of(exact[i])));
       errors[n] = off > errors[n] ? off : errors[n];

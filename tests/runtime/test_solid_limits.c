@@ -53,15 +53,15 @@ START_TEST(strains_stay_within_their_limits)
   attributes()->damping_ratio = 0.5f;
   s.model_options.scheme = schemes[_i];
   scene_start(&s);
-  float most = 0;
+  float max = 0;
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
     sbr_body_health health = sbr_character_health(s.world, s.character, 0);
     ck_assert(health.finite);
-    most = i > 30 && health.max_strain > most ? health.max_strain : most;
+    max = i > 30 && health.max_strain > max ? health.max_strain : max;
   }
-  ck_assert_float_gt(most, 0.09f); /* it leans on the wall */
-  ck_assert_float_lt(most, 0.15f); /* one sweep leaves a little */
+  ck_assert_float_gt(max, 0.09f); /* it leans on the wall */
+  ck_assert_float_lt(max, 0.15f); /* one sweep leaves a little */
   end();
 }
 END_TEST

@@ -120,11 +120,11 @@ static uint32_t count_parts(void) {
   for (bool changed = true; changed;) {
     changed = false;
     for (uint32_t t = 0; t < box.tetrahedron_count; t++) {
-      uint32_t least = UINT32_MAX;
+      uint32_t min = UINT32_MAX;
       if (torn[t]) continue;
-      for (uint32_t k = 0; k < 4; k++) least = group[corner(t, k)] < least ? group[corner(t, k)] : least;
+      for (uint32_t k = 0; k < 4; k++) min = group[corner(t, k)] < min ? group[corner(t, k)] : min;
       for (uint32_t k = 0; k < 4; k++)
-        if (group[corner(t, k)] != least) group[corner(t, k)] = least, changed = true;
+        if (group[corner(t, k)] != min) group[corner(t, k)] = min, changed = true;
     }
   }
   for (uint32_t i = 0; i < slots; i++) {

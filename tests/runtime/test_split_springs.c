@@ -95,9 +95,9 @@ static uint32_t count_parts(void) {
       const sbri_link_block *link = &island.links[i / SBRI_BLOCK];
       uint32_t a = link->a[i % SBRI_BLOCK], b = link->b[i % SBRI_BLOCK];
       if (a == b || !(strengths[i] > 0)) continue;
-      uint32_t least = group[a] < group[b] ? group[a] : group[b];
+      uint32_t min = group[a] < group[b] ? group[a] : group[b];
       changed = changed || group[a] != group[b];
-      group[a] = group[b] = least, whole++;
+      group[a] = group[b] = min, whole++;
     }
   }
   for (uint32_t slot = 0; slot < island.free_count; slot++) {

@@ -65,18 +65,18 @@ START_TEST(a_step_of_the_place_squashes_exactly_at_any_tick)
   static const int times_ms[] = {1, 4, 17, 33, 100, 250};
   for (size_t k = 0; k < sizeof times_ms / sizeof *times_ms; k++) {
     gait_stage s;
-    double h = 0.001 * times_ms[k], least = 1, most = 1;
+    double h = 0.001 * times_ms[k], min = 1, max = 1;
     begin(&s, (float)h, 1);
     for (int i = 1; i * h < 2.5; i++) {
       double is = (double)tick(&s);
       ck_assert_double_eq_tol(is, expected(i * h, h), 3e-4);
-      least = is < least ? is : least, most = is > most ? is : most;
+      min = is < min ? is : min, max = is > max ? is : max;
       ck_assert_double_gt(is, 1 / (1 + (double)LIMIT));
       ck_assert_double_lt(is, 1 + (double)LIMIT);
     }
     if (h < 0.05) { /* pressed as it is thrown up, then longer; over a quarter of a second it goes gently */
-      ck_assert_double_lt(least, 0.8);
-      ck_assert_double_gt(most, 1.1);
+      ck_assert_double_lt(min, 0.8);
+      ck_assert_double_gt(max, 1.1);
     }
     gait_stage_end(&s);
   }
@@ -169,7 +169,7 @@ START_TEST(a_host_reads_scales_at_every_frame_rate)
   const sbr_clip_play whole = {.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
   sbr_character_play(even.world, even.character, 0, 0, &whole);
   sbr_character_play(fine.world, fine.character, 0, 0, &whole);
-  float least = 1;
+  float min = 1;
   for (int i = 0; i < 60; i++) {
     sbf_vec3 a[BONES], b[BONES];
     sbr_world_step(even.world, 1.0 / 60);
@@ -182,9 +182,9 @@ START_TEST(a_host_reads_scales_at_every_frame_rate)
       ck_assert_float_eq(a[k].x, a[k].z);
       if (k) ck_assert_float_eq(a[k].y, 1);
     }
-    least = a[0].y < least ? a[0].y : least;
+    min = a[0].y < min ? a[0].y : min;
   }
-  ck_assert_float_lt(least, 0.9f);
+  ck_assert_float_lt(min, 0.9f);
   ck_assert_uint_eq(sbr_world_state_hash(even.world), sbr_world_state_hash(fine.world));
   sbf_vec3 now[BONES];
   sbr_character_reset(even.world, even.character);

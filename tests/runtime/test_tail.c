@@ -79,17 +79,17 @@ START_TEST(bones_lag_one_after_the_other_and_swing_over)
     sbri_stance stance = {.hips_yaw = 0};
     aim(&stance, about, 0.2f);
     int half_way[TAIL_BONES] = {0};
-    float most[TAIL_BONES] = {0};
+    float max[TAIL_BONES] = {0};
     for (int k = 1; k <= 1200; k++) {
       sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / 120);
       for (int b = 0; b < TAIL_BONES; b++) {
         if (!half_way[b] && bent(&t, b, about) >= 0.1f) half_way[b] = k;
-        most[b] = fmaxf(most[b], bent(&t, b, about));
+        max[b] = fmaxf(max[b], bent(&t, b, about));
       }
     }
     for (int b = 0; b < TAIL_BONES; b++) {
       ck_assert_int_gt(half_way[b], b ? half_way[b - 1] + 6 : 6);
-      ck_assert_float_gt(most[b], 0.26f);
+      ck_assert_float_gt(max[b], 0.26f);
       ck_assert_float_eq_tol(bent(&t, b, about), 0.2f, 1e-3f);
     }
     gait_stage_end(&t);

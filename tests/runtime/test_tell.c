@@ -8,12 +8,12 @@
 #include "meeting_scenes.h"
 #include "world/world.h"
 
-enum { MOST = 256 };
+enum { MAX = 256 };
 
 /* Those of the kind. */
 static uint32_t events_of(scene *s, sbr_event_kind kind, sbr_event *to) {
-  static sbr_event all[MOST];
-  uint32_t count = sbr_world_events(s->world, all, MOST), kept = 0;
+  static sbr_event all[MAX];
+  uint32_t count = sbr_world_events(s->world, all, MAX), kept = 0;
   for (uint32_t i = 0; i < count; i++)
     if (all[i].kind == kind) to[kept++] = all[i];
   return kept;
@@ -29,9 +29,9 @@ START_TEST(a_hit_says_who_where_and_how_hard)
   }
   meeting_start(&s);
   meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
-  static sbr_event all[MOST];
+  static sbr_event all[MAX];
   scene_ticks(&s, 60);
-  uint32_t count = sbr_world_events(s.world, all, MOST);
+  uint32_t count = sbr_world_events(s.world, all, MAX);
   ck_assert_uint_eq(count, 2);
   const sbr_event *hit = &all[0], *parted = &all[1];
   ck_assert_int_eq(hit->kind, SBR_EVENT_CONTACT);
@@ -68,7 +68,7 @@ START_TEST(what_rests_is_told_once)
     rigid_box(
         &s, (sbf_vec3){0, 0.1f + 0.2005f * (float)i, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1 + (float)(i % 2));
   meeting_start(&s);
-  static sbr_event all[MOST];
+  static sbr_event all[MAX];
   scene_ticks(&s, 60);
   uint32_t met = 0, count = events_of(&s, SBR_EVENT_CONTACT, all);
   for (uint32_t i = 0; i < count; i++) {
@@ -100,7 +100,7 @@ START_TEST(soft_bodies_of_others_are_named)
   above.y += 0.7; /* its box, 0.2 m above the sheet of the first */
   sbr_character_id other = meeting_another(&s, above);
   meeting_throw(&s, other, 0, (sbf_vec3){0, -2, 0});
-  static sbr_event all[MOST];
+  static sbr_event all[MAX];
   scene_ticks(&s, 8);
   ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT, all), 1);
   ck_assert_uint_eq(all[0].character.value, s.character.value);
@@ -133,7 +133,7 @@ static uint32_t heap_events(int threads, sbr_event *to) {
     ck_assert(sbr_character_create(s.world, s.model, &d, &id, NULL) == SBF_OK);
   }
   scene_ticks(&s, 120);
-  uint32_t count = sbr_world_events(s.world, to, MOST);
+  uint32_t count = sbr_world_events(s.world, to, MAX);
   scene_free(&s);
   return count;
 }
@@ -149,7 +149,7 @@ static bool same(const sbr_event *a, const sbr_event *b) {
 
 START_TEST(any_number_of_threads_tells_the_same)
 {
-  static sbr_event one[MOST], more[MOST];
+  static sbr_event one[MAX], more[MAX];
   uint32_t count = heap_events(1, one);
   ck_assert_uint_ge(count, 30);
   for (int threads = 3; threads <= 8; threads += 5) {

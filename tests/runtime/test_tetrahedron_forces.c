@@ -79,16 +79,16 @@ START_TEST(forces_are_those_of_the_energy)
   sbfi_d3 *sums = calloc(island->slot_count, sizeof *sums);
   expected_forces(sums);
   sbri_tetrahedron_forces(&tick, NULL);
-  double most = 0, worst = 0;
+  double max = 0, worst = 0;
   sbfi_d3 total = {0, 0, 0};
   for (uint32_t i = 0; i < island->slot_count; i++) {
     worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
-    most = fmax(most, sbfi_d3_length(sums[i]));
+    max = fmax(max, sbfi_d3_length(sums[i]));
     total = sbfi_d3_add(total, place(forces, i));
   }
-  ck_assert_double_gt(most, 1);
-  ck_assert_double_le(worst, 2e-5 * most);
-  ck_assert_double_le(sbfi_d3_length(total), 1e-4 * most);
+  ck_assert_double_gt(max, 1);
+  ck_assert_double_le(worst, 2e-5 * max);
+  ck_assert_double_le(sbfi_d3_length(total), 1e-4 * max);
   free(sums);
   end();
 }
@@ -117,13 +117,13 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
     }
   }
   sbri_tetrahedron_forces(&tick, NULL);
-  double most = 0, worst = 0;
+  double max = 0, worst = 0;
   for (uint32_t i = 0; i < tick.island->slot_count; i++) {
     worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
-    most = fmax(most, sbfi_d3_length(sums[i]));
+    max = fmax(max, sbfi_d3_length(sums[i]));
   }
-  ck_assert_double_gt(most, 1);
-  ck_assert_double_le(worst, 1e-4 * most);
+  ck_assert_double_gt(max, 1);
+  ck_assert_double_le(worst, 1e-4 * max);
   free(sums);
   end();
 }
@@ -146,10 +146,10 @@ START_TEST(damping_leaves_turning_alone)
     velocities[i] = (sbri_point){3 * p->z - 2 * p->y, 2 * p->x - p->z, p->y - 3 * p->x, 0};
   }
   sbri_tetrahedron_forces(&tick, NULL);
-  double most = 0;
-  for (uint32_t i = 0; i < count; i++) most = fmax(most, sbfi_d3_length(place(still, i)));
+  double max = 0;
+  for (uint32_t i = 0; i < count; i++) max = fmax(max, sbfi_d3_length(place(still, i)));
   for (uint32_t i = 0; i < count; i++)
-    ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(place(forces, i), place(still, i))), 1e-4 * most);
+    ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(place(forces, i), place(still, i))), 1e-4 * max);
   for (uint32_t i = 0; i < count; i++)
     velocities[i] =
         (sbri_point){random_scattered(7 * i), random_scattered(7 * i + 1), random_scattered(7 * i + 2), 0};
@@ -170,21 +170,21 @@ START_TEST(what_is_watched)
   sbri_watch_begin(&watch);
   sbri_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_stiffening(&watch), 1, 1e-4f);
-  ck_assert_float_eq_tol(sbri_watch_least_ratio(&watch), 1, 1e-4f);
+  ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), 1, 1e-4f);
   /* Grown alike by a half: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
   for (uint32_t i = 0; i < tick.island->slot_count; i++)
     positions[i] = (sbri_point){1.5f * positions[i].x, 1.5f * positions[i].y, 1.5f * positions[i].z, 0};
   sbfi_lame lame = sbfi_lame_of(5e4, 0.4);
-  double most = lame.mu + lame.lambda;
-  double expected = (lame.mu + 2.25 * 2.25 * lame.lambda + lame.lambda * 2.375 - 2 * lame.mu) / most;
+  double max = lame.mu + lame.lambda;
+  double expected = (lame.mu + 2.25 * 2.25 * lame.lambda + lame.lambda * 2.375 - 2 * lame.mu) / max;
   sbri_watch_begin(&watch);
   sbri_tetrahedron_forces(&tick, &watch);
   ck_assert_double_eq_tol(sbri_watch_stiffening(&watch), expected, 1e-3 * expected);
-  ck_assert_float_eq(sbri_watch_least_ratio(&watch), 1);
+  ck_assert_float_eq(sbri_watch_min_ratio(&watch), 1);
   for (uint32_t i = 0; i < tick.island->slot_count; i++) positions[i].y *= -0.5f;
   sbri_watch_begin(&watch);
   sbri_tetrahedron_forces(&tick, &watch);
-  ck_assert_float_eq_tol(sbri_watch_least_ratio(&watch), -0.5f * 1.5f * 1.5f * 1.5f, 1e-3f);
+  ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), -0.5f * 1.5f * 1.5f * 1.5f, 1e-3f);
   end();
 }
 END_TEST
@@ -298,10 +298,10 @@ START_TEST(energy_and_momentum_are_kept)
       scene_ticks(&s, 1);
     }
   }
-  double most = 2e-4 * fabs(sums[0].linear[0]);
+  double max = 2e-4 * fabs(sums[0].linear[0]);
   for (int k = 0; k < 3; k++) {
-    ck_assert_double_eq_tol(sums[1].linear[k], sums[0].linear[k], most);
-    ck_assert_double_eq_tol(sums[1].angular[k], sums[0].angular[k], most);
+    ck_assert_double_eq_tol(sums[1].linear[k], sums[0].linear[k], max);
+    ck_assert_double_eq_tol(sums[1].angular[k], sums[0].angular[k], max);
   }
   ck_assert_double_eq_tol(energies[1], energies[0], 2e-3 * energies[0]);
   end();
@@ -354,17 +354,17 @@ START_TEST(the_step_is_divided_anew_as_it_stiffens)
   s.world_definition.gravity = (sbf_vec3){9.81f, 0, 0};
   scene_start(&s);
   const sbri_island_state *state = sbri_island_states(&s.world->characters[0]);
-  float most_stretch = 0, most_stiffening = 1;
+  float max_stretch = 0, max_stiffening = 1;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
     sbr_body_health health = sbr_character_health(s.world, s.character, 0);
     ck_assert(health.finite);
     ck_assert_uint_eq(health.recoveries, 0);
-    most_stretch = health.max_strain > most_stretch ? health.max_strain : most_stretch;
-    most_stiffening = state->stiffening > most_stiffening ? state->stiffening : most_stiffening;
+    max_stretch = health.max_strain > max_stretch ? health.max_strain : max_stretch;
+    max_stiffening = state->stiffening > max_stiffening ? state->stiffening : max_stiffening;
   }
-  ck_assert_float_gt(most_stretch, 1.5f);
-  ck_assert_float_gt(most_stiffening, 2);
+  ck_assert_float_gt(max_stretch, 1.5f);
+  ck_assert_float_gt(max_stiffening, 2);
   end_beam();
 }
 END_TEST

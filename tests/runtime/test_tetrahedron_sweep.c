@@ -79,20 +79,21 @@ START_TEST(a_short_step_follows_the_energy)
   sbri_sweep_tetrahedra(&t, h, false);
   for (uint32_t i = 0; i < 4; i++) {
     const sbri_point *u = &moves[s.model->bodies[0].slot_from_point[i]];
-    double scale = (double)h * h / masses[i], most = 2e-3 * (sbfi_d3_length(f[i]) + 1) * scale;
-    ck_assert_double_eq_tol(u->x, scale * f[i].x, most);
-    ck_assert_double_eq_tol(u->y, scale * f[i].y, most);
-    ck_assert_double_eq_tol(u->z, scale * f[i].z, most);
+    double scale = (double)h * h / masses[i], max = 2e-3 * (sbfi_d3_length(f[i]) + 1) * scale;
+    ck_assert_double_eq_tol(u->x, scale * f[i].x, max);
+    ck_assert_double_eq_tol(u->y, scale * f[i].y, max);
+    ck_assert_double_eq_tol(u->z, scale * f[i].z, max);
   }
   scene_free(&s);
 }
 END_TEST
 
-/* Of a sliver, 100 to 330 times as wide as high, float's digits leave little of |cof F|^2: it tumbles and
- * falls as it should, where it was put back in each tick and stayed where it was. */
+/* Of a sliver, 100 to 100,000 times as wide as high, float's digits leave little or nothing of |cof F|^2: it
+ * tumbles and falls as it should. It was put back in each tick and stayed where it was; later it stood still
+ * where it was at less than half of its volume, as positions that were not kept up to date were read. */
 START_TEST(a_sliver_falls)
 {
-  static const float heights[] = {1e-3f, 5e-4f, 3e-4f};
+  static const float heights[] = {1e-3f, 5e-4f, 3e-4f, 2e-4f, 1e-4f, 3e-5f, 1e-5f, 1e-6f};
   const sbf_vec3 rest[] = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, {0.03f, 0.04f, heights[_i]}};
   const float masses[] = {0.1f, 0.1f, 0.1f, 0.1f};
   begin_element(rest, masses, 0.45f);
@@ -108,7 +109,7 @@ START_TEST(a_sliver_falls)
   ck_assert_uint_eq(health.recoveries, 0);
   float sum = 0;
   for (uint32_t i = 0; i < 4; i++) sum += scene_point(&s, 0, i).y - rest[i].y;
-  ck_assert_msg(fabsf(sum / 4 + 4.905f) < 0.2f, "fell by %g m", (double)(-sum / 4));
+  ck_assert_msg(fabsf(sum / 4 + 4.905f) < 0.1f, "fell by %g m", (double)(-sum / 4));
   scene_free(&s);
 }
 END_TEST
@@ -281,13 +282,13 @@ START_TEST(the_router_recovers_by_it)
   const sbri_island *island = &s.model->islands[0];
   ck_assert(island->routed);
   scene_ticks(&s, 2);
-  ck_assert_uint_eq(sbri_island_states(c)->recovering, 0);
+  ck_assert_uint_eq(sbri_island_states(c)->recovery.ticks, 0);
   uint32_t corner = s.model->bodies[0].slot_from_point[lattice_box_point(&box, 0, 0, 0)];
   sbri_positions(c)[corner].x = _i ? 0.5f : 0.3f;
   scene_ticks(&s, 2);
-  ck_assert_uint_gt(sbri_island_states(c)->recovering, 0);
+  ck_assert_uint_gt(sbri_island_states(c)->recovery.ticks, 0);
   scene_ticks(&s, 60);
-  ck_assert_uint_eq(sbri_island_states(c)->recovering, 0);
+  ck_assert_uint_eq(sbri_island_states(c)->recovery.ticks, 0);
   sbr_body_health health = sbr_character_health(s.world, s.character, 0);
   ck_assert(!health.inverted);
   ck_assert_float_lt(health.max_strain, 0.1f);
@@ -300,7 +301,7 @@ int main(void) {
   Suite *suite = suite_create("tetrahedron_sweep");
   TCase *c = tcase_create("tetrahedron_sweep");
   tcase_add_loop_test(c, a_short_step_follows_the_energy, 0, 3);
-  tcase_add_loop_test(c, a_sliver_falls, 0, 3);
+  tcase_add_loop_test(c, a_sliver_falls, 0, 8);
   tcase_add_test(c, what_rests_stays);
   tcase_add_loop_test(c, a_beam_rests_near_where_the_statics_say, 0, 4);
   tcase_add_test(c, a_beam_swings_near_its_lowest_frequency);

@@ -46,11 +46,11 @@ static sbf_vec3 along(const gait_stage *s, int k) {
   return sbri_rotate(s->pose[k].rotation, sbri_vec3(0, 1, 0));
 }
 
-static float most_bend(const gait_stage *s) {
-  float most = 0;
+static float max_bend(const gait_stage *s) {
+  float max = 0;
   for (int k = 1; k < BONES; k++)
-    most = fmaxf(most, acosf(sbri_clamp(sbri_dot(along(s, k), along(s, k - 1)), -1, 1)));
-  return most;
+    max = fmaxf(max, acosf(sbri_clamp(sbri_dot(along(s, k), along(s, k - 1)), -1, 1)));
+  return max;
 }
 
 START_TEST(at_rest_it_is_as_modelled)
@@ -70,8 +70,8 @@ START_TEST(the_body_goes_where_the_head_went)
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 3, 0.5f, 0);
   run(&s, 2, 0.5f, 0.8f);
-  ck_assert_float_gt(most_bend(&s), 0.05f);
-  ck_assert_float_le(most_bend(&s), 0.41f);
+  ck_assert_float_gt(max_bend(&s), 0.05f);
+  ck_assert_float_le(max_bend(&s), 0.41f);
   /* Its last bone still lies near the straight line that the head came along. */
   ck_assert_float_lt(fabsf(s.pose[BONES - 1].position.x), 0.5f * fabsf(s.pose[0].position.x));
   gait_stage_end(&s);
@@ -83,7 +83,7 @@ START_TEST(the_bend_is_bounded)
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 4, 0.05f, 3);
-  ck_assert_float_le(most_bend(&s), 0.401f);
+  ck_assert_float_le(max_bend(&s), 0.401f);
   gait_stage_end(&s);
 }
 END_TEST
@@ -95,8 +95,8 @@ START_TEST(damping_straightens_it_at_rest)
   begin(&limp, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&stiff, 3, 0.4f, 1.2f), run(&limp, 3, 0.4f, 1.2f);
   run(&stiff, 5, 0, 0), run(&limp, 5, 0, 0);
-  ck_assert_float_lt(most_bend(&stiff), 0.12f);
-  ck_assert_float_gt(most_bend(&limp), 2 * most_bend(&stiff));
+  ck_assert_float_lt(max_bend(&stiff), 0.12f);
+  ck_assert_float_gt(max_bend(&limp), 2 * max_bend(&stiff));
   gait_stage_end(&stiff), gait_stage_end(&limp);
 }
 END_TEST
@@ -137,9 +137,9 @@ START_TEST(a_lagging_chain_keeps_its_direction_for_a_while)
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_LAG, 4);
   run(&s, 1, 0, 1);
-  ck_assert_float_gt(most_bend(&s), 0.02f);
+  ck_assert_float_gt(max_bend(&s), 0.02f);
   run(&s, 5, 0, 0);
-  ck_assert_float_lt(most_bend(&s), 0.01f);
+  ck_assert_float_lt(max_bend(&s), 0.01f);
   gait_stage_end(&s);
 }
 END_TEST
@@ -178,7 +178,7 @@ START_TEST(empty_links_take_no_room)
       if (spacing[k] == 0) ck_assert_float_ge(sbri_dot(along(&s, k), along(&s, k - 1)), 0.99999f);
     }
   }
-  ck_assert_float_le(most_bend(&s), 0.41f);
+  ck_assert_float_le(max_bend(&s), 0.41f);
   gait_stage_end(&s);
 }
 END_TEST
@@ -198,7 +198,7 @@ START_TEST(straightening_takes_the_same_time_at_any_tick)
     }
     s.input.tick_s = 1 / (float)rates[r];
     gait_stage_ticks(&s, rates[r]);
-    left[r] = most_bend(&s);
+    left[r] = max_bend(&s);
     gait_stage_end(&s);
   }
   ck_assert_float_lt(left[1], 0.2f);

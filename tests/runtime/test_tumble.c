@@ -51,12 +51,12 @@ static float larger(float a, float b) {
 }
 
 static float fastest(const flight *f) {
-  float most = 0;
+  float max = 0;
   for (uint32_t b = 0; b < f->parts; b++) {
     sbf_vec3 v = rigid_state(&f->scene, b).velocity;
-    most = larger(most, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
+    max = larger(max, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
   }
-  return most;
+  return max;
 }
 
 typedef struct fall {

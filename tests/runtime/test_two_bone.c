@@ -90,12 +90,12 @@ END_TEST
 
 /* A thigh and a shin of 1 m, the knee a hinge about X that bends from 0.1 to `most` rad. */
 static sbri_ik_result solve_hinged(
-    sbri_ik_joint *joints, sbri_joint_limit *hinge, float most, sbf_vec3 target, sbf_quat rotation) {
+    sbri_ik_joint *joints, sbri_joint_limit *hinge, float max, sbf_vec3 target, sbf_quat rotation) {
   *hinge = (sbri_joint_limit){
-      .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {0.1f, most}, .cone = 0, .active = true};
+      .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {0.1f, max}, .cone = 0, .active = true};
   for (int i = 0; i < 3; i++)
     joints[i] = (sbri_ik_joint){.offset = {0, i ? 1.0f : 0, 0}, .rotation = {0, 0, 0, 1}};
-  joints[1].rotation = sbri_quat_about(sbri_vec3(1, 0, 0), 0.5f * most);
+  joints[1].rotation = sbri_quat_about(sbri_vec3(1, 0, 0), 0.5f * max);
   joints[1].limit = hinge;
   sbri_ik_chain chain = {.base = {{0, 0, 0}, {0, 0, 0, 1}},
       .joints = joints,

@@ -20,22 +20,22 @@ static double chance(uint32_t *state) {
  * where h' is TICK_S more or less by up to `jitter`. `knows` what the step before took: h'/h, and h'' = (h +
  * h') / 2; else both steps are taken for equally long. */
 static double position_verlet(double turn, double jitter, uint32_t steps, bool knows) {
-  double w = turn / TICK_S, h = TICK_S, before = HEIGHT_M, x = HEIGHT_M, most = 0;
+  double w = turn / TICK_S, h = TICK_S, before = HEIGHT_M, x = HEIGHT_M, max = 0;
   uint32_t state = 5;
   for (uint32_t i = 0; i < steps; i++) {
     double next = TICK_S * (1 + jitter * chance(&state));
     double kept = knows ? next / h : 1, mean = knows ? 0.5 * (next + h) : next;
     double at = x + (x - before) * kept - w * w * x * next * mean;
     before = x, x = at, h = next;
-    most = fmax(most, fabs(x) / HEIGHT_M);
+    max = fmax(max, fabs(x) / HEIGHT_M);
   }
-  return most;
+  return max;
 }
 
 /* The same in the runtime, symplectic, a substep a tick, in frames of such lengths. */
 static double in_frames(double turn, double jitter, uint32_t frames) {
   scene s = scene_begin();
-  double w = turn / TICK_S, most = 0;
+  double w = turn / TICK_S, max = 0;
   const float masses[] = {0, 1}, stiffness = (float)(w * w);
   const sbf_vec3 positions[] = {{0, 0, 0}, {0, -1, 0}};
   const uint32_t held = 0;
@@ -51,10 +51,10 @@ static double in_frames(double turn, double jitter, uint32_t frames) {
   for (uint32_t i = 0; i < frames; i++) {
     sbr_world_step(s.world, TICK_S * (1 + jitter * chance(&state)));
     double y = (double)scene_point(&s, 0, 1).y + 1 + HEIGHT_M;
-    most = fmax(most, fabs(y) / HEIGHT_M);
+    max = fmax(max, fabs(y) / HEIGHT_M);
   }
   scene_free(&s);
-  return most;
+  return max;
 }
 
 /* In even steps it neither gains nor loses; in uneven ones that it takes for even it gains, the more so the

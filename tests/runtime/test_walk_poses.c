@@ -14,7 +14,8 @@ typedef struct key {
   sbf_vec3 axis, translation;
 } key;
 
-/* One pose a key; bones turned at rest by `turned` about axes that differ. */
+/* One pose a key, the first the rest pose if it is of no distance; bones turned at rest by `turned` about
+ * axes that differ. */
 static void begin(gait_stage *s, const key *keys, uint32_t count, float turned) {
   sbf_asset *asset = quadruped_asset();
   for (uint32_t b = 0; b < BONES && turned > 0; b++) {
@@ -35,6 +36,7 @@ static void begin(gait_stage *s, const key *keys, uint32_t count, float turned) 
     poses[i].keys = (sbf_pose_key_list){&pose_keys[i], 1};
   }
   asset->poses = (sbf_pose_list){poses, count};
+  if (keys[0].distance == 0) ((sbf_gait *)(uintptr_t)asset->gaits.at)->rest_pose = 0;
   gait_stage_begin(s, asset);
 }
 
@@ -51,18 +53,40 @@ START_TEST(poses_are_shown_by_the_distance_walked)
   gait_stage_ticks(&s, 10);
   ck_assert_float_eq_tol(head_angle(&s), 0, 1e-4f); /* standing */
   s.input.forward = 0.3f;
-  float most = 0, least = 0;
+  float max = 0, min = 0;
   for (int i = 0; i < 240; i++) {
     gait_stage_ticks(&s, 1);
-    most = fmaxf(most, head_angle(&s)), least = fminf(least, head_angle(&s));
+    max = fmaxf(max, head_angle(&s)), min = fminf(min, head_angle(&s));
     if (i < 120) continue;
     double s_in_cycle = fmod(s.state->distance_m, 0.2);
     double share = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
     double eased = share * share * (3 - 2 * share); /* both are turning points */
     ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * eased), 0.02f);
   }
-  ck_assert_float_gt(most, 0.3f);
-  ck_assert_float_lt(least, -0.3f);
+  ck_assert_float_gt(max, 0.3f);
+  ck_assert_float_lt(min, -0.3f);
+  gait_stage_end(&s);
+}
+END_TEST
+
+/* Arms that hang in the rest pose swing about that pose, not about the one they were bound in. */
+START_TEST(a_walk_adds_to_the_rest_pose)
+{
+  static const key keys[] = {{0, 0, 0.5f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.1f, 0, 0.1f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.2f, 0, -0.1f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
+  gait_stage s;
+  begin(&s, keys, 3, 0);
+  gait_stage_ticks(&s, 10);
+  ck_assert_float_eq_tol(head_angle(&s), 0.5f, 1e-4f);
+  s.input.forward = 0.3f;
+  float max = 0, min = 1;
+  for (int i = 0; i < 240; i++) {
+    gait_stage_ticks(&s, 1);
+    max = fmaxf(max, head_angle(&s)), min = fminf(min, head_angle(&s));
+  }
+  ck_assert_float_eq_tol(max, 0.6f, 0.02f);
+  ck_assert_float_eq_tol(min, 0.4f, 0.02f);
   gait_stage_end(&s);
 }
 END_TEST
@@ -203,6 +227,7 @@ int main(void) {
   Suite *suite = suite_create("walk_poses");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, poses_are_shown_by_the_distance_walked);
+  tcase_add_test(tests, a_walk_adds_to_the_rest_pose);
   tcase_add_test(tests, what_goes_back_goes_back_in_its_walk);
   tcase_add_test(tests, the_second_half_is_the_mirror_image_of_the_first);
   tcase_add_test(tests, a_walk_becomes_a_run);

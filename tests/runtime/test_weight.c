@@ -70,7 +70,7 @@ START_TEST(a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick)
   for (size_t k = 0; k < sizeof times_ms / sizeof *times_ms; k++)
     for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
       gait_stage s;
-      double h = 0.001 * times_ms[k], least = 0, most = 0;
+      double h = 0.001 * times_ms[k], min = 0, max = 0;
       begin(&s, ways[w], (float)h, 1);
       for (int i = 1; i * h < 2.5; i++) {
         gait_stage_ticks(&s, 1);
@@ -83,11 +83,11 @@ START_TEST(a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick)
         ck_assert_double_eq_tol((double)leans.z, (double)ways[w].z * should, 3e-4);
         ck_assert_float_eq_tol(turn.y, 0, 1e-6f);
         ck_assert_double_lt(fabs(should), (double)LIMIT);
-        least = should < least ? should : least, most = should > most ? should : most;
+        min = should < min ? should : min, max = should > max ? should : max;
       }
       if (h < 0.05) { /* it stays behind, then swings over */
-        ck_assert_double_lt(least, -0.2);
-        ck_assert_double_gt(most, 0.05);
+        ck_assert_double_lt(min, -0.2);
+        ck_assert_double_gt(max, 0.05);
       }
       gait_stage_end(&s);
     }
@@ -201,7 +201,7 @@ END_TEST
 START_TEST(it_leans_alike_whichever_way_it_faces)
 {
   gait_stage stages[2];
-  float most = 0;
+  float max = 0;
   for (int k = 0; k < 2; k++) {
     gait_stage *s = &stages[k];
     begin(s, sbri_vec3(0, 0, 0), 1.0f / 60, 1);
@@ -217,9 +217,9 @@ START_TEST(it_leans_alike_whichever_way_it_faces)
       leans[k] = leans_ahead(&stages[k], 0);
     }
     ck_assert_float_eq_tol(leans[0], leans[1], 1e-4f);
-    most = leans[0] > most ? leans[0] : most;
+    max = leans[0] > max ? leans[0] : max;
   }
-  ck_assert_float_gt(most, 0.05f);
+  ck_assert_float_gt(max, 0.05f);
   gait_stage_end(&stages[0]), gait_stage_end(&stages[1]);
 }
 END_TEST

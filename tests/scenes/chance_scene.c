@@ -8,7 +8,7 @@
 #include "sbrun/soft_body.h"
 #include "scenes.h"
 
-enum { MOST_POINTS = 60 };
+enum { MAX_POINTS = 60 };
 
 typedef struct chance {
   uint32_t state;
@@ -34,9 +34,9 @@ static bool likely(chance *c, uint32_t one_in) {
 }
 
 static void add_springs(chance *c, scene *s, sbf_level *level, uint32_t points, float stiffness) {
-  sbf_uint2 ends[4 * MOST_POINTS];
-  float k[4 * MOST_POINTS];
-  uint32_t count = 1 + roll(c, 4 * points < 4 * MOST_POINTS ? 4 * points : 4 * MOST_POINTS - 1);
+  sbf_uint2 ends[4 * MAX_POINTS];
+  float k[4 * MAX_POINTS];
+  uint32_t count = 1 + roll(c, 4 * points < 4 * MAX_POINTS ? 4 * points : 4 * MAX_POINTS - 1);
   for (uint32_t i = 0; i < count; i++) {
     uint32_t a = roll(c, points), b = i < points - 1 ? i + 1 : roll(c, points);
     ends[i] = (sbf_uint2){{i < points - 1 ? i : a, b}};
@@ -47,7 +47,7 @@ static void add_springs(chance *c, scene *s, sbf_level *level, uint32_t points, 
 }
 
 static void add_pins(chance *c, scene *s, sbf_level *level, uint32_t points) {
-  uint32_t held[MOST_POINTS], count = 1 + roll(c, points / 2 + 1);
+  uint32_t held[MAX_POINTS], count = 1 + roll(c, points / 2 + 1);
   for (uint32_t i = 0; i < count; i++) held[i] = (i * 7 + 1) % points;
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t j = 0; j < i; j++)
@@ -134,9 +134,9 @@ static scene make(chance *c) {
     sbf_vec3 size = between3(c, 0.05f, 1);
     scene_section(&s, 0, (sbf_vec3){0, 1, 0}, size, 1 + roll(c, 3));
   } else {
-    uint32_t points = 2 + roll(c, MOST_POINTS - 2);
-    sbf_vec3 at[MOST_POINTS];
-    float masses[MOST_POINTS], size = decades(c, -2, 1), mass = decades(c, -4, 2), span = between(c, 0, 2);
+    uint32_t points = 2 + roll(c, MAX_POINTS - 2);
+    sbf_vec3 at[MAX_POINTS];
+    float masses[MAX_POINTS], size = decades(c, -2, 1), mass = decades(c, -4, 2), span = between(c, 0, 2);
     for (uint32_t i = 0; i < points; i++) {
       at[i] = between3(c, -size, size);
       at[i].y += 1;

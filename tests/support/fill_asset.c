@@ -9,7 +9,7 @@
 #include "model/ids.h"
 #include "model/place.h"
 
-enum { LEAST_ITEMS = 7, FEW_CHILDREN = 2 };
+enum { MIN_ITEMS = 7, FEW_CHILDREN = 2 };
 
 typedef struct filler {
   fill_options options;
@@ -215,7 +215,7 @@ static void fill_object(filler *f, const sbfi_place *place, void *object) {
 
 sbf_asset *fill_asset(const fill_options *options) {
   filler f = {.options = *options, .random = options->seed};
-  if (f.options.items < LEAST_ITEMS) f.options.items = LEAST_ITEMS;
+  if (f.options.items < MIN_ITEMS) f.options.items = MIN_ITEMS;
   if (!f.options.children) f.options.children = FEW_CHILDREN;
   f.asset = sbf_asset_create(options->allocator);
   if (!f.asset) return NULL;

@@ -41,12 +41,12 @@ static void add_cell(lattice_box *box, const uint32_t cell[3]) {
 lattice_box lattice_box_make(sbf_vec3 low, sbf_vec3 size, uint32_t nx, uint32_t ny, uint32_t nz,
     float density, float young_pa, float poisson) {
   lattice_box box = {.cells = {nx, ny, nz}, .point_count = (nx + 1) * (ny + 1) * (nz + 1)};
-  uint32_t most = 6 * nx * ny * nz;
+  uint32_t max = 6 * nx * ny * nz;
   box.positions = calloc(box.point_count, sizeof *box.positions);
   box.masses = calloc(box.point_count, sizeof *box.masses);
-  box.tetrahedra = calloc(most, sizeof *box.tetrahedra);
-  box.young_modulus = calloc(most, sizeof *box.young_modulus);
-  box.poisson_ratios = calloc(most, sizeof *box.poisson_ratios);
+  box.tetrahedra = calloc(max, sizeof *box.tetrahedra);
+  box.young_modulus = calloc(max, sizeof *box.young_modulus);
+  box.poisson_ratios = calloc(max, sizeof *box.poisson_ratios);
   ck_assert(box.positions && box.masses && box.tetrahedra && box.young_modulus && box.poisson_ratios);
   for (uint32_t i = 0; i < box.point_count; i++) {
     uint32_t x = i % (nx + 1), y = i / (nx + 1) % (ny + 1), z = i / (nx + 1) / (ny + 1);
@@ -56,7 +56,7 @@ lattice_box lattice_box_make(sbf_vec3 low, sbf_vec3 size, uint32_t nx, uint32_t 
   for (uint32_t z = 0; z < nz; z++)
     for (uint32_t y = 0; y < ny; y++)
       for (uint32_t x = 0; x < nx; x++) add_cell(&box, (const uint32_t[3]){x, y, z});
-  float quarter = density * size.x * size.y * size.z / (float)most / 4;
+  float quarter = density * size.x * size.y * size.z / (float)max / 4;
   for (uint32_t t = 0; t < box.tetrahedron_count; t++) {
     box.young_modulus[t] = young_pa;
     box.poisson_ratios[t] = poisson;

@@ -146,7 +146,7 @@ sbf_soft_body *shape_add_body(
   return &bodies[count];
 }
 
-enum { MOST_POINTS = 4096, MOST_CORNERS = 16384 };
+enum { MAX_POINTS = 4096, MAX_CORNERS = 16384 };
 
 void shape_sections_of_obj(sbf_asset *asset, const char *path) {
   FILE *file = fopen(path, "r");
@@ -163,9 +163,9 @@ void shape_sections_of_obj(sbf_asset *asset, const char *path) {
       if (sscanf(line, "%*s %1000s", name) != 1) name[0] = 0;
       sbf_polygon_mesh_init(&mesh);
       mesh.target = SBF_MESH_TARGET_SURFACE;
-      mesh.positions.at = positions = allocate(asset, MOST_POINTS, sizeof *positions);
-      mesh.polygon_sizes.at = sizes = allocate(asset, MOST_CORNERS, sizeof *sizes);
-      mesh.polygon_points.at = corners = allocate(asset, MOST_CORNERS, sizeof *corners);
+      mesh.positions.at = positions = allocate(asset, MAX_POINTS, sizeof *positions);
+      mesh.polygon_sizes.at = sizes = allocate(asset, MAX_CORNERS, sizeof *sizes);
+      mesh.polygon_points.at = corners = allocate(asset, MAX_CORNERS, sizeof *corners);
       base = total;
     } else if (strncmp(line, "v ", 2) == 0) {
       sbf_vec3 *p = &positions[mesh.positions.count++];

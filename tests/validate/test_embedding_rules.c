@@ -36,6 +36,27 @@ START_TEST(test_far_outside)
 }
 END_TEST
 
+START_TEST(test_bounds_of_weights)
+{
+#define LAST(weights)                                                                                        \
+  EMBEDDED(SKIN, "", "0 0 0 0 1 1 1 1 2 2 2 2 3 2 3 3", "1 0 0 0 1 0 0 0 1 0 0 0 " weights, "")
+  rules_expect(WORN(LAST("1.5 0 -0.5 0")), "");
+  rules_expect(WORN(LAST("1.51 0 -0.5 -0.01")), "EMBEDDING_OUTSIDE " PATH "/weights #3");
+  rules_expect(WORN(LAST("1 0 -0.51 0.51")), "EMBEDDING_OUTSIDE " PATH "/weights #3");
+}
+END_TEST
+
+/* A vertex in no polygon is never seen: it jumps nowhere. */
+START_TEST(test_unseen_vertices)
+{
+  rules_expect("<render_mesh id=\"r\" name=\"R\">" MESH("rendering", TETRA_POINTS " 9 9 9", "3 3 3 3",
+                   TETRA_POLYGONS) "</render_mesh>" BODY(TETRA LEVEL("", TETRA_POINTS,
+                   SPRINGS("", TETRA_EDGES, "")
+                       EMBEDDED(SKIN, "", ALL_POINTS " 3 3 3 3", ALL_WEIGHTS " 1 0 0 0", ""))),
+      "MESH_POINT_UNUSED /sbf/render_mesh[1]/polygon_mesh/positions #4");
+}
+END_TEST
+
 START_TEST(test_off_their_places)
 {
   rules_expect(WORN(EMBEDDED(
@@ -96,5 +117,6 @@ START_TEST(test_own_surface)
 }
 END_TEST
 
-RULES_MAIN("embedding_rules", test_good, test_sums, test_far_outside, test_off_their_places, test_vertices,
-    test_blends, test_two_bodies_share, test_own_surface)
+RULES_MAIN("embedding_rules", test_good, test_sums, test_far_outside, test_bounds_of_weights,
+    test_unseen_vertices, test_off_their_places, test_vertices, test_blends, test_two_bodies_share,
+    test_own_surface)

@@ -59,4 +59,41 @@ START_TEST(test_tails)
 }
 END_TEST
 
-RULES_MAIN("gait_rules", test_a_good_gait, test_legs, test_homes, test_steps, test_bones, test_tails)
+#define KIND(kind, inside) LEGS "<gait id=\"g\" body=\"body\" kind=\"" kind "\">" inside "</gait>"
+#define WAVE(bones) "<undulation><bones>" bones "</bones></undulation>"
+
+START_TEST(test_kinds)
+{
+  rules_expect(KIND("none", ""), "");
+  rules_expect(KIND("fly", ""), "");
+  rules_expect(KIND("crawl", ""), "");
+  rules_expect(KIND("swim", WAVE("0 1 2")), "");
+  rules_expect(KIND("swim", "<fin><bones>1</bones></fin>"), "");
+  rules_expect(KIND("swim", ""), "GAIT_NOTHING_MOVES /sbf/gait[1]");
+  rules_expect(KIND("slither", "<fin><bones>1</bones></fin>"), "GAIT_NOTHING_MOVES /sbf/gait[1]");
+  rules_expect(KIND("roll", ""), "GAIT_NOTHING_MOVES /sbf/gait[1]");
+}
+END_TEST
+
+START_TEST(test_parts)
+{
+  rules_expect(KIND("swim", WAVE("1")), "GAIT_CHAIN_SHORT /sbf/gait[1]/undulation");
+  rules_expect(KIND("swim", WAVE("1 1")), "BONE_REPEATED /sbf/gait[1]/undulation #1");
+  rules_expect(KIND("fly", "<fin/>"), "GAIT_CHAIN_SHORT /sbf/gait[1]/fin[1]");
+  rules_expect(KIND("roll", "<tread><bones>2</bones></tread>"), "GAIT_CHAIN_SHORT /sbf/gait[1]/tread[1]");
+  rules_expect(
+      KIND("fly", "<fin axis=\"0 0 0\"><bones>1</bones></fin>"), "GAIT_AXIS_ZERO /sbf/gait[1]/fin[1]/@axis");
+  rules_expect(KIND("roll", "<wheel bone=\"left\" radius=\"1\" axis=\"0 0 0\"/>"),
+      "GAIT_AXIS_ZERO /sbf/gait[1]/wheel[1]/@axis");
+  rules_expect(LEGS "<gait id=\"g\" body=\"left\" kind=\"roll\"><wheel bone=\"right\" radius=\"1\"/></gait>",
+      "GAIT_BONE_OUTSIDE /sbf/gait[1]");
+#define REST(distance)                                                                                       \
+  LEGS "<gait id=\"g\" body=\"body\" kind=\"none\" rest_pose=\"p\"/><poses><pose id=\"p\" " distance         \
+       "><pose_key bone=\"left\"/></pose></poses>"
+  rules_expect(REST(""), "");
+  rules_expect(REST("distance=\"0.5\""), "GAIT_POSE_WALKS /sbf/gait[1]");
+}
+END_TEST
+
+RULES_MAIN("gait_rules", test_a_good_gait, test_legs, test_homes, test_steps, test_bones, test_tails,
+    test_kinds, test_parts)

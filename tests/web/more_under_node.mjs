@@ -54,7 +54,19 @@ if (soft >= 0) {
   const at = pushed.softMotion(soft).center.map((x, i) => x + pushed.origin[i] + (i === 1)), vertex = pushed.nearestVertex(soft, at);
   pushed.hold(soft, vertex, at, { maxForce: 1 });
   hands.step(1 / 60);
+  const pulled = Math.hypot(...pushed.holdForce(soft, vertex));
+  expect(pulled > 0.1 && pulled < 1.001, `held by ${pulled} N`);
   expect(pushed.release(soft, vertex) && !pushed.release(soft, vertex), 'what is held is released once');
+  expect(Math.hypot(...pushed.holdForce(soft, vertex)) === 0, 'what is released is held by nothing');
+  for (let i = 0; i < 120; i++) hands.step(1 / 60);
+  const pins = pushed.pinReactions(soft), elements = pushed.tetrahedra(soft);
+  expect(pins.length > 0 && pins.every((one) => one.points >= 0 && one.force.every(Number.isFinite)) && pins.some((one) => one.force[1] > 0),
+    `pins: ${JSON.stringify(pins)}`);
+  expect(elements.every((one) => one.stress.every(Number.isFinite) && one.restVolume > 0), 'stress that is no number');
+  const still = pushed.softMotion(soft).velocity[1];
+  pushed.applySoftForce(soft, [0, 3 * 10 * mass, 0], 1 / 60);
+  hands.step(1 / 60);
+  expect(pushed.softMotion(soft).velocity[1] > still + 0.05, `a force of three times its weight: ${still} to ${pushed.softMotion(soft).velocity[1]}`);
   throws(() => pushed.hold(soft, 1e6, at), SbfmtError, 'a vertex that is not there');
   throws(() => pushed.applySoftImpulse(99, [0, 0, 0]), TypeError, 'a body that is not there');
 }

@@ -26,7 +26,7 @@ def sources(folder):
     box = os.path.join(folder, "box.sbf")
     web_files.run(web_files.SBFMT, "convert", textured_box.write(folder, textured_box.png_of(64, 64, RED, BLUE)), "-o", box)
     several = os.path.join(folder, "several.sbf")
-    web_files.run(web_files.SBFMT, "build", box, "-o", several, "--levels", "3", "--springs", "tetrahedra", "--elements", "400")
+    web_files.run(web_files.SBFMT, "build", box, "-o", several, "--levels", "3", "--springs", "tetrahedra", "--elements", "3000")
     yield {"name": "box", "file": several, "drive": 0, "levels": 3, "colors": (RED, BLUE)}
 
 

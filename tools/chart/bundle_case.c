@@ -10,19 +10,34 @@
 /* Times are of its beginning: the first step, hop or turn. */
 enum { TICKS = 120, TIMED_TICKS = 30 };
 
-const chart_drive chart_usual_drive = {
-    .speed = 0.5, .curve_rad_s = 0, .hop = 0.02, .hop_ticks = 30, .turn_rad_s = 2.5f, .turn_ticks = 15};
+const chart_drive chart_usual_drive = {.speed = 0.5,
+    .curve_rad_s = 0,
+    .hop = 0.02,
+    .hop_ticks = {30, 30},
+    .turn_rad_s = 2.5f,
+    .turn_ticks = {15, 15}};
 
 static void walk(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_bundle *b = user;
   if (tick == 0) sbr_character_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
 }
 
+/* The tick within a hop or turn, and how many have been before it. */
+typedef struct beat {
+  uint32_t tick, ticks, number;
+} beat;
+
+static beat beat_at(const uint32_t ticks[2], uint32_t tick) {
+  uint32_t both = ticks[0] + ticks[1], at = tick % both, second = at >= ticks[0];
+  return (beat){at - second * ticks[0], ticks[second], 2 * (tick / both) + second};
+}
+
 /* What it stands on goes up and down along parabolas. Feet that are planted stay where they are, so that it
  * presses into their soles: a tenth of its height would crush the hands of a lizard flat. */
 static void hop(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   chart_bundle *b = user;
-  double share = tick % b->drive.hop_ticks / (double)b->drive.hop_ticks;
+  beat now = beat_at(b->drive.hop_ticks, tick);
+  double share = now.tick / (double)now.ticks;
   b->ground_m = 4 * b->hop_m * share * (1 - share);
   if (tick == 0) sbr_character_wake(world, character);
 }
@@ -30,8 +45,9 @@ static void hop(void *user, sbr_world *world, sbr_character_id character, uint32
 /* From side to side. */
 static void shake(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_drive *d = &((const chart_bundle *)user)->drive;
-  if (tick % d->turn_ticks == 0)
-    sbr_character_drive(world, character, 0, 0, tick / d->turn_ticks % 2 ? -d->turn_rad_s : d->turn_rad_s);
+  beat now = beat_at(d->turn_ticks, tick);
+  if (now.tick == 0)
+    sbr_character_drive(world, character, 0, 0, now.number % 2 ? -d->turn_rad_s : d->turn_rad_s);
 }
 
 static void level_ground(void *user) {
@@ -92,7 +108,7 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
     cases[i].timed_ticks = TIMED_TICKS;
     cases[i].grounded = true;
     cases[i].watch = asset->render_meshes.count ? CHART_WATCH_SKIN : CHART_WATCH_SURFACE;
-    cases[i].axes = 1u << CHART_PATH | 1u << CHART_FARTHEST | 1u << CHART_PIXELS | 1u << CHART_MOST_PIXELS |
+    cases[i].axes = 1u << CHART_PATH | 1u << CHART_FARTHEST | 1u << CHART_PIXELS | 1u << CHART_MAX_PIXELS |
                     1u << CHART_VOLUME;
   }
   return SBF_OK;

@@ -8,12 +8,12 @@ enum { CHART_BUNDLE_CASES = 3 };
 
 /* How hard it is driven. */
 typedef struct chart_drive {
-  double speed;        /* of the walk, its own heights a second */
-  float curve_rad_s;   /* to the left as it walks */
-  double hop;          /* heights that the ground rises by */
-  uint32_t hop_ticks;  /* from one hop to the next */
-  float turn_rad_s;    /* of the shake */
-  uint32_t turn_ticks; /* to one side */
+  double speed;           /* of the walk, its own heights a second */
+  float curve_rad_s;      /* to the left as it walks */
+  double hop;             /* heights that the ground rises by */
+  uint32_t hop_ticks[2];  /* from one hop to the next, in turns */
+  float turn_rad_s;       /* of the shake */
+  uint32_t turn_ticks[2]; /* to one side, in turns */
 } chart_drive;
 
 extern const chart_drive chart_usual_drive; /* what the cases' titles say */

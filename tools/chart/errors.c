@@ -32,14 +32,14 @@ double chart_extent_of(const chart_track *t, const sbf_vec3 *rest) {
 
 static void compare_paths(const chart_track *t, const chart_track *r, double errors[CHART_AXIS_COUNT]) {
   size_t count = (size_t)t->ticks * t->points;
-  double sum = 0, most = 0;
+  double sum = 0, max = 0;
   for (size_t i = 0; i < count; i++) {
     double off = square_between(t->places[i], r->places[i]);
     sum += off;
-    if (!(off <= most)) most = off;
+    if (!(off <= max)) max = off;
   }
   errors[CHART_PATH] = sqrt(sum / (double)(count ? count : 1));
-  errors[CHART_FARTHEST] = sqrt(most);
+  errors[CHART_FARTHEST] = sqrt(max);
 }
 
 static double compare_rest(const chart_track *t, const chart_track *r, const sbf_vec3 *rest) {
@@ -53,22 +53,22 @@ static double compare_rest(const chart_track *t, const chart_track *r, const sbf
 }
 
 static double compare_energies(const chart_track *t, const chart_track *r) {
-  double most = 0, scale = 0;
+  double max = 0, scale = 0;
   for (uint32_t i = 0; i < t->ticks; i++) {
     double off = fabs(t->energy_j[i] - r->energy_j[i]);
-    if (!(off <= most)) most = off;
+    if (!(off <= max)) max = off;
     scale = fmax(scale, r->kinetic_j[i]);
   }
-  return scale > 0 ? most / scale : NAN;
+  return scale > 0 ? max / scale : NAN;
 }
 
 static double compare_volumes(const chart_track *t, const chart_track *r) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < t->ticks; i++) {
     double off = fabs(t->volume[i] - r->volume[i]);
-    if (!(off <= most)) most = off;
+    if (!(off <= max)) max = off;
   }
-  return most;
+  return max;
 }
 
 static double signal_at(const chart_track *t, const chart_signal *s, uint32_t tick) {

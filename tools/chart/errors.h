@@ -5,15 +5,15 @@
 #include "chart/track.h"
 
 typedef enum chart_axis {
-  CHART_PATH,        /* m: root of the mean square, over points and ticks, of how far points are off */
-  CHART_FARTHEST,    /* m: the greatest of that */
-  CHART_PERIOD,      /* share by which the signal's period is off */
-  CHART_AMPLITUDE,   /* share by which its height in the last period is off */
-  CHART_SHAPE,       /* at rest: root of the mean square of how far points are off, over how far they moved */
-  CHART_VOLUME,      /* greatest difference of the enclosed volume, share of that at rest */
-  CHART_ENERGY,      /* greatest difference of the whole energy, over the most that was in motion */
-  CHART_PIXELS,      /* CHART_PATH on a screen of 1080 lines that shows 60 degrees, from a chosen distance */
-  CHART_MOST_PIXELS, /* CHART_FARTHEST there */
+  CHART_PATH,       /* m: root of the mean square, over points and ticks, of how far points are off */
+  CHART_FARTHEST,   /* m: the greatest of that */
+  CHART_PERIOD,     /* share by which the signal's period is off */
+  CHART_AMPLITUDE,  /* share by which its height in the last period is off */
+  CHART_SHAPE,      /* at rest: root of the mean square of how far points are off, over how far they moved */
+  CHART_VOLUME,     /* greatest difference of the enclosed volume, share of that at rest */
+  CHART_ENERGY,     /* greatest difference of the whole energy, over the most that was in motion */
+  CHART_PIXELS,     /* CHART_PATH on a screen of 1080 lines that shows 60 degrees, from a chosen distance */
+  CHART_MAX_PIXELS, /* CHART_FARTHEST there */
   CHART_AXIS_COUNT
 } chart_axis;
 

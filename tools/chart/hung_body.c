@@ -20,7 +20,7 @@ static const double SAG_M = 0.0015;
 static const double FINE_TURN = 0.1;
 /* A look each time the lowest mode has turned by so much, so often; and the most ticks. */
 static const double LOOK_TURN = 0.3;
-enum { LOOKS = 32, MOST_TICKS = 8000 };
+enum { LOOKS = 32, MAX_TICKS = 8000 };
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a body to chart");
@@ -198,9 +198,7 @@ static sbf_status run_open(
   const sbf_level *level = level_of(body->asset);
   body->asset->environment.control_tick = (float)tick_s;
   double apart = LOOK_TURN / (body->swings_rad_s * tick_s);
-  *r = (run){.ticks_a_look = apart < 1                    ? 1
-                             : apart > MOST_TICKS / LOOKS ? MOST_TICKS / LOOKS
-                                                          : (uint32_t)apart};
+  *r = (run){.ticks_a_look = apart < 1 ? 1 : apart > MAX_TICKS / LOOKS ? MAX_TICKS / LOOKS : (uint32_t)apart};
   r->every_s = r->ticks_a_look * tick_s;
   r->places = calloc(body->points, sizeof *r->places);
   r->rest = calloc(body->points, sizeof *r->rest);
@@ -209,7 +207,7 @@ static sbf_status run_open(
   const chart_scene scene = {.asset = body->asset,
       .has_gravity = true,
       .gravity = {0, (float)-body->weight_m_s2, 0},
-      .ticks = MOST_TICKS,
+      .ticks = MAX_TICKS,
       .watch = CHART_WATCH_POINTS};
   const chart_setting setting = {.scheme = scheme, .substeps = 1};
   return chart_motion_open(&r->motion, &scene, &setting, error);
@@ -219,7 +217,7 @@ static sbf_status run_open(
  * are none, or the body was put back into its shape; *why says which. */
 static double run_on(run *r, uint32_t points, const char **why) {
   chart_motion *m = &r->motion;
-  double most = 0;
+  double max = 0;
   for (uint32_t t = 0; t < r->ticks_a_look; t++) sbr_world_tick(m->world);
   sbr_body_health health = sbr_character_health(m->world, m->character, 0);
   sbr_character_points(m->world, m->character, 0, r->places, points);
@@ -227,11 +225,11 @@ static double run_on(run *r, uint32_t points, const char **why) {
     double x = (double)r->places[i].x - (double)r->rest[i].x,
            y = (double)r->places[i].y - (double)r->rest[i].y;
     double z = (double)r->places[i].z - (double)r->rest[i].z;
-    most = fmax(most, sqrt(x * x + y * y + z * z));
+    max = fmax(max, sqrt(x * x + y * y + z * z));
   }
   if (health.recoveries) *why = "lost its shape and was put back into it";
-  if (!health.finite || !isfinite(most)) *why = "numbers that are none";
-  return *why ? NAN : most;
+  if (!health.finite || !isfinite(max)) *why = "numbers that are none";
+  return *why ? NAN : max;
 }
 
 static double measured(const chart_hung_body *body, const run *r) {
@@ -259,9 +257,9 @@ static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
     sbf_level_held_points(level_of(body->asset), held);
     sbf_level_masses(&body->asset->soft_bodies.at[0], level_of(body->asset), held, masses);
     for (uint32_t n = 0; n < LOOKS; n++) {
-      double most = run_on(&r, body->points, &why);
-      if (!(most > body->farthest_m)) continue;
-      body->farthest_m = most;
+      double max = run_on(&r, body->points, &why);
+      if (!(max > body->farthest_m)) continue;
+      body->farthest_m = max;
       for (uint32_t i = 0; i < body->points; i++) {
         double kg = held[i] ? 0 : (double)masses[i];
         body->shape[3 * (size_t)i] = kg * ((double)r.places[i].x - (double)r.rest[i].x);
@@ -280,9 +278,9 @@ static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
 static bool look(const chart_hung_body *body, run *r, double x[LOOKS], chart_verdict *v) {
   const char *why = NULL;
   for (uint32_t n = 0; n < LOOKS || n * r->ticks_a_look < CHART_CELL_TICKS; n++) {
-    double most = run_on(r, body->points, &why);
+    double max = run_on(r, body->points, &why);
     if (n < LOOKS) x[n] = measured(body, r);
-    if (isfinite(most)) v->reached = fmax(v->reached, most / body->farthest_m);
+    if (isfinite(max)) v->reached = fmax(v->reached, max / body->farthest_m);
     if (!why && v->reached * v->reached > CHART_GAIN) why = "more than ten times its energy";
     if (!why) continue;
     v->outcome = CHART_DEAD;

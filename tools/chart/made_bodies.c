@@ -4,7 +4,7 @@
 
 #include "render/fault.h"
 
-enum { MOST_POINTS = 4096 };
+enum { MAX_POINTS = 4096 };
 
 /* A surface that is being put together. */
 typedef struct skin_draft {
@@ -17,10 +17,10 @@ typedef struct skin_draft {
 static bool begin(skin_draft *s) {
   *s = (skin_draft){.asset = sbf_asset_create(NULL)};
   if (!s->asset) return false;
-  s->points = sbf_asset_allocate(s->asset, MOST_POINTS, sizeof *s->points);
-  s->sizes = sbf_asset_allocate(s->asset, 2 * MOST_POINTS, sizeof *s->sizes);
-  s->corners = sbf_asset_allocate(s->asset, 8 * MOST_POINTS, sizeof *s->corners);
-  s->held = sbf_asset_allocate(s->asset, MOST_POINTS, sizeof *s->held);
+  s->points = sbf_asset_allocate(s->asset, MAX_POINTS, sizeof *s->points);
+  s->sizes = sbf_asset_allocate(s->asset, 2 * MAX_POINTS, sizeof *s->sizes);
+  s->corners = sbf_asset_allocate(s->asset, 8 * MAX_POINTS, sizeof *s->corners);
+  s->held = sbf_asset_allocate(s->asset, MAX_POINTS, sizeof *s->held);
   if (s->points && s->sizes && s->corners && s->held) return true;
   sbf_asset_free(s->asset);
   return false;

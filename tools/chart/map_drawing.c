@@ -24,9 +24,9 @@ static void write_boxes(FILE *to, const chart_map *map, uint32_t scheme) {
     }
     for (uint32_t c = 0, end; c < map->columns; c = end) {
       for (end = c + 1; end < map->columns && row[end].outcome == row[c].outcome;) end++;
-      double span = CHART_MAP_MOST_TURN / CHART_MAP_LEAST_TURN;
-      double left = CHART_MAP_LEAST_TURN * pow(span, (double)c / map->columns);
-      double right = CHART_MAP_LEAST_TURN * pow(span, (double)end / map->columns);
+      double span = CHART_MAP_MAX_TURN / CHART_MAP_MIN_TURN;
+      double left = CHART_MAP_MIN_TURN * pow(span, (double)c / map->columns);
+      double right = CHART_MAP_MIN_TURN * pow(span, (double)end / map->columns);
       fprintf(to, "%.6g %.6g %.6g %.6g %.6g %.6g %u\n", sqrt(left * right), (edges[0] + edges[1]) / 2, left,
           right, edges[0], edges[1], COLOURS[row[c].outcome]);
     }
@@ -45,7 +45,7 @@ static bool write_bound(FILE *to, const chart_map *map, uint32_t scheme) {
     double at = a->logarithmic ? a->low * pow(a->high / a->low, share) : a->low + (a->high - a->low) * share;
     double damping = strcmp(a->name, "damping") == 0 ? at : chart_map_cell(map, scheme, 0, 0).damping;
     double bound = chart_stable_below(chart_map_schemes[scheme], damping);
-    if (!(bound >= CHART_MAP_LEAST_TURN && bound <= CHART_MAP_MOST_TURN)) continue;
+    if (!(bound >= CHART_MAP_MIN_TURN && bound <= CHART_MAP_MAX_TURN)) continue;
     fprintf(to, "%.6g %.6g\n", bound, at);
     some = true;
   }
@@ -114,7 +114,7 @@ static void write_script(FILE *to, const chart_map *map, const chart_machine *ma
       "set encoding utf8\nset terminal svg size 1000,640 font 'DejaVu Sans,12' background '#ffffff'\n"
       "set output '%s'\nset logscale x\n%sset xrange [%g:%g]\nset yrange [%g:%g]\n"
       "set xtics (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) out nomirror\nset ytics out nomirror\n",
-      output, a->logarithmic ? "set logscale y\n" : "", CHART_MAP_LEAST_TURN, CHART_MAP_MOST_TURN, a->low,
+      output, a->logarithmic ? "set logscale y\n" : "", CHART_MAP_MIN_TURN, CHART_MAP_MAX_TURN, a->low,
       a->high);
   fprintf(to,
       "set multiplot title \"{/*1.1 {/:Bold map-%s}: %s}\\n"

@@ -10,7 +10,7 @@
 
 #include "render/fault.h"
 
-enum { MOST_PATH = 4096 };
+enum { MAX_PATH = 4096 };
 
 static sbf_status cannot(sbf_diagnostic *error, const char *path, const char *what) {
   return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "%s: %s", what, strerror(errno));
@@ -27,7 +27,7 @@ static void parent_of(const char *path, char *to, size_t size) {
 
 sbf_status chart_place_check(const char *path, sbf_diagnostic *error) {
   struct stat is;
-  char parent[MOST_PATH];
+  char parent[MAX_PATH];
   if (!*path || strlen(path) > sizeof parent - 8)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path to write to");
   parent_of(path, parent, sizeof parent);
@@ -40,7 +40,7 @@ sbf_status chart_place_check(const char *path, sbf_diagnostic *error) {
 
 sbf_status chart_folder_check(const char *path, sbf_diagnostic *error) {
   struct stat is;
-  if (!*path || strlen(path) > MOST_PATH - 8)
+  if (!*path || strlen(path) > MAX_PATH - 8)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path for a folder");
   if (stat(path, &is) == 0 && !S_ISDIR(is.st_mode))
     return fault_set_file(

@@ -8,7 +8,7 @@
 #include "chart/table.h"
 
 static const double BUDGETS_US[] = {100, 1000, 4000};
-enum { BUDGETS = 3, MOST_LINES = 64 };
+enum { BUDGETS = 3, MAX_LINES = 64 };
 /* Of a panel's height, for a scheme's failures on its top. */
 static const double STRIP = 0.034;
 static const unsigned FRONT = 0xffd966;
@@ -36,11 +36,11 @@ typedef struct line {
 typedef struct plot {
   const chart_sheet *sheet;
   chart_axis axis;
-  line lines[MOST_LINES];
+  line lines[MAX_LINES];
   int line_count;
   bool *front;
   double bottom, top, failed; /* of the axis; from `failed` on stands what failed */
-  int failing[MOST_LINES],
+  int failing[MAX_LINES],
       failing_count; /* lines of schemes that failed somewhere, a place in the strip each */
   double cheapest[2], dearest[2];
   bool several_models;
@@ -57,7 +57,7 @@ static void find_lines(plot *p) {
     const chart_row *row = &p->sheet->rows[i];
     bool known = false;
     for (int k = 0; k < p->line_count; k++) known = known || is_of(&p->lines[k], row);
-    if (known || p->line_count == MOST_LINES) continue;
+    if (known || p->line_count == MAX_LINES) continue;
     p->lines[p->line_count++] = (line){row->model, row->scheme, row->setting.step_error_m > 0};
     p->several_models = p->several_models || strcmp(row->model, p->lines[0].model) != 0;
   }
@@ -97,8 +97,8 @@ static void find_range(plot *p) {
     for (int k = 0; !row->refused && k < 2; k++) {
       double cost = cost_of(row, k);
       if (!(cost > 0)) continue;
-      p->cheapest[k] = fmin(p->cheapest[k], k ? cost : row->us.least);
-      p->dearest[k] = fmax(p->dearest[k], k ? cost : row->us.most);
+      p->cheapest[k] = fmin(p->cheapest[k], k ? cost : row->us.min);
+      p->dearest[k] = fmax(p->dearest[k], k ? cost : row->us.max);
     }
     if (row->refused || !chart_row_counts(row, p->axis)) continue;
     low = fmin(low, row->errors[p->axis]), high = fmax(high, row->errors[p->axis]);
@@ -130,7 +130,7 @@ static void write_data(FILE *to, const plot *p) {
       const chart_row *row = &p->sheet->rows[i];
       if (row->refused || !is_of(&p->lines[k], row)) continue;
       bool counts = chart_row_counts(row, p->axis);
-      fprintf(to, "%.6g %.6g %.6g %.6g %s %s\n", row->us.median, row->us.least, row->us.most,
+      fprintf(to, "%.6g %.6g %.6g %.6g %s %s\n", row->us.median, row->us.min, row->us.max,
           counts ? row->errors[p->axis] : mark_at(p, row), counts ? "1" : "NaN", counts ? "NaN" : "1");
     }
     fprintf(to, "EOD\n$visits%d << EOD\nNaN NaN NaN NaN NaN NaN\n", k);

@@ -7,7 +7,7 @@
 #include "chart/network_motion.h"
 #include "render/fault.h"
 
-enum { LEAST_SUBSTEPS = 32, MOST_SUBSTEPS = 1024 }; /* of what is swept; of the runtime */
+enum { MIN_SUBSTEPS = 32, MAX_SUBSTEPS = 1024 }; /* of what is swept; of the runtime */
 static const double TICK_S = 1.0 / 60;
 static const char MEND[] = "its matter folds up or its lattice is unsound";
 /* How far the two tracks of a reference may be apart, as a share of how far things move, for it to be left as
@@ -86,7 +86,7 @@ static sbf_status refine(
     reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
   sbf_status status = look_at_both(p, NULL, tracks, errors, hint, error);
   while ((status == SBF_OK ? apart(p, &tracks[1], errors) > CONVERGED : error->code == SBF_CODE_BAD_CALL) &&
-         2 * p->substeps[1] <= MOST_SUBSTEPS) {
+         2 * p->substeps[1] <= MAX_SUBSTEPS) {
     reference_pair finer = *p;
     chart_track more[2] = {{.ticks = 0}, {.ticks = 0}};
     double finer_errors[CHART_AXIS_COUNT];
@@ -119,8 +119,8 @@ static sbf_status find_by_runtime(chart_truth *truth, const chart_case *charted,
   chart_track tracks[2] = {{.ticks = 0}, {.ticks = 0}};
   uint32_t needed = 1;
   sbf_status status = needed_substeps(scene, &needed, error);
-  while (substeps < 2 * needed && substeps < MOST_SUBSTEPS) substeps *= 2;
-  if (substeps > MOST_SUBSTEPS) substeps = MOST_SUBSTEPS;
+  while (substeps < 2 * needed && substeps < MAX_SUBSTEPS) substeps *= 2;
+  if (substeps > MAX_SUBSTEPS) substeps = MAX_SUBSTEPS;
   reference_pair pair = {
       charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN}, {substeps, substeps}};
   if (status == SBF_OK) status = refine(&pair, tracks, truth->stated->errors, MEND, error);
@@ -131,13 +131,13 @@ static sbf_status find_by_runtime(chart_truth *truth, const chart_case *charted,
 }
 
 sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
-    const sbf_vec3 *rest, uint32_t most_substeps, chart_reference *stated, sbf_diagnostic *error) {
+    const sbf_vec3 *rest, uint32_t max_substeps, chart_reference *stated, sbf_diagnostic *error) {
   *truth = (chart_truth){.stated = stated};
-  if (most_substeps < LEAST_SUBSTEPS) most_substeps = LEAST_SUBSTEPS;
+  if (max_substeps < MIN_SUBSTEPS) max_substeps = MIN_SUBSTEPS;
   bool lattice = scene->asset->soft_bodies.at[0].levels.at[0].model != SBF_ELASTIC_MODEL_SHAPE_MATCHING;
   return charted->in_double && lattice
-             ? find_in_double(truth, charted, scene, rest, most_substeps, error)
-             : find_by_runtime(truth, charted, scene, rest, 4 * most_substeps, error);
+             ? find_in_double(truth, charted, scene, rest, max_substeps, error)
+             : find_by_runtime(truth, charted, scene, rest, 4 * max_substeps, error);
 }
 
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double LEAST = 1e-12;
+static const double MIN = 1e-12;
 
 chart_row *chart_sheet_add_row(chart_sheet *sheet) {
   if (sheet->row_count == sheet->row_room) {
@@ -35,6 +35,6 @@ void chart_sheet_free(chart_sheet *sheet) {
 
 bool chart_row_counts(const chart_row *row, chart_axis axis) {
   bool in_metres =
-      axis == CHART_PATH || axis == CHART_FARTHEST || axis == CHART_PIXELS || axis == CHART_MOST_PIXELS;
-  return row->sound && row->errors[axis] >= LEAST && (in_metres || row->errors[axis] < 1);
+      axis == CHART_PATH || axis == CHART_FARTHEST || axis == CHART_PIXELS || axis == CHART_MAX_PIXELS;
+  return row->sound && row->errors[axis] >= MIN && (in_metres || row->errors[axis] < 1);
 }

@@ -16,11 +16,11 @@ static double at_share(const double *sorted, uint32_t count, double share) {
 
 chart_spread chart_spread_of(double *samples, uint32_t count) {
   qsort(samples, count, sizeof *samples, compare);
-  chart_spread s = {.least = samples[0],
+  chart_spread s = {.min = samples[0],
       .low = at_share(samples, count, 0.25),
       .median = at_share(samples, count, 0.5),
       .high = at_share(samples, count, 0.75),
-      .most = samples[count - 1]};
+      .max = samples[count - 1]};
   double fence = 1.5 * (s.high - s.low);
   for (uint32_t i = 0; i < count; i++)
     s.outliers += samples[i] < s.low - fence || samples[i] > s.high + fence;

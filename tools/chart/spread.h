@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 typedef struct chart_spread {
-  double least, low, median, high, most; /* low and high are the quartiles */
+  double min, low, median, high, max; /* low and high are the quartiles */
   uint32_t outliers; /* farther outside of the quartiles than one and a half times what is between them
                         (Tukey's fences) */
 } chart_spread;

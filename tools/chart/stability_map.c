@@ -68,7 +68,7 @@ chart_cell chart_map_cell(const chart_map *map, uint32_t scheme, uint32_t row, u
   const chart_map_axis *a = map->axis;
   double value = between(a->low, a->high, (row + 0.5) / map->rows, a->logarithmic);
   chart_cell cell = {.scheme = chart_map_schemes[scheme],
-      .turn = between(CHART_MAP_LEAST_TURN, CHART_MAP_MOST_TURN, (column + 0.5) / map->columns, true),
+      .turn = between(CHART_MAP_MIN_TURN, CHART_MAP_MAX_TURN, (column + 0.5) / map->columns, true),
       .damping = 0.1,
       .stretch = 0.02};
   double *const conditions[] = {&cell.damping, &cell.jitter, &cell.hitch_ticks, &cell.stretch};

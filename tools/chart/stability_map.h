@@ -8,8 +8,8 @@
 #include "chart/stability.h"
 
 enum { CHART_MAP_SCHEMES = 6 };
-#define CHART_MAP_LEAST_TURN 0.05
-#define CHART_MAP_MOST_TURN 20.0
+#define CHART_MAP_MIN_TURN 0.05
+#define CHART_MAP_MAX_TURN 20.0
 
 /* What cells are of. */
 typedef enum chart_map_kind {

@@ -43,20 +43,20 @@ sbf_asset *chart_mass_on_spring(float mass_kg, float stiffness) {
 }
 
 sbf_asset *chart_held_chain(uint32_t count, float length_m, float mass_kg, float stiffness) {
-  enum { MOST = 256 };
-  sbf_vec3 points[MOST + 2];
-  sbf_uint2 ends[MOST + 1];
-  if (count > MOST) count = MOST;
+  enum { MAX = 256 };
+  sbf_vec3 points[MAX + 2];
+  sbf_uint2 ends[MAX + 1];
+  if (count > MAX) count = MAX;
   for (uint32_t i = 0; i < count + 2; i++) points[i] = (sbf_vec3){0, -length_m * (float)i, 0};
   for (uint32_t i = 0; i < count + 1; i++) ends[i] = (sbf_uint2){{i, i + 1}};
   return make(points, count + 2, mass_kg, ends, count + 1, stiffness, (const uint32_t[]){0, count + 1}, 2);
 }
 
 sbf_asset *chart_hung_chain(uint32_t count, float length_m, float mass_kg, float end_kg, float stiffness) {
-  enum { MOST = 256 };
-  sbf_vec3 points[MOST + 1];
-  sbf_uint2 ends[MOST];
-  if (count > MOST) count = MOST;
+  enum { MAX = 256 };
+  sbf_vec3 points[MAX + 1];
+  sbf_uint2 ends[MAX];
+  if (count > MAX) count = MAX;
   for (uint32_t i = 0; i < count + 1; i++) points[i] = (sbf_vec3){0, -length_m * (float)i, 0};
   for (uint32_t i = 0; i < count; i++) ends[i] = (sbf_uint2){{i, i + 1}};
   sbf_asset *asset = make(points, count + 1, mass_kg, ends, count, stiffness, &(uint32_t){0}, 1);

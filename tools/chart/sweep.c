@@ -32,7 +32,7 @@ static void to_pixels(const sweep *s, double errors[CHART_AXIS_COUNT]) {
   double pixels = chart_pixels_a_metre(s->effort->distance_m);
   if (!(s->charted->axes & 1u << CHART_PIXELS)) return;
   errors[CHART_PIXELS] = pixels * errors[CHART_PATH];
-  errors[CHART_MOST_PIXELS] = pixels * errors[CHART_FARTHEST];
+  errors[CHART_MAX_PIXELS] = pixels * errors[CHART_FARTHEST];
 }
 
 static bool judge(
@@ -93,7 +93,7 @@ static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const ch
   static const float tolerances_m[] = {1e-2f, 1e-3f, 1e-4f, 1e-5f, 1e-6f};
   sbf_status status = SBF_OK;
   for (int i = 0; i < 5; i++)
-    for (uint32_t n = 1; status == SBF_OK && n <= s->effort->most_substeps; n *= 2) {
+    for (uint32_t n = 1; status == SBF_OK && n <= s->effort->max_substeps; n *= 2) {
       const chart_setting setting = {.scheme = by_substeps[i], .substeps = n};
       status = add_row(s, subject, scene, &setting, truth, rest, error);
       /* What is refused at one number of substeps is at all. */
@@ -126,7 +126,7 @@ static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diag
   sbf_vec3 *rest = chart_motion_begins(&scene);
   sbf_status status = rest ? state_reference(s, subject, &stated, error) : no_memory(error);
   if (status == SBF_OK)
-    status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->most_substeps, stated, error);
+    status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->max_substeps, stated, error);
   if (status == SBF_OK) to_pixels(s, stated->errors);
   tell(s, "errors", 0);
   if (status == SBF_OK) status = sweep_schemes(s, subject, &scene, &truth, rest, error);
@@ -175,7 +175,7 @@ static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
     if (row->refused) continue;
     chart_spread *t = &timed[next++].s;
     row->us =
-        (chart_spread){us * t->least, us * t->low, us * t->median, us * t->high, us * t->most, t->outliers};
+        (chart_spread){us * t->min, us * t->low, us * t->median, us * t->high, us * t->max, t->outliers};
     for (uint32_t r = 0; r < rounds; r++) row->runs_us[r] *= us;
   }
   free(timed);
@@ -193,14 +193,14 @@ static sbf_status take(
 
 sbf_status chart_sweep(
     const chart_case *charted, const chart_effort *effort, chart_sheet *sheet, sbf_diagnostic *error) {
-  enum { MOST_SUBJECTS = 32 };
+  enum { MAX_SUBJECTS = 32 };
   sweep s = {.charted = charted, .effort = effort, .sheet = sheet};
-  chart_subject subjects[MOST_SUBJECTS] = {{.asset = NULL}};
+  chart_subject subjects[MAX_SUBJECTS] = {{.asset = NULL}};
   sbf_status status = SBF_OK;
   uint32_t count = 0;
   *sheet = (chart_sheet){
       .name = charted->name, .title = charted->title, .axes = charted->axes, .rounds = effort->rounds};
-  for (uint32_t i = 0; status == SBF_OK && i < MOST_SUBJECTS; i++) {
+  for (uint32_t i = 0; status == SBF_OK && i < MAX_SUBJECTS; i++) {
     status = charted->given ? take(charted, i, &subjects[i], error) : charted->make(i, &subjects[i], error);
     if (status != SBF_OK || !subjects[i].asset) break;
     count++;
@@ -211,6 +211,6 @@ sbf_status chart_sweep(
   for (uint32_t i = 0; i < sheet->row_count && i < s.motion_room; i++)
     if (!sheet->rows[i].refused) chart_motion_close(&s.motions[i]);
   free(s.motions);
-  for (uint32_t i = 0; i < MOST_SUBJECTS; i++) sbf_asset_free(subjects[i].asset);
+  for (uint32_t i = 0; i < MAX_SUBJECTS; i++) sbf_asset_free(subjects[i].asset);
   return status;
 }

@@ -61,7 +61,7 @@ static void write_rows(FILE *file, const chart_sheet *sheet, const chart_machine
     write_setting(file, sheet, row);
     fprintf(file, ",%u", (unsigned)row->elements);
     write_number(file, row->visits);
-    const double us[] = {row->us.median, row->us.least, row->us.low, row->us.high, row->us.most};
+    const double us[] = {row->us.median, row->us.min, row->us.low, row->us.high, row->us.max};
     for (int k = 0; k < 5; k++) write_number(file, row->refused ? NAN : us[k]);
     fprintf(file, ",%u,%u,%s,", row->refused ? 0 : (unsigned)sheet->rounds, (unsigned)row->us.outliers,
         row->refused ? "refused"

@@ -6,7 +6,7 @@
 
 #include "render/fault.h"
 
-enum { MOST_COLUMNS = 64, MOST_ROUNDS = 10000 };
+enum { MAX_COLUMNS = 64, MAX_ROUNDS = 10000 };
 
 /* One table, a line at a time; columns are found by their heads. */
 typedef struct table {
@@ -15,13 +15,13 @@ typedef struct table {
   char *head_text, *line;
   size_t head_room, room;
   unsigned line_number;
-  char *heads[MOST_COLUMNS], *fields[MOST_COLUMNS];
+  char *heads[MAX_COLUMNS], *fields[MAX_COLUMNS];
   int column_count;
 } table;
 
 static int split(char *line, char **fields) {
   int count = 0;
-  for (char *at = line; count < MOST_COLUMNS;) {
+  for (char *at = line; count < MAX_COLUMNS;) {
     char *to = at;
     bool quoted = *at == '"';
     fields[count++] = at;
@@ -144,14 +144,14 @@ static sbf_status read_row(const table *t, chart_sheet *sheet, sbf_diagnostic *e
     return fault(t, error, "the outcome is none of sound, failed and refused");
   read_errors(t, row->errors);
   if (row->refused) return SBF_OK;
-  row->us = (chart_spread){.least = number_of(t, "us_least"),
+  row->us = (chart_spread){.min = number_of(t, "us_least"),
       .low = number_of(t, "us_low"),
       .median = number_of(t, "us_per_frame"),
       .high = number_of(t, "us_high"),
-      .most = number_of(t, "us_most"),
+      .max = number_of(t, "us_most"),
       .outliers = count_of(t, "outliers")};
   uint32_t rounds = count_of(t, "runs");
-  if (!(row->us.median > 0) || !rounds || rounds > MOST_ROUNDS || (sheet->rounds && rounds != sheet->rounds))
+  if (!(row->us.median > 0) || !rounds || rounds > MAX_ROUNDS || (sheet->rounds && rounds != sheet->rounds))
     return fault(t, error, "a time is missing, or there are not as many runs as in the lines above");
   sheet->rounds = rounds;
   row->runs_us = calloc(rounds, sizeof *row->runs_us);

@@ -17,9 +17,8 @@ matrix4 draw_camera_view(const draw_camera *camera) {
 }
 
 matrix4 draw_camera_projection(const draw_camera *camera, float aspect, float reach) {
-  float near = camera->distance - reach, least = camera->distance * 0.02f;
-  return matrix4_perspective(
-      camera->half_height, aspect, near > least ? near : least, camera->distance + reach);
+  float near = camera->distance - reach, min = camera->distance * 0.02f;
+  return matrix4_perspective(camera->half_height, aspect, near > min ? near : min, camera->distance + reach);
 }
 
 /* A point p, in the axes right, over and back of the picture, is inside a picture whose half width is w at

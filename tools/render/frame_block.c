@@ -44,7 +44,7 @@ void frame_block_fill(frame_block *frame, uint32_t width, uint32_t height, const
   set4(frame->rim, towards(camera->home_yaw, 2.6f, 0.55f), 0);
   set4(frame->screen, v3((float)width, (float)height, 1 / (float)width), 1 / (float)height);
   set4(frame->floor_grid, v3(grid_cell(size), fmaxf(1, (float)height / 720), 0), 0);
-  set4(frame->ground_map, v3(place->least_x, place->least_z, 1 / place->ground_side),
+  set4(frame->ground_map, v3(place->min_x, place->min_z, 1 / place->ground_side),
       place->ground_side / GROUND_MAP_SIDE);
   set4(frame->heights, v3(place->low, place->high, 0), 0);
   set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.07f * size), 0);

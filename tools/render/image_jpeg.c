@@ -10,7 +10,7 @@
 #include <setjmp.h>
 
 /* A progressive file of some kilobytes can ask for thousands of scans over all of its pixels. */
-enum { MOST_SCANS = 100 };
+enum { MAX_SCANS = 100 };
 
 typedef struct reading {
   struct jpeg_error_mgr errors;
@@ -41,8 +41,8 @@ static void note(j_common_ptr jpeg, int level) {
 }
 
 static void count_scans(j_common_ptr jpeg) {
-  if (((j_decompress_ptr)jpeg)->input_scan_number <= MOST_SCANS) return;
-  snprintf(reading_of(jpeg)->why, DRAW_IMAGE_WHY, "it is damaged (more than %d scans)", MOST_SCANS);
+  if (((j_decompress_ptr)jpeg)->input_scan_number <= MAX_SCANS) return;
+  snprintf(reading_of(jpeg)->why, DRAW_IMAGE_WHY, "it is damaged (more than %d scans)", MAX_SCANS);
   longjmp(reading_of(jpeg)->failed, 1);
 }
 

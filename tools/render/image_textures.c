@@ -4,10 +4,10 @@
 
 static GLuint make(const gl_api *gl, const draw_image *image) {
   static const uint8_t white[4] = {255, 255, 255, 255};
-  GLint most = 0;
+  GLint max = 0;
   GLuint made = 0, width = image ? image->width : 1, height = image ? image->height : 1;
-  gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  if (width > (GLuint)most || height > (GLuint)most) return 0;
+  gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &max);
+  if (width > (GLuint)max || height > (GLuint)max) return 0;
   gl->GenTextures(1, &made);
   gl->BindTexture(GL_TEXTURE_2D, made);
   gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)width, (GLsizei)height, 0, GL_RGBA, GL_UNSIGNED_BYTE,

@@ -125,11 +125,11 @@ void light_maps_place(light_maps *maps, const box3 *casters, const box3 *ground,
   maps->ground_side = grown(maps->ground_side, fmaxf(right - left, front - back));
   place->ground_side = maps->ground_side;
   texel = place->ground_side / GROUND_MAP_SIDE;
-  place->least_x = to_texel(0.5f * (left + right - place->ground_side), texel);
-  place->least_z = to_texel(0.5f * (back + front - place->ground_side), texel);
+  place->min_x = to_texel(0.5f * (left + right - place->ground_side), texel);
+  place->min_z = to_texel(0.5f * (back + front - place->ground_side), texel);
   place->low = fminf(box.min.y, box3_is_empty(ground) ? box.min.y : ground->min.y) - 0.01f * radius - 1e-4f;
   place->high = fmaxf(box.max.y, box3_is_empty(ground) ? box.max.y : ground->max.y) + 0.01f * radius + 1e-4f;
   float across = 2 / place->ground_side, up = 2 / (place->high - place->low);
   place->heights_clip_from_world = (matrix4){{across, 0, 0, 0, 0, 0, up, 0, 0, across, 0, 0,
-      -across * place->least_x - 1, -across * place->least_z - 1, -up * place->low - 1, 1}};
+      -across * place->min_x - 1, -across * place->min_z - 1, -up * place->low - 1, 1}};
 }

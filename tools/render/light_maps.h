@@ -20,11 +20,11 @@ typedef struct light_maps {
 
 /* Where the maps lie, for one frame. */
 typedef struct light_place {
-  matrix4 shadow_clip_from_world;      /* to -1..1 */
-  float shadow_side, shadow_depth;     /* metres across, and along the light */
-  matrix4 heights_clip_from_world;     /* seen from below: x, z across; height as depth */
-  float least_x, least_z, ground_side; /* metres */
-  float low, high;                     /* heights at depth 0 and 1, metres */
+  matrix4 shadow_clip_from_world;  /* to -1..1 */
+  float shadow_side, shadow_depth; /* metres across, and along the light */
+  matrix4 heights_clip_from_world; /* seen from below: x, z across; height as depth */
+  float min_x, min_z, ground_side; /* metres */
+  float low, high;                 /* heights at depth 0 and 1, metres */
 } light_place;
 
 /* A picture of depths alone, and the frame to draw it by. */

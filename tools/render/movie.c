@@ -18,12 +18,12 @@ struct draw_movie {
 
 /* One palette for all frames must have seen them all first, and ffmpeg keeps them in memory until then:
  * beyond this many bytes a palette is made for each frame instead. */
-#define PALETTE_BYTES_MOST ((uint64_t)1 << 30)
+#define PALETTE_BYTES_MAX ((uint64_t)1 << 30)
 
 /* Ordered dithering stands still where the picture does, which keeps a GIF both calm and small. */
 static void write_gif_filter(const draw_movie_options *options, char *filter, size_t size) {
   uint64_t bytes = (uint64_t)options->width * options->height * 3 * options->frame_count;
-  bool one = options->frame_count && bytes <= PALETTE_BYTES_MOST;
+  bool one = options->frame_count && bytes <= PALETTE_BYTES_MAX;
   unsigned colors = options->colors ? options->colors : 256;
   snprintf(filter, size,
       "[0:v]split[a][b];[a]palettegen=max_colors=%u:stats_mode=%s[p];[b][p]paletteuse=%sdither=%s:"
@@ -33,15 +33,15 @@ static void write_gif_filter(const draw_movie_options *options, char *filter, si
 
 static sbf_status check(const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
   static const char *const kinds[] = {"a GIF", "an MP4", "a WebP"};
-  uint32_t most = options->kind == DRAW_MOVIE_MP4 ? 240 : DRAW_MOVIE_LOOP_FPS_MOST;
+  uint32_t max = options->kind == DRAW_MOVIE_MP4 ? 240 : DRAW_MOVIE_LOOP_FPS_MAX;
   if (options->width == 0 || options->height == 0 || options->width > 16384 || options->height > 16384)
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "a film of %ux%u pixels cannot be made",
         (unsigned)options->width, (unsigned)options->height);
   if (options->kind == DRAW_MOVIE_MP4 && (options->width < 2 || options->height < 2))
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "an MP4 needs at least 2x2 pixels");
-  if (options->fps == 0 || options->fps > most)
+  if (options->fps == 0 || options->fps > max)
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "%u frames a second: %s holds 1 to %u",
-        (unsigned)options->fps, kinds[options->kind], (unsigned)most);
+        (unsigned)options->fps, kinds[options->kind], (unsigned)max);
   return SBF_OK;
 }
 

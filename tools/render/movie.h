@@ -11,7 +11,7 @@ typedef enum draw_movie_kind {
 } draw_movie_kind;
 
 /* Of what loops: a GIF counts hundredths of a second, and players slow down what is shorter than two. */
-enum { DRAW_MOVIE_LOOP_FPS_MOST = 50 };
+enum { DRAW_MOVIE_LOOP_FPS_MAX = 50 };
 
 typedef struct draw_movie_options {
   draw_movie_kind kind;

@@ -5,14 +5,14 @@
  * shading. */
 #include "render/draw_scene_data.h"
 
-enum { LINES_MOST = 320, JUMPS_MOST = 24, PROBES = 9, HALVINGS = 16 };
+enum { LINES_MAX = 320, JUMPS_MAX = 24, PROBES = 9, HALVINGS = 16 };
 
 typedef struct terrain_grid {
   draw_height height;
   void *user;
   float middle[2]; /* x and z */
   float radius, cell;
-  float lines[2][LINES_MOST];
+  float lines[2][LINES_MAX];
   uint32_t counts[2];
 } terrain_grid;
 
@@ -21,7 +21,7 @@ static float height_at(const terrain_grid *grid, int axis, float along, float ac
 }
 
 static void add_terrain_line(terrain_grid *grid, int axis, float place) {
-  if (grid->counts[axis] < LINES_MOST) grid->lines[axis][grid->counts[axis]++] = place;
+  if (grid->counts[axis] < LINES_MAX) grid->lines[axis][grid->counts[axis]++] = place;
 }
 
 /* Halves the stretch until it is narrow; a slope has by then no difference left, a jump all of it. */
@@ -67,10 +67,10 @@ static void lay_lines(terrain_grid *grid, int axis) {
   int jumps = 0;
   grid->counts[axis] = 0;
   add_terrain_line(grid, axis, place);
-  while (place < end && grid->counts[axis] + 5 <= LINES_MOST) {
+  while (place < end && grid->counts[axis] + 5 <= LINES_MAX) {
     float next = next_line(grid, axis, place);
     uint32_t before = grid->counts[axis];
-    if (jumps < JUMPS_MOST) add_jump(grid, axis, place, next);
+    if (jumps < JUMPS_MAX) add_jump(grid, axis, place, next);
     jumps += grid->counts[axis] != before;
     add_terrain_line(grid, axis, next);
     place = next;

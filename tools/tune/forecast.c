@@ -37,20 +37,19 @@ sbf_status tune_forecast_make(
     double visit_s = tick_s / fmax(chart_visits_of(motion.model, meshes->reference.asset, &setting), 1);
     for (uint32_t i = 0; i < planned->count; i++)
       if (!planned->at[i].refused) tried += planned->at[i].element_visits;
-    forecast->least_s = ticks * (DRIVES * LOOKS * tick_s + LAST * tried * visit_s);
-    forecast->most_s = ticks * (DRIVES * REFINED_LOOKS * tick_s + tried * visit_s);
+    forecast->min_s = ticks * (DRIVES * LOOKS * tick_s + LAST * tried * visit_s);
+    forecast->max_s = ticks * (DRIVES * REFINED_LOOKS * tick_s + tried * visit_s);
   }
   chart_motion_close(&motion);
   return status;
 }
 
 void tune_forecast_say(const tune_forecast *forecast, char *text, size_t size) {
-  bool minutes = forecast->most_s > 100;
-  double unit = minutes ? 60 : 1, least = ceil(forecast->least_s / unit),
-         most = ceil(forecast->most_s / unit);
-  const char *name = minutes ? "minutes" : most > 1 ? "seconds" : "second";
-  if (least < most)
-    snprintf(text, size, "%.0f to %.0f %s", least, most, name);
+  bool minutes = forecast->max_s > 100;
+  double unit = minutes ? 60 : 1, min = ceil(forecast->min_s / unit), max = ceil(forecast->max_s / unit);
+  const char *name = minutes ? "minutes" : max > 1 ? "seconds" : "second";
+  if (min < max)
+    snprintf(text, size, "%.0f to %.0f %s", min, max, name);
   else
-    snprintf(text, size, "%.0f %s", most, name);
+    snprintf(text, size, "%.0f %s", max, name);
 }

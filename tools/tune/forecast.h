@@ -5,7 +5,7 @@
 #include "tune/trials.h"
 
 typedef struct tune_forecast {
-  double least_s, most_s; /* on a core of its own: most of what is tried is soon beaten; nothing is, and the
+  double min_s, max_s; /* on a core of its own: most of what is tried is soon beaten; nothing is, and the
                              reference has to be refined in each motion */
 } tune_forecast;
 

@@ -16,7 +16,7 @@ typedef struct writer {
   const char *machine;
   sbf_asset *memory;
   uint32_t derivation;
-  sbr_model *models[TUNE_MOST_MESHES];
+  sbr_model *models[TUNE_MAX_MESHES];
 } writer;
 
 /* The settings of an earlier tuning make room for these. */
@@ -90,7 +90,7 @@ static bool write_level(const writer *w, uint32_t body, uint32_t number, sbf_lev
     level->simulation.scheme = trial->setting.scheme;
     level->simulation.substeps = trial->setting.substeps;
   }
-  level->simulation.motion_error = (float)from->most_m;
+  level->simulation.motion_error = (float)from->max_m;
   level->simulation.motion_error_rms = (float)from->rms_m;
   level->simulation.cost = isfinite(cost) ? (float)cost : 0;
   return level->name && mark(w, level) && state_time(w, level, share * trial->us.median);

@@ -7,7 +7,7 @@
 #include "render/fault.h"
 #include "sbfmt/build.h"
 
-enum { ALL_REFERENCE = 24000, LEAST_REFERENCE = 960, MOST_REFERENCE = 7900, LEAST_SIZE = 48 };
+enum { ALL_REFERENCE = 24000, MIN_REFERENCE = 960, MAX_REFERENCE = 7900, MIN_SIZE = 48 };
 
 typedef struct maker {
   const tune_grid *grid;
@@ -155,13 +155,13 @@ static sbf_status check_base(maker *m) {
 }
 
 static sbf_status add_own_levels(maker *m) {
-  uint32_t most = 0;
+  uint32_t max = 0;
   const sbf_asset *base = m->to->base;
   for (uint32_t b = 0; b < base->soft_bodies.count; b++) {
     uint32_t count = stepped_levels(&base->soft_bodies.at[b]);
-    most = count > most ? count : most;
+    max = count > max ? count : max;
   }
-  for (uint32_t l = 0; l < most && m->to->count < 8; l++) {
+  for (uint32_t l = 0; l < max && m->to->count < 8; l++) {
     char name[48] = "as built";
     if (l > 0) snprintf(name, sizeof name, "as built, level %u", (unsigned)l);
     tune_mesh *mesh = &m->to->at[m->to->count++];
@@ -213,16 +213,16 @@ static sbf_status add_twin(maker *m, const tune_mesh *of) {
 static uint32_t reference_of(const tune_grid *grid, uint32_t bodies) {
   if (grid->reference) return grid->reference;
   uint32_t size = ALL_REFERENCE / (bodies ? bodies : 1);
-  size = size > MOST_REFERENCE ? MOST_REFERENCE : size < LEAST_REFERENCE ? LEAST_REFERENCE : size;
+  size = size > MAX_REFERENCE ? MAX_REFERENCE : size < MIN_REFERENCE ? MIN_REFERENCE : size;
   return grid->coarse ? size / 4 : size;
 }
 
 static sbf_status add_lattices(maker *m) {
   uint32_t reference = reference_of(m->grid, m->to->base->soft_bodies.count);
-  uint32_t sizes[TUNE_MOST_SIZES], count = m->grid->size_count;
+  uint32_t sizes[TUNE_MAX_SIZES], count = m->grid->size_count;
   memcpy(sizes, m->grid->sizes, sizeof sizes);
   for (uint32_t size = reference / 4, i = 0; !m->grid->size_count && i < 3; i++, size /= 4)
-    if (size >= LEAST_SIZE) sizes[count++] = size;
+    if (size >= MIN_SIZE) sizes[count++] = size;
   m->share = 1.0 / (1 + count);
   m->done = 0;
   sbf_status status = build_lattice(m, reference, &m->to->reference);
@@ -254,7 +254,7 @@ sbf_status tune_meshes_make(
 }
 
 void tune_meshes_free(tune_meshes *meshes) {
-  for (uint32_t i = 0; i < TUNE_MOST_MESHES; i++) sbf_asset_free(meshes->at[i].asset);
+  for (uint32_t i = 0; i < TUNE_MAX_MESHES; i++) sbf_asset_free(meshes->at[i].asset);
   sbf_asset_free(meshes->reference.asset);
   sbf_asset_free(meshes->base);
   *meshes = (tune_meshes){.base = NULL};

@@ -5,7 +5,7 @@
 
 #include "sbfmt/asset.h"
 
-enum { TUNE_MOST_SIZES = 12, TUNE_MOST_MESHES = 2 * TUNE_MOST_SIZES + 8 };
+enum { TUNE_MAX_SIZES = 12, TUNE_MAX_MESHES = 2 * TUNE_MAX_SIZES + 8 };
 
 /* The character with one level a body. */
 typedef struct tune_mesh {
@@ -18,8 +18,8 @@ typedef struct tune_mesh {
 
 /* What is tried. */
 typedef struct tune_grid {
-  uint32_t sizes[TUNE_MOST_SIZES]; /* tetrahedra a body */
-  uint32_t size_count;             /* 0: a quarter, a sixteenth and a 64th of the reference's, 48 at least */
+  uint32_t sizes[TUNE_MAX_SIZES]; /* tetrahedra a body */
+  uint32_t size_count;            /* 0: a quarter, a sixteenth and a 64th of the reference's, 48 at least */
   uint32_t reference;    /* tetrahedra a body of what all are measured against; 0: 24,000 in all, no more than
                             7900 and no fewer than 960 a body */
   bool coarse;           /* where `reference` is 0: a quarter of that */
@@ -31,7 +31,7 @@ typedef struct tune_grid {
 typedef struct tune_meshes {
   sbf_asset *base;     /* the file's, built where it was not */
   tune_mesh reference; /* calibrated */
-  tune_mesh at[TUNE_MOST_MESHES];
+  tune_mesh at[TUNE_MAX_MESHES];
   uint32_t count;
   char note[160]; /* why there are no lattices; empty: there are */
 } tune_meshes;

@@ -7,6 +7,13 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 
+const chart_drive tune_harsher_drive = {.speed = 0.5,
+    .curve_rad_s = 0.6f,
+    .hop = 0.03,
+    .hop_ticks = {44, 26},
+    .turn_rad_s = 12,
+    .turn_ticks = {20, 9}};
+
 static const double TICK_S = 1.0 / 60;
 /* Farther off than this share of the character's size is no level but a failure. */
 static const double LOST = 0.05;
@@ -35,7 +42,7 @@ static void show(void *user, uint32_t substeps, uint32_t tick) {
 /* What it is off itself counts where something is measured by it. */
 static void judge(tune_yardstick *yard, int number, bool by_rms) {
   const chart_reference *stated = &yard->stated[number];
-  double rms = stated->errors[CHART_PATH], most = stated->errors[CHART_FARTHEST], is = by_rms ? rms : most;
+  double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST], is = by_rms ? rms : max;
   if (!(is < TELLS * yard->size_m)) {
     snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number],
         "the reference is off itself by %.2g m%s: half as many substeps are so far from it", is,
@@ -43,7 +50,7 @@ static void judge(tune_yardstick *yard, int number, bool by_rms) {
     return;
   }
   yard->rms_m = fmax(yard->rms_m, rms);
-  yard->most_m = fmax(yard->most_m, most);
+  yard->max_m = fmax(yard->max_m, max);
 }
 
 /* SBF_OK with `unmeasured` said, where the reference does not hold. */
@@ -117,10 +124,10 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   if (told && !(errors[CHART_FARTHEST] < LOST * yard->size_m)) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
   } else if (told) {
-    if (!is->worst || errors[CHART_FARTHEST] > is->most_m)
+    if (!is->worst || errors[CHART_FARTHEST] > is->max_m)
       is->worst = motion_case->name, is->worst_number = number;
     is->rms_m = fmax(is->rms_m, errors[CHART_PATH]);
-    is->most_m = fmax(is->most_m, errors[CHART_FARTHEST]);
+    is->max_m = fmax(is->max_m, errors[CHART_FARTHEST]);
   }
   return SBF_OK;
 }

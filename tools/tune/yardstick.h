@@ -5,6 +5,9 @@
 #include "chart/bundle_case.h"
 #include "chart/reference.h"
 
+/* In a curve, half as high again, five times as fast, and to a changing beat: harsher than players are. */
+extern const chart_drive tune_harsher_drive;
+
 /* The motions of one drive, and where fine lattices have the skin in each. */
 typedef struct tune_yardstick {
   chart_bundle bundle;
@@ -14,21 +17,21 @@ typedef struct tune_yardstick {
   char unmeasured[CHART_BUNDLE_CASES][192]; /* why nothing is measured by a motion; empty: it is */
   bool broken[CHART_BUNDLE_CASES];          /* of those: the reference breaks; else what breaks is told */
   sbf_vec3 *rest;
-  double size_m;        /* of the character */
-  double rms_m, most_m; /* that the reference is off itself by its steps, at most */
+  double size_m;       /* of the character */
+  double rms_m, max_m; /* that the reference is off itself by its steps, at most */
 } tune_yardstick;
 
 typedef struct tune_error {
-  double rms_m, most_m; /* over the vertices and ticks of the motion where each is greatest */
-  const char *worst;    /* the motion in which one is off by most */
-  int worst_number;     /* of it */
+  double rms_m, max_m; /* over the vertices and ticks of the motion where each is greatest */
+  const char *worst;   /* the motion in which one is off by most */
+  int worst_number;    /* of it */
   bool sound;
   bool beaten;   /* no motion was tried after that in which it was; errors are those until then */
   char why[128]; /* it is not sound */
 } tune_error;
 
 static inline double tune_error_of(const tune_error *error, bool by_rms) {
-  return by_rms ? error->rms_m : error->most_m;
+  return by_rms ? error->rms_m : error->max_m;
 }
 
 /* What is to be measured by it. */

@@ -101,35 +101,32 @@ void input_script_free(input_script *script) {
   *script = (input_script){.lines = NULL};
 }
 
+/* SDL_Event is a union: a member is initialized as a whole, since its first one does not cover the others. */
 static SDL_Event key_event(SDL_Keycode key, bool down) {
-  SDL_Event event = {.type = down ? SDL_KEYDOWN : SDL_KEYUP};
-  event.key.keysym.sym = key;
-  event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
-  return event;
+  return (SDL_Event){.key = {.type = down ? SDL_KEYDOWN : SDL_KEYUP,
+                         .state = down ? SDL_PRESSED : SDL_RELEASED,
+                         .keysym = {.sym = key}}};
 }
 
 static SDL_Event pointer_event(input_script *script, const window *w, const input_line *line) {
-  SDL_Event event = {.type = line->kind == INPUT_PRESS  ? SDL_MOUSEBUTTONDOWN
-                             : line->kind == INPUT_MOVE ? SDL_MOUSEMOTION
-                                                        : SDL_MOUSEBUTTONUP};
   int from[2], to[2];
   window_place(w, script->pointer, &from[0], &from[1]);
   if (line->kind != INPUT_RELEASE) memcpy(script->pointer, line->share, sizeof script->pointer);
   window_place(w, script->pointer, &to[0], &to[1]);
-  if (line->kind == INPUT_MOVE) {
-    event.motion.x = to[0], event.motion.y = to[1];
-    event.motion.xrel = to[0] - from[0], event.motion.yrel = to[1] - from[1];
-  } else {
-    event.button.button = SDL_BUTTON_LEFT;
-    event.button.x = to[0], event.button.y = to[1];
-  }
-  return event;
+  if (line->kind == INPUT_MOVE)
+    return (SDL_Event){.motion = {.type = SDL_MOUSEMOTION,
+                           .x = to[0],
+                           .y = to[1],
+                           .xrel = to[0] - from[0],
+                           .yrel = to[1] - from[1]}};
+  return (SDL_Event){.button = {.type = line->kind == INPUT_PRESS ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                         .button = SDL_BUTTON_LEFT,
+                         .x = to[0],
+                         .y = to[1]}};
 }
 
 static SDL_Event wheel_event(int notches) {
-  SDL_Event event = {.type = SDL_MOUSEWHEEL};
-  event.wheel.y = notches;
-  return event;
+  return (SDL_Event){.wheel = {.type = SDL_MOUSEWHEEL, .y = notches}};
 }
 
 bool input_script_next(

@@ -26,15 +26,15 @@ static void add_switch(const viewer *v, draw_scene *scene, unsigned what, const 
 
 /* The greatest error that the simulated level of a body states, m; negative where none does. */
 static float stated_error(const session *s) {
-  float most = -1;
+  float max = -1;
   for (uint32_t i = 0; i < s->asset->soft_bodies.count; i++) {
     const sbf_soft_body *body = &s->asset->soft_bodies.at[i];
     uint32_t level = s->settings.model.level;
     if (body->levels.count == 0) continue;
     const sbf_level *one = &body->levels.at[level < body->levels.count ? level : body->levels.count - 1];
-    if (one->simulation.error > 0) most = fmaxf(most, one->simulation.error);
+    if (one->simulation.error > 0) max = fmaxf(max, one->simulation.error);
   }
-  return most;
+  return max;
 }
 
 static void add_health(const viewer *v, draw_scene *scene) {
@@ -89,7 +89,7 @@ void panel_add(const viewer *v, draw_scene *scene) {
     add(scene, NULL, "H keys");
     return;
   }
-  add(scene, NULL, "W A S D walk, Q E sideways");
+  add(scene, NULL, "W A S D walk, Q E sideways, T V up and down");
   add(scene, NULL, "B ball, K knock over, R again, P pause");
   add(scene, NULL, "arrows turn, + - and wheel zoom");
   add(scene, NULL, "drag the body to pull it,");

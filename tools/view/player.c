@@ -56,13 +56,13 @@ void player_close(player *p) {
 }
 
 static sbf_vec3 middle_of_points(const player *p) {
-  enum { MOST = 1024 }; /* of each body: its middle is no matter of millimetres */
-  sbf_vec3 points[MOST];
+  enum { MAX = 1024 }; /* of each body: its middle is no matter of millimetres */
+  sbf_vec3 points[MAX];
   sbf_vec3 sum = {0, 0, 0};
   uint32_t count = 0;
   for (uint32_t b = 0; b < p->s->asset->soft_bodies.count; b++) {
-    uint32_t here = sbr_character_points(p->s->world, p->s->character, b, points, MOST);
-    for (uint32_t i = 0; i < here && i < MOST; i++, count++) sum = v3_add(sum, points[i]);
+    uint32_t here = sbr_character_points(p->s->world, p->s->character, b, points, MAX);
+    for (uint32_t i = 0; i < here && i < MAX; i++, count++) sum = v3_add(sum, points[i]);
   }
   return v3_add(origin_of(p), v3_scale(sum, 1 / (float)(count ? count : 1)));
 }
@@ -214,9 +214,9 @@ static void fly(player *p, player_ball *one, float seconds) {
       hit.character.value && v3_dot(hit.normal, one->velocity) < 0)
     meet(p, one, &hit);
   one->place = v3_add(one->place, v3_scale(one->velocity, seconds));
-  float least = ground_below(p, one->place) + radius;
-  if (one->place.y < least) {
-    one->place.y = least;
+  float min = ground_below(p, one->place) + radius;
+  if (one->place.y < min) {
+    one->place.y = min;
     one->velocity = v3(0.97f * one->velocity.x, 0.55f * fabsf(one->velocity.y), 0.97f * one->velocity.z);
   }
   sbr_collider_move(p->s->world, one->collider, to_world(one->place), UNTURNED);
@@ -228,6 +228,7 @@ bool player_step(player *p, double seconds) {
   if (p->steered && !p->s->recording.bytes) {
     float speed = p->pace * p->size, way = p->forward < 0 ? 0.5f * p->forward : p->forward;
     sbr_character_drive(p->s->world, p->s->character, way * speed, 0.5f * p->side * speed, 0.9f * p->turn);
+    sbr_character_set_vertical_speed(p->s->world, p->s->character, 0.5f * p->up * speed);
   }
   pull(p, (float)seconds);
   for (uint32_t i = 0; i < p->ball_count; i++) fly(p, &p->balls[i], (float)seconds);

@@ -16,14 +16,14 @@ typedef struct player_ball {
 
 typedef struct player {
   session *s;
-  float size;                  /* m: of the character's box from corner to corner */
-  float mass;                  /* kg, of all rigid bodies */
-  sbr_transform *bones;        /* (bones) room */
-  int32_t *rigid_of;           /* (bones) the rigid body that moves with each; -1: none */
-  float pace;                  /* bodies' sizes a second */
-  float forward, side, turn;   /* wished by the keys, -1 to 1 */
-  bool steered;                /* a key has been pressed, so that the keys say how it walks */
-  sbr_shape *ball, *fingertip; /* forms of balls and of the finger that presses */
+  float size;                    /* m: of the character's box from corner to corner */
+  float mass;                    /* kg, of all rigid bodies */
+  sbr_transform *bones;          /* (bones) room */
+  int32_t *rigid_of;             /* (bones) the rigid body that moves with each; -1: none */
+  float pace;                    /* bodies' sizes a second */
+  float forward, side, turn, up; /* wished by the keys, -1 to 1 */
+  bool steered;                  /* a key has been pressed, so that the keys say how it walks */
+  sbr_shape *ball, *fingertip;   /* forms of balls and of the finger that presses */
   player_ball balls[PLAYER_BALLS];
   uint32_t ball_count, thrown, hits;
   bool holds;

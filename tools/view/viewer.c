@@ -5,15 +5,15 @@
 #include "view/panel.h"
 #include "view/viewer_choices.h"
 
-static const float PITCH_LEAST = 0.02f, PITCH_MOST = 1.5f;
+static const float PITCH_MIN = 0.02f, PITCH_MAX = 1.5f;
 static const float ROOM = 1.7f; /* as far again as would fill the picture */
 
 /* Keys that walk while they are down. */
 static const struct move {
   SDL_Keycode key;
-  float forward, side, turn;
-} moves[] = {{SDLK_w, 1, 0, 0}, {SDLK_s, -1, 0, 0}, {SDLK_a, 0, 0, 1}, {SDLK_d, 0, 0, -1}, {SDLK_q, 0, 1, 0},
-    {SDLK_e, 0, -1, 0}};
+  float forward, side, turn, up;
+} moves[] = {{SDLK_w, 1, 0, 0, 0}, {SDLK_s, -1, 0, 0, 0}, {SDLK_a, 0, 0, 1, 0}, {SDLK_d, 0, 0, -1, 0},
+    {SDLK_q, 0, 1, 0, 0}, {SDLK_e, 0, -1, 0, 0}, {SDLK_t, 0, 0, 0, 1}, {SDLK_v, 0, 0, 0, -1}};
 enum { MOVE_COUNT = sizeof moves / sizeof *moves };
 
 static const struct turn {
@@ -88,7 +88,7 @@ static sbf_vec3 way_through(const viewer *v, const float share[2]) {
 static void orbit(viewer *v, float yaw, float pitch) {
   draw_camera *camera = &v->st.camera;
   camera->yaw -= yaw;
-  camera->pitch = fminf(fmaxf(camera->pitch + pitch, PITCH_LEAST), PITCH_MOST);
+  camera->pitch = fminf(fmaxf(camera->pitch + pitch, PITCH_MIN), PITCH_MAX);
 }
 
 static void zoom(viewer *v, float factor) {
@@ -125,13 +125,14 @@ static void move(viewer *v, const SDL_MouseMotionEvent *event) {
 
 static void steer(viewer *v) {
   player *p = &v->p;
-  p->forward = p->side = p->turn = 0;
+  p->forward = p->side = p->turn = p->up = 0;
   p->steered = true;
   for (int i = 0; i < MOVE_COUNT; i++) {
     if (!(v->keys & 1u << i)) continue;
     p->forward += moves[i].forward;
     p->side += moves[i].side;
     p->turn += moves[i].turn;
+    p->up += moves[i].up;
   }
 }
 

@@ -65,15 +65,15 @@ float viewer_next_pace(const viewer *v) {
 }
 
 uint32_t viewer_level_count(const sbf_asset *asset) {
-  uint32_t most = 1;
+  uint32_t max = 1;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    if (asset->soft_bodies.at[i].levels.count > most) most = asset->soft_bodies.at[i].levels.count;
-  return most;
+    if (asset->soft_bodies.at[i].levels.count > max) max = asset->soft_bodies.at[i].levels.count;
+  return max;
 }
 
 uint32_t viewer_render_level_count(const sbf_asset *asset) {
-  uint32_t most = 0;
+  uint32_t max = 0;
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    if (asset->render_meshes.at[i].levels.count > most) most = asset->render_meshes.at[i].levels.count;
-  return most + 1;
+    if (asset->render_meshes.at[i].levels.count > max) max = asset->render_meshes.at[i].levels.count;
+  return max + 1;
 }

@@ -52,6 +52,7 @@ def describe(root):
         "attachments": len(root.findall("soft_body/attachments/attachment")),
         "rigid_bodies": len(root.findall("rigid_bodies/rigid_body")),
         "joints": len(root.findall("joints/*")),
-        "gait": {"legs": len(root.findall("gait/leg"))},
+        "gait": {"kind": root.find("gait").get("kind", "walk") if root.find("gait") is not None else "none",
+                 "legs": len(root.findall("gait/leg"))},
         "levels": max((len(body.findall("level")) for body in bodies), default=0),
     }

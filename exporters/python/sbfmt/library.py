@@ -82,7 +82,8 @@ class ConvertOptions(Structure):
                 ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
                 ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32),
                 ("weights", c_char_p), ("misfit", POINTER(c_void_p)), ("shells", POINTER(ConvertPin)), ("shell_count", c_uint32),
-                ("forward", c_char_p)]
+                ("forward", c_char_p), ("firmness", c_double), ("soft", POINTER(c_char_p)), ("soft_count", c_uint32),
+                ("rigid", POINTER(c_char_p)), ("rigid_count", c_uint32), ("gait", c_char_p)]
 
 
 class ValidateOptions(Structure):

@@ -86,7 +86,8 @@ class ClipPlay(Structure):
 class BodyHealth(Structure):
     _fields_ = [("volume_ratio", c_float), ("max_strain", c_float), ("finite", c_bool), ("inverted", c_bool), ("recoveries", c_uint32),
                 ("kinetic_j", c_double), ("elastic_j", c_double), ("potential_j", c_double), ("torn", c_uint32),
-                ("unsplit", c_uint32), ("asleep", c_bool)]
+                ("unsplit", c_uint32), ("asleep", c_bool), ("rigid", c_bool),
+                ("min_element_ratio", c_float)]
 
 
 # Tests look that they are of the headers' size.
@@ -116,6 +117,7 @@ CALLS = {
     "sbr_default_character_definition": (CharacterDefinition, []),
     "sbr_character_create": (c_int, [W, c_void_p, POINTER(CharacterDefinition), POINTER(CharacterId), ERROR]),
     "sbr_character_drive": (None, [W, C, c_float, c_float, c_float]),
+    "sbr_character_set_vertical_speed": (None, [W, C, c_float]),
     "sbr_character_teleport": (None, [W, C, Double3, c_float]),
     "sbr_character_play": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
     "sbr_character_origin": (Double3, [W, C]),
@@ -282,9 +284,10 @@ class Character:
     def call(self, name, *arguments):
         return getattr(runtime_library(), name)(self._world.pointer, self._id, *arguments)
 
-    def drive(self, forward=0.0, sideways=0.0, turn=0.0):
-        """Wanted speeds, m/s and rad/s; left is positive."""
+    def drive(self, forward=0.0, sideways=0.0, turn=0.0, up=0.0):
+        """Wanted speeds, m/s and rad/s; left is positive; up of what swims or flies."""
         self.call("sbr_character_drive", forward, sideways, turn)
+        self.call("sbr_character_set_vertical_speed", up)
 
     def teleport(self, position, heading):
         self.call("sbr_character_teleport", Double3(*position), heading)

@@ -36,19 +36,20 @@ static bool hash_positions(sbfi_carrier *c, sbfi_arena *arena) {
   return true;
 }
 
+/* Directions in which points are sought that lie farthest out: the axes, then the diagonals of a box. */
+static const int8_t directions[SBFI_CARRIER_EXTREMES][3] = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0},
+    {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1},
+    {-1, 1, 1}, {1, 1, 1}};
+
 static void find_extremes(sbfi_carrier *c) {
   const sbf_vec3_list *points = &c->level->positions;
-  for (uint32_t i = 1; i < points->count; i++) {
-    const sbf_vec3 p = points->at[i];
-    for (int k = 0; k < 6; k++) {
-      const sbf_vec3 best = points->at[c->extremes[k]];
-      float here = k % 3 == 0   ? p.x
-                   : k % 3 == 1 ? p.y
-                                : p.z,
-            there = k % 3 == 0   ? best.x
-                    : k % 3 == 1 ? best.y
-                                 : best.z;
-      if (k < 3 ? here < there : here > there) c->extremes[k] = i;
+  for (int k = 0; k < SBFI_CARRIER_EXTREMES; k++) {
+    double max = -INFINITY;
+    for (uint32_t i = 0; i < points->count; i++) {
+      const sbf_vec3 p = points->at[i];
+      double here =
+          (double)p.x * directions[k][0] + (double)p.y * directions[k][1] + (double)p.z * directions[k][2];
+      if (here > max) max = here, c->extremes[k] = i;
     }
   }
   for (int k = 0; k < 3 && points->count > 0; k++) {
@@ -81,6 +82,13 @@ static sbfi_d3 at_rest(const sbfi_carrier *c, uint32_t point) {
   return sbfi_d3_of(c->level->positions.at[point]);
 }
 
+/* What lies farther outside would be thrown about at the least strain, and no file may hold it. */
+static bool is_bounded(const choice *of) {
+  for (int k = 0; k < 4; k++)
+    if (!(of->weights[k] >= SBFI_MIN_CARRIED && of->weights[k] <= SBFI_MAX_CARRIED)) return false;
+  return true;
+}
+
 /* Weights of a position in a tetrahedron; false where that is as good as flat. */
 static bool weigh(const sbfi_carrier *c, choice *in, sbfi_d3 position) {
   if (!sbfi_tetrahedron_weigh(c->level->positions.at, in->points, position, in->weights)) return false;
@@ -89,10 +97,19 @@ static bool weigh(const sbfi_carrier *c, choice *in, sbfi_d3 position) {
   return true;
 }
 
-/* Keeps it in `best` where its weights are smaller. */
+/* Sum of the squares of a load's weights that is small enough; 1 and below inside. */
+static const double MAX_LOAD_SIZE = 3;
+
+static bool is_good(const sbfi_carrier *c, const choice *of) {
+  return c->use == SBFI_CARRIES_LOADS ? of->size <= MAX_LOAD_SIZE : is_bounded(of);
+}
+
+/* Keeps it in `best` where its weights are smaller, or good where those were not. */
 static void try_choice(const sbfi_carrier *c, choice *tried, sbfi_d3 position, choice *best) {
-  /* A little smaller will not do: then the choice would hang on rounding. */
-  if (weigh(c, tried, position) && tried->size < best->size * (1 - 1e-6)) *best = *tried;
+  if (!weigh(c, tried, position)) return;
+  bool good = is_good(c, tried), other = best->size < INFINITY && is_good(c, best);
+  /* A little smaller will not do: then the choice would depend on rounding. */
+  if (good != other ? good : tried->size < best->size * (1 - 1e-6)) *best = *tried;
 }
 
 /* Tries the triangle with a fourth point. */
@@ -125,8 +142,23 @@ static sbfi_carried written(const sbfi_carrier *c, const choice *chosen, sbfi_d3
   return carried;
 }
 
+/* As near to the position as weights in bounds reach from the middle of the four points. */
+static sbfi_carried carried_bounded(const sbfi_carrier *c, const choice *chosen, sbfi_d3 position) {
+  choice near = *chosen;
+  double share = 1;
+  for (int k = 0; k < 4 && c->use == SBFI_CARRIES_VERTICES; k++) {
+    double off = chosen->weights[k] - 0.25;
+    double bound = (off < 0 ? SBFI_MIN_CARRIED : SBFI_MAX_CARRIED) - 0.25;
+    if (fabs(off) * share > fabs(bound)) share = bound / off;
+  }
+  for (int k = 0; k < 4; k++) near.weights[k] = 0.25 + share * (chosen->weights[k] - 0.25);
+  sbfi_carried carried = written(c, &near, position);
+  carried.beyond = share < 1;
+  return carried;
+}
+
 static sbfi_carried carried_alone(uint32_t point, double error) {
-  return (sbfi_carried){{{point, point, point, point}}, {1, 0, 0, 0}, (float)error, 0};
+  return (sbfi_carried){{{point, point, point, point}}, {1, 0, 0, 0}, (float)error, 0, false};
 }
 
 static double point_distance(const void *user, uint32_t point, const double position[3]) {
@@ -136,9 +168,9 @@ static double point_distance(const void *user, uint32_t point, const double posi
 }
 
 static sbfi_carried carry_by_points(const sbfi_carrier *c, sbf_vec3 position) {
-  double least = INFINITY, at[3] = {position.x, position.y, position.z};
-  uint32_t nearest = sbfi_box_tree_nearest(&c->points, at, point_distance, c, &least);
-  return carried_alone(nearest != SBFI_NO_INDEX ? nearest : 0, sqrt(least));
+  double min = INFINITY, at[3] = {position.x, position.y, position.z};
+  uint32_t nearest = sbfi_box_tree_nearest(&c->points, at, point_distance, c, &min);
+  return carried_alone(nearest != SBFI_NO_INDEX ? nearest : 0, sqrt(min));
 }
 
 /* Without a fourth point out of the plane: the place on the triangle nearest to the vertex. */
@@ -154,11 +186,95 @@ static sbfi_carried carried_flat(const sbfi_carrier *c, const uint32_t corners[3
   return carried;
 }
 
+/* How far weights are out of bounds, all together. */
+static double excess(const choice *of) {
+  double sum = 0;
+  for (int k = 0; k < 4; k++)
+    sum += fmax(0, SBFI_MIN_CARRIED - of->weights[k]) + fmax(0, of->weights[k] - SBFI_MAX_CARRIED);
+  return sum;
+}
+
+/* Times half a field's greatest second derivative, the error of its value at the position by these four
+ * points: what lies near gives less than what leaves small weights. */
+static double interpolation_error(const sbfi_carrier *c, const choice *of, sbfi_d3 position) {
+  double sum = 0;
+  for (int k = 0; k < 4; k++) {
+    sbfi_d3 away = sbfi_d3_sub(at_rest(c, of->points[k]), position);
+    sum += fabs(of->weights[k]) * sbfi_d3_dot(away, away);
+  }
+  return sum;
+}
+
+/* Exchanges one of the four after the other for whichever of the points (NULL: all of the level's, or of many
+ * some) brings the weights nearest to their bounds, until they are within. */
+static void exchange(
+    const sbfi_carrier *c, const uint32_t *points, uint32_t count, sbfi_d3 position, choice *best) {
+  enum { MAX_ROUNDS = 6, MAX_TRIED = 4096 };
+  uint32_t stride = count / MAX_TRIED + 1;
+  bool changed = best->size < INFINITY && c->use == SBFI_CARRIES_VERTICES;
+  for (int round = 0; round < MAX_ROUNDS && changed && !is_bounded(best); round++) {
+    changed = false;
+    for (uint32_t slot = 0; slot < 4; slot++)
+      for (uint32_t i = 0; i < count && !is_bounded(best); i += stride) {
+        choice tried = *best;
+        tried.points[slot] = points ? points[i] : i;
+        if (!weigh(c, &tried, position) || !(excess(&tried) < excess(best) * (1 - 1e-6))) continue;
+        *best = tried;
+        changed = true;
+      }
+  }
+}
+
+typedef struct neighbour_search {
+  const sbfi_carrier *carrier;
+  sbfi_d3 position;
+  double error;
+  choice *best;
+} neighbour_search;
+
+static void try_neighbour(void *user, uint32_t tetrahedron) {
+  neighbour_search *n = user;
+  choice tried = {.size = 0};
+  memcpy(tried.points, n->carrier->level->lattice.tetrahedra.at[tetrahedron].at, sizeof tried.points);
+  if (!weigh(n->carrier, &tried, n->position) || !is_bounded(&tried)) return;
+  double error = interpolation_error(n->carrier, &tried, n->position);
+  if (!(error < n->error * (1 - 1e-6))) return;
+  n->error = error;
+  *n->best = tried;
+}
+
+/* A tetrahedron beside that one whose weights are in bounds. */
+static void try_neighbours(const sbfi_carrier *c, uint32_t tetrahedron, sbfi_d3 position, choice *best) {
+  neighbour_search n = {c, position, INFINITY, best};
+  if (c->use == SBFI_CARRIES_LOADS) return;
+  const sbf_uint4 corners = c->level->lattice.tetrahedra.at[tetrahedron];
+  for (int k = 0; k < 4; k++) sbfi_tetrahedra_about(&c->lattice, corners.at[k], try_neighbour, &n);
+}
+
+/* The four of the level's first `count` extremes with the smallest weights, where those are smaller than the
+ * given ones. */
+static void try_four_of(const sbfi_carrier *c, int count, sbfi_d3 position, choice *best) {
+  for (int i = 0; i < count; i++)
+    for (int j = i + 1; j < count; j++)
+      for (int k = j + 1; k < count; k++)
+        for (int l = k + 1; l < count; l++) {
+          choice tried = {.points = {c->extremes[i], c->extremes[j], c->extremes[k], c->extremes[l]}};
+          try_choice(c, &tried, position, best);
+        }
+}
+
+static void try_extremes(const sbfi_carrier *c, sbfi_d3 position, choice *best) {
+  try_four_of(c, 6, position, best);
+  if (c->use == SBFI_CARRIES_VERTICES && !is_bounded(best))
+    try_four_of(c, SBFI_CARRIER_EXTREMES, position, best);
+  exchange(c, NULL, c->level->positions.count, position, best);
+}
+
 static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
   const double deep = 2; /* weights of this size call for another triangle */
-  double least = INFINITY;
+  double min = INFINITY;
   sbfi_d3 at = sbfi_d3_of(position);
-  uint32_t corners[3], triangle = sbfi_triangle_tree_nearest(&c->surface, position, &least);
+  uint32_t corners[3], triangle = sbfi_triangle_tree_nearest(&c->surface, position, &min);
   if (triangle == SBFI_NO_INDEX || !level_corners(c, triangle, corners)) return carry_by_points(c, position);
   choice best = {.size = INFINITY};
   uint32_t polygon = c->surface.triangles[triangle].polygon;
@@ -171,39 +287,28 @@ static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
       try_fourth(c, through, c->interior.centre, at, &best);
   }
   for (int k = 0; k < 6 && best.size > deep; k++) try_fourth(c, corners, c->extremes[k], at, &best);
-  return best.size < INFINITY ? written(c, &best, at) : carried_flat(c, corners, at);
+  bool is_beyond = c->use == SBFI_CARRIES_VERTICES && best.size < INFINITY && !is_bounded(&best);
+  if (is_beyond) try_extremes(c, at, &best);
+  return best.size < INFINITY ? carried_bounded(c, &best, at) : carried_flat(c, corners, at);
 }
 
-static sbfi_carried carry_by_frame(const sbfi_carrier *c, sbf_vec3 position) {
+sbfi_carried sbfi_carrier_carry_by_frame(const sbfi_carrier *c, uint32_t frame, sbf_vec3 position) {
   choice by = {.size = 0};
-  for (int k = 0; k < 4; k++) by.points[k] = c->frame + (uint32_t)k;
-  return weigh(c, &by, sbfi_d3_of(position)) ? written(c, &by, sbfi_d3_of(position))
-                                             : carried_alone(c->frame, 0);
+  for (int k = 0; k < 4; k++) by.points[k] = frame + (uint32_t)k;
+  return weigh(c, &by, sbfi_d3_of(position)) ? carried_bounded(c, &by, sbfi_d3_of(position))
+                                             : carried_alone(frame, 0);
 }
-
-/* The four of the level's extremes with the smallest weights, where those are smaller than the given ones. */
-static void try_extremes(const sbfi_carrier *c, sbfi_d3 position, choice *best) {
-  for (int left = 0; left < 6; left++)
-    for (int out = left + 1; out < 6; out++) {
-      choice tried = {.size = 0};
-      for (int k = 0, next = 0; k < 6; k++)
-        if (k != left && k != out) tried.points[next++] = c->extremes[k];
-      try_choice(c, &tried, position, best);
-    }
-}
-
-/* Sum of squares of the weights that is small enough; 1 and below inside. */
-static const double most_size = 3;
 
 /* Points farther and farther from each other around the tetrahedron, until the weights are small enough: a
  * small tetrahedron would throw about what lies outside of it. */
 static void try_rings(const sbfi_carrier *c, uint32_t tetrahedron, sbfi_d3 position, choice *best) {
   sbfi_point_rings rings;
   sbfi_point_rings_begin(&rings, &c->lattice, tetrahedron);
-  while (best->size > most_size && sbfi_point_rings_widen(&rings)) {
+  while (!is_good(c, best) && sbfi_point_rings_widen(&rings)) {
     choice tried = {.size = 0};
     sbfi_point_rings_widest(&rings, tried.points);
     try_choice(c, &tried, position, best);
+    exchange(c, rings.points, rings.count, position, best);
   }
 }
 
@@ -216,10 +321,12 @@ static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
   choice in = {.size = 0};
   memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
   bool good = weigh(c, &in, at), near = found.distance < 2 * c->lattice.radius;
-  if (c->frame != SBFI_NO_INDEX && (!good || in.size > most_size)) return carry_by_frame(c, position);
-  if (good && in.size > most_size && near) try_rings(c, found.tetrahedron, at, &in);
-  if (good && in.size > most_size) try_extremes(c, at, &in);
-  sbfi_carried carried = good ? written(c, &in, at) : carried_alone(in.points[0], found.distance);
+  if (good && !is_good(c, &in)) try_neighbours(c, found.tetrahedron, at, &in);
+  if (c->frame != SBFI_NO_INDEX && (!good || !is_good(c, &in)))
+    return sbfi_carrier_carry_by_frame(c, c->frame, position);
+  if (good && !is_good(c, &in) && near) try_rings(c, found.tetrahedron, at, &in);
+  if (good && !is_good(c, &in)) try_extremes(c, at, &in);
+  sbfi_carried carried = good ? carried_bounded(c, &in, at) : carried_alone(in.points[0], found.distance);
   carried.outside = (float)found.distance;
   return carried;
 }
@@ -237,9 +344,10 @@ static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
   return true;
 }
 
-bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, uint32_t frame, sbfi_arena *arena) {
-  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}, .frame = frame};
+bool sbfi_carrier_make(sbfi_carrier *carrier, sbfi_carrier_use use, const sbf_soft_body *body,
+    const sbf_level *level, const sbfi_interior_map *interior, uint32_t frame, sbfi_arena *arena) {
+  *carrier = (sbfi_carrier){
+      .use = use, .body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}, .frame = frame};
   if (interior) carrier->interior = *interior;
   find_extremes(carrier);
   return hash_positions(carrier, arena) &&
@@ -256,7 +364,7 @@ sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, 
     return same != SBFI_NO_INDEX ? carrier->in_lattice[same] : carry_by_lattice(carrier, position);
   if (same != SBFI_NO_INDEX) same = sbfi_level_point(carrier->level, same);
   if (same != SBFI_NO_INDEX) return carried_alone(same, 0);
-  return carrier->frame != SBFI_NO_INDEX ? carry_by_frame(carrier, position)
+  return carrier->frame != SBFI_NO_INDEX ? sbfi_carrier_carry_by_frame(carrier, carrier->frame, position)
                                          : carry_by_surface(carrier, position);
 }
 
@@ -264,10 +372,10 @@ bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position) {
   return carrier->slots[slot_of(carrier, position)] != SBFI_NO_INDEX;
 }
 
-double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double least) {
+double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double min) {
   const double at[3] = {position.x, position.y, position.z};
   if (carrier->points.node_count > 0)
-    sbfi_box_tree_nearest(&carrier->points, at, point_distance, carrier, &least);
-  sbfi_triangle_tree_nearest(&carrier->surface, position, &least);
-  return least;
+    sbfi_box_tree_nearest(&carrier->points, at, point_distance, carrier, &min);
+  sbfi_triangle_tree_nearest(&carrier->surface, position, &min);
+  return min;
 }

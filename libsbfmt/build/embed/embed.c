@@ -6,6 +6,7 @@
 #include "build/embed/far_vertices.h"
 #include "build/geometry/topology.h"
 #include "build/sections/authored_sections.h"
+#include "build/sections/section_frame.h"
 
 /* One body's share in one vertex. */
 typedef struct share {
@@ -13,6 +14,10 @@ typedef struct share {
   float blend;
   const sbfi_mix *mix; /* by which the body carries it; NULL: by its carrier */
 } share;
+
+static bool is_beside(const share *s) {
+  return s->mix && s->mix->beside;
+}
 
 typedef struct work {
   sbf_asset *asset;
@@ -61,37 +66,37 @@ static bool index_bodies(work *w) {
   return true;
 }
 
-static double distance_to(const work *w, uint32_t body, sbf_vec3 position, double least) {
-  return sbfi_carrier_distance(&w->carriers[w->finest[body]], position, least);
+static double distance_to(const work *w, uint32_t body, sbf_vec3 position, double min) {
+  return sbfi_carrier_distance(&w->carriers[w->finest[body]], position, min);
 }
 
 /* Of the bodies on one bone, the nearest. */
 static uint32_t choose_on_bone(const work *w, uint32_t first, sbf_vec3 position) {
   if (first == SBFI_NO_INDEX || w->next_of_bone[first] == SBFI_NO_INDEX) return first;
-  double least = INFINITY;
+  double min = INFINITY;
   uint32_t chosen = first;
   for (uint32_t b = first; b != SBFI_NO_INDEX; b = w->next_of_bone[b]) {
-    double d = distance_to(w, b, position, least);
-    if (!(d < least)) continue;
-    least = d;
+    double d = distance_to(w, b, position, min);
+    if (!(d < min)) continue;
+    min = d;
     chosen = b;
   }
   return chosen;
 }
 
 static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely) {
-  double least = INFINITY;
+  double min = INFINITY;
   uint32_t chosen = SBFI_NO_INDEX;
   /* The last vertex's body first: it bounds the search in the others. Of equals the lowest wins. */
   if (likely != SBFI_NO_INDEX) {
-    least = distance_to(w, likely, position, least);
+    min = distance_to(w, likely, position, min);
     chosen = likely;
   }
   for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
     if (b == likely || w->finest[b] == SBFI_NO_INDEX) continue;
-    double d = distance_to(w, b, position, least);
-    if (!(d < least) && !(d == least && chosen == likely && b < likely)) continue;
-    least = d;
+    double d = distance_to(w, b, position, min);
+    if (!(d < min) && !(d == min && chosen == likely && b < likely)) continue;
+    min = d;
     chosen = b;
   }
   return chosen;
@@ -102,7 +107,7 @@ static bool add_share(
     work *w, size_t begin, uint32_t vertex, uint32_t body, float blend, const sbfi_mix *mix) {
   share *shares = w->shares.at;
   for (size_t i = begin; i < w->shares.count; i++) {
-    if (shares[i].body != body) continue;
+    if (shares[i].body != body || is_beside(&shares[i]) || (mix && mix->beside)) continue;
     shares[i].blend += blend;
     return true;
   }
@@ -196,7 +201,7 @@ static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t deri
 static bool make_room(const work *w, sbf_level *level) {
   uint32_t count = level->embeddings.count;
   sbf_embedding *list =
-      sbf_asset_allocate(w->asset, (size_t)count + w->asset->render_meshes.count + 1, sizeof *list);
+      sbf_asset_allocate(w->asset, (size_t)count + 2 * w->asset->render_meshes.count + 1, sizeof *list);
   if (!list) return false;
   if (count) memcpy(list, level->embeddings.at, count * sizeof *list);
   level->embeddings.at = list;
@@ -209,11 +214,65 @@ static sbfi_carried carried_mixed(const sbfi_mix *mix) {
   return carried;
 }
 
+/* Attaches to the body's bone what the level's own points are too far from to carry in place. */
+static bool attach_to_bone(
+    const work *w, uint32_t target, const sbf_vec3_list *positions, const share *list, sbfi_array *items) {
+  sbf_level *level = w->targets[target].level;
+  const sbf_soft_body *body = &w->asset->soft_bodies.at[w->targets[target].body];
+  sbfi_carried *carried = items->at;
+  sbfi_d3 middle = sbfi_points_middle(&level->positions);
+  double reach = 0;
+  uint32_t first;
+  for (uint32_t i = 0; i < items->count; i++)
+    if (carried[i].beyond)
+      reach = fmax(reach, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions->at[list[i].vertex]), middle)));
+  if (!(reach > 0)) return true;
+  if (!sbfi_bone_frame_add(level, body->bone, middle, reach, w->derivation, w->asset, &first)) return false;
+  for (uint32_t i = 0; i < items->count; i++)
+    if (carried[i].beyond)
+      carried[i] = sbfi_carrier_carry_by_frame(&w->carriers[target], first, positions->at[list[i].vertex]);
+  return true;
+}
+
+/* Whether a derived level follows its body's bone. A body without pins does not: pins on further points
+ * would turn it into a pinned one. */
+static bool follows_bone(const sbf_soft_body *body, const sbf_level *level) {
+  bool is_pinned = level->model == SBF_ELASTIC_MODEL_JIGGLE;
+  for (uint32_t i = 0; i < level->pins.count; i++) is_pinned |= level->pins.at[i].points.count > 0;
+  return is_pinned && body->bone != SBF_NONE && level->derived != SBF_NONE;
+}
+
+/* How the target's level carries each vertex of `list`. */
+static bool carry_all(work *w, uint32_t target, const sbf_vec3_list *positions, const share *list,
+    uint32_t count, sbfi_array *items, sbfi_progress progress) {
+  const sbfi_embed_target *to = &w->targets[target];
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t v = list[i].vertex;
+    if (!sbfi_progress_step(progress, i, count)) return false;
+    /* What the sections mixed are points of the finest level. */
+    bool mixed = list[i].mix && w->finest[to->body] == target && to->frame != SBFI_NO_INDEX;
+    sbfi_carried carried =
+        mixed ? carried_mixed(list[i].mix) : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
+    if (!sbfi_array_append(items, &carried, 1)) return false;
+  }
+  return !follows_bone(&w->asset->soft_bodies.at[to->body], to->level) ||
+         attach_to_bone(w, target, positions, list, items);
+}
+
+/* Counts what lies far outside or is carried off its place. */
+static bool note_carried(work *w, uint32_t target, uint32_t vertex, const sbfi_carried *carried) {
+  const sbf_level *level = w->targets[target].level;
+  if (carried->outside > w->report->farthest) w->report->farthest = carried->outside;
+  bool far = level->cell > 0 && carried->outside > level->cell;
+  if (!far) w->report->flat += carried->error > 1e-3f * (float)w->carriers[target].size;
+  return !far ||
+         sbfi_far_vertices_add(&w->far, vertex, carried->outside, w->targets[target].body, w->scratch);
+}
+
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
-static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
+static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
     const share *list, uint32_t count, bool count_it, sbfi_progress progress) {
   sbf_level *level = w->targets[target].level;
-  if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
   bool whole = count == positions->count, blended = false;
   for (uint32_t i = 0; i < count; i++) blended |= list[i].blend != 1;
   uint32_t *vertices = whole ? NULL : sbf_asset_allocate(w->asset, count, sizeof *vertices);
@@ -221,30 +280,44 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
   sbf_vec4 *weights = sbf_asset_allocate(w->asset, count, sizeof *weights);
   float *blends = blended ? sbf_asset_allocate(w->asset, count, sizeof *blends) : NULL;
   if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
-  for (uint32_t i = 0; i < count; i++) {
-    uint32_t v = list[i].vertex;
-    if (!sbfi_progress_step(progress, i, count)) return false;
-    /* What the sections mixed are points of the finest level. */
-    bool mixed = list[i].mix && w->finest[w->targets[target].body] == target &&
-                 w->targets[target].frame != SBFI_NO_INDEX;
-    sbfi_carried carried =
-        mixed ? carried_mixed(list[i].mix) : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
-    points[i] = carried.points;
-    weights[i] = carried.weights;
-    if (vertices) vertices[i] = v;
+  sbfi_array items;
+  sbfi_array_init(&items, &w->scratch->allocator, sizeof(sbfi_carried));
+  bool good = carry_all(w, target, positions, list, count, &items, progress);
+  const sbfi_carried *carried = items.at;
+  for (uint32_t i = 0; good && i < count; i++) {
+    points[i] = carried[i].points;
+    weights[i] = carried[i].weights;
+    if (vertices) vertices[i] = list[i].vertex;
     if (blends) blends[i] = list[i].blend;
-    if (count_it && carried.outside > w->report->farthest) w->report->farthest = carried.outside;
-    bool far = count_it && level->cell > 0 && carried.outside > level->cell;
-    if (far && !sbfi_far_vertices_add(&w->far, v, carried.outside, w->targets[target].body, w->scratch))
-      return false;
-    w->report->flat += count_it && carried.error > 1e-3f * (float)w->carriers[target].size;
+    good = !count_it || note_carried(w, target, list[i].vertex, &carried[i]);
   }
+  sbfi_array_free(&items);
+  if (!good) return false;
   sbf_embedding *embedding = add_embedding(level, mesh, w->derivation);
   embedding->vertices = (sbf_u32_list){vertices, whole ? 0 : count};
   embedding->points = (sbf_uint4_list){points, count};
   embedding->weights = (sbf_vec4_list){weights, count};
   embedding->blends = (sbf_f32_list){blends, blends ? count : 0};
   return true;
+}
+
+/* The same; what rigid bones have beside the body's own share goes to an embedding of its own, since none
+ * names a vertex twice. The list comes back with that part last. */
+static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions, share *list,
+    uint32_t count, bool count_it, sbfi_progress progress) {
+  const sbf_level *level = w->targets[target].level;
+  if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
+  share *beside = sbfi_arena_allocate(w->scratch, count, sizeof *beside);
+  uint32_t own = 0, others = 0;
+  if (!beside) return false;
+  for (uint32_t i = 0; i < count; i++)
+    if (is_beside(&list[i]))
+      beside[others++] = list[i];
+    else
+      list[own++] = list[i];
+  memcpy(list + own, beside, others * sizeof *beside);
+  return (own == 0 || embed_list(w, target, mesh, positions, list, own, count_it, progress)) &&
+         (others == 0 || embed_list(w, target, mesh, positions, list + own, others, false, progress));
 }
 
 /* Hands the shares of a mesh to their bodies' levels, body by body. */
@@ -332,8 +405,8 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   bool good = w.carriers && index_bodies(&w);
   for (uint32_t t = 0; good && t < target_count; t++)
     good = sbfi_progress_say(progress, 0.2 * t / target_count) && make_room(&w, targets[t].level) &&
-           sbfi_carrier_make(&w.carriers[t], &asset->soft_bodies.at[targets[t].body], targets[t].level,
-               targets[t].interior, targets[t].frame, scratch);
+           sbfi_carrier_make(&w.carriers[t], SBFI_CARRIES_VERTICES, &asset->soft_bodies.at[targets[t].body],
+               targets[t].level, targets[t].interior, targets[t].frame, scratch);
   good = good && embed_surfaces(&w, sbfi_progress_part(progress, 0.2, 0.4));
   uint32_t meshes = asset->render_meshes.count;
   for (uint32_t m = 0; good && m < meshes; m++)

@@ -3,7 +3,7 @@
 static void take(sbfi_point_rings *r, uint32_t point) {
   for (uint32_t i = 0; i < r->count; i++)
     if (r->points[i] == point) return;
-  if (r->count == SBFI_MOST_RING_POINTS)
+  if (r->count == SBFI_MAX_RING_POINTS)
     r->full = true;
   else
     r->points[r->count++] = point;
@@ -41,13 +41,13 @@ static double distance2(const sbfi_d3 *from, int count, sbfi_d3 point) {
 }
 
 static uint32_t farthest(const sbfi_point_rings *r, const sbfi_d3 *from, int count) {
-  double most = -1;
+  double max = -1;
   uint32_t best = r->points[0];
   for (uint32_t i = 0; i < r->count; i++) {
     double here = distance2(from, count, sbfi_d3_of(r->finder->positions[r->points[i]]));
     /* A little farther will not do: then the choice would hang on rounding. */
-    if (!(here > most * (1 + 1e-6))) continue;
-    most = here;
+    if (!(here > max * (1 + 1e-6))) continue;
+    max = here;
     best = r->points[i];
   }
   return best;

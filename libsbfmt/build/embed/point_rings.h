@@ -5,12 +5,12 @@
 
 #include "build/embed/tetrahedron_finder.h"
 
-enum { SBFI_MOST_RING_POINTS = 256 };
+enum { SBFI_MAX_RING_POINTS = 256 };
 
 typedef struct sbfi_point_rings {
   const sbfi_tetrahedron_finder *finder;
   uint32_t count, widened; /* of the points; of those whose neighbours are among them */
-  uint32_t points[SBFI_MOST_RING_POINTS];
+  uint32_t points[SBFI_MAX_RING_POINTS];
   bool full; /* one more had no place */
 } sbfi_point_rings;
 

@@ -54,10 +54,10 @@ static size_t bin_of(const sbfi_tetrahedron_finder *f, sbfi_d3 at) {
   return (z * f->counts[1] + y) * f->counts[0] + x;
 }
 
-/* The bins' width, `least_width` radii at least, and number; false where there is none for so many. */
-static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double least_width, size_t *bins) {
+/* The bins' width, `min_width` radii at least, and number; false where there is none for so many. */
+static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width, size_t *bins) {
   sbfi_d3 low = middle_of(f, 0), high = low;
-  double radius2 = 0, most_spread = 0;
+  double radius2 = 0, max_spread = 0;
   for (uint32_t t = 0; t < count; t++) {
     double spread = 0;
     sbfi_d3 m = middle_of(f, t);
@@ -69,15 +69,15 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double least_wid
       if (way2 > radius2) radius2 = way2;
       spread += way2;
     }
-    if (spread > most_spread) most_spread = spread;
+    if (spread > max_spread) max_spread = spread;
   }
   const double sizes[3] = {high.x - low.x, high.y - low.y, high.z - low.z};
   f->rounding = 1e-6 * (sizes[0] + sizes[1] + sizes[2]);
   f->radius = sqrt(radius2) * (1 + 1e-6) + f->rounding;
-  f->spread = sqrt(most_spread) * (1 + 1e-6);
+  f->spread = sqrt(max_spread) * (1 + 1e-6);
   f->origin = low;
   /* No more bins than four times the tetrahedra, however long and thin the body lies. */
-  for (f->width = fmax(least_width * f->radius, 1e-30);; f->width *= 1.25) {
+  for (f->width = fmax(min_width * f->radius, 1e-30);; f->width *= 1.25) {
     double all = 1;
     for (int k = 0; k < 3; k++) all *= floor(sizes[k] / f->width) + 1;
     if (all > 4.0 * count + 64) continue;
@@ -137,7 +137,7 @@ struct search {
   sbfi_d3 at;
   double within2; /* squared distance of the middles that are looked at; visitors may lower it */
   uint32_t best;
-  double distance, most, size; /* m; m; what is to be small in the best one */
+  double distance, max, size; /* m; m; what is to be small in the best one */
 };
 
 /* From a place to the nearest of a bin's, along one axis, both from the origin. The outermost bins hold
@@ -215,7 +215,7 @@ static double distance_to(
     const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, const double *weights) {
   static const int faces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}; /* opposite to each corner */
   const double point[3] = {at.x, at.y, at.z};
-  double corners[4][3], unused[3], least = INFINITY;
+  double corners[4][3], unused[3], min = INFINITY;
   bool any = !weights || !any_below(weights, 0);
   for (int k = 0; k < 4; k++) {
     sbf_vec3 p = f->positions[f->tetrahedra[tetrahedron].at[k]];
@@ -223,9 +223,9 @@ static double distance_to(
   }
   for (int i = 0; i < 4; i++)
     if (any || weights[i] < 0)
-      least = fmin(least, sbfi_triangle_closest(corners[faces[i][0]], corners[faces[i][1]],
-                              corners[faces[i][2]], point, unused));
-  return sqrt(least);
+      min = fmin(min, sbfi_triangle_closest(
+                          corners[faces[i][0]], corners[faces[i][1]], corners[faces[i][2]], point, unused));
+  return sqrt(min);
 }
 
 /* The middle nearest to the point, for a first distance. */
@@ -266,8 +266,8 @@ static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
   if (!weigh_solved(in, f->positions[f->tetrahedra[tetrahedron].at[3]], s->at, weights)) return;
   for (int k = 0; k < 4; k++) size += weights[k] * weights[k];
   if (size > s->size || (size == s->size && tetrahedron >= s->best)) return;
-  if (is_farther(in, weights, s->most)) return;
-  if (distance_to(f, tetrahedron, s->at, weights) > s->most) return;
+  if (is_farther(in, weights, s->max)) return;
+  if (distance_to(f, tetrahedron, s->at, weights) > s->max) return;
   s->size = size;
   s->best = tetrahedron;
   double within = within_of_size(f, size);
@@ -283,12 +283,12 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   s.distance = distance_to(finder, s.best, s.at, NULL);
   /* What is nearer has its middle within that way and a radius. */
   visit_within(&s, s.distance + finder->radius, look_near);
-  s.most = s.distance + finder->radius / 2;
+  s.max = s.distance + finder->radius / 2;
   /* The nearest itself first: few others have smaller weights, and of those alone the distance is asked. */
   uint32_t nearest = s.best;
   s.best = UINT32_MAX;
   look_for_small(&s, nearest, 0);
-  visit_within(&s, fmin(s.most + finder->radius, within_of_size(finder, s.size)), look_for_small);
+  visit_within(&s, fmin(s.max + finder->radius, within_of_size(finder, s.size)), look_for_small);
   return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : nearest, s.distance};
 }
 

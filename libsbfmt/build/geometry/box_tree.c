@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAF_ITEMS = 4, CURVE_BITS = 10, MOST_DEPTH = 64 };
+enum { LEAF_ITEMS = 4, CURVE_BITS = 10, MAX_DEPTH = 64 };
 
 static void grow(sbfi_box *box, const sbfi_box *by) {
   for (int k = 0; k < 3; k++) {
@@ -26,8 +26,8 @@ static uint32_t place_on_curve(const sbfi_box *box, const sbfi_box *all) {
     double size = (double)all->high[k] - all->low[k];
     double middle = ((double)box->low[k] + box->high[k]) / 2 - all->low[k];
     double cell = size > 0 ? middle / size * (1 << CURVE_BITS) : 0;
-    uint32_t most = (1u << CURVE_BITS) - 1;
-    code |= spread(cell < most ? (uint32_t)cell : most) << k;
+    uint32_t max = (1u << CURVE_BITS) - 1;
+    code |= spread(cell < max ? (uint32_t)cell : max) << k;
   }
   return code;
 }
@@ -95,26 +95,35 @@ double sbfi_box_distance(const sbfi_box *box, const double point[3]) {
 
 uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
     double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
-    double *least) {
-  uint32_t waiting[MOST_DEPTH], waiting_count = 0, nearest = UINT32_MAX;
-  if (tree->node_count > 0) waiting[waiting_count++] = 0;
+    double *min) {
+  uint32_t waiting[MAX_DEPTH], waiting_count = 0, nearest = UINT32_MAX;
+  double distances[MAX_DEPTH];
+  if (tree->node_count > 0) {
+    distances[0] = sbfi_box_distance(&tree->nodes[0].box, point);
+    waiting[waiting_count++] = 0;
+  }
   while (waiting_count > 0) {
     const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];
-    if (sbfi_box_distance(&node->box, point) > *least) continue;
+    if (distances[waiting_count] > *min) continue;
     for (uint32_t i = 0; i < node->count; i++) {
       uint32_t item = tree->items[node->first + i];
       double d = distance(user, item, point);
-      if (d > *least || (d == *least && item > nearest)) continue;
-      if (d == *least && nearest == UINT32_MAX) continue; /* not below what the caller has */
-      *least = d;
+      if (d > *min || (d == *min && item > nearest)) continue;
+      if (d == *min && nearest == UINT32_MAX) continue; /* not below what the caller has */
+      *min = d;
       nearest = item;
     }
     if (node->count > 0) continue;
     /* The nearer child is looked at first, so it goes on the stack last. */
-    bool right_first = sbfi_box_distance(&tree->nodes[node->first + 1].box, point) <
-                       sbfi_box_distance(&tree->nodes[node->first].box, point);
-    waiting[waiting_count++] = node->first + !right_first;
-    waiting[waiting_count++] = node->first + right_first;
+    const double both[2] = {sbfi_box_distance(&tree->nodes[node->first].box, point),
+        sbfi_box_distance(&tree->nodes[node->first + 1].box, point)};
+    uint32_t nearer = both[1] < both[0];
+    for (uint32_t k = 0; k < 2; k++) {
+      uint32_t child = k ? nearer : !nearer;
+      if (both[child] > *min) continue;
+      distances[waiting_count] = both[child];
+      waiting[waiting_count++] = node->first + child;
+    }
   }
   return nearest;
 }
@@ -140,10 +149,10 @@ static double enter(const sbfi_box *box, const double origin[3], const double wa
 }
 
 uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double way[3],
-    double most, double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
+    double max, double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
     const void *user) {
-  uint32_t waiting[MOST_DEPTH], waiting_count = 0, first = UINT32_MAX;
-  double entries[MOST_DEPTH], least = most;
+  uint32_t waiting[MAX_DEPTH], waiting_count = 0, first = UINT32_MAX;
+  double entries[MAX_DEPTH], min = max;
   if (tree->node_count > 0) {
     entries[0] = enter(&tree->nodes[0].box, origin, way);
     waiting_count = entries[0] >= 0;
@@ -151,12 +160,12 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
   }
   while (waiting_count > 0) {
     const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];
-    if (entries[waiting_count] > least) continue;
+    if (entries[waiting_count] > min) continue;
     for (uint32_t i = 0; i < node->count; i++) {
       uint32_t item = tree->items[node->first + i];
       double t = meet(user, item, origin, way);
-      if (t < 0 || t > least || (t == least && item > first)) continue;
-      least = t;
+      if (t < 0 || t > min || (t == min && item > first)) continue;
+      min = t;
       first = item;
     }
     if (node->count > 0) continue;
@@ -167,7 +176,7 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
     for (int k = 0; k < 2; k++) {
       bool is_right = (k == 1) == right_first;
       double entry = is_right ? right : left;
-      if (entry < 0 || entry > least) continue;
+      if (entry < 0 || entry > min) continue;
       waiting[waiting_count] = node->first + is_right;
       entries[waiting_count++] = entry;
     }
@@ -183,7 +192,7 @@ static bool touch(const sbfi_box *a, const sbfi_box *b) {
 
 void sbfi_box_tree_visit(
     const sbfi_box_tree *tree, const sbfi_box *box, bool (*visit)(void *user, uint32_t item), void *user) {
-  uint32_t waiting[MOST_DEPTH], waiting_count = 0;
+  uint32_t waiting[MAX_DEPTH], waiting_count = 0;
   if (tree->node_count > 0) waiting[waiting_count++] = 0;
   while (waiting_count > 0) {
     const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];

@@ -236,13 +236,13 @@ static bool cap_holes(work *w, uint32_t missing) {
 bool sbfi_soup_make(sbfi_soup *soup, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
   *soup = (sbfi_soup){.triangle_count = 0};
   work w = {.soup = soup, .arena = arena};
-  size_t most = 0;
-  for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) most += mesh->polygon_sizes.at[p] - 2;
-  if (most == 0) return true;
-  if (most > UINT32_MAX / 8) return false; /* three uses each are counted in 32 bits */
+  size_t max = 0;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) max += mesh->polygon_sizes.at[p] - 2;
+  if (max == 0) return true;
+  if (max > UINT32_MAX / 8) return false; /* three uses each are counted in 32 bits */
   uint32_t *new_from_old = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *new_from_old);
   soup->points = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *soup->points);
-  soup->triangles = sbfi_arena_allocate(arena, most, sizeof *soup->triangles);
+  soup->triangles = sbfi_arena_allocate(arena, max, sizeof *soup->triangles);
   if (!new_from_old || !soup->points || !soup->triangles) return false;
   if (!weld(&w, &mesh->positions, new_from_old)) return false;
   fan(soup, mesh, new_from_old);

@@ -4,8 +4,8 @@
 
 #include "build/geometry/triangle_cover.h"
 
-enum { MOST_HALVINGS = 6 };
-static const double LEAST_SHARE = 1e-5, SLACK = 1.05;
+enum { MAX_HALVINGS = 6 };
+static const double MIN_SHARE = 1e-5, SLACK = 1.05;
 
 typedef struct comparison {
   const sbfi_triangle_tree *to;
@@ -40,12 +40,12 @@ static double nearest(const comparison *c, const double at[3], uint32_t *triangl
 
 /* The greatest distance of three corners from one triangle. */
 static double farthest_corner(const comparison *c, const double corners[3][3], uint32_t triangle) {
-  double most = 0;
+  double max = 0;
   for (int k = 0; k < 3; k++) {
     double squared = square_from(c, corners[k], triangle);
-    if (squared > most) most = squared;
+    if (squared > max) max = squared;
   }
-  return sqrt(most);
+  return sqrt(max);
 }
 
 static void look(comparison *c, const double corners[3][3], uint32_t *near, int halvings) {
@@ -108,7 +108,7 @@ static bool compare(comparison *c, const sbfi_triangle_tree *from, sbfi_progress
       for (int k = 0; k < 3; k++) load(from->positions[from->triangles[t].points[k]], corners[k]);
       if (pass == 1) {
         if (!has_area((const double(*)[3])corners)) continue;
-        look(c, (const double(*)[3])corners, &near, MOST_HALVINGS);
+        look(c, (const double(*)[3])corners, &near, MAX_HALVINGS);
         continue;
       }
       double far = nearest(c, corners[t % 3], &near);
@@ -124,7 +124,7 @@ bool sbfi_surface_distance(
   const sbfi_box *box = &a->tree.nodes[0].box;
   double low[3], high[3];
   for (int k = 0; k < 3; k++) low[k] = (double)box->low[k], high[k] = (double)box->high[k];
-  comparison c = {.to = b, .no_less = LEAST_SHARE * distance_of(low, high)};
+  comparison c = {.to = b, .no_less = MIN_SHARE * distance_of(low, high)};
   if (!compare(&c, a, sbfi_progress_part(progress, 0, 0.5))) return false;
   c.to = a;
   if (!compare(&c, b, sbfi_progress_part(progress, 0.5, 1))) return false;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-enum { MOST_CORNERS = 9 }; /* a triangle cut three times has six */
+enum { MAX_CORNERS = 9 }; /* a triangle cut three times has six */
 static const double AREA_SLACK = 1e-6;
 
 /* The triangle in its own plane: its first corner the origin, x along its first side, z above it. */
@@ -15,11 +15,11 @@ typedef struct plane_frame {
 typedef struct covering {
   const sbfi_triangle_tree *by;
   plane_frame frame;
-  double most, area; /* twice what is covered so far */
+  double max, area; /* twice what is covered so far */
 } covering;
 
 typedef struct outline {
-  double at[MOST_CORNERS][3];
+  double at[MAX_CORNERS][3];
   int count;
 } outline;
 
@@ -64,13 +64,13 @@ static void cut(outline *o, const double a[2], const double b[2]) {
     const double *p = o->at[i], *q = o->at[(i + 1) % o->count];
     double here = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     double next = (b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]);
-    if (here >= 0 && kept.count < MOST_CORNERS) {
+    if (here >= 0 && kept.count < MAX_CORNERS) {
       for (int k = 0; k < 3; k++) kept.at[kept.count][k] = p[k];
       kept.count++;
     }
     if ((here > 0 && next < 0) || (here < 0 && next > 0)) {
       double share = here / (here - next);
-      if (kept.count >= MOST_CORNERS) continue;
+      if (kept.count >= MAX_CORNERS) continue;
       for (int k = 0; k < 3; k++) kept.at[kept.count][k] = p[k] + share * (q[k] - p[k]);
       kept.count++;
     }
@@ -92,20 +92,20 @@ static bool add_cover(void *user, uint32_t triangle) {
   double area = 0;
   for (int i = 0; i < o.count; i++) {
     const double *p = o.at[i], *q = o.at[(i + 1) % o.count];
-    if (fabs(p[2]) > c->most) return true;
+    if (fabs(p[2]) > c->max) return true;
     area += p[0] * q[1] - p[1] * q[0];
   }
   c->area += area;
   return true;
 }
 
-bool sbfi_triangle_is_covered(const sbfi_triangle_tree *by, const double corners[3][3], double most) {
-  covering c = {.by = by, .most = most};
+bool sbfi_triangle_is_covered(const sbfi_triangle_tree *by, const double corners[3][3], double max) {
+  covering c = {.by = by, .max = max};
   sbfi_box box;
   if (!make_frame(&c.frame, corners)) return false;
   for (int k = 0; k < 3; k++) {
-    double low = fmin(corners[0][k], fmin(corners[1][k], corners[2][k])) - most;
-    double high = fmax(corners[0][k], fmax(corners[1][k], corners[2][k])) + most;
+    double low = fmin(corners[0][k], fmin(corners[1][k], corners[2][k])) - max;
+    double high = fmax(corners[0][k], fmax(corners[1][k], corners[2][k])) + max;
     box.low[k] = nextafterf((float)low, -INFINITY);
     box.high[k] = nextafterf((float)high, INFINITY);
   }

@@ -116,17 +116,17 @@ bool sbfi_triangle_tree_build(sbfi_triangle_tree *tree, const sbf_polygon_mesh *
   return sbfi_box_tree_build(&tree->tree, boxes, tree->triangle_count, arena);
 }
 
-uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 point, double *least) {
+uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 point, double *min) {
   double at[3];
   load(point, at);
-  return sbfi_box_tree_nearest(&tree->tree, at, distance, tree, least);
+  return sbfi_box_tree_nearest(&tree->tree, at, distance, tree, min);
 }
 
 uint32_t sbfi_triangle_tree_pierced(
-    const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double most) {
+    const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double max) {
   double from[3], to[3], way[3];
   load(origin, from);
   load(point, to);
   minus(to, from, way);
-  return sbfi_box_tree_pierced(&tree->tree, from, way, most, meet, tree);
+  return sbfi_box_tree_pierced(&tree->tree, from, way, max, meet, tree);
 }

@@ -20,12 +20,12 @@ typedef struct sbfi_triangle_tree {
 bool sbfi_triangle_tree_build(sbfi_triangle_tree *tree, const sbf_polygon_mesh *mesh, sbfi_arena *arena);
 
 /* The nearest triangle whose squared distance is below `*least`, which then becomes that; else UINT32_MAX. */
-uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 point, double *least);
+uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 point, double *min);
 
 /* The first triangle that the ray from `origin` through `point` meets, on either side, up to `most` times as
  * far as the point is; UINT32_MAX: none. */
 uint32_t sbfi_triangle_tree_pierced(
-    const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double most);
+    const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double max);
 
 /* Weights of the corners a, b, c that give the point of the triangle nearest to `point`; returns the square
  * of its distance. A triangle without area is its longest side, or one point. */

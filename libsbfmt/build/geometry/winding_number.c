@@ -3,7 +3,7 @@
 #include "build/geometry/box_tree.h"
 #include "mechanics/angle.h"
 
-enum { MOST_WAITING = 128 };
+enum { MAX_WAITING = 128 };
 static const double far_radii = 2;
 
 static void corners_of(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 corners[3]) {
@@ -102,7 +102,7 @@ bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena 
 }
 
 static double number_of(const sbfi_soup *soup, const sbfi_winding_tree *tree, sbfi_d3 point) {
-  uint32_t waiting[MOST_WAITING], waiting_count = 0;
+  uint32_t waiting[MAX_WAITING], waiting_count = 0;
   double halves = 0, dipoles = 0;
   if (tree->node_count > 0) waiting[waiting_count++] = 0;
   while (waiting_count > 0) {

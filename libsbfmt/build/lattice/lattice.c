@@ -58,10 +58,9 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
     if (cuts->edges[s] == UINT32_MAX) continue;
     uint32_t edge = cuts->edges[s], owner = edge >> 3;
     uint32_t other = (uint32_t)((int64_t)owner + grid->steps[sbfi_lattice_kind(grid, owner)][edge & 7]);
-    float least = (float)sbfi_lattice_least_share((int)(edge & 7)), share = cuts->shares[s];
-    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < least ? least : share;
-    if (inside[other] & SBFI_LATTICE_FORCED)
-      cuts->shares[s] = share < 0 || share > 1 - least ? 1 - least : share;
+    float min = (float)sbfi_lattice_min_share((int)(edge & 7)), share = cuts->shares[s];
+    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < min ? min : share;
+    if (inside[other] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < 0 || share > 1 - min ? 1 - min : share;
   }
 }
 

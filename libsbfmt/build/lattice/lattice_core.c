@@ -27,15 +27,15 @@ static double component(sbf_vec3 v, int axis) {
 /* The axis along which few points lie in a ball's reach. */
 static int longest_axis(const sbf_vec3 *points, uint32_t count) {
   int longest = 0;
-  double most = -1;
+  double max = -1;
   for (int axis = 0; axis < 3; axis++) {
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
       low = fmin(low, component(points[i], axis));
       high = fmax(high, component(points[i], axis));
     }
-    if (high - low <= most) continue;
-    most = high - low;
+    if (high - low <= max) continue;
+    max = high - low;
     longest = axis;
   }
   return longest;
@@ -46,7 +46,7 @@ static double squared_between(sbf_vec3 a, sbf_vec3 b) {
   return x * x + y * y + z * z;
 }
 
-bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint32_t count, double least_m,
+bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint32_t count, double min_m,
     float *thickness, sbfi_arena *scratch) {
   ranked *along = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *along);
   ranked *deepest = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *deepest);
@@ -64,7 +64,7 @@ bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint3
     uint32_t middle = deepest[n].point;
     double radius = sqrt(depths2[middle]), reach = reach_share * radius;
     double at = component(points[middle], axis);
-    if (near[middle] || radius <= least_m) continue;
+    if (near[middle] || radius <= min_m) continue;
     uint32_t low = 0, high = count;
     while (low < high) {
       uint32_t between = low + (high - low) / 2;

@@ -11,7 +11,7 @@ typedef struct work {
   uint32_t points[3];            /* of the triangle at hand */
   double at[3][3];               /* in grid coordinates */
   double across[3][2], along[3]; /* seen along the lines of the way at hand */
-  double least_area; /* twice: below it the triangle is seen from its side, where rounding rules */
+  double min_area; /* twice: below it the triangle is seen from its side, where rounding rules */
   bool is_cap, good;
 } work;
 
@@ -48,25 +48,25 @@ static bool meet(const work *w, double u, double v, double *place) {
   double c = side_of(w, 0, 1, u, v), a = side_of(w, 1, 2, u, v), b = side_of(w, 2, 0, u, v);
   bool within = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
   double sum = a + b + c;
-  if (!within || fabs(sum) <= w->least_area) return false;
+  if (!within || fabs(sum) <= w->min_area) return false;
   *place = (a * w->along[0] + b * w->along[1] + c * w->along[2]) / sum;
   return true;
 }
 
-static double least_of(double p[3][2], int k) {
-  double least = p[0][k] < p[1][k] ? p[0][k] : p[1][k];
-  return p[2][k] < least ? p[2][k] : least;
+static double min_of(double p[3][2], int k) {
+  double min = p[0][k] < p[1][k] ? p[0][k] : p[1][k];
+  return p[2][k] < min ? p[2][k] : min;
 }
 
-static double most_of(double p[3][2], int k) {
-  double most = p[0][k] > p[1][k] ? p[0][k] : p[1][k];
-  return p[2][k] > most ? p[2][k] : most;
+static double max_of(double p[3][2], int k) {
+  double max = p[0][k] > p[1][k] ? p[0][k] : p[1][k];
+  return p[2][k] > max ? p[2][k] : max;
 }
 
 /* The first of the numbers with the remainder (0 or 1) by 2 that is not below `least`. (Most triangles are
  * smaller than a cell and asked this ten times: ceil may be a call.) */
-static int32_t first_from(double least, int32_t remainder) {
-  double half = (least - remainder) / 2;
+static int32_t first_from(double min, int32_t remainder) {
+  double half = (min - remainder) / 2;
   int32_t whole = (int32_t)half;
   return 2 * (whole + (whole < half)) + remainder;
 }
@@ -75,14 +75,14 @@ static int32_t first_from(double least, int32_t remainder) {
 static void cross_lines(work *w, int way, int32_t remainder) {
   bool is_long = way < SBFI_LATTICE_LONG_EDGES;
   const int *go = sbfi_lattice_ways[way];
-  double u_least = least_of(w->across, 0), u_most = most_of(w->across, 0), place;
-  int32_t u_first = first_from(u_least, remainder);
-  if (u_first > u_most) return;
-  double v_least = least_of(w->across, 1), v_most = most_of(w->across, 1);
-  int32_t v_first = first_from(v_least, remainder);
-  w->least_area = 1e-9 * (u_most - u_least) * (v_most - v_least);
-  for (int32_t v = v_first; v <= v_most; v += 2) {
-    for (int32_t u = u_first; u <= u_most; u += 2) {
+  double u_min = min_of(w->across, 0), u_max = max_of(w->across, 0), place;
+  int32_t u_first = first_from(u_min, remainder);
+  if (u_first > u_max) return;
+  double v_min = min_of(w->across, 1), v_max = max_of(w->across, 1);
+  int32_t v_first = first_from(v_min, remainder);
+  w->min_area = 1e-9 * (u_max - u_min) * (v_max - v_min);
+  for (int32_t v = v_first; v <= v_max; v += 2) {
+    for (int32_t u = u_first; u <= u_max; u += 2) {
       if (!meet(w, u, v, &place)) continue;
       if (is_long) {
         int32_t base[3];

@@ -3,7 +3,7 @@
 const int sbfi_lattice_ways[SBFI_LATTICE_EDGES][3] = {
     {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}};
 
-static const double most_nodes = 1 << 28, border = 2;
+static const double max_nodes = 1 << 28, border = 2;
 
 bool sbfi_lattice_grid_fit(sbfi_lattice_grid *grid, sbfi_d3 low, sbfi_d3 high, double cell) {
   const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
@@ -11,13 +11,13 @@ bool sbfi_lattice_grid_fit(sbfi_lattice_grid *grid, sbfi_d3 low, sbfi_d3 high, d
   *grid = (sbfi_lattice_grid){.cell = cell};
   for (int k = 0; k < 3; k++) {
     double cubes = floor((to[k] - from[k]) / cell + 0.5);
-    if (!(cubes < most_nodes)) return false;
+    if (!(cubes < max_nodes)) return false;
     if (cubes < 1) cubes = 1;
     origin[k] = (from[k] + to[k]) / 2 - (cubes / 2 + border) * cell;
     grid->counts[k] = (uint32_t)(cubes + 2 * border) + 1;
     nodes *= grid->counts[k];
   }
-  if (!(nodes < most_nodes)) return false;
+  if (!(nodes < max_nodes)) return false;
   grid->origin = (sbfi_d3){origin[0], origin[1], origin[2]};
   grid->node_count = (uint32_t)nodes;
   int32_t row = (int32_t)grid->counts[0], y = 2 * row, z = y * (int32_t)grid->counts[1];

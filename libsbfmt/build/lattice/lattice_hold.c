@@ -32,13 +32,13 @@ static uint32_t find_holding(const work *w, const uint32_t *piece, uint32_t size
 static uint32_t nearest_off(const work *w, const uint32_t *piece, uint32_t size, const double middle[3],
     const sbfi_farthest_line *line) {
   uint32_t best = UINT32_MAX;
-  double least = INFINITY;
+  double min = INFINITY;
   for (uint32_t i = 0; i < size; i++) {
     uint32_t point = piece[i];
     double squared = squared_from(w->positions[point], middle);
-    if (w->holds[point] || w->taken[point] || squared >= least) continue;
+    if (w->holds[point] || w->taken[point] || squared >= min) continue;
     if (sbfi_line_distance(line, w->positions[point]) < w->width) continue;
-    least = squared;
+    min = squared;
     best = point;
   }
   return best;

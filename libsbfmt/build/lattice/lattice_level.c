@@ -18,9 +18,9 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   sbfi_lattice_outcome outcome;
-  uint32_t most =
-      recipe->most && recipe->most < SBFI_LATTICE_THIN_ELEMENTS ? recipe->most : SBFI_LATTICE_THIN_ELEMENTS;
-  uint32_t usual = most < USUAL_ELEMENTS ? most : USUAL_ELEMENTS;
+  uint32_t max =
+      recipe->max && recipe->max < SBFI_LATTICE_THIN_ELEMENTS ? recipe->max : SBFI_LATTICE_THIN_ELEMENTS;
+  uint32_t usual = max < USUAL_ELEMENTS ? max : USUAL_ELEMENTS;
   for (uint32_t elements = recipe->elements ? recipe->elements : usual;; elements *= 2) {
     outcome = recipe->cell > 0 ? sbfi_lattice_make(lattice, &winding, recipe->cell, progress, scratch)
                                : sbfi_lattice_make_count(lattice, &winding, elements, progress, scratch);
@@ -28,7 +28,7 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
     if (!sbfi_lattice_thinness(thinness, &body->surface, lattice->cell, scratch))
       return SBFI_LATTICE_NO_MEMORY;
     bool wished = recipe->cell > 0 || recipe->elements > 0;
-    if (wished || !is_thin(thinness) || 2 * elements > most) return outcome;
+    if (wished || !is_thin(thinness) || 2 * elements > max) return outcome;
   }
 }
 

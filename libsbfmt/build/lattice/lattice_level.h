@@ -13,7 +13,7 @@ enum { SBFI_LATTICE_THIN_ELEMENTS = 4000, SBFI_LATTICE_SHARED_ELEMENTS = 16000 }
 typedef struct sbfi_lattice_recipe {
   double cell;       /* m; 0: by `elements` */
   uint32_t elements; /* about so many tetrahedra; 0: 2000, or more where much of the body is thin */
-  uint32_t most;     /* of those that nobody asked for; 0: SBFI_LATTICE_THIN_ELEMENTS */
+  uint32_t max;      /* of those that nobody asked for; 0: SBFI_LATTICE_THIN_ELEMENTS */
   int32_t derivation;
 } sbfi_lattice_recipe;
 

@@ -8,7 +8,7 @@
 /* Marks while the nodes are chosen, beside the bits that stay. */
 enum { CANDIDATE = 4, LONELY = 8, WEAK = 16 };
 
-static const float least_part = 1e-3f; /* of an edge; less is a touch */
+static const float min_part = 1e-3f; /* of an edge; less is a touch */
 
 static int compare(const void *a, const void *b) {
   const sbfi_lattice_crossing *x = a, *y = b;
@@ -79,7 +79,7 @@ static void add_weak(candidates *c, const sbfi_lattice_grid *grid, const sbfi_ar
     bool first = c->inside[owner] & SBFI_LATTICE_INSIDE, second = c->inside[other] & SBFI_LATTICE_INSIDE;
     if (first == second) continue;
     double share = first ? at[i].share : 1 - at[i].share;
-    if (share < sbfi_lattice_least_share((int)(at[i].edge & 7))) add(c, first ? owner : other, WEAK);
+    if (share < sbfi_lattice_min_share((int)(at[i].edge & 7))) add(c, first ? owner : other, WEAK);
   }
 }
 
@@ -92,7 +92,7 @@ static bool add_slipped(candidates *c, const sbfi_lattice_grid *grid, const sbfi
     for (end = i + 1; end < count && at[end].edge == at[i].edge;) end++;
     float low = at[i].share, high = at[end - 1].share, middle = (low + high) / 2;
     uint32_t node = middle < 0.5f ? at[i].edge >> 3 : other_end(grid, at[i].edge);
-    if (high - low < least_part || (c->inside[node] & CANDIDATE)) continue;
+    if (high - low < min_part || (c->inside[node] & CANDIDATE)) continue;
     if (is_inside(grid, winding, at[i].edge, middle)) add(c, node, 0);
   }
   return true;

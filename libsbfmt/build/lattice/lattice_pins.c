@@ -38,7 +38,7 @@ static double squared_between(sbf_vec3 a, const double b[3]) {
   return x * x + y * y + z * z;
 }
 
-static double least_width(const work *w) {
+static double min_width(const work *w) {
   return core_width * (double)w->level->cell;
 }
 
@@ -70,12 +70,12 @@ static bool find_depths(work *w) {
   if (!w->depths2 || !w->footings || !w->taken) return false;
   double near = on_surface * w->level->cell;
   for (uint32_t i = 0; i < points->count; i++) {
-    double least = INFINITY, at[3], ends[3][3];
-    uint32_t triangle = sbfi_triangle_tree_nearest(&w->surface, points->at[i], &least);
+    double min = INFINITY, at[3], ends[3][3];
+    uint32_t triangle = sbfi_triangle_tree_nearest(&w->surface, points->at[i], &min);
     footing *on = &w->footings[i];
-    w->depths2[i] = least;
+    w->depths2[i] = min;
     on->corners[0] = SBFI_NO_INDEX;
-    if (triangle == UINT32_MAX || least > near * near) continue;
+    if (triangle == UINT32_MAX || min > near * near) continue;
     load(points->at[i], at);
     for (int k = 0; k < 3; k++) {
       on->corners[k] = w->surface.triangles[triangle].points[k];
@@ -119,9 +119,9 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   for (uint32_t i = 0; i < from->points.count; i++) at_source[from->points.at[i]] = weight_of(from, i);
   for (uint32_t i = 0; i < points; i++) at_level[i] = weight_between(&w->footings[i], at_source);
   for (uint32_t i = 0; i < from->points.count; i++) {
-    double at[3], least = INFINITY;
+    double at[3], min = INFINITY;
     load(source_point(w, from->points.at[i]), at);
-    uint32_t nearest = sbfi_box_tree_nearest(&w->points, at, point_distance, w, &least);
+    uint32_t nearest = sbfi_box_tree_nearest(&w->points, at, point_distance, w, &min);
     if (nearest != UINT32_MAX) at_level[nearest] = fmaxf(at_level[nearest], weight_of(from, i));
   }
   for (uint32_t i = 0; i < points; i++) {
@@ -147,7 +147,7 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
 
 /* Whether what is held there cannot turn about a line through it. */
 static bool is_wide(const work *w, const uint32_t *core, uint32_t count) {
-  return count >= 3 && sbfi_farthest_line_of(w->level->positions.at, core, count).width >= least_width(w);
+  return count >= 3 && sbfi_farthest_line_of(w->level->positions.at, core, count).width >= min_width(w);
 }
 
 /* The points of the inner half, by depth, where the body is thick and where it is thin; of a shallower part
@@ -169,7 +169,7 @@ static bool find_core(work *w, uint32_t **core, uint32_t *count) {
     }
     if (is_wide(w, *core, *count)) break;
   }
-  return sbfi_lattice_hold_pieces(w->level, w->depths2, w->taken, least_width(w), *core, count, w->scratch);
+  return sbfi_lattice_hold_pieces(w->level, w->depths2, w->taken, min_width(w), *core, count, w->scratch);
 }
 
 static bool carry_attachment(work *w, sbf_pin_set *to, const sbf_attachment *from) {
@@ -183,9 +183,9 @@ static bool carry_attachment(work *w, sbf_pin_set *to, const sbf_attachment *fro
 
 static bool make(work *w, int32_t derivation) {
   const sbf_soft_body *body = w->body;
-  size_t most = (size_t)body->pins.count + body->attachments.count + 1;
-  sbf_pin_set *sets = sbf_asset_allocate(w->asset, most, sizeof *sets);
-  sbf_attachment *by_hull = sbfi_arena_allocate(w->scratch, most, sizeof *by_hull);
+  size_t max = (size_t)body->pins.count + body->attachments.count + 1;
+  sbf_pin_set *sets = sbf_asset_allocate(w->asset, max, sizeof *sets);
+  sbf_attachment *by_hull = sbfi_arena_allocate(w->scratch, max, sizeof *by_hull);
   uint32_t count = 0, hull_count = 0, core_count = 0, *core = NULL;
   if (!sets || !by_hull) return false;
   for (uint32_t i = 0; i < body->pins.count; i++)

@@ -98,7 +98,7 @@ static void cut_wedge(work *w, const uint8_t in[2], const uint8_t out[2]) {
   const spot q[3] = {corner(in[1]), cut(in[1], out[0]), cut(in[1], out[1])};
   bool first[3] = {
       starts_at_first(w, in[0], in[1], out[0]), false, !starts_at_first(w, in[0], in[1], out[1])};
-  sbfi_stencil_piece best[SBFI_STENCIL_MOST];
+  sbfi_stencil_piece best[SBFI_STENCIL_MAX];
   double best_shape = -INFINITY;
   for (int free = 0; free < 2; free++) {
     first[1] = free;
@@ -114,7 +114,7 @@ static void cut_wedge(work *w, const uint8_t in[2], const uint8_t out[2]) {
 }
 
 int sbfi_stencil_apply(const sbfi_stencil_corner corners[4], const uint32_t nodes[4],
-    const sbfi_d3 places[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MOST]) {
+    const sbfi_d3 places[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MAX]) {
   work w = {.nodes = nodes, .places = places, .pieces = pieces};
   uint8_t in[4], out[4], on[4];
   int in_count = 0, out_count = 0, on_count = 0;

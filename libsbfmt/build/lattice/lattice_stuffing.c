@@ -11,7 +11,7 @@ static const double warp_long = 0.28, warp_short = 0.40, short_length = 0.866025
 
 static const uint32_t NONE = UINT32_MAX;
 
-double sbfi_lattice_least_share(int way) {
+double sbfi_lattice_min_share(int way) {
   return (way < SBFI_LATTICE_LONG_EDGES ? warp_long : warp_short) + 1e-3;
 }
 
@@ -188,7 +188,7 @@ static void fill_cut(work *w, const uint32_t nodes[4]) {
     for (int j = 0; j < 4 && corners[i] == SBFI_STENCIL_INSIDE; j++)
       if (corners[j] == SBFI_STENCIL_OUTSIDE) places[i][j] = places[j][i] = *place(w, names[i][j]);
   }
-  sbfi_stencil_piece pieces[SBFI_STENCIL_MOST];
+  sbfi_stencil_piece pieces[SBFI_STENCIL_MAX];
   int count = sbfi_stencil_apply(corners, nodes, (const sbfi_d3(*)[4])places, pieces);
   for (int p = 0; p < count; p++) {
     uint32_t points[4];

@@ -22,7 +22,7 @@ bool sbfi_lattice_cuts_find(
     sbfi_lattice_cuts *cuts, const sbfi_lattice_grid *grid, const uint8_t *inside, sbfi_arena *arena);
 
 /* The share of an edge of the way, from a node, within which a cut warps that node; a little more. */
-double sbfi_lattice_least_share(int way);
+double sbfi_lattice_min_share(int way);
 
 /* The edge's slot, or where it would be. */
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge);

@@ -6,7 +6,7 @@
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
-enum { MOST_SAMPLES = 2000 };
+enum { MAX_SAMPLES = 2000 };
 
 /* Distance along `way` (a unit vector) from `from` to the triangle's plane. */
 static double distance_to(const sbfi_triangle_tree *tree, uint32_t triangle, sbfi_d3 from, sbfi_d3 way) {
@@ -19,9 +19,9 @@ static double distance_to(const sbfi_triangle_tree *tree, uint32_t triangle, sbf
 
 bool sbfi_lattice_thinness(
     sbfi_thinness *thinness, const sbf_polygon_mesh *mesh, double limit, sbfi_arena *scratch) {
-  uint32_t count = mesh->positions.count, stride = count / MOST_SAMPLES + 1;
+  uint32_t count = mesh->positions.count, stride = count / MAX_SAMPLES + 1;
   sbfi_triangle_tree tree;
-  *thinness = (sbfi_thinness){.least = INFINITY};
+  *thinness = (sbfi_thinness){.min = INFINITY};
   sbf_vec3 *normals = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *normals);
   if (!normals || !sbfi_triangle_tree_build(&tree, mesh, scratch)) return false;
   sbf_surface_point_normals(mesh, normals);
@@ -32,12 +32,12 @@ bool sbfi_lattice_thinness(
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->positions.at[i]), sbfi_d3_scale(inwards, 1e-3 * limit));
     sbf_vec3 start = sbfi_d3_rounded(from), end = sbfi_d3_rounded(sbfi_d3_add(from, inwards));
     /* What is farther is neither thin nor the least. */
-    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->least));
+    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->min));
     thinness->sample_count++;
     if (met == UINT32_MAX) continue;
     double way = distance_to(&tree, met, from, inwards) + 1e-3 * limit;
     if (!(way > 0)) continue;
-    if (way < thinness->least) thinness->least = way;
+    if (way < thinness->min) thinness->min = way;
     thinness->thin_count += way < limit;
   }
   return true;

@@ -8,7 +8,7 @@
 typedef struct sbfi_thinness {
   uint32_t sample_count; /* points of the surface looked at: 2000 at most, evenly over the list */
   uint32_t thin_count;   /* of them, those with less than `limit` of matter under them */
-  double least;          /* m; infinite where nothing was measured */
+  double min;            /* m; infinite where nothing was measured */
 } sbfi_thinness;
 
 /* Measures the way from points of the surface along their normals to where it comes out again. False where

@@ -50,7 +50,7 @@ static double spread_of(const sbf_level *level, const uint32_t *sizes, uint32_t 
 
 bool sbfi_region_level_make(
     sbf_level *level, const sbf_soft_body *body, sbf_asset *asset, sbfi_arena *scratch) {
-  uint32_t count = level->positions.count, most = 0, region_count = 0;
+  uint32_t count = level->positions.count, max = 0, region_count = 0;
   sbf_uint2 *pairs =
       sbfi_arena_allocate(scratch, 16 * (size_t)level->lattice.tetrahedra.count, sizeof *pairs);
   float *masses = sbfi_arena_allocate(scratch, count, sizeof *masses);
@@ -64,12 +64,12 @@ bool sbfi_region_level_make(
   for (size_t i = 0; i < pair_count; i++) {
     if (i == 0 || pairs[i].at[0] != pairs[i - 1].at[0]) sizes[region_count++] = 0;
     uint32_t size = ++sizes[region_count - 1];
-    most = size > most ? size : most;
+    max = size > max ? size : max;
     points[i] = pairs[i].at[1];
     uses[points[i]]++;
   }
-  double *weights = sbfi_arena_allocate(scratch, most, sizeof *weights);
-  sbfi_d3 *places = sbfi_arena_allocate(scratch, most, sizeof *places);
+  double *weights = sbfi_arena_allocate(scratch, max, sizeof *weights);
+  sbfi_d3 *places = sbfi_arena_allocate(scratch, max, sizeof *places);
   if (!weights || !places) return false;
   double mass = sbf_level_masses(body, level, NULL, masses);
   double spread = spread_of(level, sizes, region_count, points, masses, uses, weights, places) / 3;

@@ -10,12 +10,17 @@
 /* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
  */
 static const double lean_share = 2e-3, fall_tolerance = 1e-4;
-/* Of the one factor for all: what would take more is not of one piece as its reference is. A crumb that hangs
- * on nothing, as in a lattice of a surface with holes, gives without end, and no modulus mends that. */
-static const double least_whole = 0.0625, most_whole = 4;
+/* Of the one factor for all, from means over the surface. Beyond, a crumb may have made the mean: it hangs on
+ * nothing, as in a lattice of a surface with holes, and gives without end. One of the level's is left out by
+ * taking the median point; one of the reference's leaves nothing to fit to. */
+static const double min_whole = 0.0625, max_whole = 4;
+/* Of the factor of the median point then, in so many bisections, and of the mean square of what the
+ * reference's points give, below which one says nothing. */
+static const double min_median = 1.0 / 64, max_median = 64, still_share = 1e-4;
+enum { MEDIAN_STEPS = 24 };
 
 /* Of the modulus of each tetrahedron: more than twice would shorten the time step for little. */
-static const sbfi_factor_bounds lattice_bounds = {.least = 0.125, .most = 2, .share = 1e-3, .rounds = 25};
+static const sbfi_factor_bounds lattice_bounds = {.min = 0.125, .max = 2, .share = 1e-3, .rounds = 25};
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
@@ -41,6 +46,9 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
     r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
     r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
   }
+  for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->pushes; k++)
+    if (!sbfi_level_twist_frequency(&r->statics, &linear, k, lean_share, &r->twist_frequencies[k], scratch))
+      return SBFI_LATTICE_NO_MEMORY;
   if (r->sound && use->pushes) {
     r->has_works = true;
     if (!sbfi_push_works_make(
@@ -103,17 +111,17 @@ void sbfi_reference_free(sbfi_reference *reference) {
   sbfi_arena_free(&reference->arena);
 }
 
-/* The load to which it yields most; SBFI_MOST_LOADS: to none. */
+/* The load to which it yields most; SBFI_MAX_LOADS: to none. */
 static uint32_t softest(const sbfi_reference *r) {
-  uint32_t most = SBFI_MOST_LOADS;
+  uint32_t max = SBFI_MAX_LOADS;
   for (uint32_t l = 0; l < r->statics.load_count; l++)
-    if (r->yieldings[l] > 0 && (most == SBFI_MOST_LOADS || r->yieldings[l] > r->yieldings[most])) most = l;
-  return most;
+    if (r->yieldings[l] > 0 && (max == SBFI_MAX_LOADS || r->yieldings[l] > r->yieldings[max])) max = l;
+  return max;
 }
 
 double sbfi_reference_frequency(const sbfi_reference *reference) {
   uint32_t load = softest(reference);
-  return load < SBFI_MOST_LOADS ? reference->frequencies[load] : 0;
+  return load < SBFI_MAX_LOADS ? reference->frequencies[load] : 0;
 }
 
 /* ---- The fit ---- */
@@ -128,8 +136,8 @@ typedef struct work {
   sbfi_level_statics statics;
   sbfi_linear_statics linear;
   /* Under the small loads. */
-  double *gives[SBFI_MOST_LOADS]; /* (3 x surface points) m */
-  double yieldings[SBFI_MOST_LOADS], frequencies[SBFI_MOST_LOADS];
+  double *gives[SBFI_MAX_LOADS]; /* (3 x surface points) m */
+  double yieldings[SBFI_MAX_LOADS], frequencies[SBFI_MAX_LOADS];
   sbfi_calibration *c;
   sbfi_progress progress;
 } work;
@@ -166,12 +174,53 @@ static double wanted_yielding(const work *w, uint32_t load) {
 /* The least factor for all. One that the slowest swing of a thin fin asks for would let the thick rest sink
  * under its own weight; where few points say nothing of what the parts ask for, what stands by itself is not
  * made softer than it takes to bear that. */
-static double least_to_bear(const work *w) {
+static double min_to_bear(const work *w) {
   sbf_attributes matter = w->body->attributes;
   double stated = (double)matter.young_modulus;
   if (w->statics.held || !is_sparse(w) || !(stated > 0)) return 0;
   matter.young_modulus = 0;
   return fmin(sbfi_bearing_modulus(&matter, &w->body->surface.positions) / stated, 1);
+}
+
+/* By how much a point of the surface gives more than the reference's does, along the reference's path and
+ * over all loads; negative: the reference's hardly moves. */
+static double excess_of(const work *w, uint32_t point, double hardly) {
+  double along = 0, square = 0;
+  for (uint32_t l = 0; l < w->statics.load_count; l++)
+    for (size_t k = 3 * (size_t)point; k < 3 * (size_t)point + 3; k++) {
+      along += w->gives[l][k] * w->r->gives[l][k];
+      square += w->r->gives[l][k] * w->r->gives[l][k];
+    }
+  return square > hardly ? fmax(along, 0) / square : -1;
+}
+
+/* Mean over the surface and sum over the loads of the squares of what the reference gives, m^2. */
+static double mean_square(const work *w) {
+  double sum = 0, area = 0;
+  for (uint32_t i = 0; i < w->body->surface.positions.count; i++) {
+    area += (double)w->r->statics.areas[i];
+    for (uint32_t l = 0; l < w->statics.load_count; l++)
+      for (size_t k = 3 * (size_t)i; k < 3 * (size_t)i + 3; k++)
+        sum += (double)w->r->statics.areas[i] * w->r->gives[l][k] * w->r->gives[l][k];
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+/* That of the points where half of the surface gives more than so and half less: a crumb does not count. 1
+ * where the surface says nothing. By bisection of the factor's logarithm. */
+static double median_excess(const work *w) {
+  uint32_t points = w->body->surface.positions.count;
+  double low = min_median, high = max_median, hardly = still_share * mean_square(w);
+  for (int step = 0; step < MEDIAN_STEPS; step++) {
+    double middle = sqrt(low * high), below = 0, above = 0;
+    for (uint32_t i = 0; i < points; i++) {
+      double excess = excess_of(w, i, hardly);
+      if (excess >= 0) *(excess < middle ? &below : &above) += (double)w->r->statics.areas[i];
+    }
+    if (!(below + above > 0)) return 1;
+    *(above > below ? &low : &high) = middle;
+  }
+  return sqrt(low * high);
 }
 
 static double fit(const work *w) {
@@ -182,15 +231,19 @@ static double fit(const work *w) {
     wanted += wanted_yielding(w, l);
   }
   double factor = own > 0 && wanted > 0 ? own / wanted : 1;
-  return factor >= least_whole && factor <= most_whole ? fmax(factor, least_to_bear(w)) : 1;
+  if (factor > max_whole && !is_sparse(w))
+    factor = median_excess(w);
+  else if (factor < min_whole || factor > max_whole)
+    factor = 1;
+  return fmax(factor, min_to_bear(w));
 }
 
 static double residual_of(const work *w, double factor) {
-  double most = 0;
+  double max = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
     if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
-      most = fmax(most, fabs(own_yielding(w, l) / factor / wanted_yielding(w, l) - 1));
-  return most;
+      max = fmax(max, fabs(own_yielding(w, l) / factor / wanted_yielding(w, l) - 1));
+  return max;
 }
 
 /* How much farther the level goes along the way that its reference goes, twisted likewise. */
@@ -216,11 +269,22 @@ static bool find_twists(work *w, double factor) {
   return true;
 }
 
+/* The same where the surface has too few points: by how slowly all of the body would swing that way. */
+static bool find_slow_twists(work *w, double factor) {
+  for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
+    double own, wanted = w->r->twist_frequencies[k];
+    if (!sbfi_level_twist_frequency(&w->statics, &w->linear, k, lean_share, &own, w->scratch)) return false;
+    if (own > 0 && wanted > 0) w->c->twist_errors[k] = wanted * wanted / (own * own) / factor - 1;
+  }
+  return true;
+}
+
 static bool find_errors(work *w, double factor) {
   for (uint32_t l = 0; l < w->statics.load_count; l++)
     if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
       w->c->load_errors[l] = own_yielding(w, l) / factor / wanted_yielding(w, l) - 1;
-  return !w->r->has_works || is_sparse(w) || find_twists(w, factor);
+  if (!w->r->has_works) return true;
+  return is_sparse(w) ? find_slow_twists(w, factor) : find_twists(w, factor);
 }
 
 /* Writes the moduli, all times `factor`, and those that they stand for: `stated`. */
@@ -231,8 +295,8 @@ static bool write_moduli(work *w, const float *stated, double factor) {
   float *before = sbf_asset_allocate(w->asset, states, sizeof *before);
   if (!effective || !before) return false;
   double volume = 0;
-  w->c->factor = w->c->most = 0;
-  w->c->least = INFINITY;
+  w->c->factor = w->c->max = 0;
+  w->c->min = INFINITY;
   for (uint32_t t = 0; t < count; t++) {
     double of = (double)w->statics.moduli[t] * factor / (double)stated[t];
     double size = w->linear.stiffness.elements[t].volume;
@@ -240,8 +304,8 @@ static bool write_moduli(work *w, const float *stated, double factor) {
     if (t < states) before[t] = stated[t];
     w->c->factor += size * of;
     volume += size;
-    w->c->least = fmin(w->c->least, of);
-    w->c->most = fmax(w->c->most, of);
+    w->c->min = fmin(w->c->min, of);
+    w->c->max = fmax(w->c->max, of);
   }
   w->c->factor /= volume;
   lattice->young_modulus = (sbf_f32_list){effective, count};
@@ -302,8 +366,8 @@ static bool fit_springs(work *w) {
   w->level->springs.at = sets;
   w->c->factor = factors.inner;
   w->c->surface = factors.surface;
-  w->c->least = factors.least;
-  w->c->most = factors.most;
+  w->c->min = factors.min;
+  w->c->max = factors.max;
   w->c->residual_before = factors.before;
   w->c->residual = factors.after;
   return find_yieldings(w);
@@ -312,16 +376,16 @@ static bool fit_springs(work *w) {
 /* ---- The comparison ---- */
 
 static double farthest(const double *a, double a_scale, const double *b, double b_scale, uint32_t points) {
-  double most = 0;
+  double max = 0;
   for (uint32_t i = 0; i < points; i++) {
     double off = 0;
     for (size_t k = 3 * (size_t)i; k < 3 * (size_t)i + 3; k++) {
       double difference = a_scale * a[k] - b_scale * b[k];
       off += difference * difference;
     }
-    most = fmax(most, off);
+    max = fmax(max, off);
   }
-  return sqrt(most);
+  return sqrt(max);
 }
 
 /* Under gravity along one of the axes, or bent: with large strains, or where they were not asked for or one
@@ -362,9 +426,9 @@ static bool compare(work *w, bool gives, double factor) {
 }
 
 /* As many as are known from the first on, as floats. */
-static bool list_errors(work *w, const double *errors, uint32_t most, sbf_f32_list *list) {
+static bool list_errors(work *w, const double *errors, uint32_t max, sbf_f32_list *list) {
   uint32_t count = 0;
-  while (count < most && isfinite(errors[count])) count++;
+  while (count < max && isfinite(errors[count])) count++;
   float *at = sbf_asset_allocate(w->asset, (size_t)count + 1, sizeof *at);
   if (!at) return false;
   for (uint32_t i = 0; i < count; i++) at[i] = (float)fmin(errors[i], FLT_MAX);
@@ -401,7 +465,7 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
     if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_yieldings(w))) return false;
     if (!springs) w->c->residual = residual_of(w, factor);
     if (lattice && !find_errors(w, factor)) return false;
-    if (load < SBFI_MOST_LOADS && w->frequencies[load] > 0)
+    if (load < SBFI_MAX_LOADS && w->frequencies[load] > 0)
       w->c->period_error = w->r->frequencies[load] / (w->frequencies[load] * sqrt(factor)) - 1;
   }
   if (!w->c->unsettled && !compare(w, gives, factor)) return false;
@@ -421,10 +485,10 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
 }
 
 double sbfi_calibration_off(const sbfi_calibration *c) {
-  double most = 0; /* fmax leaves out what is not known */
-  for (uint32_t l = 0; l < SBFI_MOST_LOADS; l++) most = fmax(most, fabs(c->load_errors[l]));
-  for (uint32_t k = 0; k < SBFI_TWISTS; k++) most = fmax(most, fabs(c->twist_errors[k]));
-  return most;
+  double max = 0; /* fmax leaves out what is not known */
+  for (uint32_t l = 0; l < SBFI_MAX_LOADS; l++) max = fmax(max, fabs(c->load_errors[l]));
+  for (uint32_t k = 0; k < SBFI_TWISTS; k++) max = fmax(max, fabs(c->twist_errors[k]));
+  return max;
 }
 
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
@@ -438,8 +502,8 @@ bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbf
       .scratch = &scratch,
       .c = calibration,
       .progress = progress};
-  *calibration = (sbfi_calibration){.factor = 1, .surface = 1, .least = 1, .most = 1, .period_error = NAN};
-  for (uint32_t l = 0; l < SBFI_MOST_LOADS; l++) calibration->load_errors[l] = NAN;
+  *calibration = (sbfi_calibration){.factor = 1, .surface = 1, .min = 1, .max = 1, .period_error = NAN};
+  for (uint32_t l = 0; l < SBFI_MAX_LOADS; l++) calibration->load_errors[l] = NAN;
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) calibration->twist_errors[k] = NAN;
   sbfi_arena_init(&scratch, allocator, 0);
   bool good = calibrate(&w, interior, springs, tick);

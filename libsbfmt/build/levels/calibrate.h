@@ -32,10 +32,11 @@ typedef struct sbfi_reference {
   bool sound;  /* it resists; else nothing below is known */
   double fall; /* m/s^2, of gravity */
   bool has_falls;
-  double *gives[SBFI_MOST_LOADS];    /* (3 x surface points) m, under small loads of 1 m/s^2 */
-  double *falls[SBFI_MOST_LOADS];    /* the same under gravity; NULL: not asked for, or it comes to no rest */
-  double yieldings[SBFI_MOST_LOADS]; /* m, under small loads */
-  double frequencies[SBFI_MOST_LOADS]; /* rad/s, by Rayleigh's quotient */
+  double *gives[SBFI_MAX_LOADS];    /* (3 x surface points) m, under small loads of 1 m/s^2 */
+  double *falls[SBFI_MAX_LOADS];    /* the same under gravity; NULL: not asked for, or it comes to no rest */
+  double yieldings[SBFI_MAX_LOADS]; /* m, under small loads */
+  double frequencies[SBFI_MAX_LOADS];    /* rad/s, by Rayleigh's quotient */
+  double twist_frequencies[SBFI_TWISTS]; /* the same, twisted */
   bool has_works;
   sbfi_push_works works;
 } sbfi_reference;
@@ -60,14 +61,14 @@ double sbfi_reference_frequency(const sbfi_reference *reference);
 typedef struct sbfi_calibration {
   double
       factor; /* on the modulus, or on the stiffness of springs inside, on the mean; 1: nothing was changed */
-  double surface;     /* on that of springs over the surface */
-  double least, most; /* over the elements */
-  double residual;    /* of lattices, the greatest share by which one yields otherwise under one of the small
-                         loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
+  double surface;  /* on that of springs over the surface */
+  double min, max; /* over the elements */
+  double residual; /* of lattices, the greatest share by which one yields otherwise under one of the small
+                      loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
   double residual_before; /* of springs, the same before */
   /* Of lattices, shares by which one gives more (above 0) or less under each of the small loads, and twisted
    * about x, y and z; NAN: not known. */
-  double load_errors[SBFI_MOST_LOADS], twist_errors[SBFI_TWISTS];
+  double load_errors[SBFI_MAX_LOADS], twist_errors[SBFI_TWISTS];
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
                           gravity along one of the axes; from small strains, where one of the two has not come to
@@ -78,7 +79,7 @@ typedef struct sbfi_calibration {
 } sbfi_calibration;
 
 /* A level that is farther off than that under a load is none that stands for the body. */
-#define SBFI_MOST_OFF 0.25
+#define SBFI_MAX_OFF 0.25
 /* The greatest share, of either sign, under any of the loads that are known. */
 double sbfi_calibration_off(const sbfi_calibration *calibration);
 

@@ -60,7 +60,7 @@ static sbfi_lattice_outcome measure(
           l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator))
     return SBFI_LATTICE_NO_MEMORY;
   double off = calibration->unsettled ? 0 : sbfi_calibration_off(calibration);
-  if (!calibration->unsettled && !(off > SBFI_MOST_OFF)) return SBFI_LATTICE_MADE;
+  if (!calibration->unsettled && !(off > SBFI_MAX_OFF)) return SBFI_LATTICE_MADE;
   uint32_t elements = level->lattice.tetrahedra.count;
   bool is_finest = level == l->levels;
   l->poor[l->poor_count++] = (sbfi_poor_level){elements, off, is_finest};
@@ -103,8 +103,10 @@ sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, b
       outcome = SBFI_LATTICE_NO_MEMORY;
     sbf_asset_free(memory);
     if (!some || outcome != SBFI_LATTICE_MADE || calibration.error > ladder->recipe->error) continue;
-    *elements = tried;
+    if (!*met) *elements = tried;
     *met = true;
+    if (sbfi_calibration_off(&calibration) > SBFI_MAX_OFF) continue;
+    *elements = tried;
     break;
   }
   return outcome;

@@ -5,10 +5,10 @@
 
 #include "build/levels/calibrate.h"
 
-enum { SBFI_MOST_LEVELS = 8 };
+enum { SBFI_MAX_LEVELS = 8 };
 
 typedef struct sbfi_ladder_recipe {
-  uint32_t levels; /* in all, 1 to SBFI_MOST_LEVELS */
+  uint32_t levels; /* in all, 1 to SBFI_MAX_LEVELS */
   double error;    /* m, that the finest may be off; 0: whatever it is */
   bool calibrate;  /* lattices, and springs that are the finest level */
   bool flexion;    /* for a level of springs */
@@ -17,7 +17,7 @@ typedef struct sbfi_ladder_recipe {
   int32_t derivation;
 } sbfi_ladder_recipe;
 
-/* A level that comes to no rest, or is off by more than SBFI_MOST_OFF. */
+/* A level that comes to no rest, or is off by more than SBFI_MAX_OFF. */
 typedef struct sbfi_poor_level {
   uint32_t elements; /* tetrahedra, or of springs those along whose sides they go */
   double off;        /* share, under the load where that is most; 0: it comes to no rest */
@@ -34,8 +34,8 @@ typedef struct sbfi_ladder {
   sbfi_reference reference;
   sbf_level *levels; /* (level_count) memory of the asset */
   uint32_t level_count;
-  sbfi_calibration calibrations[SBFI_MOST_LEVELS]; /* of those that say so */
-  sbfi_poor_level poor[SBFI_MOST_LEVELS];
+  sbfi_calibration calibrations[SBFI_MAX_LEVELS]; /* of those that say so */
+  sbfi_poor_level poor[SBFI_MAX_LEVELS];
   uint32_t poor_count;
 } sbfi_ladder;
 
@@ -48,13 +48,14 @@ void sbfi_ladder_init(sbfi_ladder *ladder, const sbf_soft_body *body, const sbfi
     sbf_asset *asset, sbfi_progress progress, const sbf_allocator *allocator);
 void sbfi_ladder_free(sbfi_ladder *ladder);
 
-/* About how many tetrahedra the coarsest lattice has that meets the recipe's error when calibrated, in steps
- * of four times as many; `*met` is false where none of fewer than the reference's does. */
+/* About how many tetrahedra the coarsest lattice has that meets the recipe's error when calibrated and is off
+ * by no more than SBFI_MAX_OFF under any load, in steps of four times as many. Where none is both, the
+ * coarsest that meets the error; `*met` is false where none of fewer than the reference's does. */
 sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met);
 
 /* From the finest level, of springs or tetrahedra, `interior` its map, makes the list of all and measures
  * them. A lattice that finds nothing to fill, is no coarser than the one before, comes to no rest under
- * gravity or is off by more than SBFI_MOST_OFF is left out, and springs that come to none. Springs go
+ * gravity or is off by more than SBFI_MAX_OFF is left out, and springs that come to none. Springs go
  * along the sides of a lattice, whose tetrahedra they keep until embeddings are made
  * (lattice_springs_level.h). `arena` is scratch. */
 sbfi_lattice_outcome sbfi_ladder_make(

@@ -7,9 +7,9 @@
 #include "mechanics/vector.h"
 
 /* Of Newton's method, and of its products with a matrix: what has not come to rest by then folds up. */
-enum { MOST_STEPS = 15, MOST_PRODUCTS = 1500 };
+enum { MAX_STEPS = 15, MAX_PRODUCTS = 1500 };
 /* Springs and tetrahedra in all of these products, so that no level takes many seconds. */
-static const double MOST_VISITS = 3e7;
+static const double MAX_VISITS = 3e7;
 
 static double component(sbf_vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -73,14 +73,16 @@ static void take_off(const rigid *motion, const sbf_vec3 *places, double *field,
 
 /* Acceleration of load number `load`, of size 1, at a place, along which axis. */
 static int axis_of(const sbfi_level_statics *s, uint32_t load) {
-  return (int)(s->held ? load : load / 2);
+  if (s->held) return (int)load;
+  return (int)(load < SBFI_BENDS ? load / 2 : load - SBFI_BENDS);
 }
 static double strength(const sbfi_level_statics *s, uint32_t load, sbf_vec3 place) {
   if (s->held) return 1;
-  int along = (axis_of(s, load) + 1 + (int)(load % 2)) % 3;
+  bool bends = load < SBFI_BENDS;
+  int along = bends ? (axis_of(s, load) + 1 + (int)(load % 2)) % 3 : axis_of(s, load);
   double half = (s->high[along] - s->low[along]) / 2;
   double q = half > 0 ? (component(place, along) - s->low[along]) / half - 1 : 0;
-  return q * q;
+  return bends ? q * q : q;
 }
 
 /* ---- Loads ---- */
@@ -125,7 +127,7 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
     if (takes_part && middle == UINT32_MAX) middle = i;
   }
   while (middle != UINT32_MAX && made->patch_count < SBFI_PUSHED_PATCHES) {
-    double most = 0;
+    double max = 0;
     uint32_t next = UINT32_MAX;
     for (uint32_t i = 0; i < points->count; i++) {
       sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(points->at[i]), sbfi_d3_of(points->at[middle]));
@@ -134,8 +136,8 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
         nearest2[i] = squared;
         made->patches[i] = made->patch_count;
       }
-      if (nearest2[i] <= most) continue;
-      most = nearest2[i];
+      if (nearest2[i] <= max) continue;
+      max = nearest2[i];
       next = i;
     }
     made->patch_count++;
@@ -228,9 +230,9 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   sbfi_static_problem problem = {.network = n,
       .forces = forces,
       .tolerance = tolerance,
-      .most_steps = MOST_STEPS,
-      .most_products =
-          (uint32_t)fmin(MOST_PRODUCTS, 1 + MOST_VISITS / (1.0 + n->spring_count + n->tetrahedron_count)),
+      .max_steps = MAX_STEPS,
+      .max_products =
+          (uint32_t)fmin(MAX_PRODUCTS, 1 + MAX_VISITS / (1.0 + n->spring_count + n->tetrahedron_count)),
       .progress = progress};
   sbfi_static_outcome outcome;
   sbfi_static_start(n, places);
@@ -251,6 +253,23 @@ bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, u
   sbfi_linear_statics_solve(linear, forces, share, moved);
   *frequency = quotient(&s->network, forces, moved);
   sbfi_level_carry(s, moved, displacements);
+  return true;
+}
+
+bool sbfi_level_twist_frequency(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t axis,
+    double share, double *frequency, sbfi_arena *scratch) {
+  const sbf_spring_network *n = &s->network;
+  double *forces = sbfi_arena_allocate(scratch, 3 * (size_t)n->point_count + 1, sizeof *forces);
+  double *moved = sbfi_arena_allocate(scratch, 3 * (size_t)n->point_count + 1, sizeof *moved);
+  if (!forces || !moved) return false;
+  for (uint32_t i = 0; i < n->point_count; i++) {
+    sbfi_d3 force = sbfi_d3_scale(twist_of(s, axis, n->positions[i]), (double)n->masses[i]);
+    double *at = forces + 3 * (size_t)i;
+    at[0] = force.x, at[1] = force.y, at[2] = force.z;
+  }
+  if (!s->held) balance(n, forces);
+  sbfi_linear_statics_solve(linear, forces, share, moved);
+  *frequency = quotient(n, forces, moved);
   return true;
 }
 

@@ -1,9 +1,10 @@
 /* How a level gives under loads, seen at its body's surface: what levels of one body are compared by.
  *
  * A body that something holds is loaded with a gravity along each of the three axes. One that nothing holds
- * is bent: with the acceleration e_i q_j^2, i and j different axes, q_j the place along j from the middle in
- * half extents, less the rigid motion in it, so that forces and moments sum to nothing; what of the answer is
- * rigid is left out as well. Held are the points of kinematic pins; goal springs pull.
+ * is bent: with the acceleration e_i q_j^2, i and j different axes, q_j the position along j from the middle
+ * in half extents; and stretched, with e_i q_i. The rigid motion in a load is subtracted, so that forces and
+ * moments sum to zero, and the rigid motion in the answer as well. Held are the points of kinematic pins;
+ * goal springs pull.
  *
  * Pushes stress every part of a body, however small, which gravity does not: its loose surface is divided
  * into patches, and each is pushed with 1 N along a direction of its own. The last three pushes are twists:
@@ -33,6 +34,12 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
 /* The forces (3 x level points) N of push number `push`. */
 void sbfi_level_push(
     const sbfi_level_statics *statics, const sbfi_level_pushes *pushes, uint32_t push, double *forces);
+
+/* Rayleigh's quotient, rad/s, of the displacements under angular acceleration about the middle's axis `axis`
+ * (0 to 2); where nothing holds the body, the more the farther along the axis, opposite on the two sides.
+ * Solved within the relative error `share`; 0: it does not move. False where memory runs out. */
+bool sbfi_level_twist_frequency(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t axis,
+    double share, double *frequency, sbfi_arena *scratch);
 
 /* Displacements of the surface's points (3 * surface points, m) under load number `load` of `size` m/s^2,
  * with large strains as they are, until all but `tolerance` of the load is balanced; what takes more than

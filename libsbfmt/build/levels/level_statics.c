@@ -119,7 +119,8 @@ static bool carry_surface(sbfi_level_statics *s, const sbfi_interior_map *interi
   uint32_t frame = s->level->model == SBF_ELASTIC_MODEL_JIGGLE ? 0 : UINT32_MAX;
   s->carried = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->carried);
   s->areas = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->areas);
-  if (!s->carried || !s->areas || !sbfi_carrier_make(&s->carrier, s->body, s->level, interior, frame, arena))
+  if (!s->carried || !s->areas ||
+      !sbfi_carrier_make(&s->carrier, SBFI_CARRIES_LOADS, s->body, s->level, interior, frame, arena))
     return false;
   sbf_surface_point_areas(&s->body->surface, s->areas);
   for (int k = 0; k < 3; k++) s->low[k] = INFINITY, s->high[k] = -INFINITY;

@@ -5,7 +5,13 @@
 #include "build/embed/carrier.h"
 #include "sbfmt/mechanics.h"
 
-enum { SBFI_HELD_LOADS = 3, SBFI_FREE_LOADS = 6, SBFI_MOST_LOADS = 6 };
+/* Gravity along three axes; of a body that nothing holds, six ways to bend it and three to stretch it. */
+enum {
+  SBFI_HELD_LOADS = 3,
+  SBFI_BENDS = 6,
+  SBFI_FREE_LOADS = SBFI_BENDS + 3,
+  SBFI_MAX_LOADS = SBFI_FREE_LOADS
+};
 
 typedef struct sbfi_level_statics {
   const sbf_soft_body *body;

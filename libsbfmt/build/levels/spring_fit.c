@@ -9,13 +9,13 @@ static const double solve_share = 2e-3;
 /* Both factors stay between these, and so does each spring's own: what springs lack of a matter's stiffness
  * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. A
  * point that is held four times as tightly doubles the substeps at most. */
-static const double least_factor = 0.125, most_factor = 16, most_raise = 4, move_share = 1e-3;
-enum { MOST_ROUNDS = 25 };
+static const double least_factor = 0.125, most_factor = 16, max_raise = 4, move_share = 1e-3;
+enum { MAX_ROUNDS = 25 };
 /* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
  * step: finer ones are left to each spring by itself. */
-static const double step = 2, most_ratio = 4;
+static const double step = 2, max_ratio = 4;
 /* Of more points the two get one factor to begin with: each trial takes seconds. */
-enum { MOST_TRIED_POINTS = 4000 };
+enum { MAX_TRIED_POINTS = 4000 };
 
 typedef struct work {
   sbfi_level_statics *statics;
@@ -56,7 +56,7 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   for (uint32_t load = 0; load < s->load_count; load++) {
     double sums[3] = {0}, frequency;
     if (!w->gives[load]) continue;
-    bool is_long = load == 0 || s->network.point_count > MOST_TRIED_POINTS;
+    bool is_long = load == 0 || s->network.point_count > MAX_TRIED_POINTS;
     if (is_long && !sbfi_progress_say(w->progress, 0)) return false;
     if (!sbfi_level_lean(s, w->linear, load, solve_share, w->moved, &frequency, w->scratch)) return false;
     for (size_t i = 0; i < 3 * (size_t)s->body->surface.positions.count; i++) {
@@ -85,20 +85,20 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
 static void take_means(const work *w, sbfi_spring_factors *factors) {
   uint32_t set = UINT32_MAX, left = 0, counts[2] = {0};
   double sums[2] = {0};
-  factors->least = INFINITY;
-  factors->most = 0;
+  factors->min = INFINITY;
+  factors->max = 0;
   for (uint32_t i = 0; i < w->statics->network.spring_count; i++) {
     bool inner = is_inner(w->statics->level, &set, &left);
     if (!(w->stated[i] > 0)) continue;
     double factor = (double)w->statics->stiffness[i] / w->stated[i];
     sums[inner] += factor;
     counts[inner]++;
-    factors->least = fmin(factors->least, factor);
-    factors->most = fmax(factors->most, factor);
+    factors->min = fmin(factors->min, factor);
+    factors->max = fmax(factors->max, factor);
   }
   factors->surface = counts[0] ? sums[0] / counts[0] : 1;
   factors->inner = counts[1] ? sums[1] / counts[1] : 1;
-  if (counts[0] + counts[1] == 0) factors->least = factors->most = 1;
+  if (counts[0] + counts[1] == 0) factors->min = factors->max = 1;
 }
 
 bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
@@ -111,18 +111,18 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
       sbfi_arena_allocate(scratch, (size_t)statics->body->surface.positions.count + 1, 3 * sizeof *w.moved);
   if (!w.stated || !w.moved || !try_ratio(&w, 1, &best)) return false;
   *factors = (sbfi_spring_factors){.before = best.as_is};
-  int ways = statics->network.point_count > MOST_TRIED_POINTS ? 0 : 2;
+  int ways = statics->network.point_count > MAX_TRIED_POINTS ? 0 : 2;
   for (int way = 0; way < ways; way++)
     for (;;) {
       double ratio = way ? best.ratio / step : best.ratio * step;
-      if (ratio > most_ratio || ratio < 1 / most_ratio) break;
+      if (ratio > max_ratio || ratio < 1 / max_ratio) break;
       if (!try_ratio(&w, ratio, &tried)) return false;
       if (tried.left >= best.left) break;
       best = tried;
     }
   factors->by_kind = best.left;
   set_stiffness(&w, best.inner * best.ratio, best.inner);
-  const sbfi_factor_bounds bounds = {least_factor, most_factor, most_raise, move_share, MOST_ROUNDS};
+  const sbfi_factor_bounds bounds = {least_factor, most_factor, max_raise, move_share, MAX_ROUNDS};
   if (!sbfi_stiffness_descent(statics, linear, w.stated, wanted, &bounds, &factors->after,
           sbfi_progress_part(progress, 0.2, 1), scratch))
     return false;

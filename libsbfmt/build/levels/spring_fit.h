@@ -8,7 +8,7 @@
 
 typedef struct sbfi_spring_factors {
   double surface, inner; /* means over the springs of either kind */
-  double least, most;
+  double min, max;
   /* Root of the mean over the loads of the square of what is left of the difference between the surfaces, as
    * a share of the displacement; with all factors 1, with two, with each spring's own. */
   double before, by_kind, after;

@@ -8,12 +8,12 @@
 
 static const double adjoint_share = 10; /* of how exactly displacements are solved */
 /* By so much more than itself a factor grows in a round, or shrinks. */
-static const double first_step = 0.2, least_step = 1e-3, most_step = 1.5, longer = 1.2, shorter = 0.5;
+static const double first_step = 0.2, min_step = 1e-3, max_step = 1.5, longer = 1.2, shorter = 0.5;
 static const double smoothing = 0.1; /* of the way, each round */
 /* Blocks of the matrix that are met in all: no new round begins beyond, so that no body takes many seconds,
  * however badly its equations are conditioned. */
-static const double most_visits = 3e8;
-enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MOST_WANTED = SBFI_MOST_LOADS + SBFI_PUSHES };
+static const double max_visits = 3e8;
+enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MAX_WANTED = SBFI_MAX_LOADS + SBFI_PUSHES };
 
 typedef struct work {
   sbfi_level_statics *statics;
@@ -24,16 +24,16 @@ typedef struct work {
   float *values;       /* (elements) the network's own */
   uint32_t element_count;
   bool springs;
-  double *forces;                                    /* (3 x level points) */
-  double *off;                                       /* (3 x surface points) m */
-  double *moved[MOST_WANTED], *adjoint[MOST_WANTED]; /* (3 x level points) */
-  double *factors, *gradient, *before, *steps;       /* (elements) */
-  float *best;                                       /* (elements) */
-  double *held_by;                                   /* (level points) N/m, its springs added up */
-  double most_held;                                  /* N/m per kg */
-  double *sums, *counts;                             /* (level points) of smoothing */
-  double visits;                                     /* of blocks of the matrix, so far */
-  sbfi_progress progress;                            /* of this round */
+  double *forces;                                  /* (3 x level points) */
+  double *off;                                     /* (3 x surface points) m */
+  double *moved[MAX_WANTED], *adjoint[MAX_WANTED]; /* (3 x level points) */
+  double *factors, *gradient, *before, *steps;     /* (elements) */
+  float *best;                                     /* (elements) */
+  double *held_by;                                 /* (level points) N/m, its springs added up */
+  double max_held;                                 /* N/m per kg */
+  double *sums, *counts;                           /* (level points) of smoothing */
+  double visits;                                   /* of blocks of the matrix, so far */
+  sbfi_progress progress;                          /* of this round */
 } work;
 
 static work begin(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted) {
@@ -196,10 +196,10 @@ static void slacken(const work *w) {
     double over = 1;
     for (int end = 0; end < 2; end++) {
       uint32_t point = n->ends[i].at[end];
-      if (n->masses[point] > 0) over = fmax(over, w->held_by[point] / (n->masses[point] * w->most_held));
+      if (n->masses[point] > 0) over = fmax(over, w->held_by[point] / (n->masses[point] * w->max_held));
     }
     if (!(over > 1)) continue;
-    w->factors[i] = fmax(w->factors[i] / over, w->bounds->least);
+    w->factors[i] = fmax(w->factors[i] / over, w->bounds->min);
     w->values[i] = (float)((double)w->stated[i] * w->factors[i]);
   }
 }
@@ -227,7 +227,7 @@ static void smooth(const work *w) {
 static void set_values(const work *w) {
   if (!w->springs) smooth(w);
   for (uint32_t i = 0; i < w->element_count; i++) {
-    w->factors[i] = fmin(fmax(w->factors[i], w->bounds->least), w->bounds->most);
+    w->factors[i] = fmin(fmax(w->factors[i], w->bounds->min), w->bounds->max);
     w->values[i] = (float)((double)w->stated[i] * w->factors[i]);
   }
   if (w->springs) slacken(w);
@@ -237,9 +237,9 @@ static void set_values(const work *w) {
 static void step(const work *w) {
   for (uint32_t i = 0; i < w->element_count; i++) {
     double turn = w->gradient[i] * w->before[i];
-    if (turn > 0) w->steps[i] = fmin(longer * w->steps[i], most_step);
+    if (turn > 0) w->steps[i] = fmin(longer * w->steps[i], max_step);
     if (turn < 0) {
-      w->steps[i] = fmax(shorter * w->steps[i], least_step);
+      w->steps[i] = fmax(shorter * w->steps[i], min_step);
       w->gradient[i] = 0;
     }
     if (w->gradient[i] < 0) w->factors[i] *= 1 + w->steps[i];
@@ -282,11 +282,11 @@ bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *li
   if (!reserve(&w, scratch)) return false;
   if (w.springs) add_held(&w, stated);
   for (uint32_t i = 0; i < n->point_count; i++)
-    if (n->masses[i] > 0) w.most_held = fmax(w.most_held, bounds->most_raise * w.held_by[i] / n->masses[i]);
+    if (n->masses[i] > 0) w.max_held = fmax(w.max_held, bounds->max_raise * w.held_by[i] / n->masses[i]);
   find_factors(&w);
   uint32_t rounds = rounds_of(&w);
   *left = INFINITY;
-  for (uint32_t round = 0; round < rounds && w.visits < most_visits; round++) {
+  for (uint32_t round = 0; round < rounds && w.visits < max_visits; round++) {
     w.progress = sbfi_progress_part(progress, (double)round / rounds, (round + 1.0) / rounds);
     set_values(&w);
     double now = evaluate(&w, true);

@@ -21,11 +21,11 @@ typedef struct sbfi_wanted {
 
 /* How far factors may go. */
 typedef struct sbfi_factor_bounds {
-  double least, most;
-  double most_raise; /* of springs: none holds a point by more than this many times what the most tightly held
+  double min, max;
+  double max_raise; /* of springs: none holds a point by more than this many times what the most tightly held
                         point for its mass was: the highest frequency grows by its root at most */
-  double share;      /* displacements are solved right to that */
-  uint32_t rounds;   /* fewer of them where there are many points, that no body takes many seconds */
+  double share;     /* displacements are solved right to that */
+  uint32_t rounds;  /* fewer of them where there are many points, that no body takes many seconds */
 } sbfi_factor_bounds;
 
 /* What is left of the difference to what is wanted: root of the mean over the loads of its square's integral

@@ -42,11 +42,11 @@ typedef struct sources {
 static sources sources_of(const places *p, sbf_vec3 place) {
   const sbf_polygon_mesh *mesh = &p->body->surface;
   sources found = {{0, 0, 0}, {1, 0, 0}};
-  double at[3], corners[3][3], least = INFINITY;
+  double at[3], corners[3][3], min = INFINITY;
   load(place, at);
-  uint32_t triangle = sbfi_triangle_tree_nearest(&p->surface, place, &least);
+  uint32_t triangle = sbfi_triangle_tree_nearest(&p->surface, place, &min);
   uint32_t inside = p->interior.item_count
-                        ? sbfi_box_tree_nearest(&p->interior, at, interior_distance, p, &least)
+                        ? sbfi_box_tree_nearest(&p->interior, at, interior_distance, p, &min)
                         : UINT32_MAX;
   if (inside != UINT32_MAX) {
     found.points[0] = mesh->positions.count + inside;
@@ -84,7 +84,7 @@ bool sbfi_point_factors(const sbf_soft_body *body, const sbf_level *level, sbf_w
 }
 
 /* `whole` times each tetrahedron's mean factor, none below `least` of it. */
-static bool spread(const sbf_level *level, const float *factors, double whole, double least, sbf_asset *asset,
+static bool spread(const sbf_level *level, const float *factors, double whole, double min, sbf_asset *asset,
     sbf_f32_list *list) {
   const sbf_uint4_list *at = &level->lattice.tetrahedra;
   float *values = sbf_asset_allocate(asset, at->count, sizeof *values);
@@ -92,14 +92,14 @@ static bool spread(const sbf_level *level, const float *factors, double whole, d
   for (uint32_t t = 0; t < at->count; t++) {
     double sum = 0;
     for (int k = 0; k < 4; k++) sum += factors[at->at[t].at[k]];
-    values[t] = (float)(whole * fmax(sum / 4, least));
+    values[t] = (float)(whole * fmax(sum / 4, min));
   }
   *list = (sbf_f32_list){values, at->count};
   return true;
 }
 
 /* Of moduli and densities a file holds no 0. */
-static const double least = 1e-6;
+static const double min = 1e-6;
 
 bool sbfi_lattice_weigh(sbf_level *level, const sbf_soft_body *body, sbf_asset *asset, sbfi_arena *scratch) {
   sbf_tetrahedron_mesh *lattice = &level->lattice;
@@ -112,11 +112,11 @@ bool sbfi_lattice_weigh(sbf_level *level, const sbf_soft_body *body, sbf_asset *
     return false;
   double density = lattice->densities.count ? lattice->densities.at[0] : body->attributes.density;
   if (moduli) {
-    if (!spread(level, moduli, body->attributes.young_modulus, least, asset, &lattice->young_modulus))
+    if (!spread(level, moduli, body->attributes.young_modulus, min, asset, &lattice->young_modulus))
       return false;
     lattice->reference_modulus = lattice->young_modulus;
   }
   if (dampings && damping > 0 && !spread(level, dampings, damping, 0, asset, &lattice->stiffness_damping))
     return false;
-  return !densities || spread(level, densities, density, least, asset, &lattice->densities);
+  return !densities || spread(level, densities, density, min, asset, &lattice->densities);
 }

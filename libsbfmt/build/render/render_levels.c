@@ -9,7 +9,7 @@
 
 enum { FEWEST_TRIANGLES = 32, RULE_COUNT = 3 };
 /* A level of so many times the triangles asked for is near enough. */
-static const double NEAR_ENOUGH = 1.15, LEAST_STEP = 0.8;
+static const double NEAR_ENOUGH = 1.15, MIN_STEP = 0.8;
 
 /* From what one would keep to what one must keep. */
 static const sbfi_wedge_rule rules[RULE_COUNT] = {{true, true}, {false, true}, {false, false}};
@@ -120,7 +120,7 @@ static bool make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_render_re
     if (target < FEWEST_TRIANGLES) break;
     if (!sbfi_progress_say(part, 0)) return false;
     if (!simplify_by_rules(l, target, &made)) return false;
-    if (made.triangle_count < FEWEST_TRIANGLES || made.triangle_count > LEAST_STEP * before) break;
+    if (made.triangle_count < FEWEST_TRIANGLES || made.triangle_count > MIN_STEP * before) break;
     sbf_render_level_init(level);
     level->derived = recipe->derivation;
     if (!fill_level(l, &made, level)) return false;

@@ -6,10 +6,10 @@
 #include "base/progress.h"
 #include "sbfmt/asset.h"
 
-enum { SBFI_MOST_RENDER_LEVELS = 8 };
+enum { SBFI_MAX_RENDER_LEVELS = 8 };
 
 typedef struct sbfi_render_recipe {
-  uint32_t levels; /* beside the full mesh, up to SBFI_MOST_RENDER_LEVELS */
+  uint32_t levels; /* beside the full mesh, up to SBFI_MAX_RENDER_LEVELS */
   double error;    /* m; a level that would be farther off is not made, nor those behind it. 0: no bound */
   int32_t derivation;
 } sbfi_render_recipe;

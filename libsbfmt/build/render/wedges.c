@@ -86,11 +86,11 @@ static bool split_by_colors(splitting *s, const sbf_render_mesh *mesh) {
 static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   for (uint32_t p = 0, i = 0; p < skin->influence_counts.count; p++) {
-    float most = 0;
+    float max = 0;
     holders[p] = UINT32_MAX;
     for (uint32_t left = skin->influence_counts.at[p]; left > 0; left--, i++)
-      if (skin->weights.at[i] > most) {
-        most = skin->weights.at[i];
+      if (skin->weights.at[i] > max) {
+        max = skin->weights.at[i];
         holders[p] = skin->bones.at[i];
       }
   }
@@ -98,16 +98,16 @@ static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
 
 /* The holder of most of a polygon's corners, the first of several; of a very long one that of the first. */
 static uint32_t holder_of_polygon(const uint32_t *holders, const uint32_t *points, uint32_t size) {
-  uint32_t best = holders[points[0]], most = 0;
+  uint32_t best = holders[points[0]], max = 0;
   if (size > LONG_POLYGON) return best;
   for (uint32_t k = 0; k < size; k++) {
     uint32_t same = 0;
     for (uint32_t o = 0; o < size; o++) same += holders[points[o]] == holders[points[k]];
-    if (same > most) {
-      most = same;
+    if (same > max) {
+      max = same;
       best = holders[points[k]];
     }
-    if (2 * most > size) break;
+    if (2 * max > size) break;
   }
   return best;
 }
@@ -151,8 +151,8 @@ static bool list_wedges(
 }
 
 static bool list_triangles(sbfi_wedges *wedges, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
-  size_t most = mesh->polygon_points.count - 2 * (size_t)mesh->polygon_sizes.count;
-  wedges->triangles = sbfi_arena_allocate(arena, 3 * most + 1, sizeof *wedges->triangles);
+  size_t max = mesh->polygon_points.count - 2 * (size_t)mesh->polygon_sizes.count;
+  wedges->triangles = sbfi_arena_allocate(arena, 3 * max + 1, sizeof *wedges->triangles);
   if (!wedges->triangles) return false;
   const uint32_t *points = mesh->polygon_points.at;
   for (uint32_t p = 0, first = 0; p < mesh->polygon_sizes.count; first += mesh->polygon_sizes.at[p++])

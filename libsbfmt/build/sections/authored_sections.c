@@ -10,7 +10,7 @@
 /* At the surface: no farther than this part of the body's extent. */
 static const double AT_SURFACE = 0.05;
 /* The part of a skin that its sections lie along. */
-static const double MOST_OF_IT = 0.5;
+static const double MAX_OF_IT = 0.5;
 
 typedef struct body_side {
   sbfi_triangle_tree surface;
@@ -48,8 +48,8 @@ static bool index_bodies(work *w, uint32_t body_count, sbfi_arena *scratch) {
 
 static bool lies_at_a_body(const work *w, uint32_t bone, sbf_vec3 vertex) {
   for (uint32_t b = w->bone_bodies[bone]; b != SBFI_NO_INDEX; b = w->bodies[b].next) {
-    double least = w->bodies[b].squared_reach;
-    if (sbfi_triangle_tree_nearest(&w->bodies[b].surface, vertex, &least) != UINT32_MAX) return true;
+    double min = w->bodies[b].squared_reach;
+    if (sbfi_triangle_tree_nearest(&w->bodies[b].surface, vertex, &min) != UINT32_MAX) return true;
   }
   return false;
 }
@@ -58,13 +58,13 @@ static bool is_sectioned(const work *w, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   uint32_t count = mesh->mesh.positions.count, covered = 0;
   for (uint32_t v = 0, at = 0; v < count; at += skin->influence_counts.at[v++]) {
-    uint32_t most = at;
+    uint32_t max = at;
     for (uint32_t i = at; i < at + skin->influence_counts.at[v]; i++)
-      if (skin->weights.at[i] > skin->weights.at[most]) most = i;
+      if (skin->weights.at[i] > skin->weights.at[max]) max = i;
     covered +=
-        skin->influence_counts.at[v] && lies_at_a_body(w, skin->bones.at[most], mesh->mesh.positions.at[v]);
+        skin->influence_counts.at[v] && lies_at_a_body(w, skin->bones.at[max], mesh->mesh.positions.at[v]);
   }
-  return covered > 0 && covered >= MOST_OF_IT * count;
+  return covered > 0 && covered >= MAX_OF_IT * count;
 }
 
 bool sbfi_authored_sections_find(

@@ -4,12 +4,12 @@
 
 #include "mechanics/vector.h"
 
-enum { MOST_POINTS = 16384, MOST_MEMBERS = 8, NO_CLUSTER = -1 };
+enum { MAX_POINTS = 16384, MAX_MEMBERS = 8, NO_CLUSTER = -1 };
 /* Clusters that are more than this share of the points are no help. */
-static const double MOST_CLUSTERS = 0.7;
+static const double MAX_CLUSTERS = 0.7;
 /* Of a coarse triangle's area, in squares of its longest side: thinner ones show no stretch of the surface.
  */
-static const double LEAST_AREA = 0.1;
+static const double MIN_AREA = 0.1;
 
 typedef struct clusters {
   const sbfi_blend_surface *fine;
@@ -38,7 +38,7 @@ static void take_cluster(clusters *c, uint32_t first, uint32_t *next) {
     for (int k = 0; k < 3; k++) {
       uint32_t point = s->triangles[s->at_point[i]][k];
       if (c->of_point[point] != NO_CLUSTER || is_fixed(s, point) != is_fixed(s, first)) continue;
-      if (*next - begin == MOST_MEMBERS) break;
+      if (*next - begin == MAX_MEMBERS) break;
       c->of_point[point] = c->count;
       c->members[(*next)++] = point;
     }
@@ -124,7 +124,7 @@ static bool is_thin(const sbf_vec3 *positions, const uint32_t corners[3]) {
     sides[k] = sbfi_d3_sub(sbfi_d3_of(positions[corners[(k + 1) % 3]]), sbfi_d3_of(positions[corners[k]]));
     if (sbfi_d3_dot(sides[k], sides[k]) > longest) longest = sbfi_d3_dot(sides[k], sides[k]);
   }
-  return !(sbfi_d3_length(sbfi_d3_cross(sides[0], sides[1])) > 2 * LEAST_AREA * longest);
+  return !(sbfi_d3_length(sbfi_d3_cross(sides[0], sides[1])) > 2 * MIN_AREA * longest);
 }
 
 /* The surface of the clusters. */
@@ -189,11 +189,11 @@ static bool relax_coarse(sbfi_blend_surface *surface, const clusters *c, row_sum
 
 bool sbfi_blend_levels_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena) {
   clusters c = {.fine = surface};
-  if (surface->point_count > MOST_POINTS) {
+  if (surface->point_count > MAX_POINTS) {
     if (!make_clusters(&c, arena)) return false;
     row_sum sum;
     sbfi_array_init(&sum.weights, &arena->allocator, sizeof(sbfi_blend_weight));
-    bool helps = c.count < MOST_CLUSTERS * surface->point_count;
+    bool helps = c.count < MAX_CLUSTERS * surface->point_count;
     bool good = !helps || relax_coarse(surface, &c, &sum, arena);
     sbfi_array_free(&sum.weights);
     if (!good) return false;

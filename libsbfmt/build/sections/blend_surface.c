@@ -1,10 +1,12 @@
 #include "build/sections/blend_surface.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SWEEPS = 400, FIXED_SWEEPS = 200 };
-static const double MOST_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
+/* A fixed point gives way after so many contractions of triangles at it. */
+enum { MAX_SWEEPS = 1000, FIXED_CONTRACTIONS = 40 };
+static const double MAX_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
 static const double FLIPPED = 2.2;
 static const double HARMLESS = 0.37;                         /* see is_harmless() */
 static const double COSINE = 0.5, SINE = 0.8660254037844386; /* of 60 degrees */
@@ -25,8 +27,8 @@ typedef struct work {
   sbfi_blend_surface *s;
   sbfi_arena *arena;
   branches open;
-  uint8_t *pending;     /* (triangles) to be looked at */
-  const uint8_t *fixed; /* (points) NULL: none, or no longer */
+  uint8_t *pending; /* (triangles) to be looked at */
+  uint8_t *fixed;   /* (points) contractions until the point gives way; 0: it is free */
 } work;
 
 static sbfi_d3 axis_of(sbf_quat r, int axis) {
@@ -59,8 +61,37 @@ sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena 
   return joints;
 }
 
+/* A triangle with three times its centroid. */
+typedef struct placed_triangle {
+  double at[3]; /* y, z, x */
+  uint32_t corners[3];
+} placed_triangle;
+
+static int compare_heights(const void *left, const void *right) {
+  const placed_triangle *a = left, *b = right;
+  for (int k = 0; k < 3; k++)
+    if (a->at[k] != b->at[k]) return a->at[k] < b->at[k] ? -1 : 1;
+  return memcmp(a->corners, b->corners, sizeof a->corners);
+}
+
+static bool sort_triangles(sbfi_blend_surface *s, sbfi_arena *arena) {
+  placed_triangle *placed = sbfi_arena_allocate(arena, (size_t)s->triangle_count + 1, sizeof *placed);
+  if (!placed) return false;
+  for (uint32_t i = 0; i < s->triangle_count; i++) {
+    sbfi_d3 sum = {0, 0, 0};
+    for (int k = 0; k < 3; k++) sum = sbfi_d3_add(sum, sbfi_d3_of(s->positions[s->triangles[i][k]]));
+    placed[i] = (placed_triangle){.at = {sum.y, sum.z, sum.x}};
+    memcpy(placed[i].corners, s->triangles[i], sizeof placed[i].corners);
+  }
+  qsort(placed, s->triangle_count, sizeof *placed, compare_heights);
+  for (uint32_t i = 0; i < s->triangle_count; i++)
+    memcpy(s->triangles[i], placed[i].corners, sizeof placed[i].corners);
+  return true;
+}
+
 bool sbfi_blend_surface_index(sbfi_blend_surface *s, sbfi_arena *arena) {
   uint32_t points = s->point_count;
+  if (!sort_triangles(s, arena)) return false;
   s->begins = sbfi_arena_allocate(arena, (size_t)points + 2, sizeof *s->begins);
   s->at_point = sbfi_arena_allocate(arena, 3 * (size_t)s->triangle_count + 1, sizeof *s->at_point);
   uint32_t *next = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *next);
@@ -235,31 +266,46 @@ static bool make_room(sbfi_blend_row *r, uint32_t count, sbfi_arena *arena) {
   return true;
 }
 
-/* Draws the corners towards their mean, or that of those that are fixed, keeping the share of the differences
- * that would just do. Where all are fixed they differ within what is fixed: there nothing is. */
-static bool contract(work *w, uint32_t triangle, double stretch) {
-  const uint32_t *points = w->s->triangles[triangle];
-  double kept = 0.9 * (MOST_STRETCH - 1) / (stretch - 1);
-  uint32_t fixed = 0, next[3] = {0, 0, 0};
-  for (int k = 0; w->fixed && k < 3; k++) fixed += w->fixed[points[k]];
-  if (fixed == 3) fixed = 0;
+/* Which corners are fixed; where all are, they differ within what is fixed, and none is. */
+static uint32_t find_fixed(const work *w, const uint32_t points[3], bool is_fixed[3]) {
+  uint32_t count = 0;
+  for (int k = 0; k < 3; k++) count += is_fixed[k] = w->fixed[points[k]] > 0;
+  if (count < 3) return count;
+  memset(is_fixed, 0, 3 * sizeof *is_fixed);
+  return 0;
+}
+
+/* The weights of the three corners side by side. False where memory runs out. */
+static bool open_weights(work *w, const uint32_t points[3]) {
+  uint32_t next[3] = {0, 0, 0};
   w->open.count = 0;
   for (int k = 0; k < 3; k++)
     for (uint32_t i = 0; i < w->s->rows[points[k]].count; i++)
       if (!branch_of(w, w->s->rows[points[k]].at[i].bone)) return false;
-  uint32_t count = w->open.count;
-  for (uint32_t i = 0; i < count; i++)
+  for (uint32_t i = 0; i < w->open.count; i++)
     for (int k = 0; k < 3; k++)
       w->open.at[i].now[k] = value_in(&w->s->rows[points[k]], &next[k], w->open.at[i].bone);
+  return true;
+}
+
+/* Draws the corners towards their mean, or towards that of the fixed ones, keeping the share of the
+ * differences that would just do. */
+static bool contract(work *w, uint32_t triangle, double stretch) {
+  const uint32_t *points = w->s->triangles[triangle];
+  double kept = 0.9 * (MAX_STRETCH - 1) / (stretch - 1);
+  bool is_fixed[3];
+  uint32_t fixed = find_fixed(w, points, is_fixed);
+  if (!open_weights(w, points)) return false;
   for (int k = 0; k < 3; k++) {
     sbfi_blend_row *to = &w->s->rows[points[k]];
-    if (fixed && w->fixed[points[k]]) continue;
-    if (!make_room(to, count, w->arena)) return false;
-    to->count = count;
-    for (uint32_t i = 0; i < count; i++) {
+    w->fixed[points[k]] -= is_fixed[k];
+    if (is_fixed[k]) continue;
+    if (!make_room(to, w->open.count, w->arena)) return false;
+    to->count = w->open.count;
+    for (uint32_t i = 0; i < w->open.count; i++) {
       double mean = 0;
       for (int c = 0; c < 3; c++)
-        if (!fixed || w->fixed[points[c]]) mean += w->open.at[i].now[c] / (fixed ? fixed : 3);
+        if (!fixed || is_fixed[c]) mean += w->open.at[i].now[c] / (fixed ? fixed : 3);
       to->at[i] = (sbfi_blend_weight){w->open.at[i].bone, mean + kept * (w->open.at[i].now[k] - mean)};
     }
     drop_negligible(to);
@@ -270,16 +316,19 @@ static bool contract(work *w, uint32_t triangle, double stretch) {
   return true;
 }
 
+/* Up the surface and down again in turn, so that weights travel along a limb in one sweep, from its sole or
+ * to it. */
 static bool sweep_all(work *w, uint32_t *left) {
-  for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+  uint32_t count = w->s->triangle_count;
+  for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
     *left = 0;
-    if (sweep == FIXED_SWEEPS) w->fixed = NULL;
-    for (uint32_t i = 0; i < w->s->triangle_count; i++) {
+    for (uint32_t n = 0; n < count; n++) {
+      uint32_t i = sweep % 2 ? count - 1 - n : n;
       double stretch;
       if (!w->pending[i]) continue;
       w->pending[i] = 0;
       if (!find_stretch(w, i, &stretch)) return false;
-      if (stretch <= MOST_STRETCH) continue;
+      if (stretch <= MAX_STRETCH) continue;
       ++*left;
       if (!contract(w, i, stretch)) return false;
       for (int k = 0; k < 3; k++) w->s->changed[w->s->triangles[i][k]] = 1;
@@ -290,10 +339,13 @@ static bool sweep_all(work *w, uint32_t *left) {
 }
 
 bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena) {
-  work w = {.s = surface, .arena = arena, .fixed = surface->fixed};
+  work w = {.s = surface, .arena = arena};
   *left = 0;
   w.pending = sbfi_arena_allocate(arena, (size_t)surface->triangle_count + 1, 1);
-  if (!w.pending) return false;
+  w.fixed = sbfi_arena_allocate(arena, (size_t)surface->point_count + 1, 1);
+  if (!w.pending || !w.fixed) return false;
+  for (uint32_t p = 0; surface->fixed && p < surface->point_count; p++)
+    w.fixed[p] = surface->fixed[p] ? FIXED_CONTRACTIONS : 0;
   memset(w.pending, 1, surface->triangle_count);
   return sweep_all(&w, left);
 }

@@ -34,8 +34,8 @@ typedef struct sbfi_blend_surface {
   const sbfi_blend_row *before; /* (point_count) as authored */
   uint32_t (*triangles)[3];
   uint32_t *begins, *at_point; /* triangles at each point: made by sbfi_blend_surface_index() */
-  const uint8_t *fixed;        /* (point_count) that keep their weights; NULL: none */
-  uint8_t *changed;            /* (point_count) receives 1 where weights were changed */
+  const uint8_t *fixed; /* (point_count) that keep their weights as long as others can give way; NULL: none */
+  uint8_t *changed;     /* (point_count) receives 1 where weights were changed */
 } sbfi_blend_surface;
 
 /* Weights below it go to the greatest of their point, so that rows stay short however far weights spread. */
@@ -44,6 +44,8 @@ static const double SBFI_BLEND_NEGLIGIBLE = 1e-7;
 /* (bones) NULL where memory runs out. */
 sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena *arena);
 
+/* Sorts the triangles by height and lists those at each point: what follows does not depend on the order of a
+ * file. False where memory runs out. */
 bool sbfi_blend_surface_index(sbfi_blend_surface *surface, sbfi_arena *arena);
 
 /* Contracts the weights of triangles that stretch or turn over (section_blend.h says which) towards their

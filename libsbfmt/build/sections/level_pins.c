@@ -40,16 +40,16 @@ static bool copy_set(sbf_pin_set *to, const sbf_pin_set *from, const sbf_level *
 static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const sbf_level *level,
     const uint8_t *held, sbf_asset *asset, sbfi_arena *scratch) {
   const sbf_polygon_mesh *hull = asset->rigid_bodies.at[from->rigid_body].hull;
-  uint32_t most = from->rule == SBF_ATTACHMENT_RULE_EXPLICIT ? from->points.count : level->positions.count;
-  uint32_t *found = sbfi_arena_allocate(scratch, (size_t)most + 1, sizeof *found), count = 0;
+  uint32_t max = from->rule == SBF_ATTACHMENT_RULE_EXPLICIT ? from->points.count : level->positions.count;
+  uint32_t *found = sbfi_arena_allocate(scratch, (size_t)max + 1, sizeof *found), count = 0;
   if (!found) return false;
   if (from->rule == SBF_ATTACHMENT_RULE_EXPLICIT) {
-    for (uint32_t i = 0; i < most; i++) {
+    for (uint32_t i = 0; i < max; i++) {
       found[count] = sbfi_level_point(level, from->points.at[i]);
       count += found[count] != UINT32_MAX;
     }
   } else if (hull) {
-    for (uint32_t i = 0; i < most; i++)
+    for (uint32_t i = 0; i < max; i++)
       if (!held[i] && sbfi_hull_contains(hull, level->positions.at[i])) found[count++] = i;
   }
   uint32_t *points = count ? sbf_asset_allocate(asset, count, sizeof *points) : NULL;
@@ -87,8 +87,8 @@ bool sbfi_bone_pins_make(sbf_pin_set *to, const char *set_name, const sbf_level 
 bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset,
     const uint32_t *interior, uint32_t interior_count, sbfi_arena *scratch) {
   uint32_t kept = level->pins.count, count = kept;
-  size_t most = (size_t)kept + body->pins.count + body->attachments.count + 1;
-  sbf_pin_set *sets = sbf_asset_allocate(asset, most, sizeof *sets);
+  size_t max = (size_t)kept + body->pins.count + body->attachments.count + 1;
+  sbf_pin_set *sets = sbf_asset_allocate(asset, max, sizeof *sets);
   uint8_t *held = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
   if (!sets || !held) return false;
   if (kept) memcpy(sets, level->pins.at, kept * sizeof *sets);

@@ -4,7 +4,7 @@
 
 #include "build/sections/blend_levels.h"
 
-static const double LEAST_WEIGHT = 2e-4;
+static const double MIN_WEIGHT = 2e-4;
 
 /* Copies the holds, which are ascending by bone. */
 static sbfi_blend_row *rows_of(const sbfi_skin_union *skin, sbfi_arena *arena) {
@@ -37,21 +37,21 @@ static bool make_triangles(
   return sbfi_blend_surface_index(s, arena);
 }
 
-/* Points that have changed get what is above LEAST_WEIGHT of their rows. */
+/* Points that have changed get what is above MIN_WEIGHT of their rows. */
 static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count, next = 0;
-  size_t most = 1;
-  for (uint32_t p = 0; p < points; p++) most += s->rows[p].count;
+  size_t max = 1;
+  for (uint32_t p = 0; p < points; p++) max += s->rows[p].count;
   uint32_t *begins = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *begins);
-  sbfi_hold *holds = sbfi_arena_allocate(arena, most, sizeof *holds);
+  sbfi_hold *holds = sbfi_arena_allocate(arena, max, sizeof *holds);
   if (!begins || !holds) return false;
   for (uint32_t p = 0; p < points; p++) {
     const sbfi_blend_row *r = &s->rows[p];
     double sum = 0;
     begins[p] = next;
-    for (uint32_t i = 0; i < r->count; i++) sum += r->at[i].value >= LEAST_WEIGHT ? r->at[i].value : 0;
+    for (uint32_t i = 0; i < r->count; i++) sum += r->at[i].value >= MIN_WEIGHT ? r->at[i].value : 0;
     for (uint32_t i = 0; s->changed[p] && i < r->count; i++)
-      if (r->at[i].value >= LEAST_WEIGHT)
+      if (r->at[i].value >= MIN_WEIGHT)
         holds[next++] = (sbfi_hold){r->at[i].bone, (float)(r->at[i].value / sum)};
     for (uint32_t h = skin->hold_begins[p]; !s->changed[p] && h < skin->hold_begins[p + 1]; h++)
       holds[next++] = skin->holds[h];

@@ -4,11 +4,14 @@
 
 #include "build/sections/level_pins.h"
 
-sbfi_d3 sbfi_section_middle(const sbf_soft_body *body) {
-  const sbf_vec3_list *at = &body->surface.positions;
+sbfi_d3 sbfi_points_middle(const sbf_vec3_list *points) {
   sbfi_d3 sum = {0, 0, 0};
-  for (uint32_t i = 0; i < at->count; i++) sum = sbfi_d3_add(sum, sbfi_d3_of(at->at[i]));
-  return at->count ? sbfi_d3_scale(sum, 1.0 / at->count) : sum;
+  for (uint32_t i = 0; i < points->count; i++) sum = sbfi_d3_add(sum, sbfi_d3_of(points->at[i]));
+  return points->count ? sbfi_d3_scale(sum, 1.0 / points->count) : sum;
+}
+
+sbfi_d3 sbfi_section_middle(const sbf_soft_body *body) {
+  return sbfi_points_middle(&body->surface.positions);
 }
 
 typedef struct work {
@@ -26,15 +29,14 @@ static uint32_t count_mix_points(const work *w) {
   return count;
 }
 
-static void place_corners(work *w, sbf_vec3 *positions) {
+/* At the corners of a regular tetrahedron: what lies within reach of the middle has weights from -0.5 to 1.
+ */
+static void place_corners(sbf_vec3 positions[SBFI_FRAME_POINTS], sbfi_d3 middle, double reach) {
   static const double corners[SBFI_FRAME_POINTS][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   static const double root_of_three = 1.7320508075688772;
-  const sbf_soft_body *body = &w->sections->bodies[w->section];
-  double size = w->sections->reaches_m[w->section] / root_of_three;
   for (int k = 0; k < SBFI_FRAME_POINTS; k++) {
     sbfi_d3 way = {corners[k][0], corners[k][1], corners[k][2]};
-    positions[k] = sbfi_d3_rounded(sbfi_d3_add(sbfi_section_middle(body), sbfi_d3_scale(way, size)));
-    w->bones[k] = (uint32_t)body->bone;
+    positions[k] = sbfi_d3_rounded(sbfi_d3_add(middle, sbfi_d3_scale(way, reach / root_of_three)));
   }
 }
 
@@ -52,19 +54,29 @@ static void place_mixes(work *w, sbf_vec3 *positions) {
   }
 }
 
-static bool add_points(work *w) {
-  sbf_vec3 *positions = sbf_asset_allocate(w->asset, (size_t)w->old_count + w->new_count, sizeof *positions);
-  if (!positions) return false;
-  if (w->old_count) memcpy(positions, w->level->positions.at, w->old_count * sizeof *positions);
-  place_corners(w, positions + w->old_count);
-  place_mixes(w, positions + w->old_count);
-  if (w->level->masses.count) {
-    float *masses = sbf_asset_allocate(w->asset, (size_t)w->old_count + w->new_count, sizeof *masses);
-    if (!masses) return false;
-    memcpy(masses, w->level->masses.at, w->old_count * sizeof *masses);
-    w->level->masses = (sbf_f32_list){masses, w->old_count + w->new_count};
+/* Room for so many more points, in memory that may be written to; NULL where it runs out. */
+static sbf_vec3 *append_points(sbf_level *level, uint32_t count, sbf_asset *asset) {
+  uint32_t old = level->positions.count;
+  sbf_vec3 *positions = sbf_asset_allocate(asset, (size_t)old + count, sizeof *positions);
+  if (!positions) return NULL;
+  if (old) memcpy(positions, level->positions.at, old * sizeof *positions);
+  if (level->masses.count) {
+    float *masses = sbf_asset_allocate(asset, (size_t)old + count, sizeof *masses);
+    if (!masses) return NULL;
+    memcpy(masses, level->masses.at, old * sizeof *masses);
+    level->masses = (sbf_f32_list){masses, old + count};
   }
-  w->level->positions = (sbf_vec3_list){positions, w->old_count + w->new_count};
+  level->positions = (sbf_vec3_list){positions, old + count};
+  return positions + old;
+}
+
+static bool add_points(work *w) {
+  const sbf_soft_body *body = &w->sections->bodies[w->section];
+  sbf_vec3 *added = append_points(w->level, w->new_count, w->asset);
+  if (!added) return false;
+  place_corners(added, sbfi_section_middle(body), w->sections->reaches_m[w->section]);
+  for (int k = 0; k < SBFI_FRAME_POINTS; k++) w->bones[k] = (uint32_t)body->bone;
+  place_mixes(w, added);
   return true;
 }
 
@@ -100,5 +112,24 @@ bool sbfi_section_frame_add(sbf_level *level, sbfi_sections *sections, uint32_t 
   w.bones = sbfi_arena_allocate(scratch, w.new_count, sizeof *w.bones);
   if (!w.bones || !add_points(&w) || !add_pins(&w, derivation, scratch)) return false;
   *first = w.old_count;
+  return true;
+}
+
+bool sbfi_bone_frame_add(sbf_level *level, int32_t bone, sbfi_d3 middle, double reach, int32_t derivation,
+    sbf_asset *asset, uint32_t *first) {
+  uint32_t points[SBFI_FRAME_POINTS], sets_count = level->pins.count;
+  *first = level->positions.count;
+  sbf_vec3 *added = append_points(level, SBFI_FRAME_POINTS, asset);
+  if (!added) return false;
+  place_corners(added, middle, reach);
+  if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return true; /* its points move as one piece */
+  sbf_pin_set *sets = sbf_asset_allocate(asset, (size_t)sets_count + 1, sizeof *sets);
+  if (!sets) return false;
+  if (sets_count) memcpy(sets, level->pins.at, sets_count * sizeof *sets);
+  for (uint32_t k = 0; k < SBFI_FRAME_POINTS; k++) points[k] = *first + k;
+  if (!sbfi_bone_pins_make(&sets[sets_count], "frame", level, bone, points, SBFI_FRAME_POINTS, asset))
+    return false;
+  sets[sets_count].derived = derivation;
+  level->pins = (sbf_pin_set_list){sets, sets_count + 1};
   return true;
 }

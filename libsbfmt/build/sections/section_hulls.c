@@ -5,6 +5,8 @@
 #include "build/geometry/hulls.h"
 #include "sbfmt/mechanics.h"
 
+static const double MIN_FILLED = 0.05; /* of a hull: less is a shell, which has no volume to weigh it by */
+
 typedef struct hull_list {
   sbf_rigid_body *at;
   uint32_t count, authored_count;
@@ -21,19 +23,29 @@ static bool give_hull(
   return true;
 }
 
+/* How much of its hull a part of the skin fills that moves with its bone as it is: hulls of neighbours
+ * overlap. A section's rigid body stands for all of its hull. */
+static float filled_of(const sbf_soft_body *body, const sbf_solid *hull) {
+  if (body->levels.count || !(hull->volume > 0)) return 1;
+  sbf_surface_measures own;
+  sbf_surface_measure(&body->surface, NULL, &own);
+  double filled = own.volume / hull->volume;
+  return filled > MIN_FILLED && filled < 1 ? (float)filled : 1;
+}
+
 static bool make_rigid_body(sbf_rigid_body *to, const sbf_soft_body *body, const sbf_polygon_mesh *hull,
     int32_t derivation, sbf_asset *asset) {
   sbf_solid solid;
   sbf_solid_measure(hull, &solid);
-  float density = body->attributes.density;
+  float density = body->attributes.density, spread = density * filled_of(body, &solid);
   sbf_rigid_body_init(to);
   to->name = body->name;
   to->bone = body->bone;
   to->derived = derivation;
   to->density = density;
-  to->mass = (float)(density * solid.volume);
+  to->mass = (float)(spread * solid.volume);
   to->center = solid.center;
-  to->inertia = (sbf_vec3){density * solid.inertia.x, density * solid.inertia.y, density * solid.inertia.z};
+  to->inertia = (sbf_vec3){spread * solid.inertia.x, spread * solid.inertia.y, spread * solid.inertia.z};
   to->inertia_rotation = solid.inertia_rotation;
   to->friction = body->attributes.friction;
   to->restitution = body->attributes.restitution;
@@ -117,10 +129,10 @@ static bool make_own(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi
 bool sbfi_section_hulls_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids, sbfi_reporter *reporter,
     uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   uint32_t authored = asset->rigid_bodies.count;
-  size_t most = (size_t)authored + asset->soft_bodies.count;
+  size_t max = (size_t)authored + asset->soft_bodies.count;
   *made = 0;
-  if (most == 0) return true;
-  hull_list list = {sbf_asset_allocate(asset, most, sizeof *list.at), authored, authored};
+  if (max == 0) return true;
+  hull_list list = {sbf_asset_allocate(asset, max, sizeof *list.at), authored, authored};
   if (!list.at) return false;
   if (authored) memcpy(list.at, asset->rigid_bodies.at, authored * sizeof *list.at);
   if (!fill_authored(

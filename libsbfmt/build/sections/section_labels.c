@@ -5,11 +5,11 @@
 #include "mechanics/polygon.h"
 #include "mechanics/vector.h"
 
-enum { MOST_ROUNDS = 32, MOST_PIECE_ROUNDS = 4 };
+enum { MAX_ROUNDS = 32, MAX_PIECE_ROUNDS = 4 };
 /* A piece below this share of its bone's largest one goes to a neighbour. */
-static const double LEAST_PIECE = 0.1;
+static const double MIN_PIECE = 0.1;
 /* A polygon goes over only for a gain above this share of its outline: not for rounding. */
-static const double LEAST_GAIN = 1e-6;
+static const double MIN_GAIN = 1e-6;
 
 typedef struct work {
   const sbfi_skin_union *skin;
@@ -85,7 +85,7 @@ static double cost_of(const work *w, uint32_t label, double outline) {
 
 static uint32_t best_label(const work *w, uint32_t polygon, double outline) {
   uint32_t own = w->labels[polygon], best = own;
-  double least = own == SBFI_NO_INDEX ? 0 : cost_of(w, own, outline) - LEAST_GAIN * outline;
+  double min = own == SBFI_NO_INDEX ? 0 : cost_of(w, own, outline) - MIN_GAIN * outline;
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
     uint32_t edge = w->t->corner_edges[c];
     if (edge == SBFI_NO_INDEX) continue;
@@ -93,7 +93,7 @@ static uint32_t best_label(const work *w, uint32_t polygon, double outline) {
       uint32_t label = w->labels[w->t->edge_polygons[i]];
       if (label == SBFI_NO_INDEX || label == best) continue;
       double cost = cost_of(w, label, outline);
-      if (cost < least || (cost == least && label < best)) least = cost, best = label;
+      if (cost < min || (cost == min && label < best)) min = cost, best = label;
     }
   }
   return best;
@@ -198,8 +198,7 @@ static bool hand_over(const work *w, uint32_t bone_count, uint32_t *numbers, uin
   for (uint32_t p = 0; p < w->t->polygon_count; p++) sorted[next[numbers[p]]++] = p;
   bool changed = false;
   for (uint32_t i = 0; i < count; i++) {
-    if (pieces[i].label == SBFI_NO_INDEX || pieces[i].area >= LEAST_PIECE * largest[pieces[i].label])
-      continue;
+    if (pieces[i].label == SBFI_NO_INDEX || pieces[i].area >= MIN_PIECE * largest[pieces[i].label]) continue;
     const uint32_t *polygons = sorted + pieces[i].begin;
     uint32_t size = pieces[i + 1].begin - pieces[i].begin;
     uint32_t to = longest_neighbour(w, polygons, size, pieces[i].label);
@@ -225,10 +224,10 @@ bool sbfi_section_labels_make(uint32_t *labels, const sbfi_skin_union *skin, con
     labels[p] = dominant(&w, p);
     clear_weights(&w, p);
   }
-  for (int round = 0; round < MOST_ROUNDS && smooth_once(&w); round++)
+  for (int round = 0; round < MAX_ROUNDS && smooth_once(&w); round++)
     ;
   bool good = true;
-  for (int round = 0; round < MOST_PIECE_ROUNDS; round++)
+  for (int round = 0; round < MAX_PIECE_ROUNDS; round++)
     if (!hand_over(&w, bone_count, numbers, sorted, scratch, &good)) break;
   return good;
 }

@@ -12,7 +12,7 @@
 
 enum { USUAL_ELEMENTS = 160 };
 /* Of the area to the power of 3/2: a limb ten thousand times as long as thick still has more. */
-static const double LEAST_VOLUME = 0.002;
+static const double MIN_VOLUME = 0.002;
 /* Of the stiffness of a point's springs, added up, that of its goal. */
 static const double GOAL_SHARE = 1.0 / 12;
 
@@ -208,7 +208,7 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
   sbf_level_init(level);
   *counts = (sbfi_section_counts){0};
   sbf_surface_measure(&body->surface, NULL, &surface);
-  if (!(surface.volume > LEAST_VOLUME * surface.area * sqrt(surface.area))) return SBFI_LATTICE_MADE;
+  if (!(surface.volume > MIN_VOLUME * surface.area * sqrt(surface.area))) return SBFI_LATTICE_MADE;
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   sbfi_lattice_outcome outcome =

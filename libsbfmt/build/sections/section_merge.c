@@ -5,8 +5,8 @@
 #include "mechanics/polygon.h"
 #include "mechanics/vector.h"
 
-enum { LEAST_POLYGONS = 4 };
-static const double LEAST_AREA = 0.005; /* of the border's length squared */
+enum { MIN_POLYGONS = 4 };
+static const double MIN_AREA = 0.005; /* of the border's length squared */
 
 typedef struct part {
   uint32_t polygons;
@@ -54,7 +54,7 @@ static void measure(const work *w) {
 }
 
 static bool is_sliver(const part *p) {
-  return p->polygons > 0 && (p->polygons < LEAST_POLYGONS || p->area < LEAST_AREA * p->border * p->border);
+  return p->polygons > 0 && (p->polygons < MIN_POLYGONS || p->area < MIN_AREA * p->border * p->border);
 }
 
 /* Length of border that a part shares with each other one. */

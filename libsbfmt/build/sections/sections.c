@@ -1,5 +1,6 @@
 #include "build/sections/sections.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,8 @@
 #include "mechanics/flat_body.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
+
+static const float SINGLE_WEIGHT = 0.98f; /* of a point that one bone holds */
 
 typedef struct share {
   uint32_t bone, mix;
@@ -32,11 +35,12 @@ typedef struct work {
   sbfi_topology t;
   uint32_t *labels;       /* (polygons) */
   uint32_t *owners;       /* (bones) */
+  uint8_t *rigid;         /* (bones) its part is no section */
   uint32_t *share_begins; /* (points + 1) */
   share *shares;          /* what sections have of each point */
   sbfi_array mixes;
   uint32_t guessed_count; /* sections of which nobody says what they are made of */
-  float least_guess, most_guess;
+  float min_guess, max_guess;
 } work;
 
 static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) {
@@ -99,11 +103,11 @@ static bool take_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_
 /* The pins painted on the skins, where they lie in the section just cut. */
 static bool make_pins(work *w, const sbfi_section_cutter *cutter, sbf_soft_body *body) {
   const sbf_render_mesh_list *meshes = &w->asset->render_meshes;
-  uint32_t most = 0, count = 0;
+  uint32_t max = 0, count = 0;
   for (uint32_t m = 0; m < meshes->count; m++)
-    if (w->skin.points_of_mesh[m]) most += meshes->at[m].pins.count;
-  if (most == 0) return true;
-  sbf_pin_set *sets = sbf_asset_allocate(w->asset, most, sizeof *sets);
+    if (w->skin.points_of_mesh[m]) max += meshes->at[m].pins.count;
+  if (max == 0) return true;
+  sbf_pin_set *sets = sbf_asset_allocate(w->asset, max, sizeof *sets);
   if (!sets) return false;
   for (uint32_t m = 0; m < meshes->count; m++)
     for (uint32_t i = 0; w->skin.points_of_mesh[m] && i < meshes->at[m].pins.count; i++) {
@@ -146,12 +150,33 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     body->attributes.young_modulus = (float)sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
     body->attributes.sag_free = true;
     float modulus = body->attributes.young_modulus;
-    if (w->guessed_count == 0 || modulus < w->least_guess) w->least_guess = modulus;
-    if (w->guessed_count == 0 || modulus > w->most_guess) w->most_guess = modulus;
+    if (w->guessed_count == 0 || modulus < w->min_guess) w->min_guess = modulus;
+    if (w->guessed_count == 0 || modulus > w->max_guess) w->max_guess = modulus;
     w->guessed_count++;
   }
   sbfi_flat_body_weigh(body);
   return body->id != NULL;
+}
+
+/* What hulls are made of where nothing is soft. */
+static bool make_rigid_parts(work *w, sbfi_section_cutter *cutter, const uint8_t *used) {
+  uint32_t bones = w->asset->bones.count;
+  w->made->rigid_parts = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, sizeof *w->made->rigid_parts);
+  if (!w->made->rigid_parts) return false;
+  for (uint32_t b = 0; b < bones; b++) {
+    if (!used[b] || !w->rigid[b]) continue;
+    sbf_soft_body *part = &w->made->rigid_parts[w->made->rigid_count++];
+    const sbf_section_recipe *recipe = recipe_of(w->asset, (int32_t)b);
+    sbf_soft_body_init(part);
+    part->name = w->asset->bones.at[b].name;
+    part->id = sbfi_unique_id(w->ids, "section_", w->asset->bones.at[b].id, b, w->asset);
+    part->bone = (int32_t)b;
+    part->derived = w->derivation;
+    part->attributes = recipe->attributes;
+    part->collision = recipe->collision;
+    if (!part->id || !sbfi_section_cut(cutter, b, &part->surface, w->scratch)) return false;
+  }
+  return true;
 }
 
 static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
@@ -163,23 +188,22 @@ static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
   for (uint32_t p = 0; p < w->t.polygon_count; p++)
     if (w->labels[p] != SBFI_NO_INDEX) used[w->labels[p]] = 1;
   for (uint32_t b = 0; b < bones; b++) {
-    if (!used[b]) continue;
+    if (!used[b] || w->rigid[b]) continue;
     if (!sbfi_progress_say(progress, (double)b / bones)) return false;
     if (!make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
   }
-  return true;
+  return make_rigid_parts(w, &cutter, used);
 }
 
 static void report_guesses(const work *w) {
   sbf_diagnostic finding;
   char range[64] = "";
   if (w->guessed_count == 0) return;
-  if (w->most_guess > w->least_guess)
-    snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->least_guess);
+  if (w->max_guess > w->min_guess) snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->min_guess);
   sbfi_diagnose(&finding, SBF_CODE_MATERIAL_GUESSED,
       "no material is given for %u section%s cut from skins: %s%.6g kPa, which bear their weight, are taken; "
       "give one, as by --material flesh",
-      (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->most_guess);
+      (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->max_guess);
   sbfi_report(w->reporter, &finding);
 }
 
@@ -201,20 +225,27 @@ static bool smooth_blends(work *w) {
   return true;
 }
 
+/* Whether what the bone holds is no section's. */
+static bool is_rigid(const work *w, uint32_t bone) {
+  return w->owners[bone] != SBFI_NO_INDEX && w->rigid[w->owners[bone]];
+}
+
 static uint32_t section_on(const work *w, uint32_t bone) {
   uint32_t section = 0;
   while (w->made->bodies[section].bone != (int32_t)bone) section++;
   return section;
 }
 
-/* The mix of what `owner` has of the point; SBFI_NO_INDEX where its own bone is all. */
-static bool make_mix(work *w, uint32_t point, uint32_t owner, uint32_t *number) {
-  sbfi_mix mix = {.section = section_on(w, owner), .place = w->skin.mesh.positions.at[point]};
-  bool foreign = false;
+/* The mix of what `owner` has of the point, or beside it what rigid bones have; SBFI_NO_INDEX where its own
+ * bone is all. */
+static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint32_t *number) {
+  sbfi_mix mix = {
+      .section = section_on(w, owner), .place = w->skin.mesh.positions.at[point], .beside = beside};
+  bool foreign = beside;
   float sum = 0;
   for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++) {
     sbfi_hold hold = w->skin.holds[h];
-    if (w->owners[hold.bone] != owner) continue;
+    if (beside ? !is_rigid(w, hold.bone) : w->owners[hold.bone] != owner) continue;
     foreign = foreign || hold.bone != owner;
     uint32_t at = mix.count < 4 ? mix.count++ : 3;
     if (at == 3 && mix.weights[3] >= hold.weight) continue;
@@ -233,6 +264,20 @@ static bool make_mix(work *w, uint32_t point, uint32_t owner, uint32_t *number) 
   return sbfi_array_append(&w->mixes, &mix, 1);
 }
 
+/* The share of rigid bones joins the section with the greatest one; without any the skin moves the point. */
+static bool share_rest(work *w, uint32_t point, uint32_t begin, uint32_t *next) {
+  uint32_t max = begin;
+  float rest = 0;
+  for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++)
+    if (is_rigid(w, w->skin.holds[h].bone)) rest += w->skin.holds[h].weight;
+  for (uint32_t i = begin; i < *next; i++)
+    if (w->shares[i].weight > w->shares[max].weight) max = i;
+  if (*next == begin || !(rest > 0)) return true;
+  share *beside = &w->shares[(*next)++];
+  *beside = (share){.bone = w->shares[max].bone, .weight = rest};
+  return make_mix(w, point, beside->bone, true, &beside->mix);
+}
+
 /* What each section has of each point. */
 static bool share_points(work *w) {
   uint32_t points = w->skin.mesh.positions.count;
@@ -244,13 +289,14 @@ static bool share_points(work *w) {
     uint32_t begin = w->share_begins[p] = next;
     for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++) {
       uint32_t owner = w->owners[w->skin.holds[h].bone], at = begin;
-      if (owner == SBFI_NO_INDEX) continue;
+      if (owner == SBFI_NO_INDEX || w->rigid[owner]) continue;
       while (at < next && w->shares[at].bone != owner) at++;
       if (at == next) w->shares[next++].bone = owner;
       w->shares[at].weight += w->skin.holds[h].weight;
     }
     for (uint32_t i = begin; i < next; i++)
-      if (!make_mix(w, p, w->shares[i].bone, &w->shares[i].mix)) return false;
+      if (!make_mix(w, p, w->shares[i].bone, false, &w->shares[i].mix)) return false;
+    if (!share_rest(w, p, begin, &next)) return false;
   }
   w->share_begins[points] = next;
   return true;
@@ -298,7 +344,12 @@ static bool make_all_blends(work *w) {
   return good;
 }
 
-/* How far from its middle each section has a share in something. */
+static void reach_to(sbfi_sections *made, uint32_t section, sbfi_d3 middle, sbf_vec3 point) {
+  double away = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(point), middle));
+  if (away > made->reaches_m[section]) made->reaches_m[section] = away;
+}
+
+/* How far from its middle each section has a surface or a share in something. */
 static bool measure_reaches(work *w) {
   sbfi_sections *made = w->made;
   uint32_t *section_of_bone =
@@ -309,6 +360,8 @@ static bool measure_reaches(work *w) {
   for (uint32_t i = 0; i < made->count; i++) {
     section_of_bone[made->bodies[i].bone] = i;
     middles[i] = sbfi_section_middle(&made->bodies[i]);
+    const sbf_vec3_list *surface = &made->bodies[i].surface.positions;
+    for (uint32_t p = 0; p < surface->count; p++) reach_to(made, i, middles[i], surface->at[p]);
   }
   for (uint32_t m = 0; m < w->asset->render_meshes.count; m++) {
     const sbf_skin *skin = &made->blends[m];
@@ -316,8 +369,7 @@ static bool measure_reaches(work *w) {
     for (uint32_t v = 0, i = 0; v < skin->influence_counts.count; v++)
       for (uint32_t end = i + skin->influence_counts.at[v]; i < end; i++) {
         uint32_t section = section_of_bone[skin->bones.at[i]];
-        double away = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(at[v]), middles[section]));
-        if (away > made->reaches_m[section]) made->reaches_m[section] = away;
+        reach_to(made, section, middles[section], at[v]);
       }
   }
   return true;
@@ -352,6 +404,12 @@ static bool divide(work *w, bool *wanted) {
   if (!sbfi_topology_build(&w->t, &w->skin.mesh, w->scratch)) return false;
   w->labels = sbfi_arena_allocate(w->scratch, (size_t)w->t.polygon_count + 1, sizeof *w->labels);
   w->owners = sbfi_arena_allocate(w->scratch, (size_t)asset->bones.count + 1, sizeof *w->owners);
+  w->rigid = sbfi_arena_allocate(w->scratch, (size_t)asset->bones.count + 1, 1);
+  if (!w->rigid) return false;
+  for (uint32_t b = 0; b < asset->bones.count; b++) {
+    const sbf_section_recipe *recipe = recipe_of(asset, (int32_t)b);
+    w->rigid[b] = recipe && recipe->rigid;
+  }
   return w->labels && w->owners &&
          sbfi_section_labels_make(w->labels, &w->skin, &w->t, asset->bones.count, w->scratch) &&
          sbfi_sections_merge(w->labels, w->owners, &w->skin, &w->t, asset, w->reporter, w->scratch);
@@ -364,6 +422,54 @@ bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, s
   bool wanted, good = divide(&w, &wanted);
   *owners = w.owners;
   return good;
+}
+
+/* Share of the points that one bone alone holds. */
+static double single_share(const work *w) {
+  uint32_t held = 0, single = 0;
+  for (uint32_t p = 0; p < w->skin.mesh.positions.count; p++) {
+    float max = 0;
+    for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++)
+      max = fmaxf(max, w->skin.holds[h].weight);
+    held += max > 0;
+    single += max >= SINGLE_WEIGHT;
+  }
+  return held ? (double)single / held : 0;
+}
+
+static bool measure_parts(work *w, sbfi_skin_parts *to) {
+  uint32_t bones = w->asset->bones.count;
+  sbfi_section_cutter cutter = {.skin = &w->skin, .t = &w->t, .labels = w->labels, .overlap_m = 1e-9};
+  if (!sbfi_section_cutter_init(&cutter, bones, w->scratch)) return false;
+  for (uint32_t p = 0; p < w->t.polygon_count; p++)
+    if (w->labels[p] != SBFI_NO_INDEX) to->at[w->labels[p]].polygons++;
+  for (uint32_t b = 0; b < bones; b++) {
+    sbf_polygon_mesh mesh;
+    sbf_surface_measures measures;
+    sbfi_caps caps;
+    if (to->at[b].polygons == 0) continue;
+    if (!sbfi_section_cut(&cutter, b, &mesh, w->scratch)) return false;
+    sbf_surface_measure(&mesh, NULL, &measures);
+    to->at[b].area = measures.area;
+    if (!sbfi_section_caps_make(&mesh, &caps, w->scratch)) return false;
+    sbf_surface_measure(&mesh, NULL, &measures);
+    to->at[b].closed_area = measures.area;
+    to->at[b].volume = fabs(measures.volume);
+  }
+  return true;
+}
+
+bool sbfi_skin_parts_measure(sbfi_skin_parts *to, const sbf_asset *asset, sbfi_arena *scratch) {
+  sbfi_reporter nobody = {.report = NULL};
+  work w = {.asset = (sbf_asset *)(uintptr_t)asset, .reporter = &nobody, .scratch = scratch}; /* as above */
+  bool wanted;
+  *to = (sbfi_skin_parts){.at = NULL};
+  if (!divide(&w, &wanted)) return false;
+  if (!wanted) return true;
+  to->at = sbfi_arena_allocate(scratch, (size_t)asset->bones.count + 1, sizeof *to->at);
+  to->owners = w.owners;
+  to->single_share = single_share(&w);
+  return to->at && measure_parts(&w, to);
 }
 
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,

@@ -9,7 +9,7 @@
 #include "build/geometry/topology.h"
 
 /* Vertices in one place whose weights differ by more than this share are different points. */
-static const double MOST_DIFFERENCE = 0.5;
+static const double MAX_DIFFERENCE = 0.5;
 
 typedef struct work {
   const sbf_asset *asset;
@@ -116,7 +116,7 @@ static uint32_t find_point(work *w, uint32_t vertex, sbf_vec3 place) {
   size_t slot = slot_of(w, place);
   for (uint32_t p = w->slots[slot]; p != SBFI_NO_INDEX; p = w->next[p])
     if (memcmp(&w->positions[p], &place, sizeof place) == 0 &&
-        difference(w, vertex, w->firsts[p]) <= MOST_DIFFERENCE)
+        difference(w, vertex, w->firsts[p]) <= MAX_DIFFERENCE)
       return p;
   uint32_t made = w->point_count++;
   w->positions[made] = place;

@@ -57,9 +57,9 @@ static bool join_authored(work *w) {
   sbfi_array_init(&springs, &w->scratch->allocator, sizeof(sbf_uint2));
   bool good = sbfi_array_append(&springs, w->internal.at, w->internal.count);
   for (uint32_t i = 0; good && i < authored; i++) {
-    double least = INFINITY;
+    double min = INFINITY;
     uint32_t point = w->surface_count + i;
-    uint32_t triangle = sbfi_triangle_tree_nearest(&tree, w->body->interior.at[i], &least);
+    uint32_t triangle = sbfi_triangle_tree_nearest(&tree, w->body->interior.at[i], &min);
     for (int k = 0; good && k < 3 && triangle != UINT32_MAX; k++)
       good = sbfi_array_append(&springs, &(sbf_uint2){{point, tree.triangles[triangle].points[k]}}, 1);
     if (good && w->interior.polygon_points)
@@ -114,8 +114,8 @@ static void share_by_lattice(const work *w, float *shares) {
   sbf_level_init(&surface);
   surface.positions = w->body->surface.positions;
   double node = w->cell * w->cell * w->cell / 2, volume = w->measures.volume,
-         most = 0.97 / w->interior.point_count;
-  double share = volume > 0 && node / volume < most ? node / volume : most;
+         max = 0.97 / w->interior.point_count;
+  double share = volume > 0 && node / volume < max ? node / volume : max;
   sbf_level_shares(w->body, &surface, NULL, shares);
   for (uint32_t i = w->surface_count; i < w->source_count; i++) shares[i] = 1.0f / (float)w->source_count;
   for (uint32_t i = 0; i < w->source_count; i++) shares[i] *= (float)(1 - share * w->interior.point_count);

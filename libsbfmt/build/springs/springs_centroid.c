@@ -20,10 +20,10 @@ bool sbfi_springs_centroid(
   uint32_t surface_count = mesh->positions.count, polygon_count = mesh->polygon_sizes.count;
   *interior = (sbfi_centroid_interior){.points = NULL};
   if (surface_count == 0) return true;
-  size_t most_springs = (size_t)surface_count + mesh->polygon_points.count + polygon_count;
+  size_t max_springs = (size_t)surface_count + mesh->polygon_points.count + polygon_count;
   interior->points = sbfi_arena_allocate(arena, (size_t)polygon_count + 1, sizeof(sbf_vec3));
   interior->polygon_points = sbfi_arena_allocate(arena, (size_t)polygon_count + 1, sizeof(uint32_t));
-  interior->internal.at = sbfi_arena_allocate(arena, most_springs, sizeof(sbf_uint2));
+  interior->internal.at = sbfi_arena_allocate(arena, max_springs, sizeof(sbf_uint2));
   /* A polygon that passes a point twice, around a hole, still has one spring to it. */
   uint32_t *last_polygons = sbfi_arena_allocate(arena, surface_count, sizeof(uint32_t));
   if (!interior->points || !interior->polygon_points || !interior->internal.at || !last_polygons)

@@ -10,10 +10,10 @@
 #include "build/springs/springs.h"
 
 /* A node nearer to a cut than this share of an edge is left out: its springs would be short and stiff. */
-static const double least_share = 0.25;
+static const double min_share = 0.25;
 /* In cells: how far a surface point looks for nodes, and how far where it finds none. */
 static const double near_reach = 1.25, far_reach = 2.5;
-enum { MOST_OF_A_POINT = 4, MOST_HALVINGS = 4 };
+enum { MAX_OF_A_POINT = 4, MAX_HALVINGS = 4 };
 
 typedef struct work {
   const sbf_polygon_mesh *mesh;
@@ -45,8 +45,8 @@ static bool find_nodes(work *w, const sbfi_winding *winding, sbfi_array *crossin
   for (size_t i = 0; i < crossings->count; i++) {
     uint32_t owner = at[i].edge >> 3;
     int32_t step = w->grid.steps[sbfi_lattice_kind(&w->grid, owner)][at[i].edge & 7];
-    if (at[i].share < least_share) w->inside[owner] = 0;
-    if (at[i].share > 1 - least_share) w->inside[(int64_t)owner + step] = 0;
+    if (at[i].share < min_share) w->inside[owner] = 0;
+    if (at[i].share > 1 - min_share) w->inside[(int64_t)owner + step] = 0;
   }
   for (uint32_t n = 0; n < count; n++) w->count += w->inside[n];
   return true;
@@ -121,7 +121,7 @@ static int compare(const void *a, const void *b) {
 
 /* Nodes within `reach` cells of the point, the nearest first. */
 static uint32_t find_near(
-    const work *w, const sbf_vec3 *interior, sbf_vec3 point, double reach, neighbour *near, uint32_t most) {
+    const work *w, const sbf_vec3 *interior, sbf_vec3 point, double reach, neighbour *near, uint32_t max) {
   sbfi_d3 at = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(point), w->grid.origin), 2 / w->grid.cell);
   const double place[3] = {at.x, at.y, at.z};
   int32_t low[3], high[3];
@@ -137,7 +137,7 @@ static uint32_t find_near(
     for (int32_t y = low[1] + ((low[1] ^ z) & 1); y <= high[1]; y += 2) {
       for (int32_t x = low[0] + ((low[0] ^ z) & 1); x <= high[0]; x += 2) {
         uint32_t i = w->points[sbfi_lattice_node(&w->grid, x, y, z)];
-        if (i == SBFI_NO_INDEX || count == most) continue;
+        if (i == SBFI_NO_INDEX || count == max) continue;
         sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(interior[i]), sbfi_d3_of(point));
         double limit = reach * w->grid.cell;
         if (sbfi_d3_dot(way, way) > limit * limit) continue;
@@ -152,13 +152,13 @@ static uint32_t find_near(
 /* To the nearest nodes that a surface point sees; false: no memory. */
 static bool join_point(
     const work *w, const sbf_vec3 *interior, uint32_t first, uint32_t i, sbfi_array *springs) {
-  enum { MOST_NEAR = 256 };
-  neighbour near[MOST_NEAR];
+  enum { MAX_NEAR = 256 };
+  neighbour near[MAX_NEAR];
   sbf_vec3 point = w->mesh->positions.at[i];
   uint32_t joined = 0;
   for (int round = 0; round < 2 && joined == 0; round++) {
-    uint32_t count = find_near(w, interior, point, round ? far_reach : near_reach, near, MOST_NEAR);
-    for (uint32_t k = 0; k < count && joined < MOST_OF_A_POINT; k++) {
+    uint32_t count = find_near(w, interior, point, round ? far_reach : near_reach, near, MAX_NEAR);
+    for (uint32_t k = 0; k < count && joined < MAX_OF_A_POINT; k++) {
       if (!is_clear(w, interior[near[k].point], point)) continue;
       if (!sbfi_array_append(springs, &(sbf_uint2){{first + near[k].point, i}}, 1)) return false;
       joined++;
@@ -198,8 +198,8 @@ static bool join_border(const work *w, const sbf_vec3 *interior, uint32_t first,
   for (uint32_t i = 0; i < w->count; i++) {
     if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.8, 1), i, w->count)) return false;
     if (!lacks_neighbour(w, w->nodes[i])) continue;
-    double least = INFINITY;
-    uint32_t triangle = sbfi_triangle_tree_nearest(&w->tree, interior[i], &least);
+    double min = INFINITY;
+    uint32_t triangle = sbfi_triangle_tree_nearest(&w->tree, interior[i], &min);
     for (int k = 0; k < 3; k++) {
       uint32_t corner = w->tree.triangles[triangle].points[k];
       if (!is_clear(w, interior[i], w->mesh->positions.at[corner])) continue;
@@ -252,7 +252,7 @@ bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mes
   if (!sbfi_triangle_tree_build(&w.tree, mesh, arena)) return false;
   bool good = true;
   sbfi_array_init(&crossings, &arena->allocator, sizeof(sbfi_lattice_crossing));
-  for (int halving = 0; good && w.count == 0 && halving <= MOST_HALVINGS; halving++) {
+  for (int halving = 0; good && w.count == 0 && halving <= MAX_HALVINGS; halving++) {
     if (halving > 0) interior->cell /= 2;
     crossings.count = 0;
     good = sbfi_progress_say(progress, 0.04 * halving);

@@ -4,8 +4,8 @@
 
 #include "mechanics/vector.h"
 
-enum { MOST_MATCHED = 64, STEPS = 200 };
-static const double short_share = 0.5, least_share = 0.05;
+enum { MAX_MATCHED = 64, STEPS = 200 };
+static const double short_share = 0.5, min_share = 0.05;
 
 typedef struct work {
   const sbf_vec3 *positions;
@@ -42,10 +42,10 @@ static bool index_springs(work *w, sbfi_arena *arena) {
 static void match(const work *w, uint32_t point, double energy, double *parts) {
   const uint32_t *springs = w->springs + w->begins[point];
   uint32_t count = w->begins[point + 1] - w->begins[point];
-  double shares[MOST_MATCHED], fitted[MOST_MATCHED], meet[MOST_MATCHED][MOST_MATCHED];
-  sbfi_d3 ways[MOST_MATCHED];
+  double shares[MAX_MATCHED], fitted[MAX_MATCHED], meet[MAX_MATCHED][MAX_MATCHED];
+  sbfi_d3 ways[MAX_MATCHED];
   if (!(w->sums[point] > 0)) return;
-  if (count > MOST_MATCHED) {
+  if (count > MAX_MATCHED) {
     for (uint32_t i = 0; i < count; i++)
       parts[springs[i]] += energy * w->lengths[springs[i]] / w->sums[point];
     return;
@@ -62,7 +62,7 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
   }
   /* In shares of 15 mu V: isotropic matter meets every direction as 3 mu V. All springs step at once, so that
    * none is favoured for its place in the list. */
-  double steepest = 1, next[MOST_MATCHED];
+  double steepest = 1, next[MAX_MATCHED];
   for (uint32_t i = 0; i < count; i++) {
     double row = 1;
     for (uint32_t k = 0; k < count; k++) row += k != i ? meet[i][k] : 0;
@@ -73,7 +73,7 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
     for (uint32_t i = 0; i < count; i++) {
       double missing = 3.0 / 15 - fitted[i];
       for (uint32_t k = 0; k < count; k++) missing -= k != i ? meet[i][k] * fitted[k] : 0;
-      next[i] = fmax(fitted[i] + missing / steepest, least_share * shares[i]);
+      next[i] = fmax(fitted[i] + missing / steepest, min_share * shares[i]);
       if (!(shares[i] > 0)) next[i] = 0;
       moved = fmax(moved, fabs(next[i] - fitted[i]));
     }

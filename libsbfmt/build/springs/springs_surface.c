@@ -4,7 +4,7 @@
 #include "build/springs/pair_set.h"
 #include "build/springs/springs.h"
 
-enum { MOST_NEIGHBOURS = 64 };
+enum { MAX_NEIGHBOURS = 64 };
 
 static void add(sbfi_spring_list *list, sbfi_pair_set *known, uint32_t a, uint32_t b) {
   if (a == b || sbfi_pair_set_has(known, a, b)) return;
@@ -52,9 +52,9 @@ static void add_flexion(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi
     const sbf_vec3 *positions, uint32_t point) {
   const uint32_t *edges = t->point_edges + t->point_edge_begins[point];
   uint32_t count = t->point_edge_begins[point + 1] - t->point_edge_begins[point];
-  if (count > MOST_NEIGHBOURS) return;
-  uint32_t neighbours[MOST_NEIGHBOURS], straightest[MOST_NEIGHBOURS];
-  double directions[MOST_NEIGHBOURS][3];
+  if (count > MAX_NEIGHBOURS) return;
+  uint32_t neighbours[MAX_NEIGHBOURS], straightest[MAX_NEIGHBOURS];
+  double directions[MAX_NEIGHBOURS][3];
   for (uint32_t i = 0; i < count; i++) {
     neighbours[i] = sbfi_edge_other(t, edges[i], point);
     sbf_vec3 a = positions[point], b = positions[neighbours[i]];
@@ -63,13 +63,13 @@ static void add_flexion(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi
     for (int k = 0; k < 3; k++) directions[i][k] = length > 0 ? d[k] / length : 0;
   }
   for (uint32_t i = 0; i < count; i++) {
-    double least = 2;
+    double min = 2;
     straightest[i] = SBFI_NO_INDEX;
     for (uint32_t j = 0; j < count; j++) {
       const double *a = directions[i], *b = directions[j];
       double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      if (j == i || cosine >= least || share_polygon(t, edges[i], edges[j])) continue;
-      least = cosine;
+      if (j == i || cosine >= min || share_polygon(t, edges[i], edges[j])) continue;
+      min = cosine;
       straightest[i] = j;
     }
   }

@@ -21,8 +21,8 @@ uint32_t sbfi_body_box_at(const sbfi_body_grid *g, sbfi_d3 point) {
   const double at[3] = {point.x, point.y, point.z};
   uint32_t box = 0;
   for (int k = 2; k >= 0; k--) {
-    double place = floor(at[k] * SBFI_BODY_CELLS) + 1, most = g->counts[k] - 2;
-    box = box * g->counts[k] + (uint32_t)(place < 1 ? 1 : place > most ? most : place);
+    double place = floor(at[k] * SBFI_BODY_CELLS) + 1, max = g->counts[k] - 2;
+    box = box * g->counts[k] + (uint32_t)(place < 1 ? 1 : place > max ? max : place);
   }
   return box;
 }
@@ -54,13 +54,13 @@ static void mark_block(const marking *m, const uint32_t low[3], const uint32_t h
 static void mark_triangle(marking *m) {
   uint32_t low[3], high[3];
   for (int k = 0; k < 3; k++) {
-    double least = INFINITY, most = -INFINITY;
+    double min = INFINITY, max = -INFINITY;
     for (int c = 0; c < 3; c++) {
       const double at[3] = {m->corners[c].x, m->corners[c].y, m->corners[c].z};
-      least = fmin(least, at[k]);
-      most = fmax(most, at[k]);
+      min = fmin(min, at[k]);
+      max = fmax(max, at[k]);
     }
-    double first = floor(least * SBFI_BODY_CELLS) + 1, last = floor(most * SBFI_BODY_CELLS) + 1;
+    double first = floor(min * SBFI_BODY_CELLS) + 1, last = floor(max * SBFI_BODY_CELLS) + 1;
     double limit = m->grid->counts[k] - 2;
     low[k] = (uint32_t)(first < 1 ? 1 : first > limit ? limit : first);
     high[k] = (uint32_t)(last < 1 ? 1 : last > limit ? limit : last) + 1;

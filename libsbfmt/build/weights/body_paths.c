@@ -67,13 +67,13 @@ static uint32_t begin_inside(sbfi_body_paths *p, const sbfi_bone_segment *bone) 
 /* The cells of the bone; where there are none, the nearest. Returns how many there are. */
 static uint32_t begin(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
   uint32_t count = begin_inside(p, bone), nearest = 0;
-  double least = INFINITY;
+  double min = INFINITY;
   if (count) return count;
   for (uint32_t cell = 0; cell < p->grid->cell_count; cell++) {
     double distance = distance_in_cells(p->grid, bone, cell);
-    if (distance < least) least = distance, nearest = cell;
+    if (distance < min) min = distance, nearest = cell;
   }
-  return improve(p, nearest, (float)fmin(least, 1e6));
+  return improve(p, nearest, (float)fmin(min, 1e6));
 }
 
 static uint32_t expand(sbfi_body_paths *p, uint32_t cell) {

@@ -1,7 +1,7 @@
 #include "build/weights/body_rays.h"
 
 /* Surfaces passed on the way out; how far behind one the search goes on. */
-enum { MOST_PASSED = 32 };
+enum { MAX_PASSED = 32 };
 static const double STEP = 1e-5;
 
 bool sbfi_body_rays_make(sbfi_body_rays *rays, const sbf_polygon_mesh *surface, sbfi_arena *arena) {
@@ -34,7 +34,7 @@ double sbfi_body_way_out(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direc
   uint32_t hit;
   double way = first_hit(&rays->tree, from, direction, &hit);
   if (!isfinite(way) || !sbfi_body_holds(rays, from)) return way;
-  for (int passed = 0; passed < MOST_PASSED; passed++) {
+  for (int passed = 0; passed < MAX_PASSED; passed++) {
     sbfi_d3 behind = sbfi_d3_add(from, sbfi_d3_scale(direction, way + STEP));
     double next = first_hit(&rays->tree, behind, direction, &hit);
     sbfi_d3 between = sbfi_d3_add(behind, sbfi_d3_scale(direction, next / 2));
@@ -52,10 +52,10 @@ typedef struct shell_crossing {
 
 static double shell_end(
     const sbfi_body_rays *rays, const sbfi_weight_mesh *mesh, sbfi_d3 from, sbfi_d3 direction) {
-  shell_crossing shells[MOST_PASSED];
+  shell_crossing shells[MAX_PASSED];
   int count = 0;
   double way = 0, nearest = INFINITY, end = 0;
-  for (int passed = 0; passed < MOST_PASSED; passed++) {
+  for (int passed = 0; passed < MAX_PASSED; passed++) {
     uint32_t hit;
     way += first_hit(&rays->tree, sbfi_d3_add(from, sbfi_d3_scale(direction, way)), direction, &hit);
     if (hit == UINT32_MAX) break;

@@ -74,12 +74,12 @@ static uint32_t root_of(const sbfi_weights_input *in, uint32_t bone) {
 }
 
 static uint32_t largest_tree(const sbfi_weights_input *in) {
-  uint32_t best = 0, most = 0;
+  uint32_t best = 0, max = 0;
   for (uint32_t root = 0; root < in->bone_count; root++) {
     uint32_t count = 0;
     if (in->bones[root].parent != SBF_NONE) continue;
     for (uint32_t i = root; i < in->bone_count; i++) count += root_of(in, i) == root;
-    if (count > most) best = root, most = count;
+    if (count > max) best = root, max = count;
   }
   return best;
 }
@@ -127,8 +127,8 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
     take_letters(in->bones[i].name, letters);
     bool is_control = is_control_name(letters);
     if (!is_control && is_on_root(in, i) && !has_child(in, i))
-      is_control =
-          is_outside(rays, sbfi_weight_mesh_place(mesh, in->bones[i].head)) || pulls_another(in, mesh, i);
+      is_control = (rays && is_outside(rays, sbfi_weight_mesh_place(mesh, in->bones[i].head))) ||
+                   pulls_another(in, mesh, i);
     if (is_control || is_frame_name(letters) || sbfi_bone_is_end(in, i) ||
         (is_on_root(in, i) && strstr(letters, "root")))
       is_deforming[i] = false;

@@ -8,7 +8,8 @@
  * skin but these: frames and controls by name (root, armature, master, pole, target, ...); leaves of a root
  * that lie outside the body, which aim limbs; leaves of a root in the place of another bone, which pull it;
  * roots with such leaves; ends of bones; trees of bones beside the largest with a joint in
- * the place of one of its. */
+ * the place of one of its. Where no mesh lies around the bones yet, `rays` is NULL, and of `mesh` only the
+ * scale is used: that of the bones. */
 void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_rays *rays, bool *is_deforming);
 

@@ -5,10 +5,10 @@
 #include "build/weights/heat_preconditioner.h"
 #include "build/weights/laplacian_order.h"
 
-enum { LANES = SBFI_HEAT_LANES, MOST_ITERATIONS = 1000 };
+enum { LANES = SBFI_HEAT_LANES, MAX_ITERATIONS = 1000 };
 /* How fast heat flows from the bone; the least distance that counts; the residual at which it is solved,
  * against that of the right side; what is too little to keep. */
-static const double HEAT = 3, LEAST_DISTANCE = 0.02, TOLERANCE = 5e-4, LEAST_WEIGHT = 5e-4;
+static const double HEAT = 3, MIN_DISTANCE = 0.02, TOLERANCE = 5e-4, MIN_WEIGHT = 5e-4;
 
 /* Single precision: a solution to some thousandths needs no more, and memory is what limits the speed. Sums
  * are double. */
@@ -39,7 +39,7 @@ static bool make_system(
   s->z = sbfi_arena_allocate(arena, count, sizeof *s->z);
   if (!s->heat || !s->x || !s->r || !s->p || !s->q || !s->z) return false;
   for (uint32_t i = 0; i < count; i++) {
-    double distance = fmax((double)nearest[s->sites[i]].distance, LEAST_DISTANCE);
+    double distance = fmax((double)nearest[s->sites[i]].distance, MIN_DISTANCE);
     s->heat[i] = HEAT * fmax(mesh->areas[s->sites[i]], 1e-12) / (distance * distance);
   }
   return sbfi_heat_preconditioner_make(&s->preconditioner, &s->laplacian, s->heat, s->count, arena);
@@ -109,7 +109,7 @@ static void turn_search(const heat_system *s, const sums beta) {
 static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES]) {
   sums rz, limits, pq, alpha, beta, rz_next;
   begin(s, nearest, bones, rz, limits);
-  for (uint32_t iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
+  for (uint32_t iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
     bool is_solved = true;
     for (int k = 0; k < LANES; k++) is_solved &= rz[k] <= limits[k];
     if (is_solved) return iteration;
@@ -124,7 +124,7 @@ static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const ui
     }
     turn_search(s, beta);
   }
-  return MOST_ITERATIONS;
+  return MAX_ITERATIONS;
 }
 
 /* Takes a weight in among the greatest of a site; of equals the first stays before. */
@@ -160,7 +160,7 @@ bool sbfi_heat_weights_solve(const sbfi_weight_mesh *mesh, const sbfi_nearest_bo
     *iterations = taken > *iterations ? taken : *iterations;
     for (uint32_t i = 0; i < s.count; i++)
       for (uint32_t k = 0; k < count; k++)
-        if ((double)s.x[i][k] > LEAST_WEIGHT) insert(&weights[s.sites[i]], group[k], s.x[i][k]);
+        if ((double)s.x[i][k] > MIN_WEIGHT) insert(&weights[s.sites[i]], group[k], s.x[i][k]);
   }
   return true;
 }

@@ -31,25 +31,25 @@ static bool is_past_joint(const sbfi_bone_segment *parent, const sbfi_bone_segme
 }
 
 /* Whether a bone is nearer than the nearest so far. `least` is the distance of that. */
-static bool is_nearer(const sbfi_bone_segment *segments, const sbfi_nearest_bone *nearest, double least,
+static bool is_nearer(const sbfi_bone_segment *segments, const sbfi_nearest_bone *nearest, double min,
     uint32_t bone, double straight, double distance, sbfi_d3 at) {
-  if (isfinite(least) && segments[nearest->bone].next == (int32_t)bone &&
+  if (isfinite(min) && segments[nearest->bone].next == (int32_t)bone &&
       fabs(straight - (double)nearest->distance) <= AT_JOINT * straight &&
-      fabs(distance - least) <= NEARLY * least)
+      fabs(distance - min) <= NEARLY * min)
     return is_past_joint(&segments[nearest->bone], &segments[bone], at);
-  return distance < least * (1 - TIE); /* of equals the first */
+  return distance < min * (1 - TIE); /* of equals the first */
 }
 
 bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_grid *grid, const sbfi_bone_segment *segments, const sbfi_bone_reach *reach,
     sbfi_nearest_bone *nearest, sbfi_arena *arena) {
   sbfi_body_paths paths;
-  double *least = sbfi_arena_allocate(arena, mesh->site_count, sizeof *least);
+  double *min = sbfi_arena_allocate(arena, mesh->site_count, sizeof *min);
   double *factors = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *factors);
   int32_t *cells = sbfi_arena_allocate(arena, mesh->site_count, sizeof *cells);
-  if (!least || !factors || !cells || !sbfi_body_paths_make(&paths, grid, arena)) return false;
+  if (!min || !factors || !cells || !sbfi_body_paths_make(&paths, grid, arena)) return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
-    least[i] = INFINITY;
+    min[i] = INFINITY;
     cells[i] = grid->cell_of_box[sbfi_body_box_at(grid, sbfi_d3_of(mesh->sites[i]))];
   }
   uint32_t next_share = 0;
@@ -62,9 +62,9 @@ bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mes
       double straight = sqrt(sbfi_segment_distance2(&segments[b], sbfi_d3_of(mesh->sites[i])));
       double path = cells[i] == SBF_NONE ? straight : (double)paths.distances[cells[i]] / SBFI_BODY_CELLS;
       double distance = fmax(path / DETOUR, straight) * scale * factors[mesh->shell_of_site[i]];
-      if (!is_nearer(segments, &nearest[i], least[i], b, straight, distance, sbfi_d3_of(mesh->sites[i])))
+      if (!is_nearer(segments, &nearest[i], min[i], b, straight, distance, sbfi_d3_of(mesh->sites[i])))
         continue;
-      least[i] = distance;
+      min[i] = distance;
       nearest[i] = (sbfi_nearest_bone){b, (float)straight};
     }
   }

@@ -70,19 +70,19 @@ static bool tie_shells(const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_aren
   for (uint32_t s = 0; s < m->shell_count; s++) {
     const uint32_t *sites = m->sites_by_shell + m->shells[s].first_site;
     const other_shells of = {m, s};
-    double least = INFINITY;
+    double min = INFINITY;
     for (uint32_t i = 0; i < m->shells[s].site_count; i++) {
       sbf_vec3 at = m->sites[sites[i]];
       /* No farther than would be tied. */
-      double within = fmax(4 * least, TIE_DISTANCE * TIE_DISTANCE);
-      squared[i] = isfinite(least) ? within * (1 + 1e-9) : INFINITY;
+      double within = fmax(4 * min, TIE_DISTANCE * TIE_DISTANCE);
+      squared[i] = isfinite(min) ? within * (1 + 1e-9) : INFINITY;
       other[i] = sbfi_box_tree_nearest(
           &tree, (double[]){(double)at.x, (double)at.y, (double)at.z}, distance_to_other, &of, &squared[i]);
-      if (other[i] != UINT32_MAX) least = fmin(least, squared[i]);
+      if (other[i] != UINT32_MAX) min = fmin(min, squared[i]);
     }
-    double most = fmax(4 * least, TIE_DISTANCE * TIE_DISTANCE);
+    double max = fmax(4 * min, TIE_DISTANCE * TIE_DISTANCE);
     for (uint32_t i = 0; i < m->shells[s].site_count; i++)
-      if (other[i] != UINT32_MAX && squared[i] <= most && !add_both(entries, sites[i], other[i], TIE_WEIGHT))
+      if (other[i] != UINT32_MAX && squared[i] <= max && !add_both(entries, sites[i], other[i], TIE_WEIGHT))
         return false;
   }
   return true;

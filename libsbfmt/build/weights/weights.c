@@ -1,6 +1,7 @@
 #include "build/weights/weights.h"
 
 #include "build/weights/body_bridges.h"
+#include "build/weights/bone_fit.h"
 #include "build/weights/shell_weights.h"
 
 typedef struct work {
@@ -43,6 +44,7 @@ static bool compute(work *w, sbfi_weights_figures *figures) {
   if (!sbfi_bone_reach_find(&w->reach, in, &w->mesh, &w->rays, w->segments, w->sizes, arena) ||
       !sbfi_body_grid_make(&w->grid, &w->mesh, &w->rays, arena) || !sbfi_body_bridges_make(&w->grid, arena) ||
       !sbfi_nearest_bones_find(in, &w->mesh, &w->grid, w->segments, &w->reach, w->nearest, arena) ||
+      !sbfi_bone_fit_measure(&w->mesh, &w->rays, w->segments, in->bone_count, w->nearest, figures, arena) ||
       !sbfi_heat_weights_solve(&w->mesh, w->nearest, in->bone_count, w->weights, &figures->iterations, arena))
     return false;
   figures->cell_count = w->grid.cell_count;
@@ -50,19 +52,31 @@ static bool compute(work *w, sbfi_weights_figures *figures) {
       &w->mesh, w->segments, in->bone_count, &w->reach, w->weights, figures, arena);
 }
 
-/* The bytes of an output array of `point_count` items of so many bytes; the sizes were checked by the input.
- */
-static void *allocate_output(sbfi_weights *out, size_t size) {
+static void *allocate_output(sbfi_weights *out, uint32_t count, size_t size) {
   size_t bytes;
-  if (!sbfi_multiply_size(out->point_count, size, &bytes)) return NULL;
+  if (!sbfi_multiply_size(count, size, &bytes)) return NULL;
   return sbfi_allocate(&out->allocator, bytes);
 }
 
+static void measure_idle_bones(const work *w, sbfi_weights *out) {
+  double whole = 0;
+  for (uint32_t b = 0; b < out->bone_count; b++) {
+    double length = sbfi_d3_length(sbfi_d3_sub(w->segments[b].tail, w->segments[b].head));
+    out->idle_lengths[b] = w->segments[b].is_deforming ? (float)length : 0;
+    whole += (double)out->idle_lengths[b];
+  }
+  for (uint32_t i = 0; i < w->mesh.site_count; i++) out->idle_lengths[w->nearest[i].bone] = 0;
+  for (uint32_t b = 0; b < out->bone_count; b++)
+    out->idle_lengths[b] = whole > 0 ? (float)((double)out->idle_lengths[b] / whole) : 0;
+}
+
 static bool hand_out(const work *w, sbfi_weights *out) {
-  out->joints = allocate_output(out, sizeof *out->joints);
-  out->weights = allocate_output(out, sizeof *out->weights);
-  out->shell_of_point = allocate_output(out, sizeof *out->shell_of_point);
-  if (!out->joints || !out->weights || !out->shell_of_point) return false;
+  out->joints = allocate_output(out, out->point_count, sizeof *out->joints);
+  out->weights = allocate_output(out, out->point_count, sizeof *out->weights);
+  out->shell_of_point = allocate_output(out, out->point_count, sizeof *out->shell_of_point);
+  out->idle_lengths = allocate_output(out, out->bone_count, sizeof *out->idle_lengths);
+  if (!out->joints || !out->weights || !out->shell_of_point || !out->idle_lengths) return false;
+  measure_idle_bones(w, out);
   for (uint32_t i = 0; i < out->point_count; i++) {
     uint32_t site = w->mesh.site_of_point[i];
     out->shell_of_point[i] = w->mesh.shell_of_site[site];
@@ -104,8 +118,9 @@ static sbf_status run(work *w, sbfi_weights *out, sbf_diagnostic *error) {
 
 sbf_status sbfi_compute_weights(const sbfi_weights_input *in, sbfi_weights *out, sbf_diagnostic *error) {
   work w = {.in = in};
-  *out =
-      (sbfi_weights){.allocator = sbfi_allocator_or_default(in->allocator), .point_count = in->point_count};
+  *out = (sbfi_weights){.allocator = sbfi_allocator_or_default(in->allocator),
+      .point_count = in->point_count,
+      .bone_count = in->bone_count};
   sbfi_arena_init(&w.arena, in->allocator, 0);
   sbf_status status = run(&w, out, error);
   sbfi_arena_free(&w.arena);
@@ -117,5 +132,6 @@ void sbfi_weights_free(sbfi_weights *w) {
   sbfi_free(&w->allocator, w->joints, w->point_count * sizeof *w->joints);
   sbfi_free(&w->allocator, w->weights, w->point_count * sizeof *w->weights);
   sbfi_free(&w->allocator, w->shell_of_point, w->point_count * sizeof *w->shell_of_point);
+  sbfi_free(&w->allocator, w->idle_lengths, w->bone_count * sizeof *w->idle_lengths);
   *w = (sbfi_weights){0};
 }

@@ -40,6 +40,10 @@ typedef struct sbfi_weights_figures {
   uint32_t cell_count;        /* of the voxel grid, inside the body or on its surface */
   uint32_t unused_bone_count; /* deforming bones that hold no point */
   uint32_t iterations;        /* of the conjugate gradients, the most of any group of bones */
+  uint32_t deforming_count;   /* bones that may hold points */
+  double inside;              /* share of their length inside the body, to their tips */
+  double bone_extent;         /* their longest side by that of the surface, without the thin ends of that */
+  double median_distance;     /* from the surface to its bone, by half the thickness of the body there */
 } sbfi_weights_figures;
 
 /* Arrays of `sbfi_weights_free`'s. */
@@ -47,9 +51,12 @@ typedef struct sbfi_weights {
   uint32_t (*joints)[SBFI_WEIGHTS_PER_POINT]; /* (point_count) bones, the greatest weight first */
   float (*weights)[SBFI_WEIGHTS_PER_POINT];   /* (point_count) 0..1, sum 1; 0 where a joint is not used */
   uint32_t *shell_of_point;                   /* (point_count) numbered by first point */
+  /* (bone_count) Length of a bone that is nearest to no point, as a share of that of all bones that may hold
+   * some; 0 for others. Such a bone lies deep in the body, as a limb of another character. */
+  float *idle_lengths;
   sbfi_weights_figures figures;
   sbf_allocator allocator;
-  uint32_t point_count;
+  uint32_t point_count, bone_count;
 } sbfi_weights;
 
 /* Fills `*out`, to be freed with sbfi_weights_free. On failure `*out` is empty and `*error` says why:

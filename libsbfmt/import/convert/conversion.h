@@ -21,11 +21,12 @@ typedef struct sbfi_conversion {
   sbf_asset *asset;
   sbfi_arena scratch;
   sbfi_id_set ids;
-  int32_t *bone_of_node;     /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
-  uint32_t *node_of_bone;    /* (asset->bones.count) */
-  int32_t *bone_of_mesh;     /* (scene->mesh_count) bone that carries each mesh, or SBF_NONE */
-  const char **name_of_mesh; /* (scene->mesh_count) what the section is called */
-  bool keep_misfit;          /* it fails, and the asset shows why: the caller of the library gets it */
+  int32_t *bone_of_node;              /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
+  uint32_t *node_of_bone;             /* (asset->bones.count) */
+  int32_t *bone_of_mesh;              /* (scene->mesh_count) bone that carries each mesh, or SBF_NONE */
+  const char **name_of_mesh;          /* (scene->mesh_count) what the section is called */
+  struct sbfi_locomotion *locomotion; /* how it moves, and why; NULL until judged */
+  bool keep_misfit; /* it fails, and the asset shows why: the caller of the library gets it */
   const sbf_convert_options *options;
   sbfi_reporter reporter;
   sbf_diagnostic *error;
@@ -40,6 +41,9 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
+/* After the meshes: how the character moves (c->locomotion), by its shape, its names and its clips, or as the
+ * caller says. */
+sbf_status sbfi_evaluate_gait(sbfi_conversion *c);
 /* After the meshes: turns what would walk sideways or backwards so that it looks along +Z. */
 sbf_status sbfi_face_ahead(sbfi_conversion *c);
 /* After the gait: moves what walks onto y = 0. */

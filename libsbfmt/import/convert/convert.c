@@ -14,7 +14,10 @@
 #include "import/convert/convert_tets.h"
 #include "import/convert/guess_moduli.h"
 #include "import/convert/propose_limits.h"
+#include "import/convert/propose_softness.h"
+#include "import/gait/locomotion.h"
 #include "import/gait/propose_gait.h"
+#include "import/gait/rest_pose.h"
 #include "import/paper/dialect2012.h"
 #include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
@@ -130,10 +133,13 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
       sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials,
-      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_face_ahead, sbfi_propose_gait, sbfi_stand_on_ground,
-      sbfi_convert_joints, sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips};
+      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_evaluate_gait, sbfi_face_ahead, sbfi_propose_gait,
+      sbfi_stand_on_ground, sbfi_convert_joints, sbfi_convert_attachments, sbfi_propose_limits,
+      sbfi_convert_clips, sbfi_propose_rest_pose, sbfi_propose_softness};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
-    if ((passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait) && options->no_gait) continue;
+    bool of_gait =
+        passes[i] == sbfi_evaluate_gait || passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait;
+    if (of_gait && options->no_gait) continue;
     if (passes[i] == sbfi_face_ahead && options->forward) continue;
     sbf_status status = passes[i](c);
     if (status != SBF_OK) return status;
@@ -288,6 +294,9 @@ sbf_status sbf_convert(
   const char *forward = options->forward ? options->forward + (options->forward[0] == '-') : "x";
   if (strcmp(forward, "x") != 0 && strcmp(forward, "y") != 0 && strcmp(forward, "z") != 0)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "forward is one of x, -x, y, -y, z and -z");
+  if (options->gait && sbfi_locomotion_named(options->gait) == SBFI_LOCOMOTION_KINDS)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "gait is one of walk, swim, fly, slither, crawl, roll and none, not '%s'", options->gait);
   if ((unsigned)options->limits > SBF_CONVERT_LIMITS_REPTILE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options name no known kind of limits");
   if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&

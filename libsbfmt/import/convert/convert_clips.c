@@ -271,9 +271,9 @@ static bool ends_as_it_begins(const clip_work *w, const sbf_track_list *tracks) 
     const sbf_track *track = &tracks->at[i];
     uint32_t last = track->times.count ? track->times.count - 1 : 0;
     if (last == 0 || track->property == SBF_TRACK_PROPERTY_SCALE) continue;
-    double most = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_WAY * w->size;
-    for (uint32_t k = 0; k < last; k++) most = fmax(most, LOOP_STEPS * step_between(track, k, k + 1));
-    if (step_between(track, last, 0) > most) return false;
+    double max = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_WAY * w->size;
+    for (uint32_t k = 0; k < last; k++) max = fmax(max, LOOP_STEPS * step_between(track, k, k + 1));
+    if (step_between(track, last, 0) > max) return false;
   }
   return true;
 }

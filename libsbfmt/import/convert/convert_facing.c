@@ -1,6 +1,6 @@
 /* Which way ahead is: in asset space a character looks along +Z, whatever its file had it look along. */
 #include "import/convert/conversion.h"
-#include "import/gait/gait_draft.h"
+#include "import/gait/locomotion.h"
 #include "motion/turn.h"
 
 /* All of these turn back what has been turned by a number of quarters about +Y. */
@@ -45,7 +45,11 @@ sbf_status sbfi_face_ahead(sbfi_conversion *c) {
   static const char *const ways[4] = {"+Z", "+X", "-Z", "-X"};
   uint32_t quarters = 0;
   if (c->asset->bones.count == 0) return SBF_OK;
-  if (!sbfi_draft_facing(c->asset, &c->scratch, &quarters)) return sbfi_convert_no_memory(c);
+  const sbfi_locomotion *moves = c->locomotion;
+  bool good = !moves || moves->kind == SBFI_LOCOMOTION_WALK
+                  ? sbfi_draft_facing(c->asset, &c->scratch, &quarters)
+                  : sbfi_front_turns(c->asset, moves->turns, moves->kind, &c->scratch, &quarters);
+  if (!good) return sbfi_convert_no_memory(c);
   if (quarters == 0) return SBF_OK;
   turn_asset(quarters, c->asset);
   turn_matrix(quarters, &c->to_asset);

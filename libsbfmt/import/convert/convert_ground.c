@@ -55,8 +55,7 @@ sbf_status sbfi_stand_on_ground(sbfi_conversion *c) {
   lift_asset(c->asset, -s.low);
   c->lift_m = -s.low;
   sbfi_convert_warn(c, SBF_CODE_IMPORT_GROUND,
-      "the character's feet are at y = %.3g m and not at 0, where the ground is: all of it was moved by %.3g "
-      "m",
-      s.low, -s.low);
+      "the character's %s at y = %.3g m and not at 0, where the ground is: all of it was moved by %.3g m",
+      c->asset->gaits.at[0].legs.count ? "feet are" : "lowest point is", s.low, -s.low);
   return SBF_OK;
 }

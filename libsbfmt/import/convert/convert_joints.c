@@ -88,11 +88,11 @@ static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_p
   const sbf_skin *skin = mesh->skin;
   uint32_t at = 0;
   for (uint32_t i = 0; skin && i < skin->influence_counts.count; at += skin->influence_counts.at[i++]) {
-    uint32_t most = at;
+    uint32_t max = at;
     for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
-      if (skin->weights.at[s] > skin->weights.at[most]) most = s;
+      if (skin->weights.at[s] > skin->weights.at[max]) max = s;
     if (skin->influence_counts.at[i] == 0) continue;
-    uint32_t bone = skin->bones.at[most];
+    uint32_t bone = skin->bones.at[max];
     body_place *place = &places[owners ? owners[bone] : bone];
     if (place->section_count) continue;
     sbf_vec3 p = mesh->mesh.positions.at[i];

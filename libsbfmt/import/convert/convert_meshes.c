@@ -53,7 +53,7 @@ static sbf_status place_skinned(
 }
 
 /* Below this share of area^1.5 a volume is that of a sheet's two sides (a sphere has 0.094). */
-static const double LEAST_VOLUME = 1e-3;
+static const double MIN_VOLUME = 1e-3;
 
 /* Whether a surface encloses its volume from the wrong side: closed, its polygons of one mind, all inwards.
  */
@@ -69,7 +69,7 @@ static sbf_status find_inside_out(sbfi_conversion *c, const sbf_polygon_mesh *me
   if (!good) return sbfi_convert_no_memory(c);
   if (!*inside_out) return SBF_OK;
   sbf_surface_measure(mesh, NULL, &measures);
-  *inside_out = measures.volume < -LEAST_VOLUME * pow(measures.area, 1.5);
+  *inside_out = measures.volume < -MIN_VOLUME * pow(measures.area, 1.5);
   return SBF_OK;
 }
 
@@ -87,13 +87,13 @@ static void write_polygons(
 }
 
 /* Below this share of its extent squared an area is none: points that were in a line, rounded. */
-static const double LEAST_AREA = 1e-7;
+static const double MIN_AREA = 1e-7;
 
 /* All polygons are lines or points: there is nothing to see, and nothing that could have a mass. */
 static bool has_no_area(const sbf_polygon_mesh *mesh) {
   sbf_surface_measures measures;
   sbf_surface_measure(mesh, NULL, &measures);
-  return mesh->polygon_sizes.count && measures.area <= LEAST_AREA * pow(sbfi_extent(mesh->positions), 2);
+  return mesh->polygon_sizes.count && measures.area <= MIN_AREA * pow(sbfi_extent(mesh->positions), 2);
 }
 
 /* Points and polygons in asset space, counter-clockwise from outside: a mirroring transform turns every
@@ -243,7 +243,7 @@ static sbf_status convert_slots(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
 }
 
 /* Exporters round weights; where this much of them is missing, they named joints that are not there. */
-static const double LEAST_WEIGHT_SUM = 0.9;
+static const double MIN_WEIGHT_SUM = 0.9;
 
 static void report_weights(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t unweighted, uint32_t lost) {
@@ -257,7 +257,7 @@ static void report_weights(
         "object '%s': the weights of %u points sum to less than %g, as where joints are named that the file "
         "does "
         "not have; they were scaled to 1: export the skin again",
-        name, lost, LEAST_WEIGHT_SUM);
+        name, lost, MIN_WEIGHT_SUM);
 }
 
 /* Weights on bones, those of a point summing to one; a point without weights follows the mesh's own place. */
@@ -281,7 +281,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       weights[at++] = 1;
       continue;
     }
-    lost += sum < LEAST_WEIGHT_SUM;
+    lost += sum < MIN_WEIGHT_SUM;
     for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++) {
       int32_t bone = c->bone_of_node[mesh->joints[mesh->skin_joints[s]].node];
       counts[i]++;

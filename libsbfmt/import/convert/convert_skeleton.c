@@ -112,7 +112,8 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
         .parent = above,
         .head = column(&world, 3),
         .x = column(&world, 0),
-        .y = column(&world, 1)};
+        .y = column(&world, 1),
+        .neighbor = SBF_NONE};
     c->bone_of_node[i] = (int32_t)s.count++;
   }
   sbfi_draft_continue(&s);

@@ -39,8 +39,8 @@ static bool is_hidden(const sbfi_skins *skins, sbfi_d3 point, double squared_rea
   const sbf_vec3 at = {(float)point.x, (float)point.y, (float)point.z};
   for (uint32_t s = 0; s < skins->count; s++) {
     const sbfi_winding *winding = &skins->at[s].winding;
-    double least = squared_reach;
-    if (sbfi_triangle_tree_nearest(&skins->at[s].surface, at, &least) != UINT32_MAX) return true;
+    double min = squared_reach;
+    if (sbfi_triangle_tree_nearest(&skins->at[s].surface, at, &min) != UINT32_MAX) return true;
     if (fabs(sbfi_winding_of_closed(winding, point) - sbfi_winding_of_caps(winding, point)) >= ENCLOSED)
       return true;
   }

@@ -5,21 +5,6 @@
 /* How often the length of the bone before it a limb's last bone may have. */
 static const double LONGEST_TIP = 3;
 
-/* Points go to the joint that holds most of them. */
-static void count_points(const sbfi_conversion *c, sbfi_skeleton_draft *s) {
-  for (uint32_t m = 0; m < c->rig->mesh_count; m++) {
-    const sbfi_scene_mesh *mesh = &c->rig->meshes[m];
-    for (uint32_t i = 0; mesh->joint_count && i < mesh->point_count; i++) {
-      uint32_t most = mesh->skin_starts[i], end = mesh->skin_starts[i + 1];
-      if (most == end) continue;
-      for (uint32_t k = most; k < end; k++)
-        if (mesh->skin_weights[k] > mesh->skin_weights[most]) most = k;
-      int32_t bone = c->bone_of_node[mesh->joints[mesh->skin_joints[most]].node];
-      if (bone != SBF_NONE) s->bones[bone].points++;
-    }
-  }
-}
-
 /* Moved by hand: it holds skin and hangs on nothing, or on a root that holds none. */
 static bool is_detached(const sbfi_skeleton_draft *s, uint32_t bone) {
   int32_t parent = s->bones[bone].parent;
@@ -61,8 +46,10 @@ bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
   bool moved = false;
   /* All are found before any is moved, so that their order does not matter. Where bones do not run along +Y
    * the last one of a limb does not say where it points. */
-  for (uint32_t i = 0; i < s->count; i++)
-    limbs[i] = s->along_y && is_detached(s, i) ? find_limb(s, i) : SBF_NONE;
+  for (uint32_t i = 0; i < s->count; i++) {
+    limbs[i] = s->bones[i].neighbor;
+    if (limbs[i] == SBF_NONE && s->along_y && is_detached(s, i)) limbs[i] = find_limb(s, i);
+  }
   for (uint32_t i = 0; i < s->count; i++) {
     if (limbs[i] != SBF_NONE && hangs_below(s, limbs[i], (int32_t)i)) limbs[i] = SBF_NONE;
     if (limbs[i] == SBF_NONE) continue;
@@ -73,16 +60,14 @@ bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
 }
 
 sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
-  count_points(c, s);
+  if (!sbfi_find_neighbors(c, s)) return sbfi_convert_no_memory(c);
   int32_t *limbs = sbfi_arena_allocate(&c->scratch, s->count, sizeof *limbs);
   if (!limbs) return sbfi_convert_no_memory(c);
   if (!sbfi_hang_on_limbs(s, limbs)) return SBF_OK;
   for (uint32_t i = 0; i < s->count; i++) {
     if (limbs[i] == SBF_NONE) continue;
     sbfi_convert_warn(c, SBF_CODE_RIG_BONE_REHUNG,
-        "bone '%s' holds the skin where '%s' ends but hangs on the root, to be moved by hand: it now hangs "
-        "on "
-        "'%s'",
+        "bone '%s' belongs where '%s' ends but hangs on the root, to be moved by hand: it now hangs on '%s'",
         c->rig->nodes[s->bones[i].node].name, c->rig->nodes[s->bones[limbs[i]].node].name,
         c->rig->nodes[s->bones[limbs[i]].node].name);
   }

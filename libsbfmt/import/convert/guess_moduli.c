@@ -8,18 +8,18 @@
 
 /* Flesh around a bone hangs on it all along: it has to bear what lies between bone and skin alone, and a
  * quarter of strain there still looks as it was drawn. */
-static const double MOST_FLESH_STRAIN = 0.25;
+static const double MAX_FLESH_STRAIN = 0.25;
 
 /* What a guess is about, and how it went. */
 typedef struct guesses {
-  double least, most; /* Pa */
+  double min, max; /* Pa */
   unsigned count;
 } guesses;
 
 static void guess(guesses *made, sbf_attributes *attributes, double modulus) {
   attributes->young_modulus = (float)modulus;
-  made->least = made->count ? fmin(made->least, modulus) : modulus;
-  made->most = fmax(made->most, modulus);
+  made->min = made->count ? fmin(made->min, modulus) : modulus;
+  made->max = fmax(made->max, modulus);
   made->count++;
 }
 
@@ -36,7 +36,7 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
     double density = (double)body->attributes.density;
     if (body->bone != SBF_NONE) {
       guess(&sections, &body->attributes,
-          sbfi_modulus_to_bear(flesh, density, measures.depth, MOST_FLESH_STRAIN));
+          sbfi_modulus_to_bear(flesh, density, measures.depth, MAX_FLESH_STRAIN));
       continue;
     }
     double modulus = sbfi_standing_modulus(&body->attributes, &body->surface);
@@ -46,13 +46,13 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
         "no material is given for %u section%s: flesh of %.6g kPa is taken%s; give one, as by --material "
         "muscle",
-        sections.count, sections.count == 1 ? "" : "s", 1e-3 * sections.most,
-        sections.most > sections.least ? " for the thickest" : "");
+        sections.count, sections.count == 1 ? "" : "s", 1e-3 * sections.max,
+        sections.max > sections.min ? " for the thickest" : "");
   if (standing.count)
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
         "no material is given for %u bod%s, too heavy for the usual modulus: %.6g kPa are taken%s; give one, "
         "as "
         "by --material rubber",
-        standing.count, standing.count == 1 ? "y" : "ies", 1e-3 * standing.most,
-        standing.most > standing.least ? " for the largest" : "");
+        standing.count, standing.count == 1 ? "y" : "ies", 1e-3 * standing.max,
+        standing.max > standing.min ? " for the largest" : "");
 }

@@ -12,8 +12,9 @@ typedef struct sbfi_bone_draft {
   uint32_t below;     /* bones that hang on it */
   int32_t next;       /* the child that continues it, or SBF_NONE */
   sbfi_d3 along;      /* from its head to that child's; 0 where there is none */
-  sbfi_d3 tip;     /* from its head to the end that the file marks without a bone (BVH end sites); else 0 */
-  uint32_t points; /* of skins that it holds more than any other bone does */
+  sbfi_d3 tip;      /* from its head to the end that the file marks without a bone (BVH end sites); else 0 */
+  uint32_t points;  /* of skins that it holds more than any other bone does */
+  int32_t neighbor; /* the bone whose skin meets that of this detached one, or SBF_NONE */
 } sbfi_bone_draft;
 
 typedef struct sbfi_skeleton_draft {
@@ -36,6 +37,9 @@ void sbfi_draft_continue(sbfi_skeleton_draft *s);
  * a bone is hung where its limb ends, and a note says so. Afterwards parents may stand behind their children.
  */
 sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s);
+
+/* Finds `neighbor` and `points` of every bone from the rig's skins; false: memory ran out. */
+bool sbfi_find_neighbors(sbfi_conversion *c, sbfi_skeleton_draft *s);
 
 /* The same of a draft whose points are counted: `limbs` (s->count) receives the bone that each now hangs on,
  * SBF_NONE where it stays. Whether any was hung elsewhere. */

@@ -27,7 +27,8 @@ sbf_status sbf_convert_gait(sbf_asset *asset, const sbf_convert_options *options
       .error = error};
   sbfi_arena_init(&c.scratch, taken.allocator, 0);
   sbfi_array_init(&c.ids.slots, taken.allocator, sizeof(char *));
-  sbf_status status = know_ids(&c) ? sbfi_propose_gait(&c) : sbfi_convert_no_memory(&c);
+  sbf_status status = know_ids(&c) ? sbfi_evaluate_gait(&c) : sbfi_convert_no_memory(&c);
+  if (status == SBF_OK) status = sbfi_propose_gait(&c);
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);
   return status;

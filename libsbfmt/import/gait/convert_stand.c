@@ -22,6 +22,7 @@ static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t
         .head = sbfi_d3_of(bone->head),
         .y = {along[0], along[1], along[2]},
         .next = SBF_NONE,
+        .neighbor = SBF_NONE,
         .points = d->shapes[i].points};
   }
   sbfi_draft_continue(&s);

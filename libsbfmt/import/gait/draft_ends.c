@@ -1,11 +1,11 @@
-/* Head and tail, by name first and then by shape; of a rig without legs the body that is dragged along. */
+/* Head and tail, by name first and then by shape. */
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
 
-enum { LEAST_TAIL = 2, LEAST_SPINE = 4 }; /* bones that count as one by their shape alone */
+enum { MIN_TAIL = 2 }; /* bones that count as one by their shape alone */
 
 /* Whether a name holds a word, whatever its case. */
 static bool says(const char *name, const char *word) {
@@ -87,7 +87,7 @@ static uint32_t follow(const sbfi_gait_draft *d, int32_t first, uint32_t *bones)
 
 /* A chain that leads back from behind the hips, longer than it drops, and ends in nothing. */
 static bool leads_back(const sbfi_gait_draft *d, const uint32_t *bones, uint32_t count) {
-  if (count < LEAST_TAIL || d->shapes[bones[count - 1]].children) return false;
+  if (count < MIN_TAIL || d->shapes[bones[count - 1]].children) return false;
   const sbf_vec3 from = sbfi_draft_bone(d, (int32_t)bones[0])->head;
   const sbf_vec3 to = sbfi_draft_bone(d, (int32_t)bones[count - 1])->head;
   double back = (double)from.z - (double)to.z, rearmost = INFINITY;
@@ -120,65 +120,4 @@ bool sbfi_draft_ends(sbfi_gait_draft *d) {
   d->head = head_by_name(d);
   if (d->head == SBF_NONE) d->head = head_by_shape(d);
   return find_tail(d);
-}
-
-/* --- Without legs ------------------------------------------------------------------------------------ */
-
-typedef struct reach_down {
-  double length; /* m, to the far end of the longest way down */
-  int32_t next;  /* the child on that way */
-} reach_down;
-
-/* The longest way between two ends of the tree has its topmost bone where the two longest ways down meet. */
-static int32_t find_top(const sbfi_gait_draft *d, reach_down *first, reach_down *second) {
-  double longest = 0;
-  int32_t top = SBF_NONE;
-  for (uint32_t i = d->asset->bones.count; i-- > 0;) {
-    const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
-    if (!is_middle(d, (int32_t)i)) continue;
-    if (first[i].next == SBF_NONE) first[i].length = (double)bone->length;
-    double through = first[i].length + second[i].length;
-    if (through > longest) {
-      longest = through;
-      top = (int32_t)i;
-    }
-    if (bone->parent == SBF_NONE) continue;
-    reach_down down = {first[i].length + sbfi_draft_distance(d, bone->parent, (int32_t)i), (int32_t)i};
-    reach_down *one = &first[bone->parent], *two = &second[bone->parent];
-    if (one->next == SBF_NONE || down.length > one->length) {
-      *two = *one;
-      *one = down;
-    } else if (two->next == SBF_NONE || down.length > two->length) {
-      *two = down;
-    }
-  }
-  return top;
-}
-
-/* Bones of a way down that hold something: a control between them is none of the body. Returns whether the
- * head is on it. */
-static bool take_down(sbfi_gait_draft *d, const reach_down *first, int32_t bone) {
-  bool has_head = false;
-  d->spine_count = 0;
-  for (; bone != SBF_NONE; bone = first[bone].next) {
-    has_head = has_head || bone == d->head;
-    if (!d->has_mesh || d->shapes[bone].points) d->spine[d->spine_count++] = (uint32_t)bone;
-  }
-  return has_head;
-}
-
-bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch) {
-  uint32_t count = d->asset->bones.count;
-  reach_down *first = sbfi_arena_allocate(scratch, count, sizeof *first);
-  reach_down *second = sbfi_arena_allocate(scratch, count, sizeof *second);
-  d->spine = sbf_asset_allocate(d->asset, count, sizeof *d->spine);
-  if (!first || !second || !d->spine) return false;
-  for (uint32_t i = 0; i < count; i++) first[i].next = second[i].next = SBF_NONE;
-  d->head = head_by_name(d);
-  int32_t top = find_top(d, first, second);
-  /* What is dragged along is the way that does not lead to the head, where there are two. */
-  if (top != SBF_NONE && take_down(d, first, top) && second[top].next != SBF_NONE)
-    take_down(d, first, second[top].next);
-  if (d->spine_count < LEAST_SPINE) d->spine_count = 0;
-  return true;
 }

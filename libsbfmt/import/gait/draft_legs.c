@@ -9,12 +9,13 @@
 
 #include "import/gait/gait_draft.h"
 
-static const double GROUND_SHARE = 0.05;  /* of the height: a leg ends no higher above the ground */
-static const double FOOT_SHARE = 0.02;    /* of the height: what stands as low as the leg's lowest point */
-static const double HIP_SHARE = 0.05;     /* of the height: a leg begins higher than that above its sole */
-static const double LEAST_SEGMENT = 0.05; /* share of the reach that thigh and shin have at least */
-static const double LONG_FOOT = 0.25;     /* share of the reach: a foot so long leans over its toe, */
-static const double HIGH_ANKLE = 0.7;     /* where its ankle is so high, in shares of the hip's height */
+static const double GROUND_SHARE = 0.05; /* of the height: a leg ends no higher above the ground */
+static const double LIFTED_SHARE = 0.2;  /* the same of the twin of a leg, in a rig bound in mid stride */
+static const double FOOT_SHARE = 0.02;   /* of the height: what stands as low as the leg's lowest point */
+static const double HIP_SHARE = 0.05;    /* of the height: a leg begins higher than that above its sole */
+static const double MIN_SEGMENT = 0.05;  /* share of the reach that thigh and shin have at least */
+static const double LONG_FOOT = 0.25;    /* share of the reach: a foot so long leans over its toe, */
+static const double HIGH_ANKLE = 0.7;    /* where its ankle is so high, in shares of the hip's height */
 
 /* The child by which the ground is reached; the longer way where several reach it. */
 static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
@@ -23,6 +24,19 @@ static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
     const sbfi_bone_shape *shape = &d->shapes[i];
     if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !shape->bears) continue;
     if (best == SBF_NONE || shape->low_below < d->shapes[best].low_below) best = (int32_t)i;
+  }
+  return best;
+}
+
+/* A child that holds nothing but marks where the last bone of a leg ends, well below its head. */
+static int32_t ankle_mark(const sbfi_gait_draft *d, int32_t bone) {
+  double head = (double)sbfi_draft_bone(d, bone)->head.y, lowest = 0.5 * (head + d->ground);
+  int32_t best = SBF_NONE;
+  for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
+    const sbf_bone *child = sbfi_draft_bone(d, (int32_t)i);
+    if (child->parent != bone || d->shapes[i].bears || (double)child->head.y >= lowest) continue;
+    lowest = (double)child->head.y;
+    best = (int32_t)i;
   }
   return best;
 }
@@ -41,7 +55,7 @@ static bool choose_bones(const sbfi_gait_draft *d, const int32_t *way, uint32_t 
   for (uint32_t i = 0; i + 2 < count; i++) {
     double thigh = sbfi_draft_distance(d, way[i], way[i + 1]);
     double shin = sbfi_draft_distance(d, way[i + 1], way[i + 2]), reach = thigh + shin;
-    if (fmin(thigh, shin) < LEAST_SEGMENT * reach || reach < leg->reach) continue;
+    if (fmin(thigh, shin) < MIN_SEGMENT * reach || reach < leg->reach) continue;
     leg->upper = way[i];
     leg->lower = way[i + 1];
     leg->end = way[i + 2];
@@ -57,15 +71,17 @@ static bool choose_bones(const sbfi_gait_draft *d, const int32_t *way, uint32_t 
   return leg->reach > 0;
 }
 
-static bool take_leg(sbfi_gait_draft *d, int32_t limb, int32_t *way) {
+static bool take_leg(sbfi_gait_draft *d, int32_t limb, double ground_share, int32_t *way) {
   const sbfi_bone_shape *shape = &d->shapes[limb];
   uint32_t count = 0;
-  if (shape->low_below > d->ground + GROUND_SHARE * d->height) return false;
+  if (shape->low_below > d->ground + ground_share * d->height) return false;
   if ((double)sbfi_draft_bone(d, limb)->head.y < shape->low_below + HIP_SHARE * d->height) return false;
   for (int32_t bone = limb; bone != SBF_NONE; bone = next_down(d, bone)) {
     way[count++] = bone;
     if (d->shapes[bone].low <= shape->low_below + FOOT_SHARE * d->height) break;
   }
+  int32_t mark = count == 2 ? ankle_mark(d, way[1]) : SBF_NONE;
+  if (mark != SBF_NONE) way[count++] = mark;
   sbfi_leg_draft *leg = &d->legs[d->leg_count];
   *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side, .toe = SBF_NONE};
   return choose_bones(d, way, count, leg);
@@ -87,16 +103,49 @@ static void find_girdles(sbfi_gait_draft *d) {
   if (d->chest == d->hips) d->chest = SBF_NONE;
 }
 
+static uint32_t count_bearing(const sbfi_gait_draft *d, int32_t bone) {
+  uint32_t count = 0;
+  for (uint32_t i = (uint32_t)bone; i < d->asset->bones.count; i++)
+    count += d->shapes[i].bears && sbfi_draft_is_below(d, (int32_t)i, bone);
+  return count;
+}
+
+static bool begins_limb(const sbfi_gait_draft *d, int32_t bone) {
+  int32_t parent = sbfi_draft_bone(d, bone)->parent;
+  return d->height > 0 && d->shapes[bone].side && parent != SBF_NONE && d->shapes[parent].side == 0;
+}
+
+/* A rig bound in mid stride has a foot in the air: a limb is a leg too that hangs on the same bone as a leg
+ * of the other side without a twin, and is made as that one. */
+static void take_lifted(sbfi_gait_draft *d, int32_t *way) {
+  uint32_t sides[2] = {0, 0}, grounded = d->leg_count;
+  for (uint32_t l = 0; l < grounded; l++) sides[d->legs[l].side > 0]++;
+  if (sides[0] == sides[1]) return;
+  int poorer = sides[1] < sides[0] ? 1 : -1;
+  for (uint32_t i = 0; i < d->asset->bones.count && sides[0] != sides[1]; i++) {
+    bool alike = false;
+    if (!begins_limb(d, (int32_t)i) || d->shapes[i].side != poorer) continue;
+    for (uint32_t l = 0; l < grounded; l++) {
+      int32_t other = d->legs[l].limb;
+      if (d->legs[l].side == poorer) continue;
+      alike = alike || (sbfi_draft_bone(d, other)->parent == sbfi_draft_bone(d, (int32_t)i)->parent &&
+                           count_bearing(d, other) == count_bearing(d, (int32_t)i));
+    }
+    for (uint32_t l = 0; l < grounded; l++) alike = alike && d->legs[l].limb != (int32_t)i;
+    if (!alike || !take_leg(d, (int32_t)i, LIFTED_SHARE, way)) continue;
+    d->leg_count++;
+    sides[poorer > 0]++;
+  }
+}
+
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch) {
   uint32_t count = d->asset->bones.count;
   int32_t *way = sbfi_arena_allocate(scratch, count, sizeof *way);
   d->legs = sbfi_arena_allocate(scratch, count, sizeof *d->legs);
   if (!way || !d->legs) return false;
-  for (uint32_t i = 0; i < count; i++) {
-    int32_t parent = sbfi_draft_bone(d, (int32_t)i)->parent;
-    bool begins = d->shapes[i].side && parent != SBF_NONE && d->shapes[parent].side == 0;
-    if (begins && d->height > 0 && take_leg(d, (int32_t)i, way)) d->leg_count++;
-  }
+  for (uint32_t i = 0; i < count; i++)
+    if (begins_limb(d, (int32_t)i) && take_leg(d, (int32_t)i, GROUND_SHARE, way)) d->leg_count++;
+  take_lifted(d, way);
   find_girdles(d);
   return true;
 }

@@ -2,7 +2,7 @@
  * the foremost leads, rather than hips and chest with a stiff back between them. */
 #include "import/gait/gait_draft.h"
 
-enum { LEAST_GIRDLES = 4 };
+enum { MIN_GIRDLES = 4 };
 
 static bool bears_a_leg(const sbfi_gait_draft *d, int32_t bone) {
   for (uint32_t l = 0; l < d->leg_count; l++)
@@ -28,7 +28,7 @@ static uint32_t take_row(sbfi_gait_draft *d, int32_t last) {
     girdles++;
     first = depth;
   }
-  if (girdles < LEAST_GIRDLES || girdles < all) return 0;
+  if (girdles < MIN_GIRDLES || girdles < all) return 0;
   uint32_t count = depth_of(d, last) - (first - 1);
   for (uint32_t i = 0; i < count; i++) d->spine[i] = d->spine[first - 1 + i];
   for (int32_t bone = sbfi_draft_only_child(d, last); bone != SBF_NONE; bone = sbfi_draft_only_child(d, bone))

@@ -6,7 +6,8 @@
 #include "import/gait/gait_draft.h"
 #include "model/bone_ends.h"
 
-static const double SIDE_SHARE = 0.02; /* of the height: what is nearer to x = 0 is in the middle */
+static const double SIDE_SHARE = 0.02;  /* of the height: what is nearer to x = 0 is in the middle */
+static const double FLAT_SHARE = 0.006; /* the same of the greatest extent, for what is flat */
 
 double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b) {
   const sbf_vec3 p = sbfi_draft_bone(d, a)->head, q = sbfi_draft_bone(d, b)->head;
@@ -59,12 +60,12 @@ static void see_points(sbfi_gait_draft *d, extents *e, const sbf_vec3_list point
 static void see_skin(sbfi_gait_draft *d, extents *e, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   for (uint32_t i = 0, at = 0; i < mesh->mesh.positions.count; at += skin->influence_counts.at[i++]) {
-    uint32_t most = at;
+    uint32_t max = at;
     for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
-      if (skin->weights.at[s] > skin->weights.at[most]) most = s;
+      if (skin->weights.at[s] > skin->weights.at[max]) max = s;
     sbf_vec3 point = sbfi_draft_seen(d, mesh->mesh.positions.at[i]);
     if (skin->influence_counts.at[i] || e->all) see(e, point);
-    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[most], point);
+    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[max], point);
   }
 }
 
@@ -93,14 +94,15 @@ static void see_everything(sbfi_gait_draft *d, extents *e) {
   for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, sbfi_draft_head(d, (int32_t)i));
 }
 
-static void widen(sbfi_bone_shape *shape, double least_x, double most_x) {
-  shape->least_x = fmin(shape->least_x, least_x);
-  shape->most_x = fmax(shape->most_x, most_x);
+static void widen(sbfi_bone_shape *shape, double min_x, double max_x) {
+  shape->min_x = fmin(shape->min_x, min_x);
+  shape->max_x = fmax(shape->max_x, max_x);
 }
 
 /* Children stand behind their parents: each is done when its parent's turn comes. */
 static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
-  double margin = SIDE_SHARE * d->height;
+  double extent = fmax(e->high[0] - e->low[0], e->high[2] - e->low[2]);
+  double margin = fmax(SIDE_SHARE * d->height, FLAT_SHARE * extent);
   for (uint32_t i = d->asset->bones.count; i-- > 0;) {
     sbfi_bone_shape *shape = &d->shapes[i];
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
@@ -113,9 +115,9 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     if (shape->points) widen(shape, e->sum_x[i] / shape->points, e->sum_x[i] / shape->points);
     double head_x = (double)sbfi_draft_head(d, (int32_t)i).x;
     if (shape->bears) widen(shape, head_x, head_x);
-    shape->side = shape->bears && shape->least_x > -margin && shape->most_x > margin   ? 1
-                  : shape->bears && shape->most_x < margin && shape->least_x < -margin ? -1
-                                                                                       : 0;
+    shape->side = shape->bears && shape->min_x > -margin && shape->max_x > margin   ? 1
+                  : shape->bears && shape->max_x < margin && shape->min_x < -margin ? -1
+                                                                                    : 0;
     if (bone->parent == SBF_NONE) continue;
     sbfi_bone_shape *parent = &d->shapes[bone->parent];
     parent->low_below = fmin(parent->low_below, shape->low_below);
@@ -123,7 +125,7 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     parent->bears = true;
     parent->children++;
     parent->middle_children += shape->side == 0;
-    widen(parent, shape->least_x, shape->most_x);
+    widen(parent, shape->min_x, shape->max_x);
   }
 }
 
@@ -135,7 +137,7 @@ bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch) {
   if (!d->shapes || !e.sum_x) return false;
   for (uint32_t i = 0; i < count; i++)
     d->shapes[i] =
-        (sbfi_bone_shape){.low = INFINITY, .low_below = INFINITY, .least_x = INFINITY, .most_x = -INFINITY};
+        (sbfi_bone_shape){.low = INFINITY, .low_below = INFINITY, .min_x = INFINITY, .max_x = -INFINITY};
   see_everything(d, &e);
   d->ground = e.low[1];
   d->height = e.high[1] - e.low[1];

@@ -14,9 +14,9 @@ typedef struct sbfi_bone_shape {
   uint32_t middle_children; /* those of neither side */
   double low;       /* y of its lowest point; of its head in a rig without meshes; INFINITY without points */
   double low_below; /* the same of it and all below */
-  double least_x, most_x; /* of the heads and the points' middles of it and all below that bear */
-  double sum_z;           /* of the points it holds */
-  int side;               /* 1: all of it and below is on the left (+X), -1: on the right, 0: neither */
+  double min_x, max_x; /* of the heads and the points' middles of it and all below that bear */
+  double sum_z;        /* of the points it holds */
+  int side;            /* 1: all of it and below is on the left (+X), -1: on the right, 0: neither */
 } sbfi_bone_shape;
 
 typedef struct sbfi_leg_draft {
@@ -43,12 +43,11 @@ typedef struct sbfi_gait_draft {
 } sbfi_gait_draft;
 
 /* In this order; each returns false where memory runs out. Extents and sides; legs and girdles; a spine that
- * is a row of girdles; head and tail, or for a rig without legs the bones from one end to the other. */
+ * is a row of girdles; head and tail. */
 bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_row(sbfi_gait_draft *d);
 bool sbfi_draft_ends(sbfi_gait_draft *d);
-bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch);
 
 /* How many quarters the character has been turned from +Z: 0 where its legs pair up across x = 0, or nowhere.
  * Which of both ways along that line it looks is said by the names of its legs, else by its feet; backwards,

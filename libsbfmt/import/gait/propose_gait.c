@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
+#include "import/gait/gait_parts.h"
 
 /* Beyond the knee, away from the line between hip and ankle: the leg goes on bending as it is bent at rest. A
  * straight leg bends forward. */
@@ -171,30 +172,73 @@ static bool write_gait(sbfi_conversion *c, sbfi_gait_draft *d) {
   return true;
 }
 
-static bool propose_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
-  if (!sbfi_draft_spine(d, &c->scratch) || (d->spine_count && !write_spine(c, d))) return false;
-  if (d->spine_count)
-    sbfi_convert_warn(c, SBF_CODE_RIG_CRAWLS,
-        "no two limbs of the rig come down to the ground; the %u bones from '%.40s' to '%.40s' are proposed "
-        "as a "
-        "chain that follows its first, as a snake's",
-        (unsigned)d->spine_count, sbfi_draft_bone(d, (int32_t)d->spine[0])->name,
-        sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->name);
-  else
-    sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
-        "no two limbs of the rig come down to the ground: no gait is proposed, and the character moves as a "
-        "whole; add a gait to the bundle to make it walk");
+/* The root with most of the skin below it. */
+static int32_t main_root(const sbf_asset *a, const uint32_t *holds, sbfi_arena *scratch) {
+  uint32_t *below = sbfi_arena_allocate(scratch, a->bones.count, sizeof *below);
+  int32_t best = 0;
+  if (!below) return SBF_NONE;
+  for (uint32_t i = a->bones.count; i-- > 0;) {
+    below[i] += holds[i];
+    if (a->bones.at[i].parent != SBF_NONE) below[a->bones.at[i].parent] += below[i];
+  }
+  for (uint32_t i = 0; i < a->bones.count; i++)
+    if (a->bones.at[i].parent == SBF_NONE && (a->bones.at[best].parent != SBF_NONE || below[i] > below[best]))
+      best = (int32_t)i;
+  return best;
+}
+
+typedef bool proposer(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
+
+static bool propose_other(sbfi_conversion *c, sbfi_locomotion_kind kind) {
+  static proposer *const proposers[SBFI_LOCOMOTION_KINDS] = {[SBFI_LOCOMOTION_SWIM] = sbfi_propose_swim,
+      [SBFI_LOCOMOTION_FLY] = sbfi_propose_fly,
+      [SBFI_LOCOMOTION_SLITHER] = sbfi_propose_slither,
+      [SBFI_LOCOMOTION_CRAWL] = sbfi_propose_crawl,
+      [SBFI_LOCOMOTION_ROLL] = sbfi_propose_roll};
+  static const sbf_gait_kind kinds[SBFI_LOCOMOTION_KINDS] = {SBF_GAIT_KIND_WALK, SBF_GAIT_KIND_SWIM,
+      SBF_GAIT_KIND_FLY, SBF_GAIT_KIND_SLITHER, SBF_GAIT_KIND_CRAWL, SBF_GAIT_KIND_ROLL, SBF_GAIT_KIND_NONE};
+  sbfi_rig_view view;
+  sbf_gait *gait = sbfi_convert_allocate(c, 1, sizeof *gait);
+  if (!gait || !sbfi_view_rig(&view, c->asset, 0, &c->scratch)) return false;
+  sbf_gait_init(gait);
+  gait->name = sbfi_locomotion_name(kind);
+  gait->id = sbfi_new_id(c, "gait", gait->name);
+  gait->kind = kinds[kind];
+  gait->proposed = true;
+  gait->body = main_root(c->asset, view.holds, &c->scratch);
+  if (!gait->id || gait->body == SBF_NONE || !proposers[kind](c, &view, gait)) return false;
+  c->asset->gaits = (sbf_gait_list){gait, 1};
+  return true;
+}
+
+static void say_legless(sbfi_conversion *c) {
+  sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
+      "no two limbs of the rig come down to the ground: no gait is proposed, and the character moves as a "
+      "whole; --gait KIND proposes one of another kind");
+}
+
+/* What should walk and has no legs to do it hops. */
+static bool propose_walk(sbfi_conversion *c) {
+  sbfi_gait_draft d = {.asset = c->asset};
+  if (!sbfi_draft_shapes(&d, &c->scratch) || !sbfi_draft_legs(&d, &c->scratch)) return false;
+  if (d.leg_count > 1) /* nothing walks on one */
+    return sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
+  if (c->locomotion && c->locomotion->second == SBFI_LOCOMOTION_CRAWL)
+    return propose_other(c, SBFI_LOCOMOTION_CRAWL);
+  say_legless(c);
   return true;
 }
 
 sbf_status sbfi_propose_gait(sbfi_conversion *c) {
   const sbf_asset *a = c->asset;
   if (a->bones.count == 0 || a->gaits.count || a->chains.count || a->ik_chains.count) return SBF_OK;
-  sbfi_gait_draft d = {.asset = c->asset};
-  bool good = sbfi_draft_shapes(&d, &c->scratch) && sbfi_draft_legs(&d, &c->scratch);
-  if (good && d.leg_count > 1) /* nothing walks on one: a fish's fin that hangs lowest */
-    good = sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
-  else if (good)
-    good = propose_spine(c, &d);
+  sbfi_locomotion_kind kind = c->locomotion ? c->locomotion->kind : SBFI_LOCOMOTION_WALK;
+  bool good = true;
+  if (kind == SBFI_LOCOMOTION_WALK)
+    good = propose_walk(c);
+  else if (kind == SBFI_LOCOMOTION_NONE)
+    say_legless(c);
+  else
+    good = propose_other(c, kind);
   return good ? SBF_OK : sbfi_convert_no_memory(c);
 }

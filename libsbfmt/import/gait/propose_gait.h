@@ -5,11 +5,10 @@
 
 #include "import/convert/conversion.h"
 
-/* Adds ik chains, chains and a gait to an asset that has none of them. Legs are limbs of one side that come
- * down to the ground, left those on +X, each named after its foot; head and tail go by name first, then by
- * shape. A rig without legs gets no gait, and a warning says so; the body that it drags along becomes a
- * chain.
- */
+/* Adds a gait of the kind that was judged (c->locomotion; legs are looked for where it was not) to an asset
+ * that has none, with ik chains and chains. Legs are limbs of one side that come down to the ground, left
+ * those on +X, each named after its foot; head and tail go by name first, then by shape. Kind none gets no
+ * gait, and a warning says so. */
 sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
 #endif

@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "import/quote.h"
 
-enum { MOST_CORNERS = 65535 }; /* of a face */
+enum { MAX_CORNERS = 65535 }; /* of a face */
 
 typedef struct forward_reference {
   uint32_t corner, line;
@@ -299,11 +299,11 @@ static sbf_status read_face(reader *r) {
     if (at_statement_end(r)) break;
     sbf_status status = read_corner(r);
     if (status) return status;
-    if (text->corners.count - first > MOST_CORNERS)
+    if (text->corners.count - first > MAX_CORNERS)
       return located(r,
           sbfi_diagnose(r->error, SBF_CODE_IMPORT_POLYGON,
               "a face has more than %d corners: divide it, as by triangulating it where it was made",
-              MOST_CORNERS),
+              MAX_CORNERS),
           line);
   }
   if (text->corners.count - first < 3)

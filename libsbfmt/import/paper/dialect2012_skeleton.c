@@ -51,11 +51,11 @@ static bool is_length(sbf_joint_axis axis) {
 
 static void fill_limit(const sbfi_conversion *c, const sbfi_paper_limit *from, sbf_limit *limit) {
   double unit = cbrt(fabs(sbfi_matrix_determinant(&c->to_asset)));
-  double most = (double)from->angle * (is_length(from->target) ? unit : DEGREE);
+  double max = (double)from->angle * (is_length(from->target) ? unit : DEGREE);
   bool one_sided = from->target == SBF_JOINT_AXIS_SWING || from->target == SBF_JOINT_AXIS_DISTANCE;
   sbf_limit_init(limit);
   limit->target = from->target;
-  limit->max = (float)most;
+  limit->max = (float)max;
   limit->min = one_sided ? 0 : -limit->max;
 }
 

@@ -18,6 +18,14 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
  * anyhow. */
 sbf_status sbfi_align_by_bones(sbfi_rigging *r);
 
+/* The least share of the bones' length that lies inside the input and is nearest to some of its surface: with
+ * less it is another character's rig. */
+static const double SBFI_MIN_BONES_INSIDE = 0.6;
+
+/* Makes the input, laid over the bones as it fits best, the asset's only mesh, for the picture of what does
+ * not fit. False where memory runs out. */
+bool sbfi_show_misfit(const sbfi_rigging *r, const sbfi_matrix *to_asset);
+
 /* Turns limbs of the rig, in its bones and in a copy of its scene, so that they lie inside the input, whose
  * winding is in its own space. `turned` receives the names of their first bones, "" for none. False where
  * memory runs out. */

@@ -7,25 +7,41 @@
 #include <string.h>
 
 #include "build/geometry/winding_number.h"
+#include "build/weights/bone_roles.h"
 #include "import/rigging/align.h"
 #include "import/rigging/surface_finder.h"
 
-enum { PER_BONE = 6, NAMED = 4, SURFACE_SAMPLES = 1000 };
+enum {
+  PER_BONE = 6,
+  NAMED = 4,
+  SURFACE_SAMPLES = 1000,
+  SCORE_SAMPLES = 256,
+  SEVERAL = 10,
+  ROTATIONS = SBFI_AXIS_ROTATIONS / 2
+};
 
 static const double GOOD = 0.95; /* so much of the length inside is as it should be */
-static const double LEAST = 0.6; /* and less than this is another character's rig */
+
 /* Shares inside before limbs are turned and after; share of the points that may be without a bone; how thick
  * a body is around its bones, as a share of its longest side. */
-static const double LEAST_TRUNK = 0.3, LEAST_TURNED = 0.9, MOST_UNCOVERED = 0.2;
+static const double MIN_TRUNK = 0.3, MIN_TURNED = 0.9, MAX_UNCOVERED = 0.2;
 static const double THICK = 0.15;
-static const double BETTER = 0.02; /* by which a later candidate has to be better */
-static const double UNUSUAL = 0.2; /* the same, of one that does not stand on its Y or Z axis */
+static const double BETTER = 0.02;  /* by which a later candidate has to be better */
+static const double NEARNESS = 2;   /* of a mean distance, by a share inside */
+static const double MIN_LONG = 0.6; /* of a body's longest side, of bones that lie as the files say */
+static const double POSED = 0.1; /* so much better a rarer rotation has to be where limbs stand otherwise */
+static const double REACH = 0.3; /* so much worse one may be before its scale and offset are refined */
 
 typedef struct bone_line {
   sbfi_d3 from, to; /* asset space */
   uint32_t bone;
   double length;
 } bone_line;
+
+typedef struct candidate {
+  sbfi_matrix m;
+  double share, score; /* inside; less what its distance from the surface takes */
+} candidate;
 
 typedef struct search {
   const sbfi_rigging *r;
@@ -35,9 +51,15 @@ typedef struct search {
   uint32_t line_count;
   double total;      /* length */
   sbfi_d3 low, high; /* of the lines */
-  sbfi_matrix best;
-  double best_share;
+  uint32_t rotation; /* at hand */
+  candidate of_rotation[ROTATIONS];
+  candidate best;
 } search;
+
+static double longest_side(sbfi_d3 low, sbfi_d3 high) {
+  sbfi_d3 sides = sbfi_d3_sub(high, low);
+  return fmax(sides.x, fmax(sides.y, sides.z));
+}
 
 static bool is_inside(const search *s, sbfi_d3 p) {
   if (p.x < s->soup.low.x || p.y < s->soup.low.y || p.z < s->soup.low.z || p.x > s->soup.high.x ||
@@ -57,39 +79,56 @@ static double inside_of_line(const search *s, const sbfi_matrix *back, const bon
   return (double)inside / PER_BONE;
 }
 
-static double share_inside(const search *s, const sbfi_matrix *m) {
+/* Stops where less than `least` can be inside. */
+static double share_inside(const search *s, const sbfi_matrix *m, double min) {
   sbfi_matrix back;
   double sum = 0, left = s->total;
   if (!sbfi_matrix_invert(m, &back)) return 0;
   for (uint32_t i = 0; i < s->line_count; i++) {
-    if (sum + left < s->best_share * s->total) return 0;
+    if (sum + left < min * s->total) return 0;
     sum += s->lines[i].length * inside_of_line(s, &back, &s->lines[i]);
     left -= s->lines[i].length;
   }
   return s->total > 0 ? sum / s->total : 1;
 }
 
+static double distance_to_line(const bone_line *line, sbfi_d3 p) {
+  sbfi_d3 along = sbfi_d3_sub(line->to, line->from), way = sbfi_d3_sub(p, line->from);
+  double t = fmin(fmax(sbfi_d3_dot(way, along) / sbfi_d3_dot(along, along), 0), 1);
+  return sbfi_d3_length(sbfi_d3_sub(way, sbfi_d3_scale(along, t)));
+}
+
+/* Mean distance of the input's points to the nearest bone, as a share of its longest side. It tells the front
+ * of a body from its back, and a skeleton from a small one that lies in its belly. */
+static double distance_to_bones(const search *s, const sbfi_matrix *m) {
+  const sbf_vec3_list points = s->r->input.mesh.positions;
+  double sum = 0, size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(m);
+  uint32_t samples = points.count < SCORE_SAMPLES ? points.count : SCORE_SAMPLES;
+  for (uint32_t i = 0; i < samples; i++) {
+    uint32_t at = (uint32_t)((double)points.count * fmod(0.5 + i * 0.6180339887498949, 1.0));
+    sbfi_d3 p = sbfi_similarity_apply(m, sbfi_d3_of(points.at[at]));
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < s->line_count; k++) nearest = fmin(nearest, distance_to_line(&s->lines[k], p));
+    sum += fmin(nearest / size, 1);
+  }
+  return samples ? sum / samples : 0;
+}
+
+/* A score below `least` is not told. */
+static candidate evaluate(const search *s, const sbfi_matrix *m, double min) {
+  candidate c = {*m, 0, -INFINITY};
+  if (!sbfi_alignment_allowed(s->r, m)) return c;
+  c.share = share_inside(s, m, min);
+  if (c.share >= min) c.score = c.share - NEARNESS * distance_to_bones(s, m);
+  return c;
+}
+
 static void consider(search *s, const sbfi_matrix *m) {
-  if (!sbfi_alignment_allowed(s->r, m)) return;
-  double share = share_inside(s, m), scale = sbfi_similarity_scale(m);
-  bool is_usual = m->at[1][1] > 0.9 * scale || m->at[1][2] > 0.9 * scale;
-  if (share < s->best_share + (is_usual ? BETTER : UNUSUAL)) return;
-  s->best = *m;
-  s->best_share = share;
+  candidate *best = &s->of_rotation[s->rotation], here = evaluate(s, m, best->score + BETTER);
+  if (here.score >= best->score + BETTER) *best = here;
 }
 
 /* --- Bones as lines ------------------------------------------------------------------------------------ */
-
-/* Bones that only hold others together, as those that files call so. */
-static bool holds_together(const char *name) {
-  static const char *const names[] = {"root", "armature", "master", "origin", "reference"};
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    size_t k = 0;
-    while (names[i][k] && (name[k] | 32) == names[i][k]) k++;
-    if (!names[i][k] && !(name[k] >= 'a' && name[k] <= 'z')) return true;
-  }
-  return false;
-}
 
 static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
   double length = sbfi_d3_length(sbfi_d3_sub(to, from));
@@ -98,14 +137,22 @@ static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
   s->total += length;
 }
 
+/* Frames and controls do not lie in a body: lines run between bones that hold skin, and to marks of ends. */
 static bool make_lines(search *s, sbfi_arena *arena) {
   const sbf_bone_list *bones = &s->r->c->asset->bones;
+  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
+  bool *holds_skin = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *holds_skin);
   s->lines = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->lines);
-  if (!s->lines) return false;
+  if (!s->lines || !holds_skin) return false;
+  double size = 0;
+  for (uint32_t b = 1; b < bones->count; b++)
+    size =
+        fmax(size, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[0].head))));
+  const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
+  sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
-    if (parent == SBF_NONE || holds_together(bones->at[parent].name) || holds_together(bones->at[b].name))
-      continue;
+    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !sbfi_bone_is_end(&in, b))) continue;
     add_line(s, (uint32_t)parent, sbfi_d3_of(bones->at[parent].head), sbfi_d3_of(bones->at[b].head));
   }
   for (uint32_t i = 0; i < 2 * s->line_count; i++) {
@@ -134,32 +181,71 @@ static void consider_offsets(search *s, const sbfi_matrix *axes, double scale) {
   consider(s, &m);
 }
 
-static double longest_side(sbfi_d3 low, sbfi_d3 high) {
-  sbfi_d3 sides = sbfi_d3_sub(high, low);
-  return fmax(sides.x, fmax(sides.y, sides.z));
+static void consider_scale(search *s, double scale) {
+  for (s->rotation = 0; s->rotation < ROTATIONS; s->rotation++) {
+    sbfi_matrix axes = sbfi_axis_rotation(s->rotation);
+    consider_offsets(s, &axes, scale);
+  }
+}
+
+/* Other scales and offsets up and forwards around a candidate, in ever smaller steps. */
+static candidate refined(const search *s, candidate from) {
+  double size = longest_side(s->low, s->high);
+  sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->low, s->high), 0.5);
+  for (double step = 0.08; step > 0.01; step *= 0.5)
+    for (int k = 0; k < 6; k++) {
+      double sign = k % 2 ? -1 : 1, factor = k < 2 ? 1 + sign * step : 1, aside = 0.5 * sign * step * size;
+      sbfi_d3 at = {from.m.at[0][3], from.m.at[1][3], from.m.at[2][3]};
+      at = sbfi_d3_add(middle, sbfi_d3_scale(sbfi_d3_sub(at, middle), factor));
+      at = sbfi_d3_add(at, (sbfi_d3){0, k / 2 == 1 ? aside : 0, k / 2 == 2 ? aside : 0});
+      sbfi_matrix m = sbfi_similarity_scaled(&from.m, sbfi_similarity_scale(&from.m) * factor, at);
+      candidate here = evaluate(s, &m, from.score);
+      if (here.score > from.score) from = here;
+    }
+  return from;
+}
+
+/* How rarely an input is turned so: up on up with its left on the left; facing backwards; sideways; else. */
+static uint32_t rarity_of(const sbfi_matrix *m) {
+  double max = 0.9 * sbfi_similarity_scale(m);
+  if (m->at[1][1] < max && m->at[1][2] < max) return 3;
+  return m->at[0][0] > max ? 0 : m->at[0][0] < -max ? 1 : 2;
+}
+
+/* The best of all rotations, each as well as it can lie if limbs do not stand otherwise. A more usual one
+ * stays where another is little better, as around straight chains of bones, and so does one of a usual unit
+ * and offset. */
+static void choose(search *s) {
+  static const double by[] = {0.02, 0.03, 0.05, 0.2}; /* so much better than more usual ones */
+  double max = s->best.score;
+  for (uint32_t i = 0; i < 4 * ROTATIONS; i++) {
+    const candidate *plain = &s->of_rotation[i % ROTATIONS];
+    uint32_t rarity = i / ROTATIONS;
+    if (!(plain->score > max - REACH) || rarity_of(&plain->m) != rarity) continue;
+    candidate better = refined(s, *plain);
+    if (better.share < GOOD) better = *plain;
+    if (better.score < max + by[rarity] + (rarity && better.share < GOOD ? POSED : 0)) continue;
+    max = better.score;
+    s->best = better.score >= plain->score + BETTER ? better : *plain;
+  }
 }
 
 static void consider_all(search *s) {
   double bones = longest_side(s->low, s->high), input = longest_side(s->soup.low, s->soup.high);
   double stated = sbfi_similarity_scale(&s->r->c->to_asset);
-  double most = sbfi_rig_has_no_size(s->r) ? 1.5 : 3; /* a small rig lies inside anything */
-  for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS && s->best_share < GOOD; unit++) {
+  /* A small rig lies inside anything. One of few bones may leave large parts of its body without any. */
+  double max = s->line_count < SEVERAL && !sbfi_rig_has_no_size(s->r) ? 3 : 1.6;
+  for (uint32_t i = 0; i < ROTATIONS; i++) s->of_rotation[i].score = -INFINITY;
+  for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
     double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated;
-    if (input * scale < 0.7 * bones || input * scale > most * bones) continue;
-    for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
-      sbfi_matrix axes = sbfi_axis_rotation(i);
-      consider_offsets(s, &axes, scale);
-    }
+    if (input * scale < 0.7 * bones || input * scale > (unit ? max : 3) * bones) continue;
+    consider_scale(s, scale);
   }
-  /* How much longer an input is than its bones. A rig without a size says nothing that would speak against.
-   */
-  static const double ratios[] = {1.12, 1.3, 1, 1.06, 1.2, 1.45};
-  double enough = sbfi_rig_has_no_size(s->r) ? GOOD : LEAST;
-  for (size_t k = 0; k < sizeof ratios / sizeof *ratios && s->best_share < enough; k++)
-    for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
-      sbfi_matrix axes = sbfi_axis_rotation(i);
-      consider_offsets(s, &axes, ratios[k] * bones / input);
-    }
+  /* How much longer an input is than its bones. */
+  static const double ratios[] = {1.12, 1.3, 1, 1.06, 1.2, 1.45, 1.7, 2};
+  size_t count = sizeof ratios / sizeof *ratios - (s->line_count < SEVERAL ? 0 : 2);
+  for (size_t k = 0; k < count; k++) consider_scale(s, ratios[k] * bones / input);
+  choose(s);
 }
 
 /* --- Where they do not fit ----------------------------------------------------------------------------- */
@@ -176,10 +262,10 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
   sbfi_matrix back;
   outside_bone worst[NAMED] = {{0}};
   uint32_t count = 0;
-  if (!sbfi_surface_move(&moved, &s->r->input, &s->best, arena) ||
+  if (!sbfi_surface_move(&moved, &s->r->input, &s->best.m, arena) ||
       !sbfi_surface_finder_make(&finder, &moved, arena))
     return false;
-  if (!sbfi_matrix_invert(&s->best, &back)) back = sbfi_matrix_identity();
+  if (!sbfi_matrix_invert(&s->best.m, &back)) back = sbfi_matrix_identity();
   for (uint32_t i = 0; i < s->line_count; i++) {
     outside_bone here = {s->lines[i].bone, 0};
     for (uint32_t k = 0; k < PER_BONE; k++) {
@@ -209,17 +295,16 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
   return true;
 }
 
-/* The input as it was laid over the bones at best, for the caller to look at. */
-static bool show(const search *s) {
-  sbfi_conversion *c = s->r->c;
-  const sbf_polygon_mesh *from = &s->r->input.mesh;
+bool sbfi_show_misfit(const sbfi_rigging *r, const sbfi_matrix *to_asset) {
+  sbfi_conversion *c = r->c;
+  const sbf_polygon_mesh *from = &r->input.mesh;
   sbf_render_mesh *mesh = sbfi_convert_allocate(c, 1, sizeof *mesh);
   sbf_vec3 *positions = sbfi_convert_allocate(c, from->positions.count, sizeof *positions);
   uint32_t *sizes = sbfi_convert_allocate(c, from->polygon_sizes.count, sizeof *sizes);
   uint32_t *points = sbfi_convert_allocate(c, from->polygon_points.count, sizeof *points);
   if (!mesh || !positions || !sizes || !points) return false;
   for (uint32_t i = 0; i < from->positions.count; i++)
-    positions[i] = sbfi_transform_point(&s->best, from->positions.at[i]);
+    positions[i] = sbfi_transform_point(to_asset, from->positions.at[i]);
   memcpy(sizes, from->polygon_sizes.at, from->polygon_sizes.count * sizeof *sizes);
   memcpy(points, from->polygon_points.at, from->polygon_points.count * sizeof *points);
   sbf_render_mesh_init(mesh);
@@ -237,12 +322,12 @@ static bool show(const search *s) {
 
 static sbf_status refuse(const search *s, sbfi_arena *arena) {
   char outside[260] = "";
-  if (!show(s)) return sbfi_convert_no_memory(s->r->c);
+  if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(s->r->c);
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
       "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
       "--unit, --up and --forward",
-      100 * s->best_share, outside);
+      100 * s->best.share, outside);
 }
 
 /* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
@@ -264,20 +349,14 @@ static void scale_rig(sbfi_rigging *r) {
       factor);
 }
 
-static double distance_to_line(const bone_line *line, sbfi_d3 p) {
-  sbfi_d3 along = sbfi_d3_sub(line->to, line->from), way = sbfi_d3_sub(p, line->from);
-  double t = fmin(fmax(sbfi_d3_dot(way, along) / sbfi_d3_dot(along, along), 0), 1);
-  return sbfi_d3_length(sbfi_d3_sub(way, sbfi_d3_scale(along, t)));
-}
-
 /* Share of the input's points that lie farther from every bone than any part of a body is thick. */
 static double share_uncovered(const search *s) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
-  double size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best);
+  double size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
   uint32_t samples = points.count < SURFACE_SAMPLES ? points.count : SURFACE_SAMPLES, far = 0;
   for (uint32_t i = 0; i < samples; i++) {
     uint32_t at = (uint32_t)((double)points.count * i / samples);
-    sbfi_d3 p = sbfi_similarity_apply(&s->best, sbfi_d3_of(points.at[at]));
+    sbfi_d3 p = sbfi_similarity_apply(&s->best.m, sbfi_d3_of(points.at[at]));
     double nearest = INFINITY;
     for (uint32_t k = 0; k < s->line_count && nearest > THICK * size; k++)
       nearest = fmin(nearest, distance_to_line(&s->lines[k], p));
@@ -295,16 +374,16 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
   const sbf_bone *before = sbfi_arena_copy(arena, bones, list.count, sizeof *bones);
   const sbfi_scene *scene = r->rig.scene, *rig = c->rig;
   char turned[300];
-  double share = s->best_share;
+  double share = s->best.share;
   *matched = share >= GOOD;
-  if (*matched || share < LEAST_TRUNK) return SBF_OK;
-  r->alignment.to_asset = s->best;
+  if (*matched || share < MIN_TRUNK) return SBF_OK;
+  r->alignment.to_asset = s->best.m;
   s->line_count = 0;
-  s->total = s->best_share = 0;
+  s->total = s->best.share = 0;
   if (!before || !sbfi_align_limbs(r, &s->winding, turned, sizeof turned) || !make_lines(s, arena))
     return sbfi_convert_no_memory(c);
-  s->best_share = share_inside(s, &s->best);
-  if (turned[0] && s->best_share >= LEAST_TURNED && share_uncovered(s) <= MOST_UNCOVERED) {
+  s->best.share = share_inside(s, &s->best.m, 0);
+  if (turned[0] && s->best.share >= MIN_TURNED && share_uncovered(s) <= MAX_UNCOVERED) {
     sbfi_convert_warn(c, SBF_CODE_RIG_ALIGNED,
         "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
         "hangs on it",
@@ -317,31 +396,53 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
   c->rig = rig;
   s->line_count = 0;
   s->total = 0;
-  s->best_share = share;
+  s->best.share = share;
   return make_lines(s, arena) ? SBF_OK : sbfi_convert_no_memory(c);
+}
+
+/* Of usual rotations those that are not much worse than the best, as they are and as well as they can lie. */
+static sbf_status match_limbs_otherwise(sbfi_rigging *r, search *s, sbfi_arena *arena, bool *matched) {
+  const candidate best = s->best;
+  sbf_status status = SBF_OK;
+  for (uint32_t i = 0; i < 2 * ROTATIONS && status == SBF_OK && !*matched; i++) {
+    const candidate *plain = &s->of_rotation[i / 2];
+    if (!(plain->score > best.score - REACH) || rarity_of(&plain->m) != 0) continue;
+    s->best = i % 2 ? refined(s, *plain) : *plain;
+    status = match_limbs(r, s, arena, matched);
+  }
+  if (!*matched) s->best = best;
+  return status;
+}
+
+/* Whether the bones, as they lie, are about as long as the input. */
+static bool is_long(const search *s) {
+  double input = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
+  return longest_side(s->low, s->high) >= MIN_LONG * input;
 }
 
 sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
   sbfi_arena scratch;
-  search s = {.r = r, .best = r->alignment.to_asset};
+  search s = {.r = r, .best.m = r->alignment.to_asset};
   bool is_stated = r->alignment.is_stated;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   bool good = sbfi_soup_make(&s.soup, &r->input.mesh, &scratch) &&
               sbfi_winding_make(&s.winding, &s.soup, &scratch) && make_lines(&s, &scratch);
   sbf_status status = good ? SBF_OK : sbfi_convert_no_memory(r->c);
   if (good && s.line_count) {
-    s.best_share = share_inside(&s, &s.best);
-    bool matched;
-    status = match_limbs(r, &s, &scratch, &matched);
+    s.best.share = share_inside(&s, &s.best.m, 0);
+    s.best.score = s.best.share - NEARNESS * distance_to_bones(&s, &s.best.m);
+    bool matched = false;
+    if (is_long(&s)) status = match_limbs(r, &s, &scratch, &matched);
     if (status == SBF_OK && !matched && is_stated) {
       consider_all(&s);
       status = match_limbs(r, &s, &scratch, &matched);
+      if (status == SBF_OK && !matched) status = match_limbs_otherwise(r, &s, &scratch, &matched);
     }
-    r->alignment.to_asset = s.best;
-    r->alignment.inside = s.best_share;
-    if (s.best_share >= LEAST) scale_rig(r);
-    r->alignment.is_stated = memcmp(&s.best, &r->c->to_asset, sizeof s.best) == 0;
-    if (status == SBF_OK && s.best_share < LEAST) status = refuse(&s, &scratch);
+    r->alignment.to_asset = s.best.m;
+    r->alignment.inside = s.best.share;
+    if (s.best.share >= SBFI_MIN_BONES_INSIDE) scale_rig(r);
+    r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
+    if (status == SBF_OK && s.best.share < SBFI_MIN_BONES_INSIDE) status = refuse(&s, &scratch);
   }
   sbfi_arena_free(&scratch);
   return status;

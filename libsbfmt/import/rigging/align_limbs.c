@@ -113,7 +113,7 @@ static void turn_to(sbfi_d3 from, sbfi_d3 to, double turn[4]) {
 
 /* Of all directions the nearest that is nearly as good as the best; then the best of those around it. */
 static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, double turn[4]) {
-  double shares[DIRECTIONS], most = 0, nearest = -1;
+  double shares[DIRECTIONS], max = 0, nearest = -1;
   sbfi_d3 chosen = direction;
   for (uint32_t i = 0; i < DIRECTIONS; i++) {
     sbfi_d3 to = spread(i);
@@ -121,11 +121,11 @@ static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, doubl
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
     turn_to(direction, to, turn);
     shares[i] = share_inside(l, first, turn);
-    most = fmax(most, shares[i]);
+    max = fmax(max, shares[i]);
   }
   for (uint32_t i = 0; i < DIRECTIONS; i++) {
     double cosine = sbfi_d3_dot(spread(i), direction);
-    if (cosine < FARTHEST || shares[i] < most - NEARLY || cosine <= nearest) continue;
+    if (cosine < FARTHEST || shares[i] < max - NEARLY || cosine <= nearest) continue;
     nearest = cosine;
     chosen = spread(i);
   }

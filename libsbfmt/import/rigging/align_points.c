@@ -12,14 +12,21 @@
 #include "import/rigging/point_finder.h"
 #include "import/rigging/triangle_shapes.h"
 
-enum { SAMPLES = 256, FIRST_SAMPLES = 16, SECOND_SAMPLES = 64, SEED_TRIANGLES = 48, SEED_CANDIDATES = 400 };
+enum {
+  SAMPLES = 256,
+  FIRST_SAMPLES = 16,
+  SECOND_SAMPLES = 64,
+  FITTED_SAMPLES = 512,
+  SEED_TRIANGLES = 48,
+  SEED_CANDIDATES = 400
+};
 
 /* Points are one where they are this near, as a share of the input's size. */
 static const double TOLERANCE = 1e-4;
 /* So much better a later candidate has to be. */
 static const double BETTER = 5e-3;
 /* The least share of points that says anything. */
-static const double LEAST_SHARE = 0.1;
+static const double MIN_SHARE = 0.1;
 
 typedef struct search {
   const sbfi_rigging *r;
@@ -28,7 +35,6 @@ typedef struct search {
   double quantum; /* of the input's numbers, in its own unit: decimals of its text */
   sbfi_matrix best;
   double best_share;
-  uint32_t tried;
 } search;
 
 /* The step in which a text wrote its numbers, where all are whole multiples of one; else 0. */
@@ -86,11 +92,10 @@ static void consider(search *s, const sbfi_matrix *m) {
   if (!sbfi_alignment_allowed(s->r, m)) return;
   uint32_t first = s->sample_count < FIRST_SAMPLES ? s->sample_count : FIRST_SAMPLES;
   uint32_t second = s->sample_count < SECOND_SAMPLES ? s->sample_count : SECOND_SAMPLES;
-  s->tried++;
   double share = share_of(s, m, 0, first);
   if (!(share > 0.4 * s->best_share)) return;
   share = (share * first + share_of(s, m, first, second) * (second - first)) / second;
-  if (!(share > 0.7 * s->best_share) || share < 0.5 * LEAST_SHARE) return;
+  if (!(share > 0.7 * s->best_share) || share < 0.5 * MIN_SHARE) return;
   share = (share * second + share_of(s, m, second, s->sample_count) * (s->sample_count - second)) /
           s->sample_count;
   if (share < s->best_share + BETTER) return;
@@ -98,13 +103,15 @@ static void consider(search *s, const sbfi_matrix *m) {
   s->best_share = share;
 }
 
+/* Steps of the golden ratio: early ones are spread as well. */
+static uint32_t sample_of(uint32_t count, uint32_t samples, uint32_t i) {
+  return count <= samples ? i : (uint32_t)((double)count * fmod(0.5 + i * 0.6180339887498949, 1.0));
+}
+
 static void take_samples(search *s) {
   uint32_t count = s->r->input.mesh.positions.count;
   s->sample_count = count < SAMPLES ? count : SAMPLES;
-  for (uint32_t i = 0; i < s->sample_count;
-       i++) /* steps of the golden ratio: early ones are spread as well */
-    s->samples[i] =
-        count <= SAMPLES ? i : (uint32_t)((double)count * fmod(0.5 + i * 0.6180339887498949, 1.0));
+  for (uint32_t i = 0; i < s->sample_count; i++) s->samples[i] = sample_of(count, SAMPLES, i);
 }
 
 /* Axes swapped, a usual unit, no offset. */
@@ -202,13 +209,15 @@ typedef struct pairs {
   double squared; /* sum of squared distances */
 } pairs;
 
-static void find_pairs(const search *s, const sbfi_matrix *m, pairs *p) {
+/* Of `samples` points, spread over all. */
+static void find_pairs(const search *s, const sbfi_matrix *m, uint32_t samples, pairs *p) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
   double within = sbfi_match_tolerance(s->r, sbfi_similarity_scale(m), s->quantum), distance;
   p->count = 0;
   p->squared = 0;
-  for (uint32_t i = 0; i < points.count; i++) {
-    sbfi_d3 from = sbfi_d3_of(points.at[i]), at = sbfi_similarity_apply(m, from);
+  for (uint32_t i = 0; i < samples; i++) {
+    sbfi_d3 from = sbfi_d3_of(points.at[sample_of(points.count, samples, i)]),
+            at = sbfi_similarity_apply(m, from);
     uint32_t near = sbfi_point_nearest(&s->finder, at, within, &distance);
     if (near == UINT32_MAX) continue;
     p->from[p->count] = from;
@@ -223,21 +232,46 @@ static bool is_mirrored(const sbfi_matrix *m) {
 
 /* A nearly symmetric character fits nearly as well the wrong way round: all its points tell, not a sample. */
 static void try_mirrors(search *s, pairs *p) {
+  uint32_t count = s->r->input.mesh.positions.count;
   sbfi_d3 low = sbfi_d3_of(s->r->rig.low), high = sbfi_d3_of(s->r->rig.high);
   const double middle[3] = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
   sbfi_matrix from = s->best;
-  find_pairs(s, &from, p);
-  uint32_t most = p->count;
-  for (int i = 0; i < 6 && most < s->r->input.mesh.positions.count; i++) {
+  find_pairs(s, &from, count, p);
+  uint32_t max = p->count;
+  for (int i = 0; i < 6 && max < count; i++) {
     sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
     sbfi_matrix m = sbfi_matrix_multiply(&mirror, &from);
     if (!sbfi_alignment_allowed(s->r, &m)) continue;
-    find_pairs(s, &m, p);
-    if (p->count <= most) continue;
-    most = p->count;
+    find_pairs(s, &m, count, p);
+    if (p->count <= max) continue;
+    max = p->count;
     s->best = m;
+  }
+}
+
+/* By least squares, and to a usual transform where that is as good. */
+static void fit(search *s, pairs *p) {
+  uint32_t count = s->r->input.mesh.positions.count,
+           samples = count < FITTED_SAMPLES ? count : FITTED_SAMPLES;
+  find_pairs(s, &s->best, samples, p);
+  uint32_t max = p->count;
+  double squared = p->squared;
+  for (int pass = 0; pass < 4; pass++) {
+    sbfi_matrix m;
+    if (!sbfi_similarity_fit(p->from, p->to, p->count, is_mirrored(&s->best), s->r->c->options->unit_m, &m))
+      break;
+    if (pass == 3) m = sbfi_similarity_snapped(&s->best, s->r->rig.size, 3e-4);
+    if (pass == 3 && !sbfi_alignment_allowed(s->r, &m)) break;
+    find_pairs(s, &m, samples, p);
+    /* A usual transform may be a little worse: rounding is all that speaks for another. */
+    double allowed =
+        squared + (pass == 3 ? 3 * squared + 1e-12 * s->r->rig.size * s->r->rig.size * samples : 0);
+    if (p->count < max || (p->count == max && p->squared > allowed)) continue;
+    s->best = m;
+    max = p->count;
+    squared = p->squared;
   }
 }
 
@@ -247,26 +281,10 @@ static bool refine(search *s, sbfi_arena *arena, double *share) {
       sbfi_arena_allocate(arena, count, sizeof *p.to), 0, 0};
   if (!p.from || !p.to) return false;
   try_mirrors(s, &p);
-  find_pairs(s, &s->best, &p);
-  uint32_t most = p.count;
-  double squared = p.squared;
   bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* and right: it stays */
-  for (int pass = is_stated ? 4 : 0; pass < 4; pass++) {
-    sbfi_matrix m;
-    if (!sbfi_similarity_fit(p.from, p.to, p.count, is_mirrored(&s->best), s->r->c->options->unit_m, &m))
-      break;
-    if (pass == 3) m = sbfi_similarity_snapped(&s->best, s->r->rig.size, 3e-4);
-    if (pass == 3 && !sbfi_alignment_allowed(s->r, &m)) break;
-    find_pairs(s, &m, &p);
-    /* A usual transform may be a little worse: rounding is all that speaks for another. */
-    double allowed =
-        squared + (pass == 3 ? 3 * squared + 1e-12 * s->r->rig.size * s->r->rig.size * count : 0);
-    if (p.count < most || (p.count == most && p.squared > allowed)) continue;
-    s->best = m;
-    most = p.count;
-    squared = p.squared;
-  }
-  *share = (double)most / count;
+  if (!is_stated) fit(s, &p);
+  find_pairs(s, &s->best, count, &p);
+  *share = (double)p.count / count;
   return true;
 }
 
@@ -284,7 +302,7 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found) {
     if (s.best_share < 0.999) consider_usual(&s);
     if (s.best_share < 0.999) consider_boxes(&s);
     if (s.best_share < 0.999) good = consider_triangles(&s, &scratch);
-    *found = good && s.best_share >= LEAST_SHARE;
+    *found = good && s.best_share >= MIN_SHARE;
     if (*found) good = refine(&s, &scratch, &r->alignment.matched);
     if (*found) r->alignment.to_asset = s.best;
     r->alignment.is_stated = memcmp(&r->alignment.to_asset, &r->c->to_asset, sizeof s.best) == 0;

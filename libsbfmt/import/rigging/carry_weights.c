@@ -14,7 +14,9 @@
  * surface one may be that faces right; how far from a piece's nearest point its others still touch. */
 static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
 /* The least share of a piece's points with weights for the others to follow them. */
-static const double LEAST_CARRIED = 0.4;
+static const double MIN_CARRIED = 0.4;
+/* The least share of a piece's points beside rigid pieces of one bone for all to follow it. */
+static const double MIN_RIGID = 0.75;
 enum { SPREADING_PASSES = 100 };
 
 typedef struct carrying {
@@ -23,6 +25,8 @@ typedef struct carrying {
   sbfi_surface_finder finder;
   uint32_t *pieces; /* (points) the first point of the piece that each belongs to */
   float *distances; /* (points) from the rig's surface */
+  int32_t *nearest; /* (points) node of the rigid piece of the rig that is nearest, or SBF_NONE */
+  int32_t *rigid;   /* (rig points) node that moves all of the piece alone, or SBF_NONE */
   sbfi_arena *scratch;
 } carrying;
 
@@ -30,18 +34,18 @@ static bool is_open(const carrying *c, uint32_t point) {
   return c->r->sources[point] == SBFI_WEIGHTS_NONE;
 }
 
-/* Points that share a polygon, and points in one place, are of one piece. */
-static bool find_pieces(carrying *c) {
-  const sbfi_scene_surface *s = c->moved;
+/* The first of all points that hang together with each: points that share a polygon, and points in one place.
+ * NULL where memory runs out. */
+static uint32_t *find_pieces(const sbfi_scene_surface *s, sbfi_arena *arena) {
   uint32_t count = s->mesh.positions.count, slots = 16;
   while (slots < 2 * count) slots *= 2;
-  uint32_t *table = sbfi_arena_allocate(c->scratch, slots, sizeof *table); /* point + 1 */
-  c->pieces = sbfi_arena_allocate(c->scratch, count + 1, sizeof *c->pieces);
-  if (!table || !c->pieces) return false;
-  sbfi_sets_begin(c->pieces, count);
+  uint32_t *table = sbfi_arena_allocate(arena, slots, sizeof *table); /* point + 1 */
+  uint32_t *pieces = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *pieces);
+  if (!table || !pieces) return NULL;
+  sbfi_sets_begin(pieces, count);
   for (uint32_t i = 0; i < count; i++) {
     for (uint32_t k = s->neighbour_starts[i]; k < s->neighbour_starts[i + 1]; k++)
-      sbfi_sets_join(c->pieces, i, s->neighbours[k]);
+      sbfi_sets_join(pieces, i, s->neighbours[k]);
     const sbf_vec3 p = s->mesh.positions.at[i];
     uint64_t hash = 1469598103934665603u;
     const float at[3] = {p.x, p.y, p.z};
@@ -54,12 +58,30 @@ static bool find_pieces(carrying *c) {
       }
       const sbf_vec3 q = s->mesh.positions.at[table[slot] - 1];
       if (q.x == p.x && q.y == p.y && q.z == p.z) {
-        sbfi_sets_join(c->pieces, i, table[slot] - 1);
+        sbfi_sets_join(pieces, i, table[slot] - 1);
         break;
       }
     }
   }
-  for (uint32_t i = 0; i < count; i++) c->pieces[i] = sbfi_set_root(c->pieces, i);
+  for (uint32_t i = 0; i < count; i++) pieces[i] = sbfi_set_root(pieces, i);
+  return pieces;
+}
+
+/* Of each point of the rig the node that moves all of its piece alone, or SBF_NONE. */
+static bool find_rigid_pieces(carrying *c) {
+  const sbfi_scene_surface *s = &c->r->rig;
+  const uint32_t *pieces = find_pieces(s, c->scratch);
+  c->rigid = sbfi_arena_allocate(c->scratch, (size_t)s->mesh.positions.count + 1, sizeof *c->rigid);
+  if (!pieces || !c->rigid) return false;
+  for (uint32_t i = 0; i < s->mesh.positions.count; i++) {
+    const sbfi_influences *of = &c->r->rig_weights[i];
+    int32_t node = of->at[0].weight > 0 && of->at[1].weight <= 0 ? (int32_t)of->at[0].node : SBF_NONE;
+    if (pieces[i] == i) /* the first of its piece */
+      c->rigid[i] = node;
+    else if (c->rigid[pieces[i]] != node)
+      c->rigid[pieces[i]] = SBF_NONE;
+  }
+  for (uint32_t i = 0; i < s->mesh.positions.count; i++) c->rigid[i] = c->rigid[pieces[i]];
   return true;
 }
 
@@ -80,7 +102,7 @@ static void blend(const carrying *c, const sbfi_surface_place *at, sbfi_influenc
   *to = (sbfi_influences){0};
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *from = &c->r->rig_weights[at->points[k]];
-    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+    for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from->at[i].weight > 0; i++)
       sbfi_influences_add(to, from->at[i].node, at->weights[k] * (double)from->at[i].weight);
   }
   sbfi_influences_finish(to);
@@ -92,8 +114,10 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
   sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[point]);
   sbfi_d3 normal = sbfi_d3_scale(sbfi_d3_of(c->moved->normals[point]), sign);
   c->distances[point] = INFINITY;
+  c->nearest[point] = SBF_NONE;
   if (!sbfi_surface_nearest(&c->finder, place, NULL, size, &near)) return;
   c->distances[point] = (float)near.distance;
+  c->nearest[point] = c->rigid[near.points[0]];
   double within = fmin(FARTHEST * size, near.distance + DETOUR * size);
   if (near.distance > within ||
       !sbfi_surface_nearest(&c->finder, place, &normal, within * (1 + 1e-9), &facing))
@@ -113,7 +137,7 @@ static bool mean_of_neighbours(const carrying *c, uint32_t point, sbfi_influence
     const sbfi_influences *from = &c->r->weights[s->neighbours[k]];
     sbfi_d3 there = sbfi_d3_of(s->mesh.positions.at[s->neighbours[k]]);
     double near = 1 / (sbfi_d3_length(sbfi_d3_sub(there, here)) + 1e-4 * s->size);
-    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+    for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from->at[i].weight > 0; i++)
       sbfi_influences_add(to, from->at[i].node, near * (double)from->at[i].weight);
   }
   sbfi_influences_finish(to);
@@ -131,8 +155,8 @@ static bool drop_outliers(carrying *c) {
     double common = 0;
     if (c->r->sources[i] != SBFI_WEIGHTS_CARRIED || !mean_of_neighbours(c, i, &mean)) continue;
     const sbfi_influences *own = &c->r->weights[i];
-    for (uint32_t a = 0; a < SBFI_MOST_INFLUENCES && mean.at[a].weight > 0; a++)
-      for (uint32_t b = 0; b < SBFI_MOST_INFLUENCES && own->at[b].weight > 0; b++)
+    for (uint32_t a = 0; a < SBFI_MAX_INFLUENCES && mean.at[a].weight > 0; a++)
+      for (uint32_t b = 0; b < SBFI_MAX_INFLUENCES && own->at[b].weight > 0; b++)
         if (mean.at[a].node == own->at[b].node)
           common += fmin((double)mean.at[a].weight, (double)own->at[b].weight);
     outlier[i] = common < unlike && c->distances[i] > 1e-3f * (float)c->r->rig.size;
@@ -173,7 +197,7 @@ typedef struct piece {
 
 static uint32_t strongest(const sbfi_influences *of) {
   uint32_t best = 0;
-  for (uint32_t i = 1; i < SBFI_MOST_INFLUENCES && of->at[i].weight > 0; i++)
+  for (uint32_t i = 1; i < SBFI_MAX_INFLUENCES && of->at[i].weight > 0; i++)
     if (of->at[i].weight > of->at[best].weight) best = i;
   return of->at[best].node;
 }
@@ -185,7 +209,7 @@ static void touch(const carrying *c, uint32_t point, piece *to) {
   if (!sbfi_surface_nearest(&c->finder, place, NULL, c->r->rig.size, &near)) return;
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *from = &c->r->rig_weights[near.points[k]];
-    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+    for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from->at[i].weight > 0; i++)
       sbfi_influences_add(&to->touched, from->at[i].node, near.weights[k] * (double)from->at[i].weight);
   }
 }
@@ -202,7 +226,7 @@ static bool attach_pieces(carrying *c) {
   }
   for (uint32_t i = 0; i < count; i++) {
     piece *p = &pieces[c->pieces[i]];
-    if (p->weighted < LEAST_CARRIED * p->points) touch(c, i, p);
+    if (p->weighted < MIN_CARRIED * p->points) touch(c, i, p);
   }
   for (uint32_t i = 0; i < count; i++) {
     const piece *p = &pieces[c->pieces[i]];
@@ -211,6 +235,37 @@ static bool attach_pieces(carrying *c) {
       continue;
     c->r->weights[i] = (sbfi_influences){{{strongest(&p->touched), 1}}};
     c->r->sources[i] = SBFI_WEIGHTS_ATTACHED;
+  }
+  return true;
+}
+
+/* --- Pieces of machines -------------------------------------------------------------------------------- */
+
+typedef struct vote {
+  uint32_t points, agreed;
+  int32_t node;
+  int32_t lead; /* of the node over all others */
+} vote;
+
+/* A piece that lies on rigid pieces of one bone moves with that alone, also where another's surface is nearer
+ * (majority by Boyer and Moore 1981). */
+static bool stiffen_pieces(carrying *c) {
+  uint32_t count = c->moved->mesh.positions.count;
+  vote *votes = sbfi_arena_allocate(c->scratch, (size_t)count + 1, sizeof *votes);
+  if (!votes) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    vote *v = &votes[c->pieces[i]];
+    if (v->points++ == 0 || v->lead == 0) v->node = c->nearest[i];
+    v->lead += v->node == c->nearest[i] ? 1 : -1;
+  }
+  for (uint32_t i = 0; i < count; i++)
+    votes[c->pieces[i]].agreed += c->nearest[i] == votes[c->pieces[i]].node;
+  for (uint32_t i = 0; i < count; i++) {
+    const vote *v = &votes[c->pieces[i]];
+    if (v->node == SBF_NONE || v->agreed < MIN_RIGID * v->points) continue;
+    if (!is_open(c, i) && c->r->sources[i] != SBFI_WEIGHTS_CARRIED) continue;
+    c->r->weights[i] = (sbfi_influences){{{(uint32_t)v->node, 1}}};
+    c->r->sources[i] = SBFI_WEIGHTS_CARRIED;
   }
   return true;
 }
@@ -234,17 +289,25 @@ static void carry_objects(carrying *c) {
   }
 }
 
-bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double least, double *share) {
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *share) {
   sbfi_arena scratch;
   uint32_t count = moved->mesh.positions.count;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   carrying c = {.r = r, .moved = moved, .scratch = &scratch};
   c.distances = sbfi_arena_allocate(&scratch, count + 1, sizeof *c.distances);
-  bool good = c.distances && sbfi_surface_finder_make(&c.finder, &r->rig, &scratch) && find_pieces(&c);
+  c.nearest = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.nearest);
+  c.pieces = find_pieces(moved, &scratch);
+  bool good = c.distances && c.nearest && c.pieces && find_rigid_pieces(&c) &&
+              sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
+  for (uint32_t i = 0; good && i < count; i++) /* points by place have the node that they have */
+    c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0
+                       ? (int32_t)r->weights[i].at[0].node
+                       : SBF_NONE;
   if (good) carry_objects(&c);
   *share = good ? share_of_weighted(r) : 0;
-  if (good && *share >= least) good = attach_pieces(&c) && drop_outliers(&c) && spread(&c);
-  for (uint32_t i = 0; *share < least && i < count; i++)
+  if (good && *share >= min)
+    good = stiffen_pieces(&c) && attach_pieces(&c) && drop_outliers(&c) && spread(&c);
+  for (uint32_t i = 0; *share < min && i < count; i++)
     if (r->sources[i] == SBFI_WEIGHTS_CARRIED) {
       r->sources[i] = SBFI_WEIGHTS_NONE;
       r->weights[i] = (sbfi_influences){0};

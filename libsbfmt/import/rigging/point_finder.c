@@ -18,9 +18,9 @@ static double squared_distance(const void *user, uint32_t item, const double pla
 
 uint32_t sbfi_point_nearest(const sbfi_point_finder *finder, sbfi_d3 place, double within, double *distance) {
   const double at[3] = {place.x, place.y, place.z};
-  double least = within * within * (1 + 1e-12);
-  uint32_t found = sbfi_box_tree_nearest(&finder->tree, at, squared_distance, finder->points, &least);
-  if (distance) *distance = sqrt(least);
+  double min = within * within * (1 + 1e-12);
+  uint32_t found = sbfi_box_tree_nearest(&finder->tree, at, squared_distance, finder->points, &min);
+  if (distance) *distance = sqrt(min);
   return found;
 }
 

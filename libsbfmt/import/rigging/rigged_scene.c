@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "import/rigging/rig_pose.h"
+
 static void *room(const sbfi_rigging *r, size_t count, size_t size) {
   return sbfi_arena_allocate(&r->c->scratch, count + 1, size);
 }
@@ -37,11 +39,11 @@ static bool add_skin(
   uint32_t *joint_of_node = room(r, node_count, sizeof *joint_of_node); /* + 1 */
   sbfi_scene_joint *joints = room(r, node_count, sizeof *joints);
   uint32_t *starts = room(r, (size_t)to->point_count + 1, sizeof *starts);
-  uint32_t *skin_joints = room(r, (size_t)to->point_count * SBFI_MOST_INFLUENCES, sizeof *skin_joints);
-  float *skin_weights = room(r, (size_t)to->point_count * SBFI_MOST_INFLUENCES, sizeof *skin_weights);
+  uint32_t *skin_joints = room(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_joints);
+  float *skin_weights = room(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_weights);
   if (!joint_of_node || !joints || !starts || !skin_joints || !skin_weights) return false;
   for (uint32_t i = 0; i < to->point_count; i++)
-    for (uint32_t k = 0; k < SBFI_MOST_INFLUENCES && weights[i].at[k].weight > 0; k++)
+    for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++)
       joint_of_node[weights[i].at[k].node] = 1;
   to->joint_count = 0;
   for (uint32_t n = 0; n < node_count; n++) { /* ascending, so that a point's joints ascend as its nodes do */
@@ -52,7 +54,7 @@ static bool add_skin(
     joint_of_node[n] = ++to->joint_count;
   }
   for (uint32_t i = 0; i < to->point_count; i++) {
-    for (uint32_t k = 0; k < SBFI_MOST_INFLUENCES && weights[i].at[k].weight > 0; k++) {
+    for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++) {
       uint32_t joint = joint_of_node[weights[i].at[k].node];
       if (joint == 0) continue;
       skin_joints[total] = joint - 1;
@@ -127,6 +129,8 @@ bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
     meshes[m].joint_count = 0;
     if (r->carriers[m] == SBF_NONE && has_weights(r, m) && !add_skin(r, m, nodes, &meshes[m])) return false;
     if (r->turned[m] && !turn_polygons(r, &meshes[m])) return false;
+    sbfi_matrix to_asset = sbfi_matrix_multiply(&c->rig_to_asset, &nodes[at].world);
+    if (r->alignment.pose_worlds && !sbfi_pose_undo(r, m, &to_asset, &meshes[m])) return false;
   }
   *scene = *input;
   scene->unit_m = rig->unit_m;
@@ -134,6 +138,7 @@ bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
   scene->axes = rig->axes;
   scene->axes_known = rig->axes_known;
   scene->nodes = nodes;
+  scene->saved_worlds = NULL;
   scene->node_count = node_count + mesh_count;
   scene->meshes = meshes;
   scene->clips = rig->clips;

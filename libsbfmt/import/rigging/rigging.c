@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "import/rigging/align.h"
+#include "import/rigging/clip_moments.h"
+#include "import/rigging/rig_pose.h"
 #include "import/rigging/rigged_scene.h"
 #include "import/rigging/weigh.h"
 #include "mechanics/vector.h"
@@ -55,6 +57,14 @@ static uint32_t count_points(const sbfi_rigging *r, sbfi_weight_source source) {
 }
 
 static void say_alignment(const sbfi_rigging *r) {
+  char pose[120] = "when it was saved, in the middle of a movement";
+  if (r->alignment.pose_clip)
+    snprintf(pose, sizeof pose, "%.3f s after the start of its clip '%.60s'", r->alignment.pose_s,
+        r->alignment.pose_clip->name);
+  if (r->alignment.pose_worlds)
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
+        "the input stands as %s %s: it was taken back to the pose in which the rig's skin was bound",
+        r->rig.scene->file, pose);
   if (r->alignment.is_stated) return;
   double size = r->rig.size > 0 ? r->rig.size : r->input.size * sbfi_similarity_scale(&r->alignment.to_asset);
   sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, size);
@@ -131,9 +141,75 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
 /* Surfaces farther from each other than this share of the rig's size are not alike. */
 static const double ALIKE = 0.03;
 /* The least share of points beside a surface of the rig for all to take weights from it. */
-static const double LEAST_BESIDE = 0.6, LEAST_FORCED = 0.25;
+static const double MIN_BESIDE = 0.6, MIN_FORCED = 0.25;
 /* The least share of points on the rig's own for --weights match. */
-static const double LEAST_MATCHED = 0.999;
+static const double MIN_MATCHED = 0.999;
+/* Where so many points lie on the rig's own, no other pose is tried. */
+static const double MATCHED_WELL = 0.95, MATCHED_BETTER = 1e-9;
+
+/* Lays the input over the rig in another pose, which stays where more points lie on the rig's. */
+static bool try_pose(sbfi_rigging *r, const sbfi_matrix *worlds, bool *found) {
+  sbfi_rigging posed = *r;
+  bool found_posed;
+  if (!worlds || !sbfi_pose_surface(r, worlds, &posed.rig) || !sbfi_align_by_points(&posed, &found_posed))
+    return false;
+  if (!found_posed || (*found && posed.alignment.matched < r->alignment.matched + MATCHED_BETTER))
+    return true;
+  *r = posed;
+  r->alignment.pose_worlds = worlds;
+  *found = true;
+  return true;
+}
+
+static bool is_found_well(const sbfi_rigging *r, bool found) {
+  return found && r->alignment.matched >= MATCHED_WELL;
+}
+
+/* As programs write a file that they play: at a moment of one of its clips. */
+static bool align_by_clips(sbfi_rigging *r, const sbfi_rigging *bound, bool *found) {
+  sbfi_clip_moment poses[SBFI_MAX_CLIP_MOMENTS];
+  uint32_t count;
+  if (!sbfi_clip_moments_find(bound, poses, &count)) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    sbfi_rigging posed = *bound;
+    bool found_posed = *found;
+    posed.alignment = r->alignment;
+    posed.alignment.pose_worlds = NULL;
+    if (!try_pose(&posed, sbfi_clip_moment_worlds(bound, &poses[i]), &found_posed)) return false;
+    if (!posed.alignment.pose_worlds) continue;
+    *r = posed;
+    r->alignment.pose_clip = poses[i].clip;
+    r->alignment.pose_s = poses[i].time_s;
+    *found = true;
+  }
+  return true;
+}
+
+/* By points that the input shares with the rig's meshes as they were bound, as they were saved, or as a clip
+ * moves them. */
+static bool align_by_points(sbfi_rigging *r, bool *found) {
+  const sbfi_rigging bound = *r;
+  const sbfi_matrix *saved = r->rig.scene->saved_worlds;
+  if (!sbfi_align_by_points(r, found)) return false;
+  if (is_found_well(r, *found) || !r->rig.mesh.positions.count) return true;
+  if (saved && !try_pose(r, saved, found)) return false;
+  return is_found_well(r, *found) || align_by_clips(r, &bound, found);
+}
+
+/* By shape, as bound or as saved. */
+static bool align_by_shape(sbfi_rigging *r, double *error) {
+  sbfi_rigging saved = *r;
+  const sbfi_matrix *worlds = r->rig.scene->saved_worlds;
+  double saved_error;
+  if (!sbfi_align_by_shape(r, error)) return false;
+  if (!worlds || !r->rig.mesh.positions.count) return true;
+  if (!sbfi_pose_surface(r, worlds, &saved.rig) || !sbfi_align_by_shape(&saved, &saved_error)) return false;
+  if (saved_error >= *error) return true;
+  *r = saved;
+  *error = saved_error;
+  r->alignment.pose_worlds = worlds;
+  return true;
+}
 
 static bool rig_has_weights(const sbfi_rigging *r) {
   for (uint32_t i = 0; i < r->rig.mesh.positions.count; i++)
@@ -179,12 +255,12 @@ static sbf_status weigh_rest(sbfi_rigging *r, const sbfi_scene_surface *moved, w
 /* By nearness, where the input is like the rig's mesh or it is asked for. */
 static sbf_status weigh_beside(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
-  double share = 0, least = mode == MODE_TRANSFER ? LEAST_FORCED : LEAST_BESIDE;
+  double share = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_BESIDE;
   if ((mode != MODE_ANY && mode != MODE_TRANSFER) || (mode == MODE_ANY && !alike) || !count_open(r))
     return SBF_OK;
-  if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, least, &share))
+  if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, min, &share))
     return sbfi_convert_no_memory(r->c);
-  return mode == MODE_TRANSFER && share < least ? refuse_transfer(r, share) : SBF_OK;
+  return mode == MODE_TRANSFER && share < min ? refuse_transfer(r, share) : SBF_OK;
 }
 
 static bool has_named_objects(const sbfi_rigging *r) {
@@ -198,12 +274,14 @@ static bool has_named_objects(const sbfi_rigging *r) {
 static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   double error = INFINITY;
   sbfi_alignment stated = r->alignment;
+  sbfi_scene_surface bound = r->rig;
   if (*alike || r->c->rig == r->c->scene || mode == MODE_NAMED || mode == MODE_MATCH || !count_open(r))
     return SBF_OK;
-  if (rig_has_weights(r) && !sbfi_align_by_shape(r, &error)) return sbfi_convert_no_memory(r->c);
+  if (rig_has_weights(r) && !align_by_shape(r, &error)) return sbfi_convert_no_memory(r->c);
   *alike = error < ALIKE;
   if (*alike) return SBF_OK;
   r->alignment = stated;
+  r->rig = bound;
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 
@@ -212,7 +290,7 @@ static sbf_status weigh_objects(
   if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->weights);
   if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, moved))
     return sbfi_convert_no_memory(r->c);
-  if (mode == MODE_MATCH && count_open(r) > (1 - LEAST_MATCHED) * r->input.mesh.positions.count)
+  if (mode == MODE_MATCH && count_open(r) > (1 - MIN_MATCHED) * r->input.mesh.positions.count)
     return refuse_match(r);
   sbf_status status = weigh_beside(r, moved, mode, alike);
   return status == SBF_OK ? weigh_rest(r, moved, mode) : status;
@@ -222,7 +300,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   sbfi_conversion *c = r->c;
   sbfi_scene_surface moved;
   bool by_points = false;
-  if (!prepare(r) || (c->rig != c->scene && !sbfi_align_by_points(r, &by_points)))
+  if (!prepare(r) || (c->rig != c->scene && !align_by_points(r, &by_points)))
     return sbfi_convert_no_memory(c);
   if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
   if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);

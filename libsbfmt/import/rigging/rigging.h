@@ -13,7 +13,7 @@ sbf_status sbfi_rig_input(sbfi_conversion *c);
 /* --- What the files of this folder share ------------------------------------------------------------- */
 
 /* The most bones that move one point; the strongest stay. */
-enum { SBFI_MOST_INFLUENCES = 12 };
+enum { SBFI_MAX_INFLUENCES = 12 };
 
 typedef struct sbfi_influence {
   uint32_t node; /* of the rig */
@@ -22,7 +22,7 @@ typedef struct sbfi_influence {
 
 /* Of one point: nodes ascending, weights that sum to 1, or none. */
 typedef struct sbfi_influences {
-  sbfi_influence at[SBFI_MOST_INFLUENCES];
+  sbfi_influence at[SBFI_MAX_INFLUENCES];
 } sbfi_influences;
 
 /* All meshes of a scene, one after another, in one space. */
@@ -56,6 +56,11 @@ typedef struct sbfi_alignment {
   double matched;       /* share of the input's points that lie on one of the rig's */
   double inside;        /* share of the bones' length that lies inside the input; 0: not looked at */
   bool is_stated;       /* as the files and the options say */
+  /* The rig's pose that it was laid over; NULL: the one that its skins were bound in. A moment of a clip, or
+   * without a clip the pose that the rig's file was saved in. */
+  const sbfi_matrix *pose_worlds; /* (nodes) */
+  const sbfi_scene_clip *pose_clip;
+  double pose_s;
 } sbfi_alignment;
 
 typedef struct sbfi_rigging {
@@ -77,6 +82,9 @@ bool sbfi_surface_gather(
 /* The same surface elsewhere. */
 bool sbfi_surface_move(
     sbfi_scene_surface *to, const sbfi_scene_surface *from, const sbfi_matrix *matrix, sbfi_arena *arena);
+/* The same surface with other positions, which must outlive it. */
+bool sbfi_surface_with_positions(
+    sbfi_scene_surface *to, const sbfi_scene_surface *from, const sbf_vec3 *positions, sbfi_arena *arena);
 /* Weights of the points of all meshes: of their skins, or of the bone that a mesh without one hangs on. */
 sbfi_influences *sbfi_rig_weights(sbfi_conversion *c, const sbfi_scene_surface *surface);
 

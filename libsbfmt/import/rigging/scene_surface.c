@@ -101,16 +101,21 @@ bool sbfi_surface_gather(
   return finish(surface, arena);
 }
 
+bool sbfi_surface_with_positions(
+    sbfi_scene_surface *to, const sbfi_scene_surface *from, const sbf_vec3 *positions, sbfi_arena *arena) {
+  *to = *from;
+  to->mesh.positions.at = positions;
+  find_bounds(to);
+  return find_normals(to, arena);
+}
+
 bool sbfi_surface_move(
     sbfi_scene_surface *to, const sbfi_scene_surface *from, const sbfi_matrix *matrix, sbfi_arena *arena) {
-  *to = *from;
   sbf_vec3 *positions = sbfi_arena_allocate(arena, from->mesh.positions.count + 1, sizeof *positions);
   if (!positions) return false;
   for (uint32_t i = 0; i < from->mesh.positions.count; i++)
     positions[i] = sbfi_transform_point(matrix, from->mesh.positions.at[i]);
-  to->mesh.positions.at = positions;
-  find_bounds(to);
-  return find_normals(to, arena);
+  return sbfi_surface_with_positions(to, from, positions, arena);
 }
 
 /* --- Weights ------------------------------------------------------------------------------------------- */
@@ -118,7 +123,7 @@ bool sbfi_surface_move(
 void sbfi_influences_add(sbfi_influences *to, uint32_t node, double weight) {
   uint32_t weakest = 0;
   if (!(weight > 0)) return;
-  for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES; i++) {
+  for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES; i++) {
     if (to->at[i].weight <= 0) {
       to->at[i] = (sbfi_influence){node, (float)weight};
       return;
@@ -133,15 +138,15 @@ void sbfi_influences_add(sbfi_influences *to, uint32_t node, double weight) {
 }
 
 void sbfi_influences_finish(sbfi_influences *of) {
-  static const double least = 1e-5;
+  static const double min = 1e-5;
   sbfi_influences from = *of;
   double sum = 0, kept = 0;
   uint32_t count = 0;
-  for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from.at[i].weight > 0; i++)
+  for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from.at[i].weight > 0; i++)
     sum += (double)from.at[i].weight;
   memset(of, 0, sizeof *of);
-  for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from.at[i].weight > 0; i++) {
-    if ((double)from.at[i].weight < least * sum) continue;
+  for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from.at[i].weight > 0; i++) {
+    if ((double)from.at[i].weight < min * sum) continue;
     uint32_t at = count++;
     for (; at > 0 && of->at[at - 1].node > from.at[i].node; at--) of->at[at] = of->at[at - 1];
     of->at[at] = from.at[i];
@@ -151,7 +156,7 @@ void sbfi_influences_finish(sbfi_influences *of) {
 }
 
 bool sbfi_influences_equal(const sbfi_influences *a, const sbfi_influences *b) {
-  for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES; i++) {
+  for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES; i++) {
     if (a->at[i].weight <= 0 && b->at[i].weight <= 0) return true;
     if (a->at[i].node != b->at[i].node || fabsf(a->at[i].weight - b->at[i].weight) > 1e-4f) return false;
   }

@@ -146,9 +146,9 @@ sbfi_matrix sbfi_similarity_snapped(const sbfi_matrix *m, double size, double re
     if (fabs(scale / sbfi_usual_units[i].unit_m - 1) < relative) scale = sbfi_usual_units[i].unit_m;
   for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS; i++) {
     sbfi_matrix axes = sbfi_axis_rotation(i);
-    double most = 0;
-    for (int k = 0; k < 9; k++) most = fmax(most, fabs(axes.at[k / 3][k % 3] - rotation.at[k / 3][k % 3]));
-    if (most < relative) rotation = axes;
+    double max = 0;
+    for (int k = 0; k < 9; k++) max = fmax(max, fabs(axes.at[k / 3][k % 3] - rotation.at[k / 3][k % 3]));
+    if (max < relative) rotation = axes;
   }
   if (sbfi_d3_length(offset) < relative * size) offset = (sbfi_d3){0, 0, 0};
   return sbfi_similarity_scaled(&rotation, scale, offset);

@@ -39,8 +39,8 @@ bool sbfi_surface_nearest(const sbfi_surface_finder *finder, sbfi_d3 place, cons
     double within, sbfi_surface_place *found) {
   const double at[3] = {place.x, place.y, place.z};
   const query q = {finder, normal};
-  double least = within * within;
-  uint32_t triangle = sbfi_box_tree_nearest(&finder->tree.tree, at, facing_distance, &q, &least);
+  double min = within * within;
+  uint32_t triangle = sbfi_box_tree_nearest(&finder->tree.tree, at, facing_distance, &q, &min);
   if (triangle == UINT32_MAX) return false;
   closest(finder, triangle, at, found);
   found->distance = sqrt(found->distance);

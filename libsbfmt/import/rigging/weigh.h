@@ -21,7 +21,7 @@ bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved);
 /* By nearness: the other points, from the surface of the rig's meshes beside them. `*share` is that of all
  * points which then have weights; where it is below `least` the input is no mesh like the rig's, and nothing
  * changes. */
-bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double least, double *share);
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *share);
 
 /* From the bones alone (build/weights): the other points of objects that no node carries. */
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved);

@@ -1,7 +1,10 @@
 /* Weights from the bones alone, for points that nothing else gives any. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "build/weights/weights.h"
+#include "import/rigging/align.h"
 #include "import/rigging/weigh.h"
 #include "mechanics/vector.h"
 #include "motion/carried_motion.h"
@@ -33,7 +36,7 @@ static bool *find_deforming(const sbfi_rigging *r) {
   for (uint32_t m = 0; deforming && m < r->rig.scene->mesh_count; m++)
     for (uint32_t i = r->rig.mesh_starts[m];
          r->rig.scene->meshes[m].joint_count && i < r->rig.mesh_starts[m + 1]; i++)
-      for (uint32_t k = 0; k < SBFI_MOST_INFLUENCES && r->rig_weights[i].at[k].weight > 0; k++)
+      for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && r->rig_weights[i].at[k].weight > 0; k++)
         any = deforming[r->c->bone_of_node[r->rig_weights[i].at[k].node]] = true;
   return any ? deforming : NULL;
 }
@@ -74,12 +77,12 @@ static bool is_beside_bones(const sbf_bone_list bones, const box *object, double
 /* Several characters in one input: the rig is that of one. */
 static void report_apart(const sbfi_rigging *r, const sbfi_scene_surface *moved) {
   const sbf_bone_list bones = r->c->asset->bones;
-  const sbfi_d3 least = {-INFINITY, -INFINITY, -INFINITY}, most = {INFINITY, INFINITY, INFINITY};
-  box rig = {most, least};
+  const sbfi_d3 min = {-INFINITY, -INFINITY, -INFINITY}, max = {INFINITY, INFINITY, INFINITY};
+  box rig = {max, min};
   for (uint32_t b = 0; b < bones.count; b++) widen(&rig, bones.at[b].head);
   double margin = BESIDE * sbfi_d3_length(sbfi_d3_sub(rig.high, rig.low));
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
-    box object = {most, least};
+    box object = {max, min};
     uint32_t count = 0;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++) {
       widen(&object, moved->mesh.positions.at[i]);
@@ -94,6 +97,64 @@ static void report_apart(const sbfi_rigging *r, const sbfi_scene_surface *moved)
   }
 }
 
+/* --- Rigs of other characters -------------------------------------------------------------------------- */
+
+enum { NAMED = 4 };
+
+/* Bones that lie inside and yet are nearest to no point hold no skin: limbs in the trunk of a body that has
+ * no such limbs. They count as little as those outside. */
+static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *computed) {
+  char names[200] = "";
+  double idle = 0, last = INFINITY;
+  for (uint32_t b = 0; b < computed->bone_count; b++) idle += (double)computed->idle_lengths[b];
+  double inside = fmin(r->alignment.inside, computed->figures.inside), share = inside * (1 - idle);
+  if (!(inside > 0) || share >= SBFI_MIN_BONES_INSIDE) return SBF_OK;
+  for (int n = 0; n < NAMED; n++) { /* the longest first; of equals the first alone */
+    uint32_t best = UINT32_MAX;
+    for (uint32_t b = 0; b < computed->bone_count; b++) {
+      double length = (double)computed->idle_lengths[b];
+      if (length > 0 && length < last &&
+          (best == UINT32_MAX || length > (double)computed->idle_lengths[best]))
+        best = b;
+    }
+    if (best == UINT32_MAX) break;
+    last = (double)computed->idle_lengths[best];
+    size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s'%.40s'", n ? ", " : "", r->c->asset->bones.at[best].name);
+  }
+  if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
+  return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
+      "only %.0f %% of the bones' length lies inside the mesh near some of its surface; %.0f %% lie deep "
+      "inside, where "
+      "other bones are nearer to all of it: %s; give this character's rig, or --unit, --up and --forward",
+      100 * share, 100 * idle, names);
+}
+
+/* Several bones reach over most of their body; a few may not, but then lie in its middle. A rig of another
+ * character lies in a part of the input, or beside the middle of most of it. */
+enum { SEVERAL = 10 };
+static const double MIN_EXTENT = 0.75, MIN_BESIDE = 0.9, MIN_OF_FEW = 0.4, MAX_BESIDE = 2.2, FAR_BESIDE = 3;
+
+static bool is_of_another(const sbfi_weights_figures *f) {
+  bool several = f->deforming_count >= SEVERAL;
+  return f->bone_extent < (several ? MIN_EXTENT : MIN_OF_FEW) ||
+         (f->bone_extent < MIN_BESIDE && f->median_distance > (several ? FAR_BESIDE : MAX_BESIDE));
+}
+
+static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *computed) {
+  const sbfi_weights_figures *f = &computed->figures;
+  if (!(r->alignment.inside > 0) || r->c->options->weights || !is_of_another(f)) return SBF_OK;
+  if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
+  return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
+      "the bones of %s lie inside the mesh, but reach over %.0f %% of its length alone, and half of the "
+      "surface is "
+      "farther from them than %.1f times half its thickness: give this character's rig; --weights "
+      "compute "
+      "takes "
+      "these bones as they lie",
+      r->rig.scene->file, 100 * f->bone_extent, f->median_distance);
+}
+
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   sbfi_weights computed;
   sbfi_weights_input in = {.allocator = &r->c->scratch.allocator,
@@ -106,6 +167,8 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
   in.triangles = (const uint32_t(*)[3])triangles_of(moved, &r->c->scratch, &in.triangle_count);
   if (!in.triangles || !in.sides) return sbfi_convert_no_memory(r->c);
   sbf_status status = sbfi_compute_weights(&in, &computed, r->c->error);
+  if (status == SBF_OK) status = check_idle_bones(r, &computed);
+  if (status == SBF_OK) status = check_extent(r, &computed);
   for (uint32_t i = 0; status == SBF_OK && i < in.point_count; i++) {
     if (r->sources[i] != SBFI_WEIGHTS_NONE) continue;
     for (int k = 0; k < SBFI_WEIGHTS_PER_POINT; k++)

@@ -54,7 +54,7 @@ static double distance(const sbfi_matrix *a, const sbfi_matrix *b) {
 
 /* The largest sine of an angle between axes of the same name. */
 static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
-  double most = 0;
+  double max = 0;
   for (int axis = 0; axis < 3; axis++) {
     double aa = 0, bb = 0, ab = 0;
     for (int k = 0; k < 3; k++) {
@@ -64,23 +64,23 @@ static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
     }
     double cosine = aa > 0 && bb > 0 ? ab / sqrt(aa * bb) : 1;
     double sine = cosine <= 0 ? 1 : cosine >= 1 ? 0 : sqrt(1 - cosine * cosine);
-    most = sine > most ? sine : most;
+    max = sine > max ? sine : max;
   }
-  return most;
+  return max;
 }
 
 static double deviation(const sbfi_scene *scene, const sbfi_matrix *worlds) {
-  double most_moved = 0, most_turned = 0, size = 0;
+  double max_moved = 0, max_turned = 0, size = 0;
   const sbfi_matrix *first = NULL;
   for (uint32_t i = 0; i < scene->node_count; i++) {
     const sbfi_matrix *rest = &scene->nodes[i].world;
     if (!scene->nodes[i].is_bone) continue;
     if (!first) first = rest;
     size = fmax(size, distance(first, rest));
-    most_moved = fmax(most_moved, distance(&worlds[i], rest));
-    most_turned = fmax(most_turned, turned(&worlds[i], rest));
+    max_moved = fmax(max_moved, distance(&worlds[i], rest));
+    max_turned = fmax(max_turned, turned(&worlds[i], rest));
   }
-  return size > 0 ? fmax(most_turned, most_moved / size) : most_turned;
+  return size > 0 ? fmax(max_turned, max_moved / size) : max_turned;
 }
 
 bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *difference) {
@@ -194,9 +194,11 @@ bool sbfi_scene_take_bind_pose(sbfi_scene *scene) {
   double difference;
   if (!sbfi_bind_worlds(scene, worlds, &difference)) return false;
   if (difference <= SAME_POSE || !all_usable(scene, worlds)) return true;
-  if (!complete_clips(scene)) return false;
+  sbfi_matrix *saved = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *saved);
+  if (!saved || !complete_clips(scene)) return false;
   for (uint32_t i = 0; i < scene->node_count; i++) {
     sbfi_matrix to_parent;
+    saved[i] = nodes[i].world;
     nodes[i].world = worlds[i];
     if (nodes[i].parent == SBF_NONE)
       nodes[i].local = worlds[i];
@@ -204,6 +206,7 @@ bool sbfi_scene_take_bind_pose(sbfi_scene *scene) {
       nodes[i].local = sbfi_matrix_multiply(&to_parent, &worlds[i]);
   }
   scene->nodes = nodes;
+  scene->saved_worlds = saved;
   return sbfi_scene_warn(scene, SBF_CODE_IMPORT_POSE, 0,
       "the file was saved in the middle of a movement: bones and skin are taken as they were bound");
 }

@@ -14,7 +14,8 @@ bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *diff
 
 /* Makes the bind pose the rest pose of a scene that is not its owner's to share yet, if it is another one,
  * and adds a note of it. Skinned meshes then stand where they were bound. Clips keep what they show: where a
- * track is missing, a key holds what the node was at rest. False where memory runs out. */
+ * track is missing, a key holds what the node was at rest. `saved_worlds` keeps the pose of the file. False
+ * where memory runs out. */
 bool sbfi_scene_take_bind_pose(sbfi_scene *scene);
 
 #endif

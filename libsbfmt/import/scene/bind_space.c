@@ -186,13 +186,13 @@ static const sbfi_matrix *root_placement(const skin_view *view) {
 static const sbfi_matrix *nearest_suggestion(
     const skin_view *view, const sbfi_matrix *placement, const sbfi_matrix suggested[SUGGESTIONS]) {
   const sbfi_matrix *best = NULL;
-  double least = NEAR_PLACEMENT, size = cbrt(fabs(determinant(placement)));
+  double min = NEAR_PLACEMENT, size = cbrt(fabs(determinant(placement)));
   for (int i = 0; i < SUGGESTIONS; i++) {
     double ratio = cbrt(fabs(determinant(&suggested[i]))) / size,
            apart = difference(view, placement, &suggested[i]);
-    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(apart < least)) continue;
+    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(apart < min)) continue;
     best = &suggested[i];
-    least = apart;
+    min = apart;
   }
   return best;
 }

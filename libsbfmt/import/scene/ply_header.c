@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-enum { MOST_BYTES = 1 << 20 }; /* many times any real header */
+enum { MAX_BYTES = 1 << 20 }; /* many times any real header */
 
 static bool has_end(sbfi_span rest) {
   sbfi_span line;
@@ -14,7 +14,7 @@ static bool has_end(sbfi_span rest) {
 sbf_status sbfi_ply_header_check(
     const sbfi_file *file, const sbf_allocator *allocator, sbf_diagnostic *error) {
   sbfi_arena arena;
-  size_t size = file->size < MOST_BYTES ? (size_t)file->size : MOST_BYTES;
+  size_t size = file->size < MAX_BYTES ? (size_t)file->size : MAX_BYTES;
   sbfi_arena_init(&arena, allocator, 0);
   char *head = sbfi_arena_allocate(&arena, size + 1, 1);
   sbf_status status = head ? sbfi_file_read_at(file, 0, head, size, error)

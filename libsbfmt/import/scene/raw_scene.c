@@ -64,9 +64,9 @@ static double take_f64(cursor *c, const char *what) {
 
 /* The count of a list whose items take `least` bytes or more: one that cannot fit is refused before anything
  * is allocated for it. */
-static uint32_t take_count(cursor *c, size_t least, const char *what) {
+static uint32_t take_count(cursor *c, size_t min, const char *what) {
   uint32_t count = take_u32(c, what);
-  if (c->status || count <= left(c) / least) return count;
+  if (c->status || count <= left(c) / min) return count;
   fail(c, what);
   return 0;
 }

@@ -169,6 +169,8 @@ typedef struct sbfi_scene {
 
   uint32_t node_count, mesh_count, material_count, image_count, clip_count, warning_count;
   const sbfi_scene_node *nodes; /* parents before children */
+  /* (node_count) node to scene in the pose that the file was saved in; NULL where that is the rest pose. */
+  const sbfi_matrix *saved_worlds;
   const sbfi_scene_mesh *meshes;
   const sbfi_scene_material *materials;
   const sbfi_scene_image *images;

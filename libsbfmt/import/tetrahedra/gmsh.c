@@ -62,8 +62,8 @@ static bool read_tag(gmsh *g, const char *what) {
   return g->binary ? sbfi_binary_u32(g->r, &ignored, what) : sbfi_word_i32(g->r, &signed_value, what);
 }
 
-static bool check_count(gmsh *g, uint64_t count, uint32_t least_bytes, const char *what) {
-  if (count <= (size_t)(g->r->end - g->r->at) / least_bytes + 1) return true;
+static bool check_count(gmsh *g, uint64_t count, uint32_t min_bytes, const char *what) {
+  if (count <= (size_t)(g->r->end - g->r->at) / min_bytes + 1) return true;
   return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX, "%llu is more than the rest of the file can hold of %s",
       (unsigned long long)count, what);
 }
@@ -105,10 +105,10 @@ static bool read_nodes_plain(gmsh *g) {
 
 /* Version 4: blocks, in each all numbers and then all places. */
 static bool read_nodes_blocks(gmsh *g) {
-  uint64_t blocks, total, least, most, count, number;
+  uint64_t blocks, total, min, max, count, number;
   uint32_t parametric;
   if (!read_wide(g, &blocks, "the blocks of nodes") || !read_wide(g, &total, "the nodes") ||
-      !read_wide(g, &least, "the least number") || !read_wide(g, &most, "the greatest number") ||
+      !read_wide(g, &min, "the least number") || !read_wide(g, &max, "the greatest number") ||
       !check_count(g, blocks, 4, "the blocks of nodes"))
     return false;
   for (uint64_t b = 0; b < blocks; b++) {
@@ -200,10 +200,10 @@ static bool read_elements_plain(gmsh *g) {
 }
 
 static bool read_elements_blocks(gmsh *g) {
-  uint64_t blocks, total, least, most, count, number;
+  uint64_t blocks, total, min, max, count, number;
   uint32_t type;
   if (!read_wide(g, &blocks, "the blocks of elements") || !read_wide(g, &total, "the elements") ||
-      !read_wide(g, &least, "the least number") || !read_wide(g, &most, "the greatest number") ||
+      !read_wide(g, &min, "the least number") || !read_wide(g, &max, "the greatest number") ||
       !check_count(g, blocks, 4, "the blocks of elements"))
     return false;
   for (uint64_t b = 0; b < blocks; b++) {

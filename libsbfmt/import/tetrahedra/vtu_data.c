@@ -5,7 +5,7 @@
 
 #include "base/base64.h"
 
-enum { MOST_INFLATION = 1032, PIECE_OF_TEXT = 1 << 16 };
+enum { MAX_INFLATION = 1032, PIECE_OF_TEXT = 1 << 16 };
 
 static const struct {
   const char *name;
@@ -102,7 +102,7 @@ static uint64_t size_of_block(const blocks *b, uint64_t i) {
 
 static bool inflate_block(sbfi_word_reader *r, sbfi_vtu_coding *c, const uint8_t *stored,
     uint64_t stored_size, sbfi_array *to, uint64_t size) {
-  if (size / MOST_INFLATION > stored_size)
+  if (size / MAX_INFLATION > stored_size)
     return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "a compressed block claims more bytes than it can hold");
   uint8_t *place = sbfi_word_push(r, to, (size_t)size);
   if (!place) return false;

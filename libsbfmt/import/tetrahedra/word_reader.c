@@ -80,9 +80,9 @@ bool sbfi_word_i32(sbfi_word_reader *r, int32_t *value, const char *what) {
   return sbfi_parse_i32(word.at, word.length, value) == SBFI_NUMBER_READ || not_a_number(r, word, what);
 }
 
-bool sbfi_word_count(sbfi_word_reader *r, uint32_t *value, uint32_t least_bytes, const char *what) {
+bool sbfi_word_count(sbfi_word_reader *r, uint32_t *value, uint32_t min_bytes, const char *what) {
   if (!sbfi_word_u32(r, value, what)) return false;
-  if (*value <= (size_t)(r->end - r->at) / least_bytes + 1) return true;
+  if (*value <= (size_t)(r->end - r->at) / min_bytes + 1) return true;
   return sbfi_word_fail(
       r, SBF_CODE_IMPORT_SYNTAX, "%u is more than the rest of the file can hold of %s", *value, what);
 }

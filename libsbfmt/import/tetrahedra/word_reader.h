@@ -32,8 +32,8 @@ bool sbfi_word_line(sbfi_word_reader *r, sbfi_span *line);
 bool sbfi_word_f32(sbfi_word_reader *r, float *value, const char *what);
 bool sbfi_word_u32(sbfi_word_reader *r, uint32_t *value, const char *what);
 bool sbfi_word_i32(sbfi_word_reader *r, int32_t *value, const char *what);
-/* A count of things of which each takes at least `least_bytes` of the file: more cannot be true. */
-bool sbfi_word_count(sbfi_word_reader *r, uint32_t *value, uint32_t least_bytes, const char *what);
+/* A count of things of which each takes at least `min_bytes` of the file: more cannot be true. */
+bool sbfi_word_count(sbfi_word_reader *r, uint32_t *value, uint32_t min_bytes, const char *what);
 
 /* Binary numbers at the present place, as the file has them. */
 bool sbfi_binary_u32(sbfi_word_reader *r, uint32_t *value, const char *what);

@@ -112,6 +112,21 @@ typedef struct sbf_convert_options {
   /* The axis of the input along which it looks, perpendicular to its upward one: "x", "-x", "y", "-y", "z" or
    * "-z". It becomes +Z, and nothing is turned afterwards; NULL: found by its legs. */
   const char *forward;
+  /* Parts of a skin that become sections. The defaults are those that a viewer would see move: not machines,
+   * which are pieces on one bone each; nor hands, feet, lower limbs, faces, props, hard materials, parts that
+   * are thin or small against the whole; eight at most. Their modulus is 1.5 rho g times the largest extent,
+   * times `firmness`; 0 counts as 1. Each part gets a section recipe, marked as proposed. `soft` and `rigid`
+   * are names or ids of bones that are soft or rigid whatever the defaults; "*": all bones; `rigid` goes
+   * before `soft`. Objects on bones of a character with such a skin are drawn and no bodies, but for those
+   * that `soft` or a pin names. */
+  double firmness;
+  const char *const *soft;  /* (soft_count) */
+  uint32_t soft_count;      /* of soft */
+  const char *const *rigid; /* (rigid_count) */
+  uint32_t rigid_count;     /* of rigid */
+  /* How it moves: "walk", "swim", "fly", "slither", "crawl", "roll" or "none"; NULL: judged by the shape of
+   * the rig, its names and its clips (GAIT_KIND). */
+  const char *gait;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
@@ -134,14 +149,13 @@ SBF_API sbf_status sbf_convert(
 SBF_API sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error);
 
-/* Proposes how an asset under construction walks, as `sbf_convert` does of what it has read: legs with their
- * chains of inverse kinematics, head and tail, by the rig's shape and what of the meshes its bones hold;
- * every part is marked as proposed. One that has a gait, chains or chains of inverse kinematics stays as it
- * is. Without legs it gets no gait: RIG_NO_LEGS, or RIG_CRAWLS for what gets a chain to crawl by, is
- * reported.
+/* Proposes how an asset under construction moves, as `sbf_convert` does: its kind (GAIT_KIND), legs with
+ * their chains of inverse kinematics, head and tail, waves, fins, wheels, by the rig's shape, its names and
+ * its clips. Every part is marked as proposed. An asset that has a gait, chains or chains of inverse
+ * kinematics stays as it is. Kind none gets no gait (RIG_NO_LEGS).
  *
- * Of `options` (may be NULL) only allocator, report and user are heeded. On failure (no memory, BAD_CALL) the
- * asset has no gait. */
+ * Of `options` (may be NULL) only allocator, gait, report and user are heeded. On failure (no memory,
+ * BAD_CALL) the asset has no gait. */
 SBF_API sbf_status sbf_convert_gait(
     sbf_asset *asset, const sbf_convert_options *options, sbf_diagnostic *error);
 

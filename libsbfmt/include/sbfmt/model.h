@@ -31,34 +31,34 @@ extern "C" {
 // clang-format off
 
 /* Of the format this library writes. */
-#define SBF_FORMAT_VERSION "1.1"
+#define SBF_FORMAT_VERSION "1.2"
 
 /* A whole file: metres, kilograms, seconds, radians; right-handed, +Y up, +Z forward, rest pose. */
 typedef struct sbf_asset {
   const char *version;                      /* Version of the format the file is written in, major.minor.
                                              * [default 1.0] */
-  sbf_info info;                            /* What the asset is and where it comes from. */
-  sbf_derivation_list derivations;          /* What was computed, with which settings, from which source. */
+  sbf_info info;                            /* Title and origin of the asset. */
+  sbf_derivation_list derivations;          /* Records of what was computed, with settings and source. */
   sbf_texture_list textures;                /* Images used by materials. */
   sbf_material_list materials;              /* Appearances. */
   sbf_bone_list bones;                      /* The skeleton's bones, parents before children. */
-  sbf_rigid_body_list rigid_bodies;         /* Rigid parts. */
-  sbf_joint_list joints;                    /* What holds rigid parts together; loops are allowed. */
-  sbf_render_mesh_list render_meshes;       /* What is seen. */
-  sbf_soft_body_list soft_bodies;           /* What deforms; one with a bone is a section. */
+  sbf_rigid_body_list rigid_bodies;         /* Rigid bodies. */
+  sbf_joint_list joints;                    /* Constraints between rigid bodies; loops are allowed. */
+  sbf_render_mesh_list render_meshes;       /* Visible meshes. */
+  sbf_soft_body_list soft_bodies;           /* Deformable bodies; one with a bone is a section. */
   sbf_cross_springs_list cross_springs;     /* Springs between two bodies. */
   sbf_ik_chain_list ik_chains;              /* Chains of bones that reach for a target. */
-  sbf_gait_list gaits;                      /* How the character walks. */
+  sbf_gait_list gaits;                      /* Ways to move. */
   sbf_chain_list chains;                    /* Chains of bones that follow their first. */
   sbf_follower_list followers;              /* Bones that follow their own pose as second-order systems. */
   sbf_clip_list clips;                      /* Keyed animation. */
   sbf_pose_list poses;                      /* Pose keys. */
   sbf_bone_mask_list bone_masks;            /* Weights per bone for blending. */
   sbf_retarget_chain_list retarget_chains;  /* Named chains of bones, for motion from other skeletons. */
-  sbf_environment environment;              /* What surrounds the character. */
+  sbf_environment environment;              /* Gravity, wind, medium and fields. */
   sbf_relaxation relaxation;                /* Dimensionless settings of the relaxation scheme. */
-  sbf_extension_list extensions;            /* Parts beyond this specification. */
-  sbf_section_recipe_list section_recipes;  /* What sections that `build` cuts are like. */
+  sbf_extension_list extensions;            /* Content beyond this specification. */
+  sbf_section_recipe_list section_recipes;  /* Settings of sections that `build` cuts. */
 } sbf_asset;
 
 /* Every field at its default, lists empty, references SBF_NONE. */

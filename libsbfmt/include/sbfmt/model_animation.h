@@ -1,5 +1,5 @@
-/* Clips, poses, masks over bones, and chains named for motion from other skeletons. A chapter of sbfmt/model.h, which
- * says what holds for all of them.
+/* Clips, poses, bone masks, and chains for motion from other skeletons. A chapter of sbfmt/model.h, which says what
+ * holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ANIMATION_H
@@ -32,11 +32,11 @@ typedef enum sbf_interpolation {
 /* Keys of one property of one bone's frame in its parent's. */
 typedef struct sbf_track {
   int32_t bone;                     /* The bone. [index into asset.bones, or SBF_NONE] */
-  sbf_track_property property;      /* What is keyed. */
-  sbf_interpolation interpolation;  /* Between keys. [default linear] */
-  sbf_f32_list times;               /* Of the keys, increasing. [s] */
-  sbf_f32_list values;              /* Of the keys: 3 numbers each, 4 for rotation; where cubic three times as many:
-                                     * tangent in, value, tangent out. */
+  sbf_track_property property;      /* Keyed property. */
+  sbf_interpolation interpolation;  /* Interpolation between keys. [default linear] */
+  sbf_f32_list times;               /* Times of the keys, increasing. [s] */
+  sbf_f32_list values;              /* Values of the keys: 3 numbers each, 4 for rotation; cubic: tangent in, value,
+                                     * tangent out. */
 } sbf_track;
 typedef struct sbf_track_list { const sbf_track *at; uint32_t count; } sbf_track_list;
 
@@ -45,7 +45,7 @@ typedef struct sbf_clip {
   const char *id;         /* Identity. */
   const char *name;       /* Name for people. */
   float duration;         /* Length. [s; [0, inf)] */
-  bool loop;              /* Starts again at its end. [default true] */
+  bool loop;              /* Repeats at its end. [default true] */
   sbf_track_list tracks;  /* Keys. */
 } sbf_clip;
 typedef struct sbf_clip_list { const sbf_clip *at; uint32_t count; } sbf_clip_list;
@@ -53,8 +53,8 @@ typedef struct sbf_clip_list { const sbf_clip *at; uint32_t count; } sbf_clip_li
 /* One bone of a pose, relative to its parent. */
 typedef struct sbf_pose_key {
   int32_t bone;          /* The bone. [index into asset.bones, or SBF_NONE] */
-  sbf_vec3 translation;  /* Added to its place at rest, in the parent's frame. [m] */
-  sbf_quat rotation;     /* On top of rest. */
+  sbf_vec3 translation;  /* Translation added to rest, in the parent's frame. [m] */
+  sbf_quat rotation;     /* Rotation after rest. */
 } sbf_pose_key;
 typedef struct sbf_pose_key_list { const sbf_pose_key *at; uint32_t count; } sbf_pose_key_list;
 
@@ -62,9 +62,9 @@ typedef struct sbf_pose_key_list { const sbf_pose_key *at; uint32_t count; } sbf
 typedef struct sbf_pose {
   const char *id;          /* Identity. */
   const char *name;        /* Name for people. */
-  float distance;          /* Distance walked at which it is reached. [m] */
+  float distance;          /* Distance walked at which it applies. [m] */
   sbf_pose_key_list keys;  /* Bones. */
-  float speed;             /* Of the walk that it belongs to: poses of one speed are one walk. [m/s; [0, inf)] */
+  float speed;             /* Speed of its walk; poses of one speed are one walk. [m/s; [0, inf)] */
   bool mirrored;           /* The walk's second half is the mirror image of its poses. [default false] */
 } sbf_pose;
 typedef struct sbf_pose_list { const sbf_pose *at; uint32_t count; } sbf_pose_list;
@@ -74,15 +74,15 @@ typedef struct sbf_bone_mask {
   const char *id;        /* Identity. */
   const char *name;      /* Name for people. */
   sbf_u32_list bones;    /* Bones. [index into asset.bones] */
-  sbf_f32_list weights;  /* Empty: 1. [[0, 1]; length 0 or bones] */
+  sbf_f32_list weights;  /* Weights; empty: 1. [[0, 1]; length 0 or bones] */
 } sbf_bone_mask;
 typedef struct sbf_bone_mask_list { const sbf_bone_mask *at; uint32_t count; } sbf_bone_mask_list;
 
-/* A chain of bones with a name that other skeletons use too. */
+/* A chain of bones with a name shared by other skeletons. */
 typedef struct sbf_retarget_chain {
   const char *id;      /* Identity. */
-  const char *name;    /* As spine, leg_left, tail. */
-  sbf_u32_list bones;  /* From root to end. [index into asset.bones] */
+  const char *name;    /* Name, as spine, leg_left, tail. */
+  sbf_u32_list bones;  /* Bones from root to end. [index into asset.bones] */
 } sbf_retarget_chain;
 typedef struct sbf_retarget_chain_list { const sbf_retarget_chain *at; uint32_t count; } sbf_retarget_chain_list;
 

@@ -1,4 +1,4 @@
-/* Materials, and the images that they use. A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Materials and their images. A chapter of sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_APPEARANCE_H
@@ -24,18 +24,17 @@ typedef enum sbf_alpha_mode {
 typedef struct sbf_texture {
   const char *id;          /* Identity. */
   const char *name;        /* Name for people. */
-  const char *path;        /* Path relative to the file, with forward slashes; empty where the bytes are embedded. */
-  const char *media_type;  /* As image/png or image/jpeg. */
-  sbf_u8_list bytes;       /* The image file itself, where it is embedded. */
+  const char *path;        /* Path relative to the file, with forward slashes; empty if the bytes are embedded. */
+  const char *media_type;  /* Media type, as image/png or image/jpeg. */
+  sbf_u8_list bytes;       /* The embedded image file. */
 } sbf_texture;
 typedef struct sbf_texture_list { const sbf_texture *at; uint32_t count; } sbf_texture_list;
 
-/* Moves, turns and scales texture coordinates before an image is looked up, as KHR_texture_transform of glTF does. */
+/* Translation, rotation and scale of texture coordinates, as glTF's KHR_texture_transform. */
 typedef struct sbf_uv_transform {
-  sbf_vec2 offset;  /* Added last; its second number counts downwards. */
-  float rotation;   /* Counter-clockwise about the image's upper left corner, so that the image seems turned clockwise.
-                     * [rad] */
-  sbf_vec2 scale;   /* Multiplies coordinates first; 2 shows the image twice as often. [default 1,1] */
+  sbf_vec2 offset;  /* Offset, applied last; v is positive downwards. */
+  float rotation;   /* Rotation of coordinates, counter-clockwise about the image's upper left corner. [rad] */
+  sbf_vec2 scale;   /* Scale, applied first; 2 repeats the image twice as often. [default 1,1] */
 } sbf_uv_transform;
 typedef struct sbf_uv_transform_list { const sbf_uv_transform *at; uint32_t count; } sbf_uv_transform_list;
 
@@ -46,19 +45,18 @@ typedef struct sbf_material {
   sbf_vec4 base_color;                            /* Linear red, green, blue and opacity. [[0, 1]; default 1,1,1,1] */
   float metallic;                                 /* 0 dielectric, 1 metal. [[0, 1]; default 0] */
   float roughness;                                /* 0 mirror, 1 matt. [[0, 1]; default 1] */
-  sbf_vec3 emissive;                              /* Emitted linear colour. [[0, inf)] */
-  sbf_alpha_mode alpha_mode;                      /* What opacity means. [default opaque] */
-  float alpha_cutoff;                             /* Below it nothing is drawn, with alpha mode `mask`.
-                                                   * [[0, 1]; default 0.5] */
-  bool double_sided;                              /* Seen from behind as well. [default false] */
-  int32_t base_color_texture;                     /* Multiplies the base colour.
+  sbf_vec3 emissive;                              /* Emitted linear color. [[0, inf)] */
+  sbf_alpha_mode alpha_mode;                      /* Use of opacity. [default opaque] */
+  float alpha_cutoff;                             /* Threshold of opacity in alpha mode `mask`. [[0, 1]; default 0.5] */
+  bool double_sided;                              /* Visible from both sides. [default false] */
+  int32_t base_color_texture;                     /* Image of the base color.
                                                    * [index into asset.textures, or SBF_NONE] */
   int32_t metallic_roughness_texture;             /* Roughness in green, metallic in blue.
                                                    * [index into asset.textures, or SBF_NONE] */
   int32_t normal_texture;                         /* Tangent-space normals. [index into asset.textures, or SBF_NONE] */
-  const sbf_uv_transform *base_color_uv;          /* Where the base colour's image lies. */
-  const sbf_uv_transform *metallic_roughness_uv;  /* Where the image of roughness and metal lies. */
-  const sbf_uv_transform *normal_uv;              /* Where the image of normals lies. */
+  const sbf_uv_transform *base_color_uv;          /* Transform of the base color's image. */
+  const sbf_uv_transform *metallic_roughness_uv;  /* Transform of the image of roughness and metal. */
+  const sbf_uv_transform *normal_uv;              /* Transform of the image of normals. */
 } sbf_material;
 typedef struct sbf_material_list { const sbf_material *at; uint32_t count; } sbf_material_list;
 

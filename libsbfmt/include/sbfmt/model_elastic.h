@@ -1,5 +1,5 @@
-/* What gives a soft body its stiffness: a lattice of tetrahedra, springs, regions that keep their shape, or a follower.
- * A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Elastic models: tetrahedra, springs, shape matching, or a follower. A chapter of sbfmt/model.h, which says what holds
+ * for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ELASTIC_H
@@ -31,15 +31,15 @@ typedef enum sbf_spring_kind {
 
 /* A lattice. Positive orientation: det(p1-p0, p2-p0, p3-p0) > 0. */
 typedef struct sbf_tetrahedron_mesh {
-  sbf_volume_target target;        /* What it is for. */
-  sbf_uint4_list tetrahedra;       /* Four points each; rest shape is the level's positions.
+  sbf_volume_target target;        /* Purpose. */
+  sbf_uint4_list tetrahedra;       /* Four points each; the rest shape is the level's positions.
                                     * [index into parent.positions] */
   sbf_f32_list young_modulus;      /* Effective modulus; empty: the body's.
                                     * [Pa; (0, inf); length 0 or 1 or tetrahedra] */
-  sbf_f32_list reference_modulus;  /* What it stands for before calibration; empty: the body's.
+  sbf_f32_list reference_modulus;  /* Modulus of the material, before calibration; empty: the body's.
                                     * [Pa; (0, inf); length 0 or 1 or tetrahedra] */
-  sbf_f32_list densities;          /* Empty: the body's. [kg/m^3; (0, inf); length 0 or 1 or tetrahedra] */
-  sbf_u32_list color_counts;       /* Elements lie in colour order; how many of each colour. Empty: not coloured. */
+  sbf_f32_list densities;          /* Densities; empty: the body's. [kg/m^3; (0, inf); length 0 or 1 or tetrahedra] */
+  sbf_u32_list color_counts;       /* Number of elements of each color, in order; empty: not colored. */
   sbf_f32_list stiffness_damping;  /* Rayleigh beta; empty: the body's, by its weight maps.
                                     * [s; [0, inf); length 0 or 1 or tetrahedra] */
 } sbf_tetrahedron_mesh;
@@ -48,21 +48,21 @@ typedef struct sbf_tetrahedron_mesh_list { const sbf_tetrahedron_mesh *at; uint3
 /* Springs of one kind. */
 typedef struct sbf_spring_set {
   const char *name;                /* Name for people. */
-  sbf_spring_kind kind;            /* What they are for. */
-  int32_t derived;                 /* Set where `build` made them. [index into asset.derivations, or SBF_NONE] */
+  sbf_spring_kind kind;            /* Purpose. */
+  int32_t derived;                 /* Derivation, if `build` made them. [index into asset.derivations, or SBF_NONE] */
   bool extra;                      /* Acts beside another elastic model. [default false] */
   sbf_uint2_list ends;             /* Two points each, of the level. [index into parent.positions] */
-  sbf_f32_list rest_lengths;       /* Empty: distances at rest. [m; [0, inf); length 0 or ends] */
-  sbf_f32_list stiffness;          /* Empty: by the body's modulus as the specification says.
+  sbf_f32_list rest_lengths;       /* Rest lengths; empty: distances at rest. [m; [0, inf); length 0 or ends] */
+  sbf_f32_list stiffness;          /* Stiffness; empty: from the body's modulus (specification, 10.1).
                                     * [N/m; [0, inf); length 0 or 1 or ends] */
-  sbf_f32_list damping;            /* Empty: by the body's damping. [N*s/m; [0, inf); length 0 or 1 or ends] */
+  sbf_f32_list damping;            /* Damping; empty: from the body's. [N*s/m; [0, inf); length 0 or 1 or ends] */
   float strain_min;                /* As the body's, for this set; -1: the body's. [[-1, 0]; default -1] */
   float strain_max;                /* As the body's, for this set; 0: the body's. [[0, inf)] */
   float yield_strain;              /* As the body's, for this set; 0: the body's. [[0, inf)] */
   float tear_strain;               /* As the body's, for this set; 0: the body's. [[0, inf)] */
-  uint32_t inert_count;            /* Springs that joined two pinned points and were left out. */
-  sbf_u32_list color_counts;       /* Springs lie in colour order; how many of each colour. Empty: not coloured. */
-  sbf_f32_list compression_ratio;  /* Stiffness below the rest length, as a share of `stiffness`; empty: 1.
+  uint32_t inert_count;            /* Number of springs between two pinned points that were left out. */
+  sbf_u32_list color_counts;       /* Number of springs of each color, in order; empty: not colored. */
+  sbf_f32_list compression_ratio;  /* Stiffness below the rest length, relative to `stiffness`; empty: 1.
                                     * [[0, inf); length 0 or 1 or ends] */
 } sbf_spring_set;
 typedef struct sbf_spring_set_list { const sbf_spring_set *at; uint32_t count; } sbf_spring_set_list;
@@ -70,32 +70,33 @@ typedef struct sbf_spring_set_list { const sbf_spring_set *at; uint32_t count; }
 /* Overlapping groups of points that keep their shape. */
 typedef struct sbf_shape_regions {
   sbf_u32_list sizes;   /* Points of each region. [[1, inf)] */
-  sbf_u32_list points;  /* Those points, region after region. [length sum(sizes); index into parent.positions] */
-  float stiffness;      /* Angular frequency w with which a point is drawn to its place in the region: energy m/2 w^2
+  sbf_u32_list points;  /* Points, region after region. [length sum(sizes); index into parent.positions] */
+  float stiffness;      /* Angular frequency w that pulls a point to its position in the region: energy m/2 w^2
                          * distance^2. [1/s; (0, inf); default 60] */
 } sbf_shape_regions;
 typedef struct sbf_shape_regions_list { const sbf_shape_regions *at; uint32_t count; } sbf_shape_regions_list;
 
 /* A second-order follower: y + 2z/w y' + y''/w^2 = x + r z/w x', w = 2 pi f. */
 typedef struct sbf_jiggle {
-  float frequency;      /* f. [Hz; (0, inf); default 3] */
-  float damping_ratio;  /* z. [[0, inf); default 0.4] */
-  float response;       /* r: above 1 overshoots at once, below 0 anticipates. [default 0] */
+  float frequency;      /* Frequency f. [Hz; (0, inf); default 3] */
+  float damping_ratio;  /* Damping ratio z. [[0, inf); default 0.4] */
+  float response;       /* Response r: above 1 overshoots at once, below 0 anticipates. [default 0] */
 } sbf_jiggle;
 typedef struct sbf_jiggle_list { const sbf_jiggle *at; uint32_t count; } sbf_jiggle_list;
 
 /* Springs between points of two bodies' levels. */
 typedef struct sbf_cross_springs {
   const char *name;           /* Name for people. */
-  int32_t derived;            /* Set where `build` made them. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;            /* Derivation, if `build` made them. [index into asset.derivations, or SBF_NONE] */
   int32_t body_a;             /* First body. [index into asset.soft_bodies, or SBF_NONE] */
   uint32_t level_a;           /* Its level. */
   int32_t body_b;             /* Second body. [index into asset.soft_bodies, or SBF_NONE] */
   uint32_t level_b;           /* Its level. */
-  sbf_uint2_list ends;        /* A point of each. */
-  sbf_f32_list rest_lengths;  /* Empty: distances at rest. [m; [0, inf); length 0 or ends] */
-  sbf_f32_list stiffness;     /* Empty: by the softer body's modulus. [N/m; [0, inf); length 0 or 1 or ends] */
-  sbf_f32_list damping;       /* Empty: by the softer body's damping. [N*s/m; [0, inf); length 0 or 1 or ends] */
+  sbf_uint2_list ends;        /* A point of each level. */
+  sbf_f32_list rest_lengths;  /* Rest lengths; empty: distances at rest. [m; [0, inf); length 0 or ends] */
+  sbf_f32_list stiffness;     /* Stiffness; empty: from the softer body's modulus.
+                               * [N/m; [0, inf); length 0 or 1 or ends] */
+  sbf_f32_list damping;       /* Damping; empty: from the softer body's. [N*s/m; [0, inf); length 0 or 1 or ends] */
 } sbf_cross_springs;
 typedef struct sbf_cross_springs_list { const sbf_cross_springs *at; uint32_t count; } sbf_cross_springs_list;
 

@@ -1,5 +1,4 @@
-/* What surrounds the character: gravity, wind, the medium, fields of force. A chapter of sbfmt/model.h, which says what
- * holds for all of them.
+/* Gravity, wind, medium and force fields. A chapter of sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_ENVIRONMENT_H
@@ -36,7 +35,7 @@ typedef struct sbf_force_field {
 } sbf_force_field;
 typedef struct sbf_force_field_list { const sbf_force_field *at; uint32_t count; } sbf_force_field_list;
 
-/* What surrounds the character. */
+/* Gravity, wind, medium and fields. */
 typedef struct sbf_environment {
   sbf_vec3 gravity;             /* Acceleration. [m/s^2; default 0,-9.81,0] */
   sbf_vec3 wind;                /* Velocity of the medium. [m/s] */
@@ -44,6 +43,8 @@ typedef struct sbf_environment {
   float media_friction;         /* Added to each body's. [1/s; [0, inf)] */
   float control_tick;           /* Time between two control ticks. [s; (0, 1]; default 0.016666668] */
   sbf_force_field_list fields;  /* Force fields. */
+  bool has_water;               /* There is water; swimmers stay below its surface. [default false] */
+  float water_level;            /* Height of the water surface. [m] */
 } sbf_environment;
 typedef struct sbf_environment_list { const sbf_environment *at; uint32_t count; } sbf_environment_list;
 

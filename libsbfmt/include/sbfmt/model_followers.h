@@ -1,5 +1,5 @@
-/* Bones that follow: chains that trail behind their first bone, and bones that lag behind their own pose. A chapter of
- * sbfmt/model.h, which says what holds for all of them.
+/* Chains that trail behind their first bone, and bones that lag behind their pose. A chapter of sbfmt/model.h, which
+ * says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_FOLLOWERS_H
@@ -38,15 +38,15 @@ typedef enum sbf_bone_axis {
   SBF_BONE_AXIS_COUNT = 3
 } sbf_bone_axis;
 
-/* Bones one after the other. */
+/* A chain of bones. */
 typedef struct sbf_chain {
   const char *id;        /* Identity. */
   const char *name;      /* Name for people. */
-  sbf_chain_kind kind;   /* lag: each follows its parent's turn; distance: each is dragged at its spacing.
+  sbf_chain_kind kind;   /* lag: bones keep their world orientation; distance: each is dragged at its spacing.
                           * [default lag] */
-  sbf_u32_list bones;    /* From the leading bone on. [index into asset.bones] */
+  sbf_u32_list bones;    /* Bones, leading bone first. [index into asset.bones] */
   sbf_f32_list spacing;  /* Distance to the next; empty: bone lengths. [m; [0, inf); length 0 or bones] */
-  float angle_limit;     /* Greatest bend between two. [rad; [0, 3.15]; default 1] */
+  float angle_limit;     /* Maximum angle between two bones. [rad; [0, 3.15]; default 1] */
   float damping;         /* Rate at which it straightens at rest. [1/s; [0, inf)] */
   bool proposed;         /* Guessed from the rig, for a person to confirm. [default false] */
 } sbf_chain;
@@ -57,17 +57,15 @@ typedef struct sbf_follower {
   const char *id;                /* Identity. */
   const char *name;              /* Name for people. */
   int32_t bone;                  /* The bone. [index into asset.bones, or SBF_NONE] */
-  sbf_follower_channel channel;  /* What follows. [default rotation] */
-  float frequency;               /* f. [Hz; (0, inf); default 2] */
-  float damping_ratio;           /* z. [[0, inf); default 0.5] */
-  float response;                /* r. [default 0] */
-  sbf_bone_axis axis;            /* Of a squash: which of the bone's own axes it is pressed and stretched along.
-                                  * [default y] */
-  float strength;                /* Of a squash or a weight: share of its length by which the bone stretches, or moves
-                                  * and leans, as it lags by its length. [[0, inf); default 1] */
-  float limit;                   /* Of a squash: it stays below 1 + limit of its length, and above 1 / (1 + limit); of a
-                                  * weight: it moves by less than limit of its length and leans by less than limit rad.
-                                  * [(0, inf); default 0.5] */
+  sbf_follower_channel channel;  /* Channel that follows. [default rotation] */
+  float frequency;               /* Frequency f. [Hz; (0, inf); default 2] */
+  float damping_ratio;           /* Damping ratio z. [[0, inf); default 0.5] */
+  float response;                /* Response r. [default 0] */
+  sbf_bone_axis axis;            /* Squash: the bone's axis of compression and stretch. [default y] */
+  float strength;                /* Squash or weight: relative stretch, or movement and lean, per relative lag.
+                                  * [[0, inf); default 1] */
+  float limit;                   /* Squash: the length stays between 1 / (1 + limit) and 1 + limit; weight: bound of
+                                  * movement relative to length, and of lean in rad. [(0, inf); default 0.5] */
 } sbf_follower;
 typedef struct sbf_follower_list { const sbf_follower *at; uint32_t count; } sbf_follower_list;
 

@@ -27,8 +27,8 @@ typedef enum sbf_ik_solver {
 typedef struct sbf_comfort {
   int32_t bone;       /* The bone. [index into asset.bones, or SBF_NONE] */
   sbf_quat rotation;  /* The rotation. */
-  float weight;       /* How much. [[0, 1]; default 1] */
-  sbf_vec3 axes;      /* Shares of the weight about the bone's own X, Y and Z. [[0, 1]; default 1,1,1] */
+  float weight;       /* Weight. [[0, 1]; default 1] */
+  sbf_vec3 axes;      /* Fractions of the weight about the bone's X, Y and Z. [[0, 1]; default 1,1,1] */
 } sbf_comfort;
 typedef struct sbf_comfort_list { const sbf_comfort *at; uint32_t count; } sbf_comfort_list;
 
@@ -41,12 +41,12 @@ typedef struct sbf_ik_chain {
   int32_t end;                /* Last bone; its head is what reaches. [index into asset.bones, or SBF_NONE] */
   bool has_pole;              /* The chain bends towards the pole. [default false] */
   sbf_vec3 pole;              /* The pole, asset space, rest pose. [m] */
-  int32_t pole_bone;          /* The pole moves with it; absent: with the root bone's parent.
+  int32_t pole_bone;          /* Bone that moves the pole; absent: the root bone's parent.
                                * [index into asset.bones, or SBF_NONE] */
-  float copy_rotation;        /* How much of the target's orientation the end takes. [[0, 1]; default 1] */
-  float soft_reach;           /* Share of the reach over which full extension is eased. [[0, 1); default 0.02] */
-  float tolerance;            /* Iterative methods stop within it. [m; (0, inf); default 0.0001] */
-  uint32_t iterations;        /* Iterative methods stop after so many. [default 32] */
+  float copy_rotation;        /* Fraction of the target's rotation that the end takes. [[0, 1]; default 1] */
+  float soft_reach;           /* Fraction of the reach over which extension is smoothed. [[0, 1); default 0.02] */
+  float tolerance;            /* Tolerance of iterative methods. [m; (0, inf); default 0.0001] */
+  uint32_t iterations;        /* Maximum number of iterations. [default 32] */
   sbf_comfort_list comforts;  /* Rotations the bones prefer. */
   bool proposed;              /* Guessed from the rig, for a person to confirm. [default false] */
 } sbf_ik_chain;

@@ -1,5 +1,4 @@
-/* What the file is, where it comes from, and what of it was computed. A chapter of sbfmt/model.h, which says what holds
- * for all of them.
+/* Title, origin, and records of computed parts. A chapter of sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_INFO_H
@@ -13,7 +12,7 @@ extern "C" {
 
 // clang-format off
 
-/* One of the people who made the asset. */
+/* An author of the asset. */
 typedef struct sbf_author {
   const char *name;     /* Name. */
   const char *contact;  /* Mail address or page. */
@@ -27,40 +26,39 @@ typedef struct sbf_source {
 } sbf_source;
 typedef struct sbf_source_list { const sbf_source *at; uint32_t count; } sbf_source_list;
 
-/* What the asset is and where it comes from. */
+/* Title and origin of the asset. */
 typedef struct sbf_info {
-  const char *title;        /* A name for people. */
+  const char *title;        /* Name for people. */
   const char *licence;      /* Licence, as an SPDX expression where there is one. */
-  const char *copyright;    /* Who holds the rights. */
+  const char *copyright;    /* Owner of the rights. */
   const char *tool;         /* Program and version that wrote the source parts. */
-  const char *comment;      /* Anything else for people. */
-  sbf_author_list authors;  /* Who made it. */
+  const char *comment;      /* Other text for people. */
+  sbf_author_list authors;  /* Authors. */
   sbf_source_list sources;  /* Files the source parts were read from. */
-  float mass;               /* Of all soft bodies together, where no derivation states it. [kg; [0, inf)] */
-  sbf_vec3 low;             /* Least coordinates of all render meshes and surfaces, where no derivation states them.
+  float mass;               /* Mass of all soft bodies, if no derivation states it. [kg; [0, inf)] */
+  sbf_vec3 low;             /* Minimum coordinates of all render meshes and surfaces, if no derivation states them.
                              * [m] */
-  sbf_vec3 high;            /* Greatest coordinates; equal to `low`: not stated. [m] */
+  sbf_vec3 high;            /* Maximum coordinates; equal to `low`: not stated. [m] */
 } sbf_info;
 typedef struct sbf_info_list { const sbf_info *at; uint32_t count; } sbf_info_list;
 
-/* One run of a build pass: parts that name it are derived and can be made again. */
+/* A run of a build: parts that name it are derived and can be made again. */
 typedef struct sbf_derivation {
   const char *id;           /* Identity. */
-  const char *tool;         /* Program and version that computed. */
+  const char *tool;         /* Program and version. */
   const char *settings;     /* Settings as `name=value` separated by spaces, in alphabetical order. */
-  const char *source_hash;  /* SHA-256 of the canonical XML of the parts that were read, 64 hexadecimal digits. */
-  float mass;               /* Of all soft bodies together, as built; so that a file can be described without its
-                             * geometry. [kg; [0, inf)] */
-  sbf_vec3 low;             /* Least coordinates of all render meshes and surfaces, as built. [m] */
-  sbf_vec3 high;            /* Greatest coordinates; equal to `low`: not stated. [m] */
+  const char *source_hash;  /* SHA-256 of the canonical XML of the source, 64 hexadecimal digits. */
+  float mass;               /* Mass of all soft bodies as built, for reports without the geometry. [kg; [0, inf)] */
+  sbf_vec3 low;             /* Minimum coordinates of all render meshes and surfaces, as built. [m] */
+  sbf_vec3 high;            /* Maximum coordinates; equal to `low`: not stated. [m] */
 } sbf_derivation;
 typedef struct sbf_derivation_list { const sbf_derivation *at; uint32_t count; } sbf_derivation_list;
 
-/* A part beyond this specification. */
+/* Content beyond this specification. */
 typedef struct sbf_extension {
   const char *name;  /* As VENDOR_name. */
   bool required;     /* A reader that does not know it must refuse the file. [default false] */
-  const char *data;  /* Its content, in whatever text form it chooses. */
+  const char *data;  /* Content, in any text form. */
 } sbf_extension;
 typedef struct sbf_extension_list { const sbf_extension *at; uint32_t count; } sbf_extension_list;
 

@@ -1,5 +1,5 @@
-/* What is seen: polygons over points, their normals, texture coordinates, skin weights, shape keys and coarser levels.
- * A chapter of sbfmt/model.h, which says what holds for all of them.
+/* Render meshes: polygons, normals, texture coordinates, skin weights, shape keys and coarser levels. A chapter of
+ * sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_MESH_H
@@ -21,9 +21,9 @@ typedef enum sbf_mesh_target {
   SBF_MESH_TARGET_COUNT = 3
 } sbf_mesh_target;
 
-/* Polygons over points. Each polygon runs counter-clockwise seen from outside. */
+/* Points and polygons, counter-clockwise seen from outside. */
 typedef struct sbf_polygon_mesh {
-  sbf_mesh_target target;       /* What it is for. */
+  sbf_mesh_target target;       /* Purpose. */
   sbf_vec3_list positions;      /* Points. [m] */
   sbf_u32_list polygon_sizes;   /* Corners of each polygon. [[3, inf)] */
   sbf_u32_list polygon_points;  /* The corners' points, polygon after polygon.
@@ -34,13 +34,13 @@ typedef struct sbf_polygon_mesh_list { const sbf_polygon_mesh *at; uint32_t coun
 /* One set of texture coordinates, origin at the lower left. */
 typedef struct sbf_uv_set {
   const char *name;           /* Name for people. */
-  sbf_vec2_list coordinates;  /* One a point of the mesh, or as many as corners names. */
-  sbf_u32_list corners;       /* The corners' coordinates; empty: one a point.
+  sbf_vec2_list coordinates;  /* Coordinates: one a point, or indexed by corners. */
+  sbf_u32_list corners;       /* Index of each corner's coordinates; empty: one a point.
                                * [length 0 or parent.mesh.polygon_points; index into coordinates] */
 } sbf_uv_set;
 typedef struct sbf_uv_set_list { const sbf_uv_set *at; uint32_t count; } sbf_uv_set_list;
 
-/* A material that polygons of the mesh use. */
+/* A material of the mesh's polygons. */
 typedef struct sbf_material_slot {
   int32_t material;  /* The material. [index into asset.materials, or SBF_NONE] */
 } sbf_material_slot;
@@ -48,61 +48,60 @@ typedef struct sbf_material_slot_list { const sbf_material_slot *at; uint32_t co
 
 /* Linear blend skinning. The rest pose is the bind pose. */
 typedef struct sbf_skin {
-  sbf_u32_list influence_counts;  /* How many bones hold each point. [length parent.mesh.positions] */
-  sbf_u32_list bones;             /* Those bones, point after point.
-                                   * [length sum(influence_counts); index into asset.bones] */
-  sbf_f32_list weights;           /* Their weights; those of a point sum to one. [[0, 1]; length bones] */
+  sbf_u32_list influence_counts;  /* Number of bones of each point. [length parent.mesh.positions] */
+  sbf_u32_list bones;             /* Bones, point after point. [length sum(influence_counts); index into asset.bones] */
+  sbf_f32_list weights;           /* Weights; those of a point sum to one. [[0, 1]; length bones] */
 } sbf_skin;
 typedef struct sbf_skin_list { const sbf_skin *at; uint32_t count; } sbf_skin_list;
 
 /* Named offsets of some points. */
 typedef struct sbf_shape_key {
   const char *name;       /* Name. */
-  sbf_u32_list points;    /* The points that move. [index into parent.size] */
-  sbf_vec3_list offsets;  /* By how much at full weight. [m; length points] */
+  sbf_u32_list points;    /* Points. [index into parent.size] */
+  sbf_vec3_list offsets;  /* Offsets at weight 1. [m; length points] */
 } sbf_shape_key;
 typedef struct sbf_shape_key_list { const sbf_shape_key *at; uint32_t count; } sbf_shape_key_list;
 
 /* Fewer polygons over the same points. */
 typedef struct sbf_render_level {
-  float error;                     /* Greatest distance from the full mesh. [m; [0, inf)] */
+  float error;                     /* Maximum distance from the full mesh. [m; [0, inf)] */
   sbf_u32_list polygon_sizes;      /* Corners of each polygon. [[3, inf)] */
   sbf_u32_list polygon_points;     /* The corners' points.
                                     * [length sum(polygon_sizes); index into parent.mesh.positions] */
-  int32_t derived;                 /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;                 /* Derivation, if `build` made it. [index into asset.derivations, or SBF_NONE] */
   sbf_u32_list polygon_materials;  /* Slot of each polygon; empty: the first.
                                     * [length 0 or polygon_sizes; index into parent.material_slots] */
-  sbf_u32_list corners;            /* For each corner one of the full mesh at the same point, whose normal and texture
-                                    * coordinates it has; empty: the first there.
+  sbf_u32_list corners;            /* A corner of the full mesh at the same point for each corner, with its normal and
+                                    * texture coordinates; empty: the first there.
                                     * [length 0 or polygon_points; index into parent.mesh.polygon_points] */
 } sbf_render_level;
 typedef struct sbf_render_level_list { const sbf_render_level *at; uint32_t count; } sbf_render_level_list;
 
-/* A mesh to be seen, as authored: quads and n-gons are kept. */
+/* A visible mesh as authored, with quads and n-gons. */
 typedef struct sbf_render_mesh {
   const char *id;                         /* Identity. */
   const char *name;                       /* Name for people. */
-  int32_t bone;                           /* The bone it moves with where it is neither embedded nor skinned.
+  int32_t bone;                           /* Bone of points that are neither embedded nor skinned.
                                            * [index into asset.bones, or SBF_NONE] */
-  int32_t derived;                        /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
-  sbf_polygon_mesh mesh;                  /* Its points and polygons. */
-  sbf_vec3_list normals;                  /* Unit normals: one a point, or as many as normal_corners names. */
-  sbf_u32_list normal_corners;            /* The corners' normals; empty: one normal a point.
+  int32_t derived;                        /* Derivation, if `build` made it.
+                                           * [index into asset.derivations, or SBF_NONE] */
+  sbf_polygon_mesh mesh;                  /* Points and polygons. */
+  sbf_vec3_list normals;                  /* Unit normals: one a point, or indexed by normal_corners. */
+  sbf_u32_list normal_corners;            /* Index of each corner's normal; empty: one normal a point.
                                            * [length 0 or mesh.polygon_points; index into normals] */
   sbf_uv_set_list uv_sets;                /* Texture coordinates. */
-  sbf_material_slot_list material_slots;  /* The materials its polygons use. */
+  sbf_material_slot_list material_slots;  /* Materials of polygons. */
   sbf_u32_list polygon_materials;         /* Slot of each polygon; empty: the first.
                                            * [length 0 or mesh.polygon_sizes; index into material_slots] */
-  const sbf_skin *skin;                   /* Weights of bones on points. */
+  const sbf_skin *skin;                   /* Bone weights of points. */
   sbf_shape_key_list shape_keys;          /* Named offsets of points. */
-  sbf_u32_list source_points;             /* Number from 0 of each point in the source file.
-                                           * [length 0 or mesh.positions] */
+  sbf_u32_list source_points;             /* Index of each point in the source file. [length 0 or mesh.positions] */
   sbf_render_level_list levels;           /* Coarser polygons over the same points. */
-  sbf_pin_set_list pins;                  /* What sections cut from it hold, on its points; a set without a frame goes
-                                           * with the section's bone. */
-  sbf_vec4_list colors;                   /* Linear colours and opacities that multiply the base colour: one a point, or
-                                           * as many as color_corners names; empty: white. [[0, 1]] */
-  sbf_u32_list color_corners;             /* The corners' colours; empty: one colour a point.
+  sbf_pin_set_list pins;                  /* Pins of sections cut from it, on its points; a set without a frame uses the
+                                           * section's bone. */
+  sbf_vec4_list colors;                   /* Linear colors and opacities that multiply the base color: one a point, or
+                                           * indexed by color_corners; empty: white. [[0, 1]] */
+  sbf_u32_list color_corners;             /* Index of each corner's color; empty: one color a point.
                                            * [length 0 or mesh.polygon_points; index into colors] */
 } sbf_render_mesh;
 typedef struct sbf_render_mesh_list { const sbf_render_mesh *at; uint32_t count; } sbf_render_mesh_list;

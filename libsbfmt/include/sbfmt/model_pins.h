@@ -1,5 +1,5 @@
-/* What holds points of a soft body to bones, to rigid bodies, or to the world. A chapter of sbfmt/model.h, which says
- * what holds for all of them.
+/* Pins of soft bodies to bones, rigid bodies or the world. A chapter of sbfmt/model.h, which says what holds for all of
+ * them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_PINS_H
@@ -20,28 +20,28 @@ typedef enum sbf_attachment_rule {
   SBF_ATTACHMENT_RULE_COUNT = 2
 } sbf_attachment_rule;
 
-/* Points held by a frame: a bone, a rigid body, or the world where neither is named. */
+/* Points pinned to a frame: a bone, a rigid body, or else the world. */
 typedef struct sbf_pin_set {
   const char *name;       /* Name for people. */
-  int32_t bone;           /* The bone that holds. [index into asset.bones, or SBF_NONE] */
-  int32_t rigid_body;     /* The rigid body that holds. [index into asset.rigid_bodies, or SBF_NONE] */
-  int32_t derived;        /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t bone;           /* Bone of the frame. [index into asset.bones, or SBF_NONE] */
+  int32_t rigid_body;     /* Rigid body of the frame. [index into asset.rigid_bodies, or SBF_NONE] */
+  int32_t derived;        /* Derivation, if `build` made it. [index into asset.derivations, or SBF_NONE] */
   sbf_u32_list points;    /* Points of the body, or of the level. [index into parent.size] */
-  sbf_vec3_list offsets;  /* Place of each in the frame; empty: where it is at rest. [m; length 0 or points] */
-  sbf_f32_list weights;   /* 1 kinematic, below a goal spring; empty: 1. [[0, 1]; length 0 or 1 or points] */
-  float stiffness;        /* Of the goal spring at weight 1. [N/m; [0, inf)] */
-  float damping;          /* Of the goal spring. [N*s/m; [0, inf)] */
-  float minimum;          /* Weights are raised to it. [[0, 1]] */
-  float maximum;          /* Weights are lowered to it. [[0, 1]; default 1] */
+  sbf_vec3_list offsets;  /* Position of each in the frame; empty: the rest position. [m; length 0 or points] */
+  sbf_f32_list weights;   /* Weights: 1 kinematic, less a goal spring; empty: 1. [[0, 1]; length 0 or 1 or points] */
+  float stiffness;        /* Stiffness of the goal spring at weight 1. [N/m; [0, inf)] */
+  float damping;          /* Damping of the goal spring. [N*s/m; [0, inf)] */
+  float minimum;          /* Lower bound of weights. [[0, 1]] */
+  float maximum;          /* Upper bound of weights. [[0, 1]; default 1] */
 } sbf_pin_set;
 typedef struct sbf_pin_set_list { const sbf_pin_set *at; uint32_t count; } sbf_pin_set_list;
 
-/* A rule by which a body is held. */
+/* A rule that pins a body to a rigid body. */
 typedef struct sbf_attachment {
   const char *name;          /* Name for people. */
   sbf_attachment_rule rule;  /* inside_hull: every point inside the rigid body's hull; explicit: the points listed. */
-  int32_t rigid_body;        /* What holds. [index into asset.rigid_bodies, or SBF_NONE] */
-  sbf_u32_list points;       /* With rule explicit. [index into parent.size] */
+  int32_t rigid_body;        /* Rigid body of the frame. [index into asset.rigid_bodies, or SBF_NONE] */
+  sbf_u32_list points;       /* Points of rule explicit. [index into parent.size] */
 } sbf_attachment;
 typedef struct sbf_attachment_list { const sbf_attachment *at; uint32_t count; } sbf_attachment_list;
 

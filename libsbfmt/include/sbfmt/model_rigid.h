@@ -47,80 +47,79 @@ typedef enum sbf_joint_axis {
   SBF_JOINT_AXIS_COUNT = 8
 } sbf_joint_axis;
 
-/* A rigid part. Its frame has its origin at `center` and, at rest, the axes of asset space. */
+/* A rigid body. Its frame has its origin at `center` and, at rest, the axes of asset space. */
 typedef struct sbf_rigid_body {
   const char *id;                /* Identity. */
   const char *name;              /* Name for people. */
-  int32_t bone;                  /* The bone it moves with. [index into asset.bones, or SBF_NONE] */
-  int32_t derived;               /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t bone;                  /* Bone. [index into asset.bones, or SBF_NONE] */
+  int32_t derived;               /* Derivation, if `build` made it. [index into asset.derivations, or SBF_NONE] */
   bool proposed;                 /* Guessed from the rig, for a person to confirm. [default false] */
   sbf_body_motion motion;        /* kinematic: follows its bone; dynamic: simulated. [default kinematic] */
   float mass;                    /* Mass; 0: density times the hull's volume. [kg; [0, inf)] */
-  float density;                 /* Density of the hull's inside, where no mass is given.
-                                  * [kg/m^3; (0, inf); default 1000] */
-  sbf_vec3 center;               /* Origin of its frame, asset space, rest pose; where inertia is given its centre of
-                                  * mass, else that is the hull's. [m] */
-  sbf_vec3 inertia;              /* Principal moments about the centre; all 0: those of the hull. [kg*m^2; [0, inf)] */
-  sbf_quat inertia_rotation;     /* From the principal axes to asset space. */
-  float friction;                /* Coulomb coefficient. [[0, inf); default 0.5] */
-  float restitution;             /* Of normal speed. [[0, 1]; default 0] */
+  float density;                 /* Density of the hull, if no mass is given. [kg/m^3; (0, inf); default 1000] */
+  sbf_vec3 center;               /* Origin of the frame, asset space, rest pose; the center of mass if inertia is given,
+                                  * else that is the hull's. [m] */
+  sbf_vec3 inertia;              /* Principal moments about the center; all 0: those of the hull. [kg*m^2; [0, inf)] */
+  sbf_quat inertia_rotation;     /* Rotation from the principal axes to asset space. */
+  float friction;                /* Coulomb friction coefficient. [[0, inf); default 0.5] */
+  float restitution;             /* Fraction of normal speed returned. [[0, 1]; default 0] */
   float gravity_scale;           /* Factor on gravity. [default 1] */
-  uint32_t layer;                /* Collision: bits it is. [default 1] */
-  uint32_t mask;                 /* Collision: bits it meets. [default 4294967295] */
+  uint32_t layer;                /* Collision layer bits. [default 1] */
+  uint32_t mask;                 /* Layers it collides with. [default 4294967295] */
   const sbf_polygon_mesh *hull;  /* Convex shape, asset space, rest pose. */
-  int32_t hull_derived;          /* Set where `build` made the hull. [index into asset.derivations, or SBF_NONE] */
+  int32_t hull_derived;          /* Derivation of the hull, if `build` made it.
+                                  * [index into asset.derivations, or SBF_NONE] */
 } sbf_rigid_body;
 typedef struct sbf_rigid_body_list { const sbf_rigid_body *at; uint32_t count; } sbf_rigid_body_list;
 
-/* A place and an orientation. */
+/* A position and an orientation. */
 typedef struct sbf_frame {
   sbf_vec3 position;  /* Origin. [m] */
   sbf_quat rotation;  /* Orientation. */
 } sbf_frame;
 typedef struct sbf_frame_list { const sbf_frame *at; uint32_t count; } sbf_frame_list;
 
-/* Bounds of one motion of a joint; soft where stiffness is given. */
+/* Limits of one motion of a joint; soft if stiffness is given. */
 typedef struct sbf_limit {
-  sbf_joint_axis target;  /* Which motion: metres for linear ones and distance, radians for the rest. */
-  float min;              /* Least value. */
-  float max;              /* Greatest value; for `swing` the cone's half angle, with min 0. */
-  float stiffness;        /* Limit spring, N/m or N*m/rad; 0: hard. [[0, inf)] */
-  float damping;          /* Of the limit spring, N*s/m or N*m*s/rad. [[0, inf)] */
-  float restitution;      /* Of a hard limit. [[0, 1]] */
+  sbf_joint_axis target;  /* Motion: metres for linear ones and distance, radians for the rest. */
+  float min;              /* Minimum. */
+  float max;              /* Maximum; for `swing` the cone's half angle, with min 0. */
+  float stiffness;        /* Stiffness of the limit, N/m or N*m/rad; 0: hard. [[0, inf)] */
+  float damping;          /* Damping of the limit, N*s/m or N*m*s/rad. [[0, inf)] */
+  float restitution;      /* Restitution of a hard limit. [[0, 1]] */
 } sbf_limit;
 typedef struct sbf_limit_list { const sbf_limit *at; uint32_t count; } sbf_limit_list;
 
 /* A motor on one motion of a joint. */
 typedef struct sbf_drive {
-  sbf_joint_axis target;  /* Which motion. */
-  float position;         /* Wanted value, m or rad. */
-  float velocity;         /* Wanted rate, m/s or rad/s. */
+  sbf_joint_axis target;  /* Motion. */
+  float position;         /* Target position, m or rad. */
+  float velocity;         /* Target velocity, m/s or rad/s. */
   float stiffness;        /* N/m or N*m/rad. [[0, inf)] */
   float damping;          /* N*s/m or N*m*s/rad. [[0, inf)] */
-  float maximum;          /* Greatest force in N or torque in N*m; 0: no bound. [[0, inf)] */
+  float maximum;          /* Maximum force in N or torque in N*m; 0: unlimited. [[0, inf)] */
 } sbf_drive;
 typedef struct sbf_drive_list { const sbf_drive *at; uint32_t count; } sbf_drive_list;
 
-/* Holds two rigid bodies together. Frames are local to their body; +X is the twist axis. */
+/* Connects two rigid bodies. Frames are local to their body; +X is the twist axis. */
 typedef struct sbf_joint {
   const char *id;         /* Identity. */
   const char *name;       /* Name for people. */
-  sbf_joint_kind kind;    /* Which motions are left free; numbers 0 to 9 in this order. */
+  sbf_joint_kind kind;    /* Free motions; numbers 0 to 9 in this order. */
   int32_t body_a;         /* First body; absent: the world. [index into asset.rigid_bodies, or SBF_NONE] */
   int32_t body_b;         /* Second body. [index into asset.rigid_bodies, or SBF_NONE] */
   sbf_frame frame_a;      /* The joint's frame in body a. */
   sbf_frame frame_b;      /* The joint's frame in body b. */
   bool proposed;          /* Guessed from the rig, for a person to confirm. [default false] */
   bool collide;           /* The two bodies collide with each other. [default false] */
-  sbf_limit_list limits;  /* Bounds of the free motions. */
+  sbf_limit_list limits;  /* Limits of free motions. */
   sbf_drive_list drives;  /* Motors. */
-  sbf_vec3 pulley_a;      /* Pulley: where the rope of body a hangs, asset space, fixed in the world from when the
-                           * character is placed. [m] */
-  sbf_vec3 pulley_b;      /* Pulley: where the rope of body b hangs, likewise. [m] */
-  float pulley_ratio;     /* Pulley: rope on side b counts this much. [(0, inf); default 1] */
-  float break_force;      /* Breaks above it; 0: never. [N; [0, inf)] */
-  float break_torque;     /* Breaks above it; 0: never. [N*m; [0, inf)] */
-  int32_t derived;        /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  sbf_vec3 pulley_a;      /* Pulley: support of body a's rope, asset space, fixed in the world at placement. [m] */
+  sbf_vec3 pulley_b;      /* Pulley: support of body b's rope, likewise. [m] */
+  float pulley_ratio;     /* Pulley: factor of the rope on side b. [(0, inf); default 1] */
+  float break_force;      /* Breaking value; 0: never. [N; [0, inf)] */
+  float break_torque;     /* Breaking value; 0: never. [N*m; [0, inf)] */
+  int32_t derived;        /* Derivation, if `build` made it. [index into asset.derivations, or SBF_NONE] */
 } sbf_joint;
 typedef struct sbf_joint_list { const sbf_joint *at; uint32_t count; } sbf_joint_list;
 

@@ -1,5 +1,4 @@
-/* Bones: places at rest and who hangs on whom, without anything physical. A chapter of sbfmt/model.h, which says what
- * holds for all of them.
+/* Bones: rest pose and hierarchy. A chapter of sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_SKELETON_H
@@ -17,13 +16,13 @@ extern "C" {
 typedef struct sbf_bone {
   const char *id;         /* Identity. */
   const char *name;       /* Name for people and for matching. */
-  int32_t parent;         /* The bone it hangs on; absent for a root. A parent stands before its children.
+  int32_t parent;         /* Parent bone; absent for a root. Parents precede children.
                            * [index into asset.bones, or SBF_NONE] */
-  sbf_vec3 head;          /* Where it begins, in the rest pose. [m] */
-  sbf_quat rotation;      /* From the bone's frame to asset space, in the rest pose. */
-  float length;           /* From head to tail. [m; [0, inf)] */
-  bool inherit_rotation;  /* Turns with its parent. [default true] */
-  bool inherit_scale;     /* Scales with its parent. [default true] */
+  sbf_vec3 head;          /* Head position in the rest pose. [m] */
+  sbf_quat rotation;      /* Rotation from the bone's frame to asset space, in the rest pose. */
+  float length;           /* Distance from head to tail. [m; [0, inf)] */
+  bool inherit_rotation;  /* Inherits the parent's rotation. [default true] */
+  bool inherit_scale;     /* Inherits the parent's scale. [default true] */
 } sbf_bone;
 typedef struct sbf_bone_list { const sbf_bone *at; uint32_t count; } sbf_bone_list;
 

@@ -1,5 +1,4 @@
-/* What deforms: surface, material, collision, and the levels at which it is simulated. A chapter of sbfmt/model.h,
- * which says what holds for all of them.
+/* Soft bodies: surface, material, collision, levels. A chapter of sbfmt/model.h, which says what holds for all of them.
  *
  * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
 #ifndef SBFMT_MODEL_SOFT_BODY_H
@@ -39,54 +38,54 @@ typedef enum sbf_weight_property {
 
 /* Physical properties. Every value is in SI units. */
 typedef struct sbf_attributes {
-  float density;                    /* Of a volume. [kg/m^3; (0, inf); default 1000] */
-  float mass;                       /* Of the whole body, free points; 0: from the density. [kg; [0, inf)] */
-  float area_density;               /* Of an open surface; 0: density times thickness. [kg/m^2; [0, inf)] */
-  float thickness;                  /* Of an open surface. [m; (0, inf); default 0.001] */
-  float young_modulus;              /* Stiffness. [Pa; (0, inf); default 80000] */
-  float poisson_ratio;              /* Sideways contraction; spring levels show a quarter. [(-1, 0.5); default 0.4] */
-  float bending_stiffness;          /* Flexural rigidity of an open surface; 0: from modulus and thickness.
-                                     * [N*m; [0, inf)] */
+  float density;                    /* Density of a volume. [kg/m^3; (0, inf); default 1000] */
+  float mass;                       /* Mass of the body's free points; 0: from the density. [kg; [0, inf)] */
+  float area_density;               /* Area density of a sheet; 0: density times thickness. [kg/m^2; [0, inf)] */
+  float thickness;                  /* Thickness of a sheet. [m; (0, inf); default 0.001] */
+  float young_modulus;              /* Young's modulus. [Pa; (0, inf); default 80000] */
+  float poisson_ratio;              /* Poisson's ratio; springs have 1/4. [(-1, 0.5); default 0.4] */
+  float bending_stiffness;          /* Flexural rigidity of a sheet; 0: from modulus and thickness. [N*m; [0, inf)] */
   float mass_damping;               /* Rayleigh alpha. [1/s; [0, inf)] */
   float stiffness_damping;          /* Rayleigh beta. [s; [0, inf)] */
-  float damping_ratio;              /* At the body's lowest free mode, as further alpha. [[0, inf); default 0.2] */
-  float friction;                   /* Coulomb coefficient. [[0, inf); default 0.6] */
-  float restitution;                /* Of normal speed. [[0, 1]; default 0] */
+  float damping_ratio;              /* Damping ratio of the lowest mode, in addition to alpha.
+                                     * [[0, inf); default 0.2] */
+  float friction;                   /* Coulomb friction coefficient. [[0, inf); default 0.6] */
+  float restitution;                /* Fraction of normal speed returned. [[0, 1]; default 0] */
   float gravity_scale;              /* Factor on gravity. [default 1] */
-  float media_friction;             /* Rate at which speed against the medium is lost. [1/s; [0, inf)] */
-  float pressure;                   /* Of the gas inside above the outside, at rest. [Pa] */
+  float media_friction;             /* Decay rate of speed relative to the medium. [1/s; [0, inf)] */
+  float pressure;                   /* Gas pressure at rest, relative to the outside. [Pa] */
   sbf_pressure_mode pressure_mode;  /* none: no pressure; gas: pressure times volume is constant; volume: the volume is
                                      * kept. [default none] */
-  float strain_min;                 /* Springs are kept from shrinking below; -1: no bound. [[-1, 0]; default -1] */
-  float strain_max;                 /* Springs are kept from stretching beyond; 0: no bound. [[0, inf)] */
-  float yield_strain;               /* Beyond it the rest shape flows; 0: never. [[0, inf)] */
-  float yield_flow;                 /* Rate of that flow. [1/s; [0, inf)] */
-  float tear_strain;                /* Beyond it the element stops; 0: never. [[0, inf)] */
-  bool sag_free;                    /* Bears its weight in the authored shape: springs without stated rest lengths are
-                                     * loaded so. [default false] */
+  float strain_min;                 /* Minimum strain; -1: none. [[-1, 0]; default -1] */
+  float strain_max;                 /* Maximum strain; 0: none. [[0, inf)] */
+  float yield_strain;               /* Strain at which the rest shape flows; 0: never. [[0, inf)] */
+  float yield_flow;                 /* Rate of the flow. [1/s; [0, inf)] */
+  float tear_strain;                /* Strain at which the element stops acting; 0: never. [[0, inf)] */
+  bool sag_free;                    /* Springs without stated rest lengths bear the weight in the authored shape.
+                                     * [default false] */
 } sbf_attributes;
 typedef struct sbf_attributes_list { const sbf_attributes *at; uint32_t count; } sbf_attributes_list;
 
-/* How a body meets other things. */
+/* Collision of a body. */
 typedef struct sbf_collision {
-  float particle_radius;  /* Of a point. [m; [0, inf); default 0.01] */
-  float outer_thickness;  /* Contact begins this far outside a face. [m; [0, inf); default 0.005] */
-  float inner_thickness;  /* A point this far inside a face is still pushed out. [m; [0, inf); default 0.01] */
-  bool self;              /* Meets itself. [default false] */
-  uint32_t layer;         /* Bits it is. [default 1] */
-  uint32_t mask;          /* Bits it meets. [default 4294967295] */
+  float particle_radius;  /* Radius of a point. [m; [0, inf); default 0.01] */
+  float outer_thickness;  /* Contact distance outside a face. [m; [0, inf); default 0.005] */
+  float inner_thickness;  /* Depth inside a face up to which a point is pushed out. [m; [0, inf); default 0.01] */
+  bool self;              /* Collides with itself. [default false] */
+  uint32_t layer;         /* Collision layer bits. [default 1] */
+  uint32_t mask;          /* Layers it collides with. [default 4294967295] */
 } sbf_collision;
 typedef struct sbf_collision_list { const sbf_collision *at; uint32_t count; } sbf_collision_list;
 
 /* Factors on one attribute. */
 typedef struct sbf_weight_map {
-  sbf_weight_property property;  /* Which attribute. */
+  sbf_weight_property property;  /* Attribute. */
   sbf_f32_list values;           /* Factor at each source point; an element takes the mean of its points'.
                                   * [[0, inf); length parent.size] */
 } sbf_weight_map;
 typedef struct sbf_weight_map_list { const sbf_weight_map *at; uint32_t count; } sbf_weight_map_list;
 
-/* Attributes of the 2012 dialect, dimensionless as they were. */
+/* Attributes of the 2012 dialect, dimensionless. */
 typedef struct sbf_legacy {
   float mass;                  /* As read. */
   float volume_stiffness;      /* As read. */
@@ -102,28 +101,30 @@ typedef struct sbf_soft_body {
   const char *id;                   /* Identity. */
   const char *name;                 /* Name for people. */
   int32_t bone;                     /* The bone of a section. [index into asset.bones, or SBF_NONE] */
-  int32_t derived;                  /* Set where `build` cut it from a skinned mesh.
+  int32_t derived;                  /* Derivation, if `build` cut it from a skinned mesh.
                                      * [index into asset.derivations, or SBF_NONE] */
-  sbf_polygon_mesh surface;         /* Its skin. */
-  sbf_vec3_list interior;           /* Points an author placed inside. [m] */
-  sbf_u32_list source_points;       /* Number from 0 of each surface point in the source file.
+  sbf_polygon_mesh surface;         /* Surface. */
+  sbf_vec3_list interior;           /* Authored interior points. [m] */
+  sbf_u32_list source_points;       /* Index of each surface point in the source file.
                                      * [length 0 or surface.positions] */
-  sbf_attributes attributes;        /* What it is made of. */
-  sbf_collision collision;          /* How it meets other things. */
+  sbf_attributes attributes;        /* Material. */
+  sbf_collision collision;          /* Collision. */
   sbf_weight_map_list weight_maps;  /* Factors on attributes, per source point. */
-  sbf_pin_set_list pins;            /* What holds it, on source points. */
-  sbf_attachment_list attachments;  /* Rules that `build` turns into pins. */
-  sbf_level_list levels;            /* Its simulation levels, finest first. */
+  sbf_pin_set_list pins;            /* Pins of source points. */
+  sbf_attachment_list attachments;  /* Rules for pins of levels. */
+  sbf_level_list levels;            /* Simulation levels, finest first. */
   const sbf_legacy *legacy;         /* Attributes of the 2012 dialect, kept for a round trip. */
 } sbf_soft_body;
 typedef struct sbf_soft_body_list { const sbf_soft_body *at; uint32_t count; } sbf_soft_body_list;
 
-/* What the section that `build` cuts from a skin for a bone is like. */
+/* Settings of a section that `build` cuts from a skin. */
 typedef struct sbf_section_recipe {
-  int32_t bone;               /* The section's bone; none: every one that no other recipe names.
+  int32_t bone;               /* Bone of the section; none: all without a recipe.
                                * [index into asset.bones, or SBF_NONE] */
-  sbf_attributes attributes;  /* What it is made of. */
-  sbf_collision collision;    /* How it meets other things. */
+  sbf_attributes attributes;  /* Material. */
+  sbf_collision collision;    /* Collision. */
+  bool rigid;                 /* No section: the skin moves with its bones there. [default false] */
+  bool proposed;              /* Guessed from the rig, for a person to confirm. [default false] */
 } sbf_section_recipe;
 typedef struct sbf_section_recipe_list { const sbf_section_recipe *at; uint32_t count; } sbf_section_recipe_list;
 

@@ -9,12 +9,12 @@ typedef struct kind {
   sbfi_path path; /* of the first of them */
 } kind;
 
-enum { MOST_KINDS = 64 };
+enum { MAX_KINDS = 64 };
 
 static void add_kind(kind *kinds, uint32_t *count, const kind *one) {
   for (uint32_t i = 0; i < *count; i++)
     if (kinds[i].layer == one->layer && kinds[i].mask == one->mask) return;
-  if (*count < MOST_KINDS) kinds[(*count)++] = *one;
+  if (*count < MAX_KINDS) kinds[(*count)++] = *one;
 }
 
 static void check_pairs(sbfi_validation *v, const kind *kinds, uint32_t count) {
@@ -45,7 +45,7 @@ void sbfi_check_collisions(sbfi_validation *v) {
   const sbf_soft_body_list soft = v->asset->soft_bodies;
   const sbf_rigid_body_list rigid = v->asset->rigid_bodies;
   uint32_t count = 0;
-  kind *kinds = sbfi_scratch(v, MOST_KINDS, sizeof *kinds);
+  kind *kinds = sbfi_scratch(v, MAX_KINDS, sizeof *kinds);
   if (!kinds) return;
   for (uint32_t i = 0; i < soft.count; i++) {
     kind one = {soft.at[i].collision.layer, soft.at[i].collision.mask,

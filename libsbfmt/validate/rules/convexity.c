@@ -4,7 +4,7 @@
 #include "mechanics/polygon.h"
 #include "validate/rules/pose.h"
 
-enum { MOST_COMPARISONS = 4000000 };
+enum { MAX_COMPARISONS = 4000000 };
 
 typedef struct face {
   sbfi_d3 normal, middle;
@@ -46,7 +46,7 @@ sbfi_hull_fault sbfi_hull_judge(const sbf_polygon_mesh *hull, sbfi_arena *scratc
       t.degenerate_side_count)
     return SBFI_HULL_FAULT_OPEN;
   double slack = 1e-3 * sbfi_extent(hull->positions);
-  bool small = (uint64_t)t.polygon_count * t.point_count <= MOST_COMPARISONS;
+  bool small = (uint64_t)t.polygon_count * t.point_count <= MAX_COMPARISONS;
   for (uint32_t p = 0; p < t.polygon_count; p++) {
     const uint32_t *corners = hull->polygon_points.at + t.corner_begins[p];
     face f = face_of(hull, corners, t.corner_begins[p + 1] - t.corner_begins[p]);

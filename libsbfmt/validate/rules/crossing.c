@@ -2,7 +2,7 @@
 
 #include "mechanics/vector.h"
 
-enum { MOST_PAIRS = 1024 };
+enum { MAX_PAIRS = 1024 };
 
 typedef struct triangle {
   sbfi_d3 corners[3], normal; /* unit; zero where there is no area */
@@ -70,11 +70,11 @@ static void compare_leaves(finder *f, const sbfi_box_node *a, const sbfi_box_nod
 /* All pairs of leaves whose boxes overlap, each once. The larger node of a pair is opened first, so that the
  * pairs waiting stay few. */
 static void walk(finder *f) {
-  sbf_uint2 waiting[MOST_PAIRS];
+  sbf_uint2 waiting[MAX_PAIRS];
   const sbfi_box_node *nodes = f->tree->tree.nodes;
   uint32_t count = 0;
   waiting[count++] = (sbf_uint2){{0, 0}};
-  while (count > 0 && f->budget > 0 && count + 4 < MOST_PAIRS) {
+  while (count > 0 && f->budget > 0 && count + 4 < MAX_PAIRS) {
     sbf_uint2 pair = waiting[--count];
     const sbfi_box_node *a = &nodes[pair.at[0]], *b = &nodes[pair.at[1]];
     f->budget--;

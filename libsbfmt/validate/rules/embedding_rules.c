@@ -1,10 +1,13 @@
 /* Embeddings: weights that sum to one and do not reach far outside, vertices where the mesh has them, every
  * one carried. */
+#include <string.h>
+
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
 static const float SUM_TOLERANCE = 1e-4f, BLEND_TOLERANCE = 1e-3f;
-static const float FAR_OUTSIDE = 4;       /* weights beyond it make a vertex jump at the least strain */
+/* Weights outside these bounds make a vertex jump at small strains. */
+static const float MIN_WEIGHT = -0.5f, MAX_WEIGHT = 1.5f, WEIGHT_TOLERANCE = 1e-3f;
 static const double OFF_TOLERANCE = 0.01; /* of the mesh's size */
 
 /* The mesh whose vertices are carried: a render mesh, or a body's own surface. */
@@ -13,20 +16,31 @@ typedef struct carried {
   sbf_vec3_list positions;
   const char *name;
   double size;
+  uint8_t *unseen;  /* vertices in no polygon of a mesh that has some: no one sees where they are */
   float *shares;    /* what the bodies carry of each vertex together */
   uint32_t *stamps; /* the embedding, from 1, that carried the vertex last */
   uint32_t stamp;
   bool broken; /* an embedding is not read for its length: nothing can be said of the whole */
 } carried;
 
-static bool carried_init(carried *c, sbfi_validation *v, sbf_vec3_list positions, const char *name) {
+static void mark_seen(carried *c, const sbf_u32_list *corners) {
+  for (uint32_t i = 0; i < corners->count; i++)
+    if (corners->at[i] < c->positions.count) c->unseen[corners->at[i]] = 0;
+}
+
+static bool carried_init(carried *c, sbfi_validation *v, const sbf_polygon_mesh *mesh, const char *name) {
+  uint32_t count = mesh->positions.count;
   *c = (carried){.v = v,
-      .positions = positions,
+      .positions = mesh->positions,
       .name = name,
-      .size = sbfi_extent(positions),
-      .shares = sbfi_scratch(v, positions.count, sizeof *c->shares),
-      .stamps = sbfi_scratch(v, positions.count, sizeof *c->stamps)};
-  return c->shares && c->stamps;
+      .size = sbfi_extent(mesh->positions),
+      .unseen = sbfi_scratch(v, count, sizeof *c->unseen),
+      .shares = sbfi_scratch(v, count, sizeof *c->shares),
+      .stamps = sbfi_scratch(v, count, sizeof *c->stamps)};
+  if (!c->unseen || !c->shares || !c->stamps) return false;
+  memset(c->unseen, mesh->polygon_points.count > 0, count);
+  mark_seen(c, &mesh->polygon_points);
+  return true;
 }
 
 static double distance_off(const sbf_level *level, const sbf_embedding *e, uint32_t i, sbf_vec3 vertex) {
@@ -47,16 +61,18 @@ static bool check_weights(const carried *c, const sbf_embedding *e, uint32_t i, 
     sbfi_found(c->v, SBF_CODE_EMBEDDING_SUM, path, i, "the weights of item %u sum to %.6g", i, (double)sum);
     return false;
   }
-  if (far > FAR_OUTSIDE)
+  float low = fminf(fminf(w.x, w.y), fminf(w.z, w.w)), high = fmaxf(fmaxf(w.x, w.y), fmaxf(w.z, w.w));
+  if (low < MIN_WEIGHT - WEIGHT_TOLERANCE || high > MAX_WEIGHT + WEIGHT_TOLERANCE)
     sbfi_found(c->v, SBF_CODE_EMBEDDING_OUTSIDE, path, i,
-        "item %u lies far outside its element, by weight %.3g", i, (double)far);
+        "item %u lies far outside its element, by weight %.3g", i,
+        (double)(low < MIN_WEIGHT - WEIGHT_TOLERANCE ? low : high));
   return true;
 }
 
 static void check_embedding(carried *c, const sbf_level *level, const sbf_embedding *e, const char *path) {
   sbfi_path weights = sbfi_path_of("%s/weights", path), vertices = sbfi_path_of("%s/vertices", path);
   uint32_t off = 0, first = 0;
-  double most = 0;
+  double max = 0;
   c->stamp++;
   if (e->vertices.count && e->vertices.count != e->points.count) {
     sbfi_found(c->v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are named and %u embedded",
@@ -78,15 +94,15 @@ static void check_embedding(carried *c, const sbf_level *level, const sbf_embedd
           vertex, c->name);
     c->stamps[vertex] = c->stamp;
     c->shares[vertex] += e->blends.count ? e->blends.at[i] : 1;
-    double distance = good ? distance_off(level, e, i, c->positions.at[vertex]) : 0;
+    double distance = good && !c->unseen[vertex] ? distance_off(level, e, i, c->positions.at[vertex]) : 0;
     if (!(distance > OFF_TOLERANCE * c->size)) continue;
     if (off++ == 0) first = i;
-    most = fmax(most, distance);
+    max = fmax(max, distance);
   }
   if (off)
     sbfi_found(c->v, SBF_CODE_EMBEDDING_OFF, sbfi_path_of("%s/points", path).text, first,
         "%u %s of '%s' %s carried off %s place%s, by up to %.3g m", off, off == 1 ? "vertex" : "vertices",
-        c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their", sbfi_plural(off), most);
+        c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their", sbfi_plural(off), max);
 }
 
 /* The shares that all bodies take of one mesh's vertices, at each body's level `l` or its coarsest. */
@@ -96,7 +112,8 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
   uint32_t partly = 0, none = 0;
   bool found = false;
   carried c;
-  if (!carried_init(&c, v, at->mesh.positions, sbfi_label(at->name, at->id))) return;
+  if (!carried_init(&c, v, &at->mesh, sbfi_label(at->name, at->id))) return;
+  for (uint32_t i = 0; i < at->levels.count; i++) mark_seen(&c, &at->levels.at[i].polygon_points);
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     if (body->levels.count == 0) continue;
@@ -129,7 +146,7 @@ static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
   carried c = {.shares = NULL};
   for (uint32_t e = 0; e < level->embeddings.count; e++) {
     if (level->embeddings.at[e].render_mesh != SBF_NONE) continue;
-    if (!c.shares && !carried_init(&c, v, at->surface.positions, sbfi_label(at->name, at->id))) return;
+    if (!c.shares && !carried_init(&c, v, &at->surface, sbfi_label(at->name, at->id))) return;
     check_embedding(&c, level, &level->embeddings.at[e],
         sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", body + 1, l + 1, e + 1).text);
   }

@@ -3,7 +3,7 @@
 
 #include "validate/validation.h"
 
-static const double MOST_GRAVITY = 50; /* m/s^2: twice Jupiter's */
+static const double MAX_GRAVITY = 50; /* m/s^2: twice Jupiter's */
 
 static double length_of(sbf_vec3 a) {
   return sqrt((double)a.x * a.x + (double)a.y * a.y + (double)a.z * a.z);
@@ -12,7 +12,7 @@ static double length_of(sbf_vec3 a) {
 void sbfi_check_environment(sbfi_validation *v) {
   const sbf_environment *is = &v->asset->environment;
   double gravity = length_of(is->gravity);
-  if (gravity > MOST_GRAVITY || is->gravity.y > 0)
+  if (gravity > MAX_GRAVITY || is->gravity.y > 0)
     sbfi_found(v, SBF_CODE_GRAVITY_LOOKS_WRONG, "/sbf/environment", -1, "gravity is %.4g m/s^2 and points %s",
         gravity, is->gravity.y > 0 ? "upwards" : "downwards");
   for (uint32_t i = 0; i < is->fields.count; i++) {

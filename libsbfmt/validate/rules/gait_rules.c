@@ -1,4 +1,5 @@
-/* Gaits: legs that reach where they stand, steps that can be taken, bones that hang together. */
+/* Gaits: legs that reach where they stand, steps that can be taken, bones that hang together, parts that
+ * move. */
 #include "mechanics/vector.h"
 #include "validate/rules/bone_chain.h"
 #include "validate/validation.h"
@@ -58,7 +59,8 @@ static void check_legs(walker *w) {
     high = fmax(high, ground);
     groups += legs.at[l].group != legs.at[0].group;
   }
-  if (legs.count == 0) sbfi_found(w->v, SBF_CODE_GAIT_NO_LEGS, w->path, -1, "gait '%s' has no legs", w->name);
+  if (legs.count == 0 && w->gait->kind == SBF_GAIT_KIND_WALK)
+    sbfi_found(w->v, SBF_CODE_GAIT_NO_LEGS, w->path, -1, "gait '%s' has no legs", w->name);
   if (legs.count > 1 && groups == 1)
     sbfi_found(w->v, SBF_CODE_GAIT_ONE_GROUP, w->path, -1, "all %u legs of gait '%s' are of group %u",
         legs.count, w->name, legs.at[0].group);
@@ -91,6 +93,64 @@ static void check_tails(const walker *w) {
   }
 }
 
+static bool has_length(sbf_vec3 axis) {
+  return axis.x != 0 || axis.y != 0 || axis.z != 0;
+}
+
+/* The bones of a part: enough of them, each below the gait's body. */
+static void check_bones(
+    const walker *w, sbf_u32_list bones, uint32_t fewest, const char *part, uint32_t number) {
+  sbfi_path path =
+      number ? sbfi_path_of("%s/%s[%u]", w->path, part, number) : sbfi_path_of("%s/%s", w->path, part);
+  if (bones.count < fewest)
+    sbfi_found(w->v, SBF_CODE_GAIT_CHAIN_SHORT, path.text, -1, "the %s of gait '%s' has %u bones", part,
+        w->name, bones.count);
+  for (uint32_t b = 0; b < bones.count; b++) {
+    for (uint32_t k = 0; k < b; k++)
+      if (bones.at[k] == bones.at[b]) {
+        sbfi_found(w->v, SBF_CODE_BONE_REPEATED, path.text, (int64_t)b, "'%s' is listed twice",
+            bone_name(w, (int32_t)bones.at[b]));
+        break;
+      }
+    check_bone(w, (int32_t)bones.at[b], "the bone", path.text);
+  }
+}
+
+static void check_axis(const walker *w, sbf_vec3 axis, const char *part, uint32_t number) {
+  sbfi_path path = sbfi_path_of("%s/%s[%u]/@axis", w->path, part, number);
+  if (!has_length(axis))
+    sbfi_found(w->v, SBF_CODE_GAIT_AXIS_ZERO, path.text, -1, "the axis of %s %u of gait '%s' has no length",
+        part, number, w->name);
+}
+
+/* What moves a swimmer, a flier, wheels. */
+static void check_parts(const walker *w) {
+  const sbf_gait *gait = w->gait;
+  const sbf_asset *asset = w->v->asset;
+  bool idle = gait->kind == SBF_GAIT_KIND_SWIM      ? !gait->undulation && !gait->fins.count
+              : gait->kind == SBF_GAIT_KIND_SLITHER ? !gait->undulation
+              : gait->kind == SBF_GAIT_KIND_ROLL    ? !gait->wheels.count && !gait->treads.count
+                                                    : false;
+  if (idle && gait->move_clip == SBF_NONE)
+    sbfi_found(w->v, SBF_CODE_GAIT_NOTHING_MOVES, w->path, -1, "gait '%s' is to %s, and no bone moves for it",
+        w->name, sbf_gait_kind_name(gait->kind));
+  if (gait->rest_pose != SBF_NONE && asset->poses.at[gait->rest_pose].distance != 0)
+    sbfi_found(w->v, SBF_CODE_GAIT_POSE_WALKS, w->path, -1,
+        "the rest pose of gait '%s' is at %.3g m of a walk", w->name,
+        (double)asset->poses.at[gait->rest_pose].distance);
+  if (gait->undulation) check_bones(w, gait->undulation->bones, 2, "undulation", 0);
+  for (uint32_t f = 0; f < gait->fins.count; f++) {
+    check_bones(w, gait->fins.at[f].bones, 1, "fin", f + 1);
+    check_axis(w, gait->fins.at[f].axis, "fin", f + 1);
+  }
+  for (uint32_t k = 0; k < gait->wheels.count; k++) {
+    check_bone(w, gait->wheels.at[k].bone, "the wheel", w->path);
+    check_axis(w, gait->wheels.at[k].axis, "wheel", k + 1);
+  }
+  for (uint32_t k = 0; k < gait->treads.count; k++)
+    check_bones(w, gait->treads.at[k].bones, 2, "tread", k + 1);
+}
+
 void sbfi_check_gaits(sbfi_validation *v) {
   for (uint32_t g = 0; g < v->asset->gaits.count; g++) {
     const sbf_gait *gait = &v->asset->gaits.at[g];
@@ -102,5 +162,6 @@ void sbfi_check_gaits(sbfi_validation *v) {
     check_bone(&w, gait->chest, "the chest bone", path.text);
     if (gait->head) check_bone(&w, gait->head->bone, "the head bone", path.text);
     check_tails(&w);
+    check_parts(&w);
   }
 }

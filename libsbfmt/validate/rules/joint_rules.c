@@ -24,8 +24,8 @@ static bool is_angle(sbf_joint_axis axis) {
 static void check_rest(const jointed *j) {
   for (int axis = 0; axis < SBF_JOINT_AXIS_COUNT; axis++) {
     double value = fabs(j->rest.at[axis]),
-           most = is_angle(axis) ? REST_RAD : REST_M + REST_SHARE * j->rest.arm;
-    if (sbfi_joint_is_free(j->joint->kind, axis) || value <= most) continue;
+           tolerance = is_angle(axis) ? REST_RAD : REST_M + REST_SHARE * j->rest.arm;
+    if (sbfi_joint_is_free(j->joint->kind, axis) || value <= tolerance) continue;
     sbfi_found(j->v, SBF_CODE_JOINT_NOT_AT_REST, j->path, -1,
         "joint '%s' holds %s at 0 and it is %.3g %s at rest", j->name, sbf_joint_axis_name(axis),
         j->rest.at[axis], is_angle(axis) ? "rad" : "m");

@@ -5,7 +5,7 @@
 #include "mechanics/vector.h"
 #include "validate/validation.h"
 
-static const double LEAST_DIHEDRAL_DEG = 5, DEG_IN_RAD = 57.29577951308232;
+static const double MIN_DIHEDRAL_DEG = 5, DEG_IN_RAD = 57.29577951308232;
 
 static const int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; /* outwards */
 
@@ -26,7 +26,7 @@ static double sharpest_cosine(const sbf_vec3 *points, const uint32_t p[4]) {
 }
 
 static void find_slivers(sbfi_validation *v, const sbf_level *level, const char *path) {
-  double limit = cos(LEAST_DIHEDRAL_DEG / DEG_IN_RAD);
+  double limit = cos(MIN_DIHEDRAL_DEG / DEG_IN_RAD);
   for (uint32_t i = 0; i < level->lattice.tetrahedra.count; i++) {
     double cosine = sharpest_cosine(level->positions.at, level->lattice.tetrahedra.at[i].at);
     if (cosine > limit)

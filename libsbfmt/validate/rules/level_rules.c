@@ -22,7 +22,7 @@ static void check_map(sbfi_validation *v, const sbf_level *level, const char *pa
 static void check_places(
     sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
   sbf_vec3_list surface = body->surface.positions;
-  double most = 0, tolerance = 1e-4 * sbfi_extent(surface);
+  double max = 0, tolerance = 1e-4 * sbfi_extent(surface);
   uint32_t moved = 0, first = 0;
   for (uint32_t i = 0; i < surface.count + body->interior.count; i++) {
     uint32_t point = sbfi_level_point(level, i);
@@ -31,13 +31,13 @@ static void check_places(
     double distance = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(from), sbfi_d3_of(level->positions.at[point])));
     if (!(distance > tolerance)) continue;
     if (moved++ == 0) first = point;
-    most = fmax(most, distance);
+    max = fmax(max, distance);
   }
   if (moved)
     sbfi_found(v, SBF_CODE_LEVEL_POINT_MOVED, path, first,
         "%u point%s of a level of '%s' lie%s off %s source point%s, by up to %.3g m", moved,
         sbfi_plural(moved), sbfi_label(body->name, body->id), moved == 1 ? "s" : "",
-        moved == 1 ? "its" : "their", sbfi_plural(moved), most);
+        moved == 1 ? "its" : "their", sbfi_plural(moved), max);
 }
 
 /* Points joined into pieces by what acts between them. */

@@ -9,8 +9,8 @@
 #include "validate/rules/strain_order.h"
 #include "validate/validation.h"
 
-static const double LEAST_DENSITY = 0.9, MOST_DENSITY = 30000; /* kg/m^3: air, and more than osmium */
-static const double MOST_SAG = 10; /* strain under the own weight beyond which a body is a puddle */
+static const double MIN_DENSITY = 0.9, MAX_DENSITY = 30000; /* kg/m^3: air, and more than osmium */
+static const double MAX_SAG = 10; /* strain under the own weight beyond which a body is a puddle */
 
 static void check_size(sbfi_validation *v) {
   double size = sbfi_asset_extent(v->asset), scale = sbfi_plausible_scale(size);
@@ -56,7 +56,7 @@ static void check_substeps(
 }
 
 static bool is_no_matter(double density) {
-  return density < LEAST_DENSITY || density > MOST_DENSITY;
+  return density < MIN_DENSITY || density > MAX_DENSITY;
 }
 
 /* Under gravity a column of height h and density d strains by d g h / E at its foot. */
@@ -67,7 +67,7 @@ static void check_weight(
   double height = sbfi_extent(body->surface.positions);
   if (is->sheet || !(is->volume > 0)) return;
   double stress = is->mass / is->volume * gravity * fabs((double)body->attributes.gravity_scale) * height;
-  if (stress > MOST_SAG * (double)body->attributes.young_modulus)
+  if (stress > MAX_SAG * (double)body->attributes.young_modulus)
     sbfi_found(v, SBF_CODE_BODY_COLLAPSES, path, -1,
         "the weight of '%s' presses with %.3g Pa and its Young's modulus is %.3g Pa",
         sbfi_label(body->name, body->id), stress, (double)body->attributes.young_modulus);

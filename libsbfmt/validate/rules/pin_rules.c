@@ -37,7 +37,7 @@ static void frame_of(const sbf_asset *asset, const sbf_pin_set *set, sbfi_d3 *or
 static void check_offsets(const held *h, const sbf_pin_set *set, const char *path) {
   sbfi_d3 origin;
   sbfi_rotation turn;
-  double most = 0, size = sbfi_extent(h->body->surface.positions);
+  double max = 0, size = sbfi_extent(h->body->surface.positions);
   uint32_t far = 0, first = 0;
   frame_of(h->v->asset, set, &origin, &turn);
   for (uint32_t i = 0; i < set->offsets.count; i++) {
@@ -45,12 +45,12 @@ static void check_offsets(const held *h, const sbf_pin_set *set, const char *pat
     double distance = sbfi_d3_length(sbfi_d3_sub(place, sbfi_d3_of(place_of(h, set->points.at[i]))));
     if (!(distance > size) || size == 0) continue;
     if (far++ == 0) first = i;
-    most = fmax(most, distance);
+    max = fmax(max, distance);
   }
   if (far)
     sbfi_found(h->v, SBF_CODE_PIN_OFFSET, sbfi_path_of("%s/offsets", path).text, first,
         "pin set '%s' draws %u point%s by up to %.3g m, more than '%s' is long", set->name, far,
-        sbfi_plural(far), most, sbfi_label(h->body->name, h->body->id));
+        sbfi_plural(far), max, sbfi_label(h->body->name, h->body->id));
 }
 
 static void check_points(

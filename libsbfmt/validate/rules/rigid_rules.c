@@ -30,9 +30,9 @@ static void check_hull(sbfi_validation *v, const sbf_rigid_body *body, const cha
 }
 
 static void check_inertia(sbfi_validation *v, const sbf_rigid_body *body, const char *path) {
-  double a = body->inertia.x, b = body->inertia.y, c = body->inertia.z, most = fmax(a, fmax(b, c));
-  if (most == 0) return;
-  if (2 * most > 1.001 * (a + b + c))
+  double a = body->inertia.x, b = body->inertia.y, c = body->inertia.z, max = fmax(a, fmax(b, c));
+  if (max == 0) return;
+  if (2 * max > 1.001 * (a + b + c))
     sbfi_found(v, SBF_CODE_INERTIA_IMPOSSIBLE, path, -1, "'%s' has the principal moments %.4g, %.4g and %.4g",
         sbfi_label(body->name, body->id), a, b, c);
 }

@@ -7,7 +7,7 @@
 #include "validate/validation.h"
 
 /* A spring that starts beyond these shares of its rest length jerks. */
-static const double MOST_STRETCH = 2, LEAST_STRETCH = 0.5;
+static const double MAX_STRETCH = 2, MIN_STRETCH = 0.5;
 
 typedef struct spring_level {
   sbfi_validation *v;
@@ -27,7 +27,7 @@ static void check_length(const spring_level *l, const sbf_spring_set *set, uint3
   double rest = set->rest_lengths.count ? (double)set->rest_lengths.at[i] : distance;
   if (rest == 0)
     sbfi_found(l->v, SBF_CODE_SPRING_NO_LENGTH, path, i, "spring %u has no rest length", i);
-  else if (distance > MOST_STRETCH * rest || distance < LEAST_STRETCH * rest)
+  else if (distance > MAX_STRETCH * rest || distance < MIN_STRETCH * rest)
     sbfi_found(l->v, SBF_CODE_SPRING_STRAINED, path, i,
         "spring %u has the rest length %.4g m and is %.4g m long at rest", i, rest, distance);
 }

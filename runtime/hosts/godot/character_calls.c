@@ -16,7 +16,7 @@ CALL(drive) {
   double wanted[3];
   for (int i = 0; i < 3; i++) {
     wanted[i] = gd_as_float(arguments[i]);
-    if (!soft_character_fits(one, "drive", wanted[i], -SOFT_MOST, SOFT_MOST)) return;
+    if (!soft_character_fits(one, "drive", wanted[i], -SOFT_MAX, SOFT_MAX)) return;
   }
   one->settings.forward_speed = wanted[0];
   one->settings.sideways_speed = wanted[1];
@@ -90,7 +90,7 @@ CALL(get_skin) {
 
 static sbr_body_health health_of(soft_character *one, const gd_variant *body) {
   int64_t index = gd_as_int(body);
-  sbr_body_health none = {.volume_ratio = 1, .finite = true};
+  sbr_body_health none = {.volume_ratio = 1, .min_element_ratio = 1, .finite = true};
   if (!one->world || index < 0 || index >= one->model->asset->soft_bodies.count) return none;
   return sbr_character_health(one->world, one->id, (uint32_t)index);
 }
@@ -213,6 +213,27 @@ const gd_method soft_character_methods[] = {
     {"get_volume_ratio", get_volume_ratio, ANSWER(FLOAT), 1, {WITH("soft_body", INT)}},
     {"get_max_strain", get_max_strain, ANSWER(FLOAT), 1, {WITH("soft_body", INT)}},
     {"is_asleep", is_asleep, ANSWER(BOOL), 1, {WITH("soft_body", INT)}},
+    {"get_soft_mass", soft_character_get_soft_mass, ANSWER(FLOAT), 1, {WITH("soft_body", INT)}},
+    {"get_soft_velocity", soft_character_get_soft_velocity, ANSWER(VECTOR3), 1, {WITH("soft_body", INT)}},
+    {"get_soft_angular_velocity", soft_character_get_soft_angular_velocity, ANSWER(VECTOR3), 1,
+        {WITH("soft_body", INT)}},
+    {"set_soft_velocity", soft_character_set_soft_velocity, NOTHING, 3,
+        {WITH("soft_body", INT), WITH("velocity", VECTOR3), WITH("angular_velocity", VECTOR3)}},
+    {"apply_soft_impulse", soft_character_apply_soft_impulse, NOTHING, 3,
+        {WITH("soft_body", INT), WITH("vertex", INT), WITH("impulse", VECTOR3)}},
+    {"apply_soft_force", soft_character_apply_soft_force, NOTHING, 4,
+        {WITH("soft_body", INT), WITH("vertex", INT), WITH("force", VECTOR3), WITH("seconds", FLOAT)}},
+    {"get_nearest_vertex", soft_character_get_nearest_vertex, ANSWER(INT), 2,
+        {WITH("soft_body", INT), WITH("position", VECTOR3)}},
+    {"hold_vertex", soft_character_hold_vertex, NOTHING, 3,
+        {WITH("soft_body", INT), WITH("vertex", INT), WITH("target", VECTOR3)}},
+    {"release_vertex", soft_character_release_vertex, ANSWER(BOOL), 2,
+        {WITH("soft_body", INT), WITH("vertex", INT)}},
+    {"get_hold_force", soft_character_get_hold_force, ANSWER(VECTOR3), 2,
+        {WITH("soft_body", INT), WITH("vertex", INT)}},
+    {"get_pin_reactions", soft_character_get_pin_reactions, ANSWER(PACKED_VECTOR3_ARRAY), 1,
+        {WITH("soft_body", INT)}},
+    {"get_stress", soft_character_get_stress, ANSWER(PACKED_VECTOR3_ARRAY), 1, {WITH("soft_body", INT)}},
     {"get_substeps_needed", get_substeps_needed, ANSWER(INT), 0, {{0}}},
     {"get_state_hash", get_state_hash, ANSWER(STRING), 0, {{0}}},
     {"get_skeleton", get_skeleton, NODE("Skeleton3D"), 0, {{0}}},

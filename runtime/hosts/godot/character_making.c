@@ -134,7 +134,8 @@ void soft_character_make(soft_character *one) {
 
 void soft_character_drive(soft_character *one) {
   const soft_settings *s = &one->settings;
-  if (one->world)
-    sbr_character_drive(
-        one->world, one->id, (float)s->forward_speed, (float)s->sideways_speed, (float)s->turn_speed);
+  if (!one->world) return;
+  sbr_character_drive(
+      one->world, one->id, (float)s->forward_speed, (float)s->sideways_speed, (float)s->turn_speed);
+  sbr_character_set_vertical_speed(one->world, one->id, (float)s->vertical_speed);
 }

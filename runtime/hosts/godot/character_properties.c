@@ -85,19 +85,20 @@ SETTING(level, int, 0, 64, soft_character_make(one))
 SETTING(free_bodies, bool, 0, 1, soft_character_make(one))
 SETTING(hold_pose, bool, 0, 1, soft_character_make(one))
 SETTING(use_threads, bool, 0, 1, soft_character_make(one))
-SETTING(forward_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
-SETTING(sideways_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
-SETTING(turn_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
-SETTING(gravity_scale, float, -SOFT_MOST, SOFT_MOST, soft_character_make(one))
+SETTING(forward_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(sideways_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(turn_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(vertical_speed, float, -SOFT_MAX, SOFT_MAX, soft_character_drive(one))
+SETTING(gravity_scale, float, -SOFT_MAX, SOFT_MAX, soft_character_make(one))
 SETTING(paused, bool, 0, 1, soft_character_pause(one))
 SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
 SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
 SETTING(ground, int, 0, 1, soft_character_make(one))
-SETTING(ground_cell, float, 0, SOFT_MOST, soft_character_make(one))
-SETTING(ground_reach, float, 0, SOFT_MOST, soft_character_make(one))
+SETTING(ground_cell, float, 0, SOFT_MAX, soft_character_make(one))
+SETTING(ground_reach, float, 0, SOFT_MAX, soft_character_make(one))
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
-SETTING(push_limit, float, 0, SOFT_MOST, (void)one)
+SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
 SETTING(meet_others, bool, 0, 1, soft_character_make(one))
 SETTING(cast_shadow, int, 0, 3, character_mesh_dress(one->mesh, one))
 SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_dress(one->mesh, one))
@@ -141,6 +142,8 @@ const gd_property soft_character_properties[] = {
         sideways_speed),
     SHOWN(
         "turn_speed", FLOAT, HINT_RANGE, "-3.2,3.2,0.01,or_less,or_greater,suffix:rad/s", "get_", turn_speed),
+    SHOWN("vertical_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_",
+        vertical_speed),
     GROUP("Simulation"),
     CHOICE("scheme", "SoftCharacter3D.Scheme",
         "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", scheme),
@@ -171,13 +174,13 @@ const gd_property soft_character_properties[] = {
 /* ---- Warnings ---- */
 
 static bool is_uneven(const gd_transform *at) {
-  float least = INFINITY, most = 0;
+  float min = INFINITY, max = 0;
   for (int k = 0; k < 3; k++) {
     float size = sqrtf(at->basis[0][k] * at->basis[0][k] + at->basis[1][k] * at->basis[1][k] +
                        at->basis[2][k] * at->basis[2][k]);
-    least = fminf(least, size), most = fmaxf(most, size);
+    min = fminf(min, size), max = fmaxf(max, size);
   }
-  return most > 1.001f * least;
+  return max > 1.001f * min;
 }
 
 static bool is_tilted(const gd_transform *at) {

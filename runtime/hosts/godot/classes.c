@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ARGUMENTS = 6, USAGE_DEFAULT = 6, USAGE_IS_ENUM = 65536, USAGE_NIL_IS_VARIANT = 131072 };
+enum { MAX_ARGUMENTS = 6, USAGE_DEFAULT = 6, USAGE_IS_ENUM = 65536, USAGE_NIL_IS_VARIANT = 131072 };
 
 /* ---- Instances ---- */
 
@@ -65,7 +65,7 @@ static void call_values(void *userdata, GDExtensionClassInstancePtr made,
     const GDExtensionConstVariantPtr *arguments, GDExtensionInt count, GDExtensionVariantPtr result,
     GDExtensionCallError *error) {
   const gd_method *method = userdata;
-  const gd_variant *given[MOST_ARGUMENTS] = {0};
+  const gd_variant *given[MAX_ARGUMENTS] = {0};
   gd_variant answer = gd_nil();
   error->error = GDEXTENSION_CALL_OK;
   if (count != (GDExtensionInt)method->count) {
@@ -92,8 +92,8 @@ static void give_object(GDExtensionTypePtr result, const gd_variant *answer) {
 /* Raw values, as typed scripts and Godot's own code hand them over. */
 static void call_raw(const gd_method *method, instance *made, const GDExtensionConstTypePtr *arguments,
     GDExtensionTypePtr result) {
-  const gd_variant *given[MOST_ARGUMENTS] = {0};
-  gd_variant values[MOST_ARGUMENTS], answer = gd_nil();
+  const gd_variant *given[MAX_ARGUMENTS] = {0};
+  gd_variant values[MAX_ARGUMENTS], answer = gd_nil();
   for (uint32_t i = 0; i < method->count; i++) {
     GDExtensionVariantType type = method->arguments[i].type;
     if (type == GDEXTENSION_VARIANT_TYPE_NIL)
@@ -162,9 +162,9 @@ static void undescribe(described *one) {
 }
 
 static void register_method(const gd_class *form, const gd_method *method) {
-  described arguments[MOST_ARGUMENTS], result;
-  GDExtensionPropertyInfo infos[MOST_ARGUMENTS];
-  GDExtensionClassMethodArgumentMetadata metadata[MOST_ARGUMENTS] = {0};
+  described arguments[MAX_ARGUMENTS], result;
+  GDExtensionPropertyInfo infos[MAX_ARGUMENTS];
+  GDExtensionClassMethodArgumentMetadata metadata[MAX_ARGUMENTS] = {0};
   for (uint32_t i = 0; i < method->count; i++) {
     describe_argument(&arguments[i], &method->arguments[i]);
     infos[i] = arguments[i].info;
@@ -225,8 +225,8 @@ static void register_property(const gd_class *form, const gd_property *property)
 }
 
 static void register_signal(const gd_class *form, const gd_signal *signal) {
-  described arguments[MOST_ARGUMENTS];
-  GDExtensionPropertyInfo infos[MOST_ARGUMENTS];
+  described arguments[MAX_ARGUMENTS];
+  GDExtensionPropertyInfo infos[MAX_ARGUMENTS];
   for (uint32_t i = 0; i < signal->count; i++) {
     describe_argument(&arguments[i], &signal->arguments[i]);
     infos[i] = arguments[i].info;

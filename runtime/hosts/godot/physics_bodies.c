@@ -12,7 +12,7 @@
 #include "turns.h"
 
 enum {
-  MOST = 64,   /* shapes at once */
+  MAX = 64,    /* shapes at once */
   KEPT = 30,   /* frames for which one is kept that is no longer near */
   AGAIN = 4,   /* frames between two looks around */
   FORGET = 64, /* frames after which what stood still is looked at again */
@@ -38,7 +38,7 @@ typedef struct mirrored {
 } mirrored;
 
 struct physics_bodies {
-  mirrored each[MOST];
+  mirrored each[MAX];
   uint32_t frame;
   gd_variant query, box; /* PhysicsShapeQueryParameters3D and its BoxShape3D */
   gd_variant still;      /* RIDs that queries leave out: they do not move */
@@ -64,7 +64,7 @@ static void drop(mirrored *one, sbr_world *world) {
 
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world) {
   if (!bodies) return;
-  for (uint32_t i = 0; i < MOST; i++)
+  for (uint32_t i = 0; i < MAX; i++)
     if (bodies->each[i].body) drop(&bodies->each[i], world);
   gd_free(&bodies->query);
   gd_free(&bodies->box);
@@ -73,7 +73,7 @@ void physics_bodies_free(physics_bodies *bodies, sbr_world *world) {
 }
 
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider) {
-  for (uint32_t i = 0; collider.value && i < MOST; i++)
+  for (uint32_t i = 0; collider.value && i < MAX; i++)
     if (bodies->each[i].id.value == collider.value)
       return gd_object(gd.object_get_instance_from_id(bodies->each[i].object));
   return gd_object(NULL);
@@ -103,7 +103,7 @@ static sbf_vec3 spin_of(const gd_variant *server, const gd_variant *handle) {
 
 /* The collider of its body that has the mass; NULL: there is none yet. */
 static mirrored *leader_of(physics_bodies *bodies, const mirrored *at) {
-  for (uint32_t i = 0; i < MOST; i++) {
+  for (uint32_t i = 0; i < MAX; i++) {
     mirrored *other = &bodies->each[i];
     if (other->body == at->body && other->leads && other->id.value) return other;
   }
@@ -181,7 +181,7 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
     const gd_variant *object) {
   physics_bodies *bodies = one->bodies;
   mirrored *room = NULL;
-  for (uint32_t i = 0; i < MOST && !room; i++)
+  for (uint32_t i = 0; i < MAX && !room; i++)
     if (!bodies->each[i].body) room = &bodies->each[i];
   if (!room) {
     if (!bodies->told)
@@ -211,7 +211,7 @@ static void meet(soft_character *one, const gd_variant *server, const gd_variant
   uint64_t body = gd_as_rid(&handle);
   int64_t index = gd_take_int(gd_key(hit, "shape"));
   mirrored *known = NULL;
-  for (uint32_t i = 0; i < MOST && !known; i++)
+  for (uint32_t i = 0; i < MAX && !known; i++)
     if (bodies->each[i].body == body && bodies->each[i].index == index) known = &bodies->each[i];
   if (known) {
     known->seen = bodies->frame;
@@ -233,7 +233,7 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
   for (int i = 0; i < QUERIES && more; i++) {
     GD_DO(&bodies->query, "set_exclude", gd_copy(&bodies->still));
     int64_t left_out = gd_size(&bodies->still);
-    gd_variant hits = GD_CALL(space, "intersect_shape", gd_copy(&bodies->query), gd_int(MOST));
+    gd_variant hits = GD_CALL(space, "intersect_shape", gd_copy(&bodies->query), gd_int(MAX));
     int64_t count = gd_size(&hits);
     for (int64_t k = 0; k < count; k++) {
       gd_variant hit = gd_at(&hits, k);
@@ -241,7 +241,7 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
       gd_free(&hit);
     }
     gd_free(&hits);
-    more = count == MOST && gd_size(&bodies->still) > left_out;
+    more = count == MAX && gd_size(&bodies->still) > left_out;
   }
 }
 
@@ -283,7 +283,7 @@ void physics_bodies_look(soft_character *one, bool now) {
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes) {
   gd_variant server = gd_nil();
   bodies->frame++;
-  for (uint32_t i = 0; i < MOST; i++) {
+  for (uint32_t i = 0; i < MAX; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->body) continue;
     if (bodies->frame - at->seen > KEPT || !gd.object_get_instance_from_id(at->object)) {
@@ -294,7 +294,7 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
     follow_mass(bodies, world, &server, at, pushes);
   }
-  for (uint32_t i = 0; i < MOST; i++) {
+  for (uint32_t i = 0; i < MAX; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->body || !at->id.value) continue;
     move(world, &server, at, frame_s);
@@ -306,13 +306,13 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
 static float share_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
   float size = length(impulse) * at->mass.inverse;
   if (!(limit > 0) || size <= limit) return 1;
-  float most = fmaxf(limit, 2 * length(velocity_of(server, &at->handle)));
-  return size > most ? most / size : 1;
+  float max = fmaxf(limit, 2 * length(velocity_of(server, &at->handle)));
+  return size > max ? max / size : 1;
 }
 
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings) {
   gd_variant server = gd_nil();
-  for (uint32_t i = 0; i < MOST; i++) {
+  for (uint32_t i = 0; i < MAX; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->id.value) continue;
     sbr_collider_push push = sbr_collider_take_push(world, at->id);

@@ -10,7 +10,7 @@
 
 enum {
   LOOKED_AGAIN = 48, /* corners a frame that are asked again, in turn */
-  MOST_ACROSS = 256, /* corners across the window */
+  MAX_ACROSS = 256,  /* corners across the window */
   PASSED = 16,       /* most bodies that a ray goes through, one by one, before it gives up */
   FORGET = 64        /* frames after which what rays go through is looked at again */
 };
@@ -70,7 +70,7 @@ physics_ground *physics_ground_make(const soft_character *one) {
   double cell = one->settings.ground_cell > 0 ? one->settings.ground_cell : size / 24;
   uint32_t across = 16;
   if (!(cell > 0)) cell = 0.05;
-  cell = fmax(cell, 2 * radius / (MOST_ACROSS - 4));
+  cell = fmax(cell, 2 * radius / (MAX_ACROSS - 4));
   while (across < 2 * radius / cell + 4) across *= 2;
   physics_ground *made = calloc(1, sizeof *made + sizeof(corner) * across * across);
   if (!made) return NULL;

@@ -8,7 +8,7 @@
 #include "soft_character.h"
 
 enum {
-  MOST = 64, /* characters that meet each other */
+  MAX = 64, /* characters that meet each other */
   COLLIDERS = 128
 };
 
@@ -20,7 +20,7 @@ struct shared_world {
   double tick_s;
   sbr_world *world;
   physics_bodies *bodies;
-  soft_character *members[MOST];
+  soft_character *members[MAX];
   uint32_t count, holders; /* nodes, and these and who is busy with it */
   int64_t frame;           /* last stepped */
 };
@@ -57,7 +57,7 @@ static shared_world *make(const sbr_world_definition *given, uint64_t space) {
     gd_error("no memory for a world");
     return NULL;
   }
-  definition.character_capacity = space ? MOST : 1;
+  definition.character_capacity = space ? MAX : 1;
   definition.collider_capacity = COLLIDERS;
   *made = (shared_world){.space = space,
       .has_gravity = given->has_gravity,
@@ -80,7 +80,7 @@ static shared_world *make(const sbr_world_definition *given, uint64_t space) {
 
 static shared_world *find(const sbr_world_definition *definition, uint64_t space) {
   for (shared_world *one = space ? shared_worlds : NULL; one; one = one->next)
-    if (one->space == space && one->count < MOST && one->has_gravity == definition->has_gravity &&
+    if (one->space == space && one->count < MAX && one->has_gravity == definition->has_gravity &&
         one->threads == (definition->tasks.run != NULL) && one->tick_s == definition->control_tick_s &&
         (!one->has_gravity || !memcmp(&one->gravity, &definition->gravity, sizeof one->gravity)))
       return one->holders++, one;
@@ -197,7 +197,7 @@ void shared_world_step(soft_character *one) {
     shared->frame = frame;
   }
   float frame_s = (float)gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time"));
-  bool moves[MOST], any = false;
+  bool moves[MAX], any = false;
   for (uint32_t i = 0; i < shared->count; i++)
     any = (moves[i] = soft_character_prepare(shared->members[i])) || any;
   if (!any) return;

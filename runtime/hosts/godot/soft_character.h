@@ -20,7 +20,7 @@ typedef enum soft_ground {
 typedef struct soft_settings {
   int64_t scheme, substeps, level; /* as sbr_model_options has them */
   bool free_bodies, hold_pose, use_threads;
-  double forward_speed, sideways_speed, turn_speed; /* m/s, m/s, rad/s */
+  double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
   int64_t ground;                   /* a soft_ground */
@@ -123,9 +123,17 @@ bool soft_character_loose_place(soft_character *one);
 
 /* Whether a number may be set; else it stays as it was, and that is said. */
 bool soft_character_fits(const soft_character *one, const char *name, double value, double low, double high);
-#define SOFT_MOST 1e4 /* of what has a unit: more is not meant */
+#define SOFT_MAX 1e4 /* of what has a unit: more is not meant */
 /* The resource says that it has changed: the character takes its new content. */
 gd_function soft_character_asset_changed;
+
+/* ---- character_soft.c ---- */
+
+gd_function soft_character_get_soft_mass, soft_character_get_soft_velocity,
+    soft_character_get_soft_angular_velocity, soft_character_set_soft_velocity,
+    soft_character_apply_soft_impulse, soft_character_apply_soft_force, soft_character_get_nearest_vertex,
+    soft_character_hold_vertex, soft_character_release_vertex, soft_character_get_hold_force,
+    soft_character_get_pin_reactions, soft_character_get_stress;
 
 /* ---- character_mesh.c ---- */
 

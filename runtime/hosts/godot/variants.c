@@ -279,11 +279,11 @@ gd_variant gd_packed(GDExtensionVariantType type, int64_t count) {
 /* ---- Calling ---- */
 
 gd_variant gd_call_with(const gd_variant *self, const char *method, uint32_t count, gd_variant *arguments) {
-  enum { MOST = 8 };
-  GDExtensionConstVariantPtr given[MOST] = {0};
+  enum { MAX = 8 };
+  GDExtensionConstVariantPtr given[MAX] = {0};
   GDExtensionCallError error;
   gd_variant answer;
-  for (uint32_t i = 0; i < count && i < MOST; i++) given[i] = &arguments[i];
+  for (uint32_t i = 0; i < count && i < MAX; i++) given[i] = &arguments[i];
   gd.variant_call(
       (GDExtensionVariantPtr)(uintptr_t)self, gd_string_name(method), given, count, &answer, &error);
   for (uint32_t i = 0; i <= count; i++) gd_free(&arguments[i]); /* and the nil that ends the list */

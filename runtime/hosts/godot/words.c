@@ -13,6 +13,7 @@ static const gd_help character_words[] = {
     {"sideways_speed", "The speed that it walks at to its left, in m/s; below 0 to its right."},
     {"turn_speed", "How fast it turns to its left, in rad/s; below 0 to its right. Rotating the node instead "
                    "puts it there at once."},
+    {"vertical_speed", "How fast it rises, in m/s; below 0 sinks. Only what swims or flies does."},
     {"scheme",
         "How its soft bodies are stepped. Automatic is the file's own choice, and the best one to begin "
         "with."},
@@ -59,6 +60,25 @@ static const gd_help character_words[] = {
         "A soft body's volume as a share of that at rest. See [method SoftAsset.get_soft_body_names]."},
     {"get_max_strain", "The greatest strain in a soft body; 0 at rest."},
     {"is_asleep", "Whether a soft body is at rest, and costs nothing."},
+    {"get_soft_mass", "Mass in kg of a soft body's free points; 0 where it is not simulated."},
+    {"get_soft_velocity", "Velocity in m/s of a soft body's centre of mass."},
+    {"get_soft_angular_velocity", "Angular velocity in rad/s of a soft body as a whole."},
+    {"set_soft_velocity",
+        "Sets the motion of a soft body as a whole, in m/s and rad/s. Its deformation keeps its own."},
+    {"apply_soft_impulse",
+        "Applies an impulse in N s at a vertex of a soft body's surface; -1: to the whole body."},
+    {"apply_soft_force",
+        "Applies a constant force in N for so many seconds at a vertex; -1: to the whole body."},
+    {"get_nearest_vertex",
+        "The vertex of a soft body's surface nearest to a position in world space; -1: it has none."},
+    {"hold_vertex", "Draws a vertex to a position in world space until [method release_vertex]. Call it "
+                    "again to move the position."},
+    {"release_vertex", "Releases a vertex; false where it was not held."},
+    {"get_hold_force", "Force in N on a held vertex."},
+    {"get_pin_reactions",
+        "Force in N and torque in N m that each pin set exerts on a soft body, one after the other."},
+    {"get_stress", "Cauchy stress in Pa of each tetrahedron: xx, yy, zz, then xy, yz, zx. Empty where a soft "
+                   "body has none."},
     {"get_substeps_needed", "Substeps that its bodies need now to be stable."},
     {"get_state_hash", "A hash of all that moves: equal where two runs are equal to the bit."},
     {"get_skeleton", "The [Skeleton3D] with its bones, or null. See [member mirror_skeleton]."},

@@ -295,8 +295,9 @@ export interface Character {
   readonly id: number;
   readonly model: Model;
   readonly world: World;
-  /** What it is to do until told otherwise: forward in m/s, turn (left) in rad/s, sideways (left) in m/s. */
-  drive(forward: number, turn?: number, sideways?: number): void;
+  /** What it is to do until told otherwise: forward in m/s, turn (left) in rad/s, sideways (left) in m/s, up in m/s
+   *  for what swims or flies. */
+  drive(forward: number, turn?: number, sideways?: number, up?: number): void;
   teleport(position: Vector, heading?: number): void;
   reset(): void;
   wake(): void;
@@ -322,6 +323,14 @@ export interface Character {
   release(softBody: number, vertex: number): boolean;
   /** An impulse in N s at a vertex, or (-1) on the whole body. */
   applySoftImpulse(softBody: number, impulse: Vector, vertex?: number): void;
+  /** A force in N for so many seconds at a vertex, or (-1) on the whole body. */
+  applySoftForce(softBody: number, force: Vector, seconds: number, vertex?: number): void;
+  /** N on a held vertex, mean of the last tick. */
+  holdForce(softBody: number, vertex: number): number[];
+  /** What each pin set exerts on the body: N, and N m about `about` (m relative to the origin). -1: not a bone, not a rigid body. */
+  pinReactions(softBody: number): { pinSet: number; bone: number; rigidBody: number; points: number; about: number[]; force: number[]; torque: number[] }[];
+  /** Cauchy stress in Pa (xx, yy, zz, xy, yz, zx), J/m^3, m^3 and points of each tetrahedron of the simulated level. */
+  tetrahedra(softBody: number): { stress: number[]; energyDensity: number; restVolume: number; volumeRatio: number; corners: number[]; torn: boolean }[];
   /** Velocity in m/s of the body as a whole, and angular velocity in rad/s. */
   setSoftVelocity(softBody: number, velocity: Vector, angularVelocity?: Vector): void;
   /** Its free points as one rigid body: kg, m relative to the origin, m/s, rad/s. */

@@ -75,27 +75,27 @@ const char *WEB_CALL(web_asset_title)(const sbf_asset *a) {
 
 /* The most simulation levels of a body, and the most render levels of a mesh, the full one counted. */
 uint32_t WEB_CALL(web_asset_levels)(const sbf_asset *a) {
-  uint32_t most = 0;
+  uint32_t max = 0;
   for (uint32_t i = 0; i < a->soft_bodies.count; i++)
-    if (a->soft_bodies.at[i].levels.count > most) most = a->soft_bodies.at[i].levels.count;
-  return most;
+    if (a->soft_bodies.at[i].levels.count > max) max = a->soft_bodies.at[i].levels.count;
+  return max;
 }
 uint32_t WEB_CALL(web_asset_render_levels)(const sbf_asset *a) {
-  uint32_t most = 1;
+  uint32_t max = 1;
   for (uint32_t i = 0; i < a->render_meshes.count; i++)
-    if (a->render_meshes.at[i].levels.count + 1 > most) most = a->render_meshes.at[i].levels.count + 1;
-  return most;
+    if (a->render_meshes.at[i].levels.count + 1 > max) max = a->render_meshes.at[i].levels.count + 1;
+  return max;
 }
 
 /* The greatest error that bodies state for that level of theirs, m; 0: none does. */
 float WEB_CALL(web_asset_level_error)(const sbf_asset *a, uint32_t level) {
-  float most = 0;
+  float max = 0;
   for (uint32_t i = 0; i < a->soft_bodies.count; i++) {
     const sbf_level_list *levels = &a->soft_bodies.at[i].levels;
-    if (level < levels->count && levels->at[level].simulation.error > most)
-      most = levels->at[level].simulation.error;
+    if (level < levels->count && levels->at[level].simulation.error > max)
+      max = levels->at[level].simulation.error;
   }
-  return most;
+  return max;
 }
 
 /* Nine numbers: parent (-1: none), head (3), rotation (4), length. */

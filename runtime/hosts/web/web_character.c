@@ -26,6 +26,9 @@ void WEB_CALL(web_character_drive)(
     sbr_world *world, uint32_t character, float forward, float sideways, float turn) {
   sbr_character_drive(world, id_of(character), forward, sideways, turn);
 }
+void WEB_CALL(web_character_set_vertical_speed)(sbr_world *world, uint32_t character, float up) {
+  sbr_character_set_vertical_speed(world, id_of(character), up);
+}
 void WEB_CALL(web_character_teleport)(
     sbr_world *world, uint32_t character, double x, double y, double z, float heading) {
   sbr_character_teleport(world, id_of(character), (sbr_double3){x, y, z}, heading);
@@ -124,10 +127,10 @@ void WEB_CALL(web_character_health)(
  */
 uint32_t WEB_CALL(web_character_legs)(
     const sbr_world *world, uint32_t character, float *to, uint32_t capacity) {
-  enum { MOST = 64 };
-  sbr_leg_state legs[MOST];
-  uint32_t count = sbr_character_legs(world, id_of(character), legs, MOST);
-  for (uint32_t i = 0; i < count && i < capacity && i < MOST; i++, to += 10) {
+  enum { MAX = 64 };
+  sbr_leg_state legs[MAX];
+  uint32_t count = sbr_character_legs(world, id_of(character), legs, MAX);
+  for (uint32_t i = 0; i < count && i < capacity && i < MAX; i++, to += 10) {
     const sbr_leg_state *leg = &legs[i];
     const float numbers[10] = {leg->planted, (float)leg->steps_taken, leg->phase, leg->foot.x, leg->foot.y,
         leg->foot.z, leg->target.x, leg->target.y, leg->target.z, 0};

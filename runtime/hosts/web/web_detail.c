@@ -6,14 +6,14 @@
 
 /* Four numbers a rung: kind, level, error, visits. Returns how many there are. */
 uint32_t WEB_CALL(web_model_rungs)(const sbr_model *model, float *to, uint32_t capacity) {
-  enum { MOST = 64 };
-  sbr_rung rungs[MOST];
-  uint32_t count = sbr_model_rungs(model, rungs, MOST);
-  for (uint32_t i = 0; i < count && i < capacity && i < MOST; i++, to += 4) {
+  enum { MAX = 64 };
+  sbr_rung rungs[MAX];
+  uint32_t count = sbr_model_rungs(model, rungs, MAX);
+  for (uint32_t i = 0; i < count && i < capacity && i < MAX; i++, to += 4) {
     const float numbers[4] = {(float)rungs[i].kind, (float)rungs[i].level, rungs[i].error_m, rungs[i].visits};
     memcpy(to, numbers, sizeof numbers);
   }
-  return count < MOST ? count : MOST;
+  return count < MAX ? count : MAX;
 }
 
 uint32_t WEB_CALL(web_character_rung)(const sbr_world *world, uint32_t character) {

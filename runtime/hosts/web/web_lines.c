@@ -86,7 +86,7 @@ static const sbf_level *level_of(const sbf_soft_body *body, uint32_t point_count
 web_lines *WEB_CALL(web_lines_create)(
     const sbf_asset *asset, const sbr_world *world, uint32_t character, uint32_t level) {
   web_lines *w = calloc(1, sizeof *w);
-  uint32_t bodies = asset->soft_bodies.count, most = 0;
+  uint32_t bodies = asset->soft_bodies.count, max = 0;
   if (!w) return NULL;
   w->body_count = bodies;
   w->first = calloc(bodies + 1u, sizeof *w->first);
@@ -99,11 +99,11 @@ web_lines *WEB_CALL(web_lines_create)(
     w->point_count += w->counts[b];
     levels[b] = level_of(&asset->soft_bodies.at[b], w->counts[b], level);
     if (!levels[b]) continue;
-    most += 6 * levels[b]->lattice.tetrahedra.count;
-    for (uint32_t s = 0; s < levels[b]->springs.count; s++) most += levels[b]->springs.at[s].ends.count;
+    max += 6 * levels[b]->lattice.tetrahedra.count;
+    for (uint32_t s = 0; s < levels[b]->springs.count; s++) max += levels[b]->springs.at[s].ends.count;
   }
   w->points = malloc((w->point_count + 1u) * sizeof *w->points);
-  w->lines = malloc((most + 1u) * sizeof *w->lines);
+  w->lines = malloc((max + 1u) * sizeof *w->lines);
   good = good && w->points && w->lines;
   for (uint32_t b = 0; good && b < bodies; b++) {
     if (!levels[b]) continue;

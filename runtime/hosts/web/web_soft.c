@@ -33,6 +33,11 @@ uint32_t WEB_CALL(web_character_soft_impulse)(
   return sbr_character_apply_soft_impulse(
              world, id_of(character), soft_body, vertex, (sbf_vec3){x, y, z}, begin()) == SBF_OK;
 }
+uint32_t WEB_CALL(web_character_soft_force)(sbr_world *world, uint32_t character, uint32_t soft_body,
+    uint32_t vertex, float x, float y, float z, float seconds) {
+  return sbr_character_apply_soft_force(
+             world, id_of(character), soft_body, vertex, (sbf_vec3){x, y, z}, seconds, begin()) == SBF_OK;
+}
 uint32_t WEB_CALL(web_character_soft_velocity)(sbr_world *world, uint32_t character, uint32_t soft_body,
     float x, float y, float z, float turn_x, float turn_y, float turn_z) {
   return sbr_character_set_soft_velocity(world, id_of(character), soft_body, (sbf_vec3){x, y, z},
@@ -44,4 +49,22 @@ void WEB_CALL(web_character_soft_motion)(
   sbr_soft_motion m = sbr_character_soft_motion(world, id_of(character), soft_body);
   _Static_assert(sizeof m == 40, "ten numbers");
   memcpy(to, &m, sizeof m);
+}
+void WEB_CALL(web_character_hold_force)(
+    const sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex, float *to) {
+  sbf_vec3 force = sbr_character_hold_force(world, id_of(character), soft_body, vertex);
+  memcpy(to, &force, sizeof force);
+}
+/* 13 numbers a pin set: set, bone, rigid body and count of points as integers, then position, force, torque.
+ */
+uint32_t WEB_CALL(web_character_pin_reactions)(
+    const sbr_world *world, uint32_t character, uint32_t soft_body, sbr_pin_reaction *to, uint32_t capacity) {
+  _Static_assert(sizeof *to == 52, "13 numbers");
+  return sbr_character_pin_reactions(world, id_of(character), soft_body, to, capacity);
+}
+/* 14 numbers a tetrahedron: six of stress, energy density, rest volume, volume ratio, four corners, torn. */
+uint32_t WEB_CALL(web_character_tetrahedra)(const sbr_world *world, uint32_t character, uint32_t soft_body,
+    sbr_tetrahedron_state *to, uint32_t capacity) {
+  _Static_assert(sizeof *to == 56, "14 numbers");
+  return sbr_character_tetrahedra(world, id_of(character), soft_body, to, capacity);
 }

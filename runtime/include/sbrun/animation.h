@@ -1,7 +1,7 @@
-/* The animation layer beyond driving: targets for limbs, and what a pose is judged by.
+/* Animation: targets for limbs, clips, and measures of a pose.
  *
- * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; nothing
- * allocates; everything set here is state, which snapshots hold. */
+ * Rules are those of sbrun.h: setters ignore invalid handles, getters then return zeros. No call allocates.
+ * Everything set here is state, held by snapshots. */
 #ifndef SBRUN_ANIMATION_H
 #define SBRUN_ANIMATION_H
 
@@ -13,39 +13,38 @@ extern "C" {
 
 /* ---- Targets for limbs -------------------------------------------------------------------------------- */
 
-/* What the end of an IK chain reaches for. Begin with zeros and rotation {0, 0, 0, 1}. */
+/* Target of an IK chain's end. Begin with zeros and rotation {0, 0, 0, 1}. */
 typedef struct sbr_ik_target {
-  sbr_double3 position; /* world: where the end bone's head should be */
-  sbf_quat rotation;    /* world: what the end bone takes as much of as the chain's copy_rotation says */
-  float weight;         /* 0 (none) to 1: between the pose without it and the solved one */
+  sbr_double3 position; /* world: target of the end bone's head */
+  sbf_quat rotation;    /* world: target rotation, weighted by the chain's copy_rotation */
+  float weight;         /* 0 to 1: blend from the pose without the target to the solved one */
 } sbr_ik_target;
 
-/* Gives one of the asset's ik_chains a target from the next tick on, until it is given another; NULL takes it
- * away. It acts on the finished pose, legs that walk included, with the chain's own method, pole, comforts
- * and tolerance, within the joints' limits. Chains that share their root and name FABRIK reach as one tree. A
- * chain of more than 64 bones has no effect. */
+/* Sets the target of one of the asset's ik_chains from the next tick on; NULL removes it. It acts on the
+ * finished pose, walking legs included, with the chain's own solver, pole, comfort pose and tolerance, within
+ * the joints' limits. FABRIK chains with a common root are solved as one tree. Chains of more than 64 bones
+ * are ignored. */
 SBF_API void sbr_character_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target);
 
-/* Turns about the foot of a leg of the gait, from 0, which stays planted as the others walk round it; -1:
- * about the body's middle again. */
+/* Turns the character about the foot of one leg of the gait, from 0, which stays planted; -1: about the
+ * body's centre again. */
 SBF_API void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg);
 
 /* ---- Clips -------------------------------------------------------------------------------------------- */
 
-/* How a clip is played. Begin with zeros and weight, speed 1. */
+/* Settings of a clip. Begin with zeros, weight 1 and speed 1. */
 typedef struct sbr_clip_play {
-  float weight;      /* 0 to 1, of the layer over those below */
-  float fade_s;      /* over which the weight goes there from what it is; 0: at once */
+  float weight;      /* 0 to 1: weight of the layer over lower layers */
+  float fade_s;      /* time of the change to this weight; 0: at once */
   float speed;       /* 1: as keyed; negative: backwards */
-  float start_s;     /* where in the clip it begins, if it is not the one that plays in the layer already */
+  float start_s;     /* start time in the clip; ignored if it already plays in the layer */
   int32_t bone_mask; /* of the asset's bone_masks; SBF_NONE: all bones */
 } sbr_clip_play;
 
-/* Plays a clip of the asset in one of four layers (from 0; higher ones over lower ones), under the gait:
- * heads, tails, chains, legs and limbs with targets move as ever on top of it. What a clip does to the gait's
- * body bone along the ground is left to the gait; scales are not played. SBF_NONE fades the layer's clip out.
- */
+/* Plays a clip of the asset in one of four layers (from 0; higher layers override lower ones), below the
+ * gait: heads, tails, chains, legs and limbs with targets still move on top of it. The gait keeps the body
+ * bone's motion along the ground; scales are not played. SBF_NONE fades the layer's clip out. */
 SBF_API void sbr_character_play(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how);
 
@@ -66,12 +65,13 @@ SBF_API void sbr_character_play(
 SBF_API sbf_status sbr_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *name,
     void (*report)(void *user, const sbf_diagnostic *finding), void *user, sbf_diagnostic *error);
 
-/* ---- Judging a pose ----------------------------------------------------------------------------------- */
+/* ---- Measures of a pose -----------------------------------------------------------------------------------
+ */
 
-/* By how much the worst bone breaks its joint's limits, rad, as of the last tick; 0: none does. */
+/* Maximum violation of a joint limit over all bones after the last tick, rad; 0: none. */
 SBF_API float sbr_character_limit_excess(const sbr_world *world, sbr_character_id character);
-/* The centre of mass as of the last tick, relative to the origin: bones weigh as much as the soft bodies on
- * them, or as the skin that follows them. False where nothing hangs on the bones. */
+/* Centre of mass after the last tick, relative to the origin. A bone has the mass of the soft bodies on it,
+ * or of the skin that follows it. False if the bones hold neither. */
 SBF_API bool sbr_character_center(const sbr_world *world, sbr_character_id character, sbf_vec3 *center);
 
 #ifdef __cplusplus

@@ -1,13 +1,12 @@
-/* Things that characters meet: shapes of the host's own, and what it can ask about them and about bodies.
+/* Collision: shapes and colliders of the host, contacts between characters, rays and overlaps.
  *
- * A shape is a form, made once and shared; a collider is a shape at a place in a world. What a collider does
- * from tick to tick is the host's: it stands, or is moved, and what it touches feels its velocity. Points of
- * soft bodies and hulls of simulated rigid bodies stay outside of it, slide on it by Coulomb's law and bounce
- * off it; docs/collision.md has how, and what was measured.
+ * A shape is made once and shared. A collider is a shape at a position in a world. The host moves colliders;
+ * bodies in contact feel their velocity. Points of soft bodies and hulls of simulated rigid bodies stay
+ * outside of colliders, with Coulomb friction and restitution: docs/collision.md.
  *
- * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; nothing
- * allocates but what is named create. Colliders are the host's, as the ground is: snapshots do not hold where
- * they are. Lengths are world metres. */
+ * Rules are those of sbrun.h: setters ignore invalid handles, getters then return zeros; only calls named
+ * create allocate. Colliders belong to the host: snapshots do not hold their positions. Lengths are world
+ * metres. */
 #ifndef SBRUN_COLLISION_H
 #define SBRUN_COLLISION_H
 
@@ -19,35 +18,33 @@ extern "C" {
 
 /* ---- Shapes ------------------------------------------------------------------------------------------- */
 
-/* What a shape is; each in its own frame. */
+/* Kinds of shapes, each in its own frame. */
 typedef enum sbr_shape_kind {
   SBR_SHAPE_PLANE,   /* all below y = 0 */
   SBR_SHAPE_SPHERE,  /* radius, about the origin */
   SBR_SHAPE_BOX,     /* half_sizes, about the origin */
   SBR_SHAPE_CAPSULE, /* radius, about the straight line from -half_sizes.y to half_sizes.y on the y axis */
-  SBR_SHAPE_HULL,    /* convex: points and triangles of its surface, in any winding; or points alone, which it
-                        lies around: of more than 256 vertices those that stand out the furthest, placed to a
-                        millionth of its size */
-  SBR_SHAPE_MESH,    /* triangles, solid behind their faces (counter-clockwise seen from outside) */
+  SBR_SHAPE_HULL, /* convex: points and triangles of its surface, in any winding; or points only, whose hull
+                     is computed: at most 256 vertices, the outermost, exact to a millionth of its size */
+  SBR_SHAPE_MESH, /* triangles, solid behind their faces (counter-clockwise seen from outside) */
   SBR_SHAPE_HEIGHT_FIELD, /* heights, solid below */
-  SBR_SHAPE_HOST          /* what the host's own physics holds, asked by calls */
+  SBR_SHAPE_HOST          /* the host's own geometry, queried by callbacks */
 } sbr_shape_kind;
 
-/* What a host answers about its own world, in the shape's frame. Both are pure functions, called from worker
- * threads, many times a tick. Points of soft bodies meet it; hulls of rigid bodies meet it by their
- * vertices. */
+/* Queries of the host's own geometry, in the shape's frame. Both are pure functions, called from worker
+ * threads many times a tick. Points of soft bodies and vertices of rigid hulls collide with it. */
 typedef struct sbr_host_shape {
   /* Overlap: signed distance in m from `place` to the surface (negative inside), or any number above `reach`
    * where nothing is so near; `normal` receives the unit normal there, outwards. */
   float (*distance)(void *user, sbf_vec3 place, float reach, sbf_vec3 *normal);
-  /* Ray: the share, 0 to 1, of `way` from `from` at which it enters, with the normal there; negative where it
-   * enters nothing. NULL: fast things may pass through. */
+  /* Ray: the fraction, 0 to 1, of `way` from `from` at which it enters, with the normal there; negative if it
+   * hits nothing. NULL: fast points may pass through. */
   float (*cast)(void *user, sbf_vec3 from, sbf_vec3 way, sbf_vec3 *normal);
   void *user;         /* handed to both */
   sbf_vec3 low, high; /* m: bounds outside of which neither is asked */
 } sbr_host_shape;
 
-/* What a shape is made from; copied. */
+/* Definition of a shape; its arrays are copied. */
 typedef struct sbr_shape_definition {
   uint32_t cookie;                 /* set by sbr_default_shape_definition */
   sbr_shape_kind kind;             /* its form; default sphere */
@@ -61,18 +58,18 @@ typedef struct sbr_shape_definition {
   sbr_host_shape host;             /* of the host's own */
 } sbr_shape_definition;
 
-/* Form of a collider; opaque. Any number of colliders share one, on any threads. */
+/* A shape; opaque. Any number of colliders may share it, on any threads. */
 typedef struct sbr_shape sbr_shape;
 SBF_API sbr_shape_definition sbr_default_shape_definition(void);
-/* SBF_FAILED where memory runs out, a size is not positive, an index is beyond the points or a hull encloses
- * nothing, as around points in a plane. The shape must outlive its colliders. */
+/* SBF_FAILED if memory runs out, a size is not positive, an index is out of range or a hull has no volume.
+ * The shape must outlive its colliders. */
 SBF_API sbf_status sbr_shape_create(const sbf_allocator *allocator, const sbr_shape_definition *definition,
     sbr_shape **shape, sbf_diagnostic *error);
 SBF_API void sbr_shape_destroy(sbr_shape *shape);
 
 /* ---- Colliders ---------------------------------------------------------------------------------------- */
 
-/* Where a collider begins, and how it meets things. */
+/* Definition of a collider. */
 typedef struct sbr_collider_definition {
   uint32_t cookie;        /* set by sbr_default_collider_definition */
   const sbr_shape *shape; /* its form */
@@ -80,8 +77,8 @@ typedef struct sbr_collider_definition {
   sbf_quat rotation;      /* from the shape's axes to the world's; default none */
   float friction;         /* Coulomb coefficient; negative (default): that of what touches it */
   float restitution;      /* [0, 1]; negative (default): likewise */
-  uint32_t layer;         /* bits it is; default 1 */
-  uint32_t mask;          /* bits it meets; default all */
+  uint32_t layer;         /* layers it is on; default 1 */
+  uint32_t mask;          /* layers it collides with; default all */
   float mass;             /* kg, > 0: of a body of the host's own, which what touches it moves (below); 0
                              (default): nothing moves it */
   sbf_vec3 inertia; /* kg m^2, >= 0, about its principal axes through its centre of mass; 0 (default): about
@@ -92,66 +89,64 @@ typedef struct sbr_collider_definition {
                              all its parts; 0 (default): of none */
 } sbr_collider_definition;
 
-/* A collider from a definition that begins as the default, until it is destroyed or the world is. */
+/* Begin with the default definition. The collider lives until it or the world is destroyed. */
 SBF_API sbr_collider_definition sbr_default_collider_definition(void);
-/* SBF_FAILED where the world holds its collider_capacity (sbr_world_definition) already. */
+/* SBF_FAILED if the world already holds collider_capacity (sbr_world_definition) colliders. */
 SBF_API sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *definition,
     sbr_collider_id *collider, sbf_diagnostic *error);
 SBF_API void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider);
-/* Where it shall be at the end of the next tick: what it touches on the way feels that velocity. It stands
- * still after that until it is moved again. */
+/* Moves the collider during the next tick; bodies in contact feel its velocity. It then stands still until it
+ * is moved again. */
 SBF_API void sbr_collider_move(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
-/* Puts it there at once, without velocity. */
+/* Puts the collider there at once, without velocity. */
 SBF_API void sbr_collider_place(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 
-/* How a body of the host goes as the next tick begins. */
+/* Motion of a host's body at the beginning of the next tick. */
 typedef struct sbr_collider_motion {
   sbr_double3 position;  /* world, of the shape's origin */
   sbf_quat rotation;     /* from the shape's axes to the world's */
   sbf_vec3 velocity;     /* m/s, of the shape's origin */
   sbf_vec3 spin;         /* rad/s, world axes */
-  sbf_vec3 acceleration; /* m/s^2, of all that the host itself will add evenly: weight */
-  float since_s;         /* s that the host has moved it for since it was last told; 0: it was put there */
+  sbf_vec3 acceleration; /* m/s^2, constant, added by the host: gravity */
+  float since_s;         /* s simulated by the host since the last call; 0: it was placed */
 } sbr_collider_motion;
-/* Of a collider with a mass, before each step: from there it goes by itself, by that velocity, the
- * acceleration and what soft bodies and hulls that touch it push it with, so that a light one gives way at
- * once, not a tick later. That motion is the runtime's guess within its ticks: the host moves its body by
- * sbr_collider_take_push, and tells anew. What its velocity shows to have come from elsewhere since it was
- * last told, as from a floor that bears it, holds it along that direction in the next tick, and keeps it from
- * being turned. Of a body of several colliders each is told. Until it is told of again, or moved or placed,
- * it goes on. */
+/* Sets the motion of a collider with a mass, before each step. The runtime then predicts its motion within
+ * the tick from this velocity, the acceleration and the impulses of bodies in contact, so that a light body
+ * gives way in the same tick. The host applies the impulses of sbr_collider_take_push to its own body and
+ * sets the motion again. A change of velocity from elsewhere, such as a supporting floor, is assumed to act
+ * in the next tick too. Set the motion of each collider of a compound body. The prediction continues until
+ * the motion is set again or the collider is moved or placed. */
 SBF_API void sbr_collider_set_motion(
     sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion);
 
-/* What a collider was pushed with: what soft bodies and hulls of simulated rigid bodies that touched it were
- * pushed with themselves, friction included, the other way. */
+/* Sum of the impulses on a collider from soft bodies and hulls of simulated rigid bodies, with friction. */
 typedef struct sbr_collider_push {
   sbf_vec3 impulse; /* N s, world axes */
-  sbf_vec3 moment; /* N m s, about where the collider's position was at the end of the last tick; of one whose
-                      motion was told, at its beginning, where the host's body still is */
+  sbf_vec3 moment; /* N m s, about the collider's position at the end of the last tick; if its motion was set,
+                      at the beginning of the tick, where the host's body still is */
 } sbr_collider_push;
-/* All since it was last asked, or made. A host whose own body it is gives this to the body, before it moves
- * that: what the two have of momentum is then kept. Without a mass characters meet a collider as something
- * that nothing can move. A body that touches more than twelve
- * things at once pushes the first twelve. Output, as events are: snapshots do not hold it. */
+/* Returns the impulse since the last call and clears it. The host applies it to its own body before it moves
+ * the body; momentum is then conserved. A collider without mass is immovable for characters. A body in
+ * contact with more than twelve colliders pushes the first twelve. Output, as events are: snapshots do not
+ * hold it. */
 SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
 
 /* ---- Each other --------------------------------------------------------------------------------------- */
 
-/* From now on bodies of characters meet each other as well: soft ones, and hulls of rigid ones, of one
- * character and of several, by the layers and masks of the file; corners meet faces, and edges edges, which
- * only coarse closed bodies and sheets need (docs/collision.md). Up to `touch_capacity` places at once (0:
- * 4096); of more, some pass through each other. Parts of one character that lie in each other at rest, that
- * are jointed, or hold each other, do not. Who may touch is stepped in one task. What touches have pushed
- * with is kept from tick to tick: snapshots take room for `touch_capacity` of them. Call it for a world
- * before it is stepped; a second call changes nothing. SBF_FAILED where memory runs out. */
+/* Enables contacts between bodies of characters: soft bodies and hulls of rigid bodies, of the same and of
+ * different characters, by the layers and masks of the file. Vertices collide with faces; edges collide with
+ * edges on coarse closed bodies and sheets (docs/collision.md). At most `touch_capacity` contacts at once (0:
+ * 4096); beyond that some bodies pass through each other. Bodies of one character that overlap at rest, are
+ * joined or pinned to each other do not collide. Characters in contact are stepped in one task. Impulses are
+ * stored from tick to tick; snapshots include space for `touch_capacity` contacts. Call it before the first
+ * step; a second call does nothing. SBF_FAILED if memory runs out. */
 SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capacity, sbf_diagnostic *error);
 
 /* ---- Questions ---------------------------------------------------------------------------------------- */
 
-/* What a ray or a box finds: one of a collider, a rigid body and a soft body. */
+/* Result of a query: a collider, a rigid body or a soft body. */
 typedef struct sbr_hit {
   sbr_collider_id collider;   /* 0: it is a body of a character */
   sbr_character_id character; /* whose; 0: it is a collider */
@@ -162,13 +157,13 @@ typedef struct sbr_hit {
   double distance;            /* of a ray, m */
 } sbr_hit;
 
-/* The first thing on the way from `from`, along `direction` (of any length), up to `length` metres, of those
- * whose layer `mask` has a bit of: colliders, hulls of rigid bodies, surfaces of soft bodies as of the last
- * tick. The ground is not asked. False where there is none. */
+/* Casts a ray from `from` along `direction` (any length), up to `length` metres. Finds the first collider,
+ * hull of a rigid body or surface of a soft body (state after the last tick) on a layer in `mask`. The ground
+ * is not included. False if nothing is hit. */
 SBF_API bool sbr_world_ray(
     const sbr_world *world, sbr_double3 from, sbf_vec3 direction, double length, uint32_t mask, sbr_hit *hit);
-/* All whose bounds meet the box, likewise; returns how many there are, of which up to `capacity` are
- * written. */
+/* Finds everything on a layer in `mask` whose bounds overlap the box. Writes up to `capacity` hits and
+ * returns their total number. */
 SBF_API uint32_t sbr_world_overlap(const sbr_world *world, sbr_double3 low, sbr_double3 high, uint32_t mask,
     sbr_hit *hits, uint32_t capacity);
 

@@ -1,27 +1,24 @@
-/* Modelling no more than a scene needs: each character as finely as its distance and a budget ask for.
+/* Levels of detail: each character is simulated as finely as its distance and a budget require.
  *
- * A model made with sbr_model_options.ladder has several rungs, finest first: each level of the file's bodies
- * that is stepped; jiggle, one second-order follower a body (spec 10.4); bones alone, whose skin follows
- * them; and away, where the character is but a place that moves as it is driven, without feet or pose. A
- * character is on one rung at a time. Changing it carries shapes and velocities over, and the skin goes from
- * the one to the other over a while, so that nothing is seen to jump: docs/detail.md.
+ * A rung is a level of detail of a model. A model made with sbr_model_options.ladder has several, finest
+ * first: each simulated level of the file's bodies; jiggle, one second-order follower per body (spec 10.4);
+ * bones only, whose skin follows them; and away, a position that moves as the character is driven, without
+ * feet or pose. A character is on one rung at a time. A change transfers shapes and velocities, and the skin
+ * blends from one to the other, so that no jump is visible: docs/detail.md.
  *
- * A world with sbr_world_detail chooses the rungs itself, at the beginning of each tick, by the views that it
- * is told of: for each character the coarsest whose predicted error is small enough on the screen, and where
- * the budget does not last for that, coarser ones first where that costs the least to look at. The choice
- * depends on what it was told alone: the same on any number of threads and any machine. Without that call the
- * host chooses.
+ * After sbr_world_detail the world selects the rungs at the beginning of each tick from the host's views: for
+ * each character the coarsest rung whose predicted error on the screen is small enough. If the budget is too
+ * small for that, it coarsens those characters first where the visible error grows least. The selection
+ * depends on its inputs only, on any machine and any number of threads. Without that call the host selects.
  *
- * Memory follows: a character holds what its rung needs (sbr_rung.bytes), of the world's allocator. A change
- * to another rung is asked for when a tick begins, before anything of it, one character after the other, in
- * the thread that steps; what the character has left is given back when it has not gone back there for a
- * second. So a step in which nobody goes over, comes near, or has done so a second ago asks the allocator for
- * nothing. Where memory runs out the character stays on its rung, SBR_EVENT_NO_MEMORY tells, and it is asked
- * for again every half second. Begin who is far off on a coarse rung (sbr_character_definition.rung).
+ * A character holds the memory of its rung (sbr_rung.bytes), from the world's allocator. Memory for a change
+ * is allocated when a tick begins, on the thread that steps. Memory of the rung that was left is freed after
+ * a second. A step without changes allocates nothing. If memory runs out the character stays on its rung,
+ * SBR_EVENT_NO_MEMORY reports it, and the change is tried again every half second. Create distant characters
+ * on a coarse rung (sbr_character_definition.rung).
  *
- * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; besides,
- * nothing allocates but sbr_world_detail. Rungs, and how far a change has come, are state, which snapshots
- * hold; views are the host's. Recordings hold both. */
+ * Rules are those of sbrun.h; only sbr_world_detail allocates beside that. Rungs and the progress of changes
+ * are state, held by snapshots; views are the host's. Recordings hold both. */
 #ifndef SBRUN_DETAIL_H
 #define SBRUN_DETAIL_H
 
@@ -33,12 +30,12 @@ extern "C" {
 
 /* ---- Rungs -------------------------------------------------------------------------------------------- */
 
-/* What a character is on a rung. */
+/* Kinds of rungs. */
 typedef enum sbr_rung_kind {
   SBR_RUNG_SOFT,   /* a level of springs, tetrahedra or regions is stepped */
-  SBR_RUNG_JIGGLE, /* each body is carried by its bone and shifted by a follower of its middle */
-  SBR_RUNG_BONES,  /* gait and pose; what the bones carry goes along with them */
-  SBR_RUNG_AWAY    /* the body's way over the ground; the pose goes along as it was, and no foot steps */
+  SBR_RUNG_JIGGLE, /* each body moves with its bone, displaced by a follower of its centre */
+  SBR_RUNG_BONES,  /* gait and pose; bodies are rigid on their bones */
+  SBR_RUNG_AWAY    /* the character's path over the ground with its last pose, without steps */
 } sbr_rung_kind;
 
 /* A rung of a model. */
@@ -51,69 +48,69 @@ typedef struct sbr_rung {
   size_t bytes;       /* that a character holds; what its surfaces meet others with comes on top */
 } sbr_rung;
 
-/* Rungs of the model, finest first; returns how many there are, of which up to `capacity` are written. 1: it
- * was made without a ladder, or with a body that yields or tears, which keeps its level. Bodies that
- * nothing holds have no rungs below the soft ones. */
+/* Writes up to `capacity` rungs of the model, finest first, and returns their number. It is 1 without
+ * sbr_model_options.ladder and for models with a body that yields or tears. Models with loose bodies have
+ * soft rungs only. */
 SBF_API uint32_t sbr_model_rungs(const sbr_model *model, sbr_rung *rungs, uint32_t capacity);
 
-/* The rung that the character is on, or is about to go over to; from 0. */
+/* The character's rung, or the one it is about to change to; from 0. */
 SBF_API uint32_t sbr_character_rung(const sbr_world *world, sbr_character_id character);
-/* Puts it on a rung, beyond the last: the last. It goes over when the tick after the next begins: until then
- * it is looked at, so that it is known how it moves; at once where nobody sees it, or it is away.
- * SBR_RUNG_CHOSEN: the world chooses again.
- * In a world whose bodies meet each other (sbrun/collision.h) one that others are near, or will be within
- * half a second, is on no rung below the soft ones, whatever it is put on: it could not meet them. */
+/* Sets the rung; a number beyond the last means the last. The change happens when the tick after the next
+ * begins, because its motion is measured until then; at once if the character is not visible or away.
+ * SBR_RUNG_CHOSEN returns the selection to the world.
+ * With contacts between bodies (sbr_world_bodies_meet) a character stays on a soft rung while others are near
+ * or will be within half a second. */
 #define SBR_RUNG_CHOSEN 0xffffffffu
 SBF_API void sbr_character_set_rung(sbr_world *world, sbr_character_id character, uint32_t rung);
-/* How far the skin still is from going over: 1 where it shows what it was, 0 where it is over. */
+/* Remaining fraction of a change: 1 when the skin still shows the old rung, 0 when the change is complete. */
 SBF_API float sbr_character_fade(const sbr_world *world, sbr_character_id character);
 
 /* ---- Choosing ----------------------------------------------------------------------------------------- */
 
-/* How a world chooses rungs. */
+/* Settings of the selection. */
 typedef struct sbr_detail_definition {
   uint32_t cookie;    /* set by sbr_default_detail_definition */
-  float error_px;     /* that a character may be off on the screen, or jump when it changes; default 0.5 */
-  float budget_us;    /* of processor time a tick, for all characters together; 0 (default): none */
-  float ns_per_visit; /* what a visit (sbr_rung.visits) takes on this machine; default 6 */
-  float settle; /* a coarser rung is taken where its error is below this share of error_px; default 0.7 */
-  float stay_s; /* and no sooner after the last change; default 0.5 */
-  float away_after_s; /* unseen for so long, a character goes away; negative: never; default 1 */
+  float error_px;     /* maximum error on the screen, also of the jump at a change; default 0.5 */
+  float budget_us;    /* processor time a tick for all characters; 0 (default): no budget */
+  float ns_per_visit; /* time of an element visit (sbr_rung.visits) on this machine; default 6 */
+  float settle; /* a coarser rung is selected if its error is below this fraction of error_px; default 0.7 */
+  float stay_s; /* minimum time between changes; default 0.5 */
+  float away_after_s; /* time out of view before a character is away; negative: never; default 1 */
 } sbr_detail_definition;
 
-/* What a definition begins as. */
+/* The default settings. */
 SBF_API sbr_detail_definition sbr_default_detail_definition(void);
-/* From now on the world chooses the rungs of characters that the host has put on none. A later call changes
- * how. Recordings do not hold this call: make it before they begin. SBF_FAILED where memory runs out or a
- * number is not in its range: error_px and ns_per_visit above 0, settle in (0, 1]. */
+/* Lets the world select the rungs of characters without a rung set by the host. A later call changes the
+ * settings. Recordings do not hold this call: make it before they begin. SBF_FAILED if memory runs out or a
+ * number is out of range: error_px and ns_per_visit above 0, settle in (0, 1]. */
 SBF_API sbf_status sbr_world_detail(
     sbr_world *world, const sbr_detail_definition *definition, sbf_diagnostic *error);
 
-/* Where characters are looked at from. */
+/* A camera. */
 typedef struct sbr_view {
   sbr_double3 eye;   /* world */
-  sbf_vec3 forward;  /* where it looks; of any length */
-  float height_rad;  /* what it sees from its lower to its upper edge; (0, 3] */
-  float width_ratio; /* of its sides, width over height */
-  float lines;       /* pixels from its lower to its upper edge */
+  sbf_vec3 forward;  /* viewing direction, any length */
+  float height_rad;  /* vertical field of view; (0, 3] */
+  float width_ratio; /* aspect ratio, width over height */
+  float lines;       /* height in pixels */
 } sbr_view;
-/* The views of the frames to come, at most SBR_MOST_VIEWS; without any nobody is seen. Seen is what some view
- * may have within its edges, and what is on the screen largest there counts. */
+/* Sets the cameras of the next frames, at most SBR_MOST_VIEWS; without any, no character is visible. The view
+ * with the largest image of a character counts. */
 #define SBR_MOST_VIEWS 4u
 SBF_API void sbr_world_views(sbr_world *world, const sbr_view *views, uint32_t count);
 
-/* What the host knows better than the views. */
+/* Visibility set by the host. */
 typedef enum sbr_shown {
-  SBR_SHOWN_BY_VIEWS, /* as they tell */
-  SBR_SHOWN_ALWAYS,   /* seen even outside of them, as in a mirror, by its distance */
+  SBR_SHOWN_BY_VIEWS, /* from the views */
+  SBR_SHOWN_ALWAYS,   /* visible outside of the views, as in a mirror; its distance counts */
   SBR_SHOWN_NEVER     /* hidden, as behind a wall */
 } sbr_shown;
 SBF_API void sbr_character_shown(sbr_world *world, sbr_character_id character, sbr_shown shown);
 
-/* By how many pixels the character is taken to be off now, at its worst place: its rung's error, more where
- * it is fast, in the view that shows it largest. 0: it is not seen. */
+/* Predicted maximum error of the character in pixels, in the view that shows it largest; larger when it moves
+ * fast. 0: it is not visible. */
 SBF_API float sbr_character_error_px(const sbr_world *world, sbr_character_id character);
-/* What all characters together were taken to cost in the last tick, visits. */
+/* Predicted cost of all characters in the last tick, in element visits. */
 SBF_API double sbr_world_visits(const sbr_world *world);
 
 #ifdef __cplusplus

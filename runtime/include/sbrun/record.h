@@ -1,14 +1,13 @@
-/* Recording what a host asks of a world, and playing it again: for bug reports, for tests, for ghosts.
+/* Recording and replaying the calls to a world: for bug reports, tests and ghosts.
  *
- * A recording holds every call that moves a world (steps with their seconds, wishes, teleports, targets,
- * clips, pushes) and the state hash at its begin, once a second and at its end. Played in a world that was
- * made alike, from the same assets with the same options, it gives the same states to the bit, with any
- * number of threads, any instructions and on any machine; the hashes tell where it does not. A few bytes a
- * frame.
+ * A recording holds every call that moves a world (steps with their seconds, drives, teleports, targets,
+ * clips, impulses) and the state hash at its begin, once a second and at its end. Replayed in a world made
+ * from the same assets with the same options it gives the same states to the bit, with any number of threads,
+ * any instruction set and on any machine; the hashes show where it does not. It takes a few bytes a frame.
  *
- * The form: the eight bytes "!sbrrec1", then one record a call: what it was and how many numbers follow, each
- * as a little-endian uint32, then those numbers as little-endian doubles. A recording that was cut off is
- * played up to its last whole record. */
+ * The format: the eight bytes "!sbrrec1", then one record a call: what it was and how many numbers follow,
+ * each as a little-endian uint32, then those numbers as little-endian doubles. A recording that was cut off
+ * is played up to its last whole record. */
 #ifndef SBRUN_RECORD_H
 #define SBRUN_RECORD_H
 
@@ -44,9 +43,8 @@ typedef struct sbr_replay {
   uint64_t differs_at_tick;   /* the first such */
 } sbr_replay;
 
-/* Looks through it all and compares the state that it begins with: where `differs` is set then, the world was
- * not made alike. SBF_BAD_INPUT where the bytes are no recording, or characters were made while it went on.
- */
+/* Checks the recording and compares the initial state: if `differs` is set, the world was made differently.
+ * SBF_BAD_INPUT if the bytes are no recording, or characters were created during it. */
 SBF_API sbf_status sbr_replay_begin(
     sbr_replay *replay, sbr_world *world, const void *bytes, size_t size, sbf_diagnostic *error);
 /* Plays up to and with the next step, and the hash behind it; false where nothing was left to step. */

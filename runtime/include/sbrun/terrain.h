@@ -1,7 +1,7 @@
-/* Grounds beyond the simple ones of sbrun.h: height fields, triangles, obstacles, a host's rays.
+/* More grounds: planes, height fields, triangle meshes, obstacles, rays of the host.
  *
- * Each call gives an sbr_ground for a world's definition. What it was made from must outlive the world and
- * must not change meanwhile. Grounds are asked from worker threads. */
+ * Each call returns an sbr_ground for a world's definition. Its data must outlive the world and must not
+ * change meanwhile. Worker threads query grounds. */
 #ifndef SBRUN_TERRAIN_H
 #define SBRUN_TERRAIN_H
 
@@ -11,10 +11,10 @@
 extern "C" {
 #endif
 
-/* Through the point (0, height_m, 0), square to `normal` (of any length, y > 0; else level). */
+/* Plane through (0, height_m, 0) with that normal (any length, y > 0; otherwise level). */
 SBF_API sbr_ground sbr_ground_plane(double height_m, sbf_vec3 normal);
 
-/* Heights at the corners of squares, bilinear between them; beyond the edge it goes on level. */
+/* Heights on a square grid with bilinear interpolation; level beyond the edge. */
 typedef struct sbr_height_field {
   const float *heights_m; /* (rows x columns), columns along +X, rows along +Z */
   uint32_t columns, rows; /* at least 2 each */
@@ -24,9 +24,8 @@ typedef struct sbr_height_field {
 } sbr_height_field;
 SBF_API sbr_ground sbr_ground_height_field(const sbr_height_field *field);
 
-/* Triangles, indexed by a grid. Where several lie above each other the highest counts; where none does, the
- * ground is at `otherwise_m`. Made and destroyed; SBF_FAILED where memory runs out or an index is beyond the
- * points. The arrays must outlive it. */
+/* Triangle mesh with a grid index. The highest triangle counts; without one the height is `otherwise_m`.
+ * SBF_FAILED if memory runs out or an index is out of range. The arrays must outlive it. */
 typedef struct sbr_ground_mesh sbr_ground_mesh;
 SBF_API sbf_status sbr_ground_mesh_create(const sbf_allocator *allocator, const sbf_vec3 *points,
     uint32_t point_count, const uint32_t *triangles, uint32_t triangle_count, double otherwise_m,
@@ -34,7 +33,7 @@ SBF_API sbf_status sbr_ground_mesh_create(const sbf_allocator *allocator, const 
 SBF_API void sbr_ground_mesh_destroy(sbr_ground_mesh *mesh);
 SBF_API sbr_ground sbr_ground_of_mesh(const sbr_ground_mesh *mesh);
 
-/* Simple shapes on another ground. Feet step on what is low enough, and around what is not. */
+/* Simple shapes on another ground. Feet step on low obstacles and around high ones. */
 typedef enum sbr_obstacle_kind {
   SBR_OBSTACLE_BOX,
   SBR_OBSTACLE_CYLINDER,
@@ -56,8 +55,8 @@ typedef struct sbr_obstacle_set {
 } sbr_obstacle_set;
 SBF_API sbr_ground sbr_ground_obstacles(const sbr_obstacle_set *set);
 
-/* A host's rays: casts one straight down. Returns how far it goes until it hits, at most `length`; negative
- * where it hits nothing. `normal` receives the unit normal there. */
+/* A vertical ray cast of the host. Returns the distance to the hit, at most `length`; negative without a hit.
+ * `normal` receives the unit normal there. */
 typedef struct sbr_ray_caster {
   /* m; called by worker threads */
   double (*cast)(void *user, sbr_double3 from, double length, sbf_vec3 *normal);

@@ -3,7 +3,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-enum { MOST_TESTS = 128, MOST_CASES = 32 };
+enum { MAX_TESTS = 128, MAX_CASES = 32 };
 
 struct TCase {
   const char *name;
@@ -11,14 +11,14 @@ struct TCase {
     TFun run;
     const char *name;
     int first, end;
-  } tests[MOST_TESTS];
+  } tests[MAX_TESTS];
   int count;
   SFun setup, teardown, setup_once, teardown_once;
 };
 
 struct Suite {
   const char *name;
-  TCase *cases[MOST_CASES];
+  TCase *cases[MAX_CASES];
   int count;
 };
 
@@ -48,12 +48,12 @@ TCase *tcase_create(const char *name) {
 }
 
 void suite_add_tcase(Suite *suite, TCase *tcase) {
-  if (suite->count == MOST_CASES) abort();
+  if (suite->count == MAX_CASES) abort();
   suite->cases[suite->count++] = tcase;
 }
 
 void check_add(TCase *tcase, TFun test, const char *name, int first, int end) {
-  if (tcase->count == MOST_TESTS) abort();
+  if (tcase->count == MAX_TESTS) abort();
   int at = tcase->count++;
   tcase->tests[at].run = test;
   tcase->tests[at].name = name;

@@ -80,10 +80,10 @@ void check_fail(const char *file, int line, const char *format, ...)
 
 #define CHECK_NEAR(type, a, b, tolerance)                                                                    \
   do {                                                                                                       \
-    type check_a = (a), check_b = (b), check_most = (tolerance);                                             \
-    if (!(fabs((double)(check_a - check_b)) <= (double)check_most))                                          \
+    type check_a = (a), check_b = (b), check_max = (tolerance);                                              \
+    if (!(fabs((double)(check_a - check_b)) <= (double)check_max))                                           \
       check_fail(__FILE__, __LINE__, "%s and %s: %.17g and %.17g, farther apart than %g", #a, #b,            \
-          (double)check_a, (double)check_b, (double)check_most);                                             \
+          (double)check_a, (double)check_b, (double)check_max);                                              \
   } while (0)
 #define ck_assert_float_eq_tol(a, b, tolerance) CHECK_NEAR(float, a, b, tolerance)
 #define ck_assert_double_eq_tol(a, b, tolerance) CHECK_NEAR(double, a, b, tolerance)

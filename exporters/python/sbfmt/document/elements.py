@@ -2,7 +2,7 @@
 
 from .fields import Element, Field
 
-VERSION = "1.1"
+VERSION = "1.2"
 
 ENUMS = {
     'alpha_mode': ('opaque', 'mask', 'blend'),
@@ -18,6 +18,9 @@ ENUMS = {
     'pressure_mode': ('none', 'gas', 'volume'),
     'weight_property': ('density', 'young_modulus', 'bending_stiffness', 'mass_damping', 'stiffness_damping', 'friction', 'pressure', 'yield_strain', 'tear_strain'),
     'ik_solver': ('two_bone', 'ccd', 'fabrik', 'damped_least_squares', 'spline'),
+    'gait_kind': ('walk', 'swim', 'fly', 'slither', 'crawl', 'roll', 'none'),
+    'wave_plane': ('lateral', 'vertical'),
+    'fin_motion': ('flap', 'trail', 'steer'),
     'chain_kind': ('lag', 'distance'),
     'follower_channel': ('rotation', 'position', 'both', 'squash', 'weight'),
     'bone_axis': ('x', 'y', 'z'),
@@ -421,6 +424,8 @@ ELEMENTS = {element.name: element for element in (
         Field('bone', 'ref', 'bones'),
         Field('attributes', 'one', 'attributes', xml='attributes'),
         Field('collision', 'one', 'collision', xml='collision'),
+        Field('rigid', 'bool', default=False),
+        Field('proposed', 'bool', default=False),
     )),
     Element('ik_chain', 'ik_chain', (
         Field('id', 'id', default='', required=True),
@@ -461,6 +466,15 @@ ELEMENTS = {element.name: element for element in (
         Field('legs', 'many', 'leg', xml='leg'),
         Field('head', 'optional', 'head_turn', xml='head_turn'),
         Field('tails', 'many', 'tail', xml='tail'),
+        Field('kind', 'enum', 'gait_kind', default='walk'),
+        Field('rest_pose', 'ref', 'poses'),
+        Field('idle_clip', 'ref', 'clips'),
+        Field('move_clip', 'ref', 'clips'),
+        Field('undulation', 'optional', 'undulation', xml='undulation'),
+        Field('fins', 'many', 'fin', xml='fin'),
+        Field('wheels', 'many', 'wheel', xml='wheel'),
+        Field('treads', 'many', 'tread', xml='tread'),
+        Field('medium', 'optional', 'medium', xml='medium'),
     )),
     Element('leg', 'leg', (
         Field('name', 'string', default=''),
@@ -482,6 +496,54 @@ ELEMENTS = {element.name: element for element in (
         Field('frequency', 'float', default=1.2),
         Field('damping_ratio', 'float', default=0.25),
         Field('limit', 'float', default=0.6),
+    )),
+    Element('undulation', 'undulation', (
+        Field('bones', 'uint[]'),
+        Field('plane', 'enum', 'wave_plane', default='lateral'),
+        Field('length', 'float', default=0.0),
+        Field('wavelength', 'float', default=0.95),
+        Field('amplitude', 'vec3', default=(0.02, -0.08, 0.16)),
+        Field('exaggeration', 'float', default=1.0),
+        Field('strouhal_number', 'float', default=0.3),
+        Field('idle_frequency', 'float', default=0.4),
+        Field('max_frequency', 'float', default=8.0),
+        Field('heading_amplitude', 'float', default=0.7),
+    )),
+    Element('fin', 'fin', (
+        Field('name', 'string', default=''),
+        Field('bones', 'uint[]'),
+        Field('motion', 'enum', 'fin_motion', default='flap'),
+        Field('axis', 'vec3', default=(0.0, 0.0, 1.0)),
+        Field('amplitude', 'float', default=0.4),
+        Field('mean', 'float', default=0.0),
+        Field('flex', 'float', default=0.0),
+        Field('lag', 'float', default=0.0),
+        Field('phase', 'float', default=0.0),
+        Field('frequency', 'float', default=0.0),
+        Field('twist', 'float', default=0.0),
+    )),
+    Element('wheel', 'wheel', (
+        Field('name', 'string', default=''),
+        Field('bone', 'ref', 'bones', required=True),
+        Field('axis', 'vec3', default=(1.0, 0.0, 0.0)),
+        Field('radius', 'float', default=0.0, required=True),
+        Field('steer_limit', 'float', default=0.0),
+    )),
+    Element('tread', 'tread', (
+        Field('name', 'string', default=''),
+        Field('bones', 'uint[]'),
+    )),
+    Element('medium', 'medium', (
+        Field('buoyancy', 'float', default=1.0),
+        Field('drag_length', 'float', default=0.0),
+        Field('altitude', 'float', default=0.0),
+        Field('bank', 'float', default=1.0),
+        Field('bank_limit', 'float', default=0.8),
+        Field('pitch_limit', 'float', default=0.8),
+        Field('tilt', 'float', default=0.0),
+        Field('bob', 'float', default=0.0),
+        Field('bob_frequency', 'float', default=0.8),
+        Field('glide_ratio', 'float', default=0.0),
     )),
     Element('chain', 'chain', (
         Field('id', 'id', default='', required=True),
@@ -550,6 +612,8 @@ ELEMENTS = {element.name: element for element in (
         Field('media_friction', 'float', default=0.0),
         Field('control_tick', 'float', default=0.016666668),
         Field('fields', 'many', 'force_field', xml='force_field'),
+        Field('has_water', 'bool', default=False),
+        Field('water_level', 'float', default=0.0),
     )),
     Element('force_field', 'force_field', (
         Field('id', 'id', default='', required=True),

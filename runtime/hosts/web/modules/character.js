@@ -26,9 +26,11 @@ export class Character {
     return this.world.handle;
   }
 
-  drive(forward, turn = 0, sideways = 0) {
+  drive(forward, turn = 0, sideways = 0, up = 0) {
+    const vertical = number(up, 'up');
     this.calls.web_character_drive(this.home, this.id, number(forward, 'forward'), number(sideways, 'sideways'),
       number(turn, 'turn'));
+    this.calls.web_character_set_vertical_speed(this.home, this.id, vertical);
   }
   teleport(position, heading = 0) {
     this.calls.web_character_teleport(this.home, this.id, ...triple(position, 'position'), number(heading, 'heading'));
@@ -97,6 +99,37 @@ export class Character {
   applySoftImpulse(softBody, impulse, vertex = -1) {
     this.done(this.calls.web_character_soft_impulse(this.home, this.id, this.ofSoft(softBody), vertex === -1 ? WHOLE_BODY : number(vertex, 'vertex'),
       ...triple(impulse, 'impulse')));
+  }
+  applySoftForce(softBody, force, seconds, vertex = -1) {
+    this.done(this.calls.web_character_soft_force(this.home, this.id, this.ofSoft(softBody), vertex === -1 ? WHOLE_BODY : number(vertex, 'vertex'),
+      ...triple(force, 'force'), number(seconds, 'seconds')));
+  }
+  holdForce(softBody, vertex) {
+    const { scratch } = this.sbfmt;
+    this.calls.web_character_hold_force(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), scratch);
+    return Array.from(this.sbfmt.floats(scratch, 3));
+  }
+  /** What a call that fills a list of `numbers` numbers each gives, one array each: floats and the same bits as integers. */
+  listed(call, softBody, numbers) {
+    const all = (at, capacity) => this.calls[call](this.home, this.id, this.ofSoft(softBody), at, capacity);
+    const count = all(0, 0), bytes = 4 * numbers * count, at = count && this.sbfmt.room(bytes), found = [];
+    if (count) all(at, count);
+    for (let i = 0; i < count; i++) {
+      const floats = this.sbfmt.floats(at + 4 * numbers * i, numbers).slice();
+      found.push({ floats, ints: new Int32Array(floats.buffer) });
+    }
+    if (count) this.calls.web_free(at);
+    return found;
+  }
+  pinReactions(softBody) {
+    return this.listed('web_character_pin_reactions', softBody, 13).map(({ floats, ints }) => {
+      const three = (from) => Array.from(floats.slice(from, from + 3));
+      return { pinSet: ints[0], bone: ints[1], rigidBody: ints[2], points: ints[3], about: three(4), force: three(7), torque: three(10) };
+    });
+  }
+  tetrahedra(softBody) {
+    return this.listed('web_character_tetrahedra', softBody, 14).map(({ floats, ints }) => ({ stress: Array.from(floats.slice(0, 6)),
+      energyDensity: floats[6], restVolume: floats[7], volumeRatio: floats[8], corners: Array.from(ints.slice(9, 13)), torn: (ints[13] & 1) !== 0 }));
   }
   setSoftVelocity(softBody, velocity, angularVelocity = [0, 0, 0]) {
     this.done(this.calls.web_character_soft_velocity(this.home, this.id, this.ofSoft(softBody), ...triple(velocity, 'velocity'),

@@ -1,0 +1,96 @@
+/* What contacts cost: the frame of a soft body in contact over that of the same body in flight.
+ *
+ * An armadillo of one metre and a slab of 1 x 0.2 x 1 m, about 2,700 tetrahedra of 0.1 MPa each, one control
+ * tick of 1/60 s a frame, awake, one thread. `floor_ratio`: at rest on the floor. `landing`: the frames from
+ * the first touch on, dropped from a hand's breadth. `slab_ratio`: the slab lies flat. Medians of the
+ * frames' processor time, where each frame counts the least of several runs; flight is measured between them.
+ * `depth_um`: how far the lowest point of the skin lies below the floor at the end, `speed_mm_s`: its fastest
+ * point there. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "measured_bodies.h"
+#include "measuring.h"
+#include "sbfmt/asset.h"
+#include "sbrun/sbrun.h"
+
+typedef struct scene {
+  const char *name;
+  double height_m;     /* of the origin when let go */
+  uint32_t first, end; /* frames that count */
+} scene;
+
+enum { RUNS = 5, MAX_FRAMES = 300 };
+
+typedef struct fall {
+  double min[MAX_FRAMES];
+  float depth_m, speed_m_s;
+} fall;
+
+static float lowest_of(const sbf_asset *asset) {
+  const sbf_vec3_list *at = &asset->soft_bodies.at[0].surface.positions;
+  float low = at->at[0].y;
+  for (uint32_t i = 1; i < at->count; i++) low = fminf(low, at->at[i].y);
+  return low;
+}
+
+static void run(const sbr_model *model, const scene *s, uint32_t number, fall *f) {
+  sbf_diagnostic error;
+  sbr_world *world;
+  sbr_character_id character;
+  sbr_world_definition definition = sbr_default_world_definition();
+  sbr_character_definition standing = sbr_default_character_definition();
+  definition.sleep_after_s = 0;
+  standing.position.y = s->height_m;
+  bench_require(sbr_world_create(&definition, &world, &error), &error);
+  bench_require(sbr_character_create(world, model, &standing, &character, &error), &error);
+  for (uint32_t i = 0; i < s->end; i++) {
+    double begin = bench_now_s();
+    sbr_world_tick(world);
+    double taken = bench_now_s() - begin;
+    if (number == 0 || taken < f->min[i]) f->min[i] = taken;
+  }
+  sbr_world_destroy(world);
+}
+
+static double median(fall *f, const scene *s) {
+  return bench_spread_of(f->min + s->first, s->end - s->first).median;
+}
+
+/* So that it comes to rest. */
+static void damp(sbf_asset *asset) {
+  sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)asset->soft_bodies.at;
+  body->attributes.damping_ratio = 0.2f;
+}
+
+static void measure(const char *body, sbf_asset *asset, bool quick) {
+  if (!asset) return;
+  double low = -(double)lowest_of(asset);
+  damp(asset);
+  const scene scenes[] = {
+      {"flight", 100, 30, 90}, {"rest", low + 0.01, 240, 300}, {"landing", low + 0.1, 8, 20}};
+  fall falls[3];
+  sbr_model *model;
+  sbf_diagnostic error;
+  bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
+  for (uint32_t r = 0; r < (quick ? 1 : RUNS); r++)
+    for (int i = 0; i < 3; i++)
+      if (!getenv("ONLY") || atoi(getenv("ONLY")) == i)
+        for (int q = 0; q < (getenv("ONLY") ? 20 : 1); q++) run(model, &scenes[i], r, &falls[i]);
+  double flight = median(&falls[0], &scenes[0]);
+  for (int i = 0; i < 3; i++) {
+    double frame = median(&falls[i], &scenes[i]);
+    bench_print_row("%s,%s,%.1f,%.2f", body, scenes[i].name, 1e6 * frame, frame / flight);
+  }
+  sbr_model_destroy(model);
+  sbf_asset_free(asset);
+}
+
+int main(int argument_count, char **arguments) {
+  bool quick = bench_is_quick(argument_count, arguments);
+  bench_print_columns("body,scene,frame_us,ratio");
+  measure("armadillo", armadillo_of_tetrahedra(2700), quick);
+  if (!getenv("ONLY")) measure("slab", slab_of_tetrahedra(2700), quick);
+  return 0;
+}

@@ -1,0 +1,114 @@
+#include "build/weights/bone_fit.h"
+
+#include <stdlib.h>
+
+enum { SAMPLES = 8 };
+/* Share of the surface beyond each end of its extent: spears and whiskers do not count. */
+static const double TAIL = 0.01;
+/* Where rays start below the surface. */
+static const double BELOW = 1e-4;
+
+typedef struct measured {
+  double value, area;
+} measured;
+
+static int compare_measured(const void *left, const void *right) {
+  double a = ((const measured *)left)->value, b = ((const measured *)right)->value;
+  return a < b ? -1 : a > b;
+}
+
+/* The value below which a share of the area lies. */
+static double at_share(const measured *sorted, uint32_t count, double share) {
+  double all = 0, sum = 0;
+  for (uint32_t i = 0; i < count; i++) all += sorted[i].area;
+  for (uint32_t i = 0; i < count; i++) {
+    sum += sorted[i].area;
+    if (sum >= share * all) return sorted[i].value;
+  }
+  return 0;
+}
+
+static double coordinate(sbfi_d3 p, int axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/* The longest side of the surface, and of the bones. */
+static double extent_of_surface(const sbfi_weight_mesh *mesh, measured *room) {
+  double longest = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    for (uint32_t i = 0; i < mesh->site_count; i++)
+      room[i] = (measured){coordinate(sbfi_d3_of(mesh->sites[i]), axis), mesh->areas[i]};
+    qsort(room, mesh->site_count, sizeof *room, compare_measured);
+    longest =
+        fmax(longest, at_share(room, mesh->site_count, 1 - TAIL) - at_share(room, mesh->site_count, TAIL));
+  }
+  return longest;
+}
+
+static double extent_of_bones(const sbfi_bone_segment *segments, uint32_t bone_count) {
+  double longest = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t b = 0; b < bone_count; b++) {
+      if (!segments[b].is_deforming) continue;
+      double head = coordinate(segments[b].head, axis), tail = coordinate(segments[b].tail, axis);
+      low = fmin(low, fmin(head, tail));
+      high = fmax(high, fmax(head, tail));
+    }
+    longest = fmax(longest, high - low);
+  }
+  return longest;
+}
+
+static double share_inside(
+    const sbfi_body_rays *rays, const sbfi_bone_segment *segments, uint32_t bone_count) {
+  double inside = 0, all = 0;
+  for (uint32_t b = 0; b < bone_count; b++) {
+    sbfi_d3 along = sbfi_d3_sub(segments[b].tail, segments[b].head);
+    double length = segments[b].is_deforming ? sbfi_d3_length(along) : 0;
+    all += length;
+    for (uint32_t k = 0; length > 0 && k < SAMPLES; k++) {
+      sbfi_d3 at = sbfi_d3_add(segments[b].head, sbfi_d3_scale(along, (k + 0.5) / SAMPLES));
+      inside += length / SAMPLES * sbfi_body_holds(rays, at);
+    }
+  }
+  return all > 0 ? inside / all : 1;
+}
+
+/* How far the surface is from its bones, by half of how thick the body is there. Where no ray meets a far
+ * side there is no thickness. */
+static double median_distance(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
+    const sbfi_nearest_bone *nearest, sbfi_d3 *normals, measured *room) {
+  uint32_t count = 0;
+  for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *corners = mesh->triangles[t];
+    sbfi_d3 a = sbfi_d3_of(mesh->sites[corners[0]]);
+    sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(sbfi_d3_of(mesh->sites[corners[1]]), a),
+        sbfi_d3_sub(sbfi_d3_of(mesh->sites[corners[2]]), a));
+    for (int k = 0; k < 3; k++) normals[corners[k]] = sbfi_d3_add(normals[corners[k]], normal);
+  }
+  for (uint32_t i = 0; i < mesh->site_count; i++) {
+    sbfi_d3 inwards = sbfi_d3_scale(sbfi_d3_normal(normals[i]), -1);
+    if (sbfi_d3_length(inwards) == 0) continue;
+    sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->sites[i]), sbfi_d3_scale(inwards, BELOW));
+    double thickness = sbfi_body_way_out(rays, from, inwards);
+    if (!isfinite(thickness) || !(thickness > BELOW)) continue;
+    room[count++] = (measured){2 * (double)nearest[i].distance / thickness, mesh->areas[i]};
+  }
+  qsort(room, count, sizeof *room, compare_measured);
+  return at_share(room, count, 0.5);
+}
+
+bool sbfi_bone_fit_measure(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
+    const sbfi_bone_segment *segments, uint32_t bone_count, const sbfi_nearest_bone *nearest,
+    sbfi_weights_figures *figures, sbfi_arena *arena) {
+  measured *room = sbfi_arena_allocate(arena, mesh->site_count, sizeof *room);
+  sbfi_d3 *normals = sbfi_arena_allocate(arena, mesh->site_count, sizeof *normals);
+  if (!room || !normals) return false;
+  double surface = extent_of_surface(mesh, room);
+  figures->inside = share_inside(rays, segments, bone_count);
+  figures->bone_extent = surface > 0 ? extent_of_bones(segments, bone_count) / surface : 1;
+  figures->median_distance = median_distance(mesh, rays, nearest, normals, room);
+  for (uint32_t b = 0; b < bone_count; b++) figures->deforming_count += segments[b].is_deforming;
+  return true;
+}

@@ -1,0 +1,12 @@
+/* How well a skeleton fits the body that it was laid into: whether it may be that of another character. */
+#ifndef SBFI_BONE_FIT_H
+#define SBFI_BONE_FIT_H
+
+#include "build/weights/nearest_bones.h"
+
+/* Fills the figures of the fit. False where memory runs out. */
+bool sbfi_bone_fit_measure(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
+    const sbfi_bone_segment *segments, uint32_t bone_count, const sbfi_nearest_bone *nearest,
+    sbfi_weights_figures *figures, sbfi_arena *arena);
+
+#endif

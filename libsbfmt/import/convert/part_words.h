@@ -1,0 +1,22 @@
+/* What names say of how hard a thing is. */
+#ifndef SBFI_PART_WORDS_H
+#define SBFI_PART_WORDS_H
+
+#include <stdbool.h>
+
+typedef enum sbfi_name_says {
+  SBFI_SAYS_NOTHING,
+  SBFI_SAYS_SOFT,   /* belly, tail, ear, cheek: soft even if slender */
+  SBFI_SAYS_LIMB,   /* hands, feet, fingers, shins, forearms */
+  SBFI_SAYS_FACE,   /* eyes, jaw, teeth, beak, horns */
+  SBFI_SAYS_PROP,   /* weapons, armour, tools, wheels */
+  SBFI_SAYS_MACHINE /* the whole is one: mech, robot, tank, car */
+} sbfi_name_says;
+
+/* By English words, as rigs have them. Names are divided at capitals, digits and marks; NULL says nothing. */
+sbfi_name_says sbfi_words_of_name(const char *name);
+
+/* Whether a material of that name is hard: metal, wood, glass, armour. */
+bool sbfi_material_is_hard(const char *name);
+
+#endif

@@ -1,0 +1,135 @@
+/* The backbone: the longest way through the bones of the middle, nose first. */
+#include "import/gait/gait_parts.h"
+
+static const double MIN_SPAN = 0.35; /* of the length: a shorter way is no backbone */
+
+typedef struct way_down {
+  double length; /* m, to the far end of the longest way down */
+  int32_t next;  /* the child on it, or SBF_NONE */
+} way_down;
+
+static bool is_named_mouth(const sbfi_rig_view *view, uint32_t bone) {
+  return sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)bone)->name) >> SBFI_WORD_MOUTH & 1;
+}
+
+/* Bones that may lie on the backbone: those of the middle, but no tongue and no jaw. With `askew` also those
+ * of limbs that no other limb mirrors: the spine of a rig that is not straight leaves the middle. */
+static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candidates) {
+  const sbfi_gait_draft *d = &view->draft;
+  for (uint32_t i = 0; i < d->asset->bones.count; i++) {
+    bool in_pair = d->shapes[i].side != 0 && !askew;
+    for (uint32_t l = 0; l < view->limb_count && askew && !in_pair; l++)
+      in_pair = view->limbs[l].twin != SBF_NONE && sbfi_draft_is_below(d, (int32_t)i, view->limbs[l].root);
+    candidates[i] = d->shapes[i].bears && !in_pair && !is_named_mouth(view, i);
+  }
+}
+
+/* The two longest ways down from each bone of the middle; the bone through which the longest way leads. */
+static int32_t find_ways(
+    const sbfi_rig_view *view, const bool *candidates, way_down *first, way_down *second) {
+  const sbfi_gait_draft *d = &view->draft;
+  double longest = 0;
+  int32_t top = SBF_NONE;
+  for (uint32_t i = d->asset->bones.count; i-- > 0;) {
+    const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
+    if (!candidates[i]) continue;
+    if (first[i].next == SBF_NONE) first[i].length = (double)bone->length;
+    if (first[i].length + second[i].length >= longest) {
+      longest = first[i].length + second[i].length;
+      top = (int32_t)i;
+    }
+    if (bone->parent == SBF_NONE) continue;
+    way_down down = {first[i].length + sbfi_draft_distance(d, bone->parent, (int32_t)i), (int32_t)i};
+    way_down *one = &first[bone->parent], *two = &second[bone->parent];
+    if (one->next == SBF_NONE || down.length > one->length) {
+      *two = *one;
+      *one = down;
+    } else if (two->next == SBF_NONE || down.length > two->length) {
+      *two = down;
+    }
+  }
+  return top;
+}
+
+/* Whether the way, as it was found, begins with the tail: a bone named as the head says so, else the end that
+ * is farther back. */
+static bool begins_with_tail(const sbfi_rig_view *view, const uint32_t *way, uint32_t count) {
+  for (uint32_t i = 0; i < count / 2; i++) {
+    bool first = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)way[i])->name) >> SBFI_WORD_HEAD & 1;
+    uint32_t opposite = way[count - 1 - i];
+    bool last = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)opposite)->name) >> SBFI_WORD_HEAD & 1;
+    if (first != last) return last;
+  }
+  return (double)sbfi_draft_head(&view->draft, (int32_t)way[0]).z <
+         (double)sbfi_draft_head(&view->draft, (int32_t)way[count - 1]).z;
+}
+
+static void reverse(uint32_t *bones, uint32_t count) {
+  for (uint32_t i = 0; i < count / 2; i++) {
+    uint32_t bone = bones[i];
+    bones[i] = bones[count - 1 - i];
+    bones[count - 1 - i] = bone;
+  }
+}
+
+typedef struct backbone_work {
+  way_down *first, *second;
+  bool *candidates;
+  uint32_t *bones, count;
+} backbone_work;
+
+static bool begin(backbone_work *w, sbf_asset *asset, sbfi_arena *scratch) {
+  uint32_t count = asset->bones.count;
+  w->first = sbfi_arena_allocate(scratch, count, sizeof *w->first);
+  w->second = sbfi_arena_allocate(scratch, count, sizeof *w->second);
+  w->candidates = sbfi_arena_allocate(scratch, count, sizeof *w->candidates);
+  w->bones = sbf_asset_allocate(asset, count, sizeof *w->bones);
+  for (uint32_t i = 0; i < count && w->first && w->second; i++)
+    w->first[i].next = w->second[i].next = SBF_NONE;
+  return w->first && w->second && w->candidates && w->bones;
+}
+
+/* Whether the top, where two ways meet, lies between them along z. A control of the whole body often does
+ * not. */
+static bool is_between(const sbfi_rig_view *view, const backbone_work *w, int32_t top) {
+  double z = (double)sbfi_draft_head(&view->draft, top).z;
+  double one = (double)sbfi_draft_head(&view->draft, (int32_t)w->bones[w->count - 1]).z;
+  double two = (double)sbfi_draft_head(&view->draft, w->first[top].next).z;
+  return (z - one) * (z - two) <= 0;
+}
+
+/* Along the hierarchy, whatever the body's shape: up one way to the top and down the other. */
+static void list_bones(const sbfi_rig_view *view, bool askew, backbone_work *w) {
+  find_candidates(view, askew, w->candidates);
+  int32_t top = find_ways(view, w->candidates, w->first, w->second);
+  if (top == SBF_NONE) return;
+  for (int32_t bone = w->second[top].next; bone != SBF_NONE; bone = w->first[bone].next)
+    if (view->holds[bone]) w->bones[w->count++] = (uint32_t)bone;
+  reverse(w->bones, w->count);
+  bool passed = w->count && w->first[top].next != SBF_NONE && !is_between(view, w, top);
+  for (int32_t bone = passed ? w->first[top].next : top; bone != SBF_NONE; bone = w->first[bone].next)
+    if (view->holds[bone]) w->bones[w->count++] = (uint32_t)bone;
+  if (w->count >= 2 && begins_with_tail(view, w->bones, w->count)) reverse(w->bones, w->count);
+}
+
+/* Distance along z between the heads of the first and the last bone, m. */
+static double span_of(const sbfi_rig_view *view, const backbone_work *w) {
+  if (w->count < 2) return 0;
+  return fabs((double)sbfi_draft_head(&view->draft, (int32_t)w->bones[0]).z -
+              (double)sbfi_draft_head(&view->draft, (int32_t)w->bones[w->count - 1]).z);
+}
+
+bool sbfi_find_backbone(
+    const sbfi_rig_view *view, sbf_asset *asset, sbfi_arena *scratch, sbf_u32_list *bones) {
+  backbone_work straight = {.count = 0}, askew = {.count = 0};
+  *bones = (sbf_u32_list){NULL, 0};
+  if (!begin(&straight, asset, scratch)) return false;
+  list_bones(view, false, &straight);
+  if (span_of(view, &straight) < MIN_SPAN * sbfi_view_extent(view, 2)) {
+    if (!begin(&askew, asset, scratch)) return false;
+    list_bones(view, true, &askew);
+    if (span_of(view, &askew) > span_of(view, &straight)) straight = askew;
+  }
+  if (straight.count >= 2) *bones = (sbf_u32_list){straight.bones, straight.count};
+  return true;
+}

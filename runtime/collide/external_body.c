@@ -1,0 +1,122 @@
+#include "collide/external_body.h"
+
+#include "math/vec3.h"
+
+/* Sum of v v^T times `size`, into a symmetric matrix. */
+static void add_outer(float m[6], sbf_vec3 v, float size) {
+  m[0] += size * v.x * v.x, m[1] += size * v.y * v.y, m[2] += size * v.z * v.z;
+  m[3] += size * v.x * v.y, m[4] += size * v.x * v.z, m[5] += size * v.y * v.z;
+}
+
+static float largest(sbf_vec3 v) {
+  float max = v.x > v.y ? v.x : v.y;
+  return v.z > max ? v.z : max;
+}
+
+/* A matrix with these values along the axes of the body's inertia, in space. */
+static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
+  sbf_quat axes = sbri_quat_multiply(leader->turn_from, leader->body.axes);
+  add_outer(m, sbri_rotate(axes, sbri_vec3(1, 0, 0)), values.x);
+  add_outer(m, sbri_rotate(axes, sbri_vec3(0, 1, 0)), values.y);
+  add_outer(m, sbri_rotate(axes, sbri_vec3(0, 0, 1)), values.z);
+}
+
+/* What moves it in its share of the mass; what something else holds is not turned either. */
+static void take_mass(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
+  const sbri_host_body *b = &leader->body;
+  float cube = scale * scale * scale, share = (float)sharers * cube;
+  bool is_held = sbri_dot(b->held_along, b->held_along) > 0;
+  g->max_inverse_mass = b->ease * share;
+  g->ease[0] = g->ease[1] = g->ease[2] = g->max_inverse_mass;
+  add_outer(g->ease, b->held_along, -g->max_inverse_mass);
+  if (is_held) return;
+  sbf_vec3 turning = sbri_scale(b->inverse_inertias, share * scale * scale);
+  add_axes(g->inverse_inertia, leader, turning);
+  g->max_inverse_inertia = largest(turning);
+}
+
+void sbri_external_body_roots(
+    const sbri_external_body *g, const sbri_collider *leader, float ease[6], float inverse_inertia[6]) {
+  const sbri_host_body *b = &leader->body;
+  float root = sqrtf(g->max_inverse_mass), share = largest(b->inverse_inertias);
+  for (int k = 0; k < 6; k++)
+    ease[k] = g->ease[k] / root, inverse_inertia[k] = 0; /* it lets by all or nothing */
+  if (!(g->max_inverse_inertia > 0)) return;
+  share = g->max_inverse_inertia / share;
+  add_axes(inverse_inertia, leader,
+      sbri_vec3(sqrtf(share * b->inverse_inertias.x), sqrtf(share * b->inverse_inertias.y),
+          sqrtf(share * b->inverse_inertias.z)));
+}
+
+typedef struct own_push {
+  sbf_vec3 impulse, moment; /* on the host's body, as the file's masses count */
+  bool any;
+} own_push;
+
+/* What the body has pushed it with in the tick before; moments about where its centre was. */
+static own_push push_before(const sbri_external_body_maker *m, const sbri_external_body *g) {
+  own_push own = {{0, 0, 0}, {0, 0, 0}, false};
+  for (uint32_t i = 0; i < m->before_count; i++) {
+    const sbri_touching_one *one = &m->before[i];
+    if (one->thing >= m->colliders->end || m->colliders->at[one->thing].leader != g->leader) continue;
+    own.any = true;
+    own.impulse = sbri_sub(own.impulse, one->push);
+    sbf_vec3 arm = sbri_sub(one->place, g->centre);
+    own.moment = sbri_sub(own.moment, sbri_add(one->moment, sbri_cross(arm, one->push)));
+  }
+  return own;
+}
+
+/* What the others will do: as much as in the tick before. */
+static void take_others(sbri_external_body *g, const sbri_external_body_maker *m, const sbri_host_body *b,
+    uint32_t sharers, const own_push *own) {
+  float root = sqrtf(m->scale), cube = m->scale * m->scale * m->scale;
+  float mass = 1 / (cube * root), moment = mass / m->scale; /* times are those of 1 / root */
+  float each = 1 / ((float)sharers * m->tick_s);
+  sbf_vec3 push = sbri_add_scaled(sbri_scale(b->push, mass), own->impulse, -(float)sharers);
+  sbf_vec3 turn = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
+  g->acceleration = sbri_add(g->acceleration, sbri_external_body_times(g->ease, sbri_scale(push, each)));
+  g->turning = sbri_external_body_times(g->inverse_inertia, sbri_scale(turn, each));
+}
+
+sbri_external_body sbri_external_body_make(
+    const sbri_external_body_maker *m, const sbri_collider_frame *frame, uint32_t number) {
+  const sbri_collider *leader = &m->colliders->at[number];
+  sbri_collider_frame of =
+      frame->collider == leader ? *frame : sbri_collider_frame_of(leader, m->origin, m->scale);
+  const sbri_host_body *b = &leader->body;
+  sbri_external_body g = {.leader = number, .lever = 1};
+  sbf_quat turn = sbri_quat_multiply(leader->turn_to, sbri_quat_conjugate(leader->turn_from));
+  float rate = (turn.w < 0 ? -2 : 2) / m->tick_s;
+  g.centre = sbri_out_of_shape(&of, b->centre);
+  g.begin_velocity = sbri_scale(sbri_shape_way(&of, b->centre), 1 / m->tick_s);
+  g.begin_spin = sbri_vec3(turn.x * rate, turn.y * rate, turn.z * rate);
+  own_push own = push_before(m, &g);
+  uint32_t sharers = b->sharers + (own.any ? 0 : 1);
+  sharers = sharers > 0 ? sharers : 1;
+  take_mass(&g, leader, sharers, m->scale);
+  g.acceleration = sbri_host_body_free(b, b->acceleration);
+  if (sharers > 1) take_others(&g, m, b, sharers, &own);
+  g.velocity = g.seen_velocity = g.begin_velocity, g.spin = g.seen_spin = g.begin_spin;
+  return g;
+}
+
+uint8_t sbri_external_body_of(sbri_external_bodies *external_bodies, const sbri_external_body_maker *m,
+    const sbri_collider_frame *frame, uint32_t collider) {
+  const sbri_collider *leader = sbri_collider_leader(m->colliders, collider);
+  if (!leader) return 0;
+  uint32_t number = (uint32_t)(leader - m->colliders->at), i = 0;
+  while (i < external_bodies->count && external_bodies->at[i].leader != number) i++;
+  if (i == SBRI_EXTERNAL_BODIES) return 0;
+  if (i == external_bodies->count)
+    external_bodies->at[external_bodies->count++] = sbri_external_body_make(m, frame, number);
+  return (uint8_t)(i + 1);
+}
+
+void sbri_external_body_begin(sbri_external_body *g, float step_s) {
+  g->lever = 1 + g->elapsed_s / step_s;
+  g->velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, step_s);
+  g->spin = sbri_add_scaled(g->begin_spin, g->turning, step_s);
+  g->seen_velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, g->lever * step_s);
+  g->seen_spin = sbri_add_scaled(g->begin_spin, g->turning, g->lever * step_s);
+}

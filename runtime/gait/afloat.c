@@ -1,0 +1,165 @@
+/* Bodies that a medium carries: they move in three dimensions, bank into turns, pitch along their path, and
+ * drift when nothing drives them (spec 14.7, media). */
+#include "gait/motion_kinds.h"
+#include "math/trig.h"
+
+static const float EASE_S = 0.3f;   /* over which a drive takes effect */
+static const float REST_S = 1.2f;   /* over which the last of the speed dies away without drive, with drag */
+static const float LEANS_HZ = 0.9f; /* of critically damped followers of bank and pitch */
+static const float STILL = 0.004f;  /* m/s for each metre: slower, it hangs where it is */
+static const float GLIDE_S = 0.3f;  /* over which wings are held still, and beat again */
+
+static const sbf_medium *medium_of(const sbri_rig *rig, sbf_medium *defaults) {
+  if (rig->gait->medium) return rig->gait->medium;
+  *defaults =
+      (sbf_medium){.buoyancy = 1, .bank = 1, .bank_limit = 0.8f, .pitch_limit = 0.8f, .bob_frequency = 0.8f};
+  return defaults;
+}
+
+static float gravity_of(const sbri_rig *rig) {
+  float g = sbri_length(rig->asset->environment.gravity);
+  return g > 0 ? g : 9.81f;
+}
+
+float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat turn) {
+  sbf_vec3 middle = sbri_lerp(rig->low, rig->high, 0.5f);
+  float min = 1e30f;
+  for (int corner = 0; corner < 8; corner++) {
+    sbf_vec3 at = {corner & 1 ? rig->high.x : rig->low.x, corner & 2 ? rig->high.y : rig->low.y,
+        corner & 4 ? rig->high.z : rig->low.z};
+    float y = middle.y + sbri_rotate(turn, sbri_sub(at, middle)).y;
+    if (y < min) min = y;
+  }
+  return -min * input->scale;
+}
+
+/* How it is turned against its heading. */
+static sbf_quat lean_of(const sbri_motion_state *m) {
+  sbf_quat pitch = {0, 0, 0, 1}, bank = {0, 0, 0, 1};
+  sbri_sincos(0.5f * m->pitch.value, &pitch.x, &pitch.w);
+  sbri_sincos(-0.5f * m->bank.value, &bank.z, &bank.w);
+  return sbri_quat_multiply(pitch, bank);
+}
+
+/* A vertical speed without drive: towards that at which drag carries what buoyancy does not. */
+static float drifted(float up, float buoyancy, float g, float length_m, float h) {
+  float spare = buoyancy - 1, max = sqrtf(fabsf(spare) * g * length_m);
+  if (max > 0) {
+    float goal = spare > 0 ? max : -max;
+    return up + (goal - up) * (1 - sbri_exp(-h * fabsf(spare) * g / max));
+  }
+  return up * sbri_exp(-h * (fabsf(up) / length_m + 1 / REST_S));
+}
+
+/* A height above the ground, neither inside it nor out of the water. */
+static float bounded(const sbri_rig *rig, const sbri_gait_input *input, const sbri_motion_state *m,
+    float ground, float height, float *up) {
+  float lowest = sbri_afloat_lowest(rig, input, lean_of(m));
+  if (sbri_is_kind(rig, SBF_GAIT_KIND_SWIM) && rig->asset->environment.has_water) {
+    double surface = (double)rig->asset->environment.water_level - input->origin.y;
+    float max = (float)surface - rig->high.y * input->scale - ground;
+    if (height > max) {
+      height = max;
+      if (*up > 0) *up = 0;
+    }
+  }
+  if (height < lowest) {
+    height = lowest;
+    if (*up < 0) *up = 0;
+  }
+  return height;
+}
+
+static void lean(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbf_medium *medium, bool wanted) {
+  sbri_motion_state *m = sbri_motion(rig, state);
+  float cruise = rig->gait->walk_speed * input->scale, speed = state->forward;
+  float bank = sbri_atan2(medium->bank * speed * state->turn, gravity_of(rig));
+  bank = sbri_clamp(bank, -medium->bank_limit, medium->bank_limit);
+  float climb = sbri_atan2(m->up, fabsf(speed) + 0.25f * cruise);
+  if (!wanted) climb = 0; /* it sinks as it lies */
+  float pitch = -sbri_clamp(climb, -medium->pitch_limit, medium->pitch_limit);
+  pitch += medium->tilt * sbri_clamp(speed / cruise, -1.5f, 1.5f);
+  sbri_follower_step step = sbri_follower_step_of(LEANS_HZ, 1, 0, input->tick_s);
+  sbri_lag_tick(&m->bank, bank, &step);
+  sbri_lag_tick(&m->pitch, pitch, &step);
+}
+
+static void glide(sbri_motion_state *m, const sbri_gait_input *input, const sbf_medium *medium) {
+  bool still =
+      medium->glide_ratio > 0 && input->forward > 0 && -input->up * medium->glide_ratio >= input->forward;
+  m->glide += ((still ? 1.0f : 0.0f) - m->glide) * (1 - sbri_exp(-input->tick_s / GLIDE_S));
+  if (!still && m->glide < 1e-4f) m->glide = 0;
+  m->bob += medium->bob_frequency * input->tick_s;
+  m->bob -= (float)(int32_t)m->bob;
+  if (medium->bob == 0) m->bob = 0;
+}
+
+float sbri_afloat_move(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 *way) {
+  sbf_medium defaults;
+  const sbf_medium *medium = medium_of(rig, &defaults);
+  sbri_motion_state *m = sbri_motion(rig, state);
+  float h = input->tick_s, ease = 1 - sbri_exp(-h / EASE_S);
+  float length = medium->drag_length > 0 ? medium->drag_length : rig->wave_length;
+  sbf_vec3 size = sbri_sub(rig->high, rig->low);
+  if (!(length > 0)) length = size.x > size.z ? size.x : size.z;
+  if (!(length > size.y * 1e-3f)) length = size.y > 0 ? size.y : 1;
+  length *= input->scale;
+  bool goes = input->forward != 0 || input->sideways != 0 || input->up != 0,
+       wanted = goes || input->turn != 0;
+  if (goes) {
+    state->forward += (input->forward - state->forward) * ease;
+    state->sideways += (input->sideways - state->sideways) * ease;
+    m->up += (input->up - m->up) * ease;
+  } else {
+    float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
+    float left = sbri_exp(-h * (speed / length + 1 / REST_S));
+    state->forward *= left;
+    state->sideways *= left;
+    m->up = drifted(m->up, medium->buoyancy, gravity_of(rig), length, h);
+  }
+  state->turn += (input->turn - state->turn) * ease;
+  bool drifts = medium->buoyancy != 1;
+  if (!wanted && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->turn) < STILL) {
+    state->forward = state->sideways = state->turn = 0;
+    if (!drifts) m->up = 0;
+    if (state->standing_s < 1) state->standing_s += h;
+  } else {
+    state->standing_s = 0;
+  }
+  lean(rig, state, input, medium, wanted);
+  glide(m, input, medium);
+  float turned = state->turn * h, ground = sbri_ground_below(input, state->position, NULL).y;
+  sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
+  float height = ground + state->position.y + m->up * h;
+  state->position.x += step.x, state->position.z += step.z;
+  float below = sbri_ground_below(input, state->position, NULL).y;
+  float at = bounded(rig, input, m, below, height - below, &m->up);
+  step.y = at + below - ground - state->position.y;
+  state->position.y = at;
+  state->heading = sbri_wrap_angle(state->heading + turned);
+  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  state->distance_m += (double)sbri_length(step);
+  *way = step;
+  return turned;
+}
+
+sbr_transform sbri_afloat_root(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform level) {
+  const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
+  sbf_medium defaults;
+  const sbf_medium *medium = medium_of(rig, &defaults);
+  sbf_vec3 middle = sbri_scale(sbri_lerp(rig->low, rig->high, 0.5f), input->scale);
+  sbr_transform root = level;
+  root.rotation = sbri_quat_normalize(sbri_quat_multiply(level.rotation, lean_of(m)));
+  sbf_vec3 moved = sbri_sub(sbri_rotate(level.rotation, middle), sbri_rotate(root.rotation, middle));
+  root.position = sbri_add(root.position, moved);
+  if (medium->bob > 0) {
+    float s, c, cruise = rig->gait->walk_speed * input->scale;
+    float rests = 1 - sbri_clamp(2 * sbri_motion_speed(rig, state) / cruise, 0, 1);
+    sbri_sincos(6.2831853f * m->bob, &s, &c);
+    root.position.y += rests * medium->bob * input->scale * s;
+  }
+  return root;
+}

@@ -1,0 +1,151 @@
+/* Kinds of gait other than walking: what all of them share, and which file moves what (spec 14.7). */
+#include "gait/motion_kinds.h"
+
+#include "math/trig.h"
+
+static const float STEERS_S = 0.15f;  /* over which fins and wheels take up a wanted turn */
+static const float TURNS_HOP = 0.05f; /* rad/s: a slower turn is not worth a hop */
+
+size_t sbri_motion_size(const sbri_rig *rig) {
+  if (!sbri_has_motion(rig)) return 0;
+  return sizeof(sbri_motion_state) + rig->gait->fins.count * sizeof(sbri_fin_state) +
+         (rig->gait->wheels.count + rig->gait->treads.count) * sizeof(float);
+}
+
+void sbri_motion_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  if (!sbri_is_afloat(rig)) return;
+  float altitude = rig->gait->medium ? rig->gait->medium->altitude * input->scale : 0;
+  float lowest = sbri_afloat_lowest(rig, input, sbri_quat_identity()) + altitude;
+  if (state->position.y < lowest) state->position.y = lowest;
+}
+
+sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *input) {
+  sbri_gait_input wanted = *input;
+  switch (rig->gait ? rig->gait->kind : SBF_GAIT_KIND_WALK) {
+  case SBF_GAIT_KIND_NONE:
+    wanted.forward = wanted.sideways = wanted.turn = wanted.up = 0;
+    break;
+  case SBF_GAIT_KIND_SLITHER: {
+    /* It goes after its nose: ahead, and it turns as it goes. */
+    if (wanted.forward < 0) wanted.forward = 0;
+    wanted.sideways = 0;
+    float length = rig->wave_length * input->scale, max = length > 0 ? 4 * wanted.forward / length : 0;
+    wanted.turn = sbri_clamp(wanted.turn, -max, max);
+    break;
+  }
+  case SBF_GAIT_KIND_ROLL:
+    wanted.sideways = 0;
+    sbri_wheels_allow(rig, &wanted);
+    break;
+  default:
+    break;
+  }
+  return wanted;
+}
+
+/* Hops: half of the time on the ground, twice as fast in the air. */
+float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  if (!sbri_is_kind(rig, SBF_GAIT_KIND_CRAWL) || rig->gait->undulation) return 1;
+  sbri_motion_state *m = sbri_motion(rig, state);
+  bool wanted = input->forward != 0 || input->sideways != 0 || fabsf(input->turn) > TURNS_HOP;
+  if (!wanted && m->hop == 0) return 1; /* what is left of its speed dies away on the ground */
+  float before = m->hop;
+  m->hop += input->tick_s / rig->gait->step_duration;
+  if (before < 0.5f && m->hop >= 0.5f && !wanted) m->hop = 0;
+  if (m->hop >= 1) m->hop = wanted ? m->hop - (float)(int32_t)m->hop : 0;
+  /* The share of the tick that it has been in the air. */
+  float end = m->hop < before ? m->hop + 1 : m->hop, span = end - before;
+  float air = (end < 1 ? end : 1) - (before > 0.5f ? before : 0.5f);
+  if (end > 1.5f) air += end - 1.5f;
+  return span > 0 && air > 0 ? 2 * (air < span ? air / span : 1) : 0;
+}
+
+static float hop_height(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
+  float q = 2 * m->hop - 1;
+  return q > 0 ? 4 * rig->gait->step_height * input->scale * q * (1 - q) : 0;
+}
+
+static float wrapped(float time, float duration) {
+  if (!(duration > 0)) return 0;
+  time -= duration * (float)(int32_t)(time / duration);
+  return time < 0 ? time + duration : time;
+}
+
+/* Times of the gait's own clips. */
+static void clips_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  sbri_motion_state *m = sbri_motion(rig, state);
+  const sbf_gait *gait = rig->gait;
+  float rate = sbri_motion_speed(rig, state) / (gait->walk_speed * input->scale);
+  if (state->forward < 0) rate = -rate;
+  if (gait->idle_clip != SBF_NONE)
+    m->idle_time = wrapped(m->idle_time + input->tick_s, rig->asset->clips.at[gait->idle_clip].duration);
+  if (gait->move_clip != SBF_NONE)
+    m->move_time =
+        wrapped(m->move_time + rate * input->tick_s, rig->asset->clips.at[gait->move_clip].duration);
+}
+
+void sbri_motion_tick(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step) {
+  if (!sbri_has_motion(rig)) return;
+  sbri_motion_state *m = sbri_motion(rig, state);
+  m->steering += (input->turn - m->steering) * (1 - sbri_exp(-input->tick_s / STEERS_S));
+  if (input->turn == 0 && fabsf(m->steering) < 1e-4f) m->steering = 0;
+  clips_tick(rig, state, input);
+  switch (rig->gait->kind) {
+  case SBF_GAIT_KIND_SWIM:
+  case SBF_GAIT_KIND_FLY:
+  case SBF_GAIT_KIND_CRAWL:
+    sbri_undulation_tick(rig, state, input);
+    sbri_fins_tick(rig, state, input);
+    break;
+  case SBF_GAIT_KIND_SLITHER:
+    sbri_slither_tick(rig, state, input, step);
+    sbri_fins_tick(rig, state, input);
+    break;
+  case SBF_GAIT_KIND_ROLL:
+    sbri_wheels_tick(rig, state, input);
+    break;
+  default:
+    break;
+  }
+}
+
+void sbri_motion_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift) {
+  if (!sbri_has_motion(rig)) return;
+  sbri_motion_state *m = sbri_motion(rig, state);
+  sbf_vec3 level = {shift.x, 0, shift.z};
+  if (!m->path_count) return;
+  m->nose = sbri_sub(m->nose, level);
+  for (uint32_t i = 0; i < m->path_count; i++) m->path[i] = sbri_sub(m->path[i], level);
+}
+
+sbr_transform sbri_motion_root(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform level) {
+  if (!sbri_has_motion(rig)) return level;
+  if (sbri_is_afloat(rig)) return sbri_afloat_root(rig, state, input, level);
+  if (sbri_is_kind(rig, SBF_GAIT_KIND_CRAWL)) level.position.y += hop_height(rig, state, input);
+  return level;
+}
+
+void sbri_motion_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, sbr_transform *pose) {
+  if (!sbri_has_motion(rig)) return;
+  switch (rig->gait->kind) {
+  case SBF_GAIT_KIND_SWIM:
+  case SBF_GAIT_KIND_FLY:
+  case SBF_GAIT_KIND_CRAWL:
+    sbri_undulation_pose(rig, state, input, root, pose);
+    sbri_fins_pose(rig, state, root, pose);
+    break;
+  case SBF_GAIT_KIND_SLITHER:
+    sbri_slither_pose(rig, state, input, root, pose);
+    sbri_fins_pose(rig, state, root, pose);
+    break;
+  case SBF_GAIT_KIND_ROLL:
+    sbri_wheels_pose(rig, state, input, root, pose);
+    break;
+  default:
+    break;
+  }
+}

@@ -1,0 +1,112 @@
+/* Moves bodies without deforming them, for those that no scheme can step: see soft/recovery.c.
+ *
+ * What is held goes with its guides. What is loose falls and turns freely; where one of its points gets below
+ * a plane that it may touch, the body as a whole is moved back onto that, loses its speed into it, Coulomb's
+ * share of its speed along it, and all of its spin. */
+#include "math/quat.h"
+#include "math/vec3.h"
+#include "solvers/rigid_motion.h"
+#include "solvers/scheme.h"
+
+enum { STEPS = 8 };
+
+static float *velocity_at(const sbri_island_tick *t, uint32_t slot) {
+  return t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+static sbf_vec3 place_of(const sbri_island_tick *t, uint32_t slot) {
+  return sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z);
+}
+
+static void set_place(const sbri_island_tick *t, uint32_t slot, sbf_vec3 x) {
+  t->positions[slot] = (sbri_point){x.x, x.y, x.z, 0};
+}
+
+static void follow_guides(const sbri_island_tick *t, const sbri_body *body) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    const float *guide = t->guide_velocities + (velocity_at(t, slot) - t->velocities);
+    float *v = velocity_at(t, slot);
+    for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK) v[k] = guide[k];
+    set_place(t, slot,
+        sbri_add_scaled(place_of(t, slot), sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), t->tick_s));
+  }
+}
+
+/* One point below its plane; `out`: by how much the body is moved back. */
+static void strike(sbri_rigid_motion *motion, sbf_vec3 *out, sbf_vec3 normal, float depth, float friction) {
+  depth -= sbri_dot(*out, normal);
+  if (!(depth > 0)) return;
+  *out = sbri_add_scaled(*out, normal, depth);
+  float speed = sbri_dot(motion->velocity, normal);
+  if (!(speed < 0)) return;
+  sbf_vec3 sideways = sbri_add_scaled(motion->velocity, normal, -speed);
+  float size = sbri_length(sideways), max = -speed * friction;
+  motion->velocity = sbri_scale(sideways, size > max ? 1 - max / size : 0);
+  motion->spin = sbri_vec3(0, 0, 0);
+}
+
+static void strike_planes(
+    const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, sbf_vec3 *out) {
+  for (uint32_t slot = body->slot_begin; !body->samples && slot < body->slot_real_end; slot++) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    if (!t->near_ground[block]) continue;
+    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
+    strike(motion, out, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, place_of(t, slot)), body->friction);
+  }
+  for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
+    const sbri_touch *touch = &t->touches[body->first_touch + i];
+    if (touch->collider == SBRI_ITSELF) continue;
+    float depth = touch->offset - sbri_dot(touch->normal, sbri_sample_place(t, &touch->sample));
+    strike(motion, out, touch->normal, depth, body->friction * touch->friction_share);
+  }
+}
+
+static void fly(const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, float h) {
+  float rate = sbri_length(motion->spin), sine, cosine;
+  sbri_sincos(0.5f * rate * h, &sine, &cosine);
+  sbf_vec3 axis = sbri_scale(motion->spin, rate > 0 ? sine / rate : 0);
+  sbf_quat turn = {axis.x, axis.y, axis.z, cosine};
+  sbf_vec3 to = sbri_add_scaled(motion->center, motion->velocity, h);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+    set_place(t, slot, sbri_add(to, sbri_rotate(turn, sbri_sub(place_of(t, slot), motion->center))));
+  motion->center = to;
+}
+
+static void move_loose(const sbri_island_tick *t, const sbri_body *body) {
+  float h = t->tick_s / STEPS;
+  sbri_rigid_motion motion = sbri_rigid_motion_find(t->island, body, t->positions, t->velocities);
+  for (int s = 0; s < STEPS; s++) {
+    sbf_vec3 out = {0, 0, 0};
+    motion.velocity =
+        sbri_add_scaled(motion.velocity, t->gravity, h * body->source->attributes.gravity_scale);
+    fly(t, body, &motion, h);
+    strike_planes(t, body, &motion, &out);
+    motion.center = sbri_add(motion.center, out);
+    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+      set_place(t, slot, sbri_add(place_of(t, slot), out));
+  }
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    sbf_vec3 arm = sbri_sub(place_of(t, slot), motion.center);
+    sbf_vec3 goes = sbri_add(motion.velocity, sbri_cross(motion.spin, arm));
+    float *v = velocity_at(t, slot);
+    v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
+  }
+}
+
+static void tick(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[island->bodies[b]];
+    if (body->slot_begin == body->slot_end) continue;
+    if (body->held)
+      follow_guides(t, body);
+    else
+      move_loose(t, body);
+  }
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++)
+    t->positions[slot] = t->targets[slot];
+  *t->stretch = island->rest_stretch, *t->stiffening = 1, *t->min_ratio = 1;
+}
+
+const sbri_scheme sbri_rigid_shape = {.word = SBF_SCHEME_AUTOMATIC, .tick = tick};

@@ -1,0 +1,105 @@
+/* What a tuning promises of a level holds by drives that it was not tuned by: no harsher than its own harsher
+ * one. */
+#include "chart/rounds.h"
+#include "harness.h"
+#include "sbfmt/convert.h"
+#include "tune/trials.h"
+
+/* Turning by 10 rad/s to and fro and hopping by 3 % of the height, to beats that the tuning does not use. */
+static const chart_drive unseen[] = {
+    {.speed = 0.2,
+        .curve_rad_s = 0.3f,
+        .hop = 0.03,
+        .hop_ticks = {40, 40},
+        .turn_rad_s = -10,
+        .turn_ticks = {30, 30}},
+    {.speed = 0.5,
+        .curve_rad_s = 0.1f,
+        .hop = 0.03,
+        .hop_ticks = {20, 20},
+        .turn_rad_s = 10,
+        .turn_ticks = {10, 10}},
+    {.speed = 0.4,
+        .curve_rad_s = 0,
+        .hop = 0.03,
+        .hop_ticks = {50, 50},
+        .turn_rad_s = 10,
+        .turn_ticks = {12, 12}},
+};
+
+static tune_meshes meshes;
+static tune_yardstick yard, other;
+static tune_trials trials;
+
+static void make_yard(tune_yardstick *made, const chart_drive *drive) {
+  sbf_diagnostic error;
+  sbf_status status =
+      tune_yardstick_make(made, meshes.reference.asset, &(tune_measure){.drive = drive}, &error);
+  ck_assert_msg(status == SBF_OK, "%s", error.message);
+}
+
+static void setup(void) {
+  const tune_grid grid = {
+      .sizes = {60, 250}, .size_count = 2, .reference = 1000, .coarse = true, .calibrated_alone = true};
+  const tune_effort effort = {.own_scheme_alone = true, .rounds = 1};
+  sbf_asset *asset;
+  sbf_diagnostic error;
+  sbf_status status = sbf_convert(harness_source("examples/pudding/pudding.glb"), NULL, &asset, &error);
+  ck_assert_msg(status == SBF_OK, "%s", error.message);
+  status = tune_meshes_make(asset, &grid, &meshes, &error);
+  ck_assert_msg(status == SBF_OK, "%s", error.message);
+  sbf_asset_free(asset);
+  ck_assert_int_eq(tune_trials_plan(&meshes, &effort, &trials, &error), SBF_OK);
+  make_yard(&yard, NULL);
+  make_yard(&other, &tune_harsher_drive);
+  status = tune_trials_run(&meshes, &yard, &other, &effort, &trials, &error);
+  ck_assert_msg(status == SBF_OK, "%s", error.message);
+}
+static void teardown(void) {
+  tune_trials_free(&trials);
+  tune_yardstick_free(&yard);
+  tune_yardstick_free(&other);
+  tune_meshes_free(&meshes);
+}
+
+START_TEST(it_holds_by_drives_that_it_has_not_seen)
+{
+  tune_yardstick third;
+  make_yard(&third, &unseen[_i]);
+  ck_assert_uint_gt(trials.front_count, 0);
+  for (uint32_t i = 0; i < trials.front_count; i++) {
+    const tune_trial *trial = &trials.at[trials.front[i]];
+    tune_error is;
+    sbf_diagnostic error;
+    ck_assert_int_eq(
+        tune_yardstick_hold(&third, meshes.at[trial->mesh].asset, &trial->setting, NULL, &is, &error),
+        SBF_OK);
+    ck_assert(is.sound);
+    ck_assert_double_le(is.max_m, trial->max_m);
+    ck_assert_double_le(is.rms_m, trial->rms_m);
+  }
+  tune_yardstick_free(&third);
+}
+END_TEST
+
+START_TEST(it_is_a_quarter_more_than_either_drive_shows)
+{
+  for (uint32_t i = 0; i < trials.front_count; i++) {
+    const tune_trial *trial = &trials.at[trials.front[i]];
+    ck_assert_double_ge(trial->max_m, 1.25 * (trial->error.max_m + yard.max_m) - 1e-12);
+    ck_assert_double_ge(trial->max_m, 1.25 * (trial->other.max_m + other.max_m) - 1e-12);
+    ck_assert_double_ge(trial->rms_m, 1.25 * (trial->other.rms_m + other.rms_m) - 1e-12);
+    if (i > 0) ck_assert_double_lt(trial->max_m, trials.at[trials.front[i - 1]].max_m);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("promised");
+  TCase *c = tcase_create("promised");
+  tcase_add_unchecked_fixture(c, setup, teardown);
+  tcase_add_test(c, it_is_a_quarter_more_than_either_drive_shows);
+  tcase_add_loop_test(c, it_holds_by_drives_that_it_has_not_seen, 0, sizeof unseen / sizeof *unseen);
+  suite_add_tcase(suite, c);
+  return harness_run(suite);
+}
