@@ -31,7 +31,8 @@ typedef struct sbri_contact_surface {
   /* (triangle_count) A bit per edge. Two-sided surface: boundary edges and folds, renewed each tick. Closed
    * surface: convex ridges at rest. */
   uint8_t *edge_flags;
-  /* Renewed each tick: */
+  /* Renewed in each tick in which another body is near: */
+  bool is_current; /* scratch of the narrow phase */
   sbf_vec3 *positions, *displacements; /* (vertex_count) */
   float max_displacement_m;            /* displacement of the fastest point in the tick, m */
   uint32_t *inside_parents;            /* (vertex_count) scratch of overlap_clusters.c */
@@ -260,8 +261,12 @@ sbf_vec3 sbri_sample_rest_position(const sbr_model *model, uint32_t soft_body, c
 /* Allocates the arrays that a tick renews. False: out of memory. */
 bool sbri_contact_surface_allocate(
     sbri_contact_surface *surface, uint32_t vertices, uint32_t triangles, sbfi_arena *arena);
-/* Builds the bounds tree over the swept triangles, each grown by `reach`, m. */
-void sbri_contact_surface_build_tree(sbri_contact_surface *surface, float reach);
+bool sbri_contact_surface_allocate_tree(sbri_contact_surface *surface, uint32_t triangles, sbfi_arena *arena);
+/* Builds the bounds tree at the rest positions. Its structure stays, so that it does not depend on what has
+ * happened in a world. */
+void sbri_contact_surface_build_tree(sbri_contact_surface *surface);
+/* Fits the tree to the swept triangles, each grown by `reach`, m. */
+void sbri_contact_surface_refit_tree(sbri_contact_surface *surface, float reach);
 /* Measures mean edge length and thickness at the current positions. */
 void sbri_contact_surface_measure(sbri_contact_surface *surface);
 
@@ -306,7 +311,7 @@ void sbri_near_characters_find(sbr_world *world);
 
 /* ---- body_contact/narrow_phase.c ---- */
 
-/* Finds the contacts of a group for this tick, up to its capacity. */
+/* Finds the contacts of a group for this tick, up to its capacity, and marks the islands that they push. */
 void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group);
 
 /* ---- body_contact/warm_start.c ---- */

@@ -1,4 +1,6 @@
 /* Broad phase: pairs of bodies with overlapping swept bounds, and the groups of characters that follow. */
+#include <string.h>
+
 #include "body_contact/body_contacts.h"
 #include "math/vec3.h"
 #include "model/reach.h"
@@ -234,6 +236,8 @@ void sbri_broad_phase_update(sbr_world *world) {
   all->body_count = all->pair_count = all->group_count = 0;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     group_of[i] = i;
+    if (world->characters[i].model)
+      memset(sbri_contact_islands(&world->characters[i]), 0, world->characters[i].model->island_count);
     if (world->characters[i].model && !sbri_head(&world->characters[i])->paused) list_character(world, i);
   }
   find_pairs(world);

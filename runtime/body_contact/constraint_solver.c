@@ -8,9 +8,11 @@
  * boxes. */
 #include "body_contact/constraint_solver.h"
 
-enum { MAX_ITERATIONS = 60 }; /* upper bound */
+/* Upper bounds. Pushes go on from those of the step before, so that what presses on soft bodies is found over
+ * a few steps; a tower of rigid boxes stands only if each step finds them all. */
+enum { MAX_RIGID_ITERATIONS = 60, MAX_SOFT_ITERATIONS = 12 };
 /* An iteration that changes no velocity by more is the last. */
-static const float CONVERGED_M_S = 2e-5f;
+static const float CONVERGED_RIGID_M_S = 2e-5f, CONVERGED_SOFT_M_S = 2e-4f;
 /* m^2/s^2: below this slip has no direction. */
 static const float MIN_SLIP = 1e-20f;
 
@@ -208,12 +210,14 @@ static void extrapolate_soft(sbri_contact_constraint *r, float factor) {
 typedef struct kind {
   float (*correct_rigid)(sbri_contact_constraint *row);
   void (*extrapolate)(sbri_contact_constraint *row, float factor);
+  int max_iterations;
+  float converged_m_s;
 } kind;
 
 SBRI_INLINE void solve(sbri_contact_constraint *rows, uint32_t count, const kind *of) {
-  const float converged = CONVERGED_M_S * CONVERGED_M_S;
+  const float converged = of->converged_m_s * of->converged_m_s;
   float last = 0;
-  for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+  for (int iteration = 0; iteration < of->max_iterations; iteration++) {
     float max_value = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
       rows[i].change = sbri_four_scale(rows[i].impulse, -1);
@@ -240,7 +244,8 @@ SBRI_INLINE void solve(sbri_contact_constraint *rows, uint32_t count, const kind
 }
 
 void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count) {
-  static const kind rigid = {correct_rigid, extrapolate_rigid}, soft = {correct_soft, extrapolate_soft};
+  const kind rigid = {correct_rigid, extrapolate_rigid, MAX_RIGID_ITERATIONS, CONVERGED_RIGID_M_S},
+             soft = {correct_soft, extrapolate_soft, MAX_SOFT_ITERATIONS, CONVERGED_SOFT_M_S};
   sbri_solver_body fixed_body = {.inverse_mass = 0};
   bool all_are_rigid = true;
   for (uint32_t i = 0; i < count; i++) {

@@ -37,17 +37,16 @@ static uint32_t count_triangles(const sbf_polygon_mesh *mesh) {
 static bool allocate_or_share(sbri_contact_surface *s, const sbri_contact_surface *other, uint32_t vertices,
     uint32_t triangles, sbfi_arena *arena) {
   if (!other) return sbri_contact_surface_allocate(s, vertices, triangles, arena);
-  s->positions = other->positions, s->displacements = other->displacements, s->boxes = other->boxes,
-  s->tree = other->tree;
+  s->positions = other->positions, s->displacements = other->displacements, s->boxes = other->boxes;
   s->inside_parents = other->inside_parents;
-  return true;
+  return sbri_contact_surface_allocate_tree(s, triangles, arena);
 }
 
-/* Measures the rest shape. */
-static void measure(const sbr_model *model, uint32_t body, sbri_contact_surface *s) {
-  for (uint32_t v = 0; v < s->vertex_count; v++)
+static void set_rest_positions(const sbr_model *model, uint32_t body, sbri_contact_surface *s) {
+  for (uint32_t v = 0; v < s->vertex_count; v++) {
     s->positions[v] = sbri_sample_rest_position(model, body, &s->samples[v]);
-  sbri_contact_surface_measure(s);
+    s->displacements[v] = sbri_vec3(0, 0, 0);
+  }
 }
 
 /* `first`: surface of the first detail level, or NULL. */
@@ -75,8 +74,11 @@ static bool create(const sbr_model *model, const sbri_body *body, sbri_contact_s
   sbf_body_measure(body->source, &measures);
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
   s->closed = !s->two_sided && sbri_contact_surface_is_closed(s);
-  if (s->closed) measure(model, (uint32_t)(body - model->bodies), s);
-  return (!s->two_sided && !s->closed) || sbri_surface_edges_create(s, arena);
+  set_rest_positions(model, (uint32_t)(body - model->bodies), s);
+  if (s->closed) sbri_contact_surface_measure(s);
+  if ((s->two_sided || s->closed) && !sbri_surface_edges_create(s, arena)) return false;
+  sbri_contact_surface_build_tree(s);
+  return true;
 }
 
 /* Copies the relations of another character of the same model, if there is one. */
@@ -271,5 +273,5 @@ void sbri_contact_surface_update(sbr_world *world, const sbri_group_member *m, u
   if (s->two_sided && s->triangle_count) sbri_surface_edges_update(s);
   const sbf_collision *rule = &body->source->collision;
   float reach = m->scale * fmaxf(rule->outer_thickness, rule->inner_thickness);
-  sbri_contact_surface_build_tree(s, reach);
+  sbri_contact_surface_refit_tree(s, reach);
 }

@@ -25,7 +25,9 @@ static bool create(const sbri_rigid_body *body, sbri_contact_surface *s, sbfi_ar
   }
   s->closed = sbri_contact_surface_is_closed(s);
   sbri_contact_surface_measure(s);
-  return sbri_surface_edges_create(s, arena);
+  if (!sbri_surface_edges_create(s, arena)) return false;
+  sbri_contact_surface_build_tree(s);
+  return true;
 }
 
 bool sbri_contact_hulls_create(const sbr_model *model, sbri_contact_surface *hulls, sbfi_arena *arena) {
@@ -43,5 +45,5 @@ void sbri_contact_hull_update(const sbri_rigid_body *body, const sbr_transform *
     sbf_vec3 to = sbri_add_scaled(end->position, sbri_rotate(end->rotation, local), scale);
     s->displacements[v] = sbri_sub(to, s->positions[v]);
   }
-  sbri_contact_surface_build_tree(s, 0);
+  sbri_contact_surface_refit_tree(s, 0);
 }

@@ -48,15 +48,32 @@ static sbri_surface_face face_of(const sbri_pair_body *p, uint32_t triangle) {
   return face;
 }
 
-/* Finds the most urgent triangle of `b` for a moving point of `a`. The search goes beyond the margin: a
- * resting contact would otherwise be lost every other tick, and the body would sink. */
-static bool find_face(const sbri_pair_body *a, const sbri_pair_body *b, sbf_vec3 x, sbf_vec3 displacement,
-    sbri_surface_finding *best) {
-  sbri_surface_rule rule = rule_of(b);
-  float margin = sbri_pair_margin(a, b), search_distance = sbri_pair_search_distance(margin, b);
+/* A search for triangles of `b` near points of `a`. It goes beyond the margin: a resting contact would
+ * otherwise be lost every other tick, and the body would sink. */
+typedef struct face_search {
+  const sbri_pair_body *b;
+  sbri_surface_rule rule;
+  float margin, distance; /* m; beyond a point's displacement */
+} face_search;
+
+static face_search face_search_of(const sbri_pair_body *a, const sbri_pair_body *b) {
+  face_search search = {.b = b, .rule = rule_of(b), .margin = sbri_pair_margin(a, b)};
+  float distance = sbri_pair_search_distance(search.margin, b);
+  if (a->soft && search.margin > 0 && distance > search.rule.outer)
+    search.rule.outer = search.distance = distance;
+  return search;
+}
+
+static sbri_box search_box(const face_search *search, sbf_vec3 x, sbf_vec3 displacement) {
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, displacement));
-  if (a->soft && margin > 0 && search_distance > rule.outer)
-    rule.outer = search_distance, box = sbri_box_grown(box, search_distance);
+  return sbri_box_grown(box, search->distance);
+}
+
+/* Finds the most urgent triangle for a moving point. */
+static bool find_face(
+    const face_search *search, sbf_vec3 x, sbf_vec3 displacement, sbri_surface_finding *best) {
+  const sbri_pair_body *b = search->b;
+  sbri_box box = search_box(search, x, displacement);
   sbri_bounds_walk walk;
   uint32_t triangle;
   *best = sbri_surface_nothing();
@@ -64,7 +81,7 @@ static bool find_face(const sbri_pair_body *a, const sbri_pair_body *b, sbf_vec3
   while (sbri_bounds_walk_next(&walk, &triangle)) {
     if (!sbri_box_meets(&box, &b->surface->boxes[triangle])) continue;
     sbri_surface_face face = face_of(b, triangle);
-    sbri_surface_look(&rule, x, displacement, &face, triangle, best);
+    sbri_surface_look(&search->rule, x, displacement, &face, triangle, best);
   }
   return sbri_surface_found(best);
 }
@@ -83,15 +100,19 @@ static bool may_resolve_deep(
 static void find_face_contacts(
     const sbri_narrow_phase *f, const sbri_pair_body *a, const sbri_pair_body *b, bool resolves_deep) {
   sbri_surface_rule rule = rule_of(b);
+  const face_search search = face_search_of(a, b);
   const float full_weight = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
     sbri_surface_finding best;
-    if (!(a->surface->samples[v].mass_kg > 0)) continue;
-    sbf_vec3 x = a->surface->positions[v];
-    bool deep = !find_face(a, b, x, a->surface->displacements[v], &best);
+    sbf_vec3 x = a->surface->positions[v], displacement = a->surface->displacements[v];
+    sbri_box box = search_box(&search, x, displacement);
+    if (!(a->surface->samples[v].mass_kg > 0) || !b->surface->triangle_count ||
+        !sbri_box_meets(&box, &b->surface->tree.nodes[0].box))
+      continue;
+    bool deep = !find_face(&search, x, displacement, &best);
     if (deep && (!resolves_deep || !sbri_find_nearest_exit(b, x, &best))) continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
-    float margin = sbri_pair_margin(a, b);
+    float margin = search.margin;
     if (sbri_are_same_character(a, b) && !deep) {
       const sbf_vec3 p[3] = {sbri_pair_body_rest_position(b, corners[0]),
           sbri_pair_body_rest_position(b, corners[1]), sbri_pair_body_rest_position(b, corners[2])};
@@ -187,7 +208,8 @@ static void find_hull_vertex_contacts(
     float reach =
         sbri_reach_of(soft->soft, soft->owner->scale, local, soft->surface->max_displacement_m) / scale;
     uint32_t face;
-    if (sbri_hull_depth(hull, begin, &face) > reach) continue;
+    sbri_box way = sbri_box_grown(sbri_box_with(sbri_box_of_point(begin), end), reach);
+    if (!sbri_box_meets(&way, &hull->box) || sbri_hull_depth(hull, begin, &face) > reach) continue;
     float gap = sbri_hull_nearest(hull, begin, &point, &normal);
     if (gap > 0 && sbri_hull_enter(hull, begin, displacement, &fraction, &entered))
       point = sbri_add_scaled(begin, displacement, fraction), normal = entered;
@@ -225,10 +247,11 @@ static void flip_if_passed_through(const sbri_pair_body *rigid, const sbri_pair_
 static void find_hull_corner_contacts(
     const sbri_narrow_phase *f, const sbri_pair_body *rigid, const sbri_pair_body *soft, bool resolves_deep) {
   sbr_transform source = sbri_pair_body_frame(rigid, false), to = sbri_pair_body_frame(rigid, true);
+  const face_search search = face_search_of(rigid, soft);
   for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
     sbf_vec3 local = rigid->rigid->vertices[i], x = to_world(&source, local, rigid->owner->scale);
     sbri_surface_finding best;
-    bool deep = !find_face(rigid, soft, x, sbri_sub(to_world(&to, local, rigid->owner->scale), x), &best);
+    bool deep = !find_face(&search, x, sbri_sub(to_world(&to, local, rigid->owner->scale), x), &best);
     if (deep && (!resolves_deep || !sbri_find_nearest_exit(soft, x, &best))) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
     if (soft->surface->two_sided) flip_if_passed_through(rigid, soft, local, &source, &best);
@@ -285,15 +308,58 @@ static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
 
 /* ---- All ---- */
 
+/* Whether a soft body and a hull are nearer than any search between them goes. */
+static bool may_touch_hull(const sbri_pair_body *soft, const sbri_pair_body *rigid) {
+  const sbri_contact_surface *s = soft->surface;
+  if (!s->triangle_count) return true;
+  float reach = sbri_reach_of(soft->soft, soft->owner->scale, s->max_displacement_m, s->max_displacement_m),
+        distance = sbri_pair_search_distance(sbri_pair_margin(rigid, soft), soft);
+  sbri_box grown = sbri_box_grown(sbri_pair_body_hull_box(rigid), reach > distance ? reach : distance);
+  return sbri_box_meets(&grown, &s->tree.nodes[0].box);
+}
+
+/* The same of two soft bodies. */
+static bool may_touch(const sbri_pair_body *a, const sbri_pair_body *b) {
+  if (!a->surface->triangle_count || !b->surface->triangle_count) return true;
+  float distance = fmaxf(sbri_pair_search_distance(sbri_pair_margin(a, b), b),
+      sbri_pair_search_distance(sbri_pair_margin(b, a), a));
+  sbri_box grown = sbri_box_grown(a->surface->tree.nodes[0].box, distance);
+  return sbri_box_meets(&grown, &b->surface->tree.nodes[0].box);
+}
+
+/* Surfaces of the soft bodies that are in a pair. */
+static void update_surfaces(const sbri_narrow_phase *f) {
+  const sbri_body_contacts *all = f->world->body_contacts;
+  for (uint32_t i = 0; i < 2 * f->group->pair_count; i++) {
+    const sbri_contact_pair *pair = &all->pairs[f->group->first_pair + i / 2];
+    sbri_pair_body p = pair_body_of(f, i % 2 ? pair->b : pair->a);
+    if (p.soft) p.surface->is_current = false;
+  }
+  for (uint32_t i = 0; i < 2 * f->group->pair_count; i++) {
+    const sbri_contact_pair *pair = &all->pairs[f->group->first_pair + i / 2];
+    sbri_pair_body p = pair_body_of(f, i % 2 ? pair->b : pair->a);
+    if (!p.soft || p.surface->is_current) continue;
+    sbri_contact_surface_update(f->world, p.owner, p.body->body_index);
+    p.surface->is_current = true;
+  }
+}
+
+/* Marks the islands that contacts push. */
+static void mark_islands(const sbri_narrow_phase *f) {
+  const sbri_contact *contacts = f->world->body_contacts->contacts + f->group->first_contact;
+  for (uint32_t i = 0; i < f->group->contact_count; i++) {
+    const sbri_contact_side *sides[2] = {&contacts[i].a, &contacts[i].b};
+    for (int k = 0; k < 2; k++)
+      if (sides[k]->rigid_body == SBRI_CONTACT_SOFT)
+        sbri_contact_islands(f->members[sides[k]->member].character)[sides[k]->island] = 1;
+  }
+}
+
 void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
   sbri_body_contacts *all = world->body_contacts;
   sbri_narrow_phase f = {world, group, all->members + group->first_member};
   group->contact_count = 0;
-  for (uint32_t m = 0; m < group->member_count; m++) {
-    const sbr_model *model = f.members[m].character->model;
-    for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
-      if (model->bodies[b].level) sbri_contact_surface_update(world, &f.members[m], b);
-  }
+  update_surfaces(&f);
   for (uint32_t i = 0; i < group->pair_count; i++) {
     sbri_contact_pair pair = all->pairs[group->first_pair + i];
     sbri_pair_body a = pair_body_of(&f, pair.a), b = pair_body_of(&f, pair.b);
@@ -303,6 +369,7 @@ void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
       sbri_find_hull_contacts(&f, &a, &b);
     } else if (a.rigid || b.rigid) {
       const sbri_pair_body *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
+      if (!may_touch_hull(soft, rigid)) continue;
       uint32_t first = group->contact_count;
       bool resolve_deep = may_resolve_deep(&f, soft, rigid);
       find_hull_vertex_contacts(&f, soft, rigid);
@@ -311,7 +378,7 @@ void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
         sbri_resolve_crossings(&f, soft, rigid, first);
         sbri_find_ridge_contacts(&f, soft, rigid, first);
       }
-    } else {
+    } else if (may_touch(&a, &b)) {
       uint32_t first = group->contact_count;
       bool resolve_deep = may_resolve_deep(&f, &a, &b);
       find_face_contacts(&f, &a, &b, resolve_deep);
@@ -324,4 +391,5 @@ void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
     }
   }
   for (uint32_t m = 0; m < group->member_count; m++) add_plane_contacts(&f, m);
+  mark_islands(&f);
 }

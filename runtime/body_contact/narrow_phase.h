@@ -53,6 +53,8 @@ sbri_contact_side sbri_soft_contact_side(
     const sbri_pair_body *p, const uint32_t *vertices, const float *weights, int count);
 /* Frame of a rigid body at the begin or, if nothing acts, the end of the tick; relative to the group. */
 sbr_transform sbri_pair_body_frame(const sbri_pair_body *p, bool end);
+/* Swept bounds of a rigid body's hull in the tick; relative to the group. */
+sbri_box sbri_pair_body_hull_box(const sbri_pair_body *p);
 /* Weighted mean of vertices of its surface or hull, at their current positions. */
 sbri_contact_side sbri_pair_body_side(
     const sbri_pair_body *p, const uint32_t *vertices, const float *weights, int count);

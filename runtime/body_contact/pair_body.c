@@ -38,6 +38,22 @@ sbr_transform sbri_pair_body_frame(const sbri_pair_body *p, bool end) {
   return frame;
 }
 
+static sbri_box hull_box_at(const sbri_pair_body *p, const sbr_transform *frame) {
+  sbri_box box = p->rigid->hull.box, at = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  for (int corner = 0; corner < 8; corner++) {
+    sbf_vec3 x = {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+        corner & 4 ? box.high.z : box.low.z};
+    at =
+        sbri_box_with(at, sbri_add_scaled(frame->position, sbri_rotate(frame->rotation, x), p->owner->scale));
+  }
+  return at;
+}
+
+sbri_box sbri_pair_body_hull_box(const sbri_pair_body *p) {
+  sbr_transform from = sbri_pair_body_frame(p, false), to = sbri_pair_body_frame(p, true);
+  return sbri_box_join(hull_box_at(p, &from), hull_box_at(p, &to));
+}
+
 sbri_contact_side sbri_pair_body_side(
     const sbri_pair_body *p, const uint32_t *vertices, const float *weights, int count) {
   if (p->soft) return sbri_soft_contact_side(p, vertices, weights, count);

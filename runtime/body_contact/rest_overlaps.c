@@ -13,7 +13,7 @@ static void set_rest_positions(const sbr_model *model, uint32_t body, sbri_conta
     s->positions[v] = sbri_sample_rest_position(model, body, &s->samples[v]);
     s->displacements[v] = sbri_vec3(0, 0, 0);
   }
-  sbri_contact_surface_build_tree(s, reach);
+  sbri_contact_surface_refit_tree(s, reach);
 }
 
 /* Whether a vertex of the one touches, or is inside of, the other at rest. */

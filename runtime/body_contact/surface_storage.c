@@ -11,18 +11,23 @@ sbf_vec3 sbri_sample_rest_position(const sbr_model *model, uint32_t body, const 
   return x;
 }
 
+bool sbri_contact_surface_allocate_tree(sbri_contact_surface *s, uint32_t triangles, sbfi_arena *arena) {
+  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
+  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
+  return s->tree.items && s->tree.nodes;
+}
+
 bool sbri_contact_surface_allocate(
     sbri_contact_surface *s, uint32_t vertices, uint32_t triangles, sbfi_arena *arena) {
   s->positions = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->positions);
   s->displacements = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->displacements);
   s->inside_parents = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->inside_parents);
   s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
-  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
-  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
-  return s->positions && s->displacements && s->inside_parents && s->boxes && s->tree.items && s->tree.nodes;
+  return s->positions && s->displacements && s->inside_parents && s->boxes &&
+         sbri_contact_surface_allocate_tree(s, triangles, arena);
 }
 
-void sbri_contact_surface_build_tree(sbri_contact_surface *s, float reach) {
+static void update_boxes(sbri_contact_surface *s, float reach) {
   for (uint32_t t = 0; t < s->triangle_count; t++) {
     const uint32_t *corners = s->triangles + 3 * (size_t)t;
     sbri_box box = sbri_box_of_point(s->positions[corners[0]]);
@@ -32,7 +37,16 @@ void sbri_contact_surface_build_tree(sbri_contact_surface *s, float reach) {
     }
     s->boxes[t] = sbri_box_grown(box, reach);
   }
+}
+
+void sbri_contact_surface_build_tree(sbri_contact_surface *s) {
+  update_boxes(s, 0);
   sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+}
+
+void sbri_contact_surface_refit_tree(sbri_contact_surface *s, float reach) {
+  update_boxes(s, reach);
+  sbri_bounds_tree_refit(&s->tree, s->boxes);
 }
 
 void sbri_contact_surface_measure(sbri_contact_surface *s) {

@@ -70,6 +70,19 @@ void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32
   if (count) make_node(tree, boxes, 0, count);
 }
 
+void sbri_bounds_tree_refit(sbri_bounds_tree *tree, const sbri_box *boxes) {
+  for (uint32_t n = tree->node_count; n-- > 0;) { /* children follow their parents */
+    sbri_bounds_node *node = &tree->nodes[n];
+    if (node->count == 0) {
+      node->box = sbri_box_join(tree->nodes[n + 1].box, tree->nodes[node->first].box);
+      continue;
+    }
+    const uint32_t *items = tree->items + node->first;
+    node->box = boxes[items[0]];
+    for (uint32_t i = 1; i < node->count; i++) node->box = sbri_box_join(node->box, boxes[items[i]]);
+  }
+}
+
 bool sbri_bounds_walk_next(sbri_bounds_walk *walk, uint32_t *item) {
   const sbri_bounds_tree *tree = walk->tree;
   while (walk->at == walk->end) {

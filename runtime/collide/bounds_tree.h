@@ -1,6 +1,6 @@
-/* Which of many boxes lie near a place: a binary tree of boxes over them, made anew in n log n whenever they
- * have moved, in memory that is there already. For triangles of a mesh, faces of a soft surface, and all that
- * is in a world. */
+/* Which of many boxes lie near a place: a binary tree of boxes over them, made in n log n, in memory that is
+ * there already, and refitted when they have moved. For triangles of a mesh, faces of a soft surface, and all
+ * that is in a world. */
 #ifndef SBRI_BOUNDS_TREE_H
 #define SBRI_BOUNDS_TREE_H
 
@@ -61,6 +61,10 @@ static inline size_t sbri_bounds_tree_nodes(uint32_t item_count) {
 
 /* Over boxes[0] to boxes[count - 1]; `tree` has room for them. The same boxes give the same tree. */
 void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32_t count);
+
+/* The same items in the same nodes, after boxes have moved or grown: in time linear in their number. Searches
+ * stay exact, and fast while neighbours stay neighbours, as the triangles of a surface do. */
+void sbri_bounds_tree_refit(sbri_bounds_tree *tree, const sbri_box *boxes);
 
 /* A walk over the items whose leaves a box meets: begin, then next until it says false. */
 enum { SBRI_BOUNDS_TREE_DEPTH = 64 };

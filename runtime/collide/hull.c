@@ -91,6 +91,8 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
   if (!m.faces || !m.edges || !m.corners || !m.face_of_edge) return false;
   for (uint32_t i = 0; i < vertex_count; i++)
     hull->middle = sbri_add_scaled(hull->middle, vertices[i], 1 / (float)vertex_count);
+  if (vertex_count) hull->box = sbri_box_of_point(hull->vertices[0]);
+  for (uint32_t i = 1; i < vertex_count; i++) hull->box = sbri_box_with(hull->box, hull->vertices[i]);
   hull->faces = m.faces, hull->edges = m.edges, hull->corners = m.corners;
   for (uint32_t f = 0; f < face_count; corners += sizes[f++])
     if (sizes[f] >= 3) add_face(&m, corners, sizes[f]);

@@ -24,6 +24,7 @@ typedef struct sbri_hull {
   const sbri_hull_edge *edges;
   uint32_t vertex_count, face_count, corner_count, edge_count;
   sbf_vec3 middle; /* mean of the vertices, inside */
+  sbri_box box;
 } sbri_hull;
 
 /* Of polygons over vertices, in any winding. Faces in one plane stay faces of their own; what is flat

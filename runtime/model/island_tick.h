@@ -85,7 +85,7 @@ typedef struct sbri_island_tick {
   const sbri_island *island;
   float tick_s;     /* a share of the control tick where the island steps along with rigid bodies: */
   float share;      /* of it; 1: all */
-  bool meets;       /* bodies of characters may touch its own */
+  bool meets;       /* in contact with bodies of characters */
   sbf_vec3 gravity; /* m/s^2 */
   sbf_vec3 wind;    /* m/s */
   sbr_double3 origin;

@@ -36,7 +36,8 @@ static const sbri_hull_edge edges[12] = {{{0, 1}, {DOWN, FRONT}}, {{2, 3}, {UP, 
     {{4, 5}, {DOWN, BACK}}, {{6, 7}, {UP, BACK}}, {{0, 2}, {LEFT, FRONT}}, {{1, 3}, {RIGHT, FRONT}},
     {{4, 6}, {LEFT, BACK}}, {{5, 7}, {RIGHT, BACK}}, {{0, 4}, {LEFT, DOWN}}, {{1, 5}, {RIGHT, DOWN}},
     {{2, 6}, {LEFT, UP}}, {{3, 7}, {RIGHT, UP}}};
-static const sbri_hull quadrant = {corners, faces, rounds, edges, 8, 6, 24, 12, {0, -0.5f, 0.5f}};
+static const sbri_hull quadrant = {
+    corners, faces, rounds, edges, 8, 6, 24, 12, {0, -0.5f, 0.5f}, {{-1, -1, 0}, {1, 0, 1}}};
 
 typedef struct stairs {
   const sbri_rigid_tick *tick;

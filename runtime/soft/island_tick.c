@@ -57,7 +57,7 @@ sbri_island_tick sbri_island_tick_of(
       .island = island,
       .tick_s = tick_s,
       .share = 1,
-      .meets = world->body_contacts != NULL,
+      .meets = world->body_contacts && sbri_contact_islands(c)[index],
       .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
       .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
       .origin = sbri_head(c)->origin,

@@ -1,9 +1,9 @@
-/* The tick of characters that meet each other: they step along with each other, in one task.
+/* The tick of characters whose bodies are in contact, in one task.
  *
- * All steps are as long for all, as short as the one needs that needs the shortest, and before each the
- * touches between them push (body_contact/contact_step.c). Within a step everybody does what it does alone.
- * What is crushed stiffens, so after each step all are asked again, and if someone needs shorter ones the
- * rest of the tick is divided anew. */
+ * Rigid parts and the islands in contact take steps of one length, that of the one that needs the shortest,
+ * and before each the contacts push (body_contact/contact_step.c). Within a step everything moves as it does
+ * alone. What is crushed stiffens, so after each step all are asked again, and if one needs shorter ones the
+ * rest of the tick is divided anew. Islands that nothing is in contact with take their own steps. */
 #include <string.h>
 
 #include "body_contact/body_contacts.h"
@@ -42,6 +42,10 @@ static bool is_own(const sbri_group_member *m, uint32_t island) {
          !sbri_island_states(c)[island].asleep;
 }
 
+static bool is_in_contact(const sbri_group_member *m, uint32_t island) {
+  return is_own(m, island) && sbri_contact_islands(m->character)[island];
+}
+
 /* ---- Before ---- */
 
 static uint32_t steps_of(const sbri_island_tick *t) {
@@ -59,7 +63,7 @@ static void hold(sbri_character *c, const sbri_island *island) {
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) begins[slot] = positions[slot];
 }
 
-static uint32_t begin_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
+static void begin_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   (void)sbri_island_follow(c, &now, index, m->tick_s); /* what has jumped goes on from there */
@@ -68,26 +72,35 @@ static uint32_t begin_island(const sbr_world *world, sbri_group_member *m, uint3
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.outer_rad_s = &now.outer_rad_s;
   sbri_outer_look(&tick);
-  sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
+  hold(c, &now);
   sbri_island_prepare_contacts(&tick, c);
   (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery);
-  uint32_t steps = steps_of(&tick);
-  hold(c, &now);
-  return steps;
 }
 
-static uint32_t begin(const sbr_world *world, sbri_group_member *m) {
+static void begin(const sbr_world *world, sbri_group_member *m) {
   sbri_character *c = m->character;
-  uint32_t max = MIN_STEPS;
-  if (sbri_rigid_parts_begin(world, c, &m->parts) && m->parts.tick.substeps > max)
-    max = m->parts.tick.substeps;
+  (void)sbri_rigid_parts_begin(world, c, &m->parts);
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!is_own(m, i)) {
       if (sbri_island_is_coupled(c, i)) hold(c, &c->model->islands[i]);
       continue;
     }
-    uint32_t steps = begin_island(world, m, i);
+    begin_island(world, m, i);
+  }
+}
+
+/* How many steps of a tick the member needs; 0: nothing of it takes any. */
+static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) {
+  sbri_character *c = m->character;
+  uint32_t max = m->parts.steps ? m->parts.tick.substeps : 0;
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!is_in_contact(m, i)) continue;
+    sbri_island now = sbri_island_now(c, &c->model->islands[i]);
+    sbri_island_tick tick = sbri_island_tick_of(world, c, i, &now);
+    tick.outer_rad_s = &now.outer_rad_s;
+    sbri_outer_look(&tick);
+    uint32_t steps = steps_of(&tick);
     max = steps > max ? steps : max;
   }
   return max;
@@ -130,7 +143,7 @@ static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from
     max = m->parts.coupled.any ? m->parts.coupled.steps : 0;
   }
   for (uint32_t i = 0; i < c->model->island_count; i++) {
-    uint32_t steps = is_own(m, i) ? advance_island(world, m, i, from, to) : 0;
+    uint32_t steps = is_in_contact(m, i) ? advance_island(world, m, i, from, to) : 0;
     max = steps > max ? steps : max;
   }
   m->tick_fraction = to;
@@ -140,11 +153,23 @@ static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from
 
 /* ---- After ---- */
 
+/* The whole tick of an island that nothing is in contact with. */
+static void run_alone(const sbr_world *world, const sbri_group_member *m, uint32_t index) {
+  sbri_character *c = m->character;
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  if (m->parts.steps) /* which have moved what holds it */
+    sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
+  tick.outer_rad_s = &now.outer_rad_s;
+  sbri_outer_look(&tick);
+  sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
+}
+
 static void end_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  sbri_held_places(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
+  if (is_in_contact(m, index)) sbri_held_places(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
   sbri_island_tell(&tick, c);
   if (now.splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   (void)sbri_island_recover(world, c, index, NULL);
@@ -156,8 +181,11 @@ static void end(const sbr_world *world, sbri_group_member *m) {
   if (m->parts.steps) sbri_rigid_parts_end(&m->parts);
   sbri_jiggles_tick(c, m->tick_s);
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-  for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (is_own(m, i)) end_island(world, m, i);
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!is_own(m, i)) continue;
+    if (!is_in_contact(m, i)) run_alone(world, m, i);
+    end_island(world, m, i);
+  }
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i);
 }
@@ -201,20 +229,25 @@ static void run_steps(const sbr_world *world, sbri_contact_group *group, uint32_
 
 void sbri_group_run(sbr_world *world, sbri_contact_group *group) {
   sbri_group_member *members = world->body_contacts->members + group->first_member;
-  uint32_t steps = MIN_STEPS;
+  uint32_t steps = 0;
   for (uint32_t i = 0; i < group->member_count; i++) {
     members[i] = member_of(world, members[i].character, group->origin);
-    uint32_t own = begin(world, &members[i]);
-    steps = own > steps ? own : steps;
+    begin(world, &members[i]);
   }
-  steps = rounded_steps(steps);
-  for (uint32_t i = 0; i < group->member_count; i++)
-    if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
   sbri_solver_bodies_list(world->body_contacts, group);
   sbri_narrow_phase_update(world, group);
-  group->step_s = (float)world->tick_s / (float)steps;
-  sbri_contacts_load_cached(world->body_contacts, group, group->step_s);
-  run_steps(world, group, steps);
-  sbri_contacts_finish_tick(world->body_contacts, group);
+  for (uint32_t i = 0; i < group->member_count; i++) {
+    uint32_t own = count_steps(world, &members[i]);
+    steps = own > steps ? own : steps;
+  }
+  if (steps > 0) {
+    steps = rounded_steps(steps);
+    for (uint32_t i = 0; i < group->member_count; i++)
+      if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
+    group->step_s = (float)world->tick_s / (float)steps;
+    sbri_contacts_load_cached(world->body_contacts, group, group->step_s);
+    run_steps(world, group, steps);
+    sbri_contacts_finish_tick(world->body_contacts, group);
+  }
   for (uint32_t i = 0; i < group->member_count; i++) end(world, &members[i]);
 }

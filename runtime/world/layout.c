@@ -134,6 +134,7 @@ static void place_scratch(sbr_model *model, const extents *e) {
   l->planes = place(&end, 4 * slots, sizeof(float));
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, e->touches, sizeof(sbri_touch));
+  l->contact_islands = place(&end, model->island_count, 1);
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->external_bodies =
       place(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));

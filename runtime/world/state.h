@@ -192,6 +192,8 @@ SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4)
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)    /* (slot_count / 8) */
 SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)         /* (samples of all bodies) */
 SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts) /* (bodies) */
+/* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
+SBRI_SCRATCH_PART(contact_islands, uint8_t, c->model->layout.contact_islands)
 SBRI_SCRATCH_PART(
     external_bodies_of, struct sbri_external_bodies, c->model->layout.external_bodies) /* (bodies) */
 SBRI_SCRATCH_PART(touch_weights, float, c->model->layout.touch_weights)                /* (slot_count) */

@@ -11,8 +11,8 @@ static const float RADIUS = 0.3f;
 enum { HEIGHTS = 3, CLOTHS = 9 };
 
 /* Cloth falls on a ball, on its middle and beside it: what springs throw back under the ball is faster in a
- * tick than it was before. Left is what they pull points by within a step: of the stiffest, in cells of 17 cm
- * and at 14 m/s, 6.1 mm. */
+ * tick than it was before. Left is what they pull points by within a step: of the stiffest, in cells of 17 cm,
+ * 4.0 mm at 6 m/s and 6.1 mm at 14 m/s. */
 START_TEST(cloth_does_not_go_into_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, 24};
@@ -35,7 +35,7 @@ START_TEST(cloth_does_not_go_into_a_ball)
       scene_ticks(&s, 1);
       max = fmax(max, meeting_deepest(&s));
     }
-    bool coarse = cells[_i / 3] == 6 && height == 10, bare = cells[_i / 3] < 24 && thick < 0.02f;
+    bool coarse = cells[_i / 3] == 6 && height >= 2, bare = cells[_i / 3] < 24 && thick < 0.02f;
     double may = coarse ? 7e-3 : bare ? 3.5e-3 : 3e-3;
     ck_assert_msg(max <= may - (double)thick, "%u cells, %g m thick, from %g m, %g m aside: %g m in",
         cells[_i / 3], (double)thick, (double)height, 0.13 * (double)aside, max);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "build/geometry/topology.h"
+#include "import/convert/attach_objects.h"
 #include "import/convert/convert_colors.h"
 #include "import/convert/convert_pins.h"
 #include "import/convert/covered_sections.h"
@@ -367,6 +368,20 @@ static sbf_status fill_body(
   return copy_sources(c, &c->scene->meshes[place], &body->source_points);
 }
 
+/* Objects without a bone get one by what they touch; pinned ones are held already. */
+static sbf_status attach_loose(
+    sbfi_conversion *c, const geometry *geometries, const sbf_render_mesh *skins, uint32_t skin_count) {
+  uint32_t count = c->scene->mesh_count;
+  const sbf_polygon_mesh **objects = sbfi_arena_allocate(&c->scratch, count, sizeof *objects);
+  if (!objects) return sbfi_convert_no_memory(c);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_scene_mesh *mesh = &c->scene->meshes[i];
+    bool loose = !geometries[i].is_flat && !mesh->joint_count && !sbfi_mesh_is_pinned(c, mesh);
+    objects[i] = loose ? &geometries[i].mesh : NULL;
+  }
+  return sbfi_attach_objects(c, skins, skin_count, objects);
+}
+
 sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   uint32_t count = c->scene->mesh_count, body_count = 0, render_count = 0;
   if (count == 0) return SBF_OK;
@@ -384,6 +399,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     else if (status == SBF_OK && c->scene->meshes[i].joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
+  if (status == SBF_OK) status = attach_loose(c, geometries, renders, render_count);
   if (status != SBF_OK) return status;
   sbfi_skins skins;
   if (!sbfi_skins_make(&skins, renders, render_count, &c->scratch)) return sbfi_convert_no_memory(c);
