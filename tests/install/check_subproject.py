@@ -2,7 +2,9 @@
 """sbfmt as part of an engine's own tree, by FetchContent with SBFMT_RUNTIME_ONLY as examples/embed_c says: without libxml2, and without tests or
 benchmarks among what is built. The example walks to the state that it walks to with this build's libraries.
 
-Usage: check_subproject.py --source DIR --scratch DIR --cc CC --bundle-by PROGRAM LIBRARY..."""
+Warnings are treated as in this build, so that the compiler cache has what it compiled with the same flags.
+
+Usage: check_subproject.py --source DIR --scratch DIR --cc CC --werror ON|OFF --bundle-by PROGRAM LIBRARY..."""
 import argparse
 import os
 import shutil
@@ -13,6 +15,7 @@ PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(engine C)
 include(FetchContent)
 set(SBFMT_RUNTIME_ONLY ON)
+set(SBFMT_WERROR {werror})
 FetchContent_Declare(sbfmt SOURCE_DIR {source})
 FetchContent_MakeAvailable(sbfmt)
 add_executable(walk {source}/examples/embed_c/walk.c)
@@ -29,7 +32,7 @@ def run(*command):
 
 def main():
     parser = argparse.ArgumentParser()
-    for name in ("--source", "--scratch", "--cc", "--bundle-by"):
+    for name in ("--source", "--scratch", "--cc", "--werror", "--bundle-by"):
         parser.add_argument(name, required=True)
     parser.add_argument("libraries", nargs="+")
     arguments = parser.parse_args()
@@ -37,7 +40,7 @@ def main():
     shutil.rmtree(scratch, ignore_errors=True)
     os.makedirs(scratch)
     with open(os.path.join(scratch, "CMakeLists.txt"), "w", encoding="utf-8") as file:
-        file.write(PROJECT.format(source=source))
+        file.write(PROJECT.format(source=source, werror=arguments.werror))
     build, lizard = os.path.join(scratch, "build"), os.path.join(source, "examples", "lizard", "lizard")
     run("cmake", "-G", "Ninja", "-S", scratch, "-B", build, f"-DCMAKE_C_COMPILER={arguments.cc}", "-DCMAKE_BUILD_TYPE=Release",
         "-DCMAKE_DISABLE_FIND_PACKAGE_LibXml2=ON")

@@ -94,7 +94,8 @@ static sbf_status load_through_pipe(const char *name, sbf_asset **asset) {
   ck_assert_int_eq(mkfifo(pipe_path, 0600), 0);
   pid_t child = fork();
   if (child == 0) {
-    FILE *pipe_end = fopen(pipe_path, "wb"); /* not harness_write, which would put a file in the pipe's place */
+    FILE *pipe_end =
+        fopen(pipe_path, "wb"); /* not harness_write, which would put a file in the pipe's place */
     _exit(pipe_end && fwrite(bytes, 1, size, pipe_end) == size && fclose(pipe_end) == 0 ? 0 : 1);
   }
   sbf_diagnostic error = {0};
