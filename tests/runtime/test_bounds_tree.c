@@ -1,5 +1,7 @@
 #include "collide/bounds_tree.h"
 
+#include <string.h>
+
 #include "harness.h"
 
 enum { COUNT = 500 };
@@ -41,10 +43,46 @@ START_TEST(a_walk_finds_all)
 }
 END_TEST
 
+/* Boxes that have moved far: what is asked for is found as in a tree made of them. */
+START_TEST(a_refitted_tree_finds_all)
+{
+  static sbri_box boxes[COUNT];
+  static sbri_bounds_node nodes[2 * COUNT + 1];
+  static uint32_t items[COUNT];
+  uint32_t seed = 7;
+  sbri_bounds_tree tree = {.nodes = nodes, .items = items};
+  for (int round = 0; round < 4; round++) {
+    for (int i = 0; i < COUNT; i++) {
+      sbf_vec3 low = {random_of(&seed) * 10, random_of(&seed) * 10, random_of(&seed) * 10};
+      boxes[i] = (sbri_box){low, sbri_add(low, sbri_vec3(random_of(&seed), 0, random_of(&seed)))};
+    }
+    if (round == 0)
+      sbri_bounds_tree_make(&tree, boxes, COUNT);
+    else
+      sbri_bounds_tree_refit(&tree, boxes);
+    sbri_box whole = boxes[0];
+    for (int i = 1; i < COUNT; i++) whole = sbri_box_join(whole, boxes[i]);
+    ck_assert_int_eq(memcmp(&whole, &tree.nodes[0].box, sizeof whole), 0);
+    for (int k = 0; k < 50; k++) {
+      sbf_vec3 low = {random_of(&seed) * 10, random_of(&seed) * 10, random_of(&seed) * 10};
+      sbri_box asked = {low, sbri_add(low, sbri_vec3(2, 2, 2))};
+      uint32_t seen[COUNT] = {0}, item;
+      sbri_bounds_walk walk;
+      sbri_bounds_walk_begin(&walk, &tree, asked);
+      while (sbri_bounds_walk_next(&walk, &item)) seen[item]++;
+      for (uint32_t i = 0; i < COUNT; i++) ck_assert_uint_ge(1, seen[i]);
+      for (uint32_t i = 0; i < COUNT; i++)
+        if (sbri_box_meets(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
+    }
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("bounds_tree");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_walk_finds_all);
+  tcase_add_test(tests, a_refitted_tree_finds_all);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
