@@ -1,18 +1,20 @@
-/* What contacts cost: the frame of a soft body in contact over that of the same body in flight.
+/* What contacts cost: the frame of a body in contact over that of the same body without.
  *
  * An armadillo of one metre and a slab of 1 x 0.2 x 1 m, about 2,700 tetrahedra of 0.1 MPa each, one control
- * tick of 1/60 s a frame, awake, one thread. `floor_ratio`: at rest on the floor. `landing`: the frames from
- * the first touch on, dropped from a hand's breadth. `slab_ratio`: the slab lies flat. Medians of the
- * frames' processor time, where each frame counts the least of several runs; flight is measured between them.
- * `depth_um`: how far the lowest point of the skin lies below the floor at the end, `speed_mm_s`: its fastest
- * point there. */
+ * tick of 1/60 s a frame, awake, one thread, over their flight. `rest`: lying on the floor. `landing`: the
+ * frames from the first touch on, dropped from a hand's breadth. Two of a character that walk side by side,
+ * over the two where bodies do not touch each other (`pair_alone`): where they may and are 4 m apart
+ * (`pair_apart`), and so close that they do (`pair_touching`). Medians of the frames' processor time, where
+ * each frame counts the least of several runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measured_assets.h"
 #include "measured_bodies.h"
 #include "measuring.h"
 #include "sbfmt/asset.h"
+#include "sbrun/collision.h"
 #include "sbrun/sbrun.h"
 
 typedef struct scene {
@@ -21,7 +23,7 @@ typedef struct scene {
   uint32_t first, end; /* frames that count */
 } scene;
 
-enum { RUNS = 5, MAX_FRAMES = 300 };
+enum { RUNS = 5, MAX_FRAMES = 300, PAIR_FRAMES = 60 };
 
 typedef struct fall {
   double min[MAX_FRAMES];
@@ -75,9 +77,7 @@ static void measure(const char *body, sbf_asset *asset, bool quick) {
   sbf_diagnostic error;
   bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
   for (uint32_t r = 0; r < (quick ? 1 : RUNS); r++)
-    for (int i = 0; i < 3; i++)
-      if (!getenv("ONLY") || atoi(getenv("ONLY")) == i)
-        for (int q = 0; q < (getenv("ONLY") ? 20 : 1); q++) run(model, &scenes[i], r, &falls[i]);
+    for (int i = 0; i < 3; i++) run(model, &scenes[i], r, &falls[i]);
   double flight = median(&falls[0], &scenes[0]);
   for (int i = 0; i < 3; i++) {
     double frame = median(&falls[i], &scenes[i]);
@@ -87,10 +87,62 @@ static void measure(const char *body, sbf_asset *asset, bool quick) {
   sbf_asset_free(asset);
 }
 
+typedef struct pair_scene {
+  const char *name;
+  bool contacts; /* between bodies */
+  double apart_m;
+} pair_scene;
+
+static void run_pair(const sbr_model *model, const pair_scene *s, uint32_t number, fall *f) {
+  sbf_diagnostic error;
+  sbr_world *world;
+  sbr_world_definition definition = sbr_default_world_definition();
+  bench_require(sbr_world_create(&definition, &world, &error), &error);
+  if (s->contacts) bench_require(sbr_world_bodies_meet(world, 0, &error), &error);
+  for (int k = 0; k < 2; k++) {
+    sbr_character_definition standing = sbr_default_character_definition();
+    sbr_character_id character;
+    standing.position.x = s->apart_m * k;
+    bench_require(sbr_character_create(world, model, &standing, &character, &error), &error);
+    sbr_character_drive(world, character, 0.3f, 0, 0);
+  }
+  for (uint32_t i = 0; i < PAIR_FRAMES; i++) {
+    double begin = bench_now_s();
+    sbr_world_tick(world);
+    double taken = bench_now_s() - begin;
+    if (number == 0 || taken < f->min[i]) f->min[i] = taken;
+  }
+  sbr_world_destroy(world);
+}
+
+/* Two walk side by side: `touching_m` from each other their bodies touch. */
+static void measure_pair(const char *name, sbf_asset *asset, double touching_m, bool quick) {
+  if (!asset) return;
+  const pair_scene scenes[] = {
+      {"pair_alone", false, 4}, {"pair_apart", true, 4}, {"pair_touching", true, touching_m}};
+  const scene counted = {"pair", 0, 10, PAIR_FRAMES};
+  double alone = 0;
+  sbr_model *model;
+  sbf_diagnostic error;
+  bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
+  for (int i = 0; i < 3; i++) {
+    fall f;
+    for (uint32_t r = 0; r < (quick ? 1 : RUNS); r++) run_pair(model, &scenes[i], r, &f);
+    double frame = median(&f, &counted);
+    if (i == 0) alone = frame;
+    bench_print_row("%s,%s,%.1f,%.2f", name, scenes[i].name, 1e6 * frame, frame / alone);
+  }
+  sbr_model_destroy(model);
+  sbf_asset_free(asset);
+}
+
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
   bench_print_columns("body,scene,frame_us,ratio");
   measure("armadillo", armadillo_of_tetrahedra(2700), quick);
-  if (!getenv("ONLY")) measure("slab", slab_of_tetrahedra(2700), quick);
+  measure("slab", slab_of_tetrahedra(2700), quick);
+  measure_pair(
+      "pup", character_asset(BENCH_SOURCE_FOLDER "/examples/pup", "pup.glb", NULL, true), 0.42, quick);
+  measure_pair("lizard", our_lizard(true), 0.47, quick);
   return 0;
 }

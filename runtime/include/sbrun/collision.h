@@ -139,9 +139,10 @@ SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_
  * different characters, by the layers and masks of the file. Vertices collide with faces; edges collide with
  * edges on coarse closed bodies and sheets (docs/collision.md). At most `touch_capacity` contacts at once (0:
  * 4096); beyond that some bodies pass through each other. Bodies of one character that overlap at rest, are
- * joined or pinned to each other do not collide. Characters in contact are stepped in one task. Impulses are
- * stored from tick to tick; snapshots include space for `touch_capacity` contacts. Call it before the first
- * step; a second call does nothing. SBF_FAILED if memory runs out. */
+ * joined or pinned to each other do not collide. Characters that may touch are stepped in one task; islands
+ * without a contact take their own steps. Impulses are stored from tick to tick; snapshots include space for
+ * `touch_capacity` contacts. Call it before the first step; a second call does nothing. SBF_FAILED if memory
+ * runs out. */
 SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capacity, sbf_diagnostic *error);
 
 /* ---- Questions ---------------------------------------------------------------------------------------- */
