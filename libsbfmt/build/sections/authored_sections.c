@@ -9,8 +9,9 @@
 
 /* At the surface: no farther than this part of the body's extent. */
 static const double AT_SURFACE = 0.05;
-/* The part of a skin that its sections lie along. */
-static const double MAX_OF_IT = 0.5;
+/* The part of a skin that its sections lie along; and of all skins of its skeleton, which one of them that is
+ * a material alone may not decide for. */
+static const double MOST_OF_IT = 0.5, PART_OF_ALL = 0.2;
 
 typedef struct body_side {
   sbfi_triangle_tree surface;
@@ -54,25 +55,48 @@ static bool lies_at_a_body(const work *w, uint32_t bone, sbf_vec3 vertex) {
   return false;
 }
 
-static bool is_sectioned(const work *w, const sbf_render_mesh *mesh) {
+static uint32_t root_of(const sbf_asset *asset, uint32_t bone) {
+  while (asset->bones.at[bone].parent != SBF_NONE) bone = (uint32_t)asset->bones.at[bone].parent;
+  return bone;
+}
+
+/* How many of a skin's vertices lie at bodies, and the first bone of the skeleton that they hang on. */
+static uint32_t count_covered(const work *w, const sbf_render_mesh *mesh, uint32_t *root) {
   const sbf_skin *skin = mesh->skin;
   uint32_t count = mesh->mesh.positions.count, covered = 0;
+  *root = SBFI_NO_INDEX;
   for (uint32_t v = 0, at = 0; v < count; at += skin->influence_counts.at[v++]) {
     uint32_t max = at;
     for (uint32_t i = at; i < at + skin->influence_counts.at[v]; i++)
       if (skin->weights.at[i] > skin->weights.at[max]) max = i;
-    covered +=
-        skin->influence_counts.at[v] && lies_at_a_body(w, skin->bones.at[max], mesh->mesh.positions.at[v]);
+    if (!skin->influence_counts.at[v]) continue;
+    if (*root == SBFI_NO_INDEX) *root = root_of(w->asset, skin->bones.at[max]);
+    covered += lies_at_a_body(w, skin->bones.at[max], mesh->mesh.positions.at[v]);
   }
-  return covered > 0 && covered >= MAX_OF_IT * count;
+  return covered;
 }
 
 bool sbfi_authored_sections_find(
     const sbf_asset *asset, uint32_t body_count, uint8_t *sectioned, sbfi_arena *scratch) {
   work w = {.asset = asset};
   memset(sectioned, 0, asset->render_meshes.count);
-  if (!index_bodies(&w, body_count, scratch)) return false;
-  for (uint32_t m = 0; m < asset->render_meshes.count; m++)
-    sectioned[m] = asset->render_meshes.at[m].skin && is_sectioned(&w, &asset->render_meshes.at[m]);
+  uint32_t meshes = asset->render_meshes.count, bones = asset->bones.count;
+  uint32_t *roots = sbfi_arena_allocate(scratch, (size_t)meshes + 1, sizeof *roots);
+  uint32_t *all = sbfi_arena_allocate(scratch, (size_t)bones + 1, sizeof *all);
+  uint32_t *along = sbfi_arena_allocate(scratch, (size_t)bones + 1, sizeof *along);
+  if (!roots || !all || !along || !index_bodies(&w, body_count, scratch)) return false;
+  memset(all, 0, bones * sizeof *all), memset(along, 0, bones * sizeof *along);
+  for (uint32_t m = 0; m < meshes; m++) {
+    const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
+    roots[m] = SBFI_NO_INDEX;
+    if (!mesh->skin) continue;
+    uint32_t count = mesh->mesh.positions.count, covered = count_covered(&w, mesh, &roots[m]);
+    sectioned[m] = covered > 0 && covered >= MOST_OF_IT * count;
+    if (roots[m] == SBFI_NO_INDEX) continue;
+    all[roots[m]] += count;
+    along[roots[m]] += sectioned[m] ? covered : 0;
+  }
+  for (uint32_t m = 0; m < meshes; m++)
+    if (sectioned[m] && along[roots[m]] < PART_OF_ALL * all[roots[m]]) sectioned[m] = 0;
   return true;
 }
