@@ -14,6 +14,7 @@ from rigged_weights import (Original, add_clip, difference, posed, posed_errors,
 from sbfmt_program import ROOT, ProgramTest, main, read_text, shared, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
+LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
 SNAKE = os.path.join(ROOT, "examples", "snake", "snake.glb")
 
 
@@ -72,6 +73,14 @@ class ByPlace(ProgramTest):
         self.assertEqual(*(sorted(s["bone"] for s in report["sections"]) for report in reports))
         self.assertGreater(walks[0]["distance"], 0.5)
         self.assertAlmostEqual(walks[1]["distance"] / walks[0]["distance"], 1, delta=0.02)
+
+    def test_names_tell_left_from_right(self):
+        """A symmetric character of named objects fits as well unmirrored: its left would hang on the right."""
+        lizard = Original(LIZARD, self.class_folder.name)
+        result = self.convert(variants.moved(lizard.obj, 1, ("-x", "y", "z"), (5, 1, -2)), "--no-build", rig=LIZARD)
+        self.assertIn("mirrored in x, moved by (5, -1, 2) m", result.err)
+        self.assertGreaterEqual(share_of_equal(lizard, lizard.obj, self.path("out.sbf")), 0.999)
+        self.assertEqual(self.json_of("info", self.path("out.sbf"))["gait"], {"kind": "walk", "legs": 4})
 
     def test_numbers_rounded_to_six_decimals(self):
         obj = variants.moved(self.calf.obj, 1000)  # a calf of a thousandth of a unit

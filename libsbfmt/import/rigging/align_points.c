@@ -11,6 +11,7 @@
 #include "import/rigging/align.h"
 #include "import/rigging/point_finder.h"
 #include "import/rigging/triangle_shapes.h"
+#include "import/rigging/weigh.h"
 
 enum {
   SAMPLES = 256,
@@ -25,6 +26,9 @@ enum {
 static const double TOLERANCE = 1e-4;
 /* So much better a later candidate has to be. */
 static const double BETTER = 5e-3;
+/* Of the rig's size, by which objects together lie nearer to their namesakes where a mirror image is meant.
+ */
+static const double NAMES_APART = 0.05;
 /* The least share of points that says anything. */
 static const double MIN_SHARE = 0.1;
 
@@ -230,7 +234,8 @@ static bool is_mirrored(const sbfi_matrix *m) {
   return sbfi_matrix_determinant(m) < 0;
 }
 
-/* A nearly symmetric character fits nearly as well the wrong way round: all its points tell, not a sample. */
+/* A nearly symmetric character fits nearly as well the wrong way round: all its points tell, not a sample,
+ * and where they do not, the names of its objects: those of the left lie at the rig's of the left. */
 static void try_mirrors(search *s, pairs *p) {
   uint32_t count = s->r->input.mesh.positions.count;
   sbfi_d3 low = sbfi_d3_of(s->r->rig.low), high = sbfi_d3_of(s->r->rig.high);
@@ -238,15 +243,19 @@ static void try_mirrors(search *s, pairs *p) {
   sbfi_matrix from = s->best;
   find_pairs(s, &from, count, p);
   uint32_t max = p->count;
-  for (int i = 0; i < 6 && max < count; i++) {
+  double apart = sbfi_names_apart(s->r, &from), near = NAMES_APART * s->r->rig.size;
+  for (int i = 0; i < 6 && (max < count || apart > near); i++) {
     sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
     sbfi_matrix m = sbfi_matrix_multiply(&mirror, &from);
     if (!sbfi_alignment_allowed(s->r, &m)) continue;
     find_pairs(s, &m, count, p);
-    if (p->count <= max) continue;
+    if (p->count < max) continue;
+    double named = sbfi_names_apart(s->r, &m);
+    if (p->count == max && named > apart - near) continue;
     max = p->count;
+    apart = named;
     s->best = m;
   }
 }

@@ -25,25 +25,27 @@ static void middle_of(
   for (int k = 0; k < 3 && to > from; k++) middle[k] /= to - from;
 }
 
-/* The rig's mesh that an object stands for: the best name, of equals the nearest; SBF_NONE where none fits.
- */
-static int32_t find_namesake(const sbfi_rigging *r, uint32_t mesh) {
+/* The rig's mesh that an object stands for: the best name, of equals the nearest, which is `*distance` away;
+ * SBF_NONE where none fits. */
+static int32_t find_namesake(
+    const sbfi_rigging *r, uint32_t mesh, const sbfi_matrix *to_asset, double *distance) {
   const sbfi_scene *rig = r->rig.scene;
   const char *object = r->input.scene->nodes[r->input.scene->meshes[mesh].node].name;
   sbfi_matrix same = sbfi_matrix_identity();
-  double here[3], there[3], best_distance = INFINITY;
+  double here[3], there[3];
   int best_score = 0;
   int32_t best = SBF_NONE;
-  middle_of(&r->input, mesh, &r->alignment.to_asset, here);
+  *distance = INFINITY;
+  middle_of(&r->input, mesh, to_asset, here);
   for (uint32_t i = 0; i < rig->mesh_count; i++) {
     int score = name_score(object, rig->nodes[rig->meshes[i].node].name, rig->meshes[i].name);
     if (score == 0 || score < best_score) continue;
     middle_of(&r->rig, i, &same, there);
     double apart = hypot(hypot(here[0] - there[0], here[1] - there[1]), here[2] - there[2]);
-    if (score == best_score && apart >= best_distance) continue;
+    if (score == best_score && apart >= *distance) continue;
     best = (int32_t)i;
     best_score = score;
-    best_distance = apart;
+    *distance = apart;
   }
   return best;
 }
@@ -76,11 +78,19 @@ static void weigh_by_bones(sbfi_rigging *r) {
   }
 }
 
+double sbfi_names_apart(const sbfi_rigging *r, const sbfi_matrix *to_asset) {
+  double sum = 0, distance;
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
+    if (find_namesake(r, m, to_asset, &distance) != SBF_NONE) sum += distance;
+  return sum;
+}
+
 void sbfi_weigh_by_name(sbfi_rigging *r) {
   const sbfi_scene *rig = r->rig.scene;
   if (rig->mesh_count == 0) weigh_by_bones(r);
   for (uint32_t m = 0; rig->mesh_count && m < r->input.scene->mesh_count; m++) {
-    int32_t other = find_namesake(r, m);
+    double distance;
+    int32_t other = find_namesake(r, m, &r->alignment.to_asset, &distance);
     if (other == SBF_NONE || rig->meshes[other].joint_count) continue;
     if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE) carry(r, m, rig->meshes[other].node);
   }

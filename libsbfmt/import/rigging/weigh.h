@@ -9,6 +9,9 @@
  * stands for, never which bone it hangs on, because a section and a different bone may bear one name; where
  * the rig has no mesh, objects named as its bones are theirs. */
 void sbfi_weigh_by_name(sbfi_rigging *r);
+/* How far objects lie from the rig's meshes that they are named as, laid over the rig by that transform: the
+ * sum of the distances of their middles, m. */
+double sbfi_names_apart(const sbfi_rigging *r, const sbfi_matrix *to_asset);
 /* By order of the caller: objects, or shells of them (pieces that share no point), that a bone is to move,
  * and only that. After those by name. IMPORT_PIN_UNKNOWN: there is no such object, shell or bone. */
 sbf_status sbfi_weigh_shells(sbfi_rigging *r);
