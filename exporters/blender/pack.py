@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Makes the add-on's zip: the add-on, the Python module inside it, and, where one is named, the library beside the module.
+With a library the manifest names the one platform that it runs on, as Blender wants of an extension.
 
     pack.py OUT.zip [LIBRARY...]
 """
@@ -19,12 +20,32 @@ def python_files(folder):
         yield from (os.path.join(base, name) for name in sorted(names) if name.endswith((".py", ".toml")))
 
 
-def add(archive, path, name):
+def platform_of(library):
+    """Blender's name of the platform that a library is of, by its header: ELF, PE or Mach-O."""
+    with open(library, "rb") as file:
+        head = file.read(4096)
+    if head[:4] == b"\x7fELF":
+        return {62: "linux-x64", 183: "linux-arm64"}.get(int.from_bytes(head[18:20], "little"))
+    if head[:2] == b"MZ":
+        at = int.from_bytes(head[60:64], "little")
+        return {0x8664: "windows-x64", 0xAA64: "windows-arm64"}.get(int.from_bytes(head[at + 4:at + 6], "little"))
+    return {0x01000007: "macos-x64", 0x0100000C: "macos-arm64"}.get(int.from_bytes(head[4:8], "little"))
+
+
+def with_platforms(manifest, libraries):
+    platforms = sorted({platform_of(library) or sys.exit(f"pack.py: {library} is no library of a platform that Blender names")
+                        for library in libraries})
+    named = ", ".join(f'"{platform}"' for platform in platforms)
+    return manifest.replace(b"\n[permissions]", f"platforms = [{named}]\n\n[permissions]".encode()) if platforms else manifest
+
+
+def add(archive, path, name, change=None):
     with open(path, "rb") as file:
-        entry = zipfile.ZipInfo(name, STAMP)
-        entry.external_attr = 0o644 << 16
-        entry.compress_type = zipfile.ZIP_DEFLATED
-        archive.writestr(entry, file.read())
+        content = file.read()
+    entry = zipfile.ZipInfo(name, STAMP)
+    entry.external_attr = 0o644 << 16
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    archive.writestr(entry, change(content) if change else content)
 
 
 def main(out, libraries):
@@ -33,7 +54,8 @@ def main(out, libraries):
     with zipfile.ZipFile(temporary, "w") as archive:
         for folder, inside in ((os.path.join(HERE, ADDON), ADDON), (module, f"{ADDON}/sbfmt")):
             for path in python_files(folder):
-                add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}")
+                change = (lambda content: with_platforms(content, libraries)) if path.endswith("blender_manifest.toml") else None
+                add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}", change)
         for path in libraries:
             add(archive, path, f"{ADDON}/sbfmt/lib/{os.path.basename(path)}")
     os.replace(temporary, out)

@@ -2,6 +2,9 @@
 
 import glob
 import os
+import subprocess
+import unittest
+import zipfile
 
 import addon_utils
 import bpy
@@ -19,6 +22,16 @@ class Zip(fixtures.SceneTest):
         self.assertIsNotNone(addon_utils.enable("soft_body_format", default_set=True))
         fixtures.box("b")
         self.export(build=False)
+
+    @unittest.skipIf(bpy.app.version < (4, 2, 0), "extensions began with Blender 4.2")
+    def test_blender_finds_it_valid(self):
+        said = subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "validate", ZIP],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+        with zipfile.ZipFile(ZIP) as archive:
+            manifest = archive.read("soft_body_format/blender_manifest.toml").decode()
+            has_library = any("/lib/" in name for name in archive.namelist())
+        self.assertEqual("platforms = [" in manifest, has_library)
 
     def test_installs_through_the_preferences(self):
         """Over the running one, whose library has been used: its files are written anew under it."""
