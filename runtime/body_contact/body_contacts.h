@@ -32,7 +32,7 @@ typedef struct sbri_contact_surface {
    * surface: convex ridges at rest. */
   uint8_t *edge_flags;
   /* Renewed in each tick in which another body is near: */
-  bool is_current; /* scratch of the narrow phase */
+  bool is_current;                     /* scratch of the narrow phase */
   sbf_vec3 *positions, *displacements; /* (vertex_count) */
   float max_displacement_m;            /* displacement of the fastest point in the tick, m */
   uint32_t *inside_parents;            /* (vertex_count) scratch of overlap_clusters.c */

@@ -332,8 +332,8 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t touches, touch_counts, contact_islands, external_bodies, slot_touches, touch_weights, touching, rigid_touching,
-      self_boxes, self_balls, self_nodes, self_items, self_edges;
+  size_t touches, touch_counts, contact_islands, external_bodies, slot_touches, touch_weights, touching,
+      rigid_touching, self_boxes, self_balls, self_nodes, self_items, self_edges;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,

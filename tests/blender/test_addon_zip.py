@@ -3,7 +3,6 @@
 import glob
 import os
 import subprocess
-import unittest
 import zipfile
 
 import addon_utils
@@ -23,11 +22,11 @@ class Zip(fixtures.SceneTest):
         fixtures.box("b")
         self.export(build=False)
 
-    @unittest.skipIf(bpy.app.version < (4, 2, 0), "extensions began with Blender 4.2")
-    def test_blender_finds_it_valid(self):
-        said = subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "validate", ZIP],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+    def test_it_is_a_valid_extension(self):
+        if bpy.app.version >= (4, 2, 0):  # since which Blender has an opinion
+            said = subprocess.run([bpy.app.binary_path, "--factory-startup", "--command", "extension", "validate", ZIP],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
         with zipfile.ZipFile(ZIP) as archive:
             manifest = archive.read("soft_body_format/blender_manifest.toml").decode()
             has_library = any("/lib/" in name for name in archive.namelist())

@@ -11,7 +11,7 @@
 static const double AT_SURFACE = 0.05;
 /* The part of a skin that its sections lie along; and of all skins of its skeleton, which one of them that is
  * a material alone may not decide for. */
-static const double MOST_OF_IT = 0.5, PART_OF_ALL = 0.2;
+static const double SECTIONED_PART = 0.5, PART_OF_ALL = 0.2;
 
 typedef struct body_side {
   sbfi_triangle_tree surface;
@@ -91,7 +91,7 @@ bool sbfi_authored_sections_find(
     roots[m] = SBFI_NO_INDEX;
     if (!mesh->skin) continue;
     uint32_t count = mesh->mesh.positions.count, covered = count_covered(&w, mesh, &roots[m]);
-    sectioned[m] = covered > 0 && covered >= MOST_OF_IT * count;
+    sectioned[m] = covered > 0 && covered >= SECTIONED_PART * count;
     if (roots[m] == SBFI_NO_INDEX) continue;
     all[roots[m]] += count;
     along[roots[m]] += sectioned[m] ? covered : 0;

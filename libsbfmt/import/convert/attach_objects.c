@@ -97,14 +97,14 @@ static void vote_where_they_touch(work *w, const sbfi_triangle_tree *object, con
 
 /* In `*bone` that of what the object touches most; SBF_NONE: nothing. False where memory runs out. */
 static bool find_bone(work *w, const sbf_polygon_mesh *object, int32_t *bone) {
-  uint32_t bones = w->c->asset->bones.count, most = 0;
+  uint32_t bones = w->c->asset->bones.count, max = 0;
   sbfi_triangle_tree tree;
   if (!sbfi_triangle_tree_build(&tree, object, &w->c->scratch)) return false;
   memset(w->votes, 0, bones * sizeof *w->votes);
   for (uint32_t h = 0; h < w->holder_count; h++) vote_where_they_touch(w, &tree, &w->holders[h]);
   *bone = SBF_NONE;
   for (uint32_t b = 0; b < bones; b++)
-    if (w->votes[b] > most) most = w->votes[b], *bone = (int32_t)b;
+    if (w->votes[b] > max) max = w->votes[b], *bone = (int32_t)b;
   return true;
 }
 
