@@ -2,10 +2,10 @@
  * character or between several.
  *
  * At the begin of a tick the broad phase (broad_phase.c) finds pairs of bodies whose swept bounds overlap.
- * Characters with such pairs form a group. One task steps a group: all its characters take the same number of
- * steps, that of the member that needs most (step/group_run.c). The narrow phase (narrow_phase.c) finds the
- * contacts of each pair. Before each step the solver (contact_step.c) applies equal and opposite impulses at
- * the contacts, so momentum is conserved to rounding.
+ * Characters with such pairs form a group, which one task steps (step/group_run.c). The narrow phase
+ * (narrow_phase.c) finds the contacts of each pair. Islands with a contact and rigid parts take the same
+ * number of steps, that of the one that needs most; other islands take their own. Before each step the solver
+ * (contact_step.c) applies equal and opposite impulses at the contacts, so momentum is conserved to rounding.
  *
  * Lengths and speeds are in world units; positions are relative to the group's origin. */
 #ifndef SBRI_BODY_CONTACTS_H
