@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/geometry/topology.h"
 #include "build/geometry/triangle_tree.h"
+#include "import/convert/main_bones.h"
 #include "mechanics/extent.h"
 
 static const double TOUCHES = 0.005; /* of the skins' size: what is closer touches */
@@ -12,7 +14,7 @@ static const double SOLE = 0.03;     /* of the skins' size: what ends there is w
 
 /* A surface with bones. */
 typedef struct holder {
-  const int32_t *bones; /* (points of it) SBF_NONE where no bone moves it; NULL: all points are of `bone` */
+  const uint32_t *bones; /* (points of it) SBFI_NO_INDEX where no bone moves it; NULL: all are of `bone` */
   int32_t bone;
   sbfi_triangle_tree tree;
 } holder;
@@ -26,21 +28,7 @@ typedef struct work {
   uint32_t *votes;     /* (bones) */
 } work;
 
-/* The bone with the greatest weight at each point. */
-static const int32_t *main_bones(sbfi_conversion *c, const sbf_render_mesh *mesh) {
-  uint32_t count = mesh->mesh.positions.count;
-  const sbf_skin *skin = mesh->skin;
-  int32_t *bones = sbfi_arena_allocate(&c->scratch, (size_t)count + 1, sizeof *bones);
-  for (uint32_t v = 0, i = 0; bones && v < count; v++) {
-    float max = 0;
-    bones[v] = SBF_NONE;
-    for (uint32_t end = i + skin->influence_counts.at[v]; i < end; i++)
-      if (skin->weights.at[i] > max) max = skin->weights.at[i], bones[v] = (int32_t)skin->bones.at[i];
-  }
-  return bones;
-}
-
-static bool add_holder(work *w, const sbf_polygon_mesh *mesh, const int32_t *bones, int32_t bone) {
+static bool add_holder(work *w, const sbf_polygon_mesh *mesh, const uint32_t *bones, int32_t bone) {
   holder *h = &w->holders[w->holder_count++];
   *h = (holder){.bones = bones, .bone = bone};
   return sbfi_triangle_tree_build(&h->tree, mesh, &w->c->scratch);
@@ -50,7 +38,7 @@ static bool gather_holders(work *w, const sbf_render_mesh *skins, uint32_t skin_
   w->lowest = INFINITY;
   for (uint32_t m = 0; m < skin_count; m++) {
     const sbf_polygon_mesh *mesh = &skins[m].mesh;
-    const int32_t *bones = main_bones(w->c, &skins[m]);
+    const uint32_t *bones = sbfi_main_bones(&skins[m], &w->c->scratch);
     if (!bones || !add_holder(w, mesh, bones, SBF_NONE)) return false;
     w->size = fmax(w->size, sbfi_extent(mesh->positions));
     for (uint32_t i = 0; i < mesh->positions.count; i++)
@@ -64,7 +52,8 @@ static bool gather_holders(work *w, const sbf_render_mesh *skins, uint32_t skin_
 }
 
 static int32_t bone_of(const holder *h, uint32_t point) {
-  return h->bones ? h->bones[point] : h->bone;
+  if (!h->bones) return h->bone;
+  return h->bones[point] == SBFI_NO_INDEX ? SBF_NONE : (int32_t)h->bones[point];
 }
 
 static void vote(work *w, int32_t bone) {

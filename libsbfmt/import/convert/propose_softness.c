@@ -10,6 +10,7 @@
 #include "build/geometry/hulls.h"
 #include "build/geometry/topology.h"
 #include "build/sections/sections.h"
+#include "import/convert/main_bones.h"
 #include "import/convert/part_words.h"
 #include "import/convert/propose_limits.h"
 #include "mechanics/vector.h"
@@ -107,20 +108,6 @@ static bool is_hard(const work *w, const sbf_render_mesh *mesh, uint32_t polygon
   return material != SBF_NONE && sbfi_material_is_hard(w->asset->materials.at[material].name);
 }
 
-/* The bone that holds most of each vertex; SBFI_NO_INDEX: none. */
-static uint32_t *main_bones(const work *w, const sbf_render_mesh *mesh) {
-  uint32_t count = mesh->mesh.positions.count;
-  uint32_t *bones = sbfi_arena_allocate(&w->c->scratch, (size_t)count + 1, sizeof *bones);
-  for (uint32_t v = 0, i = 0; bones && v < mesh->skin->influence_counts.count && v < count; v++) {
-    float max = 0;
-    bones[v] = SBFI_NO_INDEX;
-    for (uint32_t end = i + mesh->skin->influence_counts.at[v]; i < end; i++)
-      if (mesh->skin->weights.at[i] > max)
-        max = mesh->skin->weights.at[i], bones[v] = mesh->skin->bones.at[i];
-  }
-  return bones;
-}
-
 static bool joins_bones(const uint32_t *bones, const uint32_t *points, uint32_t size) {
   for (uint32_t k = 1; k < size; k++)
     if (bones[points[k]] != bones[points[0]]) return true;
@@ -132,7 +119,7 @@ static bool measure_vertices(work *w) {
     const sbf_render_mesh *mesh = &w->asset->render_meshes.at[m];
     if (!mesh->skin) continue;
     bool all_hard = sbfi_words_of_name(mesh->name) >= SBFI_SAYS_PROP;
-    const uint32_t *bones = main_bones(w, mesh), *points = mesh->mesh.polygon_points.at;
+    const uint32_t *bones = sbfi_main_bones(mesh, &w->c->scratch), *points = mesh->mesh.polygon_points.at;
     if (!bones) return false;
     for (uint32_t v = 0; v < mesh->skin->influence_counts.count; v++)
       if (bones[v] != SBFI_NO_INDEX && w->skin.owners[bones[v]] != SBFI_NO_INDEX) {
