@@ -39,7 +39,7 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   double ground = sbri_ground_height(&c->ground, position.x, position.z, NULL);
   sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
   sbr_double3 origin = sbri_head(c)->origin;
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
   sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
   sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, sbri_pose(c));

@@ -17,9 +17,10 @@ void sbri_away_tick(const sbr_world *world, sbri_character *c) {
   sbr_transform *pose = sbri_pose(c);
   uint32_t root = sbri_root_frame(model), anchor = sbri_anchor_frame(model);
   sbr_transform from = pose[root];
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_surroundings around;
+  sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbri_gait_travel(&model->rig, sbri_gait(c), &input);
-  sbr_transform to = sbri_root_place(c, &c->ground);
+  sbr_transform to = sbri_root_place(c, input.ground);
   if (from.position.x == to.position.x && from.position.y == to.position.y &&
       from.position.z == to.position.z && from.rotation.y == to.rotation.y &&
       from.rotation.w == to.rotation.w)
@@ -31,11 +32,12 @@ void sbri_away_tick(const sbr_world *world, sbri_character *c) {
 }
 
 void sbri_away_arrive(const sbr_world *world, sbri_character *c) {
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_surroundings around;
+  sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbr_transform *pose = sbri_pose(c);
   sbri_gait_arrive(&c->model->rig, sbri_gait(c), &input);
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, pose);
-  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &c->ground);
+  pose[sbri_root_frame(c->model)] = sbri_root_place(c, input.ground);
   sbri_rigid_frames_follow(c, pose);
   sbri_rigid_carry(c);
   sbri_settle(c);

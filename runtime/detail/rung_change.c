@@ -215,7 +215,7 @@ static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
 /* How far a body lags more than it did at the end of this tick, as it is driven elsewhere: nothing that was
  * seen of it before tells so. Asset metres. */
 static float lags_m(const sbr_world *world, const sbri_character *c) {
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
   float radius_m = 0.5f * c->scale * c->model->base->rest_size_m;
   return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
 }

@@ -74,6 +74,7 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   keep_stance(state, &stance);
   state->rise = 0;
+  sbri_fall_note_level(rig, state, input);
   sbri_tails_place(rig, state, &stance);
 }
 
@@ -105,9 +106,11 @@ float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_in
 float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *given) {
   sbri_gait_input wants = sbri_motion_input(rig, given);
   const sbri_gait_input *input = &wants;
+  sbf_vec3 from = state->position;
   if (sbri_is_afloat(rig)) {
     sbf_vec3 way;
     float round = sbri_afloat_move(rig, state, input, &way);
+    sbri_walls_keep_out(rig, state, input, from, round);
     sbri_motion_tick(rig, state, input, way);
     return round;
   }
@@ -135,6 +138,7 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   state->position = sbri_add(state->position, step);
   state->heading = sbri_wrap_angle(state->heading + turned);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  if (sbri_walls_keep_out(rig, state, input, from, turned)) step = sbri_sub(state->position, from);
   state->distance_m += (double)sbri_length(step);
   sbri_walk_tick(rig, state, sbri_length(step), input->scale);
   sbri_motion_tick(rig, state, input, step);
@@ -169,6 +173,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_gait_event *events, uint32_t capacity) {
   sbri_gait_state *state = memory;
   uint32_t count = 0;
+  sbri_carry_along(rig, state, input);
   float turned = sbri_body_move(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
@@ -177,10 +182,16 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_foot_home_faces(rig, state, input, i);
   }
   sbri_stance stance;
-  if (!input->hold && rig->leg_count)
+  bool in_air = sbri_fall_tick(rig, state, input);
+  if (in_air && !state->falls && count < capacity)
+    events[count++] = (sbri_gait_event){.kind = SBR_EVENT_LANDED, .position = state->position};
+  if (in_air && rig->leg_count)
+    stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
+  else if (!input->hold && rig->leg_count)
     count = sbri_feet_tick(rig, state, input, &stance, events, capacity);
   else
     stance = sbri_body_stance(rig, state, input);
+  if (!in_air) sbri_fall_note_level(rig, state, input);
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, &stance, turned, input->tick_s);
   state->rise = (stance.root.position.y - state->root.position.y) / input->tick_s;
@@ -200,6 +211,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   state->position.x -= shift.x;
   state->position.z -= shift.z; /* its y counts from the ground */
   state->root.position = sbri_sub(state->root.position, shift);
+  state->level -= shift.y;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->ground = sbri_sub(foot->ground, shift);
@@ -238,6 +250,10 @@ uint32_t sbri_gait_legs(
 
 double sbri_gait_distance(const void *state) {
   return ((const sbri_gait_state *)state)->distance_m;
+}
+
+float sbri_gait_level(const void *state) {
+  return ((const sbri_gait_state *)state)->level;
 }
 
 void sbri_gait_placement(const void *memory, sbf_vec3 *position, float *heading) {

@@ -5,15 +5,17 @@
 #ifndef SBRI_GAIT_H
 #define SBRI_GAIT_H
 
-#include "skeleton/rig.h"
+#include "gait/surroundings.h"
 
 typedef struct sbri_gait_input {
   float forward, sideways, turn, up; /* m/s, m/s, rad/s, m/s */
   float tick_s;
   float scale;
-  bool hold;          /* rest pose, moved rigidly */
-  sbr_double3 origin; /* world place of the character's origin, for asking the ground */
-  const sbr_ground *ground;
+  bool hold;                       /* rest pose, moved rigidly */
+  sbr_double3 origin;              /* world place of the character's origin, for asking the ground */
+  const sbr_ground *ground;        /* with the colliders near it */
+  const sbri_surroundings *around; /* NULL: no colliders are seen */
+  float gravity;                   /* m/s^2, downwards */
 } sbri_gait_input;
 
 typedef struct sbri_gait_event {
@@ -64,6 +66,8 @@ void sbri_gait_settle(const sbri_rig *rig, void *state);
 uint32_t sbri_gait_legs(
     const sbri_rig *rig, const void *state, float share, sbr_leg_state *legs, uint32_t capacity);
 double sbri_gait_distance(const void *state);
+/* Height of the ground that it stands on, or from which its own counts in the air, from the origin; m. */
+float sbri_gait_level(const void *state);
 /* Where the character is and where it faces, relative to the origin. */
 void sbri_gait_placement(const void *state, sbf_vec3 *position, float *heading);
 

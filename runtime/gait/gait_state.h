@@ -75,9 +75,12 @@ typedef struct sbri_gait_state {
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, hips_pitch, chest_yaw;
-  float lowered;  /* by how much the root is lower than over upright legs, m */
-  float rise;     /* of the root in the last tick, m/s */
-  uint32_t eased; /* 1: not lowered as its feet would have it, for its knees */
+  float lowered;    /* by how much the root is lower than over upright legs, m */
+  float rise;       /* of the root in the last tick, m/s */
+  float level;      /* of what it stands on, or would fall on, from the origin; m */
+  float fall_speed; /* m/s, downwards */
+  uint32_t falls;   /* 1: it is in the air */
+  uint32_t eased;   /* 1: not lowered as its feet would have it, for its knees */
   double distance_m;
   float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
   float walk_ahead; /* by how much of a cycle that is ahead of the feet, as far as it is to be made up */
@@ -149,6 +152,19 @@ sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
 sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 *normal);
 /* Between two places as seen from above. */
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
+
+/* ---- gait/walls.c, carried_along.c, fall.c: what colliders and the ground do to the body ---- */
+
+/* Keeps the body out of walls on its way from `from` to where it is, on which it turned by `turned`; true
+ * where some were in the way. */
+bool sbri_walls_keep_out(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 from, float turned);
+/* Moves the body and its feet as what they stand on moves in this tick. */
+void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+/* A tick in the air, if it is there: true, and its feet need none; it has landed where `falls` is 0 then. */
+bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+/* Keeps the level that it stands on. */
+void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 
 /* ---- gait/foot_faces.c: how a foot stands ---- */
 

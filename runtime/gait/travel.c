@@ -10,6 +10,7 @@ void sbri_gait_travel(const sbri_rig *rig, void *memory, const sbri_gait_input *
   footless.hold = true; /* no foot slows it down */
   state->waiting_s = 0;
   (void)sbri_body_move(rig, state, &footless);
+  state->level = sbri_ground_below(input, state->position, NULL).y;
   sbri_clips_tick(rig, state, input->tick_s);
 }
 

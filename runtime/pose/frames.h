@@ -27,8 +27,11 @@ bool sbri_guides_rest(const sbri_character *c, const sbri_island *island);
 
 /* ---- pose/gait_input.c ---- */
 
-sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c);
-/* The root frame of the present state. */
+/* `around` receives what is around the body, and must live as long as the input; NULL: it sees no colliders.
+ */
+sbri_gait_input sbri_gait_input_of(
+    const sbr_world *world, const sbri_character *c, sbri_surroundings *around);
+/* The root frame of the present state; `ground` is that of the gait's input. */
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
 
 #endif

@@ -1,6 +1,7 @@
 /* Rays and boxes among all that is in a world: sbrun/collision.h. */
 #include "collide/triangle.h"
 #include "math/usable.h"
+#include "query/ground_ray.h"
 #include "ragdoll/ragdoll.h"
 #include "skin/skin.h"
 
@@ -41,6 +42,18 @@ static void ask_colliders(ray *r) {
     hit.collider = sbri_collider_name(set, i);
     note(r, share, sbri_rotate(c->turn_to, normal), hit);
   }
+}
+
+/* The ground is on the first layer, as colliders are by default. */
+static void ask_ground(ray *r) {
+  double share;
+  sbf_vec3 normal;
+  if (!(r->mask & 1) || !sbri_ground_ray(&r->world->ground, r->from, r->way, &share, &normal) ||
+      (float)share >= r->share)
+    return;
+  sbr_hit hit = no_hit;
+  hit.ground = true;
+  note(r, (float)share, normal, hit);
 }
 
 /* Asset metres relative to the character's origin. */
@@ -105,6 +118,7 @@ bool sbr_world_ray(const sbr_world *world, sbr_double3 from, sbf_vec3 direction,
   const double place[4] = {from.x, from.y, from.z, length};
   if (!world || !hit || !(length > 0) || !(sbri_dot(unit, unit) > 0) || !sbri_usable(place, 4)) return false;
   ray r = {world, from, sbri_scale(unit, (float)length), mask, 1.000001f, false, no_hit};
+  ask_ground(&r);
   ask_colliders(&r);
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];

@@ -84,7 +84,8 @@ static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
   sbf_vec3 off = sbri_rotate((sbf_quat){0, s, 0, k}, is->center);
   sbri_gait_placement(sbri_gait(c), &place, &old);
   place.x = c->scale * (now->position.x - off.x), place.z = c->scale * (now->position.z - off.z);
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_surroundings around;
+  sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
 }
 

@@ -62,7 +62,23 @@ typedef struct sbri_bone_chain {
   uint32_t first_state; /* place of its first bone among all such chains' bones */
 } sbri_bone_chain;
 
-enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4 };
+enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4, SBRI_BUMPERS = 48 };
+
+/* A ball in the body, in the gait's rest pose; asset space. */
+typedef struct sbri_bumper {
+  sbf_vec3 place;
+  float radius;
+} sbri_bumper;
+
+/* How much room the body takes among colliders: skeleton/rig_girth.c. */
+typedef struct sbri_girth {
+  sbri_bumper bumpers[SBRI_BUMPERS]; /* that walls keep out */
+  uint32_t bumper_count;
+  float step_up;        /* m: the highest that it steps on */
+  float radius;         /* m: about the origin, of all of this and of the feet */
+  float mass;           /* kg, about: what is lighter gives way to it */
+  uint32_t layer, mask; /* of any of its bodies */
+} sbri_girth;
 
 /* What turns a bone beside its parent. */
 typedef enum sbri_bone_role {
@@ -110,6 +126,7 @@ typedef struct sbri_rig {
   bool has_pegs;              /* some leg has no knee */
   sbf_vec3 belly[SBRI_BELLY]; /* the lowest of the body fore and hind, left and right; asset space */
   uint32_t belly_count;
+  sbri_girth girth;
   sbf_vec3 low, high; /* bounds at rest, asset space, of kinds of gait other than walking */
   /* The chain of the gait's undulation: front and back end of each bone at rest, asset space; where the
    * middle and the head of each are, from the nose, relative to the length; that, m. */

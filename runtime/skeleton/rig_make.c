@@ -2,6 +2,7 @@
 
 #include "math/quat.h"
 #include "skeleton/rig_belly.h"
+#include "skeleton/rig_girth.h"
 #include "skeleton/rig_limits.h"
 #include "skeleton/rig_mass.h"
 #include "skeleton/rig_soles.h"
@@ -285,4 +286,5 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbri_rig_find_belly(rig);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
   sbri_rig_find_spine(rig, carve(&free_memory, sbri_rig_spine_size(asset)));
+  sbri_rig_find_girth(rig);
 }

@@ -34,7 +34,8 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
     return;
   }
   if (sbri_reflex_tick(world, c)) note_landing(c);
-  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_surroundings around;
+  sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbr_transform *pose = sbri_pose(c);
   bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */
   if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_previous_deltas(c));
@@ -42,7 +43,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count += sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events + c->event_count,
       SBRI_TICK_EVENTS - c->event_count);
-  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &c->ground);
+  pose[sbri_root_frame(c->model)] = sbri_root_place(c, input.ground);
   if (sbri_character_is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
   sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);

@@ -153,6 +153,30 @@ START_TEST(a_moving_ball_pushes)
 }
 END_TEST
 
+/* From above, slanted, and from below; the ground's height is known at both. */
+START_TEST(rays_find_the_ground)
+{
+  static const sbr_obstacle block = {SBR_OBSTACLE_BOX, {2, 0, 0}, {0.5f, 1, 0.5f}, 0};
+  sbr_ground base = sbr_ground_flat(0);
+  const sbr_obstacle_set set = {&base, &block, 1};
+  sbr_world_definition definition = sbr_default_world_definition();
+  sbr_world *world;
+  sbr_hit hit;
+  definition.ground = _i ? sbr_ground_obstacles(&set) : base;
+  ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
+  ck_assert(sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 1, &hit));
+  ck_assert(hit.ground);
+  ck_assert_double_eq_tol(hit.distance, 3, 1e-5);
+  ck_assert_float_eq_tol(hit.normal.y, 1, 1e-6f);
+  ck_assert(!sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 2.9, 1, &hit));
+  ck_assert(!sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 2, &hit));
+  ck_assert(!sbr_world_ray(world, (sbr_double3){0, -1, 0}, (sbf_vec3){0, 1, 0}, 10, 1, &hit));
+  ck_assert_int_eq(sbr_world_ray(world, (sbr_double3){0, 0.5, 0}, (sbf_vec3){1, 0, 0}, 10, 1, &hit), _i);
+  if (_i) ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
+  sbr_world_destroy(world);
+}
+END_TEST
+
 START_TEST(places_that_are_no_numbers_are_refused)
 {
   scene s = begin();
@@ -189,6 +213,7 @@ int main(void) {
   tcase_add_test(tests, friction_holds_to_its_angle);
   tcase_add_test(tests, a_bullet_stops_at_a_thin_board);
   tcase_add_test(tests, a_moving_ball_pushes);
+  tcase_add_loop_test(tests, rays_find_the_ground, 0, 2);
   tcase_add_test(tests, places_that_are_no_numbers_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -147,20 +147,21 @@ SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capaci
 
 /* ---- Questions ---------------------------------------------------------------------------------------- */
 
-/* Result of a query: a collider, a rigid body or a soft body. */
+/* Result of a query: the ground, a collider, a rigid body or a soft body. */
 typedef struct sbr_hit {
-  sbr_collider_id collider;   /* 0: it is a body of a character */
-  sbr_character_id character; /* whose; 0: it is a collider */
+  sbr_collider_id collider;   /* 0: it is the ground or a body of a character */
+  sbr_character_id character; /* whose; 0: it is the ground or a collider */
   int32_t rigid_body;         /* -1: it is not one */
   int32_t soft_body;          /* likewise */
   sbr_double3 position;       /* of a ray: where it enters */
   sbf_vec3 normal;            /* of a ray: there, unit, outwards */
   double distance;            /* of a ray, m */
+  bool ground;                /* it is the world's ground */
 } sbr_hit;
 
 /* Casts a ray from `from` along `direction` (any length), up to `length` metres. Finds the first collider,
- * hull of a rigid body or surface of a soft body (state after the last tick) on a layer in `mask`. The ground
- * is not included. False if nothing is hit. */
+ * hull of a rigid body or surface of a soft body (state after the last tick) on a layer in `mask`, or the
+ * world's ground, which is on layer 1 and is sampled every 5 cm. False if nothing is hit. */
 SBF_API bool sbr_world_ray(
     const sbr_world *world, sbr_double3 from, sbf_vec3 direction, double length, uint32_t mask, sbr_hit *hit);
 /* Finds everything on a layer in `mask` whose bounds overlap the box. Writes up to `capacity` hits and

@@ -195,7 +195,8 @@ SBF_API sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *byte
 /* Initial state of a character. */
 typedef struct sbr_character_definition {
   uint32_t cookie;      /* set by sbr_default_character_definition */
-  sbr_double3 position; /* of the asset's origin; y counts from the ground below it */
+  sbr_double3 position; /* of the asset's origin; y counts from the ground below it, colliders left out; who
+                           walks, crawls, rolls or slithers falls from there */
   float heading;        /* rad */
   /* [1e-6, 1e6], default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and
    * times by its square root: the same shape under the same gravity, moving as a body of that size does. */
@@ -288,8 +289,9 @@ typedef struct sbr_collider_id {
 typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
   SBR_EVENT_FOOT_UP,
-  SBR_EVENT_LANDED,   /* a fallen character (sbr_character_rigid_fall) lies still and begins to get up;
-                         position: where it will stand */
+  SBR_EVENT_LANDED,   /* a character that fell from a height stands; or a fallen character
+                         (sbr_character_rigid_fall) lies still and begins to get up;   position: where it will
+                         stand */
   SBR_EVENT_TEAR,     /* an element tore; at most 16 events a tick for one island */
   SBR_EVENT_UNSPLIT,  /* a tear could not split a point: increase tear_points */
   SBR_EVENT_ASLEEP,   /* an island of bodies fell asleep */

@@ -1,0 +1,66 @@
+/* Falling: a character under which the ground has gone, or that was put above it, falls until it stands.
+ *
+ * In the air its height is that of a body thrown up: gravity alone moves it (semi-implicit Euler). Its feet
+ * hang below it; they are put on the ground where it lands. */
+#include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
+
+static const float GONE = 0.4f; /* of a step's height: ground that is so much lower bears no foot */
+static const float LOW = 1e-4f; /* m: nothing falls from so low */
+
+/* Height of what the character stands on, from the origin. */
+static float level_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  float sum = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) sum += state->feet[i].ground.y;
+  return rig->leg_count ? sum / (float)rig->leg_count : sbri_ground_below(input, state->position, NULL).y;
+}
+
+/* Whether nothing bears it: neither any foot that stands nor, without legs, the body's place. */
+static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  float gone = GONE * rig->girth.step_up * input->scale;
+  if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - gone;
+  bool stands = false;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    const sbri_foot *foot = &state->feet[i];
+    if (!foot->planted) continue;
+    if (sbri_ground_below(input, foot->ground, NULL).y >= foot->ground.y - gone) return false;
+    stands = true;
+  }
+  return stands;
+}
+
+/* Feet below the body, all as high as the highest ground under them. */
+static void hang_feet(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  float highest = -1e30f;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    sbri_foot_place(rig, state, input, i);
+    highest = state->feet[i].ground.y > highest ? state->feet[i].ground.y : highest;
+  }
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    state->feet[i].ground.y = highest;
+    state->feet[i].normal = sbri_vec3(0, 1, 0);
+    sbri_foot_faces(rig, state, input, i);
+  }
+}
+
+bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  if (input->hold || !rig->girth.bumper_count || sbri_is_afloat(rig)) return false;
+  if (!state->falls && !(state->position.y > LOW) && !has_no_ground(rig, state, input)) return false;
+  if (!state->falls) state->fall_speed = 0;
+  float height = state->level + state->position.y;
+  hang_feet(rig, state, input);
+  state->fall_speed += input->gravity * input->tick_s;
+  height -= state->fall_speed * input->tick_s;
+  state->level = level_below(rig, state, input);
+  state->position.y = height - state->level;
+  state->falls = state->position.y > LOW;
+  if (state->falls) return true;
+  state->position.y = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
+  state->level = level_below(rig, state, input);
+  return true;
+}
+
+void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  state->level = level_below(rig, state, input);
+}

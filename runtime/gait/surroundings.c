@@ -1,0 +1,130 @@
+#include "gait/surroundings.h"
+
+#include "collide/ground.h"
+
+static const float MARGIN = 0.5f;   /* of a girth: how far around colliders are looked for */
+static const float ABOVE = 0.01f;   /* m: rays begin so far above a shape */
+static const float UPRIGHT = 0.01f; /* cosine: a plane that is steeper has no height */
+
+static bool is_convex(const sbr_shape *shape) {
+  return shape->kind != SBR_SHAPE_MESH && shape->kind != SBR_SHAPE_HEIGHT_FIELD &&
+         shape->kind != SBR_SHAPE_HOST;
+}
+
+bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider) {
+  const sbri_collider *c = &around->colliders->at[collider];
+  if (!sbri_layers_meet(c->layer, c->mask, around->girth->layer, around->girth->mask)) return false;
+  const sbri_collider *leader = sbri_collider_leader(around->colliders, collider);
+  float cube = around->scale * around->scale * around->scale;
+  return !leader || leader->body.ease * around->girth->mass * cube < 1;
+}
+
+/* A collider as it stands when the tick begins or ends. */
+typedef struct stand {
+  const sbr_shape *shape;
+  const sbr_double3 *at;
+  sbf_quat turn;
+} stand;
+
+static stand stand_of(const sbri_collider *c, bool begin) {
+  return (stand){c->shape, begin ? &c->from : &c->to, begin ? c->turn_from : c->turn_to};
+}
+
+/* Where a vertical ray from (x, from, z) over `way` enters the shape. */
+static bool enter(const stand *s, double x, double z, double from, double way, double *y, sbf_vec3 *normal) {
+  sbf_quat into = sbri_quat_conjugate(s->turn);
+  sbf_vec3 off = {(float)(x - s->at->x), (float)(from - s->at->y), (float)(z - s->at->z)}, n;
+  float share;
+  if (!sbri_shape_enter(
+          s->shape, sbri_rotate(into, off), sbri_rotate(into, sbri_vec3(0, (float)way, 0)), &share, &n))
+    return false;
+  *y = from + (double)share * way;
+  *normal = sbri_rotate(s->turn, n);
+  return true;
+}
+
+static bool plane_top(const stand *s, double x, double z, double *y, sbf_vec3 *normal) {
+  sbf_vec3 n = sbri_rotate(s->turn, sbri_vec3(0, 1, 0));
+  if (n.y < UPRIGHT) return false;
+  *y = s->at->y - ((double)n.x * (x - s->at->x) + (double)n.z * (z - s->at->z)) / (double)n.y;
+  *normal = n;
+  return true;
+}
+
+/* The height of a collider at (x, z): its highest place there below what is overhead; of a solid one that
+ * reaches from below to above that, its top, which is too high to be stepped on. */
+static bool top_of(const sbri_surroundings *around, const sbri_collider *c, bool begin, double x, double z,
+    double *y, sbf_vec3 *normal) {
+  stand s = stand_of(c, begin);
+  if (s.shape->kind == SBR_SHAPE_PLANE) return plane_top(&s, x, z, y, normal);
+  sbri_box box = sbri_collider_bounds(c);
+  double high = (double)(box.high.y + ABOVE), low = (double)(box.low.y - ABOVE), over = around->overhead;
+  if (high <= over) return enter(&s, x, z, high, low - high, y, normal);
+  if (over > low && enter(&s, x, z, over, low - over, y, normal)) return true;
+  double bottom;
+  sbf_vec3 unused;
+  return is_convex(s.shape) && over > low && enter(&s, x, z, high, low - high, y, normal) &&
+         !enter(&s, x, z, over, high - over, &bottom, &unused);
+}
+
+static bool next_below(sbri_bounds_walk *walk, const sbri_surroundings *around, uint32_t *collider) {
+  while (sbri_bounds_walk_next(walk, collider)) {
+    *collider = around->colliders->listed[*collider];
+    if (sbri_surroundings_has(around, *collider)) return true;
+  }
+  return false;
+}
+
+static void walk_column(
+    sbri_bounds_walk *walk, const sbri_surroundings *around, double x, double z, double low) {
+  sbri_box column = {{(float)x, (float)low, (float)z}, {(float)x, (float)around->overhead, (float)z}};
+  sbri_bounds_walk_begin(walk, &around->colliders->tree, sbri_box_grown(column, ABOVE));
+}
+
+static double height(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  const sbri_surroundings *around = ground->user;
+  double y = around->base->height(around->base, x, z, normal), top;
+  sbri_bounds_walk walk;
+  sbf_vec3 there;
+  uint32_t i;
+  walk_column(&walk, around, x, z, y < around->overhead ? y : around->overhead);
+  while (next_below(&walk, around, &i))
+    if (top_of(around, &around->colliders->at[i], false, x, z, &top, &there) && top > y)
+      y = top, *normal = there;
+  return y;
+}
+
+bool sbri_surroundings_bearer(
+    const sbri_surroundings *around, sbr_double3 place, double off, uint32_t *collider) {
+  sbri_bounds_walk walk;
+  sbf_vec3 normal;
+  double best = off, y;
+  uint32_t i;
+  bool any = false;
+  walk_column(&walk, around, place.x, place.z, place.y - off);
+  while (next_below(&walk, around, &i)) {
+    if (!top_of(around, &around->colliders->at[i], true, place.x, place.z, &y, &normal)) continue;
+    double away = y > place.y ? y - place.y : place.y - y;
+    if (away < best || (any && away == best && i < *collider)) best = away, *collider = i, any = true;
+  }
+  return any;
+}
+
+void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
+    const sbr_ground *base, sbr_double3 place, sbri_surroundings *out) {
+  const sbri_girth *girth = &rig->girth;
+  *out = (sbri_surroundings){
+      .base = base, .girth = girth, .scale = scale, .overhead = place.y + (double)(girth->step_up * scale)};
+  out->ground = (sbr_ground){.height = height, .user = out};
+  if (!girth->bumper_count || !colliders->tree.node_count) return;
+  float reach = girth->radius * (1 + MARGIN) * scale,
+        low = (float)sbri_ground_height(base, place.x, place.z, NULL);
+  sbri_box box =
+      sbri_box_grown(sbri_box_of_point(sbri_vec3((float)place.x, (float)place.y, (float)place.z)), reach);
+  if (low < box.low.y) box.low.y = low; /* what it would fall on */
+  sbri_bounds_walk walk;
+  uint32_t i;
+  sbri_bounds_walk_begin(&walk, &colliders->tree, box);
+  out->colliders = colliders;
+  if (!next_below(&walk, out, &i)) out->colliders = NULL;
+}

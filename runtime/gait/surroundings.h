@@ -1,0 +1,34 @@
+/* What is around a character's body: the ground and the colliders near it, seen as one.
+ *
+ * Colliders are ground where they are low enough to be stepped on, and walls above. Those that are lighter
+ * than the character give way to it and are neither. Triangles of meshes and height fields have no inside:
+ * only what a ray from above finds of them is ground. Held characters see the ground alone. */
+#ifndef SBRI_SURROUNDINGS_H
+#define SBRI_SURROUNDINGS_H
+
+#include "collide/colliders.h"
+#include "skeleton/rig.h"
+
+typedef struct sbri_surroundings {
+  sbr_ground ground; /* both as one, its `user` is this; what the gait asks while colliders are near */
+  const sbr_ground *base;
+  const sbri_collider_set *colliders; /* NULL: none is near */
+  const sbri_girth *girth;
+  float scale;
+  double overhead; /* m, world: what is above is not to be stood on */
+} sbri_surroundings;
+
+/* The surroundings of a body of that rig at `place` (world; its y is that of the ground which it stands on).
+ * `out` is used in place: it must not be copied. */
+void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
+    const sbr_ground *base, sbr_double3 place, sbri_surroundings *out);
+
+/* Whether a collider of the set stands in the way of the body and bears it. */
+bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
+
+/* The collider whose top at (x, z) is within `off` of the height y, as colliders stood when the tick began;
+ * false if there is none. */
+bool sbri_surroundings_bearer(
+    const sbri_surroundings *around, sbr_double3 place, double off, uint32_t *collider);
+
+#endif

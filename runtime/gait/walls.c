@@ -1,0 +1,111 @@
+/* Walls: what is too high to be stepped on keeps the body out.
+ *
+ * The balls of the girth are pushed out of colliders one after the other, level, as a character that walks
+ * stays on its ground; one that swims or flies is pushed any way. What is left of its speed goes along the
+ * wall. Slopes that can be walked on are no walls, and what hangs over a character is only one for those that
+ * are afloat. */
+#include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
+#include "math/quat.h"
+#include "math/trig.h"
+
+static const float WALKABLE = 0.6f; /* cosine of the steepest slope that is ground: gait/footing.c */
+static const float CEILING = 0.9f;  /* the same of what is above */
+static const float DEEPEST = 2;     /* radii: what is deeper inside of triangles is behind them */
+enum { PASSES = 4, MAX_PARTS = 16 };
+
+typedef struct body_move {
+  const sbri_rig *rig;
+  sbri_gait_state *state;
+  const sbri_gait_input *input;
+  sbf_quat turn; /* of the balls about the body's place */
+  bool afloat, any;
+} body_move;
+
+/* Takes away the part of the speed that goes into a wall. */
+static void slow_down(body_move *m, sbf_vec3 normal) {
+  sbri_gait_state *state = m->state;
+  sbf_vec3 v = sbri_body_velocity(state);
+  float into = sbri_dot(v, normal);
+  if (into >= 0) return;
+  v = sbri_unheaded(state, sbri_add_scaled(v, normal, -into));
+  state->forward = v.z, state->sideways = v.x;
+}
+
+/* Pushes a ball out of one collider. */
+static bool push_out(body_move *m, sbf_vec3 place, float radius, const sbri_collider *c) {
+  sbri_gait_state *state = m->state;
+  sbri_collider_frame frame = sbri_collider_frame_of(c, m->input->origin, 1);
+  sbri_nearest found;
+  if (!sbri_shape_nearest(c->shape, sbri_into_shape(&frame, place, true), radius, DEEPEST * radius, &found))
+    return false;
+  sbf_vec3 n = sbri_rotate(c->turn_to, found.normal);
+  float deep = radius - found.gap;
+  if (!m->afloat) {
+    if (n.y >= WALKABLE || n.y <= -CEILING) return false;
+    float level = sqrtf(n.x * n.x + n.z * n.z);
+    deep /= level;
+    n = sbri_vec3(n.x / level, 0, n.z / level);
+  }
+  if (!(deep > 0)) return false;
+  if (deep > radius) deep = radius; /* the rest in the next pass */
+  state->position = sbri_add_scaled(state->position, n, deep);
+  slow_down(m, n);
+  return true;
+}
+
+/* Where the asset's origin is. */
+static sbf_vec3 middle_of(const sbri_gait_state *state) {
+  return sbri_vec3(state->position.x, state->level + state->position.y, state->position.z);
+}
+
+static void push_out_all(body_move *m) {
+  const sbri_surroundings *around = m->input->around;
+  const sbri_girth *girth = &m->rig->girth;
+  bool pushed = true;
+  for (int pass = 0; pass < PASSES && pushed; pass++) {
+    pushed = false;
+    for (uint32_t b = 0; b < girth->bumper_count; b++) {
+      float radius = girth->bumpers[b].radius * m->input->scale;
+      sbf_vec3 arm = sbri_rotate(m->turn, sbri_scale(girth->bumpers[b].place, m->input->scale));
+      sbf_vec3 middle = middle_of(m->state);
+      sbri_box box = sbri_box_grown(sbri_box_of_point(sbri_add(middle, arm)), radius);
+      sbri_bounds_walk walk;
+      uint32_t i;
+      sbri_bounds_walk_begin(&walk, &around->colliders->tree, sbri_box_in_world(box, m->input->origin, 1));
+      while (sbri_bounds_walk_next(&walk, &i)) {
+        uint32_t number = around->colliders->listed[i];
+        if (!sbri_surroundings_has(around, number)) continue;
+        pushed =
+            push_out(m, sbri_add(middle_of(m->state), arm), radius, &around->colliders->at[number]) || pushed;
+      }
+    }
+    m->any = m->any || pushed;
+  }
+}
+
+static float smallest(const sbri_girth *girth) {
+  float radius = girth->bumpers[0].radius;
+  for (uint32_t b = 1; b < girth->bumper_count; b++)
+    radius = girth->bumpers[b].radius < radius ? girth->bumpers[b].radius : radius;
+  return radius;
+}
+
+bool sbri_walls_keep_out(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 from, float turned) {
+  if (!input->around || !input->around->colliders) return false;
+  float s, c;
+  sbri_sincos(0.5f * turned, &s, &c);
+  body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->root.rotation),
+      sbri_is_afloat(rig), false};
+  /* No part of the way is longer than a ball: none jumps over a wall. */
+  sbf_vec3 way = sbri_sub(state->position, from);
+  float parts = sbri_length(way) / (smallest(&rig->girth) * input->scale) + 1;
+  int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;
+  state->position = from;
+  for (int k = 0; k < count; k++) {
+    state->position = sbri_add_scaled(state->position, way, 1 / (float)count);
+    push_out_all(&m);
+  }
+  return m.any;
+}

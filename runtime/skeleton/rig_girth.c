@@ -1,0 +1,167 @@
+/* How much room a body takes: balls in it, which walls keep out.
+ *
+ * The vertices of all but tails, in the gait's rest pose (arms down), are sorted into cubes; a ball stands in
+ * each cube that holds some, inside of its bounds. Below the height of a step there are none: feet step on
+ * what is as low as that. What is lower counts as if it were that high. */
+#include "skeleton/rig_girth.h"
+
+static const float STEP_UP = 0.6f;         /* of the legs' mean length, or of a height that is less */
+static const float STEP_UP_LEGLESS = 0.2f; /* of the height of what has no legs */
+static const float NOSE = 0.25f;           /* of its length: what leads in a body that follows its nose */
+static const float FINEST = 8;             /* cubes along its longest side, at first */
+static const float COARSER = 1.2f;         /* while too many cubes hold vertices */
+static const float FILLED = 0.5f;          /* of its bounds: about how much of a body is flesh */
+static const float DENSITY = 1000;         /* kg/m^3 */
+
+/* Whether walls keep it out: a tail follows where the body went. */
+static bool is_stiff(const sbri_rig *rig, int32_t bone) {
+  for (int32_t b = bone; rig->leg_count && b >= 0; b = rig->parents[b])
+    if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
+  return bone >= 0;
+}
+
+typedef void take_point(void *user, sbf_vec3 place);
+
+/* From the rest pose into that of the gait, by the bones' chain up to the root. */
+static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 place) {
+  const sbr_transform *rest = &rig->rest[bone];
+  sbf_vec3 x = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(place, rest->position));
+  for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
+    const sbr_transform *local = rig->base_local ? &rig->base_local[b] : &rig->rest_local[b];
+    x = sbri_add(local->position, sbri_rotate(local->rotation, x));
+  }
+  return x;
+}
+
+static void each_body_point(const sbri_rig *rig, take_point *take, void *user) {
+  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
+    if (!is_stiff(rig, body->bone)) continue;
+    for (uint32_t i = 0; i < body->surface.positions.count; i++)
+      take(user, posed(rig, body->bone, body->surface.positions.at[i]));
+  }
+}
+
+/* Each skin vertex goes with the bone that holds most of it; a mesh without a skin stands as it is. */
+static void each_skin_point(const sbri_rig *rig, take_point *take, void *user) {
+  for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
+    const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
+      int32_t bone = -1;
+      float held = 0;
+      for (uint32_t k = 0; mesh->skin && k < mesh->skin->influence_counts.at[i]; k++, at++)
+        if (mesh->skin->weights.at[at] > held)
+          held = mesh->skin->weights.at[at], bone = (int32_t)mesh->skin->bones.at[at];
+      if (mesh->skin && is_stiff(rig, bone)) take(user, posed(rig, bone, mesh->mesh.positions.at[i]));
+    }
+  }
+}
+
+static void each_point(const sbri_rig *rig, take_point *take, void *user) {
+  bool bodies = false;
+  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
+    bodies = bodies || rig->asset->soft_bodies.at[b].bone >= 0;
+  bool skins = false;
+  for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++)
+    skins = skins || rig->asset->render_meshes.at[m].skin;
+  if (skins)
+    each_skin_point(rig, take, user);
+  else if (bodies)
+    each_body_point(rig, take, user);
+}
+
+/* ---- Bounds ---- */
+
+typedef struct bounds {
+  sbf_vec3 low, high;
+  bool any;
+} bounds;
+
+static void extend(void *user, sbf_vec3 p) {
+  bounds *b = user;
+  if (!b->any) b->low = b->high = p;
+  b->any = true;
+  b->low = sbri_vec3(fminf(b->low.x, p.x), fminf(b->low.y, p.y), fminf(b->low.z, p.z));
+  b->high = sbri_vec3(fmaxf(b->high.x, p.x), fmaxf(b->high.y, p.y), fmaxf(b->high.z, p.z));
+}
+
+/* ---- Balls ---- */
+
+typedef struct cubes {
+  bounds body;
+  float edge;   /* m */
+  float lowest; /* m: no ball reaches below */
+  int32_t cells[SBRI_BUMPERS][3];
+  uint32_t count; /* SBRI_BUMPERS + 1: there are too many */
+} cubes;
+
+static void fill(void *user, sbf_vec3 p) {
+  cubes *c = user;
+  if (c->count > SBRI_BUMPERS || p.z < c->body.low.z) return;
+  if (p.y < c->lowest) p.y = c->lowest; /* feet too: above them they would be in a wall */
+  int32_t cell[3] = {(int32_t)((p.x - c->body.low.x) / c->edge), (int32_t)((p.y - c->body.low.y) / c->edge),
+      (int32_t)((p.z - c->body.low.z) / c->edge)};
+  for (uint32_t i = 0; i < c->count; i++)
+    if (c->cells[i][0] == cell[0] && c->cells[i][1] == cell[1] && c->cells[i][2] == cell[2]) return;
+  if (c->count < SBRI_BUMPERS)
+    for (int k = 0; k < 3; k++) c->cells[c->count][k] = cell[k];
+  c->count++;
+}
+
+/* A ball's middle along an axis: in the middle of its cube, as far as the ball stays between the bounds. */
+static float middle(float low, float high, float edge, float radius, int32_t cell) {
+  float at = low + edge * ((float)cell + 0.5f);
+  if (high - low < 2 * radius) return 0.5f * (low + high);
+  return sbri_clamp(at, low + radius, high - radius);
+}
+
+static void set_balls(const cubes *c, sbri_girth *girth) {
+  sbf_vec3 low = c->body.low, high = c->body.high;
+  float radius = 0.5f * c->edge;
+  if (low.y < c->lowest) low.y = c->lowest;
+  for (uint32_t i = 0; i < c->count; i++) {
+    const int32_t *cell = c->cells[i];
+    sbf_vec3 place = {
+        middle(low.x, high.x, c->edge, radius, cell[0]), 0, middle(low.z, high.z, c->edge, radius, cell[2])};
+    float y = c->body.low.y + c->edge * ((float)cell[1] + 0.5f);
+    place.y = sbri_clamp(y, low.y + radius, fmaxf(low.y + radius, high.y - radius));
+    girth->bumpers[girth->bumper_count++] = (sbri_bumper){place, radius};
+  }
+}
+
+static float largest(sbf_vec3 size) {
+  return fmaxf(size.x, fmaxf(size.y, size.z));
+}
+
+void sbri_rig_find_girth(sbri_rig *rig) {
+  sbri_girth *girth = &rig->girth;
+  sbf_gait_kind kind = rig->gait ? rig->gait->kind : SBF_GAIT_KIND_NONE;
+  bool afloat = kind == SBF_GAIT_KIND_SWIM || kind == SBF_GAIT_KIND_FLY;
+  *girth = (sbri_girth){.layer = 0};
+  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
+    girth->layer |= rig->asset->soft_bodies.at[b].collision.layer,
+        girth->mask |= rig->asset->soft_bodies.at[b].collision.mask;
+  for (uint32_t b = 0; b < rig->asset->rigid_bodies.count; b++)
+    girth->layer |= rig->asset->rigid_bodies.at[b].layer, girth->mask |= rig->asset->rigid_bodies.at[b].mask;
+  if (!girth->layer && !girth->mask) girth->layer = 1, girth->mask = UINT32_MAX;
+  cubes all = {.lowest = -INFINITY};
+  each_point(rig, extend, &all.body);
+  if (kind == SBF_GAIT_KIND_NONE || !all.body.any) return;
+  sbf_vec3 size = sbri_sub(all.body.high, all.body.low);
+  girth->mass = DENSITY * FILLED * size.x * size.y * size.z;
+  girth->step_up = STEP_UP_LEGLESS * size.y;
+  if (rig->leg_count) girth->step_up = STEP_UP * fminf(rig->reach, size.y);
+  if (!afloat) all.lowest = girth->step_up;
+  if (kind == SBF_GAIT_KIND_SLITHER) all.body.low.z = all.body.high.z - NOSE * size.z;
+  size.z = all.body.high.z - all.body.low.z;
+  for (all.edge = largest(size) / FINEST; all.edge > 0; all.edge *= COARSER) {
+    all.count = 0;
+    each_point(rig, fill, &all);
+    if (all.count <= SBRI_BUMPERS) break;
+  }
+  if (all.edge > 0) set_balls(&all, girth);
+  for (uint32_t i = 0; i < girth->bumper_count; i++)
+    girth->radius = fmaxf(girth->radius, sbri_length(girth->bumpers[i].place) + girth->bumpers[i].radius);
+  girth->radius = fmaxf(girth->radius, rig->spread + rig->reach);
+}
