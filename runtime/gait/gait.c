@@ -182,8 +182,8 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_foot_home_faces(rig, state, input, i);
   }
   sbri_stance stance;
-  bool in_air = sbri_fall_tick(rig, state, input);
-  if (in_air && !state->falls && count < capacity)
+  bool fell = state->falls, in_air = sbri_fall_tick(rig, state, input);
+  if (fell && !state->falls && count < capacity)
     events[count++] = (sbri_gait_event){.kind = SBR_EVENT_LANDED, .position = state->position};
   if (in_air && rig->leg_count)
     stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));

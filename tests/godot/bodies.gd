@@ -13,10 +13,10 @@ var spine := 0
 
 
 func _initialize() -> void:
-	add_box("StaticBody3D", Vector3(20, 1, 20), Vector3(0, -0.5, 0))
+	var ground := add_box("StaticBody3D", Vector3(20, 1, 20), Vector3(0, -0.5, 0))
 	character = add_character()
 	character.contact.connect(func(soft_body: int, _position: Vector3, normal: Vector3, impulse: float, with: Object):
-		if with: told.append([soft_body, normal, impulse, with]))
+		if with != ground: told.append([soft_body, normal, impulse, with]))
 	ball = RigidBody3D.new()
 	var form := CollisionShape3D.new()
 	form.shape = SphereShape3D.new()

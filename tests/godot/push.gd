@@ -17,7 +17,6 @@ func add_cube(at: Vector3, weight: float) -> SoftCharacter3D:
 	var one := SoftCharacter3D.new()
 	one.asset = load("res://cube.sbfz")
 	one.gravity_scale = weight
-	one.ground_reach = 10
 	one.position = at
 	root.add_child(one)
 	return one

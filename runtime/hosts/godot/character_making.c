@@ -43,7 +43,7 @@ static bool make_world(soft_character *one) {
   one->scale = transform_scale(&place);
   one->loose = soft_asset_is_loose(one->model->asset);
   measure(one);
-  one->ground = physics_ground_make(one);
+  one->ground = physics_ground_make();
   if (!one->ground) {
     gd_error("no memory for a character");
     return false;

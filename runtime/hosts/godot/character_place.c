@@ -69,14 +69,13 @@ double soft_character_ground_height(const soft_character *one, double x, double 
 void soft_character_place(soft_character *one, sbf_vec3 position, float heading) {
   one->put = upright(position, heading, one->scale);
   if (one->settings.ground == SOFT_GROUND_PHYSICS) {
-    physics_bodies_look(one, true); /* which are no ground */
+    physics_bodies_look(one, true);
     physics_ground_look(one);
   }
   one->stale = true;
   if (soft_character_loose_place(one)) return;
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
-  /* What walks stands on the ground wherever it was put above it; what is loose falls from there. */
-  if ((one->model->asset->gaits.count && !one->settings.free_bodies) || above < 0) above = 0;
+  if (above < 0) above = 0; /* from there it falls */
   sbr_character_teleport(one->world, one->id, (sbr_double3){position.x, above, position.z}, heading);
 }
 
@@ -137,7 +136,6 @@ bool soft_character_prepare(soft_character *one) {
     one->placed = true;
   } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
     physics_bodies_look(one, false);
-    physics_ground_look(one);
   }
   soft_character_pause(one);
   return !one->still;

@@ -94,8 +94,6 @@ SETTING(paused, bool, 0, 1, soft_character_pause(one))
 SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
 SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
 SETTING(ground, int, 0, 1, soft_character_make(one))
-SETTING(ground_cell, float, 0, SOFT_MAX, soft_character_make(one))
-SETTING(ground_reach, float, 0, SOFT_MAX, soft_character_make(one))
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
 SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
@@ -156,8 +154,6 @@ const gd_property soft_character_properties[] = {
     SHOWN("mirror_skeleton", BOOL, 0, NULL, "is_", mirror_skeleton),
     GROUP("Ground"),
     CHOICE("ground", "SoftCharacter3D.Ground", "Physics Space,Flat", ground),
-    SHOWN("ground_cell", FLOAT, HINT_RANGE, "0,1,0.001,or_greater,suffix:m", "get_", ground_cell),
-    SHOWN("ground_reach", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", ground_reach),
     GROUP("Collision"),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),

@@ -29,6 +29,7 @@
   X(variant_get_ptr_destructor, VariantGetPtrDestructor)                                                     \
   X(packed_byte_array_operator_index, PackedByteArrayOperatorIndex)                                          \
   X(packed_int32_array_operator_index, PackedInt32ArrayOperatorIndex)                                        \
+  X(packed_float32_array_operator_index, PackedFloat32ArrayOperatorIndex)                                    \
   X(packed_vector2_array_operator_index, PackedVector2ArrayOperatorIndex)                                    \
   X(packed_vector3_array_operator_index, PackedVector3ArrayOperatorIndex)                                    \
   X(classdb_construct_object2, ClassdbConstructObject2)                                                      \

@@ -1,7 +1,7 @@
-/* The moving bodies near a character: a query with a box about it finds them, a wider one those that are
- * fast, and each of their shapes (physics_shapes.c) is mirrored as a collider of the runtime, which its
- * threads then meet without asking Godot. What these are pushed with goes to the bodies. What stands still is
- * ground (physics_ground.c), and what hangs on the character is neither. */
+/* The bodies near a character: a query with a box about it finds them, a wider one those that are fast, and
+ * each of their shapes (physics_shapes.c) is mirrored as a collider of the runtime, which its threads then
+ * meet without asking Godot: floors, walls, platforms, and what is pushed. What these are pushed with goes to
+ * the bodies. What hangs on the character is left out. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,11 +12,11 @@
 #include "turns.h"
 
 enum {
-  MAX = 64,    /* shapes at once */
-  KEPT = 30,   /* frames for which one is kept that is no longer near */
+  MAX = 256,   /* shapes at once */
+  KEPT = 30,   /* frames for which one is kept that is no longer near, while there is room */
   AGAIN = 4,   /* frames between two looks around */
-  FORGET = 64, /* frames after which what stood still is looked at again */
-  QUERIES = 8, /* most of them in a look: a mesh that stands still may fill one by itself */
+  FORGET = 64, /* frames after which what was left out is looked at again */
+  QUERIES = 8, /* most of them in a look: a mesh may fill one by itself */
   PARAM_BOUNCE = 0,
   PARAM_FRICTION = 1,
   STATE_TRANSFORM = 0,
@@ -31,8 +31,11 @@ typedef struct mirrored {
   uint64_t object;    /* instance id of the node */
   sbr_shape *shape;   /* NULL: of a kind that has none here */
   sbr_collider_id id; /* in the character's world */
-  sbf_vec3 arm;       /* from the body's origin to the shape's, where it was last moved to */
+  gd_transform inner; /* of the runtime's shape in Godot's */
+  gd_transform last;  /* of the shape in the world, as it was last moved to */
+  sbf_vec3 arm;       /* from the body's origin to the shape's there */
   uint32_t seen;      /* frame it was last near */
+  uint32_t found;     /* query that last found it */
   body_mass mass;     /* the body's, as its collider was made */
   bool leads, told;   /* its collider has the mass; it was told of in the frame before */
 } mirrored;
@@ -41,8 +44,10 @@ struct physics_bodies {
   mirrored each[MAX];
   uint32_t frame;
   gd_variant query, box; /* PhysicsShapeQueryParameters3D and its BoxShape3D */
-  gd_variant still;      /* RIDs that queries leave out: they do not move */
-  bool told;             /* it was said that there is no room for more */
+  gd_variant passed;     /* RIDs that queries leave out: they hang on characters */
+  gd_variant still;      /* those and what stands still: what queries for fast ones leave out */
+  uint32_t query_count;
+  bool told; /* it was said that there is no room for more */
 };
 
 physics_bodies *physics_bodies_make(void) {
@@ -50,6 +55,7 @@ physics_bodies *physics_bodies_make(void) {
   if (!made) return NULL;
   made->query = gd_new("PhysicsShapeQueryParameters3D");
   made->box = gd_new("BoxShape3D");
+  made->passed = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
   made->still = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
   GD_DO(&made->query, "set_shape", gd_copy(&made->box));
   return made;
@@ -68,6 +74,7 @@ void physics_bodies_free(physics_bodies *bodies, sbr_world *world) {
     if (bodies->each[i].body) drop(&bodies->each[i], world);
   gd_free(&bodies->query);
   gd_free(&bodies->box);
+  gd_free(&bodies->passed);
   gd_free(&bodies->still);
   free(bodies);
 }
@@ -81,10 +88,15 @@ gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id c
 
 /* ---- Where they are ---- */
 
+static float length(sbf_vec3 v) {
+  return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
 static gd_transform place_of(const gd_variant *server, mirrored *one) {
   gd_variant body = GD_CALL(server, "body_get_state", gd_copy(&one->handle), gd_int(STATE_TRANSFORM));
   gd_variant inner = GD_CALL(server, "body_get_shape_transform", gd_copy(&one->handle), gd_int(one->index));
   gd_transform a = gd_as_transform(&body), b = gd_as_transform(&inner);
+  b = placed_in(&b, &one->inner);
   one->arm = placed_vector(&a, b.origin);
   gd_free(&body);
   gd_free(&inner);
@@ -123,6 +135,7 @@ static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_var
       (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_BOUNCE)));
   const mirrored *leader = leader_of(bodies, at);
   at->leads = at->told = false;
+  at->last = place;
   if (at->mass.inverse > 0 && leader) {
     made.part_of = leader->id;
   } else if (at->mass.inverse > 0) {
@@ -144,16 +157,30 @@ static void follow_mass(
   make_collider(bodies, world, server, at);
 }
 
-/* From where it is, by its velocity; with a mass also by what pulls at it. What is not rigid moves by itself,
- * and stays where it is. */
+/* m in a frame: what is elsewhere then was put there, and did not go. */
+static const float JUMP = 2;
+
+/* What is not rigid is moved by others; most of it never is. */
+static void follow_moved(sbr_world *world, mirrored *at, const gd_transform *now) {
+  if (!memcmp(now, &at->last, sizeof *now)) return;
+  sbf_vec3 o = now->origin, was = at->last.origin;
+  sbr_double3 place = {o.x, o.y, o.z};
+  gd_transform turn = *now;
+  if (length((sbf_vec3){o.x - was.x, o.y - was.y, o.z - was.z}) > JUMP)
+    sbr_collider_place(world, at->id, place, turn_of(turn.basis));
+  else
+    sbr_collider_move(world, at->id, place, turn_of(turn.basis));
+}
+
+/* From where it is, by its velocity; with a mass also by what pulls at it. */
 static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
   gd_transform now = place_of(server, at);
   sbf_vec3 o = now.origin;
   sbf_quat q = turn_of(now.basis);
-  if (!body_is_rigid(server, &at->handle)) {
-    sbr_collider_move(world, at->id, (sbr_double3){o.x, o.y, o.z}, q);
-    return;
-  }
+  bool rigid = body_is_rigid(server, &at->handle);
+  if (!rigid) follow_moved(world, at, &now);
+  at->last = now;
+  if (!rigid) return;
   gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(&at->handle));
   sbf_vec3 v = velocity_of(server, &at->handle), w = spin_of(server, &at->handle);
   sbf_vec3 centre = {0, 0, 0}, pull = {0, 0, 0};
@@ -176,18 +203,30 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
 /* m/s, of the fastest that is seen before it is there. */
 static const float FASTEST = 50;
 
+/* A free place, or that of what has been away longest; NULL: all are near. */
+static mirrored *room_for_one(physics_bodies *bodies, sbr_world *world) {
+  mirrored *oldest = &bodies->each[0];
+  for (uint32_t i = 0; i < MAX; i++) {
+    mirrored *at = &bodies->each[i];
+    if (!at->body) return at;
+    if (bodies->frame - at->seen > bodies->frame - oldest->seen) oldest = at;
+  }
+  if (bodies->frame - oldest->seen <= 2 * AGAIN) return NULL;
+  drop(oldest, world);
+  return oldest;
+}
+
 /* Mirrors a body's shape that has not been met. */
 static void adopt(soft_character *one, const gd_variant *server, const gd_variant *handle, int64_t index,
     const gd_variant *object) {
   physics_bodies *bodies = one->bodies;
-  mirrored *room = NULL;
-  for (uint32_t i = 0; i < MAX && !room; i++)
-    if (!bodies->each[i].body) room = &bodies->each[i];
+  mirrored *room = room_for_one(bodies, one->world);
   if (!room) {
     if (!bodies->told)
-      soft_character_warning(one, "more than 64 shapes of moving bodies are near it, and it passes through "
-                                  "the rest (said of the first "
-                                  "one alone). Take some off the layers of its collision_mask");
+      soft_character_warning(one,
+          "more than 256 shapes of bodies are near it, and it passes through the rest "
+          "(said of the first one alone). Take some off the layers of its "
+          "collision_mask");
     bodies->told = true;
     return;
   }
@@ -196,28 +235,30 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
       .handle = gd_copy(handle),
       .object = gd.variant_get_object_instance_id(object),
       .seen = bodies->frame};
-  room->shape = physics_shape_of(server, handle, index, object);
+  room->shape = physics_shape_of(server, handle, index, object, &room->inner);
   if (one->settings.push_bodies) room->mass = body_mass_of(server, handle);
   if (room->shape) make_collider(bodies, one->world, server, room);
 }
 
-static float length(sbf_vec3 v) {
-  return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
-}
-
-static void meet(soft_character *one, const gd_variant *server, const gd_variant *hit, float speed) {
+/* What a query found; a shape that it finds again, as each triangle of a mesh may be, is left out of the next
+ * queries of this look, `known`. */
+static void meet(
+    soft_character *one, const gd_variant *server, const gd_variant *hit, float speed, gd_variant *known) {
   physics_bodies *bodies = one->bodies;
   gd_variant handle = gd_key(hit, "rid");
   uint64_t body = gd_as_rid(&handle);
   int64_t index = gd_take_int(gd_key(hit, "shape"));
-  mirrored *known = NULL;
-  for (uint32_t i = 0; i < MAX && !known; i++)
-    if (bodies->each[i].body == body && bodies->each[i].index == index) known = &bodies->each[i];
-  if (known) {
-    known->seen = bodies->frame;
+  mirrored *met = NULL;
+  for (uint32_t i = 0; i < MAX && !met; i++)
+    if (bodies->each[i].body == body && bodies->each[i].index == index) met = &bodies->each[i];
+  if (met) {
+    if (met->found == bodies->query_count) GD_DO(known, "push_back", gd_copy(&handle));
+    met->seen = bodies->frame, met->found = bodies->query_count;
   } else if (body) {
     gd_variant object = gd_key(hit, "collider");
-    if (!body_moves(server, &handle, &object) || shared_world_has(one->shared, &object))
+    bool own = shared_world_has(one->shared, &object);
+    if (own) GD_DO(&bodies->passed, "push_back", gd_copy(&handle));
+    if (own || (speed > 0 && body_is_static(server, &handle)))
       GD_DO(&bodies->still, "push_back", gd_copy(&handle));
     else if (!(speed > 0) || length(velocity_of(server, &handle)) > speed)
       adopt(one, server, &handle, index, &object);
@@ -229,20 +270,23 @@ static void meet(soft_character *one, const gd_variant *server, const gd_variant
 /* What the query finds of at least that speed (m/s), and what it found no room for. */
 static void ask(soft_character *one, const gd_variant *space, const gd_variant *server, float speed) {
   physics_bodies *bodies = one->bodies;
+  gd_variant known = GD_CALL(speed > 0 ? &bodies->still : &bodies->passed, "duplicate");
   bool more = true;
   for (int i = 0; i < QUERIES && more; i++) {
-    GD_DO(&bodies->query, "set_exclude", gd_copy(&bodies->still));
-    int64_t left_out = gd_size(&bodies->still);
+    bodies->query_count++;
+    GD_DO(&bodies->query, "set_exclude", gd_copy(&known));
+    int64_t left_out = gd_size(&known);
     gd_variant hits = GD_CALL(space, "intersect_shape", gd_copy(&bodies->query), gd_int(MAX));
     int64_t count = gd_size(&hits);
     for (int64_t k = 0; k < count; k++) {
       gd_variant hit = gd_at(&hits, k);
-      meet(one, server, &hit, speed);
+      meet(one, server, &hit, speed, &known);
       gd_free(&hit);
     }
     gd_free(&hits);
-    more = count == MAX && gd_size(&bodies->still) > left_out;
+    more = count == MAX && gd_size(&known) > left_out;
   }
+  gd_free(&known);
 }
 
 /* Every few frames all bodies in a box about the character; in each, those that would be through it before.
@@ -261,8 +305,16 @@ static void look_around(soft_character *one, bool all) {
     at.origin.y += (one->low.y + one->high.y) / 2 * one->scale;
     GD_DO(&bodies->query, "set_transform", gd_transform_value(at));
     GD_DO(&bodies->query, "set_collision_mask", gd_int(one->settings.collision_mask));
-    if (bodies->frame % FORGET == 0) gd_assign(&bodies->still, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
+    if (bodies->frame % FORGET == 0) {
+      gd_assign(&bodies->passed, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
+      gd_assign(&bodies->still, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
+    }
     if (all) {
+      /* As far as it goes until it looks again, were it to go twice as fast. */
+      sbf_vec3 o = one->put.origin, was = one->looked;
+      float goes = fminf(4 * length((sbf_vec3){o.x - was.x, o.y - was.y, o.z - was.z}), FASTEST);
+      size = (sbf_vec3){size.x + goes, size.y + goes, size.z + goes};
+      one->looked = o;
       GD_DO(&bodies->box, "set_size", gd_vector3(size));
       ask(one, &space, &server, 0);
     }

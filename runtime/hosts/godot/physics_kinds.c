@@ -1,17 +1,18 @@
 #include "physics_kinds.h"
 
-enum { MODE_RIGID = 2, MODE_RIGID_LINEAR = 3 };
+enum { MODE_STATIC = 0, MODE_RIGID = 2, MODE_RIGID_LINEAR = 3 };
+
+static int64_t mode_of(const gd_variant *server, const gd_variant *body) {
+  return gd_take_int(GD_CALL(server, "body_get_mode", gd_copy(body)));
+}
 
 bool body_is_rigid(const gd_variant *server, const gd_variant *body) {
-  int64_t mode = gd_take_int(GD_CALL(server, "body_get_mode", gd_copy(body)));
+  int64_t mode = mode_of(server, body);
   return mode == MODE_RIGID || mode == MODE_RIGID_LINEAR;
 }
 
-/* A frozen body's mode says nothing of what it is. */
-bool body_moves(const gd_variant *server, const gd_variant *body, const gd_variant *object) {
-  if (body_is_rigid(server, body)) return true;
-  return gd_as_object(object) && (gd_take_bool(GD_CALL(object, "is_class", gd_string("CharacterBody3D"))) ||
-                                     gd_take_bool(GD_CALL(object, "is_class", gd_string("RigidBody3D"))));
+bool body_is_static(const gd_variant *server, const gd_variant *body) {
+  return mode_of(server, body) == MODE_STATIC;
 }
 
 bool body_is_below(const gd_variant *node, const gd_variant *object) {

@@ -4,17 +4,20 @@
 #include <stdlib.h>
 
 #include "soft_character.h"
+#include "turns.h"
 
 enum { CYLINDER = 16 /* sides of a cylinder's hull */ };
-/* Godot's kinds of shapes that a moving body may have. */
+/* Godot's kinds of shapes. */
 enum {
-  SHAPE_SEPARATION_RAY = 1, /* nothing solid */
+  SHAPE_WORLD_BOUNDARY,
+  SHAPE_SEPARATION_RAY, /* nothing solid */
   SHAPE_SPHERE,
   SHAPE_BOX,
   SHAPE_CAPSULE,
   SHAPE_CYLINDER,
   SHAPE_CONVEX,
-  SHAPE_CONCAVE
+  SHAPE_CONCAVE,
+  SHAPE_HEIGHTMAP
 };
 
 /* Of the main thread alone: whether it was said that something is passed through. */
@@ -79,9 +82,51 @@ static float number(const gd_variant *data, const char *key) {
   return (float)gd_take_float(gd_key(data, key));
 }
 
-static sbr_shape *shape_with(int64_t kind, const gd_variant *data, const gd_variant *object) {
+/* A grid of one metre about its middle. */
+static sbr_shape *heightmap(const gd_variant *data, const gd_variant *object) {
+  sbr_shape_definition form = sbr_default_shape_definition();
+  gd_variant heights = gd_key(data, "heights");
+  sbr_height_field field = {.heights_m = gd_floats(&heights),
+      .columns = (uint32_t)gd_take_int(gd_key(data, "width")),
+      .rows = (uint32_t)gd_take_int(gd_key(data, "depth")),
+      .cell_m = 1};
+  sbr_shape *made = NULL;
+  field.x = -0.5 * (field.columns - 1.0), field.z = -0.5 * (field.rows - 1.0);
+  form.kind = SBR_SHAPE_HEIGHT_FIELD;
+  form.heights = &field;
+  if (field.heights_m && (uint64_t)gd_size(&heights) >= (uint64_t)field.columns * field.rows)
+    made = made_of(&form, object);
+  gd_free(&heights);
+  return made;
+}
+
+static float distance_to(const gd_variant *plane, sbf_vec3 place) {
+  return (float)gd_take_float(GD_CALL(plane, "distance_to", gd_vector3(place)));
+}
+
+/* The runtime's is at the origin and faces its +Y. */
+static sbr_shape *boundary(const gd_variant *plane, const gd_variant *object, gd_transform *inner) {
+  sbr_shape_definition form = sbr_default_shape_definition();
+  float off = distance_to(plane, (sbf_vec3){0, 0, 0});
+  sbf_vec3 n = {distance_to(plane, (sbf_vec3){1, 0, 0}) - off, distance_to(plane, (sbf_vec3){0, 1, 0}) - off,
+      distance_to(plane, (sbf_vec3){0, 0, 1}) - off};
+  sbf_vec3 side = fabsf(n.x) < 0.7f ? (sbf_vec3){1, 0, 0} : (sbf_vec3){0, 0, 1};
+  sbf_vec3 z = turn_cross(side, n);
+  float length = sqrtf(z.x * z.x + z.y * z.y + z.z * z.z);
+  z = (sbf_vec3){z.x / length, z.y / length, z.z / length};
+  sbf_vec3 x = turn_cross(n, z);
+  *inner = (gd_transform){
+      {{x.x, n.x, z.x}, {x.y, n.y, z.y}, {x.z, n.z, z.z}}, {-off * n.x, -off * n.y, -off * n.z}};
+  form.kind = SBR_SHAPE_PLANE;
+  return made_of(&form, object);
+}
+
+static sbr_shape *shape_with(
+    int64_t kind, const gd_variant *data, const gd_variant *object, gd_transform *inner) {
   sbr_shape_definition form = sbr_default_shape_definition();
   switch (kind) {
+  case SHAPE_WORLD_BOUNDARY:
+    return boundary(data, object, inner);
   case SHAPE_SEPARATION_RAY:
     return NULL;
   case SHAPE_SPHERE:
@@ -102,17 +147,20 @@ static sbr_shape *shape_with(int64_t kind, const gd_variant *data, const gd_vari
     return convex(data, object);
   case SHAPE_CONCAVE:
     return concave(data, object);
-  default: /* heights and planes, which Godot does not let move either */
+  case SHAPE_HEIGHTMAP:
+    return heightmap(data, object);
+  default:
     return NULL;
   }
 }
 
-sbr_shape *physics_shape_of(
-    const gd_variant *server, const gd_variant *body, int64_t index, const gd_variant *object) {
+sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, int64_t index,
+    const gd_variant *object, gd_transform *inner) {
+  *inner = (gd_transform){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
   gd_variant handle = GD_CALL(server, "body_get_shape", gd_copy(body), gd_int(index));
   gd_variant data = GD_CALL(server, "shape_get_data", gd_copy(&handle));
   int64_t kind = gd_take_int(GD_CALL(server, "shape_get_type", gd_copy(&handle)));
-  sbr_shape *made = shape_with(kind, &data, object);
+  sbr_shape *made = shape_with(kind, &data, object, inner);
   gd_free(&data);
   gd_free(&handle);
   return made;

@@ -9,7 +9,7 @@
 
 enum {
   MAX = 64, /* characters that meet each other */
-  COLLIDERS = 128
+  COLLIDERS = 256
 };
 
 struct shared_world {

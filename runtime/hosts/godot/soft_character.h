@@ -12,7 +12,7 @@
 
 /* Where its ground comes from. */
 typedef enum soft_ground {
-  SOFT_GROUND_PHYSICS, /* rays into the physics space */
+  SOFT_GROUND_PHYSICS, /* the bodies of the physics space */
   SOFT_GROUND_FLAT     /* a plane at the height where the node began */
 } soft_ground;
 
@@ -23,9 +23,8 @@ typedef struct soft_settings {
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
-  int64_t ground;                   /* a soft_ground */
-  double ground_cell, ground_reach; /* m; 0: by the character's size */
-  int64_t collision_mask;           /* physics layers of what it meets */
+  int64_t ground;         /* a soft_ground */
+  int64_t collision_mask; /* physics layers of what it meets */
   bool push_bodies;
   bool meet_others;            /* nodes of one physics space that do meet each other */
   double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
@@ -58,6 +57,7 @@ typedef struct soft_character {
   bool still;         /* it does not move: paused, or its node does not process */
   double flat_y;      /* height of the flat ground */
   gd_transform put;   /* where it was last put by its own motion */
+  sbf_vec3 looked;    /* where that was when it last looked for bodies */
   bool stale;         /* the mesh is to be drawn anew */
   bool previews;      /* it moves in the editor, having stood at: */
   gd_transform from;
@@ -155,19 +155,20 @@ void character_skeleton_update(soft_character *one);
 
 /* ---- physics_ground.c ---- */
 
-physics_ground *physics_ground_make(const soft_character *one);
+physics_ground *physics_ground_make(void);
 void physics_ground_free(physics_ground *ground);
-/* Casts what is missing around the character; main thread, in a physics frame. */
+/* Level far below where the node stands over something, else at its height; main thread, in a physics frame.
+ */
 void physics_ground_look(soft_character *one);
 sbr_ground physics_ground_of(physics_ground *ground);
-/* Forgets what rays found: level at that height (m) until it looks again. */
+/* Level at that height (m) until it looks again. */
 void physics_ground_level(physics_ground *ground, double level);
 
 /* ---- physics_bodies.c ---- */
 
 physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
-/* Makes colliders of the moving bodies near the character, for which it looks now or by and by. */
+/* Makes colliders of the bodies near the character, for which it looks now or by and by. */
 void physics_bodies_look(soft_character *one, bool now);
 /* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
@@ -178,9 +179,9 @@ gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id c
 /* ---- physics_shapes.c ---- */
 
 /* A body's shape as the runtime's; NULL where it has none, which is said once if it should have one.
- * `object`: whose it is. */
-sbr_shape *physics_shape_of(
-    const gd_variant *server, const gd_variant *body, int64_t index, const gd_variant *object);
+ * `object`: whose it is; `inner`: where the runtime's shape is in Godot's. */
+sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, int64_t index,
+    const gd_variant *object, gd_transform *inner);
 
 /* ---- shared_world.c ---- */
 

@@ -258,6 +258,12 @@ int32_t *gd_int32s(const gd_variant *packed) {
   return gd.packed_int32_array_operator_index(inside(GDEXTENSION_VARIANT_TYPE_PACKED_INT32_ARRAY, packed), 0);
 }
 
+float *gd_floats(const gd_variant *packed) {
+  if (!gd_size(packed)) return NULL;
+  return gd.packed_float32_array_operator_index(
+      inside(GDEXTENSION_VARIANT_TYPE_PACKED_FLOAT32_ARRAY, packed), 0);
+}
+
 sbf_vec2 *gd_vector2s(const gd_variant *packed) {
   if (!gd_size(packed)) return NULL;
   return (sbf_vec2 *)gd.packed_vector2_array_operator_index(

@@ -73,6 +73,7 @@ int64_t gd_size(const gd_variant *array);
 /* Items of a packed array, to be written: NULL where it is empty. */
 uint8_t *gd_bytes(const gd_variant *packed);
 int32_t *gd_int32s(const gd_variant *packed);
+float *gd_floats(const gd_variant *packed);
 sbf_vec2 *gd_vector2s(const gd_variant *packed);
 sbf_vec3 *gd_vector3s(const gd_variant *packed);
 /* An array of that type with `count` zeros. */

@@ -26,11 +26,8 @@ static const gd_help character_words[] = {
     {"use_threads", "Steps on the [WorkerThreadPool]. The motion is the same to the bit."},
     {"mirror_skeleton", "A [Skeleton3D] under the node has the bones, for attachments. It follows the "
                         "character; posing it does not. See [method get_skeleton]."},
-    {"ground", "What it stands on."},
-    {"ground_cell", "Metres between two of the rays that look for the ground. 0 is a 24th of the character's "
-                    "size. Steps of the ground become slopes as wide as this."},
-    {"ground_reach", "Metres above the node at which these rays begin. 0 is the character's size. What is "
-                     "higher is a roof."},
+    {"ground", "What it stands on: bodies of the physics space, or a level plane at the height where it "
+               "begins."},
     {"collision_mask", "Physics layers of the ground and of the bodies that it meets. It is on no layer "
                        "itself: areas and rays do not find it."},
     {"push_bodies", "A [RigidBody3D] that it touches is pushed with what the flesh feels."},
@@ -124,9 +121,8 @@ void words_tell(void) {
       "and "
       "goes where its character goes; moving the node puts the character there, scaling it makes it anew in "
       "that "
-      "size. Physics bodies that stand still are its ground, those that move are touched and pushed; what "
-      "hangs "
-      "below the node, as a hit box does, is neither.",
+      "size. Physics bodies are its floors and walls; platforms that move carry it, light bodies are pushed; "
+      "what hangs below the node, as a hit box does, is neither.",
       character_words);
   gd_class_tell(&soft_asset_class,
       "A soft character's bundle, as [SoftCharacter3D] shows it. It is loaded from a .sbfz, or imported from "
