@@ -156,6 +156,17 @@ void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id charact
   sbri_head(c)->up = up;
 }
 
+void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_vec3 by, float turn) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  if (!sbri_record(world, SBRI_RECORDED_DISPLACE,
+          (const double[]){character.value, (double)by.x, (double)by.y, (double)by.z, (double)turn}))
+    return;
+  sbri_character_wake(c);
+  sbri_head(c)->moved = sbri_add(sbri_head(c)->moved, by);
+  sbri_head(c)->turned += turn;
+}
+
 void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
@@ -172,6 +183,7 @@ void sbr_character_teleport(
     return;
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
+  sbri_head(c)->moved = sbri_vec3(0, 0, 0), sbri_head(c)->turned = 0;
   put(world, c, position, heading);
   sbri_rigid_carry(c);
   sbri_jiggles_place(c);

@@ -112,6 +112,9 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   case SBRI_RECORDED_VERTICAL:
     sbr_character_set_vertical_speed(r->world, id, (float)n[1]);
     break;
+  case SBRI_RECORDED_DISPLACE:
+    sbr_character_displace(r->world, id, vec3_at(n + 1), (float)n[4]);
+    break;
   case SBRI_RECORDED_TELEPORT:
     sbr_character_teleport(r->world, id, (sbr_double3){n[1], n[2], n[3]}, (float)n[4]);
     break;

@@ -9,6 +9,7 @@
 #include "skeleton/rig_mass.h"
 
 static const float EASE_S = 0.18f;     /* time over which wanted motion takes effect */
+static const float DISPLACED_S = 0.1f; /* the same of the speed that its host moves it at */
 static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */
 static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
 static const float LONG_S = 1;         /* of standing; longer is no longer counted */
@@ -103,9 +104,41 @@ float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_in
   return sqrtf(by.ahead * by.ahead + by.aside * by.aside + round * round);
 }
 
+static bool is_displaced(const sbri_gait_input *input) {
+  return input->turned != 0 || sbri_dot(input->moved, input->moved) > 0;
+}
+
+/* Goes where the host moves it; its speed, by which feet step and tails swing, becomes that of this motion.
+ */
+static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  float ease = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
+  sbf_vec3 from = state->position, speed = sbri_scale(sbri_unheaded(state, input->moved), h),
+           by = input->moved;
+  if (!sbri_is_afloat(rig)) by.y = 0;
+  state->forward += (speed.z - state->forward) * ease;
+  state->sideways += (speed.x - state->sideways) * ease;
+  state->turn += (h * input->turned - state->turn) * ease;
+  state->standing_s = 0;
+  state->pace = 1;
+  state->displaced = 1;
+  state->position = sbri_add(state->position, by);
+  state->heading = sbri_wrap_angle(state->heading + input->turned);
+  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  sbri_walls_keep_out(rig, state, input, from, input->turned);
+  sbf_vec3 step = sbri_sub(state->position, from);
+  state->distance_m += (double)sbri_length(step);
+  sbri_walk_tick(rig, state, sbri_length(step), input->scale);
+  sbri_motion_tick(rig, state, input, step);
+  return input->turned;
+}
+
 float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *given) {
   sbri_gait_input wants = sbri_motion_input(rig, given);
   const sbri_gait_input *input = &wants;
+  if (is_displaced(input)) return displace(rig, state, input);
+  bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
+  if (state->displaced && !wanted) state->forward = state->sideways = state->turn = 0;
+  state->displaced = 0;
   sbf_vec3 from = state->position;
   if (sbri_is_afloat(rig)) {
     sbf_vec3 way;
@@ -118,7 +151,6 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   state->forward += by.ahead;
   state->sideways += by.aside;
   state->turn += by.turn;
-  bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;

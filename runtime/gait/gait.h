@@ -9,6 +9,8 @@
 
 typedef struct sbri_gait_input {
   float forward, sideways, turn, up; /* m/s, m/s, rad/s, m/s */
+  sbf_vec3 moved;                    /* by the host, in this tick, m */
+  float turned;                      /* the same, rad */
   float tick_s;
   float scale;
   bool hold;                       /* rest pose, moved rigidly */

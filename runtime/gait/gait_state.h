@@ -75,12 +75,13 @@ typedef struct sbri_gait_state {
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, hips_pitch, chest_yaw;
-  float lowered;    /* by how much the root is lower than over upright legs, m */
-  float rise;       /* of the root in the last tick, m/s */
-  float level;      /* of what it stands on, or would fall on, from the origin; m */
-  float fall_speed; /* m/s, downwards */
-  uint32_t falls;   /* 1: it is in the air */
-  uint32_t eased;   /* 1: not lowered as its feet would have it, for its knees */
+  float lowered;      /* by how much the root is lower than over upright legs, m */
+  float rise;         /* of the root in the last tick, m/s */
+  float level;        /* of what it stands on, or would fall on, from the origin; m */
+  float fall_speed;   /* m/s, downwards */
+  uint32_t falls;     /* 1: it is in the air */
+  uint32_t displaced; /* 1: its host moved it in this tick; it stops when that does */
+  uint32_t eased;     /* 1: not lowered as its feet would have it, for its knees */
   double distance_m;
   float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
   float walk_ahead; /* by how much of a cycle that is ahead of the feet, as far as it is to be made up */

@@ -29,6 +29,8 @@ sbri_gait_input sbri_gait_input_of(
       .sideways = up ? head->sideways : 0,
       .turn = up ? head->turn : 0,
       .up = up ? head->up : 0,
+      .moved = head->moved,
+      .turned = head->turned,
       .tick_s = (float)world->tick_s,
       .scale = c->scale,
       .hold = c->hold,

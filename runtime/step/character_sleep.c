@@ -17,7 +17,7 @@ bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
   if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0 || head->up != 0)
     return false;
-  if (sbri_any_loads(c)) return false;
+  if (sbri_any_loads(c) || head->turned != 0 || sbri_dot(head->moved, head->moved) > 0) return false;
   if (head->fade_ticks > 0 || head->fade_before > 0 || head->fade_kept) return false;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (!sbri_island_states(c)[i].asleep) return false;

@@ -18,6 +18,11 @@ static void note_landing(sbri_character *c) {
   sbri_gait_placement(sbri_gait(c), &event->position, &heading);
 }
 
+static void end_displacement(sbri_character *c) {
+  sbri_head(c)->moved = sbri_vec3(0, 0, 0);
+  sbri_head(c)->turned = 0;
+}
+
 void sbri_character_tick(sbr_world *world, sbri_character *c) {
   c->event_count = 0;
   if (!c->model || sbri_character_sleeps(world, c)) return;
@@ -31,6 +36,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   sbri_fade_tick(world, c);
   if (sbri_is_away(c)) {
     sbri_away_tick(world, c);
+    end_displacement(c);
     return;
   }
   if (sbri_reflex_tick(world, c)) note_landing(c);
@@ -43,6 +49,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count += sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events + c->event_count,
       SBRI_TICK_EVENTS - c->event_count);
+  end_displacement(c);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, input.ground);
   if (sbri_character_is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);

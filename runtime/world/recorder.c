@@ -32,7 +32,8 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_SOFT_FORCE] = 7,
     [SBRI_RECORDED_SOFT_HOLD] = 9,
     [SBRI_RECORDED_SOFT_RELEASE] = 3,
-    [SBRI_RECORDED_VERTICAL] = 2};
+    [SBRI_RECORDED_VERTICAL] = 2,
+    [SBRI_RECORDED_DISPLACE] = 5};
 
 uint32_t sbri_recorded_count(sbri_recorded what) {
   return counts[what];

@@ -34,6 +34,7 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_SOFT_HOLD,     /* body, vertex, target, frequency, damping ratio, greatest force */
   SBRI_RECORDED_SOFT_RELEASE,  /* body, vertex */
   SBRI_RECORDED_VERTICAL,      /* vertical speed */
+  SBRI_RECORDED_DISPLACE,      /* by, turn */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 

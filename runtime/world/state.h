@@ -34,6 +34,8 @@ typedef struct sbri_character_state {
   uint32_t fade_kept;               /* it goes over in the next tick, and is looked at meanwhile */
   uint32_t swing_ticks;             /* for how long a change has been put off because it swings */
   float up;                         /* wanted vertical speed, m/s */
+  sbf_vec3 moved;                   /* by the host, in the next tick; m */
+  float turned;                     /* the same, rad */
 } sbri_character_state;
 
 typedef struct sbri_island_state {

@@ -10,7 +10,7 @@
 #include "sbrun/debug.h"
 #include "sbrun/sbrun.h"
 
-enum { SECOND = 60 };
+enum { SECOND = 60, LEGS = 4 };
 
 static sbf_asset *pup, *koi;
 static sbr_model *pup_model, *koi_model;
@@ -182,6 +182,36 @@ START_TEST(stairs_of_boxes_are_climbed)
   sbr_double3 at = place_of(&s, pup);
   ck_assert_msg(at.z > 2.4, "it came to %g m", at.z);
   ck_assert_double_eq_tol(at.y - before, 0.3, 0.03);
+  end_scene(&s);
+}
+END_TEST
+
+/* Its host moves it, and its feet step: those that stand stay where they are. A wall keeps it out all the
+ * same. */
+START_TEST(a_displaced_one_steps)
+{
+  scene s = scene_of(pup_model, 0, 0);
+  sbr_leg_state before[LEGS], legs[LEGS];
+  double z = place_of(&s, pup).z, slip = 0;
+  box(&s, (sbr_double3){0, 0.5, 2.5}, (sbf_vec3){2, 0.5f, 0.1f});
+  for (int i = 0; i < 3 * SECOND; i++) {
+    sbr_character_legs(s.world, s.walker, before, LEGS);
+    sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.2f / SECOND}, 0);
+    sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.2f / SECOND}, 0);
+    sbr_world_tick(s.world);
+    sbr_character_legs(s.world, s.walker, legs, LEGS);
+    for (int k = 0; k < 4; k++)
+      if (before[k].planted && legs[k].planted)
+        slip = fmax(slip, fabs((double)(legs[k].foot.z - before[k].foot.z)));
+  }
+  ck_assert_double_eq_tol(place_of(&s, pup).z - z, 1.2, 0.03);
+  for (int k = 0; k < 4; k++) ck_assert_uint_ge(legs[k].steps_taken, 4);
+  ck_assert_double_le(slip, 1e-4);
+  for (int i = 0; i < 3 * SECOND; i++) {
+    sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.4f / SECOND}, 0);
+    sbr_world_tick(s.world);
+  }
+  ck_assert_double_lt(place_of(&s, pup).z, 2.4);
   end_scene(&s);
 }
 END_TEST
@@ -360,6 +390,7 @@ int main(void) {
   tcase_add_loop_test(tests, a_wall_stops_it, 0, 2);
   tcase_add_loop_test(tests, every_kind_is_stopped, 0, 3);
   tcase_add_test(tests, stairs_of_boxes_are_climbed);
+  tcase_add_test(tests, a_displaced_one_steps);
   tcase_add_test(tests, it_slides_along_a_wall);
   tcase_add_test(tests, a_low_box_is_stepped_on);
   tcase_add_test(tests, a_bridge_is_walked_under);

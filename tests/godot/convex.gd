@@ -47,7 +47,7 @@ func _initialize() -> void:
 	add_box("StaticBody3D", Vector3(20, 1, 20), Vector3(0, -0.5, 0))
 	character = add_character()
 	character.contact.connect(func(soft_body: int, _position: Vector3, _normal: Vector3, impulse: float, with: Object):
-		if with: told.append([soft_body, impulse, with]))
+		if with is RigidBody3D: told.append([soft_body, impulse, with]))
 
 
 func _physics_process(_delta: float) -> bool:

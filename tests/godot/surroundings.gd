@@ -9,6 +9,7 @@ var platform: AnimatableBody3D
 var door: AnimatableBody3D
 var trapdoor: StaticBody3D
 var landed := 0
+var steps := {}
 
 
 func lane(name: String) -> Vector3:
@@ -104,6 +105,10 @@ func _initialize() -> void:
 	trapdoor = add_box("StaticBody3D", Vector3(3, 0.2, 3), at + Vector3(0, -0.1, 0))
 	add_box("StaticBody3D", Vector3(3, 0.2, 3), at + Vector3(0, -1.6, 0))
 	walkers["trapdoor"].landed.connect(func(_at: Vector3): landed += 1)
+	for name in ["moved", "slowly", "turned"]:
+		at = add_walker(name, 0)
+		add_floor(at)
+		walkers[name].foot_down.connect(func(_leg: int, _at: Vector3): steps[name] = steps.get(name, 0) + 1)
 	for body in [lift, platform, door]: body.sync_to_physics = false
 
 
@@ -127,8 +132,12 @@ func _physics_process(delta: float) -> bool:
 		lift.position.y += 0.5 * delta
 		platform.position.z += 0.5 * delta
 		door.position.z += 0.4 * delta
+	if frame > 60 and frame <= 360:
+		walkers["moved"].position.z += 0.3 * delta
+		walkers["slowly"].position.z += 0.003 * delta
+		walkers["turned"].rotate_y(0.3 * delta)
 	if frame == 60:
-		for name in ["lift", "platform", "trapdoor", "door"]: set_meta(name, walkers[name].position)
+		for name in ["lift", "platform", "trapdoor", "door", "moved", "slowly", "turned"]: set_meta(name, walkers[name].position)
 		trapdoor.queue_free()
 	if frame < 420:
 		return false
@@ -144,5 +153,9 @@ func _physics_process(delta: float) -> bool:
 	near(get_meta("trapdoor").y - walkers["trapdoor"].position.y, 1.5, 0.03, "how far it fell")
 	check(landed == 1, "it said %d times that it landed" % landed)
 	check(walkers["door"].position.z - get_meta("door").z > 0.05, "the door did not push it: %s" % walkers["door"].position)
+	near(walkers["moved"].position.z - get_meta("moved").z, 1.5, 0.02, "how far it walked with its node")
+	near(walkers["slowly"].position.z - get_meta("slowly").z, 0.015, 0.002, "how far it went with its node")
+	near(walkers["turned"].rotation.y, 1.5, 0.02, "how far it turned with its node")
+	check(steps.get("moved", 0) > 12 and steps.get("turned", 0) > 6, "its feet came down so often: %s" % steps)
 	finish()
 	return true

@@ -118,6 +118,7 @@ CALLS = {
     "sbr_character_create": (c_int, [W, c_void_p, POINTER(CharacterDefinition), POINTER(CharacterId), ERROR]),
     "sbr_character_drive": (None, [W, C, c_float, c_float, c_float]),
     "sbr_character_set_vertical_speed": (None, [W, C, c_float]),
+    "sbr_character_displace": (None, [W, C, Vec3, c_float]),
     "sbr_character_teleport": (None, [W, C, Double3, c_float]),
     "sbr_character_play": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
     "sbr_character_origin": (Double3, [W, C]),
@@ -288,6 +289,10 @@ class Character:
         """Wanted speeds, m/s and rad/s; left is positive; up of what swims or flies."""
         self.call("sbr_character_drive", forward, sideways, turn)
         self.call("sbr_character_set_vertical_speed", up)
+
+    def displace(self, by, turn=0.0):
+        """Moves and turns it in the next tick, m and rad; its feet step after it."""
+        self.call("sbr_character_displace", Vec3(*by), turn)
 
     def teleport(self, position, heading):
         self.call("sbr_character_teleport", Double3(*position), heading)

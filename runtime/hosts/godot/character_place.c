@@ -40,6 +40,8 @@ static void leave_node(soft_character *one) {
 }
 
 void soft_character_follow(soft_character *one) {
+  if (one->displaced && one->tick == sbr_world_ticks(one->world)) return;
+  one->displaced = false;
   if (soft_character_loose_follow(one)) {
     leave_node(one);
     return;
@@ -86,11 +88,34 @@ gd_transform soft_character_transform(const soft_character *one) {
   return place;
 }
 
-/* Whether something else has moved the node since the character left it there. */
-static bool was_moved(const gd_transform *a, const gd_transform *b) {
-  float x = a->origin.x - b->origin.x, y = a->origin.y - b->origin.y, z = a->origin.z - b->origin.z;
-  float turn = a->basis[0][2] * b->basis[2][2] - a->basis[2][2] * b->basis[0][2];
-  return x * x + y * y + z * z > 1e-8f || turn * turn > 1e-8f;
+/* How something else has moved the node since the character left it there. */
+typedef struct node_move {
+  sbf_vec3 by; /* m */
+  float turn;  /* rad, about +Y */
+  bool any;
+} node_move;
+
+static const float STILL = 1e-12f; /* m^2 and rad^2: what the node's numbers are rounded by */
+
+static node_move move_of(const gd_transform *now, const gd_transform *put) {
+  node_move made = {
+      .by = {now->origin.x - put->origin.x, now->origin.y - put->origin.y, now->origin.z - put->origin.z}};
+  float sine = now->basis[0][2] * put->basis[2][2] - now->basis[2][2] * put->basis[0][2];
+  float cosine = now->basis[0][2] * put->basis[0][2] + now->basis[2][2] * put->basis[2][2];
+  made.turn = atan2f(sine, cosine);
+  made.any = !(made.by.x * made.by.x + made.by.y * made.by.y + made.by.z * made.by.z <= STILL &&
+               made.turn * made.turn <= STILL);
+  return made;
+}
+
+static const float LARGEST_TURN = 1; /* rad in a frame: what turns farther is put there */
+
+/* What is moved so little walks there; what nothing holds, and what is moved farther, is put there. */
+static bool steps_there(const soft_character *one, const node_move *move) {
+  double limit = one->settings.teleport_distance, size = soft_character_size(one);
+  float x = move->by.x, y = move->by.y, z = move->by.z;
+  if (one->loose || one->editor || one->settings.paused || !(fabsf(move->turn) < LARGEST_TURN)) return false;
+  return sqrt((double)(x * x + y * y + z * z)) < (limit > 0 ? limit : size / 2);
 }
 
 /* ---- A frame ---- */
@@ -103,7 +128,7 @@ void soft_character_save(soft_character *one, bool done) {
 /* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
 static void edit(soft_character *one, const gd_transform *now) {
   if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
-  if (!one->previews && !was_moved(now, &one->put)) return;
+  if (!one->previews && !move_of(now, &one->put).any) return;
   one->put = one->previews ? one->from : *now;
   one->previews = false;
   one->flat_y = one->put.origin.y;
@@ -131,7 +156,19 @@ bool soft_character_prepare(soft_character *one) {
     one->from = now;
     one->placed = false;
   }
-  if (!one->placed || was_moved(&now, &one->put)) {
+  node_move move = move_of(&now, &one->put);
+  if (one->placed && !isfinite(move.by.x + move.by.y + move.by.z + move.turn)) { /* it stays where it was */
+    leave_node(one);
+    move = (node_move){.any = false};
+  }
+  bool steps = one->placed && move.any && steps_there(one, &move);
+  if (steps) {
+    sbr_character_displace(one->world, one->id, move.by, move.turn);
+    one->put = now; /* a frame without a tick leaves it there */
+    one->displaced = true;
+    one->tick = sbr_world_ticks(one->world);
+  }
+  if (!one->placed || (move.any && !steps)) {
     soft_character_place(one, now.origin, transform_heading(&now));
     one->placed = true;
   } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {

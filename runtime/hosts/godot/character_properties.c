@@ -94,6 +94,7 @@ SETTING(paused, bool, 0, 1, soft_character_pause(one))
 SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
 SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
 SETTING(ground, int, 0, 1, soft_character_make(one))
+SETTING(teleport_distance, float, 0, SOFT_MAX, (void)one)
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
 SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
@@ -155,6 +156,7 @@ const gd_property soft_character_properties[] = {
     GROUP("Ground"),
     CHOICE("ground", "SoftCharacter3D.Ground", "Physics Space,Flat", ground),
     GROUP("Collision"),
+    SHOWN("teleport_distance", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", teleport_distance),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),

@@ -23,8 +23,9 @@ typedef struct soft_settings {
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
-  int64_t ground;         /* a soft_ground */
-  int64_t collision_mask; /* physics layers of what it meets */
+  int64_t ground;           /* a soft_ground */
+  int64_t collision_mask;   /* physics layers of what it meets */
+  double teleport_distance; /* m: a node that is moved farther in a frame is put there; 0: half its size */
   bool push_bodies;
   bool meet_others;            /* nodes of one physics space that do meet each other */
   double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
@@ -57,9 +58,11 @@ typedef struct soft_character {
   bool still;         /* it does not move: paused, or its node does not process */
   double flat_y;      /* height of the flat ground */
   gd_transform put;   /* where it was last put by its own motion */
-  sbf_vec3 looked;    /* where that was when it last looked for bodies */
-  bool stale;         /* the mesh is to be drawn anew */
-  bool previews;      /* it moves in the editor, having stood at: */
+  bool displaced;     /* its node was moved, which the world has not followed at this tick: */
+  uint64_t tick;
+  sbf_vec3 looked; /* where that was when it last looked for bodies */
+  bool stale;      /* the mesh is to be drawn anew */
+  bool previews;   /* it moves in the editor, having stood at: */
   gd_transform from;
   gd_transform warned; /* what the editor's warnings were about */
   character_mesh *mesh;

@@ -28,6 +28,8 @@ static const gd_help character_words[] = {
                         "character; posing it does not. See [method get_skeleton]."},
     {"ground", "What it stands on: bodies of the physics space, or a level plane at the height where it "
                "begins."},
+    {"teleport_distance", "Metres. A node that a script or a parent moves farther in a frame is put there at "
+                          "once; what is nearer it walks, and its feet step after it. 0 is half its size."},
     {"collision_mask", "Physics layers of the ground and of the bodies that it meets. It is on no layer "
                        "itself: areas and rays do not find it."},
     {"push_bodies", "A [RigidBody3D] that it touches is pushed with what the flesh feels."},
@@ -119,7 +121,8 @@ void words_tell(void) {
   gd_class_tell(&soft_character_class,
       "A soft character that walks, whose flesh gives and whose feet find the ground. It shows a [SoftAsset] "
       "and "
-      "goes where its character goes; moving the node puts the character there, scaling it makes it anew in "
+      "goes where its character goes; moving the node a little makes it step there, moving it far puts it "
+      "there, scaling it makes it anew in "
       "that "
       "size. Physics bodies are its floors and walls; platforms that move carry it, light bodies are pushed; "
       "what hangs below the node, as a hit box does, is neither.",
