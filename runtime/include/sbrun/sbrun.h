@@ -222,8 +222,8 @@ SBF_API void sbr_character_drive(
  * lets it drift while the drive is 0 as well (spec 14.7). Numbers that are not finite are ignored. */
 SBF_API void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id character, float up);
 /* Moves the character by so much (m, world axes) and turns it (rad, left positive) in the next tick, in place
- * of what it is driven by: its feet step after it, floors carry it and walls keep it out. What is up is for those that
- * swim or fly. Several calls before a tick add up. */
+ * of what it is driven by: its feet step after it, floors carry it and walls keep it out. What is up is for
+ * those that swim or fly. Several calls before a tick add up. */
 SBF_API void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_vec3 by, float turn);
 /* Moves the character at once, with soft bodies and feet, at rest relative to its bones. `position` as in the
  * definition. */
