@@ -28,8 +28,10 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   const sbri_island_tick *t = m->tick;
   if (!(s->mass_kg > 0)) return;
   sbf_vec3 x = sbri_sample_place(t, s), v = sbri_sample_velocity(t, s);
-  sbf_vec3 begin = sbri_into_shape(&m->frame, x, false);
-  sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
+  sbf_vec3 to = sbri_add_scaled(x, v, t->tick_s);
+  sbri_box rough = sbri_box_with(sbri_box_of_point(x), to);
+  if (!sbri_box_meets(&m->near, &rough)) return;
+  sbf_vec3 begin = sbri_into_shape(&m->frame, x, false), end = sbri_into_shape(&m->frame, to, true);
   sbri_box way = sbri_box_with(sbri_box_of_point(begin), end);
   if (!sbri_box_meets(&m->bounds, &way)) return;
   const sbf_collision *rule = &m->body->source->collision;
@@ -66,6 +68,32 @@ static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float 
   return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
 }
 
+/* The same of its samples alone, each of which has to be gone through: far less where points carry some that
+ * lie beyond them. */
+static sbri_box ways_of_samples(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables, float longest) {
+  sbri_box box = {{0, 0, 0}, {0, 0, 0}};
+  for (uint32_t i = 0; i < body->sample_count; i++) {
+    sbri_sample s = sbri_sample_now(t, &body->samples[i], tables->surface);
+    sbf_vec3 x = sbri_sample_place(t, &s), end = sbri_add_scaled(x, sbri_sample_velocity(t, &s), t->tick_s);
+    box = sbri_box_with(i ? sbri_box_with(box, x) : sbri_box_of_point(x), end);
+  }
+  return sbri_box_grown(box, longest);
+}
+
+/* A box of the world in the space of the body. */
+static sbri_box from_world(const sbri_island_tick *t, const sbri_box *box, float more) {
+  const float low[3] = {box->low.x, box->low.y, box->low.z},
+              high[3] = {box->high.x, box->high.y, box->high.z};
+  const double origin[3] = {t->origin.x, t->origin.y, t->origin.z};
+  float from[3], to[3];
+  for (int k = 0; k < 3; k++) {
+    from[k] = (float)(((double)low[k] - origin[k]) / (double)t->scale);
+    to[k] = (float)(((double)high[k] - origin[k]) / (double)t->scale);
+  }
+  return sbri_box_grown((sbri_box){{from[0], from[1], from[2]}, {to[0], to[1], to[2]}}, more);
+}
+
 void sbri_shape_touches_add(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   const sbri_collider_set *set = t->colliders;
@@ -76,13 +104,18 @@ void sbri_shape_touches_add(
   sbri_bounds_walk walk;
   uint32_t item;
   sbri_bounds_walk_begin(&walk, &set->tree, world);
+  if (body->samples && sbri_bounds_walk_next(&walk, &item)) { /* something may be near */
+    world = sbri_box_in_world(ways_of_samples(t, body, tables, longest), t->origin, t->scale);
+    sbri_bounds_walk_begin(&walk, &set->tree, world);
+  }
   while (sbri_bounds_walk_next(&walk, &item)) {
     const sbri_collider *c = &set->at[set->listed[item]];
     if (!sbri_box_meets(&set->bounds[item], &world) ||
         !sbri_layers_meet(rule->layer, rule->mask, c->layer, c->mask))
       continue;
     meeting m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
-        sbri_box_grown(c->shape->bounds, longest * t->scale), fastest * t->scale};
+        from_world(t, &set->bounds[item], longest), sbri_box_grown(c->shape->bounds, longest * t->scale),
+        fastest * t->scale};
     add_all(&m);
     if (body->coarse_edge_count) sbri_shape_edges_add(&m);
   }

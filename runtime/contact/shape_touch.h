@@ -13,6 +13,7 @@ typedef struct sbri_shape_meeting {
   const sbri_contact_tables *tables;
   sbri_collider_frame frame;
   uint32_t number; /* of the collider */
+  sbri_box near;   /* of the collider's way in the tick in the body's space, grown by the same */
   sbri_box bounds; /* of the shape, grown by the ways that touches may have */
   float fastest_m; /* the way of the body's fastest point in the tick, m of the world */
 } sbri_shape_meeting;
