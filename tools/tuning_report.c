@@ -14,28 +14,33 @@ static void say_way(const tuning *t, const tune_trial *trial, char *text, size_t
       text, size, "%s, %s%s", t->meshes.at[trial->mesh].name, sbf_scheme_name(trial->setting.scheme), steps);
 }
 
-void tuning_say_unmet(const cli_call *call, const tuning *t) {
+/* As "0.0151 m (1 % of the size)". */
+static void say_length(const tuning *t, double length_m, char *text, size_t size) {
+  snprintf(text, size, "%.3g m (%.2g %% of its size)", length_m, 100 * length_m / t->size_m);
+}
+
+void tuning_tell_unmet(const tuning *t, char text[TUNING_TEXT]) {
   const tune_trial *near = on_front(t, t->chosen);
-  char way[128];
+  char way[128], asked[48], is[48];
   say_way(t, near, way, sizeof way);
-  double error = tune_promised(near, t->by_rms);
+  double error = tune_distance_by(&near->promised, t->by);
+  say_length(t, t->goal.error_m, asked, sizeof asked);
+  say_length(t, error, is, sizeof is);
   if (t->verdict == TUNE_TOO_FINE)
-    cli_wrong(call,
-        "nothing that was tried keeps within %.3g m: the nearest is off by up to %.3g m (%s), %.2g m of it "
-        "the reference's own: ask for %.3g or more, or try finer lattices with --elements and --reference",
-        t->goal.error_m, error, way, t->by_rms ? t->yard.rms_m : t->yard.max_m, error * 1.01);
+    snprintf(text, TUNING_TEXT,
+        "nothing that was tried keeps within %s: the nearest is off by %s (%s), %.2g m of it the reference's "
+        "own: ask for %.3g m or more, or try finer lattices with --elements and --reference",
+        asked, is, way, tune_distance_by(&t->yard.own, t->by), error * 1.01);
   else if (t->verdict == TUNE_TOO_CHEAP)
-    cli_wrong(call,
+    snprintf(text, TUNING_TEXT,
         "nothing that was tried takes less than %.4g us a tick here: the cheapest takes %.4g us (%s; off by "
-        "up to "
-        "%.3g m): give it more, or try coarser lattices with --elements",
-        t->goal.budget_us, near->us.median, way, error);
+        "%s): give it more, or try coarser lattices with --elements",
+        t->goal.budget_us, near->us.median, way, is);
   else
-    cli_wrong(call,
-        "what keeps within %.3g m takes %.4g us a tick here at least (%s), more than %.4g: allow either to "
-        "be "
+    snprintf(text, TUNING_TEXT,
+        "what keeps within %s takes %.4g us a tick here at least (%s), more than %.4g: allow either to be "
         "more",
-        t->goal.error_m, near->us.median, way, t->goal.budget_us);
+        asked, near->us.median, way, t->goal.budget_us);
 }
 
 /* ---- Text ---- */
@@ -44,15 +49,18 @@ static void print_level(const tuning *t, uint32_t number) {
   const tune_trial *trial = t->levels[number].trial;
   char way[128];
   say_way(t, trial, way, sizeof way);
-  printf("  level %u: %s: off by %.2e m (RMS), %.2e m at most; %.0f visits, %.4g us a tick\n",
-      (unsigned)number, way, t->levels[number].rms_m, t->levels[number].max_m, trial->visits,
-      trial->us.median);
+  const tune_distances *of = &trial->promised;
+  printf("  level %u: %s: off by %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most; %.0f visits, "
+         "%.4g us a "
+         "tick\n",
+      (unsigned)number, way, of->rms_m, of->p99_m, of->max_m, trial->visits, trial->us.median);
 }
 
 static void print_harsher(const tuning *t) {
   const tune_error *v = &t->levels[0].trial->other;
-  printf("driven harder its first level is off by %.2e m (RMS), %.2e m at most (%s)\n", v->rms_m, v->max_m,
-      v->worst ? v->worst : "nothing measured");
+  printf("driven harder its first level is off by %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most "
+         "(%s)\n",
+      v->off.rms_m, v->off.p99_m, v->off.max_m, v->worst ? v->worst : "nothing measured");
 }
 
 static void print_unmeasured(const tune_yardstick *yard, const char *when) {
@@ -62,13 +70,22 @@ static void print_unmeasured(const tune_yardstick *yard, const char *when) {
 }
 
 void tuning_print(const tuning *t) {
-  uint32_t failed = 0, refused = 0;
-  for (uint32_t i = 0; i < t->trials.count; i++)
-    failed += !t->trials.at[i].refused && !t->trials.at[i].error.sound, refused += t->trials.at[i].refused;
-  printf("tried %u ways, of which %u failed and %u were refused; %u are worth having\n",
-      (unsigned)t->trials.count, (unsigned)failed, (unsigned)refused, (unsigned)t->trials.front_count);
-  printf("measured against %s of %u elements; by its steps that is off by %.1e m (RMS), %.1e m at most\n",
-      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->yard.rms_m, t->yard.max_m);
+  uint32_t failed = 0, refused = 0, dearer = 0;
+  for (uint32_t i = 0; i < t->trials.count; i++) {
+    const tune_trial *trial = &t->trials.at[i];
+    failed += !trial->refused && !trial->dearer && !trial->error.sound;
+    refused += trial->refused, dearer += trial->dearer;
+  }
+  if (t->meshes.nothing_is_soft) {
+    printf("nothing here is soft: the skin follows its bones exactly\nwrote %s as it was\n", t->out);
+    return;
+  }
+  printf("tried %u ways, of which %u failed and %u were refused; %u are worth having",
+      (unsigned)(t->trials.count - dearer), (unsigned)failed, (unsigned)refused,
+      (unsigned)t->trials.front_count);
+  if (dearer) printf("; %u that cost more were not tried", (unsigned)dearer);
+  printf("\nmeasured against %s of %u elements; by its steps that is off by %.1e m (RMS), %.1e m at most\n",
+      t->meshes.reference.name, (unsigned)t->meshes.reference.elements, t->yard.own.rms_m, t->yard.own.max_m);
   print_unmeasured(&t->yard, "");
   if (t->meshes.note[0]) printf("no lattices were tried: %s\n", t->meshes.note);
   for (uint32_t i = 0; i < t->level_count; i++) print_level(t, i);
@@ -85,8 +102,8 @@ static json_t *number(double value) {
 
 static json_t *error_json(const tune_error *e) {
   if (!e->sound) return json_pack("{s:b, s:s}", "sound", 0, "why", e->why);
-  return json_pack("{s:b, s:f, s:f, s:s}", "sound", 1, "rms_m", e->rms_m, "most_m", e->max_m, "worst",
-      e->worst ? e->worst : "");
+  return json_pack("{s:b, s:f, s:f, s:f, s:s}", "sound", 1, "rms_m", e->off.rms_m, "p99_m", e->off.p99_m,
+      "most_m", e->off.max_m, "worst", e->worst ? e->worst : "");
 }
 
 static json_t *trial_json(const tuning *t, const tune_trial *trial) {
@@ -95,6 +112,7 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
       (int)mesh->elements, "calibrated", (int)mesh->calibrated, "scheme",
       sbf_scheme_name(trial->setting.scheme), "substeps", (int)trial->setting.substeps, "outcome",
       trial->refused        ? "refused"
+      : trial->dearer       ? "dearer"
       : !trial->error.sound ? "failed"
       : trial->error.beaten ? "beaten"
                             : "sound",
@@ -102,15 +120,16 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
   json_object_set_new(object, "visits", trial->refused ? json_null() : number(trial->visits));
   json_object_set_new(object, "element_visits", trial->refused ? json_null() : number(trial->element_visits));
   json_object_set_new(object, "us_per_tick", trial->on_front ? number(trial->us.median) : json_null());
-  json_object_set_new(object, "error", error_json(&trial->error));
-  json_object_set_new(object, "verified", trial->max_m > 0 ? error_json(&trial->other) : json_null());
+  json_object_set_new(object, "error", trial->dearer ? json_null() : error_json(&trial->error));
+  json_object_set_new(object, "verified", trial->driven_harder ? error_json(&trial->other) : json_null());
   return object;
 }
 
 static json_t *level_json(const tuning *t, uint32_t number_of) {
   json_t *object = trial_json(t, t->levels[number_of].trial);
-  json_object_set_new(object, "motion_error_m", number(t->levels[number_of].max_m));
-  json_object_set_new(object, "motion_error_rms_m", number(t->levels[number_of].rms_m));
+  json_object_set_new(object, "motion_error_m", number(t->levels[number_of].trial->promised.max_m));
+  json_object_set_new(object, "motion_error_rms_m", number(t->levels[number_of].trial->promised.rms_m));
+  json_object_set_new(object, "motion_error_p99_m", number(t->levels[number_of].trial->promised.p99_m));
   return object;
 }
 
@@ -134,13 +153,15 @@ json_t *tuning_json(const tuning *t) {
   for (uint32_t i = 0; t->written && i < t->level_count; i++) json_array_append_new(levels, level_json(t, i));
   json_t *object =
       json_pack("{s:s, s:s, s:b, s:s, s:s, s:s}", "file", t->path, "out", t->out, "written", (int)t->written,
-          "verdict", verdicts[t->verdict], "measure", t->by_rms ? "rms" : "most", "note", t->meshes.note);
+          "verdict", verdicts[t->verdict], "measure", tune_by_names[t->by], "note", t->meshes.note);
   json_object_set_new(object, "error_asked_m", asked(t->goal.error_m));
+  json_object_set_new(object, "error_asked_percent", asked(t->error_percent));
+  json_object_set_new(object, "size_m", asked(t->size_m));
   json_object_set_new(object, "budget_asked_us", asked(t->goal.budget_us));
   json_object_set_new(object, "reference",
       json_pack("{s:s, s:i, s:f, s:f, s:o}", "model", t->meshes.reference.name, "elements",
-          (int)t->meshes.reference.elements, "rms_m", t->yard.rms_m, "most_m", t->yard.max_m, "motions",
-          motions_json(&t->yard)));
+          (int)t->meshes.reference.elements, "rms_m", t->yard.own.rms_m, "most_m", t->yard.own.max_m,
+          "motions", motions_json(&t->yard)));
   json_object_set_new(
       object, "nearest", t->trials.front_count ? trial_json(t, on_front(t, t->chosen)) : json_null());
   json_object_set_new(object, "trials", trials);

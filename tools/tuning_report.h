@@ -10,7 +10,10 @@
 typedef struct tuning {
   const char *path, *out;
   tune_goal goal;
-  bool by_rms, written;
+  double size_m;        /* of the character */
+  double error_percent; /* of the size, where the goal was given so; else 0 */
+  tune_by by;
+  bool written;
   tune_meshes meshes;
   tune_yardstick yard, other; /* of the usual drive and of a harsher one */
   tune_trials trials;
@@ -21,8 +24,9 @@ typedef struct tuning {
   chart_machine machine;
 } tuning;
 
-/* Why nothing is written, and the closest that can be. */
-void tuning_say_unmet(const cli_call *call, const tuning *t);
+enum { TUNING_TEXT = 512 };
+/* Why the goal is not met, and the closest that can be had. */
+void tuning_tell_unmet(const tuning *t, char text[TUNING_TEXT]);
 void tuning_print(const tuning *t);
 json_t *tuning_json(const tuning *t);
 

@@ -26,7 +26,32 @@ typedef struct request {
   tune_grid grid;
   tune_effort effort;
   bool on_one_core;
+  bool nearest; /* is written where nothing keeps the goal */
 } request;
+
+/* What is asked for where nothing is, of the size. */
+static const double USUAL_PERCENT = 1;
+
+/* Metres, or a percentage of the size, which is known later; 0 of either: the nearest of all. */
+static bool read_error(const cli_call *call, tuning *t) {
+  const char *text = cli_value(call, "--error");
+  if (!text) {
+    if (!cli_value(call, "--budget")) t->error_percent = USUAL_PERCENT;
+    return true;
+  }
+  char *end;
+  double value = strtod(text, &end);
+  bool percent = end != text && strcmp(end, "%") == 0;
+  if (end == text || (*end && !percent) || !(value >= 0 && value <= (percent ? 100 : 1e6)))
+    return cli_wrong(call,
+               "--error takes metres or a percentage of the size, as 0.01 or 1%%, not '%s'; 0 is the nearest "
+               "of "
+               "all",
+               text),
+           false;
+  *(percent ? &t->error_percent : &t->goal.error_m) = value;
+  return true;
+}
 
 static bool read_sizes(const cli_call *call, tune_grid *grid) {
   int at = 0;
@@ -44,26 +69,27 @@ static bool read_sizes(const cli_call *call, tune_grid *grid) {
 }
 
 static bool parse(cli_call *call, tuning *t, request *r) {
-  static const char *const measures[] = {"most", "rms"};
   long rounds = 7, reference = 0, core = 0;
   int measure = 0;
   bool quick = cli_switch(call, "--quick");
   t->path = call->inputs[0];
   t->out = cli_value(call, "-o");
   if (!t->out) return cli_wrong(call, "say where to write: -o FILE"), false;
-  if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--error", 1e-9, 1e6, &t->goal.error_m) ||
+  if (!output_name_of_bundle(call, "-o") || !read_error(call, t) ||
       !cli_number(call, "--budget", 1e-3, 1e9, &t->goal.budget_us) ||
-      !cli_word(call, "--measure", measures, 2, &measure) ||
+      !cli_word(call, "--measure", tune_by_names, TUNE_BY_COUNT, &measure) ||
       !cli_integer(call, "--runs", 1, 10000, &rounds) ||
       !cli_integer(call, "--reference", 12, 100000, &reference) ||
       !cli_integer(call, "--core", 0, 1023, &core) || !read_sizes(call, &r->grid))
     return false;
-  t->by_rms = measure == 1;
+  /* A length bounds every vertex; a share of the size is about what is seen of the whole. */
+  t->by = cli_value(call, "--measure") ? (tune_by)measure : t->error_percent > 0 ? TUNE_BY_P99 : TUNE_BY_MAX;
+  r->nearest = cli_switch(call, "--nearest");
   r->grid.reference = (uint32_t)reference;
   r->grid.coarse = r->grid.calibrated_alone = quick;
   r->grid.progress = show;
-  r->effort = (tune_effort){
-      .own_scheme_alone = quick, .by_rms = t->by_rms, .rounds = (uint32_t)rounds, .progress = show};
+  r->effort =
+      (tune_effort){.own_scheme_alone = quick, .by = t->by, .rounds = (uint32_t)rounds, .progress = show};
   r->on_one_core = chart_stay_on_core((uint32_t)core);
   if (!r->on_one_core && cli_value(call, "--core"))
     return cli_wrong(call, "this process cannot be kept on core %ld: ask for a lower one", core), false;
@@ -84,20 +110,37 @@ static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic
   return SBF_OK;
 }
 
-static sbf_status sweep(cli_call *call, tuning *t, const request *r, sbf_diagnostic *error) {
+static sbf_status make_yardsticks(tuning *t, sbf_diagnostic *error) {
   static char of_this[] = "reference", of_other[] = "harsher drive";
-  const tune_measure measure = {NULL, t->by_rms, show_reference, of_this};
-  const tune_measure harsher = {&tune_harsher_drive, t->by_rms, show_reference, of_other};
+  const tune_measure measure = {.by = t->by, .progress = show_reference, .user = of_this};
+  const tune_measure harsher = {.drive = &tune_harsher_drive,
+      .by = t->by,
+      .may_be_empty = true,
+      .progress = show_reference,
+      .user = of_other};
+  sbf_status status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
+  if (status != SBF_OK && error->code == SBF_CODE_BAD_CALL && tune_meshes_trust_own(&t->meshes)) {
+    tune_yardstick_free(&t->yard);
+    status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
+  }
+  if (status == SBF_OK) status = tune_yardstick_make(&t->other, t->meshes.reference.asset, &harsher, error);
+  return status;
+}
+
+static sbf_status sweep(cli_call *call, tuning *t, request *r, sbf_diagnostic *error) {
   sbf_asset *asset;
   sbf_status status = sbf_load_file(
       t->path, &(sbf_load_options){.check_crc = true, .report = cli_report, .user = call}, &asset, error);
   if (status != SBF_OK) return status;
   status = tune_meshes_make(asset, &r->grid, &t->meshes, error);
   sbf_asset_free(asset);
-  if (status == SBF_OK) status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
+  if (status != SBF_OK || t->meshes.nothing_is_soft) return status;
+  t->size_m = tune_size_of(t->meshes.base);
+  if (t->error_percent > 0) t->goal.error_m = t->error_percent / 100 * t->size_m;
+  r->effort.enough_m = t->goal.budget_us > 0 ? 0 : t->goal.error_m;
+  status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
   if (status == SBF_OK) status = announce(call, t, error);
-  if (status == SBF_OK) status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
-  if (status == SBF_OK) status = tune_yardstick_make(&t->other, t->meshes.reference.asset, &harsher, error);
+  if (status == SBF_OK) status = make_yardsticks(t, error);
   if (status == SBF_OK)
     status = tune_trials_run(&t->meshes, &t->yard, &t->other, &r->effort, &t->trials, error);
   return status;
@@ -108,7 +151,7 @@ static bool choose(tuning *t) {
   if (!offers) return false;
   for (uint32_t i = 0; i < t->trials.front_count; i++) {
     const tune_trial *trial = &t->trials.at[t->trials.front[i]];
-    offers[i] = (tune_offer){tune_promised(trial, t->by_rms), trial->us.median};
+    offers[i] = (tune_offer){tune_distance_by(&trial->promised, t->by), trial->us.median};
   }
   t->verdict = tune_choose(offers, t->trials.front_count, &t->goal, &t->chosen);
   free(offers);
@@ -119,7 +162,7 @@ static bool choose(tuning *t) {
 static void take_levels(tuning *t) {
   for (uint32_t i = t->chosen + 1; i-- > 0 && t->level_count < TUNE_MAX_MESHES;) {
     const tune_trial *trial = &t->trials.at[t->trials.front[i]];
-    t->levels[t->level_count++] = (tune_level){&t->meshes.at[trial->mesh], trial, trial->rms_m, trial->max_m};
+    t->levels[t->level_count++] = (tune_level){&t->meshes.at[trial->mesh], trial};
   }
 }
 
@@ -128,7 +171,7 @@ static void say_settings(const tuning *t, char *text, size_t size) {
   char budget[32] = "", error[32] = "";
   if (t->goal.budget_us > 0) snprintf(budget, sizeof budget, "budget_us=%.9g ", t->goal.budget_us);
   if (t->goal.error_m > 0) snprintf(error, sizeof error, "error_m=%.9g ", t->goal.error_m);
-  snprintf(text, size, "%s%smeasure=%s reference=%u", budget, error, t->by_rms ? "rms" : "most",
+  snprintf(text, size, "%s%smeasure=%s reference=%u", budget, error, tune_by_names[t->by],
       (unsigned)t->meshes.reference.asked);
 }
 
@@ -143,8 +186,14 @@ static sbf_status make(tuning *t, sbf_asset **made, sbf_diagnostic *error) {
 static int write_out(const cli_call *call, tuning *t) {
   sbf_asset *made = NULL;
   sbf_diagnostic error;
-  take_levels(t);
-  sbf_status status = make(t, &made, &error);
+  sbf_status status = SBF_OK;
+  if (t->meshes.nothing_is_soft) {
+    made = sbf_asset_clone(t->meshes.base, NULL);
+    if (!made) return cli_wrong(call, "memory ran out");
+  } else {
+    take_levels(t);
+    status = make(t, &made, &error);
+  }
   cli_progress_end();
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   int saved = status == SBF_OK ? saving_run(call, t->path, t->out, made, NULL) : (int)status;
@@ -153,15 +202,24 @@ static int write_out(const cli_call *call, tuning *t) {
   return saved;
 }
 
+static void say_unmet(const cli_call *call, const tuning *t, const request *r) {
+  char text[TUNING_TEXT];
+  tuning_tell_unmet(t, text);
+  if (r->nearest)
+    fprintf(stderr, "sbfmt tune: warning: %s; that is written\n", text);
+  else
+    cli_wrong(call, "%s; --nearest writes that", text);
+}
+
 static int finish(cli_call *call, tuning *t, const request *r) {
-  if (!choose(t)) return cli_wrong(call, "memory ran out");
-  bool met = t->verdict == TUNE_MET;
-  int saved = met ? write_out(call, t) : SBF_OK;
+  if (!t->meshes.nothing_is_soft && !choose(t)) return cli_wrong(call, "memory ran out");
+  bool met = t->meshes.nothing_is_soft || t->verdict == TUNE_MET, writes = met || r->nearest;
+  int saved = writes ? write_out(call, t) : SBF_OK;
   cli_progress_end();
-  if (!met) tuning_say_unmet(call, t);
+  if (!met) say_unmet(call, t, r);
   if (saved != SBF_OK) return saved;
-  if (call->json) return cli_print_json(tuning_json(t), met ? SBF_OK : SBF_BAD_INPUT);
-  if (!met) return SBF_BAD_INPUT;
+  if (call->json) return cli_print_json(tuning_json(t), writes ? SBF_OK : SBF_BAD_INPUT);
+  if (!writes) return SBF_BAD_INPUT;
   tuning_print(t);
   if (!r->on_one_core) printf("times are not of one core: this system does not keep a process on one\n");
   return SBF_OK;
@@ -192,9 +250,14 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {{"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
-    {"--error", "METRES", "how far its skin may be off: the cheapest that keeps it becomes level 0"},
+    {"--error", "METRES|PERCENT%",
+        "how far its skin may be off, in metres or of its largest extent: the cheapest that keeps it becomes "
+        "level 0; 0 is the nearest of all (1%, without a budget)"},
     {"--budget", "MICROSECONDS", "what a tick may take on one core here: the nearest within becomes level 0"},
-    {"--measure", "most|rms", "what an error is: of the worst vertex, or the root of the mean square (most)"},
+    {"--nearest", NULL, "write what comes nearest where nothing keeps the goal"},
+    {"--measure", "most|p99|rms",
+        "what an error is: of the worst vertex, what 99 of 100 vertices keep, or the root of the mean square "
+        "(p99 for a percentage, else most)"},
     {"--elements", "N", "lattices to try, of so many tetrahedra a body; several times for several"},
     {"--reference", "N", "tetrahedra a body of what all are measured against (24000 in all)"},
     {"--quick", NULL, "a coarser reference, calibrated lattices and the runtime's own scheme alone"},
@@ -202,7 +265,7 @@ static const cli_option options[] = {{"-o", "OUT.sbf[z]", "where to write, by it
     {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
     {"--format", "text|json", "how to report (text)"}, {NULL, NULL, NULL}};
 
-const cli_verb verb_tune = {"tune", "FILE [--error METRES] [--budget MICROSECONDS] -o OUT",
+const cli_verb verb_tune = {"tune", "FILE [--error METRES|PERCENT%] [--budget MICROSECONDS] -o OUT",
     "find the cheapest levels that are near enough",
     "Tries the file's own levels and lattices of several sizes, calibrated and as they are, by several "
     "schemes "
@@ -219,10 +282,9 @@ const cli_verb verb_tune = {"tune", "FILE [--error METRES] [--budget MICROSECOND
     "goal asks for, and behind it what is cheaper, each with its measured error and cost, by which the "
     "runtime "
     "changes\n"
-    "levels. Without a goal level 0 is the nearest of all. Errors include what the reference is off itself "
-    "by "
-    "its steps.\n\n"
-    "An error or a budget that nothing keeps is told with the closest that can be had, with status 1; "
-    "nothing is "
-    "written.",
+    "levels. What costs more than the first that keeps the error is not tried. Errors include what the "
+    "reference is off itself by its steps.\n\n"
+    "An error or a budget that nothing keeps is told with the closest that can be had, with status 1, and "
+    "nothing is written; --nearest writes that, with status 0. A character without anything soft is written "
+    "as it is.",
     options, 1, 1, run};

@@ -11,7 +11,9 @@ import unittest
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, call, main, read_bytes, read_text
 
 EXAMPLES = os.path.join(ROOT, "examples")
-SMALL = ("--reference", "400", "--elements", "24", "--elements", "100", "--runs", "2")
+GRID = ("--reference", "400", "--elements", "24", "--elements", "100")
+SMALL = (*GRID, "--runs", "2")
+NEAREST_OF_ALL = ("--error", "0")
 
 
 class Tuned(ProgramTest):
@@ -22,7 +24,7 @@ class Tuned(ProgramTest):
         cls.file = os.path.join(cls.place, "pudding.sbfz")
         result = call("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "-o", cls.file)
         assert result.status == 0, result.err
-        cls.all = cls.tune(cls, "all.sbf")
+        cls.all = cls.tune(cls, "all.sbf", *NEAREST_OF_ALL)
 
     def tune(self, name, *options, status=0, sweep=SMALL):
         result = call("tune", self.file, "-o", os.path.join(self.place, name), "--format", "json", *sweep, *options)
@@ -101,7 +103,7 @@ class Tuned(ProgramTest):
             self.assertEqual(report["levels"][0][key], front[0][key])
 
     def test_visits_and_errors_are_the_same_each_time(self):
-        again = self.tune("again.sbf")
+        again = self.tune("again.sbf", *NEAREST_OF_ALL)
         for one, other in zip(self.all["trials"], again["trials"]):
             for key in ("model", "scheme", "substeps", "visits", "element_visits", "error", "outcome", "on_front"):
                 self.assertEqual(one[key], other[key])
@@ -111,7 +113,7 @@ class Tuned(ProgramTest):
     def test_what_was_tuned_can_be_tuned_and_built_again(self):
         first = os.path.join(self.place, "all.sbf")
         second, built = os.path.join(self.place, "second.sbf"), os.path.join(self.place, "built.sbf")
-        result = call("tune", first, "-o", second, *SMALL[:4], "--quick")
+        result = call("tune", first, "-o", second, *SMALL[:4], "--quick", *NEAREST_OF_ALL)
         self.assertEqual(result.status, 0, result.err)
         self.assertEqual(read_text(second).count('id="tune"'), 1)
         for arguments in (("validate", second), ("build", second, "-o", built), ("validate", built)):
@@ -132,6 +134,58 @@ class Tuned(ProgramTest):
         self.assertTrue(report["nearest"]["on_front"])
         self.assertFalse([name for name in os.listdir(self.place) if name.startswith("nothing")])
 
+    def test_an_error_may_be_a_percentage_of_the_size(self):
+        bounds = self.json_of("info", self.file)["bounds"]
+        size = max(high - low for low, high in zip(bounds["min"], bounds["max"]))
+        near = self.tune("share.sbfz", "--error", "8%", "--measure", "most")
+        self.assertAlmostEqual(near["size_m"], size, delta=1e-6 * size)
+        self.assertAlmostEqual(near["error_asked_m"], 0.08 * size, delta=1e-6 * size)
+        self.assertLessEqual(near["levels"][0]["motion_error_m"], near["error_asked_m"])
+        for text in ("8 %", "101%", "%", "-1%"):
+            self.assertIn("metres or a percentage", self.fails(2, "tune", self.file, "-o", self.path("x.sbfz"), "--error", text))
+
+    def test_without_a_goal_one_percent_of_what_is_seen_is_asked_for(self):
+        result = call("tune", self.file, "-o", self.path("usual.sbf"), *GRID, "--format", "json", "--nearest")
+        self.assertEqual(result.status, 0, result.err)
+        report = json.loads(result.out)
+        self.assertEqual((report["error_asked_percent"], report["measure"]), (1, "p99"))
+        self.assertEqual(self.all["measure"], "most")
+        self.assertIn("measure=p99", read_text(self.path("usual.sbf")))
+        for trial in report["trials"]:
+            if trial["error"] and trial["error"].get("sound"):
+                self.assertLessEqual(trial["error"]["rms_m"], trial["error"]["p99_m"])
+                self.assertLessEqual(trial["error"]["p99_m"], trial["error"]["most_m"])
+        kept = report["levels"][0]["motion_error_p99_m"] <= report["error_asked_m"]
+        self.assertEqual(kept, report["verdict"] == "met")
+
+    def test_what_costs_more_than_what_keeps_the_goal_is_not_tried(self):
+        report = self.tune("first.sbfz", "--error", repr(self.all["levels"][-1]["motion_error_m"] * 1.0001))
+        dearer = [trial for trial in report["trials"] if trial["outcome"] == "dearer"]
+        self.assertTrue(dearer)
+        for trial in dearer:
+            self.assertGreaterEqual(trial["visits"], report["levels"][0]["visits"])
+            self.assertIsNone(trial["error"])
+
+    def test_the_nearest_is_written_on_request(self):
+        for options, verdict in ((("--error", "1e-8"), "error too small"), (("--budget", "0.01"), "budget too small"),
+                                 (("--error", "1e-8", "--budget", "0.01"), "error too small")):
+            out = self.path("nearest.sbfz")
+            result = call("tune", self.file, "-o", out, *SMALL, "--quick", "--nearest", "--format", "json", *options)
+            self.assertEqual(result.status, 0, result.err)
+            self.assertIn("warning: nothing that was tried", result.err)
+            report = json.loads(result.out)
+            self.assertEqual((report["verdict"], report["written"]), (verdict, True))
+            self.assertEqual(report["levels"][0]["error"], report["nearest"]["error"])
+            self.good("validate", out)
+            os.remove(out)
+
+    def test_what_has_nothing_soft_is_written_as_it_is(self):
+        rigid, out = self.path("rigid.sbfz"), self.path("out.sbfz")
+        self.good("convert", os.path.join(EXAMPLES, "spider", "spider.glb"), "--rigid", "*", "-o", rigid)
+        self.assertIn("nothing here is soft", self.good("tune", rigid, "-o", out).out)
+        self.good("diff", rigid, out)
+        self.assertEqual(self.json_of("tune", rigid, "-o", out)["verdict"], "met")
+
     def test_what_is_beaten_is_not_looked_at_to_its_end(self):
         visits = [trial["visits"] for trial in self.all["trials"]]  # none of what is refused, which stands behind
         tried = [trial["visits"] for trial in self.all["trials"] if trial["outcome"] != "refused"]
@@ -145,7 +199,7 @@ class Tuned(ProgramTest):
             self.assertFalse(trial["on_front"])
 
     def test_it_says_how_long_it_takes(self):
-        result = call("tune", self.file, "-o", os.path.join(self.place, "timed.sbfz"), *SMALL, "--quick")
+        result = call("tune", self.file, "-o", os.path.join(self.place, "timed.sbfz"), *SMALL, "--quick", *NEAREST_OF_ALL)
         self.assertEqual(result.status, 0, result.err)
         self.assertRegex(result.err, r"info: 3 ways to step 3 meshes, against \d+ elements: (\d+ to )?\d+ (seconds?|minutes) on")
 

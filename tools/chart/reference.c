@@ -147,7 +147,7 @@ sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, 
   *truth = (chart_truth){.stated = stated};
   sbf_status status = needed_substeps(scene, &needed, error);
   reference_pair pair = {
-      charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_SYMPLECTIC}, {2 * needed, 4 * needed}};
+      charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_SYMPLECTIC}, {needed, 2 * needed}};
   if (status == SBF_OK) status = refine(&pair, tracks, stated->errors, MEND, error);
   chart_track_free(&tracks[0]);
   truth->track = tracks[1];

@@ -20,7 +20,7 @@ typedef struct chart_truth {
  * long as that brings them nearer. */
 sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, uint32_t max_substeps, chart_reference *stated, sbf_diagnostic *error);
-/* Of a mesh that others are measured against: symplectic, four times as many substeps as it needs, its own
+/* Of a mesh that others are measured against: symplectic, twice as many substeps as it needs, its own
  * error by the distance from half of them; twice as many of both likewise. How far it is off a finer mesh is
  * not in that. */
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,

@@ -22,6 +22,7 @@ bool chart_track_copy(chart_track *track, const chart_track *from) {
   memcpy(track->kinetic_j, from->kinetic_j, ticks * sizeof *track->kinetic_j);
   memcpy(track->volume, from->volume, ticks * sizeof *track->volume);
   track->sound = from->sound;
+  track->turned_over = from->turned_over;
   memcpy(track->why, from->why, sizeof track->why);
   return true;
 }

@@ -152,6 +152,7 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
     track->volume[tick] = i ? fmin(track->volume[tick], (double)h.volume_ratio) : (double)h.volume_ratio;
     if (!h.finite) why = "numbers that are none";
     if (h.recoveries) why = "lost its shape and was put back into it";
+    if (h.inverted) track->turned_over = true;
     if (h.inverted && tick + 1 == m->scene.ticks) why = "inside out at the end";
     if (why != before) of = m->scene.asset->soft_bodies.at[i].id;
   }

@@ -7,8 +7,8 @@
 #include "render/fault.h"
 
 /* Drives: that which it is tuned by, and another. Looks at the reference by so many times the substeps it
- * needs: 2 and 4, and 8 where it is refined. */
-enum { DRIVES = 2, LOOKED_TICKS = 3, LOOKS = 6, REFINED_LOOKS = 14 };
+ * needs: once and twice, and 4 times where it is refined. */
+enum { DRIVES = 2, LOOKED_TICKS = 3, LOOKS = 3, REFINED_LOOKS = 7 };
 /* Of what is tried, that which is sound to the end of a motion and not beaten there. */
 static const double LAST = 0.15;
 

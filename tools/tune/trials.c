@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "chart/front.h"
 #include "chart/rounds.h"
 #include "render/fault.h"
 #include "sbrun/detail.h"
@@ -113,87 +112,75 @@ sbf_status tune_trials_plan(
   return status;
 }
 
-static sbf_status hold_all(sweep *s) {
-  tune_trials *t = s->to;
-  tune_bar bar = {.error_m = INFINITY, .by_rms = s->effort->by_rms};
-  double all = 0, done = 0;
-  sbf_status status = SBF_OK;
-  for (uint32_t i = 0; i < t->count; i++) all += t->at[i].refused ? 0 : t->at[i].visits;
-  for (uint32_t i = 0; status == SBF_OK && i < t->count && !t->at[i].refused; i++) {
-    tune_trial *trial = &t->at[i];
-    tune_error *is = &trial->error;
-    tell(s, "errors", done / all);
-    status =
-        tune_yardstick_hold(s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, &bar, is, s->error);
-    done += trial->visits;
-    if (status != SBF_OK || !is->sound) continue;
-    bar.first = is->worst_number;
-    if (!is->beaten) bar.error_m = fmin(bar.error_m, tune_error_of(is, bar.by_rms));
-  }
+/* Beats that neither drive has came to 17 % more. */
+static const double PROMISED = 1.25;
+
+static double promise_of(double usual, double usual_own, double harsher, double harsher_own) {
+  return PROMISED * fmax(usual + usual_own, harsher + harsher_own);
+}
+
+static sbf_status drive_harder(sweep *s, tune_trial *trial) {
+  const tune_distances *a = &trial->error.off, *b = &trial->other.off, *c = &s->yard->own,
+                       *d = &s->other->own;
+  sbf_status status = tune_yardstick_hold(
+      s->other, s->meshes->at[trial->mesh].asset, &trial->setting, NULL, &trial->other, s->error);
+  trial->driven_harder = true;
+  trial->promised = (tune_distances){promise_of(a->rms_m, c->rms_m, b->rms_m, d->rms_m),
+      promise_of(a->p99_m, c->p99_m, b->p99_m, d->p99_m), promise_of(a->max_m, c->max_m, b->max_m, d->max_m)};
   return status;
 }
 
-/* Of what the file has as it is. */
+/* Why nothing holds: of what the file has as it is. */
 static const char *why_not(const sweep *s) {
   uint32_t i = 0;
   while (s->to->at[i].mesh != 0 || s->to->at[i].setting.scheme != SBF_SCHEME_AUTOMATIC) i++;
-  return s->to->at[i].error.why;
+  return s->to->at[i].driven_harder ? s->to->at[i].other.why : s->to->at[i].error.why;
 }
 
-static sbf_status find_front(sweep *s) {
+/* One trial by both drives, and onto the front where it belongs there: `best` is the least that what is there
+ * promises. */
+static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
+  tune_trial *trial = &s->to->at[number];
+  tune_error *is = &trial->error;
+  sbf_status status =
+      tune_yardstick_hold(s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, bar, is, s->error);
+  if (status != SBF_OK || !is->sound) return status;
+  bar->first = is->worst_number;
+  if (is->beaten) return SBF_OK;
+  status = drive_harder(s, trial);
+  if (status != SBF_OK || !trial->other.sound) return status;
+  double promised = tune_distance_by(&trial->promised, s->effort->by);
+  bar->error_m = fmin(bar->error_m, tune_distance_by(&is->off, s->effort->by));
+  if (!(promised < *best)) return SBF_OK;
+  *best = promised;
+  trial->on_front = true;
+  s->to->front[s->to->front_count++] = number;
+  return SBF_OK;
+}
+
+/* In order of visits, so that what is on the front is in order of falling promises as well. */
+static sbf_status hold_all(sweep *s) {
   tune_trials *t = s->to;
-  chart_point *points = calloc((size_t)t->count + 1, sizeof *points);
+  tune_bar bar = {.error_m = INFINITY, .by = s->effort->by};
+  double all = 0, done = 0, best = INFINITY;
+  sbf_status status = SBF_OK;
   t->front = calloc((size_t)t->count + 1, sizeof *t->front);
-  if (!points || !t->front) {
-    free(points);
-    return no_memory(s);
+  if (!t->front) return no_memory(s);
+  for (uint32_t i = 0; i < t->count; i++) all += t->at[i].refused ? 0 : t->at[i].visits;
+  for (uint32_t i = 0; status == SBF_OK && i < t->count && !t->at[i].refused; i++) {
+    tell(s, "errors", done / all);
+    done += t->at[i].visits;
+    if (best <= s->effort->enough_m)
+      t->at[i].dearer = true;
+    else
+      status = hold(s, i, &bar, &best);
   }
-  for (uint32_t i = 0; i < t->count; i++) {
-    bool counts = !t->at[i].refused && t->at[i].error.sound && !t->at[i].error.beaten;
-    points[i] =
-        (chart_point){counts ? t->at[i].visits : NAN, tune_error_of(&t->at[i].error, s->effort->by_rms)};
-  }
-  t->front_count = chart_front_of(points, t->count, t->front);
-  for (uint32_t i = 0; i < t->front_count; i++) t->at[t->front[i]].on_front = true;
-  free(points);
-  if (t->front_count) return SBF_OK;
+  if (status != SBF_OK || t->front_count) return status;
   fault_set(s->error, SBF_CODE_BAD_CALL,
       "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "
       "it "
       "stiffer or finer, sbfmt chart shows what holds",
       why_not(s));
-  return SBF_BAD_INPUT;
-}
-
-/* Beats that neither drive has came to 17 % more. */
-static const double PROMISED = 1.25;
-
-/* Runs the front by the other drive, and leaves out of it what fails there or promises no less than what is
- * cheaper. */
-static sbf_status hold_front(sweep *s) {
-  tune_trials *t = s->to;
-  uint32_t kept = 0, count = t->front_count;
-  double best = INFINITY;
-  const char *why = "";
-  for (uint32_t i = 0; i < count; i++) {
-    tune_trial *trial = &t->at[t->front[i]];
-    tell(s, "harsher drive", (double)i / count);
-    sbf_status status = tune_yardstick_hold(
-        s->other, s->meshes->at[trial->mesh].asset, &trial->setting, NULL, &trial->other, s->error);
-    if (status != SBF_OK) return status;
-    trial->rms_m = PROMISED * fmax(trial->error.rms_m + s->yard->rms_m, trial->other.rms_m + s->other->rms_m);
-    trial->max_m = PROMISED * fmax(trial->error.max_m + s->yard->max_m, trial->other.max_m + s->other->max_m);
-    double promised = tune_promised(trial, s->effort->by_rms);
-    trial->on_front = trial->other.sound && promised < best;
-    if (!trial->other.sound) why = trial->other.why;
-    if (!trial->on_front) continue;
-    best = promised;
-    t->front[kept++] = t->front[i];
-  }
-  t->front_count = kept;
-  if (kept) return SBF_OK;
-  fault_set(s->error, SBF_CODE_BAD_CALL,
-      "nothing that was tried holds where it is driven harder (%s): make it stiffer or finer", why);
   return SBF_BAD_INPUT;
 }
 
@@ -230,8 +217,6 @@ sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard
     const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error) {
   sweep s = {.meshes = meshes, .yard = yard, .other = other, .effort = effort, .to = trials, .error = error};
   sbf_status status = hold_all(&s);
-  if (status == SBF_OK) status = find_front(&s);
-  if (status == SBF_OK) status = hold_front(&s);
   if (status == SBF_OK) status = time_front(&s);
   return status;
 }

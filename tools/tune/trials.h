@@ -14,10 +14,12 @@ typedef struct tune_trial {
   double element_visits; /* a tick; as the file states cost */
   double visits;         /* as the runtime counts them to choose by: sbr_rung.visits */
   tune_error error;
-  tune_error other;    /* by the other drive, of those on the front, else zeros */
-  double rms_m, max_m; /* what is promised of those on the front: a quarter more than the larger of both
-                           drives, with what the references are off themselves */
+  tune_error other;        /* by the other drive, of those that are `driven_harder`, else zeros */
+  tune_distances promised; /* of those: a quarter more than the larger of both drives, with what the
+                              references are off themselves */
   bool refused;
+  bool driven_harder;
+  bool dearer; /* it was not tried: something that visits less keeps the goal */
   bool on_front;
   chart_spread us; /* of a tick, on one core; of those on the front, else zeros */
 } tune_trial;
@@ -31,7 +33,8 @@ typedef struct tune_trials {
 
 typedef struct tune_effort {
   bool own_scheme_alone;
-  bool by_rms;     /* the front is of errors' root of the mean square, not of the greatest */
+  tune_by by;      /* the front is of these errors */
+  double enough_m; /* nothing is tried any more once something promises this; 0: all is tried */
   uint32_t rounds; /* that times are the median of */
   void (*progress)(void *user, const char *what, double share); /* may be NULL */
   void *user;
@@ -40,15 +43,11 @@ typedef struct tune_effort {
 /* What is to be tried, and its visits. Free with tune_trials_free, also on failure. */
 sbf_status tune_trials_plan(
     const tune_meshes *meshes, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
-/* Tries it by `yard`. What is refused or breaks is a trial like any other. What is on the front is run by
- * `other` as well, a harsher drive, and stays there where nothing cheaper promises as little. SBF_BAD_INPUT
- * where nothing does. */
+/* Tries it by `yard`. What is refused or breaks is a trial like any other. What nothing cheaper beats is run
+ * by `other` as well, a harsher drive, and is on the front where nothing cheaper promises as little.
+ * SBF_BAD_INPUT where nothing is. */
 sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_yardstick *other,
     const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
-static inline double tune_promised(const tune_trial *trial, bool by_rms) {
-  return by_rms ? trial->rms_m : trial->max_m;
-}
-
 void tune_trials_free(tune_trials *trials);
 
 #endif

@@ -90,8 +90,8 @@ static bool write_level(const writer *w, uint32_t body, uint32_t number, sbf_lev
     level->simulation.scheme = trial->setting.scheme;
     level->simulation.substeps = trial->setting.substeps;
   }
-  level->simulation.motion_error = (float)from->max_m;
-  level->simulation.motion_error_rms = (float)from->rms_m;
+  level->simulation.motion_error = (float)trial->promised.max_m;
+  level->simulation.motion_error_rms = (float)trial->promised.rms_m;
   level->simulation.cost = isfinite(cost) ? (float)cost : 0;
   return level->name && mark(w, level) && state_time(w, level, share * trial->us.median);
 }

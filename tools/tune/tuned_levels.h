@@ -8,7 +8,6 @@
 typedef struct tune_level {
   const tune_mesh *mesh;
   const tune_trial *trial;
-  double rms_m, max_m; /* that it states */
 } tune_level;
 
 /* Makes `*made` of `base`: every derived body gets these levels, finest first, each with what was measured,

@@ -137,6 +137,10 @@ static sbf_status make_base(maker *m, const sbf_asset *asset) {
   uint32_t soft = 0;
   for (uint32_t b = 0; status == SBF_OK && b < m->to->base->soft_bodies.count; b++)
     soft += stepped_levels(&m->to->base->soft_bodies.at[b]) > 0;
+  if (status == SBF_OK && !soft && m->to->base->render_meshes.count) {
+    m->to->nothing_is_soft = true;
+    return SBF_OK;
+  }
   if (status == SBF_OK && !soft)
     return fault_set(m->error, SBF_CODE_REQUIRED_MISSING,
         "there is nothing soft here: tune needs a soft body, or a skinned mesh to cut into sections");
@@ -241,7 +245,8 @@ sbf_status tune_meshes_make(
   maker m = {.grid = grid, .to = meshes, .error = error, .share = 1};
   *meshes = (tune_meshes){.base = NULL};
   sbf_status status = make_base(&m, asset);
-  if (status == SBF_OK) status = check_base(&m);
+  if (status != SBF_OK || meshes->nothing_is_soft) return status;
+  status = check_base(&m);
   if (status == SBF_OK) status = add_own_levels(&m);
   if (status != SBF_OK) return status;
   if (meshes->base->cross_springs.count)
@@ -251,6 +256,15 @@ sbf_status tune_meshes_make(
   if (status != SBF_OK || meshes->reference.asset) return status;
   meshes->reference = (tune_mesh){.asset = sbf_asset_clone(meshes->at[0].asset, NULL)};
   return name_mesh(&m, &meshes->reference, meshes->at[0].name);
+}
+
+bool tune_meshes_trust_own(tune_meshes *meshes) {
+  sbf_asset *own = meshes->reference.asked ? sbf_asset_clone(meshes->at[0].asset, NULL) : NULL;
+  if (!own) return false;
+  sbf_asset_free(meshes->reference.asset);
+  meshes->reference = meshes->at[0];
+  meshes->reference.asset = own;
+  return true;
 }
 
 void tune_meshes_free(tune_meshes *meshes) {

@@ -33,13 +33,18 @@ typedef struct tune_meshes {
   tune_mesh reference; /* calibrated */
   tune_mesh at[TUNE_MAX_MESHES];
   uint32_t count;
-  char note[160]; /* why there are no lattices; empty: there are */
+  char note[160];       /* why there are no lattices; empty: there are */
+  bool nothing_is_soft; /* the skin follows its bones exactly: `base` is all there is */
 } tune_meshes;
 
 /* Free them with tune_meshes_free, also on failure. The asset itself need not stay. SBF_BAD_INPUT where it
- * has nothing soft, or where all its levels are authored, which nobody but their author changes. */
+ * has nothing soft and no render mesh, or where all its levels are authored, which nobody but their author
+ * changes. */
 sbf_status tune_meshes_make(
     const sbf_asset *asset, const tune_grid *grid, tune_meshes *meshes, sbf_diagnostic *error);
+/* Measures by the finest level that the file has, for where the lattice itself breaks; false where that is
+ * what is measured by already. */
+bool tune_meshes_trust_own(tune_meshes *meshes);
 void tune_meshes_free(tune_meshes *meshes);
 
 #endif

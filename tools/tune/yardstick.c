@@ -14,18 +14,17 @@ const chart_drive tune_harsher_drive = {.speed = 0.5,
     .turn_rad_s = 12,
     .turn_ticks = {20, 9}};
 
-static const double TICK_S = 1.0 / 60;
 /* Farther off than this share of the character's size is no level but a failure. */
 static const double LOST = 0.05;
 /* A reference that is off itself by more than this share of it tells nothing. */
 static const double TELLS = 0.005;
 
-static double size_of(const sbf_asset *asset) {
+double tune_size_of(const sbf_asset *asset) {
   sbf_asset_measures is;
   sbf_asset_measure(asset, &is);
   double x = (double)is.high.x - (double)is.low.x, y = (double)is.high.y - (double)is.low.y,
          z = (double)is.high.z - (double)is.low.z;
-  return sqrt(x * x + y * y + z * z);
+  return fmax(x, fmax(y, z));
 }
 
 typedef struct finding {
@@ -40,17 +39,19 @@ static void show(void *user, uint32_t substeps, uint32_t tick) {
 }
 
 /* What it is off itself counts where something is measured by it. */
-static void judge(tune_yardstick *yard, int number, bool by_rms) {
+static void judge(tune_yardstick *yard, int number, tune_by by) {
   const chart_reference *stated = &yard->stated[number];
-  double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST], is = by_rms ? rms : max;
+  double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST];
+  /* No more than one in k^2 is off by k times the root of the mean square (Chebyshev). */
+  const tune_distances own = {rms, fmin(10 * rms, max), max};
+  double is = tune_distance_by(&own, by);
   if (!(is < TELLS * yard->size_m)) {
     snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number],
         "the reference is off itself by %.2g m%s: half as many substeps are so far from it", is,
-        by_rms ? "" : " at the worst place");
+        by == TUNE_BY_MAX ? " at the worst place" : "");
     return;
   }
-  yard->rms_m = fmax(yard->rms_m, rms);
-  yard->max_m = fmax(yard->max_m, max);
+  yard->own = tune_distances_larger(&yard->own, &own);
 }
 
 /* SBF_OK with `unmeasured` said, where the reference does not hold. */
@@ -63,7 +64,7 @@ static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *
   if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
   sbf_status status = chart_truth_find_mesh(
       &yard->truths[number], &yard->cases[number], &scene, yard->rest, &yard->stated[number], error);
-  if (status == SBF_OK) judge(yard, number, measure->by_rms);
+  if (status == SBF_OK) judge(yard, number, measure->by);
   if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
   snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);
   yard->broken[number] = true;
@@ -72,14 +73,14 @@ static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *
 
 sbf_status tune_yardstick_make(
     tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error) {
-  *yard = (tune_yardstick){.size_m = size_of(reference)};
+  *yard = (tune_yardstick){.size_m = tune_size_of(reference)};
   sbf_status status = chart_bundle_cases(reference, measure->drive, &yard->bundle, yard->cases, error);
   uint32_t measured = 0;
   for (int i = 0; status == SBF_OK && i < CHART_BUNDLE_CASES; i++) {
     status = find_truth(yard, i, reference, measure, error);
     measured += !yard->unmeasured[i][0];
   }
-  if (status != SBF_OK || measured) return status;
+  if (status != SBF_OK || measured || measure->may_be_empty) return status;
   return fault_set(error, SBF_CODE_BAD_CALL,
       "there is nothing to measure against, not even its %s: %s; --reference takes another lattice",
       yard->cases[0].name, yard->unmeasured[0]);
@@ -103,7 +104,7 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   chart_scene scene = chart_scene_of(motion_case, asset);
   chart_motion motion;
   chart_track track = {.ticks = 0};
-  double errors[CHART_AXIS_COUNT];
+  tune_distances off = {0, 0, 0};
   sbf_diagnostic refusal;
   scene.stop_broken = true;
   sbf_status status = chart_motion_open(&motion, &scene, setting, &refusal);
@@ -115,19 +116,17 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   bool good = chart_motion_look(&motion, &track);
   chart_motion_close(&motion);
   if (good && !track.sound) fail(is, motion_case->name, track.why);
+  /* What is inside out for a moment is drawn so, and `run` calls it not valid. */
+  if (good && track.sound && track.turned_over) fail(is, motion_case->name, "elements turn inside out");
   bool told = good && is->sound && !yard->unmeasured[number][0];
-  if (told)
-    good = chart_errors_of(&track, &yard->truths[number].track, yard->rest, TICK_S, &motion_case->signal,
-        motion_case->axes, errors);
+  if (told) good = tune_distances_between(&track, &yard->truths[number].track, &off);
   chart_track_free(&track);
   if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
-  if (told && !(errors[CHART_FARTHEST] < LOST * yard->size_m)) {
+  if (told && !(off.max_m < LOST * yard->size_m)) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
   } else if (told) {
-    if (!is->worst || errors[CHART_FARTHEST] > is->max_m)
-      is->worst = motion_case->name, is->worst_number = number;
-    is->rms_m = fmax(is->rms_m, errors[CHART_PATH]);
-    is->max_m = fmax(is->max_m, errors[CHART_FARTHEST]);
+    if (!is->worst || off.max_m > is->off.max_m) is->worst = motion_case->name, is->worst_number = number;
+    is->off = tune_distances_larger(&is->off, &off);
   }
   return SBF_OK;
 }
@@ -139,8 +138,8 @@ sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asse
   for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
     int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
     if (!yard->broken[number]) status = look(yard, number, asset, setting, is, error);
-    is->beaten =
-        bar && is->sound && i + 1 < CHART_BUNDLE_CASES && !(tune_error_of(is, bar->by_rms) < bar->error_m);
+    is->beaten = bar && is->sound && i + 1 < CHART_BUNDLE_CASES &&
+                 !(tune_distance_by(&is->off, bar->by) < bar->error_m);
   }
   return status;
 }

@@ -4,6 +4,7 @@
 
 #include "chart/bundle_case.h"
 #include "chart/reference.h"
+#include "tune/distances.h"
 
 /* In a curve, half as high again, five times as fast, and to a changing beat: harsher than players are. */
 extern const chart_drive tune_harsher_drive;
@@ -17,35 +18,36 @@ typedef struct tune_yardstick {
   char unmeasured[CHART_BUNDLE_CASES][192]; /* why nothing is measured by a motion; empty: it is */
   bool broken[CHART_BUNDLE_CASES];          /* of those: the reference breaks; else what breaks is told */
   sbf_vec3 *rest;
-  double size_m;       /* of the character */
-  double rms_m, max_m; /* that the reference is off itself by its steps, at most */
+  double size_m;      /* of the character: the largest extent of its bounds */
+  tune_distances own; /* that the reference is off itself by its steps, at most */
 } tune_yardstick;
 
 typedef struct tune_error {
-  double rms_m, max_m; /* over the vertices and ticks of the motion where each is greatest */
-  const char *worst;   /* the motion in which one is off by most */
-  int worst_number;    /* of it */
+  tune_distances off; /* each in the motion where it is greatest */
+  const char *worst;  /* the motion in which one is off by most */
+  int worst_number;   /* of it */
   bool sound;
   bool beaten;   /* no motion was tried after that in which it was; errors are those until then */
   char why[128]; /* it is not sound */
 } tune_error;
 
-static inline double tune_error_of(const tune_error *error, bool by_rms) {
-  return by_rms ? error->rms_m : error->max_m;
-}
-
 /* What is to be measured by it. */
 typedef struct tune_measure {
   const chart_drive *drive; /* NULL: the usual one */
-  bool by_rms;              /* errors are told by their root of the mean square, not by the greatest */
+  tune_by by;               /* what an error is */
+  bool may_be_empty;        /* no failure where nothing is measured by any motion */
   void (*progress)(
       void *user, const char *motion, uint32_t substeps, double share); /* may be NULL: of one look
                                                                            at the reference */
   void *user;
 } tune_measure;
 
+/* The largest extent of the bounds, m: what shares of the size are of. */
+double tune_size_of(const sbf_asset *asset);
+
 /* Nothing is measured by a motion in which the reference itself breaks, or is off itself by so much that it
- * tells nothing: a two-hundredth of the character's size; SBF_FAILED where that is so in all. Does not move
+ * tells nothing: a two-hundredth of the character's size; SBF_FAILED, SBF_CODE_BAD_CALL, where that is so in
+ * all. Does not move
  * while it is in use; free it with tune_yardstick_free, also on failure. `reference` must stay. */
 sbf_status tune_yardstick_make(
     tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error);
@@ -54,7 +56,7 @@ void tune_yardstick_free(tune_yardstick *yard);
 /* When to stop looking at a character. */
 typedef struct tune_bar {
   double error_m; /* farther off it is beaten */
-  bool by_rms;
+  tune_by by;
   int first; /* the motion to begin with */
 } tune_bar;
 

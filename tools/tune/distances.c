@@ -1,0 +1,68 @@
+#include "tune/distances.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const char *const tune_by_names[TUNE_BY_COUNT] = {"most", "p99", "rms"};
+
+static const double PERCENTILE = 0.99;
+
+double tune_distance_by(const tune_distances *distances, tune_by by) {
+  return by == TUNE_BY_RMS ? distances->rms_m : by == TUNE_BY_P99 ? distances->p99_m : distances->max_m;
+}
+
+/* The value that would stand at `place` if they were sorted (Hoare, Algorithm 65: Find, 1961). */
+static float value_at(float *values, size_t count, size_t place) {
+  size_t low = 0, high = count - 1;
+  while (low < high) {
+    float pivot = values[place];
+    size_t i = low, j = high;
+    for (;;) {
+      while (values[i] < pivot) i++;
+      while (pivot < values[j]) j--;
+      if (i > j) break;
+      float other = values[i];
+      values[i] = values[j], values[j] = other;
+      i++;
+      if (j == 0) break;
+      j--;
+      if (i > j) break;
+    }
+    if (place <= j)
+      high = j;
+    else if (place >= i)
+      low = i;
+    else
+      break;
+  }
+  return values[place];
+}
+
+bool tune_distances_between(const chart_track *is, const chart_track *wanted, tune_distances *distances) {
+  size_t count = (size_t)is->ticks * is->points;
+  double sum = 0, max = 0;
+  *distances = (tune_distances){0, 0, 0};
+  if (!count) return true;
+  float *squares = malloc(count * sizeof *squares);
+  if (!squares) return false;
+  for (size_t i = 0; i < count; i++) {
+    sbf_vec3 p = is->places[i], q = wanted->places[i];
+    double x = (double)p.x - (double)q.x, y = (double)p.y - (double)q.y, z = (double)p.z - (double)q.z;
+    double square = x * x + y * y + z * z;
+    /* What is no number is infinitely far off, and has a place in the order. */
+    if (!(square >= 0)) square = INFINITY;
+    sum += square;
+    max = fmax(max, square);
+    squares[i] = (float)square;
+  }
+  size_t place = (size_t)ceil(PERCENTILE * (double)count) - 1;
+  distances->rms_m = sqrt(sum / (double)count);
+  distances->max_m = sqrt(max);
+  distances->p99_m = fmin(sqrt((double)value_at(squares, count, place)), distances->max_m);
+  free(squares);
+  return true;
+}
+
+tune_distances tune_distances_larger(const tune_distances *a, const tune_distances *b) {
+  return (tune_distances){fmax(a->rms_m, b->rms_m), fmax(a->p99_m, b->p99_m), fmax(a->max_m, b->max_m)};
+}
