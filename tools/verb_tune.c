@@ -259,7 +259,7 @@ static const cli_option options[] = {{"-o", "OUT.sbf[z]", "where to write, by it
         "what an error is: of the worst vertex, what 99 of 100 vertices keep, or the root of the mean square "
         "(p99 for a percentage, else most)"},
     {"--elements", "N", "lattices to try, of so many tetrahedra a body; several times for several"},
-    {"--reference", "N", "tetrahedra a body of what all are measured against (24000 in all)"},
+    {"--reference", "N", "tetrahedra a body of what all are measured against (12000 in all)"},
     {"--quick", NULL, "a coarser reference, calibrated lattices and the runtime's own scheme alone"},
     {"--runs", "N", "runs that a time is the median of (7)"},
     {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
@@ -276,7 +276,8 @@ const cli_verb verb_tune = {"tune", "FILE [--error METRES|PERCENT%] [--budget MI
     "off a fine lattice's and what a tick costs. What nothing else beats in both is run by harsher commands "
     "as "
     "well\n"
-    "(higher hops, turns of 12 rad/s), and promises a quarter more than the larger error of both. OUT has as "
+    "(higher hops, turns of 12 rad/s; both drives slower for characters above 2 m), and promises a quarter "
+    "more than the larger error of both. OUT has as "
     "level 0 "
     "what the\n"
     "goal asks for, and behind it what is cheaper, each with its measured error and cost, by which the "

@@ -9,6 +9,7 @@
 
 /* Times are of its beginning: the first step, hop or turn. */
 enum { TICKS = 120, TIMED_TICKS = 30 };
+static const double SIMILAR_M = 2; /* size up to which the drive is as stated */
 
 const chart_drive chart_usual_drive = {.speed = 0.5,
     .curve_rad_s = 0,
@@ -61,6 +62,17 @@ static double ground_height(const sbr_ground *ground, double x, double z, sbf_ve
   return b->ground_m;
 }
 
+/* The drive of a character of this size (largest extent, m): its times grow with the square root of it. */
+static chart_drive similar_drive(chart_drive drive, double size_m) {
+  double slower = sqrt(fmax(size_m / SIMILAR_M, 1));
+  drive.turn_rad_s = (float)((double)drive.turn_rad_s / slower);
+  for (int i = 0; i < 2; i++) {
+    drive.hop_ticks[i] = (uint32_t)lround(drive.hop_ticks[i] * slower);
+    drive.turn_ticks[i] = (uint32_t)lround(drive.turn_ticks[i] * slower);
+  }
+  return drive;
+}
+
 /* Whose motion it is, without what means something to gnuplot. */
 static void entitle(char *title, size_t size, const char *whose, const char *motion) {
   char name[48];
@@ -73,16 +85,25 @@ static void entitle(char *title, size_t size, const char *whose, const char *mot
   snprintf(title, size, "%s%s%s", name, length ? ", " : "", motion);
 }
 
+/* What happens by the usual drive, as slow as it is for this character. */
+static void say_motion(const chart_bundle *b, uint32_t number, char *text, size_t size) {
+  static const double tick_s = 1.0 / 60;
+  const chart_drive *d = &b->drive;
+  if (number == 0)
+    snprintf(text, size, "half its height a second forwards: two seconds");
+  else if (number == 1)
+    snprintf(text, size, "the ground under it rises by %.3g of its height, each %.2g s: two seconds", d->hop,
+        tick_s * d->hop_ticks[0]);
+  else
+    snprintf(text, size, "turned by %.2g rad/s to and fro, %.2g s each: two seconds", (double)d->turn_rad_s,
+        tick_s * d->turn_ticks[0]);
+}
+
 sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, chart_bundle *bundle,
     chart_case *cases, sbf_diagnostic *error) {
   static const chart_case kinds[CHART_BUNDLE_CASES] = {
-      {.name = "walk", .title = "half its height a second forwards: two seconds", .guide = walk},
-      {.name = "hop",
-          .title = "the ground under it rises by a fiftieth of its height, twice a second: two seconds",
-          .guide = hop},
-      {.name = "shake",
-          .title = "turned by 2.5 rad/s to and fro, a quarter of a second each: two seconds",
-          .guide = shake}};
+      {.name = "walk", .guide = walk}, {.name = "hop", .guide = hop}, {.name = "shake", .guide = shake}};
+  char motion[96];
   sbf_asset_measures measures;
   bool soft = asset->soft_bodies.count > 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
@@ -91,14 +112,18 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
     return fault_set(error, SBF_CODE_REQUIRED_MISSING,
         "there is no soft body with a level to chart, or one without: sbfmt build makes them");
   sbf_asset_measure(asset, &measures);
-  double tall = fmax((double)measures.high.y - (double)measures.low.y, 0.01);
-  *bundle = (chart_bundle){.asset = asset, .drive = drive ? *drive : chart_usual_drive};
+  double wide = (double)measures.high.x - (double)measures.low.x,
+         tall = fmax((double)measures.high.y - (double)measures.low.y, 0.01),
+         deep = (double)measures.high.z - (double)measures.low.z;
+  *bundle = (chart_bundle){.asset = asset,
+      .drive = similar_drive(drive ? *drive : chart_usual_drive, fmax(wide, fmax(tall, deep)))};
   bundle->speed_m_s = bundle->drive.speed * tall;
   bundle->hop_m = bundle->drive.hop * tall;
   bundle->ground = (sbr_ground){.height = ground_height, .user = bundle};
   for (int i = 0; i < CHART_BUNDLE_CASES; i++) {
     cases[i] = kinds[i];
-    entitle(bundle->titles[i], sizeof bundle->titles[i], asset->info.title, kinds[i].title);
+    say_motion(bundle, (uint32_t)i, motion, sizeof motion);
+    entitle(bundle->titles[i], sizeof bundle->titles[i], asset->info.title, motion);
     cases[i].title = bundle->titles[i];
     cases[i].given = asset;
     cases[i].begin = level_ground;

@@ -6,14 +6,16 @@
 
 enum { CHART_BUNDLE_CASES = 3 };
 
-/* How hard it is driven. */
+/* How hard it is driven. A character of more than 2 m gets hops and turns that are slower by the square root
+ * of its size over that, as larger animals move (dynamic similarity: Alexander and Jayes, A dynamic
+ * similarity hypothesis for the gaits of quadrupedal mammals, Journal of Zoology 201, 1983). */
 typedef struct chart_drive {
   double speed;           /* of the walk, its own heights a second */
   float curve_rad_s;      /* to the left as it walks */
   double hop;             /* heights that the ground rises by */
-  uint32_t hop_ticks[2];  /* from one hop to the next, in turns */
-  float turn_rad_s;       /* of the shake */
-  uint32_t turn_ticks[2]; /* to one side, in turns */
+  uint32_t hop_ticks[2];  /* from one hop to the next, in turns; of 2 m */
+  float turn_rad_s;       /* of the shake; of 2 m */
+  uint32_t turn_ticks[2]; /* to one side, in turns; of 2 m */
 } chart_drive;
 
 extern const chart_drive chart_usual_drive; /* what the cases' titles say */

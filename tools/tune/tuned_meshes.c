@@ -7,7 +7,7 @@
 #include "render/fault.h"
 #include "sbfmt/build.h"
 
-enum { ALL_REFERENCE = 24000, MIN_REFERENCE = 960, MAX_REFERENCE = 7900, MIN_SIZE = 48 };
+enum { ALL_REFERENCE = 12000, MIN_REFERENCE = 960, MAX_REFERENCE = 4000, MIN_SIZE = 48 };
 
 typedef struct maker {
   const tune_grid *grid;
@@ -225,7 +225,7 @@ static sbf_status add_lattices(maker *m) {
   uint32_t reference = reference_of(m->grid, m->to->base->soft_bodies.count);
   uint32_t sizes[TUNE_MAX_SIZES], count = m->grid->size_count;
   memcpy(sizes, m->grid->sizes, sizeof sizes);
-  for (uint32_t size = reference / 4, i = 0; !m->grid->size_count && i < 3; i++, size /= 4)
+  for (uint32_t size = reference / 2, i = 0; !m->grid->size_count && i < 3; i++, size /= 4)
     if (size >= MIN_SIZE) sizes[count++] = size;
   m->share = 1.0 / (1 + count);
   m->done = 0;

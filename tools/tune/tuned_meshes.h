@@ -19,9 +19,9 @@ typedef struct tune_mesh {
 /* What is tried. */
 typedef struct tune_grid {
   uint32_t sizes[TUNE_MAX_SIZES]; /* tetrahedra a body */
-  uint32_t size_count;            /* 0: a quarter, a sixteenth and a 64th of the reference's, 48 at least */
-  uint32_t reference;    /* tetrahedra a body of what all are measured against; 0: 24,000 in all, no more than
-                            7900 and no fewer than 960 a body */
+  uint32_t size_count;            /* 0: a half, an eighth and a 32nd of the reference's, 48 at least */
+  uint32_t reference;    /* tetrahedra a body of what all are measured against; 0: 12,000 in all, no more than
+                            4000 and no fewer than 960 a body */
   bool coarse;           /* where `reference` is 0: a quarter of that */
   bool calibrated_alone; /* not as they are */
   void (*progress)(void *user, const char *what, double share); /* may be NULL */
