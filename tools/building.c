@@ -6,6 +6,7 @@
 #include "chart/out_folder.h"
 #include "mesh_quality.h"
 #include "sbfmt/build.h"
+#include "section_budget.h"
 
 /* As sbf_build_interior, and another word for one of them. */
 static const char *const methods[] = {
@@ -144,7 +145,40 @@ static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   print_springs(r);
 }
 
-sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error) {
+/* What was chosen within a budget, and what was left out for it. */
+static void say_choice(const cli_call *call, const section_budget *choice) {
+  sbf_diagnostic finding = {
+      .code = SBF_CODE_SOFTNESS_PROPOSED, .severity = SBF_SEVERITY_INFO, .offset = -1, .index = -1};
+  const double us = SECTION_BUDGET_NS_PER_VISIT / 1e3;
+  char off[96] = "", left[320] = "";
+  if (choice->p99_share >= 0)
+    snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of what %u give, ",
+        100 * choice->p99_share, (unsigned)choice->finest);
+  if (choice->left_out)
+    snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)%s",
+        (unsigned)choice->left_out, choice->names,
+        choice->visits > choice->max_visits ? ", and the skin alone takes more: give it fewer vertices" : "");
+  snprintf(finding.message, sizeof finding.message,
+      "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "
+      "us of "
+      "%.0f at %.0f ns each)%s",
+      (unsigned)choice->elements, off, choice->visits, choice->max_visits, us * choice->visits,
+      us * choice->max_visits, SECTION_BUDGET_NS_PER_VISIT, left);
+  cli_progress_end();
+  cli_print_diagnostic(call, &finding);
+}
+
+static sbf_status choose(const cli_call *call, sbf_asset *source, double budget_us,
+    sbf_build_options *options, sbf_diagnostic *error) {
+  section_budget choice;
+  cli_progress("budget", 0);
+  sbf_status status = section_budget_choose(source, options, budget_us, &choice, error);
+  if (status == SBF_OK) say_choice(call, &choice);
+  options->elements = choice.elements;
+  return status;
+}
+
+sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf_diagnostic *error) {
   sbf_build_options options;
   sbf_build_report made;
   sbf_asset *built = NULL;
@@ -152,7 +186,10 @@ sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error
   options.progress = progress;
   options.report = cli_report;
   options.user = call;
-  sbf_status status = sbf_build(*asset, &options, &built, &made, error);
+  bool chosen = budget_us > 0 && section_budget_applies(*asset, &options);
+  sbf_status status = chosen ? choose(call, *asset, budget_us, &options, error) : SBF_OK;
+  if (status == SBF_OK) status = sbf_build(*asset, &options, &built, &made, error);
+  if (status == SBF_OK && chosen) section_budget_state_costs(built);
   cli_print_counted(call);
   cli_progress_end();
   sbf_asset_free(*asset);

@@ -27,8 +27,9 @@
 /* False, with a message, where the options are wrong. */
 bool building_check(const cli_call *call);
 
-/* Replaces *asset by what the passes make of it, and says what they made. *asset is freed where that fails.
- */
-sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error);
+/* Replaces *asset by what the passes make of it, and says what they made. `budget_us` above 0: the sections
+ * of a skin are as fine, and as many, as that allows (section_budget.h), and their levels state what they
+ * cost. *asset is freed where that fails. */
+sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf_diagnostic *error);
 
 #endif

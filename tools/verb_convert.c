@@ -18,6 +18,7 @@
 #include "sbfmt/mechanics.h"
 
 enum { MAX_PATH = 4096 };
+static const double MIN_BUDGET_US = 1, MAX_BUDGET_US = 1e6;
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
@@ -77,6 +78,18 @@ static void state_figures(sbf_asset *asset) {
   asset->info.high = measures.high;
 }
 
+/* 0: the usual sections. False, with a message, where it is no number or is given with what it chooses. */
+static bool read_budget(const cli_call *call, double *budget_us) {
+  static const char *const chosen[] = {
+      "--elements", "--cell", "--error", "--levels", "--springs", "--sections"};
+  *budget_us = 0;
+  for (size_t i = 0; cli_value(call, "--budget") && i < sizeof chosen / sizeof *chosen; i++)
+    if (cli_value(call, chosen[i]))
+      return cli_wrong(call, "--budget chooses the sections' elements: leave out %s, or --budget", chosen[i]),
+             false;
+  return cli_number(call, "--budget", MIN_BUDGET_US, MAX_BUDGET_US, budget_us);
+}
+
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
   sbf_asset *asset, *misfit = NULL;
   sbf_diagnostic error;
@@ -89,7 +102,11 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
     return SBF_FAILED;
   }
   if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
-  if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
+  if (status == SBF_OK && !cli_switch(call, "--no-build")) {
+    double budget_us;
+    read_budget(call, &budget_us);
+    status = building_run(call, &asset, budget_us, &error);
+  }
   if (status == SBF_OK) {
     int saved = saving_run(call, input, out, asset, NULL);
     if (saved == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
@@ -149,6 +166,7 @@ static int run(cli_call *call) {
   static const char *const fronts[] = {"x", "-x", "y", "-y", "z", "-z"};
   static const char *const kinds[] = {"walk", "swim", "fly", "slither", "crawl", "roll", "none"};
   int up = 0, front = 0, limits = 0, kind = 0, status = SBF_FAILED;
+  double budget_us;
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
@@ -157,7 +175,7 @@ static int run(cli_call *call) {
   if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
       !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--forward", fronts, 6, &front) ||
       !cli_word(call, "--limits", animals, 4, &limits) || !cli_word(call, "--gait", kinds, 7, &kind) ||
-      !building_check(call) || !materials_check(call))
+      !read_budget(call, &budget_us) || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
@@ -198,6 +216,10 @@ static const cli_option options[] = {
     {"--limits", "none|human|quadruped|reptile",
         "propose joint limits by the bones' names and places (none)"},
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
+    {"--budget", "MICROSECONDS",
+        "what a tick may cost with skin, at 6 ns an element visit: the cheapest sections whose skin stays "
+        "within "
+        "1 % of the finest, else fewer soft parts (usual sections, whatever they cost)"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,
     {NULL, NULL, NULL},

@@ -23,6 +23,7 @@ bool chart_track_copy(chart_track *track, const chart_track *from) {
   memcpy(track->volume, from->volume, ticks * sizeof *track->volume);
   track->sound = from->sound;
   track->turned_over = from->turned_over;
+  track->max_strain = from->max_strain;
   memcpy(track->why, from->why, sizeof track->why);
   return true;
 }

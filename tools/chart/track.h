@@ -12,6 +12,7 @@ typedef struct chart_track {
   double *kinetic_j; /* (ticks) that of motion alone */
   double *volume;    /* (ticks) enclosed, share of that at rest; the least of several bodies' */
   bool sound;        /* nothing broke */
+  double max_strain; /* of an element, in any tick */
   bool turned_over;  /* an element was inside out at the end of some tick */
   char why[96];      /* what did */
 } chart_track;

@@ -153,6 +153,7 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
     if (!h.finite) why = "numbers that are none";
     if (h.recoveries) why = "lost its shape and was put back into it";
     if (h.inverted) track->turned_over = true;
+    track->max_strain = fmax(track->max_strain, (double)h.max_strain);
     if (h.inverted && tick + 1 == m->scene.ticks) why = "inside out at the end";
     if (why != before) of = m->scene.asset->soft_bodies.at[i].id;
   }

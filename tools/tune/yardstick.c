@@ -118,6 +118,9 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   if (good && !track.sound) fail(is, motion_case->name, track.why);
   /* What is inside out for a moment is drawn so, and `run` calls it not valid. */
   if (good && track.sound && track.turned_over) fail(is, motion_case->name, "elements turn inside out");
+  for (uint32_t i = 0; good && track.sound && i < track.ticks; i++)
+    is->min_volume = fmin(is->min_volume, track.volume[i]);
+  is->max_strain = fmax(is->max_strain, track.max_strain);
   bool told = good && is->sound && !yard->unmeasured[number][0];
   if (told) good = tune_distances_between(&track, &yard->truths[number].track, &off);
   chart_track_free(&track);
@@ -134,7 +137,7 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
 sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
     const chart_setting *setting, const tune_bar *bar, tune_error *is, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
-  *is = (tune_error){.sound = true};
+  *is = (tune_error){.sound = true, .min_volume = 1};
   for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
     int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
     if (!yard->broken[number]) status = look(yard, number, asset, setting, is, error);

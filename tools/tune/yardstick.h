@@ -23,9 +23,10 @@ typedef struct tune_yardstick {
 } tune_yardstick;
 
 typedef struct tune_error {
-  tune_distances off; /* each in the motion where it is greatest */
-  const char *worst;  /* the motion in which one is off by most */
-  int worst_number;   /* of it */
+  tune_distances off;            /* each in the motion where it is greatest */
+  double min_volume, max_strain; /* of any body in any tick; the volume against rest */
+  const char *worst;             /* the motion in which one is off by most */
+  int worst_number;              /* of it */
   bool sound;
   bool beaten;   /* no motion was tried after that in which it was; errors are those until then */
   char why[128]; /* it is not sound */

@@ -1,0 +1,91 @@
+"""`sbfmt convert --budget`: the cheapest sections near the finest, the same each time, and fewer parts where that is too much."""
+
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+
+from sbfmt_program import ROOT, ProgramTest, main, read_bytes
+
+CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
+SAID = re.compile(r"lattices of about (\d+) tetrahedra: (?:99 of 100 skin vertices within ([\d.e-]+) % of the size of what \d+ give, )?"
+                  r"(\d+) element visits a tick of at most (\d+)")
+
+
+class Budget(ProgramTest):
+    def converted(self, name, *options, source=CALF):
+        out = self.path(name + ".sbf")
+        result = self.good("convert", source, "-o", out, *options)
+        said = SAID.search(result.err)
+        return out, said and [float(number) if number else None for number in said.groups()], result.err
+
+    def test_it_takes_the_cheapest_that_is_near_the_finest(self):
+        usual, said, _ = self.converted("usual")
+        self.assertIsNone(said)
+        made, (elements, share, visits, most), err = self.converted("made", "--budget", "100")
+        self.assertIn(elements, (40, 80, 160))
+        self.assertLessEqual(share, 1)
+        self.assertLessEqual(visits, most)
+        self.assertAlmostEqual(most, 1e5 / 6, delta=1)
+        self.assertIn("SOFTNESS_PROPOSED", err)
+        springs = [sum(s["levels"][0]["springs"] for s in self.json_of("info", path)["sections"]) for path in (made, usual)]
+        self.assertLess(springs[0], springs[1])
+        self.assertEqual(self.json_of("validate", made)["messages"], [])
+        for arguments in (("--drive", "0.3,0.2"), ("--drive", "0.5,1", "--ground", "noise:0.02,3")):
+            report = self.json_of("run", made, "--seconds", "3", *arguments)
+            self.assertTrue(report["valid"])
+            self.assertGreaterEqual(report["volume_ratio_least"], 0.9)
+            self.assertLessEqual(report["max_strain"], 0.5)
+
+    def test_the_file_states_the_cost_and_how_to_make_it_again(self):
+        made, (elements, *_), _ = self.converted("stated", "--budget", "100")
+        for section in self.json_of("info", made)["sections"]:
+            level = section["levels"][0]
+            self.assertEqual(level["cost"] % level["springs"], 0, "a visit of each spring in each substep")
+            self.assertGreater(level["cost"], 0)
+        again = self.path("again.sbf")
+        self.good("build", made, "--elements", int(elements), "-o", again)
+        springs = [self.json_of("info", path)["springs"] for path in (made, again)]
+        self.assertEqual(*springs)
+
+    def test_it_is_the_same_each_time(self):
+        first, second = (self.converted(name, "--budget", "90")[0] for name in ("first", "second"))
+        self.assertEqual(read_bytes(first), read_bytes(second))
+
+    def test_less_leaves_the_smallest_parts_out_on_both_sides(self):
+        _, (_, _, visits, _), _ = self.converted("some", "--budget", "100")
+        made, (_, _, less, most), err = self.converted("less", "--budget", f"{0.85 * visits * 0.006:.3g}")
+        self.assertLessEqual(less, most)
+        self.assertRegex(err, r"rigid to keep the budget: \d+ of the smallest parts \(")
+        root = ElementTree.parse(made).getroot()
+        names = {b.get("id"): b.get("name") for b in root.iter("bone")}
+        soft = {names[r.get("bone")] for r in root.findall("section_recipes/section_recipe") if r.get("rigid") != "true"}
+        self.assertTrue(soft)
+        self.assertEqual({name for name in soft if name.endswith(".L")}, {name[:-1] + "L" for name in soft if name.endswith(".R")})
+        self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, soft)
+
+    def test_a_skin_that_takes_more_by_itself_is_told(self):
+        made, (_, _, visits, most), err = self.converted("skin", "--budget", "10")
+        self.assertGreater(visits, most)
+        self.assertIn("the skin alone takes more", err)
+        self.assertEqual(self.json_of("info", made)["sections"], [])
+
+    def test_bad_calls(self):
+        out = self.path("x.sbf")
+        for value in ("0", "-1", "x"):
+            self.assertIn("--budget takes a number", self.fails(2, "convert", CALF, "-o", out, "--budget", value))
+        for option in (("--elements", "100"), ("--springs", "tetrahedra"), ("--levels", "2")):
+            self.assertIn("leave out " + option[0], self.fails(2, "convert", CALF, "-o", out, "--budget", "50", *option))
+        self.assertFalse(os.path.exists(out))
+
+    def test_what_has_no_sections_to_choose_is_converted_as_usual(self):
+        cube = self.path("cube.obj")
+        with open(cube, "w", encoding="utf-8") as file:
+            file.writelines(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+            file.write("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+        with_it, said, _ = self.converted("with", "--budget", "100", source=cube)
+        self.assertIsNone(said)
+        self.assertEqual(read_bytes(with_it), read_bytes(self.converted("without", source=cube)[0]))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+/* How fine the sections of a skin have to be, and how many there may be, within a budget. */
+#ifndef SECTION_BUDGET_H
+#define SECTION_BUDGET_H
+
+#include "sbfmt/build.h"
+
+/* Time of an element visit on the reference machine, ns (sbrun/detail.h): a budget in microseconds is one in
+ * element visits, which are the same on every machine. */
+#define SECTION_BUDGET_NS_PER_VISIT 6.0
+
+typedef struct section_budget {
+  uint32_t elements; /* tetrahedra of the lattice that a section's springs follow */
+  double visits;     /* of the whole character with skin, a tick */
+  double max_visits; /* that the budget allows */
+  double p99_share;  /* of the size: 99 of 100 vertices and ticks are no farther off the finest */
+  uint32_t finest;   /* elements of that */
+  bool near;         /* within 1 % of the size, nine tenths of its volume, strains of half */
+  uint32_t left_out; /* parts that were made rigid to keep the budget */
+  char names[160];   /* of those */
+} section_budget;
+
+/* Whether there is anything to choose: soft parts of a skin that are to be cut, and nothing else that is
+ * soft. */
+bool section_budget_applies(const sbf_asset *source, const sbf_build_options *build);
+
+/* Builds the sections with several numbers of elements, runs each through the character's own walk, hop and
+ * shake, and takes the cheapest that stays near the finest; else the nearest within the budget, the finest of
+ * them where none holds. Where nothing is within it, marks the smallest parts in `source`, which is the
+ * caller's own, as rigid until it is kept. */
+sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
+    section_budget *choice, sbf_diagnostic *error);
+
+/* States the cost of each level in element visits. */
+void section_budget_state_costs(sbf_asset *built);
+
+#endif
