@@ -179,6 +179,21 @@ class Tuned(ProgramTest):
             self.good("validate", out)
             os.remove(out)
 
+    def test_what_is_far_off_at_best_has_a_nearest(self):
+        soft = self.path("soft.sbfz")
+        self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.1", "-o", soft)
+        report = self.json_of("tune", soft, "-o", self.path("far.sbfz"), *SMALL, "--quick", "--nearest")
+        self.assertEqual(report["verdict"], "error too small")
+        self.assertGreater(report["levels"][0]["motion_error_m"], 0.05 * report["size_m"])
+        self.good("validate", self.path("far.sbfz"))
+
+    def test_where_every_lattice_breaks_the_finest_level_of_the_file_is_the_reference(self):
+        soft = self.path("softer.sbfz")
+        self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.02", "-o", soft)
+        report = self.json_of("tune", soft, "-o", self.path("own.sbfz"), *SMALL, "--quick", "--nearest")
+        self.assertEqual(report["reference"]["model"], "as built")
+        self.assertTrue(report["written"])
+
     def test_what_has_nothing_soft_is_written_as_it_is(self):
         rigid, out = self.path("rigid.sbfz"), self.path("out.sbfz")
         self.good("convert", os.path.join(EXAMPLES, "spider", "spider.glb"), "--rigid", "*", "-o", rigid)

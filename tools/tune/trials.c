@@ -119,11 +119,12 @@ static double promise_of(double usual, double usual_own, double harsher, double 
   return PROMISED * fmax(usual + usual_own, harsher + harsher_own);
 }
 
-static sbf_status drive_harder(sweep *s, tune_trial *trial) {
+static sbf_status drive_harder(sweep *s, bool far, tune_trial *trial) {
+  const tune_bar bar = {.error_m = INFINITY, .by = s->effort->by, .far = far};
   const tune_distances *a = &trial->error.off, *b = &trial->other.off, *c = &s->yard->own,
                        *d = &s->other->own;
   sbf_status status = tune_yardstick_hold(
-      s->other, s->meshes->at[trial->mesh].asset, &trial->setting, NULL, &trial->other, s->error);
+      s->other, s->meshes->at[trial->mesh].asset, &trial->setting, &bar, &trial->other, s->error);
   trial->driven_harder = true;
   trial->promised = (tune_distances){promise_of(a->rms_m, c->rms_m, b->rms_m, d->rms_m),
       promise_of(a->p99_m, c->p99_m, b->p99_m, d->p99_m), promise_of(a->max_m, c->max_m, b->max_m, d->max_m)};
@@ -147,7 +148,7 @@ static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
   if (status != SBF_OK || !is->sound) return status;
   bar->first = is->worst_number;
   if (is->beaten) return SBF_OK;
-  status = drive_harder(s, trial);
+  status = drive_harder(s, bar->far, trial);
   if (status != SBF_OK || !trial->other.sound) return status;
   double promised = tune_distance_by(&trial->promised, s->effort->by);
   bar->error_m = fmin(bar->error_m, tune_distance_by(&is->off, s->effort->by));
@@ -159,13 +160,11 @@ static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
 }
 
 /* In order of visits, so that what is on the front is in order of falling promises as well. */
-static sbf_status hold_all(sweep *s) {
+static sbf_status hold_each(sweep *s, bool far) {
   tune_trials *t = s->to;
-  tune_bar bar = {.error_m = INFINITY, .by = s->effort->by};
+  tune_bar bar = {.error_m = INFINITY, .by = s->effort->by, .far = far};
   double all = 0, done = 0, best = INFINITY;
   sbf_status status = SBF_OK;
-  t->front = calloc((size_t)t->count + 1, sizeof *t->front);
-  if (!t->front) return no_memory(s);
   for (uint32_t i = 0; i < t->count; i++) all += t->at[i].refused ? 0 : t->at[i].visits;
   for (uint32_t i = 0; status == SBF_OK && i < t->count && !t->at[i].refused; i++) {
     tell(s, "errors", done / all);
@@ -175,6 +174,16 @@ static sbf_status hold_all(sweep *s) {
     else
       status = hold(s, i, &bar, &best);
   }
+  return status;
+}
+
+/* Where all are far off, the nearest of them is better than none. */
+static sbf_status hold_all(sweep *s) {
+  tune_trials *t = s->to;
+  t->front = calloc((size_t)t->count + 1, sizeof *t->front);
+  if (!t->front) return no_memory(s);
+  sbf_status status = hold_each(s, false);
+  if (status == SBF_OK && !t->front_count) status = hold_each(s, true);
   if (status != SBF_OK || t->front_count) return status;
   fault_set(s->error, SBF_CODE_BAD_CALL,
       "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "

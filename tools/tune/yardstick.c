@@ -99,7 +99,7 @@ static void fail(tune_error *is, const char *motion, const char *why) {
 
 /* One motion more. */
 static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *asset,
-    const chart_setting *setting, tune_error *is, sbf_diagnostic *error) {
+    const chart_setting *setting, bool far, tune_error *is, sbf_diagnostic *error) {
   const chart_case *motion_case = &yard->cases[number];
   chart_scene scene = chart_scene_of(motion_case, asset);
   chart_motion motion;
@@ -125,7 +125,7 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   if (told) good = tune_distances_between(&track, &yard->truths[number].track, &off);
   chart_track_free(&track);
   if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
-  if (told && !(off.max_m < LOST * yard->size_m)) {
+  if (told && !(off.max_m < (far ? INFINITY : LOST * yard->size_m))) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
   } else if (told) {
     if (!is->worst || off.max_m > is->off.max_m) is->worst = motion_case->name, is->worst_number = number;
@@ -140,7 +140,7 @@ sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asse
   *is = (tune_error){.sound = true, .min_volume = 1};
   for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
     int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
-    if (!yard->broken[number]) status = look(yard, number, asset, setting, is, error);
+    if (!yard->broken[number]) status = look(yard, number, asset, setting, bar && bar->far, is, error);
     is->beaten = bar && is->sound && i + 1 < CHART_BUNDLE_CASES &&
                  !(tune_distance_by(&is->off, bar->by) < bar->error_m);
   }

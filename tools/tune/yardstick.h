@@ -59,6 +59,7 @@ typedef struct tune_bar {
   double error_m; /* farther off it is beaten */
   tune_by by;
   int first; /* the motion to begin with */
+  bool far;  /* what is farther off than a twentieth of its size is no failure */
 } tune_bar;
 
 /* A character with the reference's skin. What the runtime refuses is not sound; failures are memory. `bar`
