@@ -148,6 +148,7 @@ typedef struct sbri_solver_body {
   float inverse_mass;                    /* 1/kg */
   float inverse_inertia[3][3];           /* 1/(kg m^2), world axes */
   sbf_vec3 impulse, angular_impulse;     /* accumulated, N s and N m s */
+  double response[6];                    /* active_contacts.c: change of velocity and angular velocity */
 } sbri_solver_body;
 
 /* A side of a contact during a solve: a solver body, or weighted points. */
@@ -163,6 +164,14 @@ typedef struct sbri_constraint_side {
   float weights[SBRI_CONTACT_SLOTS],
       point_responses[SBRI_CONTACT_SLOTS]; /* weight x inverse mass, in units of the points */
 } sbri_constraint_side;
+
+/* A contact of rigid bodies in active_contacts.c. */
+typedef struct sbri_active_contact {
+  bool is_pressing, is_sticking;
+  double residual[3];             /* velocity still missing, m/s */
+  double direction[3], change[3]; /* of the current step: impulse, N s; its change of the velocity, m/s */
+  double step[3];                 /* change of the impulse that all steps ask for, N s */
+} sbri_active_contact;
 
 /* A contact during a solve. */
 typedef struct sbri_contact_constraint {
@@ -186,7 +195,9 @@ typedef struct sbri_contact_constraint {
   sbri_four lever_arms[2], permuted_arms[2]; /* of both bodies; `permuted`: yzx order */
   sbri_solver_body *bodies[2];               /* a fixed body where a side has none */
   float inverse_mass_squared;                /* square of the inverse normal mass, 1/kg^2 */
-  sbri_four search_direction, change;        /* conjugate direction and last change of the impulse, N s */
+  float compliance;                          /* 1/kg */
+  sbri_active_contact active;
+  sbri_four search_direction, change; /* conjugate direction and last change of the impulse, N s */
 } sbri_contact_constraint;
 
 typedef struct sbri_contact_group {

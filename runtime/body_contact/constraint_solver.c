@@ -1,18 +1,30 @@
 /* Solver of contact impulses.
  *
  * Projected Gauss-Seidel over accumulated impulses, forwards and backwards (E. Catto, Iterative Dynamics with
- * Temporal Coherence, 2005); a sticking contact is solved in three directions at once. The change of an
- * iteration is a gradient, and each iteration continues along the previous ones as nonlinear conjugate
- * gradients do (M. Silcowitz-Hansen, S. Niebe, K. Erleben, A nonsmooth nonlinear conjugate gradient method
- * for interactive contact force problems, 2010). Without it a tower needs nearly one iteration per pair of
- * boxes. */
+ * Temporal Coherence, 2005); a sticking contact is solved in three directions at once. Sweeps alone need
+ * nearly one iteration per pair of boxes in a tower, and hundreds where the heavy stand on the light. Between
+ * rigid bodies a few sweeps find which contacts press, and conjugate gradients their impulses
+ * (active_contacts.c), in turn. With soft bodies the change of an iteration is a gradient, and each iteration
+ * continues along the previous ones as nonlinear conjugate gradients do (M. Silcowitz-Hansen, S. Niebe,
+ * K. Erleben, A nonsmooth nonlinear conjugate gradient method for interactive contact force problems,
+ * 2010). */
 #include "body_contact/constraint_solver.h"
 
 /* Upper bounds. Pushes go on from those of the step before, so that what presses on soft bodies is found over
  * a few steps; a tower of rigid boxes stands only if each step finds them all. */
-enum { MAX_RIGID_ITERATIONS = 60, MAX_SOFT_ITERATIONS = 12 };
-/* An iteration that changes no velocity by more is the last. */
+enum {
+  MAX_RIGID_ROUNDS = 32,
+  MAX_RIGID_STEPS = 400,
+  RIGID_SWEEPS = 2,
+  STEP_ATTEMPTS = 6,
+  MAX_SOFT_ITERATIONS = 12
+};
+/* A sweep that changes no velocity by more is the last. */
 static const float CONVERGED_RIGID_M_S = 2e-5f, CONVERGED_SOFT_M_S = 2e-4f;
+/* A contact of rigid bodies gives way by this fraction of the velocity that its impulse alone causes: else
+ * the share of each of several contacts of a face has no limit. The push-out makes up for it at a depth of
+ * micrometres. */
+static const float RIGID_COMPLIANCE = 1e-4f;
 /* m^2/s^2: below this slip has no direction. */
 static const float MIN_SLIP = 1e-20f;
 
@@ -62,6 +74,7 @@ static void prepare_rigid(sbri_contact_constraint *r, sbri_solver_body *fixed_bo
   r->mass_columns[2] = sbri_four_of(sbri_vec3(b[4], b[5], b[2]));
   prepare_side(r, 0, &r->a, fixed_body);
   prepare_side(r, 1, &r->b, fixed_body);
+  r->compliance = r->normal_mass > 0 ? RIGID_COMPLIANCE / r->normal_mass : 0;
   r->inverse_mass_squared = r->normal_mass > 0 ? 1 / (r->normal_mass * r->normal_mass) : 0;
 }
 
@@ -81,18 +94,6 @@ static void finish_rigid(sbri_contact_constraint *r) {
 }
 
 /* ---- Contacts of rigid bodies ---- */
-
-/* Target minus current velocity, m/s. */
-static sbri_four velocity_error(const sbri_contact_constraint *r) {
-  const sbri_solver_body *a = r->bodies[0], *b = r->bodies[1];
-  sbri_four v = sbri_four_sub(
-      a->velocity, b->velocity); /* and the cross products of angular velocity and arm, in yzx order: */
-  sbri_four w = sbri_four_sub(sbri_four_mul(a->angular_velocity, r->permuted_arms[0]),
-      sbri_four_mul(sbri_four_turn(a->angular_velocity), r->lever_arms[0]));
-  sbri_four u = sbri_four_sub(sbri_four_mul(b->angular_velocity, r->permuted_arms[1]),
-      sbri_four_mul(sbri_four_turn(b->angular_velocity), r->lever_arms[1]));
-  return sbri_four_sub(r->wide_target, sbri_four_add(v, sbri_four_turn(sbri_four_sub(w, u))));
-}
 
 static void apply_rigid_impulse(const sbri_constraint_side *finish_rigid, sbri_solver_body *m, sbri_four p) {
   m->velocity = sbri_four_add_scaled(m->velocity, p, m->inverse_mass);
@@ -131,7 +132,7 @@ static float slide(sbri_contact_constraint *r, sbri_four error, float normal_err
 
 /* Returns the square of the velocity change. */
 static float correct_rigid(sbri_contact_constraint *r) {
-  sbri_four n = r->wide_normal, error = velocity_error(r);
+  sbri_four n = r->wide_normal, error = sbri_rigid_velocity_error(r);
   float normal_error = sbri_four_dot(n, error),
         normal_impulse = r->normal_impulse + r->normal_mass * normal_error;
   if (!(normal_impulse > 0) && r->normal_impulse == 0) return 0;
@@ -143,15 +144,67 @@ static float correct_rigid(sbri_contact_constraint *r) {
   return set_rigid_impulse(r, normal_part, sticking);
 }
 
-/* Continues along the search direction, within the friction cone. */
-static void extrapolate_rigid(sbri_contact_constraint *r, float factor) {
-  sbri_four p = sbri_four_add_scaled(r->impulse, r->search_direction, factor);
+/* Sweeps forwards and backwards. Returns the square of the largest change of a velocity. */
+static float sweep_rigid(sbri_contact_constraint *rows, uint32_t count) {
+  float max_value = 0;
+  for (uint32_t i = 0; i < count; i++)
+    if (rows[i].is_active) max_value = max_of(max_value, correct_rigid(&rows[i]));
+  for (uint32_t i = count; i-- > 0;)
+    if (rows[i].is_active) max_value = max_of(max_value, correct_rigid(&rows[i]));
+  return max_value;
+}
+
+/* Sets the impulse to that at the begin plus a fraction of the step of the active contacts, within the
+ * friction cone. */
+static void go_along_step(sbri_contact_constraint *r, float fraction) {
+  const double *step = r->active.step;
+  sbri_four p = sbri_four_add_scaled(
+      r->search_direction, sbri_four_of(sbri_vec3((float)step[0], (float)step[1], (float)step[2])), fraction);
   float normal_impulse = sbri_four_dot(p, r->wide_normal);
   sbri_four friction_impulse = sbri_four_add_scaled(p, r->wide_normal, -normal_impulse);
   if (!(normal_impulse > 0)) normal_impulse = 0;
   (void)set_rigid_impulse(r, normal_impulse,
       sbri_four_add_scaled(
           clamp_friction(r, friction_impulse, normal_impulse), r->wide_normal, normal_impulse));
+}
+
+/* How much the energy that the impulses minimise has fallen, J twice: with the velocity error e it falls from
+ * p to p + d by d (e(p) + e(p + d)) / 2. */
+static float fall_of_energy(const sbri_contact_constraint *rows, uint32_t count) {
+  float sum = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    const sbri_contact_constraint *r = &rows[i];
+    if (!r->active.is_pressing) continue;
+    sbri_four errors = sbri_four_add(r->change, sbri_rigid_velocity_error(r));
+    sum += sbri_four_dot(sbri_four_sub(r->impulse, r->search_direction), errors);
+  }
+  return sum;
+}
+
+/* The step is right while the same contacts press and stick. Where the cones cut it off so that the energy
+ * grows, less of it is taken, in the end nothing. */
+static void apply_active_steps(sbri_contact_constraint *rows, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    rows[i].change = sbri_rigid_velocity_error(&rows[i]), rows[i].search_direction = rows[i].impulse;
+  float fraction = 1;
+  for (int attempt = 0; attempt <= STEP_ATTEMPTS; attempt++) {
+    if (attempt == STEP_ATTEMPTS) fraction = 0;
+    for (uint32_t i = 0; i < count; i++)
+      if (rows[i].active.is_pressing) go_along_step(&rows[i], fraction);
+    if (fall_of_energy(rows, count) > 0) return;
+    fraction *= 0.25f;
+  }
+}
+
+static void solve_rigid(sbri_contact_constraint *rows, uint32_t count) {
+  const float converged = CONVERGED_RIGID_M_S * CONVERGED_RIGID_M_S;
+  int steps = 0;
+  for (int round = 0; round < MAX_RIGID_ROUNDS && steps < MAX_RIGID_STEPS; round++) {
+    for (int i = 0; i < RIGID_SWEEPS; i++)
+      if (sweep_rigid(rows, count) < converged) return;
+    steps += sbri_solve_active_contacts(rows, count, 0.5f * CONVERGED_RIGID_M_S);
+    apply_active_steps(rows, count);
+  }
 }
 
 /* ---- Contacts of soft bodies ---- */
@@ -205,26 +258,17 @@ static void extrapolate_soft(sbri_contact_constraint *r, float factor) {
   (void)set_soft_impulse(r, normal_impulse, clamp_friction_vec3(r, friction_impulse, normal_impulse));
 }
 
-/* ---- All ---- */
-
-typedef struct kind {
-  float (*correct_rigid)(sbri_contact_constraint *row);
-  void (*extrapolate)(sbri_contact_constraint *row, float factor);
-  int max_iterations;
-  float converged_m_s;
-} kind;
-
-SBRI_INLINE void solve(sbri_contact_constraint *rows, uint32_t count, const kind *of) {
-  const float converged = of->converged_m_s * of->converged_m_s;
+static void solve_soft(sbri_contact_constraint *rows, uint32_t count) {
+  const float converged = CONVERGED_SOFT_M_S * CONVERGED_SOFT_M_S;
   float last = 0;
-  for (int iteration = 0; iteration < of->max_iterations; iteration++) {
+  for (int iteration = 0; iteration < MAX_SOFT_ITERATIONS; iteration++) {
     float max_value = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
       rows[i].change = sbri_four_scale(rows[i].impulse, -1);
-      if (rows[i].is_active) max_value = max_of(max_value, of->correct_rigid(&rows[i]));
+      if (rows[i].is_active) max_value = max_of(max_value, correct_soft(&rows[i]));
     }
     for (uint32_t i = count; i-- > 0;)
-      if (rows[i].is_active) max_value = max_of(max_value, of->correct_rigid(&rows[i]));
+      if (rows[i].is_active) max_value = max_of(max_value, correct_soft(&rows[i]));
     if (max_value < converged) return;
     for (uint32_t i = 0; i < count; i++) {
       sbri_contact_constraint *r = &rows[i];
@@ -237,15 +281,15 @@ SBRI_INLINE void solve(sbri_contact_constraint *rows, uint32_t count, const kind
     for (uint32_t i = 0; i < count; i++) {
       sbri_contact_constraint *r = &rows[i];
       if (!r->is_active) continue;
-      if (factor > 0) of->extrapolate(r, factor);
+      if (factor > 0) extrapolate_soft(r, factor);
       r->search_direction = sbri_four_add_scaled(r->change, r->search_direction, factor);
     }
   }
 }
 
+/* ---- All ---- */
+
 void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count) {
-  const kind rigid = {correct_rigid, extrapolate_rigid, MAX_RIGID_ITERATIONS, CONVERGED_RIGID_M_S},
-             soft = {correct_soft, extrapolate_soft, MAX_SOFT_ITERATIONS, CONVERGED_SOFT_M_S};
   sbri_solver_body fixed_body = {.inverse_mass = 0};
   bool all_are_rigid = true;
   for (uint32_t i = 0; i < count; i++) {
@@ -254,10 +298,10 @@ void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count) {
     all_are_rigid = all_are_rigid && rows[i].a.count + rows[i].b.count == 0;
   }
   if (!all_are_rigid) {
-    solve(rows, count, &soft);
+    solve_soft(rows, count);
     return;
   }
   for (uint32_t i = 0; i < count; i++) prepare_rigid(&rows[i], &fixed_body);
-  solve(rows, count, &rigid);
+  solve_rigid(rows, count);
   for (uint32_t i = 0; i < count; i++) finish_rigid(&rows[i]);
 }

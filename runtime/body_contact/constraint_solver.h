@@ -46,6 +46,29 @@ static inline void sbri_constraint_apply_impulse(const sbri_contact_constraint *
   sbri_constraint_side_apply_impulse(&r->b, sbri_scale(impulse, -1));
 }
 
+/* Velocity that a contact of rigid bodies still lacks: target minus current velocity, minus what its
+ * compliance gives way, m/s. */
+static inline sbri_four sbri_rigid_velocity_error(const sbri_contact_constraint *r) {
+  const sbri_solver_body *a = r->bodies[0], *b = r->bodies[1];
+  sbri_four v = sbri_four_sub(
+      a->velocity, b->velocity); /* and the cross products of angular velocity and arm, in yzx order: */
+  sbri_four w = sbri_four_sub(sbri_four_mul(a->angular_velocity, r->permuted_arms[0]),
+      sbri_four_mul(sbri_four_turn(a->angular_velocity), r->lever_arms[0]));
+  sbri_four u = sbri_four_sub(sbri_four_mul(b->angular_velocity, r->permuted_arms[1]),
+      sbri_four_mul(sbri_four_turn(b->angular_velocity), r->lever_arms[1]));
+  sbri_four velocity = sbri_four_add(v, sbri_four_turn(sbri_four_sub(w, u)));
+  return sbri_four_add_scaled(sbri_four_sub(r->wide_target, velocity), r->impulse, -r->compliance);
+}
+
+/* ---- active_contacts.c ---- */
+
+/* Finds the change of the impulses, `active.step`, that the contacts that press now need. Does not apply it.
+ * All contacts are of rigid bodies. Ends when no residual exceeds `converged_m_s`. Returns the number of its
+ * steps. */
+int sbri_solve_active_contacts(sbri_contact_constraint *rows, uint32_t count, float converged_m_s);
+
+/* ---- constraint_solver.c ---- */
+
 /* Solves the impulses of all constraints; starts from those already applied. */
 void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count);
 
