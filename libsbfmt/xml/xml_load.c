@@ -1,4 +1,6 @@
 /* Loading XML: read, resolve, check; and where something is wrong, find its line. */
+#include <string.h>
+
 #include "base/diagnostic.h"
 #include "model/asset_box.h"
 #include "model/check.h"
@@ -16,6 +18,22 @@ static void add_out_of_memory(sbfi_xml_findings *findings) {
   add_finding(findings, &diagnostic);
 }
 
+/* Repeated ids stand before the references to ids that they have displaced. */
+typedef struct repeated_ids {
+  sbfi_xml_findings *findings;
+  uint32_t count;
+} repeated_ids;
+
+static void add_repeated_id(void *user, const sbf_diagnostic *diagnostic) {
+  repeated_ids *repeated = user;
+  sbfi_xml_findings *findings = repeated->findings;
+  if (diagnostic->code != SBF_CODE_ID_REPEATED || repeated->count == findings->capacity) return;
+  if (findings->count < findings->capacity) findings->count++;
+  sbf_diagnostic *at = &findings->at[repeated->count];
+  memmove(at + 1, at, (findings->count - ++repeated->count) * sizeof *at);
+  *at = *diagnostic;
+}
+
 /* Adds what is wrong, step by step: a later step is not asked about what an earlier one could not make. */
 static void read_into(const sbfi_xml_source *source, const sbf_load_options *options, sbf_asset *asset,
     sbfi_xml_findings *findings) {
@@ -26,6 +44,8 @@ static void read_into(const sbfi_xml_source *source, const sbf_load_options *opt
     add_finding(findings, &error);
   else if (!sbfi_xml_resolve_refs(asset, &refs, findings))
     add_out_of_memory(findings);
+  else if (findings->count)
+    sbfi_check_structure(asset, options, add_repeated_id, &(repeated_ids){findings, 0}, UINT32_MAX);
   sbfi_array_free(&refs);
   if (!findings->count) sbfi_check_structure(asset, options, add_finding, findings, findings->capacity);
   if (!findings->count && sbfi_check_extensions(asset, options, &error) != SBF_OK)

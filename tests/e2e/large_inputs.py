@@ -1,6 +1,6 @@
-"""Writes large inputs of a stated size: skinned characters, scenes of many bodies, files that expand when they are read.
+"""Writes large inputs of a stated size: skinned characters, scenes of many bodies, faces of many corners.
 
-By hand: large_inputs.py character VERTICES BONES OUT.glb | bodies COUNT OUT.obj | face CORNERS OUT.obj | zip BYTES OUT.sbfz
+By hand: large_inputs.py character VERTICES BONES OUT.glb | bodies COUNT OUT.obj | face CORNERS OUT.obj
 """
 
 import array

@@ -91,6 +91,30 @@ START_TEST(test_all_unknown_references)
 }
 END_TEST
 
+/* The second "a" was meant to be "b". */
+START_TEST(test_repeated_ids_stand_before_the_references_they_break)
+{
+  static const char text[] = "<sbf version=\"1.0\">\n"
+                             "<skeleton>\n"
+                             "<bone id=\"a\" head=\"0 0 0\"/>\n"
+                             "<bone id=\"a\" head=\"0 1 0\"/>\n"
+                             "<bone id=\"c\" head=\"0 2 0\" parent=\"b\" length=\"-1\"/>\n"
+                             "</skeleton>\n"
+                             "<soft_body id=\"c\" bone=\"b\"/>\n"
+                             "</sbf>\n";
+  outcome o;
+  read_all(&o, text, ROOM);
+  ck_assert_uint_eq(o.findings.count, 4);
+  expect(&o, 0, SBF_CODE_ID_REPEATED, 4, "/sbf/skeleton/bone[2]/@id", -1);
+  expect(&o, 1, SBF_CODE_ID_REPEATED, 7, "/sbf/soft_body[1]/@id", -1);
+  expect(&o, 2, SBF_CODE_REF_UNKNOWN, 5, "/sbf/skeleton/bone[3]/@parent", -1);
+  expect(&o, 3, SBF_CODE_REF_UNKNOWN, 7, "/sbf/soft_body[1]/@bone", -1);
+  read_all(&o, text, 1);
+  ck_assert_uint_eq(o.findings.count, 1);
+  expect(&o, 0, SBF_CODE_ID_REPEATED, 4, "/sbf/skeleton/bone[2]/@id", -1);
+}
+END_TEST
+
 START_TEST(test_siblings_of_several_names)
 {
   outcome o;
@@ -173,6 +197,7 @@ int main(void) {
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_all_findings_have_their_lines);
   tcase_add_test(all, test_all_unknown_references);
+  tcase_add_test(all, test_repeated_ids_stand_before_the_references_they_break);
   tcase_add_test(all, test_siblings_of_several_names);
   tcase_add_test(all, test_a_word_in_a_long_list);
   tcase_add_test(all, test_references_look_both_ways);
