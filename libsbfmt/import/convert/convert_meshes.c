@@ -251,13 +251,13 @@ static void report_weights(
   const char *name = c->scene->nodes[mesh->node].name;
   if (unweighted)
     sbfi_convert_warn(c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
-        "object '%s': %u points have no weights and were given to the root; paint them in the source", name,
-        unweighted);
+        "object '%s': %u points have no weights, or only on joints that the file does not have, and were "
+        "given to the root: paint them in the source",
+        name, unweighted);
   if (lost)
     sbfi_convert_warn(c, SBF_CODE_RIG_WEIGHTS_LOST,
-        "object '%s': the weights of %u points sum to less than %g, as where joints are named that the file "
-        "does "
-        "not have; they were scaled to 1: export the skin again",
+        "object '%s': the weights of %u points sum to less than %g, as where joints are named that the "
+        "file does not have; they were scaled to 1: export the skin again",
         name, lost, MIN_WEIGHT_SUM);
 }
 
