@@ -272,6 +272,57 @@ START_TEST(a_thick_part_keeps_its_shoulder)
 }
 END_TEST
 
+/* A thick drum that goes on as a thin rod behind the joint: its rim lies behind the joint too, nearer to the
+ * rod's bone, but faces away from the rod. */
+START_TEST(a_rim_belongs_to_the_bone_that_it_faces_away_from)
+{
+  const sbfi_d3 path[] = {{0, 0, 0}, {2.2, 0, 0}};
+  tubes_add(tubes, path, 2, 0.1, 60, false);
+  for (uint32_t i = 0; i < tubes->point_count; i++)
+    if (tubes->points[i].x < 1.16f) tubes->points[i].y *= 5, tubes->points[i].z *= 5;
+  uint32_t drum = tubes_add_bone(tubes, "drum", SBF_NONE, (sbfi_d3){0.1, 0, 0}, (sbfi_d3){1, 0, 0});
+  uint32_t rod = tubes_add_bone(tubes, "rod", (int32_t)drum, (sbfi_d3){1, 0, 0}, (sbfi_d3){2.1, 0, 0});
+  compute_tubes();
+  for (uint32_t i = 0; i < tubes->point_count; i++) {
+    double x = (double)tubes->points[i].x, y = (double)tubes->points[i].y, z = (double)tubes->points[i].z;
+    if (x > 1.11 && x < 1.16 && sqrt(y * y + z * z) > 0.4)
+      ck_assert_double_ge(tubes_weight(&weights, i, drum), 0.5);
+    if (x > 1.8) ck_assert_double_ge(tubes_weight(&weights, i, rod), 0.9);
+  }
+}
+END_TEST
+
+/* A pad of its own before the joint of a limb, which is nearer than the trunk that carries it. */
+START_TEST(a_pad_before_a_joint_follows_the_carrier)
+{
+  const sbfi_d3 trunk[] = {{0, 0, 0}, {0, 2, 0}}, arm[] = {{0.6, 1, 0}, {1.6, 1, 0}};
+  const sbfi_d3 pad[] = {{0.4, 1, 0}, {0.58, 1, 0}};
+  tubes_add(tubes, trunk, 2, 0.12, 40, false);
+  tubes_add(tubes, arm, 2, 0.12, 30, false);
+  uint32_t first = tubes_add(tubes, pad, 2, 0.2, 6, false);
+  uint32_t spine = tubes_add_bone(tubes, "spine", SBF_NONE, (sbfi_d3){0, 0.1, 0}, (sbfi_d3){0, 1.6, 0});
+  tubes_add_bone(tubes, "neck", (int32_t)spine, (sbfi_d3){0, 1.6, 0}, (sbfi_d3){0, 1.9, 0});
+  tubes_add_bone(tubes, "arm", (int32_t)spine, (sbfi_d3){0.65, 1, 0}, (sbfi_d3){1.5, 1, 0});
+  compute_tubes();
+  for (uint32_t i = first; i < tubes->point_count; i++)
+    ck_assert_double_ge(tubes_weight(&weights, i, spine), 0.95);
+}
+END_TEST
+
+/* In one skin around both the limb holds what is nearest to its joint, also before it. */
+START_TEST(a_limb_holds_the_skin_around_its_joint)
+{
+  const sbfi_d3 path[] = {{0, 0, 0}, {0, 2, 0}, {1.6, 2, 0}};
+  tubes_add(tubes, path, 3, 0.12, 40, false);
+  uint32_t spine = tubes_add_bone(tubes, "spine", SBF_NONE, (sbfi_d3){0, 0.1, 0}, (sbfi_d3){0, 1.5, 0});
+  tubes_add_bone(tubes, "neck", (int32_t)spine, (sbfi_d3){0, 1.5, 0}, (sbfi_d3){0, 1.7, 0});
+  uint32_t limb = tubes_add_bone(tubes, "arm", (int32_t)spine, (sbfi_d3){0.8, 2, 0}, (sbfi_d3){1.5, 2, 0});
+  compute_tubes();
+  for (uint32_t i = 0; i < tubes->point_count; i++)
+    if (tubes->points[i].x > 0.6f) ck_assert_double_ge(tubes_weight(&weights, i, limb), 0.8);
+}
+END_TEST
+
 /* A bone along the middle of another is nearest to nothing. */
 START_TEST(bones_deep_in_a_body_are_idle)
 {
@@ -493,6 +544,9 @@ static Suite *suite(void) {
   tcase_add_test(c, eyes_follow_the_head_that_holds_them);
   tcase_add_test(c, frames_and_controls_hold_nothing);
   tcase_add_test(c, a_thick_part_keeps_its_shoulder);
+  tcase_add_test(c, a_rim_belongs_to_the_bone_that_it_faces_away_from);
+  tcase_add_test(c, a_pad_before_a_joint_follows_the_carrier);
+  tcase_add_test(c, a_limb_holds_the_skin_around_its_joint);
   tcase_add_test(c, bones_deep_in_a_body_are_idle);
   tcase_add_test(c, a_foot_holds_its_heel);
   tcase_add_test(c, ends_of_bones_hold_nothing);

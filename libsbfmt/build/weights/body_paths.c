@@ -64,16 +64,22 @@ static uint32_t begin_inside(sbfi_body_paths *p, const sbfi_bone_segment *bone) 
   return count;
 }
 
-/* The cells of the bone; where there are none, the nearest. Returns how many there are. */
-static uint32_t begin(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
-  uint32_t count = begin_inside(p, bone), nearest = 0;
+static uint32_t begin_nearest(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
+  uint32_t nearest = 0;
   double min = INFINITY;
-  if (count) return count;
   for (uint32_t cell = 0; cell < p->grid->cell_count; cell++) {
     double distance = distance_in_cells(p->grid, bone, cell);
     if (distance < min) min = distance, nearest = cell;
   }
   return improve(p, nearest, (float)fmin(min, 1e6));
+}
+
+/* The cells of all segments; where the first has none, the nearest. Returns how many there are. */
+static uint32_t begin(sbfi_body_paths *p, const sbfi_bone_segment *segments, uint32_t segment_count) {
+  uint32_t count = begin_inside(p, &segments[0]);
+  if (!count) count = begin_nearest(p, &segments[0]);
+  for (uint32_t i = 1; i < segment_count; i++) count += begin_inside(p, &segments[i]);
+  return count;
 }
 
 static uint32_t expand(sbfi_body_paths *p, uint32_t cell) {
@@ -96,11 +102,11 @@ static uint32_t expand(sbfi_body_paths *p, uint32_t cell) {
   return added;
 }
 
-void sbfi_body_paths_from(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
+void sbfi_body_paths_from(sbfi_body_paths *p, const sbfi_bone_segment *segments, uint32_t segment_count) {
   for (uint32_t i = 0; i < p->grid->cell_count; i++) p->distances[i] = INFINITY;
   for (uint32_t b = 0; b < BUCKETS; b++) p->first[b] = UINT32_MAX;
   if (!p->grid->cell_count) return;
-  uint32_t waiting = begin(p, bone), bucket = UINT32_MAX;
+  uint32_t waiting = begin(p, segments, segment_count), bucket = UINT32_MAX;
   for (uint32_t b = 0; b < BUCKETS && bucket == UINT32_MAX; b++) /* a single far cell may lie in any */
     if (p->first[b] != UINT32_MAX) bucket = b;
   for (; waiting; bucket = (bucket + 1) % BUCKETS)

@@ -15,7 +15,8 @@ typedef struct sbfi_body_paths {
 
 bool sbfi_body_paths_make(sbfi_body_paths *paths, const sbfi_body_grid *grid, sbfi_arena *arena);
 
-/* Fills `distances`. A bone that no cell of the body holds begins at the nearest cell. */
-void sbfi_body_paths_from(sbfi_body_paths *paths, const sbfi_bone_segment *bone);
+/* Fills `distances`, to the nearest of `segments` (at least one): a bone, then its links. A bone that no cell
+ * of the body holds begins at the nearest cell. */
+void sbfi_body_paths_from(sbfi_body_paths *paths, const sbfi_bone_segment *segments, uint32_t segment_count);
 
 #endif

@@ -78,17 +78,10 @@ static double share_inside(
 /* How far the surface is from its bones, by half of how thick the body is there. Where no ray meets a far
  * side there is no thickness. */
 static double median_distance(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
-    const sbfi_nearest_bone *nearest, sbfi_d3 *normals, measured *room) {
+    const sbfi_nearest_bone *nearest, measured *room) {
   uint32_t count = 0;
-  for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *corners = mesh->triangles[t];
-    sbfi_d3 a = sbfi_d3_of(mesh->sites[corners[0]]);
-    sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(sbfi_d3_of(mesh->sites[corners[1]]), a),
-        sbfi_d3_sub(sbfi_d3_of(mesh->sites[corners[2]]), a));
-    for (int k = 0; k < 3; k++) normals[corners[k]] = sbfi_d3_add(normals[corners[k]], normal);
-  }
   for (uint32_t i = 0; i < mesh->site_count; i++) {
-    sbfi_d3 inwards = sbfi_d3_scale(sbfi_d3_normal(normals[i]), -1);
+    sbfi_d3 inwards = sbfi_d3_scale(mesh->normals[i], -1);
     if (sbfi_d3_length(inwards) == 0) continue;
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->sites[i]), sbfi_d3_scale(inwards, BELOW));
     double thickness = sbfi_body_way_out(rays, from, inwards);
@@ -103,12 +96,11 @@ bool sbfi_bone_fit_measure(const sbfi_weight_mesh *mesh, const sbfi_body_rays *r
     const sbfi_bone_segment *segments, uint32_t bone_count, const sbfi_nearest_bone *nearest,
     sbfi_weights_figures *figures, sbfi_arena *arena) {
   measured *room = sbfi_arena_allocate(arena, mesh->site_count, sizeof *room);
-  sbfi_d3 *normals = sbfi_arena_allocate(arena, mesh->site_count, sizeof *normals);
-  if (!room || !normals) return false;
+  if (!room) return false;
   double surface = extent_of_surface(mesh, room);
   figures->inside = share_inside(rays, segments, bone_count);
   figures->bone_extent = surface > 0 ? extent_of_bones(segments, bone_count) / surface : 1;
-  figures->median_distance = median_distance(mesh, rays, nearest, normals, room);
+  figures->median_distance = median_distance(mesh, rays, nearest, room);
   for (uint32_t b = 0; b < bone_count; b++) figures->deforming_count += segments[b].is_deforming;
   return true;
 }

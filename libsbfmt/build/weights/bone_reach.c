@@ -197,3 +197,10 @@ bool sbfi_bone_reach_find(sbfi_bone_reach *r, const sbfi_weights_input *in, cons
   *r = (sbfi_bone_reach){0};
   return find_thickness(r, in, rays, segments, arena) && find_shares(r, in, mesh, segments, sizes, arena);
 }
+
+float sbfi_bone_share_in(const sbfi_bone_reach *r, uint32_t bone, uint32_t shell) {
+  const sbfi_bone_share wanted = {bone, shell, 0};
+  const sbfi_bone_share *found =
+      r->share_count ? bsearch(&wanted, r->shares, r->share_count, sizeof *r->shares, compare_shares) : NULL;
+  return found ? found->share : 0;
+}

@@ -23,4 +23,7 @@ typedef struct sbfi_bone_reach {
 bool sbfi_bone_reach_find(sbfi_bone_reach *reach, const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_rays *rays, const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena);
 
+/* Share of a bone's length within a shell; 0 for a shell without an inside. */
+float sbfi_bone_share_in(const sbfi_bone_reach *reach, uint32_t bone, uint32_t shell);
+
 #endif

@@ -13,10 +13,15 @@ static sbfi_d3 axis_of(sbf_quat q) {
   return sbfi_d3_normal((sbfi_d3){2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)});
 }
 
+sbfi_d3 sbfi_segment_nearest(const sbfi_bone_segment *s, sbfi_d3 point) {
+  sbfi_d3 along = sbfi_d3_sub(s->tail, s->head);
+  double squared = sbfi_d3_dot(along, along);
+  double t = squared > 0 ? sbfi_d3_dot(sbfi_d3_sub(point, s->head), along) / squared : 0;
+  return sbfi_d3_add(s->head, sbfi_d3_scale(along, t < 0 ? 0 : t > 1 ? 1 : t));
+}
+
 double sbfi_segment_distance2(const sbfi_bone_segment *s, sbfi_d3 point) {
-  sbfi_d3 along = sbfi_d3_sub(s->tail, s->head), way = sbfi_d3_sub(point, s->head);
-  double squared = sbfi_d3_dot(along, along), t = squared > 0 ? sbfi_d3_dot(way, along) / squared : 0;
-  sbfi_d3 apart = sbfi_d3_sub(way, sbfi_d3_scale(along, t < 0 ? 0 : t > 1 ? 1 : t));
+  sbfi_d3 apart = sbfi_d3_sub(point, sbfi_segment_nearest(s, point));
   return sbfi_d3_dot(apart, apart);
 }
 

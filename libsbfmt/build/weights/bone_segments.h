@@ -20,6 +20,9 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
  * capture do at the wrist. It runs beside its parent and does not end it. */
 bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone);
 
+/* The point of a segment that is nearest to another. */
+sbfi_d3 sbfi_segment_nearest(const sbfi_bone_segment *segment, sbfi_d3 point);
+
 /* Squared distance of a point from a segment. */
 double sbfi_segment_distance2(const sbfi_bone_segment *segment, sbfi_d3 point);
 

@@ -1,6 +1,7 @@
 #include "build/weights/nearest_bones.h"
 
 #include "build/weights/body_paths.h"
+#include "build/weights/bone_links.h"
 
 /* Paths from cell to cell are longer than straight ones by up to an eleventh. Distances are divided by the
  * root of the body's radius plus this; a shell that holds less than a quarter of a bone is up to eleven times
@@ -40,14 +41,63 @@ static bool is_nearer(const sbfi_bone_segment *segments, const sbfi_nearest_bone
   return distance < min * (1 - TIE); /* of equals the first */
 }
 
+/* How much farther a bone counts than it is: skin that faces away from it, as the arm's beside the chest
+ * does, is another's. */
+static double facing_factor(const sbfi_bone_segment *segment, sbfi_d3 at, sbfi_d3 normal) {
+  sbfi_d3 from = sbfi_d3_normal(sbfi_d3_sub(at, sbfi_segment_nearest(segment, at)));
+  return 2 - sbfi_d3_dot(from, normal);
+}
+
+/* What distances from one bone have in common. */
+typedef struct bone_search {
+  const sbfi_weight_mesh *mesh;
+  const sbfi_bone_reach *reach;
+  sbfi_bone_links links;
+  double *shell_factors; /* (mesh->shell_count) */
+  double scale;
+  double *link_scales; /* (links.count) */
+} bone_search;
+
+/* Near its joint a limb reaches as far as the link to it. */
+static void find_links(
+    bone_search *s, const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone) {
+  const double *thickness = s->reach->thickness;
+  sbfi_bone_links_find(&s->links, in, segments, bone);
+  s->scale = 1 / sqrt(thickness[bone] + RADIUS_OFFSET);
+  for (uint32_t k = 0; k < s->links.count; k++)
+    s->link_scales[k] = 1 / sqrt(fmin(thickness[bone], thickness[s->links.limbs[k]]) + RADIUS_OFFSET);
+}
+
+/* How far a site counts from the bone; `path` leads there through the body, or is 0 where no cell holds the
+ * site. */
+static double distance_to_site(const bone_search *s, uint32_t site, double path) {
+  const sbfi_bone_segment *segments = s->links.segments, *best = &segments[0];
+  sbfi_d3 at = sbfi_d3_of(s->mesh->sites[site]);
+  uint32_t shell = s->mesh->shell_of_site[site];
+  double min = fmax(path / DETOUR, sqrt(sbfi_segment_distance2(best, at))) * s->scale;
+  for (uint32_t k = 0; k < s->links.count; k++) {
+    double straight = sqrt(sbfi_segment_distance2(&segments[k + 1], at));
+    double distance = fmax(path / DETOUR, straight) * s->link_scales[k];
+    if (distance >= min || !sbfi_bone_link_counts(&s->links, k, s->reach, shell)) continue;
+    min = distance;
+    best = &segments[k + 1];
+  }
+  return min * s->shell_factors[shell] * facing_factor(best, at, s->mesh->normals[site]);
+}
+
 bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_grid *grid, const sbfi_bone_segment *segments, const sbfi_bone_reach *reach,
     sbfi_nearest_bone *nearest, sbfi_arena *arena) {
   sbfi_body_paths paths;
+  bone_search search = {.mesh = mesh, .reach = reach};
   double *min = sbfi_arena_allocate(arena, mesh->site_count, sizeof *min);
-  double *factors = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *factors);
   int32_t *cells = sbfi_arena_allocate(arena, mesh->site_count, sizeof *cells);
-  if (!min || !factors || !cells || !sbfi_body_paths_make(&paths, grid, arena)) return false;
+  search.shell_factors = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *search.shell_factors);
+  search.link_scales = sbfi_arena_allocate(arena, in->bone_count, sizeof *search.link_scales);
+  if (!min || !cells || !search.shell_factors || !search.link_scales ||
+      !sbfi_bone_links_make(&search.links, in->bone_count, arena) ||
+      !sbfi_body_paths_make(&paths, grid, arena))
+    return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     min[i] = INFINITY;
     cells[i] = grid->cell_of_box[sbfi_body_box_at(grid, sbfi_d3_of(mesh->sites[i]))];
@@ -55,15 +105,15 @@ bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mes
   uint32_t next_share = 0;
   for (uint32_t b = 0; b < in->bone_count; b++) {
     if (!segments[b].is_deforming) continue;
-    double scale = 1 / sqrt(reach->thickness[b] + RADIUS_OFFSET);
-    shell_factors(reach, b, &next_share, mesh->shell_count, factors);
-    sbfi_body_paths_from(&paths, &segments[b]);
+    find_links(&search, in, segments, b);
+    shell_factors(reach, b, &next_share, mesh->shell_count, search.shell_factors);
+    sbfi_body_paths_from(&paths, search.links.segments, search.links.count + 1);
     for (uint32_t i = 0; i < mesh->site_count; i++) {
-      double straight = sqrt(sbfi_segment_distance2(&segments[b], sbfi_d3_of(mesh->sites[i])));
-      double path = cells[i] == SBF_NONE ? straight : (double)paths.distances[cells[i]] / SBFI_BODY_CELLS;
-      double distance = fmax(path / DETOUR, straight) * scale * factors[mesh->shell_of_site[i]];
-      if (!is_nearer(segments, &nearest[i], min[i], b, straight, distance, sbfi_d3_of(mesh->sites[i])))
-        continue;
+      sbfi_d3 at = sbfi_d3_of(mesh->sites[i]);
+      double straight = sqrt(sbfi_segment_distance2(&segments[b], at));
+      double path = cells[i] == SBF_NONE ? 0 : (double)paths.distances[cells[i]] / SBFI_BODY_CELLS;
+      double distance = distance_to_site(&search, i, path);
+      if (!is_nearer(segments, &nearest[i], min[i], b, straight, distance, at)) continue;
       min[i] = distance;
       nearest[i] = (sbfi_nearest_bone){b, (float)straight};
     }

@@ -102,6 +102,19 @@ static bool order_triangles(
   return true;
 }
 
+/* Means of the triangles around, by area. */
+static bool find_normals(sbfi_weight_mesh *m, sbfi_arena *arena) {
+  m->normals = sbfi_arena_allocate(arena, m->site_count, sizeof *m->normals);
+  if (!m->normals) return false;
+  for (uint32_t t = 0; t < m->triangle_count; t++)
+    for (int k = 0; k < 3; k++) {
+      sbfi_d3 *to = &m->normals[m->triangles[t][k]];
+      *to = sbfi_d3_add(*to, area_of(m, m->triangles[t]));
+    }
+  for (uint32_t i = 0; i < m->site_count; i++) m->normals[i] = sbfi_d3_normal(m->normals[i]);
+  return true;
+}
+
 static double site_distance(const void *user, uint32_t site, const double point[3]) {
   const sbfi_weight_mesh *m = user;
   sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(m->sites[site]), (sbfi_d3){point[0], point[1], point[2]});
@@ -142,7 +155,7 @@ sbfi_weight_mesh_result sbfi_weight_mesh_make(
   }
   if (count < 4) return SBFI_WEIGHT_MESH_TOO_SMALL;
   bool good = find_shells(m, (const uint32_t(*)[3])triangles, count, arena) &&
-              order_triangles(m, (const uint32_t(*)[3])triangles, count, arena) &&
+              order_triangles(m, (const uint32_t(*)[3])triangles, count, arena) && find_normals(m, arena) &&
               place_loose_points(m, in, arena);
   return good ? SBFI_WEIGHT_MESH_GOOD : SBFI_WEIGHT_MESH_NO_MEMORY;
 }

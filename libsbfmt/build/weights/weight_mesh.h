@@ -26,7 +26,8 @@ typedef struct sbfi_weight_mesh {
   uint32_t *sites_by_shell; /* (site_count) ascending within a shell */
   uint32_t *place_of_site;  /* (site_count) in sites_by_shell */
   double *areas;            /* (site_count) a third of the triangles around */
-  sbfi_shell *shells;       /* (shell_count) numbered by first point */
+  sbfi_d3 *normals;   /* (site_count) of unit length, out of closed shells; 0 where triangles cancel out */
+  sbfi_shell *shells; /* (shell_count) numbered by first point */
   uint32_t site_count, triangle_count, shell_count;
   sbfi_d3 low;  /* m */
   double scale; /* units in a metre */

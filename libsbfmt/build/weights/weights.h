@@ -8,9 +8,10 @@
  * with L the cotangent Laplacian, M the area of each point, d the distance to its bone, p 1 for that bone and
  * 0 for others. The nearest bone is found through a grid of voxels (Dionne and de Lasa 2013), so that an arm
  * beside the hip does not take the hip's bone; a bone reaches farther where the body around it is thicker,
- * and less far in shells (pieces of surface that share no edge) that it does not run through. Small shells
- * move with one bone. Bones named left lose what leads to the right, and conversely. Lengths are in units of
- * the longest side of the points' bounding box: the result does not depend on the unit.
+ * and less far where the skin does not face away from it and in shells (pieces of surface that share no edge)
+ * that it does not run through. Shells before the joint of a limb follow the bone that carries the limb.
+ * Small shells move with one bone. Bones named left lose what leads to the right, and conversely. Lengths are
+ * in units of the longest side of the points' bounding box: the result does not depend on the unit.
  *
  * Open, many-shelled, non-manifold and self-touching meshes are welcome. The same input gives the same bits.
  * Memory grows with points, triangles and bones, not with their products; the grid has a fixed size. */
