@@ -98,6 +98,30 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(set(found[-len(column.body[0]):]), {"low"})
         self.assertNotIn("RIG_OBJECT_APART", said)
 
+    def test_bones_of_a_rig_with_another_mesh(self):
+        """They lie inside the input, and yet may be another character's: that is told; at an odd scale it is refused."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        points, triangles = tube(0, 2.6, 0.9)
+        barrel = obj_of({"barrel": ([(1.3 * x, y, 0.8 * z) for x, y, z in points], triangles)})
+        _, said = self.convert(barrel, rig)
+        self.assertIn("RIG_OTHER_MESH", said)
+        self.assertRegex(said, r"they are \d+ % of the mesh's size apart; its bones, of which \d+ % lie inside")
+        odd = variants.moved(barrel, 0.137)
+        variants.write(odd, self.path("odd.obj"))
+        os.remove(self.path("out.sbf"))
+        refused = self.fails(1, "convert", self.path("odd.obj"), "--rig", rig, "-o", self.path("out.sbf"))
+        self.assertIn("RIG_MISFIT", refused)
+        self.assertIn("which is no usual unit", refused)
+        self.assertFalse(os.path.exists(self.path("out.sbf")))
+        for obj in (barrel, odd, obj_of(column.objects())):
+            _, said = self.convert(obj, rig, "--weights", "compute")
+            self.assertNotIn("RIG_OTHER_MESH", said)
+        _, said = self.convert(odd, rig, "--unit", "0.137")
+        self.assertIn("RIG_OTHER_MESH", said)
+        _, said = self.convert(obj_of({**column.objects(), "beside": tube(4, 6, 0.2)}), rig)
+        self.assertNotIn("RIG_OTHER_MESH", said)
+
     def test_vertex_colours_change_no_weights(self):
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))

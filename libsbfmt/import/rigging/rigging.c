@@ -1,6 +1,7 @@
 /* Which way each object comes by its bones. */
 #include "import/rigging/rigging.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -282,6 +283,7 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   if (*alike) return SBF_OK;
   r->alignment = stated;
   r->rig = bound;
+  if (isfinite(error)) r->unlike = error;
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 

@@ -69,6 +69,9 @@ typedef struct sbfi_rigging {
   sbfi_scene_surface rig;             /* in asset space */
   const sbfi_influences *rig_weights; /* (rig points) */
   sbfi_alignment alignment;
+  /* Mean distance between the input and the rig's weighted meshes where those are not alike, as a share of
+   * the rig's size; 0 where they are, or where the rig has none. */
+  double unlike;
   sbfi_influences *weights; /* (input points) */
   uint8_t *sources;         /* (input points) sbfi_weight_source */
   int32_t *carriers;  /* (input meshes) node of the rig that carries all of it without a skin, or SBF_NONE */

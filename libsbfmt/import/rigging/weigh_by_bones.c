@@ -155,6 +155,44 @@ static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *comput
       r->rig.scene->file, 100 * f->bone_extent, f->median_distance);
 }
 
+/* So near to one, as a share, a scale is that of a unit. */
+static const double NEAR_UNIT = 0.05;
+
+static bool is_near(double scale, double unit) {
+  return fabs(scale / unit - 1) <= NEAR_UNIT;
+}
+
+/* Whether the input was scaled by a unit, stated or usual, and not as much as it takes to hold the bones. */
+static bool is_scaled_by_unit(const sbfi_rigging *r) {
+  double scale = sbfi_similarity_scale(&r->alignment.to_asset);
+  bool found = is_near(scale, sbfi_similarity_scale(&r->c->to_asset));
+  for (uint32_t i = 0; i < SBFI_USUAL_UNITS; i++) found |= is_near(scale, sbfi_usual_units[i].unit_m);
+  return found;
+}
+
+/* The bones of a fish lie inside a caterpillar too, if it is made as long: a rig with a mesh states its size.
+ * Where units agree it may be meant, as for two characters of one maker. */
+static sbf_status check_other_mesh(const sbfi_rigging *r) {
+  if (!(r->unlike > 0) || !(r->alignment.inside > 0) || r->c->options->weights) return SBF_OK;
+  if (is_scaled_by_unit(r)) {
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
+        "the mesh of %s is not like the input: laid over each other, they are %.0f %% of the mesh's size "
+        "apart; "
+        "its bones, of which %.0f %% lie inside the input, may be another character's; give the rig of this "
+        "character, or --weights compute if it is right",
+        r->rig.scene->file, 100 * r->unlike, 100 * r->alignment.inside);
+    return SBF_OK;
+  }
+  if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
+  return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
+      "the mesh of %s is not like the input: laid over each other, they are %.0f %% of the mesh's size "
+      "apart; and "
+      "its bones lie inside the input only if that is scaled by %.3g, which is no usual unit; give the rig "
+      "of "
+      "this character, or state --unit, or --weights compute to use these bones",
+      r->rig.scene->file, 100 * r->unlike, sbfi_similarity_scale(&r->alignment.to_asset));
+}
+
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   sbfi_weights computed;
   sbfi_weights_input in = {.allocator = &r->c->scratch.allocator,
@@ -169,6 +207,7 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
   sbf_status status = sbfi_compute_weights(&in, &computed, r->c->error);
   if (status == SBF_OK) status = check_idle_bones(r, &computed);
   if (status == SBF_OK) status = check_extent(r, &computed);
+  if (status == SBF_OK) status = check_other_mesh(r);
   for (uint32_t i = 0; status == SBF_OK && i < in.point_count; i++) {
     if (r->sources[i] != SBFI_WEIGHTS_NONE) continue;
     for (int k = 0; k < SBFI_WEIGHTS_PER_POINT; k++)
