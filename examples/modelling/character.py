@@ -21,10 +21,19 @@ LICENCE = "MIT, as the rest of the repository"
 # right side is to be the mirror image of the left; quads: whether all its faces are
 Character = namedtuple("Character", "name title mesh bones weights materials symmetric quads", defaults=(True, False))
 
+# Half the width of the middle, where points may follow either side.
+MIDDLE_M = 0.01
+
 
 def build_bytes(character):
     c = character
     return skinned_glb_bytes(c.name.capitalize(), c.bones, c.mesh, c.weights, c.materials, c.title, LICENCE)
+
+
+def follows_other_side(point, bone):
+    """Whether a point beside the middle follows a limb of the other side most."""
+    side = {".L": 1.0, ".R": -1.0}.get(bone.name[-2:], 0.0)
+    return side * point[0] < -MIDDLE_M
 
 
 def check(character, data, path):
@@ -35,6 +44,9 @@ def check(character, data, path):
         found += check_mirror(c.mesh, c.mesh)
     if any(abs(sum(w for _, w in held) - 1.0) > 1e-4 or not held for held in c.weights):
         found.append("weights do not sum to one")
+    stray = [i for i, held in enumerate(c.weights) if held and follows_other_side(c.mesh.points[i], c.bones[held[0][0]])]
+    if stray:
+        found.append(f"{len(stray)} points follow a limb of the other side, such as point {stray[0]}")
     idle = {i for i, bone in enumerate(c.bones) if bone.tail is not None} - {i for held in c.weights for i, _ in held}
     found += [f"bone {c.bones[i].name} holds nothing" for i in sorted(idle) if c.bones[i].parent is not None]
     if {f.material for f in c.mesh.faces} != {m.name for m in c.materials}:

@@ -30,11 +30,11 @@ def smooth_weights(points, bones, reach, most=4, least=0.02):
 
 def planted(points, bones, weights, height):
     """The weights, but what is lower than `height` follows one bone alone, of those it follows the one that ends
-    lowest: soles that do not knead as the leg above them turns. From there to twice the height it passes into what it
-    was."""
+    lowest, of two equally low the one it follows more: soles that do not knead as the leg above them turns. From there to
+    twice the height it passes into what it was."""
     result = []
     for point, held in zip(points, weights):
-        own = min((i for i, _ in held), key=lambda i: (bones[i].tail[1], i))
+        own = min(held, key=lambda bone: (bones[bone[0]].tail[1], -bone[1]))[0]
         rest = min(max(point[1] / height - 1.0, 0.0), 1.0)
         share = {i: w * rest for i, w in held if i != own and w * rest >= 0.005}
         share[own] = 1.0 - sum(share.values())
