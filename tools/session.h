@@ -22,7 +22,8 @@
       {"--drive", "M/S,RAD/S[,UP]", "wanted speed, turn, vertical speed (0,0,0)"},                           \
       {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \
       {"--hold", NULL, "keep the bones in their rest pose"}, {"--free", NULL, "drop every pin"},             \
-      {"--raise", "M", "start that much higher (0); bodies without pins always start above the ground"},     \
+      {"--raise", "M",                                                                                       \
+          "start that much higher and fall (0); bodies without pins always start above the ground"},         \
       {"--gravity", "M/S2", "gravity, downward (the file's)"},                                               \
       {"--clip", "NAME", "play this clip, by name or number, in place of the gait"},                         \
       {"--level", "N", "simulation level, 0 is the finest (0); bodies with fewer levels use their last"},    \

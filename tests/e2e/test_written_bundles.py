@@ -41,7 +41,7 @@ class WrittenBundles(ProgramTest):
         self.refuses("TEXTURE_PATH", "unpack", self.broken, ".sbf")
 
     def test_tune(self):
-        self.refuses("TEXTURE_PATH", "tune", self.broken, ".sbf", "--quick", "--reference", "100", "--elements", "50", "--runs", "1")
+        self.refuses("TEXTURE_PATH", "tune", self.broken, ".sbf", "--quick", "--reference", "100", "--elements", "50", "--runs", "1", "--error", "0")
 
     def test_authored_elements_twice_or_in_each_other(self):
         """`build` leaves authored levels as they are: it says what is wrong with them, and writes nothing."""
