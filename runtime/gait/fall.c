@@ -15,15 +15,24 @@ static float level_below(const sbri_rig *rig, const sbri_gait_state *state, cons
   return rig->leg_count ? sum / (float)rig->leg_count : sbri_ground_below(input, state->position, NULL).y;
 }
 
+/* Whether a foot that stands has ground: under its middle, or, as across the edge of a stair, elsewhere. */
+static bool is_borne(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float gone) {
+  sbf_vec3 place = state->feet[leg].ground, normal;
+  float min = place.y - gone;
+  if (sbri_ground_below(input, place, NULL).y >= min) return true;
+  sbri_lay_sole(rig, state, input, leg, &place, &normal);
+  return place.y >= min;
+}
+
 /* Whether nothing bears it: neither any foot that stands nor, without legs, the body's place. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float gone = GONE * rig->girth.step_up * input->scale;
   if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - gone;
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    const sbri_foot *foot = &state->feet[i];
-    if (!foot->planted) continue;
-    if (sbri_ground_below(input, foot->ground, NULL).y >= foot->ground.y - gone) return false;
+    if (!state->feet[i].planted) continue;
+    if (is_borne(rig, state, input, i, gone)) return false;
     stands = true;
   }
   return stands;
