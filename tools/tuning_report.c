@@ -19,7 +19,7 @@ static void say_length(const tuning *t, double length_m, char *text, size_t size
   snprintf(text, size, "%.3g m (%.2g %% of its size)", length_m, 100 * length_m / t->size_m);
 }
 
-void tuning_tell_unmet(const tuning *t, char text[TUNING_TEXT]) {
+void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
   const tune_trial *near = on_front(t, t->chosen);
   char way[128], asked[48], is[48];
   say_way(t, near, way, sizeof way);

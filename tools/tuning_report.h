@@ -26,7 +26,7 @@ typedef struct tuning {
 
 enum { TUNING_TEXT = 512 };
 /* Why the goal is not met, and the closest that can be had. */
-void tuning_tell_unmet(const tuning *t, char text[TUNING_TEXT]);
+void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]);
 void tuning_print(const tuning *t);
 json_t *tuning_json(const tuning *t);
 

@@ -204,7 +204,7 @@ static int write_out(const cli_call *call, tuning *t) {
 
 static void say_unmet(const cli_call *call, const tuning *t, const request *r) {
   char text[TUNING_TEXT];
-  tuning_tell_unmet(t, text);
+  tuning_describe_unmet(t, text);
   if (r->nearest)
     fprintf(stderr, "sbfmt tune: warning: %s; that is written\n", text);
   else

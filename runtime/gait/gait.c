@@ -111,13 +111,13 @@ static bool is_displaced(const sbri_gait_input *input) {
 /* Goes where the host moves it; its speed, by which feet step and tails swing, becomes that of this motion.
  */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  float ease = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
+  float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
   sbf_vec3 from = state->position, speed = sbri_scale(sbri_unheaded(state, input->moved), h),
            by = input->moved;
   if (!sbri_is_afloat(rig)) by.y = 0;
-  state->forward += (speed.z - state->forward) * ease;
-  state->sideways += (speed.x - state->sideways) * ease;
-  state->turn += (h * input->turned - state->turn) * ease;
+  state->forward += (speed.z - state->forward) * blend;
+  state->sideways += (speed.x - state->sideways) * blend;
+  state->turn += (h * input->turned - state->turn) * blend;
   state->standing_s = 0;
   state->pace = 1;
   state->displaced = 1;

@@ -39,7 +39,7 @@ static void show(void *user, uint32_t substeps, uint32_t tick) {
 }
 
 /* What it is off itself counts where something is measured by it. */
-static void judge(tune_yardstick *yard, int number, tune_by by) {
+static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
   const chart_reference *stated = &yard->stated[number];
   double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST];
   /* No more than one in k^2 is off by k times the root of the mean square (Chebyshev). */
@@ -64,7 +64,7 @@ static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *
   if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
   sbf_status status = chart_truth_find_mesh(
       &yard->truths[number], &yard->cases[number], &scene, yard->rest, &yard->stated[number], error);
-  if (status == SBF_OK) judge(yard, number, measure->by);
+  if (status == SBF_OK) add_own_error(yard, number, measure->by);
   if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
   snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);
   yard->broken[number] = true;
@@ -121,13 +121,13 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
   for (uint32_t i = 0; good && track.sound && i < track.ticks; i++)
     is->min_volume = fmin(is->min_volume, track.volume[i]);
   is->max_strain = fmax(is->max_strain, track.max_strain);
-  bool told = good && is->sound && !yard->unmeasured[number][0];
-  if (told) good = tune_distances_between(&track, &yard->truths[number].track, &off);
+  bool compares = good && is->sound && !yard->unmeasured[number][0];
+  if (compares) good = tune_distances_between(&track, &yard->truths[number].track, &off);
   chart_track_free(&track);
   if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
-  if (told && !(off.max_m < (far ? INFINITY : LOST * yard->size_m))) {
+  if (compares && !(off.max_m < (far ? INFINITY : LOST * yard->size_m))) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
-  } else if (told) {
+  } else if (compares) {
     if (!is->worst || off.max_m > is->off.max_m) is->worst = motion_case->name, is->worst_number = number;
     is->off = tune_distances_larger(&is->off, &off);
   }

@@ -47,7 +47,7 @@ struct physics_bodies {
   gd_variant passed;     /* RIDs that queries leave out: they hang on characters */
   gd_variant still;      /* those and what stands still: what queries for fast ones leave out */
   uint32_t query_count;
-  bool told; /* it was said that there is no room for more */
+  bool warned; /* it was said that there is no room for more */
 };
 
 physics_bodies *physics_bodies_make(void) {
@@ -222,12 +222,12 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
   physics_bodies *bodies = one->bodies;
   mirrored *room = room_for_one(bodies, one->world);
   if (!room) {
-    if (!bodies->told)
+    if (!bodies->warned)
       soft_character_warning(one,
           "more than 256 shapes of bodies are near it, and it passes through the rest "
           "(said of the first one alone). Take some off the layers of its "
           "collision_mask");
-    bodies->told = true;
+    bodies->warned = true;
     return;
   }
   *room = (mirrored){.body = gd_as_rid(handle),
@@ -242,7 +242,7 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
 
 /* What a query found; a shape that it finds again, as each triangle of a mesh may be, is left out of the next
  * queries of this look, `known`. */
-static void meet(
+static void note_found(
     soft_character *one, const gd_variant *server, const gd_variant *hit, float speed, gd_variant *known) {
   physics_bodies *bodies = one->bodies;
   gd_variant handle = gd_key(hit, "rid");
@@ -280,7 +280,7 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
     int64_t count = gd_size(&hits);
     for (int64_t k = 0; k < count; k++) {
       gd_variant hit = gd_at(&hits, k);
-      meet(one, server, &hit, speed, &known);
+      note_found(one, server, &hit, speed, &known);
       gd_free(&hit);
     }
     gd_free(&hits);

@@ -13,7 +13,7 @@ enum { PASSED = 16 /* most bodies that a ray goes through before it gives up */ 
 
 struct physics_ground {
   double level;     /* m */
-  bool told;        /* it was said that there is nothing */
+  bool warned;      /* it was said that there is nothing */
   gd_variant query; /* PhysicsRayQueryParameters3D */
 };
 
@@ -71,8 +71,8 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
 }
 
 /* Once, as it may be meant: a character that flies. */
-static void tell_of_nothing(const soft_character *one) {
-  one->ground->told = true;
+static void warn_of_nothing(const soft_character *one) {
+  one->ground->warned = true;
   soft_character_warning(one, "there is no ground: nothing below it has a layer of its collision_mask. It "
                               "stands where it was put. Add "
                               "a StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
@@ -85,7 +85,7 @@ void physics_ground_look(soft_character *one) {
   bool looks = gd_as_object(&space) != NULL;
   bool found = looks && finds_floor(one, &space, soft_character_size(one));
   one->ground->level = found ? y - 2 * DEEP : y;
-  if (looks && !found && !one->ground->told && !one->editor) tell_of_nothing(one);
+  if (looks && !found && !one->ground->warned && !one->editor) warn_of_nothing(one);
   gd_free(&space);
   gd_free(&world);
 }
