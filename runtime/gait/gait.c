@@ -108,12 +108,24 @@ static bool is_displaced(const sbri_gait_input *input) {
   return input->turned != 0 || sbri_dot(input->moved, input->moved) > 0;
 }
 
+/* A step over the ground and a turn, as far as walls allow. */
+static void go(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step, float turned) {
+  sbf_vec3 from = state->position;
+  state->position = sbri_add(from, step);
+  state->heading = sbri_wrap_angle(state->heading + turned);
+  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  if (sbri_walls_keep_out(rig, state, input, from, turned)) step = sbri_sub(state->position, from);
+  state->distance_m += (double)sbri_length(step);
+  sbri_walk_tick(rig, state, sbri_length(step), input->scale);
+  sbri_motion_tick(rig, state, input, step);
+}
+
 /* Goes where the host moves it; its speed, by which feet step and tails swing, becomes that of this motion.
  */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
-  sbf_vec3 from = state->position, speed = sbri_scale(sbri_unheaded(state, input->moved), h),
-           by = input->moved;
+  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->moved), h), by = input->moved;
   if (!sbri_is_afloat(rig)) by.y = 0;
   state->forward += (speed.z - state->forward) * blend;
   state->sideways += (speed.x - state->sideways) * blend;
@@ -121,14 +133,7 @@ static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   state->standing_s = 0;
   state->pace = 1;
   state->displaced = 1;
-  state->position = sbri_add(state->position, by);
-  state->heading = sbri_wrap_angle(state->heading + input->turned);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  sbri_walls_keep_out(rig, state, input, from, input->turned);
-  sbf_vec3 step = sbri_sub(state->position, from);
-  state->distance_m += (double)sbri_length(step);
-  sbri_walk_tick(rig, state, sbri_length(step), input->scale);
-  sbri_motion_tick(rig, state, input, step);
+  go(rig, state, input, by, input->turned);
   return input->turned;
 }
 
@@ -139,9 +144,8 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   if (state->displaced && !wanted) state->forward = state->sideways = state->turn = 0;
   state->displaced = 0;
-  sbf_vec3 from = state->position;
   if (sbri_is_afloat(rig)) {
-    sbf_vec3 way;
+    sbf_vec3 way, from = state->position;
     float round = sbri_afloat_move(rig, state, input, &way);
     sbri_walls_keep_out(rig, state, input, from, round);
     sbri_motion_tick(rig, state, input, way);
@@ -167,13 +171,7 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   if (state->pace > max) state->pace = max;
   float h = input->tick_s * state->pace * sbri_hop_pace(rig, state, input), turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
-  state->position = sbri_add(state->position, step);
-  state->heading = sbri_wrap_angle(state->heading + turned);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  if (sbri_walls_keep_out(rig, state, input, from, turned)) step = sbri_sub(state->position, from);
-  state->distance_m += (double)sbri_length(step);
-  sbri_walk_tick(rig, state, sbri_length(step), input->scale);
-  sbri_motion_tick(rig, state, input, step);
+  go(rig, state, input, step, turned);
   return turned;
 }
 
