@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sbrun/debug.h"
 #include "sbrun/rigid.h"
 #include "shown_skin.h"
 #include "sole.h"
@@ -306,6 +307,32 @@ static void show_hull(stage *st, const session *s, sbf_vec3 origin, uint32_t num
   free(triangles);
 }
 
+/* ---- What the runtime draws of itself ---- */
+
+static sbf_vec3 single(sbr_double3 x) {
+  return (sbf_vec3){(float)x.x, (float)x.y, (float)x.z};
+}
+
+/* Over all else: contacts and joints lie inside of bodies. */
+static void add_debug_line(void *user, sbr_double3 from, sbr_double3 to, uint32_t color) {
+  draw_colour colour = draw_colour_rgb(color);
+  draw_scene_add_mark(user, &(draw_line){single(from), single(to), colour, colour, 1.5f});
+}
+
+static void add_debug_point(void *user, sbr_double3 position, float size_pixels, uint32_t color) {
+  draw_colour colour = draw_colour_rgb(color);
+  draw_scene_add_mark(user, &(draw_line){single(position), single(position), colour, colour, size_pixels});
+}
+
+static void show_debug(const stage *st, const session *s, draw_scene *scene) {
+  sbr_debug_draw draw = sbr_default_debug_draw();
+  draw.line = add_debug_line, draw.point = add_debug_point, draw.user = scene, draw.parts = 0;
+  if (st->show & STAGE_CONTACTS) draw.parts |= SBR_DRAW_CONTACTS;
+  if (st->show & STAGE_JOINTS) draw.parts |= SBR_DRAW_JOINTS;
+  if (st->show & STAGE_BOUNDS) draw.parts |= SBR_DRAW_BOUNDS;
+  sbr_world_draw(s->world, &draw);
+}
+
 static float ground_height(void *user, float x, float z) {
   const sbr_ground *ground = user;
   sbf_vec3 normal;
@@ -333,5 +360,6 @@ void stage_show(stage *st, const session *s, draw_scene *scene) {
   for (uint32_t i = 0; st->show & STAGE_HULLS && i < s->asset->rigid_bodies.count; i++)
     if (s->asset->rigid_bodies.at[i].hull) show_hull(st, s, origin, i, scene);
   if (st->show & STAGE_FEET) show_feet(st, s, origin, scene);
+  show_debug(st, s, scene);
   show_ground(s, origin, scene);
 }

@@ -12,8 +12,12 @@ enum {
   STAGE_LATTICE = 4,
   STAGE_BONES = 8,
   STAGE_HULLS = 16,
-  STAGE_FEET = 64,  /* footprints, where steps go, rays to the ground */
-  STAGE_STRAIN = 32 /* springs coloured by strain rather than kind */
+  STAGE_STRAIN = 32,    /* springs coloured by strain rather than kind */
+  STAGE_FEET = 64,      /* footprints, where steps go, rays to the ground */
+  STAGE_CONTACTS = 128, /* contact points and impulses */
+  STAGE_JOINTS = 256,   /* frames of joints and their limits */
+  STAGE_BOUNDS = 512,   /* boxes around soft bodies that are stepped together; grey where they sleep */
+  STAGE_LAYER_COUNT = 10
 };
 
 typedef struct stage stage;

@@ -4,18 +4,20 @@
 #include <string.h>
 
 static bool parse_show(cli_call *call, unsigned *show) {
-  static const char *const words[] = {"surface", "springs", "lattice", "bones", "hulls", "strain", "feet"};
+  static const char *const words[STAGE_LAYER_COUNT] = {
+      "surface", "springs", "lattice", "bones", "hulls", "strain", "feet", "contacts", "joints", "bounds"};
   const char *text = cli_value(call, "--show");
   *show = 0;
   while (text && *text) {
     size_t length = strcspn(text, ",");
     int found = -1;
-    for (int i = 0; i < 7; i++)
+    for (int i = 0; i < STAGE_LAYER_COUNT; i++)
       if (strlen(words[i]) == length && strncmp(words[i], text, length) == 0) found = i;
     if (found < 0) {
       cli_wrong(call,
-          "--show takes surface, springs, lattice, bones, hulls, strain and feet with commas between, not "
-          "'%s'",
+          "--show takes surface, springs, lattice, bones, hulls, strain, feet, contacts, joints and bounds "
+          "with "
+          "commas between, not '%s'",
           cli_value(call, "--show"));
       return false;
     }

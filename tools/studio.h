@@ -11,7 +11,8 @@
 /* The options that all who draw share, but for sizes, which are each one's own. */
 #define STUDIO_OPTIONS                                                                                       \
   {"--show", "LIST",                                                                                         \
-      "surface, springs, lattice, bones, hulls, strain, feet (surface; without one: bones, or hulls)"},      \
+      "surface, springs, lattice, bones, hulls, strain, feet, contacts, joints, bounds (surface; without "   \
+      "one: bones, or hulls)"},                                                                              \
       {"--view", "YAW,PITCH",                                                                                \
           "camera angles in degrees: 0 shows the front, 90 its left side; pitch from above (41,15)"},        \
   {                                                                                                          \

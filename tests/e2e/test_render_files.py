@@ -109,7 +109,7 @@ class Render(ProgramTest):
 
     def test_what_is_shown_changes_the_picture(self):
         pictures = {show: self.draw("a.png", *SMALL, "--show", show)
-                    for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain")}
+                    for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain", "surface,joints", "surface,bounds")}
         self.assertEqual(len(set(pictures.values())), len(pictures))
 
     def test_hulls_without_bones_go_with_their_character(self):

@@ -39,6 +39,7 @@ RUNTIME = {
     "api": ["math", "collide", "model", "solvers", "kernels", "prepare", "rigid", "gait", "world", "pose", "soft", "ragdoll", "body_contact",
             "detail", "step"],
     "query": ["math", "skeleton", "collide", "model", "skin", "rigid", "gait", "world", "pose", "soft", "ragdoll", "detail"],
+    "debug": ["math", "collide", "model", "skin", "rigid", "gait", "world", "pose", "soft", "ragdoll", "body_contact"],
 }
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.

@@ -64,6 +64,9 @@ static void add_figures(const viewer *v, draw_scene *scene) {
   add_switch(v, scene, STAGE_STRAIN, "5 strain");
   add_switch(v, scene, STAGE_HULLS, "6 hulls");
   add_switch(v, scene, STAGE_FEET, "7 feet");
+  add_switch(v, scene, STAGE_CONTACTS, "8 contacts");
+  add_switch(v, scene, STAGE_JOINTS, "9 joints");
+  add_switch(v, scene, STAGE_BOUNDS, "0 bounds");
   add(scene, NULL, "G ground: %s", viewer_ground_name(v));
   add(scene, NULL, "L level of the bodies: %u of 0 to %u", (unsigned)v->st.s.settings.model.level,
       (unsigned)viewer_level_count(asset) - 1);

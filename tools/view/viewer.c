@@ -22,8 +22,8 @@ static const struct turn {
 } turns[] = {{SDLK_LEFT, -0.06f, 0}, {SDLK_RIGHT, 0.06f, 0}, {SDLK_UP, 0, 0.05f}, {SDLK_DOWN, 0, -0.05f}};
 enum { TURN_COUNT = sizeof turns / sizeof *turns };
 
-static const unsigned switches[] = {
-    STAGE_SURFACE, STAGE_SPRINGS, STAGE_LATTICE, STAGE_BONES, STAGE_STRAIN, STAGE_HULLS, STAGE_FEET};
+static const unsigned switches[] = {STAGE_SURFACE, STAGE_SPRINGS, STAGE_LATTICE, STAGE_BONES, STAGE_STRAIN,
+    STAGE_HULLS, STAGE_FEET, STAGE_CONTACTS, STAGE_JOINTS, STAGE_BOUNDS};
 enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
 
 /* ---- Beginning ---- */
@@ -183,8 +183,8 @@ static sbf_status choose(viewer *v, SDL_Keycode key, sbf_diagnostic *error) {
     v->ground = viewer_next_ground(v);
     return restart(v, error);
   default:
-    if (key < SDLK_1 || key >= SDLK_1 + SWITCH_COUNT) break;
-    v->st.show ^= switches[key - SDLK_1];
+    if (key < SDLK_0 || key > SDLK_9) break;
+    v->st.show ^= switches[(key - SDLK_0 + SWITCH_COUNT - 1) % SWITCH_COUNT]; /* 0 is the last */
     return studio_dress(&v->st, error);
   }
   return SBF_OK;

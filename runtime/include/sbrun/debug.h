@@ -1,5 +1,5 @@
-/* What a world costs and what it holds: times by stage of a tick, and counters. Reading changes nothing, and
- * the motion is the same with a clock and without. Threads: as sbrun/sbrun.h. */
+/* What a world costs, holds and looks like inside: times by stage of a tick, counters, and lines to draw.
+ * Reading changes nothing, and the motion is the same with a clock and without. Threads: as sbrun/sbrun.h. */
 #ifndef SBRUN_DEBUG_H
 #define SBRUN_DEBUG_H
 
@@ -70,6 +70,40 @@ typedef struct sbr_counters {
 
 /* Counts anew; takes time in proportion to the points. */
 SBF_API sbr_counters sbr_world_get_counters(const sbr_world *world);
+
+/* ---- Drawing ---- */
+
+/* Parts of a world that sbr_world_draw shows. */
+typedef enum sbr_draw_part {
+  SBR_DRAW_BONES = 1 << 0,        /* from head to tail */
+  SBR_DRAW_SURFACES = 1 << 1,     /* edges of the surfaces of soft bodies, a colour per island */
+  SBR_DRAW_SPRINGS = 1 << 2,      /* blue at -20 % strain or less, grey at rest, red at +20 % or more */
+  SBR_DRAW_TETRAHEDRA = 1 << 3,   /* edges, a colour per island */
+  SBR_DRAW_RIGID_BODIES = 1 << 4, /* edges of hulls: grey kinematic, orange passive, green driven */
+  SBR_DRAW_JOINTS = 1 << 5,    /* axes of both frames; limits as cones, arcs and segments; position error */
+  SBR_DRAW_CONTACTS = 1 << 6,  /* points, and normals as long as the impulse times `impulse_m` */
+  SBR_DRAW_BOUNDS = 1 << 7,    /* boxes around islands, along the world's axes, a colour per island */
+  SBR_DRAW_GAIT = 1 << 8,      /* feet, where each comes down or stands, and the poles of knees */
+  SBR_DRAW_COLLIDERS = 1 << 9, /* edges of the host's shapes; of the host's own geometry its bounds */
+  SBR_DRAW_ALL = (1 << 10) - 1
+} sbr_draw_part;
+
+/* The host's drawing functions. Colours are 0xRRGGBB; islands that sleep are grey. */
+typedef struct sbr_debug_draw {
+  uint32_t cookie; /* set by sbr_default_debug_draw */
+  void (*line)(void *user, sbr_double3 from, sbr_double3 to, uint32_t color);         /* NULL: no lines */
+  void (*point)(void *user, sbr_double3 position, float size_pixels, uint32_t color); /* NULL: no points */
+  void *user;                                                                         /* the host's */
+  uint32_t parts;  /* sum of sbr_draw_part; default SBR_DRAW_ALL */
+  float impulse_m; /* length of a contact's line, m per N s; default 0.1; at most a metre is drawn */
+} sbr_debug_draw;
+/* Begin with the default, which draws nothing until `line` or `point` is set. */
+SBF_API sbr_debug_draw sbr_default_debug_draw(void);
+
+/* Draws the state after the last tick through the functions of `draw`, in world metres, in an order that is
+ * the same in every run. The ground is not drawn: the host has it. Takes time in proportion to what is drawn.
+ * A world or `draw` that is NULL, or a wrong cookie, draws nothing. */
+SBF_API void sbr_world_draw(const sbr_world *world, const sbr_debug_draw *draw);
 
 #ifdef __cplusplus
 }
