@@ -1,5 +1,7 @@
 #include "base/memory.h"
 
+#include "base/assert.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,6 +85,7 @@ void *sbfi_arena_allocate(sbfi_arena *arena, size_t count, size_t size) {
     arena->last = block = fresh;
     place = aligned_place(block, align);
   }
+  SBF_ASSERT(place <= block->size && bytes <= block->size - place);
   block->used = place + bytes;
   arena->used_bytes += bytes;
   return memset((char *)block + place, 0, bytes);

@@ -11,6 +11,7 @@ static const sbf_code_info table[] = {
   {"BAD_CALL", SBF_CODE_BAD_CALL, SBF_SEVERITY_ERROR, SBF_FAILED, "An argument of the call is wrong."},
   {"IO_CANNOT_RUN", SBF_CODE_IO_CANNOT_RUN, SBF_SEVERITY_ERROR, SBF_FAILED, "A helper program cannot be run: check that it is installed and may be executed."},
   {"CANCELLED", SBF_CODE_CANCELLED, SBF_SEVERITY_ERROR, SBF_FAILED, "The caller stopped the work."},
+  {"WORLD_INVALID", SBF_CODE_WORLD_INVALID, SBF_SEVERITY_ERROR, SBF_FAILED, "The state of a world breaks one of its rules: report it as a fault of the runtime, with the scene."},
   {"NO_OPENGL", SBF_CODE_NO_OPENGL, SBF_SEVERITY_ERROR, SBF_FAILED, "Pictures cannot be drawn without EGL and OpenGL: install Mesa's."},
   {"OPENGL_FAILED", SBF_CODE_OPENGL_FAILED, SBF_SEVERITY_ERROR, SBF_FAILED, "OpenGL lacks a feature that drawing needs: update the graphics driver."},
   {"NO_FFMPEG", SBF_CODE_NO_FFMPEG, SBF_SEVERITY_ERROR, SBF_FAILED, "The program ffmpeg, which makes films, is not in PATH: install it."},

@@ -1,6 +1,7 @@
 /* Broad phase: pairs of bodies with overlapping swept bounds, and the groups of characters that follow. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "body_contact/body_contacts.h"
 #include "math/vec3.h"
 #include "model/reach.h"
@@ -187,6 +188,8 @@ static bool add_members(sbr_world *world, sbri_contact_group *group, uint32_t nu
   for (uint32_t i = number; i != UINT32_MAX; i = all->next_of_group[i]) {
     awake = awake || sbri_character_is_awake(&world->characters[i]);
     all->member_of[i] = group->member_count;
+    SBF_ASSERT(
+        world->characters[i].model && group->first_member + group->member_count < all->character_capacity);
     all->members[group->first_member + group->member_count++].character = &world->characters[i];
   }
   group->origin = sbri_head(all->members[group->first_member].character)->origin;

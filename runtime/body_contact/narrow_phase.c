@@ -4,6 +4,7 @@
  * Parts of one character that overlap at rest do not collide. Parts that are near at rest keep at most their
  * rest distance. */
 #include "body_contact/narrow_phase.h"
+#include "base/assert.h"
 #include "collide/shape.h"
 #include "collide/surface_look.h"
 #include "model/reach.h"
@@ -286,6 +287,7 @@ static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
         sbri_rigid_external_body_gives(&work->external_bodies[source->external_body - 1], source->normal);
     if (is_dynamic && source->external_body > sbri_count_member_externals(m)) continue;
     if (f->group->contact_count >= f->group->contact_capacity) return;
+    SBF_ASSERT(f->group->first_contact + f->group->contact_count < f->world->body_contacts->contact_capacity);
     sbri_contact *t = &f->world->body_contacts->contacts[f->group->first_contact + f->group->contact_count++];
     sbf_vec3 on_plane = sbri_scale(source->normal, source->offset);
     *t = (sbri_contact){.a = {.member = member, .rigid_body = (int32_t)source->body, .point = source->at},

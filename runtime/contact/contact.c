@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "collide/external_body.h"
 #include "collide/ground.h"
 #include "contact/carried.h"
@@ -212,4 +213,5 @@ void sbri_contact_prepare(
     turn_planes_into_touches(t, body, tables);
     find_alone(t, body, tables);
   }
+  SBF_ASSERT(*count <= body->touch_capacity);
 }

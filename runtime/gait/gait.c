@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/assert.h"
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
@@ -43,6 +44,7 @@ void sbri_gait_place(
   state->heading = sbri_wrap_angle(heading);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->standing_s = 1;
+  SBF_ASSERT(rig->leg_count <= SBRI_MAX_LEGS);
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
   state->pace = state->limit = 1;

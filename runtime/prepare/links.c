@@ -6,6 +6,7 @@
  * them. A point of more springs than there are colours has the rest one by one. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/memory.h"
 #include "prepare/prepare.h"
 
@@ -108,6 +109,17 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
   }
 }
 
+/* Whether no two springs of a block share a free point: lanes then write to different points. */
+static bool is_disjoint(const sbri_island *island, const uint32_t *springs, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    for (uint32_t k = 0; k < i; k++) {
+      const sbfi_spring *a = &island->springs[springs[i]], *b = &island->springs[springs[k]];
+      if (a->a < island->free_count && (a->a == b->a || a->a == b->b)) return false;
+      if (a->b < island->free_count && (a->b == b->a || a->b == b->b)) return false;
+    }
+  return true;
+}
+
 /* Walks the colours; with `t` NULL it only counts the blocks. */
 static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring_bounds *bounds) {
   uint32_t block = 0;
@@ -115,6 +127,7 @@ static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring
   for (uint32_t k = 0; k <= COLOURS; k++)
     for (uint32_t left = c->counts[k]; left > 0;) {
       uint32_t spare, count = take(c, next, k == COLOURS ? 1 : left, &spare);
+      SBF_ASSERT(count > 0 && count <= SBRI_BLOCK && is_disjoint(c->island, next, count));
       if (t) fill(t, c->island, bounds, block, next, count, spare);
       block++, next += count, left -= count;
     }

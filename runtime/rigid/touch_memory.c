@@ -1,6 +1,7 @@
 /* What touches did in the last step, kept to the next tick: the passes that find who presses, who sticks and
  * who slides begin there, and where a body lies they end there too. The forces are no part of the solution:
  * they are guesses of it, and the bounds of friction for the first pass. */
+#include "base/assert.h"
 #include "rigid/rigid_work.h"
 
 /* A place on a shape is the same as before within this share of its body's size. */
@@ -86,5 +87,6 @@ void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *
         .offset = touch->offset,
         .normal_n = touch->normal_n};
   }
+  SBF_ASSERT(count <= sbri_rigid_touch_capacity(t->model));
   t->drive->kept_touches = count;
 }

@@ -1,4 +1,5 @@
 /* One control tick of an island: what is made ready, what its scheme does, and what follows from it. */
+#include "base/assert.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
@@ -11,6 +12,7 @@
 
 void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) {
   if (sbri_island_sleeps(world, c, index)) return;
+  SBF_ASSERT(index < c->model->island_count && world->tick_s > 0 && c->time_scale > 0);
   const sbr_model *model = c->model;
   sbri_island now = sbri_island_now(c, &model->islands[index]);
   const sbri_island *island = &now;

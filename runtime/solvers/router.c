@@ -1,5 +1,6 @@
 #include "solvers/router.h"
 
+#include "base/assert.h"
 #include "math/vec3.h"
 #include "solvers/tetrahedron_forces.h"
 
@@ -52,6 +53,7 @@ static bool is_in_trouble(const sbri_island_tick *t) {
 }
 
 const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, sbri_recovery *recovery) {
+  SBF_ASSERT(t->island->free_count <= t->island->slot_count && t->island->free_count % SBRI_BLOCK == 0);
   if (t->island->scheme->forceless) return t->island->scheme;
   if (recovery->rigid_ticks == 0 && is_in_trouble(t))
     recovery->ticks = SBRI_RECOVERING_TICKS;

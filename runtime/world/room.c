@@ -1,6 +1,7 @@
 /* Memory of characters: as much as the rung takes that they are on, and what is rigid of them. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/state.h"
 
 size_t sbri_room_size(const sbr_model *model) {
@@ -24,6 +25,7 @@ void sbri_rigid_work_free(const sbf_allocator *allocator, sbri_character *c) {
 }
 
 void sbri_room_swap(sbri_character *c) {
+  SBF_ASSERT(c->spare.model && c->spare.state && c->spare.scratch);
   sbri_room had = {c->model, c->state, c->scratch};
   c->model = c->spare.model, c->state = c->spare.state, c->scratch = c->spare.scratch;
   c->spare = had;

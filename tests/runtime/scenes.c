@@ -430,7 +430,11 @@ void scene_free(scene *s) {
 }
 
 void scene_ticks(scene *s, uint32_t ticks) {
-  for (uint32_t i = 0; i < ticks; i++) sbr_world_tick(s->world);
+  sbf_diagnostic fault;
+  for (uint32_t i = 0; i < ticks; i++) {
+    sbr_world_tick(s->world);
+    ck_assert_msg(sbr_world_validate(s->world, &fault) == SBF_OK, "tick %u: %s", (unsigned)i, fault.message);
+  }
 }
 
 uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity) {

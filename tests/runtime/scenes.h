@@ -4,7 +4,7 @@
 
 #include "lattice_box.h"
 #include "sbfmt/asset.h"
-#include "sbrun/sbrun.h"
+#include "sbrun/debug.h"
 
 typedef struct scene {
   sbf_asset *asset;
@@ -64,7 +64,7 @@ void scene_embed(scene *s, sbf_level *level, const lattice_box *box);
 /* Models of the asset with memory that runs out at each call in turn: none leaves anything behind. */
 void scene_models_survive_want(const scene *s);
 
-/* Runs `ticks` control ticks. */
+/* Runs `ticks` control ticks; the world's state must be valid after each. */
 void scene_ticks(scene *s, uint32_t ticks);
 /* Places of the points of a body relative to the origin. */
 uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity);

@@ -1,6 +1,9 @@
 /* A world's times by stage, and its counters. */
 #include "sbrun/debug.h"
 
+#include "sbfmt/codes.h"
+#include "world/world.h"
+
 #include "collision_scenes.h"
 #include "harness.h"
 
@@ -121,10 +124,49 @@ START_TEST(sleepers_are_not_awake)
 }
 END_TEST
 
+/* The message about a world that is not valid. */
+static const char *fault_of(const scene *s) {
+  static sbf_diagnostic fault;
+  ck_assert_int_eq(sbr_world_validate(s->world, &fault), SBF_FAILED);
+  ck_assert_int_eq(fault.code, SBF_CODE_WORLD_INVALID);
+  return fault.message;
+}
+
+START_TEST(broken_states_are_noticed)
+{
+  scene s = loose_block();
+  scene_ticks(&s, 30);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  float x = sbri_positions(c)[3].x;
+  sbri_positions(c)[3].x = NAN;
+  ck_assert_str_eq(fault_of(&s), "character 0, island 0: a position of its points is not finite");
+  sbri_positions(c)[3].x = x;
+  sbri_velocities(c)[5] = INFINITY;
+  ck_assert_str_eq(fault_of(&s), "character 0, island 0: a velocity of its points is not finite");
+  sbri_velocities(c)[5] = 0;
+  sbri_pose(c)[0].rotation.w += 1;
+  ck_assert_str_eq(fault_of(&s), "character 0, frame 0: its rotation is no unit quaternion");
+  sbri_pose(c)[0].rotation.w -= 1;
+  ck_assert_uint_gt(sbri_touch_counts(c)[0], 0);
+  sbri_touches(c)[c->model->bodies[0].first_touch].sample.slots[2] = 100000;
+  ck_assert_str_eq(
+      fault_of(&s), "character 0, soft body 0: a contact lies on a point that is not its island's");
+  sbri_touch_counts(c)[0] = UINT32_MAX;
+  ck_assert_str_eq(fault_of(&s), "character 0, soft body 0: it has more contacts than room for them");
+  sbri_touch_counts(c)[0] = 0;
+  ck_assert_int_eq(sbr_world_validate(s.world, NULL), SBF_OK);
+  s.world->event_tail = s.world->event_head + 1;
+  ck_assert_str_eq(fault_of(&s), "world, events 0: more were read than were written");
+  s.world->event_tail = s.world->event_head;
+  scene_free(&s);
+}
+END_TEST
+
 START_TEST(no_world_has_nothing)
 {
   ck_assert_uint_eq(sbr_world_get_counters(NULL).memory_bytes, 0);
   ck_assert_uint_eq(sbr_world_get_profile(NULL).tick, 0);
+  ck_assert_int_eq(sbr_world_validate(NULL, NULL), SBF_OK);
   sbr_world_set_clock(NULL, (sbr_clock){NULL, NULL});
   ck_assert_str_eq(sbr_stage_name(SBR_STAGE_ISLANDS), "islands");
   ck_assert_str_eq(sbr_stage_name(SBR_STAGE_COUNT), "");
@@ -138,6 +180,7 @@ int main(void) {
   tcase_add_test(c, a_clock_changes_no_motion);
   tcase_add_test(c, counters_are_those_of_the_scene);
   tcase_add_test(c, sleepers_are_not_awake);
+  tcase_add_test(c, broken_states_are_noticed);
   tcase_add_test(c, no_world_has_nothing);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -22,6 +22,7 @@ typedef enum sbf_code {
   SBF_CODE_BAD_CALL = 106, /* An argument of the call is wrong. */
   SBF_CODE_IO_CANNOT_RUN = 107, /* A helper program cannot be run: check that it is installed and may be executed. */
   SBF_CODE_CANCELLED = 108, /* The caller stopped the work. */
+  SBF_CODE_WORLD_INVALID = 109, /* The state of a world breaks one of its rules: report it as a fault of the runtime, with the scene. */
   SBF_CODE_NO_OPENGL = 120, /* Pictures cannot be drawn without EGL and OpenGL: install Mesa's. */
   SBF_CODE_OPENGL_FAILED = 121, /* OpenGL lacks a feature that drawing needs: update the graphics driver. */
   SBF_CODE_NO_FFMPEG = 122, /* The program ffmpeg, which makes films, is not in PATH: install it. */

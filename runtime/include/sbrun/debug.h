@@ -105,6 +105,14 @@ SBF_API sbr_debug_draw sbr_default_debug_draw(void);
  * A world or `draw` that is NULL, or a wrong cookie, draws nothing. */
 SBF_API void sbr_world_draw(const sbr_world *world, const sbr_debug_draw *draw);
 
+/* ---- Checking ---- */
+
+/* Checks the state between two steps: numbers are finite, rotations have unit length, indices are in range,
+ * handles are alive, lists are sorted and within their capacities. SBF_FAILED and WORLD_INVALID, with the
+ * first fault's place, where something is wrong, which is a fault of the runtime. Takes time in proportion to
+ * the state. NULL is valid. */
+SBF_API sbf_status sbr_world_validate(const sbr_world *world, sbf_diagnostic *error);
+
 #ifdef __cplusplus
 }
 #endif
