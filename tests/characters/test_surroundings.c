@@ -269,6 +269,33 @@ START_TEST(a_lift_lifts_it)
 }
 END_TEST
 
+/* Without legs too, and faster than its floor could be told from one that is gone. */
+START_TEST(a_lift_lowers_a_snake)
+{
+  sbf_asset *asset = built("examples/snake/snake.glb");
+  sbr_model *model;
+  ck_assert_int_eq(sbr_model_create(asset, NULL, &model, NULL), SBF_OK);
+  scene s = scene_of(model, -50, 0);
+  double y = 0;
+  sbr_event events[64];
+  sbr_collider_id floor = box(&s, (sbr_double3){0, -0.1, 0}, (sbf_vec3){3, 0.1f, 3});
+  run(&s, SECOND / 2);
+  double before = place_of(&s, asset).y;
+  sbr_world_events(s.world, events, 64);
+  for (int i = 1; i <= SECOND; i++) { /* up to 4 m/s */
+    y -= 4.0 * i / SECOND / SECOND;
+    sbr_collider_move(s.world, floor, (sbr_double3){0, y - 0.1, 0}, (sbf_quat){0, 0, 0, 1});
+    sbr_world_tick(s.world);
+    ck_assert_double_eq_tol(place_of(&s, asset).y - before, y, 0.02);
+  }
+  for (uint32_t i = sbr_world_events(s.world, events, 64); i-- > 0;)
+    ck_assert_int_ne(events[i].kind, SBR_EVENT_LANDED);
+  end_scene(&s);
+  sbr_model_destroy(model);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 START_TEST(a_turntable_carries_and_turns_it)
 {
   scene s = scene_of(pup_model, -50, 0);
@@ -387,6 +414,7 @@ int main(void) {
   tcase_add_test(tests, a_low_box_is_stepped_on);
   tcase_add_test(tests, a_bridge_is_walked_under);
   tcase_add_test(tests, a_lift_lifts_it);
+  tcase_add_test(tests, a_lift_lowers_a_snake);
   tcase_add_test(tests, a_turntable_carries_and_turns_it);
   tcase_add_test(tests, it_falls_where_its_floor_goes);
   tcase_add_test(tests, a_door_pushes_it);
