@@ -182,6 +182,25 @@ static void check_climb(scene *s, int seconds, double z, double rise, double wit
   end_scene(s);
 }
 
+/* A slope of 40 degrees is ground, not a wall. */
+START_TEST(a_ramp_is_climbed)
+{
+  const double angle = 40 * 3.14159265 / 180, along = 3, thick = 0.1, foot = 0.8;
+  scene s = scene_of(pup_model, 0, 0);
+  sbr_collider_id ramp = box(&s, (sbr_double3){0, -9, 0}, (sbf_vec3){2, (float)thick, (float)along});
+  sbr_double3 middle = {
+      0, along * sin(angle) - thick * cos(angle), foot + along * cos(angle) + thick * sin(angle)};
+  sbr_collider_place(s.world, ramp, middle, (sbf_quat){-(float)sin(angle / 2), 0, 0, (float)cos(angle / 2)});
+  sbr_character_drive(s.world, s.walker, 0.3f, 0, 0);
+  double before = place_of(&s, pup).y;
+  run(&s, 8 * SECOND);
+  sbr_double3 at = place_of(&s, pup);
+  ck_assert_msg(at.z > foot + 0.2, "it came to %g m", at.z);
+  ck_assert_double_eq_tol(at.y - before, (at.z - foot) * tan(angle), 0.15);
+  end_scene(&s);
+}
+END_TEST
+
 START_TEST(stairs_of_boxes_are_climbed)
 {
   scene s = scene_of(pup_model, 0, 0);
@@ -408,6 +427,7 @@ int main(void) {
   tcase_set_timeout(tests, 300);
   tcase_add_loop_test(tests, a_wall_stops_it, 0, 2);
   tcase_add_loop_test(tests, every_kind_is_stopped, 0, 3);
+  tcase_add_test(tests, a_ramp_is_climbed);
   tcase_add_test(tests, stairs_of_boxes_are_climbed);
   tcase_add_test(tests, a_displaced_one_steps);
   tcase_add_test(tests, it_slides_along_a_wall);
