@@ -1,5 +1,6 @@
 """An OBJ with a skeleton that has no mesh: weights computed from the bones, shells given to bones, and what is refused."""
 
+import json
 import math
 import os
 
@@ -72,6 +73,38 @@ def write_person(obj_path, bvh_path, angle=45):
     return starts
 
 
+def strongest(weights):
+    return max(weights, key=weights.get)
+
+
+def write_gltf(path, with_skin, frame):
+    """The arm's bones alone, below a node of the frame's name; the skin that lists them moves no mesh."""
+    nodes = [{"name": frame, "children": [1, 4]}, {"name": "upper", "children": [2]},
+             {"name": "fore", "translation": [1, 0, 0], "children": [3]}, {"name": "hand", "translation": [1, 0, 0]}]
+    gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": nodes}
+    if with_skin:
+        nodes.append({"name": "hand", "translation": [0, 5, 0]})  # no joint: names need not differ
+        gltf["skins"] = [{"joints": [1, 2, 3]}]
+    else:
+        nodes[0]["children"] = [1]
+    with open(path, "w", encoding="utf-8") as stream:
+        json.dump(gltf, stream)
+
+
+def write_collada(path, kind):
+    inside = ""
+    for name, x in reversed(BONES):
+        offset = 1 if x else 0
+        inside = (f'<node id="{name}" name="{name}" type="{kind}"><matrix>1 0 0 {offset} 0 1 0 0 0 0 1 0 0 0 0 1</matrix>'
+                  f"{inside}</node>")
+    frame = "metarig" if kind == "JOINT" else "Armature.001"
+    with open(path, "w", encoding="ascii") as stream:
+        stream.write('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">'
+                     '<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset><library_visual_scenes>'
+                     f'<visual_scene id="S" name="S"><node id="{frame}" type="NODE">{inside}</node></visual_scene>'
+                     '</library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>')
+
+
 class ComputedWeights(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -95,6 +128,27 @@ class ComputedWeights(ProgramTest):
                     self.assertGreater(weights[i].get(name, 0), 0.9, (x, weights[i]))
         for i in range(372, 444):
             self.assertEqual(weights[i], {"upper": 1} if i < 408 else {"fore": 1})
+
+    def test_any_form_may_hold_the_bones_alone(self):
+        from_bvh, _ = self.weights()
+        for name, write, options in (("skin.gltf", write_gltf, (True, "metarig")),
+                                     ("nodes.gltf", write_gltf, (False, "Armature")),
+                                     ("joints.dae", write_collada, ("JOINT",)), ("nodes.dae", write_collada, ("NODE",))):
+            with self.subTest(name):
+                self.rig = self.path(name)
+                write(self.rig, *options)
+                weights, told = self.weights()
+                self.assertIn("computed from 3 bones", told)
+                self.assertEqual(Bundle(self.path("arm.sbf")).bone_names(), [bone for bone, _ in BONES])
+                for i, expected in from_bvh.items():  # whose last bone states its length
+                    self.assertEqual(strongest(weights[i]), strongest(expected))
+
+    def test_a_file_of_one_node_is_no_rig(self):
+        self.rig = self.path("one.gltf")
+        with open(self.rig, "w", encoding="utf-8") as stream:
+            stream.write('{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"Empty"}]}')
+        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"))
+        self.assertIn("IMPORT_EMPTY", said)
 
     def test_arms_that_hang_get_the_bones_of_arms_stretched_out(self):
         """The rig's limbs are turned to lie in the mesh; its clips still say what they said."""

@@ -15,6 +15,7 @@ enum { NONE = -1, DEEPEST = 512 };
 typedef struct joint_node {
   span id, sid, name;
   int parent;
+  bool is_joint;
 } joint_node;
 
 typedef struct name_list {
@@ -119,7 +120,8 @@ static void open_node(document *d, span tag, bool closed) {
   joint_node *made = push(d, &d->nodes, sizeof *made);
   if (!made) return;
   int open = d->depth > 0 && d->depth <= DEEPEST ? d->open_nodes[d->depth - 1] : NONE;
-  *made = (joint_node){attribute(tag, "id"), attribute(tag, "sid"), attribute(tag, "name"), open};
+  *made = (joint_node){attribute(tag, "id"), attribute(tag, "sid"), attribute(tag, "name"), open,
+      is(attribute(tag, "type"), "JOINT")};
   if (closed) return;
   if (d->depth < DEEPEST) d->open_nodes[d->depth] = d->nodes.count - 1;
   d->depth++;
@@ -293,6 +295,12 @@ static text_verdict rename_lists(
   return TEXT_REWRITTEN;
 }
 
+static void free_document(const document *d) {
+  free(d->nodes.at);
+  free(d->lists.at);
+  free(d->controllers.at);
+}
+
 text_verdict collada_name_joints(
     const char *text, size_t size, char **rewritten, size_t *rewritten_size, char why[TEXT_WHY]) {
   document d = {.controller = NONE, .list = NONE, .instance = NONE};
@@ -308,8 +316,18 @@ text_verdict collada_name_joints(
     *rewritten = to.at, *rewritten_size = to.size;
   else
     free(to.at);
-  free(d.nodes.at);
-  free(d.lists.at);
-  free(d.controllers.at);
+  free_document(&d);
   return verdict;
+}
+
+void collada_find_joints(
+    const char *text, size_t size, void (*found)(void *user, const char *id, size_t length), void *user) {
+  document d = {.controller = NONE, .list = NONE, .instance = NONE};
+  walk(&d, text, size, false);
+  for (int i = 0; i < d.nodes.count; i++) {
+    const joint_node *node = node_at(&d, i);
+    span id = node->id.length ? node->id : node->sid;
+    if (node->is_joint && id.length) found(user, id.at, id.length);
+  }
+  free_document(&d);
 }

@@ -15,6 +15,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "declared_joints.h"
 #include "gltf_order.h"
 #include "import/scene/stream_format.h"
 #include "node_limits.h"
@@ -63,10 +64,13 @@ static bool is_camera_or_light(const struct aiScene *scene, const struct aiNode 
   return false;
 }
 
+static declared_joints joints;
+
 /* FBX keeps limbs, nulls and meshes apart; of that assimp hands on only whether a node is a null. */
 static sbfi_stream_kind kind_of(const struct aiScene *scene, const struct aiNode *node) {
   const struct aiMetadataEntry *is_null = find_entry(node->mMetaData, "IsNull");
   if (is_camera_or_light(scene, node)) return SBFI_STREAM_NO_BONE;
+  if (is_declared_joint(&joints, node)) return SBFI_STREAM_BONE;
   if (!is_null || is_null->mType != AI_BOOL) return SBFI_STREAM_PLAIN;
   return *(const bool *)is_null->mData || node->mNumMeshes ? SBFI_STREAM_NO_BONE : SBFI_STREAM_BONE;
 }
@@ -341,6 +345,7 @@ int main(int argument_count, char **arguments) {
     return message && strstr(message, "bad_alloc") ? SBFI_CHILD_NO_MEMORY : SBFI_CHILD_REFUSED;
   }
   if (renumbers_gltf()) restore_gltf_order((struct aiScene *)(uintptr_t)scene_read, arguments[1]);
+  if (!find_declared_joints(scene_read, arguments[1], &joints)) return SBFI_CHILD_NO_MEMORY;
   write_scene(scene_read);
   return write_end() == 0 ? SBFI_CHILD_DONE : SBFI_CHILD_CANNOT_WRITE;
 }

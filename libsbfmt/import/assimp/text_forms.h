@@ -24,4 +24,8 @@ text_verdict text_find_not_finite(const char *text, size_t size, char why[TEXT_W
 text_verdict collada_name_joints(
     const char *text, size_t size, char **rewritten, size_t *rewritten_size, char why[TEXT_WHY]);
 
+/* Collada: calls `found` with the id of each node that is declared to be a joint. */
+void collada_find_joints(
+    const char *text, size_t size, void (*found)(void *user, const char *id, size_t length), void *user);
+
 #endif

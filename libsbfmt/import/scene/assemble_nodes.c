@@ -160,6 +160,36 @@ static void mark_rigid_rig(sbfi_assembly *a) {
     nodes[i].is_bone = nodes[i].parent != SBF_NONE && !a->raw->nodes[a->old_from_new[i]].mesh_count;
 }
 
+static bool has_bones(const sbfi_assembly *a) {
+  for (uint32_t i = 0; i < a->scene->node_count; i++)
+    if (a->nodes[i].is_bone) return true;
+  return false;
+}
+
+static bool is_armature_name(const char *name) {
+  static const char word[] = "armature";
+  size_t i = 0;
+  while (word[i] && (name[i] | 0x20) == word[i]) i++;
+  return !word[i] && (!name[i] || name[i] == '.'); /* Armature.001 */
+}
+
+/* A file without a mesh that declares no joint: two nodes or more are a skeleton, from the first that is no
+ * frame around it. Such frames are the root that importers invent and an armature's own node. */
+static void mark_bare_skeleton(sbfi_assembly *a) {
+  sbfi_scene_node *nodes = a->nodes;
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < a->scene->node_count; i++) {
+    const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[i]];
+    int32_t parent = nodes[i].parent;
+    bool below = parent != SBF_NONE && nodes[parent].is_bone;
+    bool is_frame = (parent == SBF_NONE && !is_gltf(a->scene->format)) || is_armature_name(nodes[i].name) ||
+                    strcmp(nodes[i].name, "ROOT") == 0;
+    nodes[i].is_bone = raw->kind != SBFI_STREAM_NO_BONE && (below || !is_frame);
+    count += nodes[i].is_bone;
+  }
+  for (uint32_t i = 0; count < 2 && i < a->scene->node_count; i++) nodes[i].is_bone = false;
+}
+
 /* glTF lists the joints of a skin, and FBX says of each node whether it is a limb. Elsewhere only the joints
  * that hold a point are known: to them come what joins them and what hangs on them, but never the root of the
  * file. In a BVH everything is a joint. */
@@ -170,6 +200,7 @@ static bool mark_bones(sbfi_assembly *a) {
   for (uint32_t i = 0; i < count; i++)
     if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) nodes[i].is_bone = true;
   if (is_gltf(format)) mark_rigid_rig(a);
+  if (!a->raw->mesh_count && strcmp(format, "bvh") != 0 && !has_bones(a)) mark_bare_skeleton(a);
   if (is_gltf(format) || strcmp(format, "fbx") == 0) return true;
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;

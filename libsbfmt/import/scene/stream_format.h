@@ -46,7 +46,7 @@ enum {
 typedef enum sbfi_stream_kind {
   SBFI_STREAM_PLAIN,   /* nothing */
   SBFI_STREAM_NO_BONE, /* a null, a camera, a light */
-  SBFI_STREAM_BONE     /* a limb of an FBX */
+  SBFI_STREAM_BONE     /* a limb of an FBX, a joint of a glTF or Collada file without meshes */
 } sbfi_stream_kind;
 
 /* How the child ends: with the stream on its output, or a message in one line on its error output. */

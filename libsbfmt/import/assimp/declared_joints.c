@@ -1,0 +1,110 @@
+#include "declared_joints.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "gltf_file.h"
+#include "text_forms.h"
+
+enum { DEEPEST = 512 };
+
+typedef struct search {
+  declared_joints *to;
+  const struct aiNode *root;
+  const json_t *nodes; /* of a glTF */
+  const bool *is_joint;
+  bool good;
+} search;
+
+static void add(search *s, const struct aiNode *node) {
+  declared_joints *to = s->to;
+  if (to->count == to->room) {
+    size_t room = to->room ? 2 * to->room : 64;
+    const struct aiNode **grown = realloc(to->nodes, room * sizeof(struct aiNode *));
+    s->good = s->good && grown;
+    if (!grown) return;
+    to->nodes = grown;
+    to->room = room;
+  }
+  to->nodes[to->count++] = node;
+}
+
+/* assimp keeps the order of children; names need not be unique. */
+static void walk_gltf(search *s, const struct aiNode *node, const json_t *number, int depth) {
+  size_t at = json_is_integer(number) ? (size_t)json_integer_value(number) : SIZE_MAX;
+  const json_t *children = json_object_get(json_array_get(s->nodes, at), "children");
+  if (at >= json_array_size(s->nodes) || depth == DEEPEST) return;
+  if (s->is_joint[at]) add(s, node);
+  for (unsigned i = 0; i < node->mNumChildren; i++)
+    if (i < json_array_size(children))
+      walk_gltf(s, node->mChildren[i], json_array_get(children, i), depth + 1);
+}
+
+/* The scene's only node is assimp's root; above several it sets one of its own. */
+static void walk_scene(search *s, const struct aiNode *root, const json_t *json) {
+  const json_t *number = json_object_get(json, "scene");
+  size_t scene = json_is_integer(number) ? (size_t)json_integer_value(number) : 0;
+  const json_t *tops = json_object_get(json_array_get(json_object_get(json, "scenes"), scene), "nodes");
+  if (json_array_size(tops) == 1) {
+    walk_gltf(s, root, json_array_get(tops, 0), 0);
+    return;
+  }
+  for (unsigned i = 0; i < root->mNumChildren; i++)
+    if (i < json_array_size(tops)) walk_gltf(s, root->mChildren[i], json_array_get(tops, i), 0);
+}
+
+static bool find_in_gltf(const struct aiScene *scene, const char *path, declared_joints *to) {
+  gltf g;
+  search s = {.to = to, .good = true};
+  if (gltf_open(&g, path)) {
+    s.nodes = json_object_get(g.json, "nodes");
+    size_t count = json_array_size(s.nodes), skin, k;
+    bool *is_joint = calloc(count + 1, sizeof *is_joint);
+    json_t *described, *joint;
+    json_array_foreach(json_object_get(g.json, "skins"), skin, described) {
+      json_array_foreach(json_object_get(described, "joints"), k, joint) {
+        size_t at = json_is_integer(joint) ? (size_t)json_integer_value(joint) : SIZE_MAX;
+        if (is_joint && at < count) is_joint[at] = true;
+      }
+    }
+    s.is_joint = is_joint;
+    s.good = is_joint != NULL;
+    if (is_joint) walk_scene(&s, scene->mRootNode, g.json);
+    free(is_joint);
+  }
+  gltf_close(&g);
+  return s.good;
+}
+
+/* assimp names a node by its id. */
+static void add_named(search *s, const struct aiNode *node, const char *id, size_t length) {
+  if (node->mName.length == length && memcmp(node->mName.data, id, length) == 0) add(s, node);
+  for (unsigned i = 0; i < node->mNumChildren; i++) add_named(s, node->mChildren[i], id, length);
+}
+
+static void add_collada(void *user, const char *id, size_t length) {
+  search *s = user;
+  add_named(s, s->root, id, length);
+}
+
+static bool find_in_collada(const struct aiScene *scene, const char *path, declared_joints *to) {
+  search s = {.to = to, .root = scene->mRootNode, .good = true};
+  bytes text = read_file(path);
+  if (text.size) collada_find_joints((const char *)text.at, text.size, add_collada, &s);
+  free(text.at);
+  return s.good;
+}
+
+bool find_declared_joints(const struct aiScene *scene, const char *path, declared_joints *to) {
+  const char *dot = strrchr(path, '.');
+  if (scene->mNumMeshes) return true;
+  if (is_gltf_path(path)) return find_in_gltf(scene, path, to);
+  return !dot || strcasecmp(dot, ".dae") != 0 || find_in_collada(scene, path, to);
+}
+
+bool is_declared_joint(const declared_joints *joints, const struct aiNode *node) {
+  for (size_t i = 0; i < joints->count; i++)
+    if (joints->nodes[i] == node) return true;
+  return false;
+}

@@ -1,0 +1,80 @@
+#include "gltf_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { GLB_MAGIC = 0x46546c67, GLB_JSON = 0x4e4f534a, GLB_BIN = 0x004e4942 };
+enum { PATH_SIZE = 4096 };
+
+bool is_gltf_path(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return dot && (strcasecmp(dot, ".glb") == 0 || strcasecmp(dot, ".gltf") == 0);
+}
+
+bytes read_file(const char *path) {
+  bytes content = {NULL, 0};
+  FILE *file = fopen(path, "rb");
+  if (!file) return content;
+  long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  if (size > 0 && fseek(file, 0, SEEK_SET) == 0) content.at = malloc((size_t)size);
+  if (content.at && fread(content.at, 1, (size_t)size, file) == (size_t)size) content.size = (size_t)size;
+  fclose(file);
+  return content;
+}
+
+uint32_t gltf_word_at(const uint8_t *at) {
+  return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+/* The chunk of a GLB that begins at `*offset`, which moves behind it; nothing where it is another or cut. */
+static bytes chunk(const bytes *file, size_t *offset, uint32_t type) {
+  if (file->size < *offset || file->size - *offset < 8) return (bytes){NULL, 0};
+  const uint8_t *header = file->at + *offset;
+  size_t size = gltf_word_at(header);
+  if (gltf_word_at(header + 4) != type || file->size - *offset - 8 < size) return (bytes){NULL, 0};
+  *offset += 8 + size;
+  return (bytes){file->at + *offset - size, size};
+}
+
+static bytes buffer_beside(const gltf *g, const json_t *buffer) {
+  char path[PATH_SIZE];
+  const char *uri = json_string_value(json_object_get(buffer, "uri")), *slash = strrchr(g->path, '/');
+  if (!uri || strncmp(uri, "data:", 5) == 0 || strchr(uri, '%')) return (bytes){NULL, 0};
+  int length = snprintf(
+      path, sizeof path, "%.*s%s", uri[0] == '/' || !slash ? 0 : (int)(slash - g->path) + 1, g->path, uri);
+  return length > 0 && (size_t)length < sizeof path ? read_file(path) : (bytes){NULL, 0};
+}
+
+bool gltf_open(gltf *g, const char *path) {
+  *g = (gltf){.path = path, .file = read_file(path)};
+  bytes text = g->file, binary = {NULL, 0};
+  bool packed = g->file.size >= 12 && gltf_word_at(g->file.at) == GLB_MAGIC;
+  if (packed) {
+    size_t offset = 12;
+    text = chunk(&g->file, &offset, GLB_JSON);
+    binary = chunk(&g->file, &offset, GLB_BIN);
+  }
+  if (text.size) g->json = json_loadb((const char *)text.at, text.size, JSON_DISABLE_EOF_CHECK, NULL);
+  const json_t *buffers = json_object_get(g->json, "buffers");
+  size_t count = json_array_size(buffers);
+  g->buffers = calloc(count ? count : 1, sizeof *g->buffers);
+  if (!g->json || !g->buffers) return false;
+  for (; g->buffer_count < count; g->buffer_count++) {
+    const json_t *buffer = json_array_get(buffers, g->buffer_count);
+    bool inside = packed && g->buffer_count == 0 && !json_object_get(buffer, "uri");
+    g->buffers[g->buffer_count] = inside ? binary : buffer_beside(g, buffer);
+  }
+  return true;
+}
+
+void gltf_close(gltf *g) {
+  for (size_t i = 0; i < g->buffer_count; i++) {
+    bool inside = g->buffers[i].at >= g->file.at && g->buffers[i].at < g->file.at + g->file.size;
+    if (!inside) free(g->buffers[i].at);
+  }
+  free(g->buffers);
+  free(g->file.at);
+  json_decref(g->json);
+}
