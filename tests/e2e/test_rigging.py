@@ -43,6 +43,23 @@ def write_bones(bundle_path, path, scale=1):
                      for i, parent in enumerate(bundle.parents)])
 
 
+def sections_of(path):
+    """Name, bone, and numbers of points and polygons of each section."""
+    bundle = Bundle(path)
+    return sorted((body.get("name"), body.get("bone"), len(bundle.positions(body)), len(bundle.polygon_sizes(body)))
+                  for body in bundle.root.iter("soft_body"))
+
+
+def shapes_of(obj):
+    """How many faces each object has of each material, and how many of their corners have normals."""
+    found = {}
+    for name, material, corners in obj.faces:
+        key = (name, material.rpartition(".")[2])
+        count, normals = found.get(key, (0, 0))
+        found[key] = (count + 1, normals + sum(normal is not None for _, _, normal in corners))
+    return found
+
+
 class ByPlace(ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -81,6 +98,26 @@ class ByPlace(ProgramTest):
         self.assertIn("mirrored in x, moved by (5, -1, 2) m", result.err)
         self.assertGreaterEqual(share_of_equal(lizard, lizard.obj, self.path("out.sbf")), 0.999)
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["gait"], {"kind": "walk", "legs": 4})
+
+    def test_pieces_cut_by_material_are_one_section(self):
+        """Of named objects, and of nameless ones that lie on the rig's."""
+        lizard = Original(LIZARD, self.class_folder.name)
+        cut = variants.by_material(lizard.obj)
+        nameless = cut.copy()
+        numbers = {name: f"piece{i}" for i, name in enumerate(sorted({name for name, _, _ in cut.faces}))}
+        nameless.faces = [(numbers[name], material, corners) for name, material, corners in cut.faces]
+        self.assertGreater(len(numbers), len({name for name, _, _ in lizard.obj.faces}))
+        self.good("convert", LIZARD, "--no-build", "-o", self.path("original.sbf"))
+        wanted = sections_of(self.path("original.sbf"))
+        self.assertEqual(len(wanted), 22)
+        for obj in cut, nameless, variants.moved(nameless, 0.01, ("x", "-z", "y")):
+            self.convert(obj, "--no-build", rig=LIZARD)
+            self.assertEqual(sections_of(self.path("out.sbf")), wanted)
+            self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
+            back = variants.read(self.path("back.obj"))
+            self.assertEqual(shapes_of(back), shapes_of(lizard.obj))
+        self.convert(variants.by_material(variants.jiggled(lizard.obj)), "--no-build", rig=LIZARD)
+        self.assertEqual(sections_of(self.path("out.sbf")), wanted)  # by their borders alone
 
     def test_numbers_rounded_to_six_decimals(self):
         obj = variants.moved(self.calf.obj, 1000)  # a calf of a thousandth of a unit

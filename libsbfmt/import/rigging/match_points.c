@@ -112,8 +112,9 @@ bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   for (uint32_t i = 0; good && i < count; i++) matches[i] = find_match(&m, i);
   for (uint32_t mesh = 0; good && mesh < r->input.scene->mesh_count; mesh++) {
     r->turned[mesh] = faces_away(r, moved, mesh, matches);
+    r->lies_on[mesh] = common_carrier(r, mesh, matches);
     if (r->carriers[mesh] != SBF_NONE) continue;
-    r->carriers[mesh] = common_carrier(r, mesh, matches);
+    r->carriers[mesh] = r->lies_on[mesh];
     for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
       if (matches[i] == UINT32_MAX || r->sources[i] != SBFI_WEIGHTS_NONE) continue;
       r->weights[i] = r->rig_weights[matches[i]];

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "import/rigging/join_pieces.h"
 #include "import/rigging/rig_pose.h"
 
 static void *room(const sbfi_rigging *r, size_t count, size_t size) {
@@ -132,6 +133,8 @@ bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
     sbfi_matrix to_asset = sbfi_matrix_multiply(&c->rig_to_asset, &nodes[at].world);
     if (r->alignment.pose_worlds && !sbfi_pose_undo(r, m, &to_asset, &meshes[m])) return false;
   }
+  uint32_t joined_count = mesh_count;
+  if (!sbfi_join_pieces(r, nodes, meshes, &joined_count)) return false;
   *scene = *input;
   scene->unit_m = rig->unit_m;
   scene->unit_known = rig->unit_known;
@@ -141,6 +144,7 @@ bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
   scene->saved_worlds = NULL;
   scene->node_count = node_count + mesh_count;
   scene->meshes = meshes;
+  scene->mesh_count = joined_count;
   scene->clips = rig->clips;
   scene->clip_count = rig->clip_count;
   c->scene = c->rig = scene;

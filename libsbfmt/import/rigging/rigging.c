@@ -40,11 +40,13 @@ static bool prepare(sbfi_rigging *r) {
   r->weights = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->weights);
   r->sources = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->sources);
   r->carriers = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->carriers);
+  r->lies_on = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->lies_on);
   r->names = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->names);
   r->turned = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->turned);
-  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->names || !r->turned) return false;
+  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->lies_on || !r->names || !r->turned)
+    return false;
   for (uint32_t m = 0; m < meshes; m++) {
-    r->carriers[m] = SBF_NONE;
+    r->carriers[m] = r->lies_on[m] = SBF_NONE;
     r->names[m] = c->scene->nodes[c->scene->meshes[m].node].name;
   }
   r->alignment = (sbfi_alignment){.to_asset = c->to_asset, .is_stated = true};

@@ -75,6 +75,7 @@ typedef struct sbfi_rigging {
   sbfi_influences *weights; /* (input points) */
   uint8_t *sources;         /* (input points) sbfi_weight_source */
   int32_t *carriers;  /* (input meshes) node of the rig that carries all of it without a skin, or SBF_NONE */
+  int32_t *lies_on;   /* (input meshes) node of the rig's mesh without a skin that has all its points */
   const char **names; /* (input meshes) */
   bool *turned;       /* (input meshes) its polygons face away from those of the rig */
 } sbfi_rigging;
