@@ -69,6 +69,26 @@ class RiggedInputs(ProgramTest):
         found, _ = self.convert(obj_of({"hat": column.hat}), rig)
         self.assertEqual(found, column.wanted["hat"])
 
+    def test_an_object_of_several_shells_in_pieces(self):
+        """They have no border in common, and yet are one object where they lie on one of the rig."""
+        column = Column()
+        bag = [box((0.3, 0.2, -0.1), (0.5, 0.6, 0.1)), box((0.35, 0.65, -0.05), (0.45, 0.7, 0.05))]
+        points = bag[0][0] + bag[1][0]
+        triangles = bag[0][1] + [tuple(i + 8 for i in t) for t in bag[1][1]]
+        column.glb.node("bag", column.joints[0], mesh=column.glb.mesh(points, triangles))
+        rig = column.glb.write(self.path("rig.glb"))
+        objects = {**column.objects(), "a": bag[0], "b": bag[1]}
+        found, _ = self.convert(obj_of(objects), rig)
+        self.assertEqual(found[-16:], ["low"] * 16)
+        self.assertEqual(self.meshes(), {"body": 72, "hat": 40, "bag": 16})
+        self.convert(obj_of({**objects, "b": box((0.35, 0.65, -0.05), (0.45, 0.72, 0.05))}), rig)
+        self.assertEqual(self.meshes(), {"body": 72, "hat": 40, "a": 8, "b": 8})
+
+    def meshes(self):
+        """Numbers of points by name."""
+        bundle = Bundle(self.path("out.sbf"))
+        return {mesh.get("name"): len(bundle.positions(mesh)) for mesh in bundle.meshes}
+
     def test_several_files_with_one_rig(self):
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
@@ -121,6 +141,35 @@ class RiggedInputs(ProgramTest):
         self.assertIn("RIG_OTHER_MESH", said)
         _, said = self.convert(obj_of({**column.objects(), "beside": tube(4, 6, 0.2)}), rig)
         self.assertNotIn("RIG_OTHER_MESH", said)
+
+    def test_a_mesh_that_resembles_the_rigs(self):
+        """Another character of one maker may share its hat: what is carried over to its body is reported."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        (points, triangles), objects = column.body, column.objects()
+        objects["body"] = ([(1.08 * x, y, 1.08 * z) for x, y, z in points], triangles)
+        _, said = self.convert(obj_of(objects), rig)
+        self.assertIn(f"{len(column.hat[0])} of the rig's own mesh, by place", said)
+        self.assertRegex(said, r"resembles the input, but half of the input's points lie farther from it than \d")
+        self.assertIn("RIG_OTHER_MESH", said)
+        _, said = self.convert(obj_of(objects), rig, "--weights", "transfer")
+        self.assertNotIn("RIG_OTHER_MESH", said)
+        for edited in (variants.jiggled(obj_of(column.objects()), 1, 0.004), variants.jiggled(obj_of(column.objects()))):
+            _, said = self.convert(edited, rig)
+            self.assertIn("carried over from the nearest surface", said)
+            self.assertNotIn("RIG_OTHER_MESH", said)
+
+    def test_the_mesh_of_one_bone_is_another_characters(self):
+        """A rig too small for joints to lie inside of anything."""
+        glb = SkinnedGlb()
+        joint = glb.node("trap")
+        points, triangles = box((-0.2, 0, -0.2), (0.2, 0.05, 0.2))
+        mesh = glb.mesh(points, triangles, [(0, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
+        glb.node("plate", mesh=mesh, skin=glb.skin([joint], inverse_binds([at(0, 0, 0)], at(0, 0, 0))))
+        rig = glb.write(self.path("rig.glb"))
+        _, said = self.convert(obj_of(Column().objects()), rig)
+        self.assertIn("its bones may be another character's", said)
+        self.assertIn("RIG_OTHER_MESH", said)
 
     def test_vertex_colours_change_no_weights(self):
         column = Column()

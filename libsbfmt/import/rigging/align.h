@@ -13,6 +13,10 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found);
  * share of the rig's size, both ways. */
 bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
 
+/* The distance from the rig's surface that half of the input's points exceed, as a share of the rig's size.
+ */
+bool sbfi_median_gap(const sbfi_rigging *r, double *median);
+
 /* By the share of the bones' length that lies inside the input: what the files state stays where that is most
  * of it. IMPORT_RIG_OUTSIDE, which names bones and how far outside they are, where it is less than 60 %
  * anyhow. */

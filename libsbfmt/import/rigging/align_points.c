@@ -112,10 +112,17 @@ static uint32_t sample_of(uint32_t count, uint32_t samples, uint32_t i) {
   return count <= samples ? i : (uint32_t)((double)count * fmod(0.5 + i * 0.6180339887498949, 1.0));
 }
 
+static uint32_t common_divisor(uint32_t a, uint32_t b) {
+  return b ? common_divisor(b, a % b) : a;
+}
+
+/* Of few points all, in steps as well: the first ones may be of an object that the rig does not have. */
 static void take_samples(search *s) {
-  uint32_t count = s->r->input.mesh.positions.count;
+  uint32_t count = s->r->input.mesh.positions.count, step = (uint32_t)(0.618 * count) + 1;
   s->sample_count = count < SAMPLES ? count : SAMPLES;
-  for (uint32_t i = 0; i < s->sample_count; i++) s->samples[i] = sample_of(count, SAMPLES, i);
+  while (common_divisor(step, count) != 1) step++;
+  for (uint32_t i = 0; i < s->sample_count; i++)
+    s->samples[i] = count <= SAMPLES ? i * step % count : sample_of(count, SAMPLES, i);
 }
 
 /* Axes swapped, a usual unit, no offset. */

@@ -5,6 +5,7 @@
  * candidate is judged by the mean distance between the surfaces both ways, so that a small input does not
  * hide in a large rig. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "import/rigging/align.h"
@@ -133,6 +134,28 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error) {
     r->alignment.to_asset = s.best[i].m;
   }
   r->alignment.is_stated = memcmp(&r->alignment.to_asset, &r->c->to_asset, sizeof r->c->to_asset) == 0;
+  sbfi_arena_free(&scratch);
+  return good;
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return x < y ? -1 : x > y;
+}
+
+bool sbfi_median_gap(const sbfi_rigging *r, double *median) {
+  sbfi_arena scratch;
+  sbfi_surface_finder rig;
+  double distances[SAMPLES];
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  bool good = sbfi_surface_finder_make(&rig, &r->rig, &scratch);
+  for (uint32_t i = 0; good && i < SAMPLES; i++) {
+    sbfi_d3 p = sbfi_d3_of(r->input.mesh.positions.at[sample(&r->input, i)]);
+    p = sbfi_similarity_apply(&r->alignment.to_asset, p);
+    distances[i] = distance_to(&rig, p, FARTHEST * r->rig.size) / r->rig.size;
+  }
+  if (good) qsort(distances, SAMPLES, sizeof *distances, compare);
+  *median = good ? distances[SAMPLES / 2] : 0;
   sbfi_arena_free(&scratch);
   return good;
 }

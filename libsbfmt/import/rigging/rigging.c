@@ -143,6 +143,10 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
 
 /* Surfaces farther from each other than this share of the rig's size are not alike. */
 static const double ALIKE = 0.03;
+/* Half of the points of a mesh like the rig's lie nearer to it than this share of the rig's size; farther
+ * than the other one, it may be another character's. Edited meshes measured at most 0.001, others at least
+ * 0.003. */
+static const double ALIKE_MEDIAN = 0.01, SAME_MEDIAN = 0.0025;
 /* The least share of points beside a surface of the rig for all to take weights from it. */
 static const double MIN_BESIDE = 0.6, MIN_FORCED = 0.25;
 /* The least share of points on the rig's own for --weights match. */
@@ -275,18 +279,35 @@ static bool has_named_objects(const sbfi_rigging *r) {
 /* Lays what has no bones yet over the rig: by the rig's own meshes where those are alike, else by its bones.
  * An input whose objects are named for the rig already stands where its bones are. */
 static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
-  double error = INFINITY;
+  double error = INFINITY, median = 0;
   sbfi_alignment stated = r->alignment;
   sbfi_scene_surface bound = r->rig;
   if (*alike || r->c->rig == r->c->scene || mode == MODE_NAMED || mode == MODE_MATCH || !count_open(r))
     return SBF_OK;
   if (rig_has_weights(r) && !align_by_shape(r, &error)) return sbfi_convert_no_memory(r->c);
-  *alike = error < ALIKE;
+  if (error < ALIKE && !sbfi_median_gap(r, &median)) return sbfi_convert_no_memory(r->c);
+  *alike = error < ALIKE && median < ALIKE_MEDIAN;
   if (*alike) return SBF_OK;
   r->alignment = stated;
   r->rig = bound;
   if (isfinite(error)) r->unlike = error;
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
+}
+
+/* A mesh that only resembles the rig's may have bones in other places. */
+static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
+  double median;
+  if (mode != MODE_ANY || r->c->rig == r->c->scene || !count_open(r)) return true;
+  if (!sbfi_median_gap(r, &median)) return false;
+  if (median > SAME_MEDIAN)
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
+        "the mesh of %s resembles the input, but half of the input's points lie farther from it than %.2g %% "
+        "of "
+        "its size: it may be another character's; give the rig of this character, or --weights transfer if "
+        "it "
+        "is right",
+        r->rig.scene->file, 100 * median);
+  return true;
 }
 
 static sbf_status weigh_objects(
@@ -313,6 +334,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
   say_alignment(r);
+  if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   if (!sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
     return sbfi_convert_no_memory(c);
   status = weigh_objects(r, &moved, mode, by_points, alike);

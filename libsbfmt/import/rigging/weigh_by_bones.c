@@ -170,17 +170,26 @@ static bool is_scaled_by_unit(const sbfi_rigging *r) {
   return found;
 }
 
+/* Objects that stand where the rig's do: all of the input was laid over it by them. */
+static bool has_carriers(const sbfi_rigging *r) {
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
+    if (r->carriers[m] != SBF_NONE) return true;
+  return false;
+}
+
 /* The bones of a fish lie inside a caterpillar too, if it is made as long: a rig with a mesh states its size.
  * Where units agree it may be meant, as for two characters of one maker. */
 static sbf_status check_other_mesh(const sbfi_rigging *r) {
-  if (!(r->unlike > 0) || !(r->alignment.inside > 0) || r->c->options->weights) return SBF_OK;
+  if (!(r->unlike > 0) || r->c->options->weights || has_carriers(r)) return SBF_OK;
   if (is_scaled_by_unit(r)) {
+    char lie[60] = ""; /* nothing where the rig has no two joints to lie between */
+    if (r->alignment.inside > 0)
+      snprintf(lie, sizeof lie, ", of which %.0f %% lie inside the input,", 100 * r->alignment.inside);
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
         "the mesh of %s is not like the input: laid over each other, they are %.0f %% of the mesh's size "
-        "apart; "
-        "its bones, of which %.0f %% lie inside the input, may be another character's; give the rig of this "
-        "character, or --weights compute if it is right",
-        r->rig.scene->file, 100 * r->unlike, 100 * r->alignment.inside);
+        "apart; its bones%s may be another character's; give the rig of this character, or --weights compute "
+        "if it is right",
+        r->rig.scene->file, 100 * r->unlike, lie);
     return SBF_OK;
   }
   if (!sbfi_show_misfit(r, &r->alignment.to_asset)) return sbfi_convert_no_memory(r->c);
