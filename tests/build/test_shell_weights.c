@@ -13,7 +13,7 @@ static sbfi_arena arena;
 static sbfi_weight_mesh mesh;
 static sbfi_site_weights *weights;
 static sbfi_bone_segment segments[BONES];
-static bool holds[8];
+static bool holds[24];
 static sbfi_weights_figures figures;
 
 static void setup(void) {
@@ -144,6 +144,86 @@ START_TEST(hinges_follow_the_bone_that_begins_there)
 }
 END_TEST
 
+/* --- Machines: more parts than a character with a skin has ---------------------------------------------- */
+
+enum { PARTS = 16 };
+
+/* Shells 0 to 15 are balls of bone 2; those of the test follow. */
+static void add_machine(void) {
+  for (int i = 0; i < PARTS; i++) tubes_add_ball(tubes, (sbfi_d3){-6, 0, 1.5 * i}, 0.5, 8);
+}
+
+static void lay_bone(uint32_t bone, sbf_vec3 head, sbf_vec3 tail, int32_t next) {
+  segments[bone].head = sbfi_weight_mesh_place(&mesh, head);
+  segments[bone].tail = sbfi_weight_mesh_place(&mesh, tail);
+  segments[bone].next = next;
+}
+
+/* All parts lie inside their bones; `bone` leads those of the test. */
+static void weigh_machine(uint32_t bone) {
+  for (uint32_t s = 0; s < mesh.shell_count; s++) {
+    holds[s] = true;
+    weigh(s, s < PARTS ? 2 : bone, 0, 1);
+  }
+}
+
+START_TEST(kneecaps_follow_the_lower_leg)
+{
+  add_machine();
+  tubes_add_ball(tubes, (sbfi_d3){4.4, 0.3, 0}, 0.5, 8); /* beyond the end of its bone */
+  tubes_add_ball(tubes, (sbfi_d3){3.8, 0.5, 0}, 0.5, 8); /* at it */
+  tubes_add_ball(tubes, (sbfi_d3){5.2, 0, 0}, 0.5, 8);   /* far beyond */
+  make_mesh();
+  lay_bone(0, (sbf_vec3){0, 0, 0}, (sbf_vec3){4, 0, 0}, 1);
+  lay_bone(1, (sbf_vec3){4, 0, 0}, (sbf_vec3){4, -4, 0}, SBF_NONE);
+  weigh_machine(0);
+  repair();
+  check_shell(PARTS, 1);
+  check_shell(PARTS + 1, 0);
+  check_shell(PARTS + 2, 0);
+  lay_bone(0, (sbf_vec3){3.5f, 0, 0}, (sbf_vec3){4, 0, 0}, 1); /* shorter than the part */
+  weigh_machine(0);
+  repair();
+  check_shell(PARTS, 0);
+}
+END_TEST
+
+START_TEST(toes_follow_the_foot)
+{
+  add_machine();
+  tubes_add_ball(tubes, (sbfi_d3){0, 0.1, 0.8}, 0.3, 8);
+  tubes_add_ball(tubes, (sbfi_d3){0, 0.5, -0.4}, 0.3, 8); /* heel */
+  tubes_add_ball(tubes, (sbfi_d3){0, 2, 0.6}, 0.3, 8);    /* shin */
+  make_mesh();
+  lay_bone(0, (sbf_vec3){0, 4, 0}, (sbf_vec3){0, 0.2f, 0}, 1);
+  lay_bone(1, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0, 0.2f, 0.1f}, SBF_NONE);
+  weigh_machine(0);
+  repair();
+  check_shell(PARTS, 1);
+  check_shell(PARTS + 1, 0);
+  check_shell(PARTS + 2, 0);
+}
+END_TEST
+
+START_TEST(axles_stay_with_the_body)
+{
+  const sbfi_d3 axle[] = {{1, 0, 0}, {2.2, 0, 0}}, thigh[] = {{2.1, 0.3, 0}, {2.1, -1, 0}},
+                outside[] = {{1.9, 0.1, 0}, {3.2, 0.1, 0}};
+  add_machine();
+  tubes_add(tubes, axle, 2, 0.15, 8, false);
+  tubes_add(tubes, thigh, 2, 0.2, 8, false);
+  tubes_add(tubes, outside, 2, 0.15, 8, false);
+  make_mesh();
+  lay_bone(0, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 2, 0}, SBF_NONE);
+  lay_bone(1, (sbf_vec3){2, 0, 0}, (sbf_vec3){2, -3, 0}, SBF_NONE);
+  weigh_machine(1);
+  repair();
+  check_shell(PARTS, 0);
+  check_shell(PARTS + 1, 1);
+  check_shell(PARTS + 2, 1);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("shell_weights");
   TCase *c = tcase_create("shell_weights");
@@ -152,6 +232,9 @@ static Suite *suite(void) {
   tcase_add_test(c, middling_shells_follow_a_clear_lead);
   tcase_add_test(c, shells_across_the_middle_are_of_neither_side);
   tcase_add_test(c, hinges_follow_the_bone_that_begins_there);
+  tcase_add_test(c, kneecaps_follow_the_lower_leg);
+  tcase_add_test(c, toes_follow_the_foot);
+  tcase_add_test(c, axles_stay_with_the_body);
   suite_add_tcase(s, c);
   return s;
 }

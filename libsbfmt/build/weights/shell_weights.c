@@ -1,5 +1,6 @@
 #include "build/weights/shell_weights.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "build/geometry/box_tree.h"
@@ -14,6 +15,14 @@ static const double MACHINE_SHELLS = 12.5;
 static const double BOTH_SIDES = 0.5;
 /* How near its middle, as a share of its size, the joint of a hinge lies. */
 static const double HINGE_MIDDLE = 0.025;
+/* As shares of its size: how far beyond the end of a bone, and how near it, a shell lies that follows the
+ * next bone; how far ahead of the joint of a bone without a next one a shell lies that is its own. */
+static const double BEYOND = 0.15, NEAR_END = 0.75, AHEAD = 0.25;
+/* Share of a bone behind which shells may be of the bone without a next one that follows. */
+static const double LAST_PART = 0.75;
+/* An axle is so many times longer than wide, and lies across its bone where the cosine between them is less.
+ */
+static const double ELONGATED = 2, ACROSS = 0.5;
 
 static void sort_weights(sbfi_site_weights *w) {
   for (int i = 1; i < SBFI_SITE_BONES; i++)
@@ -130,20 +139,24 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
   return best;
 }
 
-/* The one bone that begins in the middle of a shell: that is the ball or the hinge of its joint, and moves
- * with it. UINT32_MAX: none does, or several. */
-static uint32_t bone_of_hinge(const sbfi_weight_mesh *mesh, const sbfi_shell *shell,
-    const sbfi_bone_segment *segments, uint32_t bone_count) {
-  sbfi_d3 middle = {0, 0, 0};
+/* Mean of a shell's surface; false where it has no area. */
+static bool middle_of(const sbfi_weight_mesh *mesh, const sbfi_shell *shell, sbfi_d3 *middle) {
   double whole = 0;
-  uint32_t found = UINT32_MAX;
+  *middle = (sbfi_d3){0, 0, 0};
   for (uint32_t i = 0; i < shell->site_count; i++) {
     uint32_t site = mesh->sites_by_shell[shell->first_site + i];
-    middle = sbfi_d3_add(middle, sbfi_d3_scale(sbfi_d3_of(mesh->sites[site]), mesh->areas[site]));
+    *middle = sbfi_d3_add(*middle, sbfi_d3_scale(sbfi_d3_of(mesh->sites[site]), mesh->areas[site]));
     whole += mesh->areas[site];
   }
-  if (!(whole > 0)) return UINT32_MAX;
-  middle = sbfi_d3_scale(middle, 1 / whole);
+  if (whole > 0) *middle = sbfi_d3_scale(*middle, 1 / whole);
+  return whole > 0;
+}
+
+/* The one bone that begins in the middle of a shell: that is the ball or the hinge of its joint, and moves
+ * with it. UINT32_MAX: none does, or several. */
+static uint32_t bone_of_hinge(
+    const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments, uint32_t bone_count) {
+  uint32_t found = UINT32_MAX;
   for (uint32_t b = 0; b < bone_count; b++) {
     if (!segments[b].is_deforming ||
         sbfi_d3_length(sbfi_d3_sub(segments[b].head, middle)) > HINGE_MIDDLE * shell->size)
@@ -154,23 +167,102 @@ static uint32_t bone_of_hinge(const sbfi_weight_mesh *mesh, const sbfi_shell *sh
   return found;
 }
 
+/* A shell at the end of the bone that leads, as a kneecap or the block of an ankle, moves with the next bone.
+ * UINT32_MAX: it is none. */
+static uint32_t bone_behind(
+    const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments, uint32_t bone) {
+  const sbfi_bone_segment *leading = &segments[bone];
+  sbfi_d3 along = sbfi_d3_sub(leading->tail, leading->head), left = sbfi_d3_sub(leading->tail, middle);
+  double length = sbfi_d3_length(along);
+  if (leading->next == SBF_NONE || !segments[leading->next].is_deforming || !(length > 0)) return UINT32_MAX;
+  if (shell->size > length || sbfi_d3_dot(left, along) > -BEYOND * length * shell->size) return UINT32_MAX;
+  return sbfi_d3_length(left) > NEAR_END * shell->size ? UINT32_MAX : (uint32_t)leading->next;
+}
+
+/* Whether a chain that begins with `bone` holds the other. */
+static bool is_above(const sbfi_bone_segment *segments, uint32_t bone, uint32_t other) {
+  for (int32_t b = (int32_t)bone; b != SBF_NONE; b = segments[b].next)
+    if (b == (int32_t)other) return true;
+  return false;
+}
+
+/* A long shell across the bone that leads, around its joint, is the axle that it turns on, and moves with
+ * what lies at its inner end. UINT32_MAX: it is none. */
+static uint32_t bone_of_axle(const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments,
+    uint32_t bone_count, uint32_t bone) {
+  const sbfi_bone_segment *leading = &segments[bone];
+  sbfi_d3 sides = sbfi_d3_sub(shell->high, shell->low), along = sbfi_d3_sub(leading->tail, leading->head);
+  const double side[3] = {sides.x, sides.y, sides.z}, way[3] = {along.x, along.y, along.z};
+  const double head[3] = {leading->head.x, leading->head.y, leading->head.z};
+  const double low[3] = {shell->low.x, shell->low.y, shell->low.z};
+  int axis = side[0] >= side[1] && side[0] >= side[2] ? 0 : side[1] >= side[2] ? 1 : 2;
+  uint32_t best = UINT32_MAX;
+  double nearest = INFINITY;
+  if (fabs(way[axis]) > ACROSS * sbfi_d3_length(along)) return UINT32_MAX;
+  for (int k = 0; k < 3; k++) {
+    if (k != axis && ELONGATED * side[k] > side[axis]) return UINT32_MAX;
+    if (head[k] < low[k] || head[k] > low[k] + side[k]) return UINT32_MAX;
+  }
+  for (uint32_t b = 0; b < bone_count; b++) {
+    double squared = sbfi_segment_distance2(&segments[b], middle);
+    if (!segments[b].is_deforming || is_above(segments, bone, b) || squared >= nearest) continue;
+    nearest = squared;
+    best = b;
+  }
+  return best != UINT32_MAX && nearest < sbfi_segment_distance2(&segments[best], leading->head) ? best
+                                                                                                : UINT32_MAX;
+}
+
+static void stiffen(
+    const sbfi_weight_mesh *mesh, const sbfi_shell *shell, uint32_t bone, sbfi_site_weights *weights) {
+  for (uint32_t i = 0; i < shell->site_count; i++)
+    set_single(&weights[mesh->sites_by_shell[shell->first_site + i]], bone);
+}
+
+/* Parts of a foot lie around the end of the lower leg as much as around the foot's joint, and so do those of
+ * a claw: shells there, ahead of that joint, move with the last bone. `leaders` (shells): the bone that moves
+ * each. */
+static void give_to_last_bones(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
+    const uint32_t *leaders, sbfi_site_weights *weights) {
+  for (uint32_t s = 0; s < mesh->shell_count; s++) {
+    const sbfi_bone_segment *bone = &segments[leaders[s]];
+    sbfi_d3 along = sbfi_d3_sub(bone->tail, bone->head), middle;
+    if (bone->next == SBF_NONE || !middle_of(mesh, &mesh->shells[s], &middle)) continue;
+    const sbfi_bone_segment *last = &segments[bone->next];
+    sbfi_d3 axis = sbfi_d3_sub(last->tail, last->head), from_joint = sbfi_d3_sub(middle, last->head);
+    double reached = sbfi_d3_dot(sbfi_d3_sub(middle, bone->head), along);
+    bool is_ahead = sbfi_d3_dot(from_joint, axis) > AHEAD * mesh->shells[s].size * sbfi_d3_length(axis);
+    if (last->is_deforming && last->next == SBF_NONE && is_ahead &&
+        reached > LAST_PART * sbfi_d3_dot(along, along))
+      stiffen(mesh, &mesh->shells[s], (uint32_t)bone->next, weights);
+  }
+}
+
 static bool stiffen_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     uint32_t bone_count, sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
   bool all = is_machine(mesh);
   double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), share;
-  if (!sums) return false;
+  uint32_t *leaders = sbfi_arena_allocate(arena, (size_t)mesh->shell_count + 1, sizeof *leaders);
+  if (!sums || !leaders) return false;
   figures->shell_count = mesh->shell_count;
   for (uint32_t s = 0; s < mesh->shell_count; s++) {
     const sbfi_shell *shell = &mesh->shells[s];
+    leaders[s] = UINT32_MAX;
     if (shell->size >= MIDDLING && !all) continue;
     uint32_t bone = leading_bone(mesh, s, segments, weights, sums, bone_count, &share);
     if (shell->size >= SMALL && share <= CLEAR_LEAD && !all) continue;
-    uint32_t hinge = bone_of_hinge(mesh, shell, segments, bone_count);
-    if (hinge != UINT32_MAX) bone = hinge;
-    for (uint32_t i = 0; i < shell->site_count; i++)
-      set_single(&weights[mesh->sites_by_shell[shell->first_site + i]], bone);
+    sbfi_d3 middle;
+    if (middle_of(mesh, shell, &middle)) {
+      uint32_t other = bone_of_hinge(shell, middle, segments, bone_count);
+      if (other == UINT32_MAX && all) other = bone_behind(shell, middle, segments, bone);
+      if (other == UINT32_MAX && all) other = bone_of_axle(shell, middle, segments, bone_count, bone);
+      if (other != UINT32_MAX) bone = other;
+    }
+    leaders[s] = bone;
+    stiffen(mesh, shell, bone, weights);
     figures->rigid_shell_count++;
   }
+  if (all) give_to_last_bones(mesh, segments, leaders, weights);
   return true;
 }
 
