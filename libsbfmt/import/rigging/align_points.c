@@ -18,6 +18,7 @@ enum {
   FIRST_SAMPLES = 16,
   SECOND_SAMPLES = 64,
   FITTED_SAMPLES = 512,
+  SHARE_SAMPLES = 2000,
   SEED_TRIANGLES = 48,
   SEED_CANDIDATES = 400
 };
@@ -299,8 +300,9 @@ static bool refine(search *s, sbfi_arena *arena, double *share) {
   try_mirrors(s, &p);
   bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* and right: it stays */
   if (!is_stated) fit(s, &p);
-  find_pairs(s, &s->best, count, &p);
-  *share = (double)p.count / count;
+  uint32_t samples = count < SHARE_SAMPLES ? count : SHARE_SAMPLES;
+  find_pairs(s, &s->best, samples, &p);
+  *share = (double)p.count / samples;
   return true;
 }
 

@@ -297,7 +297,8 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
 /* A mesh that only resembles the rig's may have bones in other places. */
 static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   double median;
-  if (mode != MODE_ANY || r->c->rig == r->c->scene || !count_open(r)) return true;
+  if (mode != MODE_ANY || r->c->rig == r->c->scene || r->alignment.matched > 0.5 || !count_open(r))
+    return true;
   if (!sbfi_median_gap(r, &median)) return false;
   if (median > SAME_MEDIAN)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
