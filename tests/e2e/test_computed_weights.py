@@ -91,7 +91,7 @@ def write_gltf(path, with_skin, frame):
         json.dump(gltf, stream)
 
 
-def write_collada(path, kind):
+def write_collada(path, kind, beside=""):
     inside = ""
     for name, x in reversed(BONES):
         offset = 1 if x else 0
@@ -101,7 +101,7 @@ def write_collada(path, kind):
     with open(path, "w", encoding="ascii") as stream:
         stream.write('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">'
                      '<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset><library_visual_scenes>'
-                     f'<visual_scene id="S" name="S"><node id="{frame}" type="NODE">{inside}</node></visual_scene>'
+                     f'<visual_scene id="S" name="S"><node id="{frame}" type="NODE">{inside}{beside}</node></visual_scene>'
                      '</library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>')
 
 
@@ -142,6 +142,12 @@ class ComputedWeights(ProgramTest):
                 self.assertEqual(Bundle(self.path("arm.sbf")).bone_names(), [bone for bone, _ in BONES])
                 for i, expected in from_bvh.items():  # whose last bone states its length
                     self.assertEqual(strongest(weights[i]), strongest(expected))
+
+    def test_the_node_of_an_armature_joins_no_bones(self):
+        """Beside its skeleton hangs what an animator pulls a hand by."""
+        write_collada(self.path("rig.dae"), "JOINT", '<node id="aim" name="aim" type="JOINT"/>')
+        self.good("convert", self.path("rig.dae"), "-o", self.path("rig.sbf"))
+        self.assertEqual(Bundle(self.path("rig.sbf")).bone_names(), ["upper", "fore", "hand", "aim"])
 
     def test_a_file_of_one_node_is_no_rig(self):
         self.rig = self.path("one.gltf")

@@ -197,11 +197,12 @@ static bool mark_bones(sbfi_assembly *a) {
   const char *format = a->scene->format;
   sbfi_scene_node *nodes = a->nodes;
   uint32_t count = a->scene->node_count;
+  bool declared = false;
   for (uint32_t i = 0; i < count; i++)
-    if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) nodes[i].is_bone = true;
+    if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) declared = nodes[i].is_bone = true;
   if (is_gltf(format)) mark_rigid_rig(a);
   if (!a->raw->mesh_count && strcmp(format, "bvh") != 0 && !has_bones(a)) mark_bare_skeleton(a);
-  if (is_gltf(format) || strcmp(format, "fbx") == 0) return true;
+  if (is_gltf(format) || strcmp(format, "fbx") == 0 || (declared && !a->raw->mesh_count)) return true;
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;
   int32_t top = common_ancestor(a, bones_below);
