@@ -218,7 +218,8 @@ class ComputedWeights(ProgramTest):
     def test_a_mesh_of_one_triangle(self):
         with open(self.obj, "w", encoding="ascii") as stream:
             stream.write("v 0 0 0\nv 3 0 0\nv 0 0.1 0\nf 1 2 3\n")
-        self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "compute")
+        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "compute")
+        self.assertIn("outside lie bones on the surface of the mesh, which encloses no space", said)
         self.assertFalse(os.path.exists(self.path("no.sbf")))
 
 

@@ -106,16 +106,17 @@ class RiggedInputs(ProgramTest):
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
         objects = {"body": column.body, "hat": column.hat,
-                   "stranger": ([(x + 4, y, z) for x, y, z in column.body[0]], column.body[1])}
+                   "stranger": ([(x + 4, y, z) for x, y, z in tube(0, 2, 0.2, 20)[0]], tube(0, 2, 0.2, 20)[1])}
         found, said = self.convert(obj_of(objects), rig)
         self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
         self.assertIn("lies in the object 'stranger' or beside it", said)
+        self.assertNotIn("RIG_OTHER_MESH", said)
         self.assertIn("RIG_OBJECT_APART", said)
         self.assertNotIn("object 'hat'", said)
         _, said = self.convert(obj_of(column.objects()), rig)
         self.assertNotIn("RIG_OBJECT_APART", said)
         found, said = self.convert(obj_of(objects), rig, "--shell", "stranger=low")
-        self.assertEqual(set(found[-len(column.body[0]):]), {"low"})
+        self.assertEqual(set(found[-len(objects["stranger"][0]):]), {"low"})
         self.assertNotIn("RIG_OBJECT_APART", said)
 
     def test_bones_of_a_rig_with_another_mesh(self):

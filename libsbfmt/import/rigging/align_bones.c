@@ -266,16 +266,20 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
       !sbfi_surface_finder_make(&finder, &moved, arena))
     return false;
   if (!sbfi_matrix_invert(&s->best.m, &back)) back = sbfi_matrix_identity();
-  for (uint32_t i = 0; i < s->line_count; i++) {
-    outside_bone here = {s->lines[i].bone, 0};
+  uint32_t bone_count = s->r->c->asset->bones.count;
+  double *distances = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *distances);
+  if (!distances) return false;
+  for (uint32_t i = 0; i < s->line_count; i++)
     for (uint32_t k = 0; k < PER_BONE; k++) {
+      double *distance = &distances[s->lines[i].bone];
       sbfi_d3 p = along(&s->lines[i], k);
       sbfi_surface_place near;
-      if (is_inside(s, sbfi_similarity_apply(&back, p)) ||
-          !sbfi_surface_nearest(&finder, p, NULL, 1e30, &near))
-        continue;
-      here.distance = fmax(here.distance, near.distance);
+      if (!is_inside(s, sbfi_similarity_apply(&back, p)) &&
+          sbfi_surface_nearest(&finder, p, NULL, 1e30, &near))
+        *distance = fmax(*distance, near.distance);
     }
+  for (uint32_t b = 0; b < bone_count; b++) {
+    outside_bone here = {b, distances[b]};
     if (here.distance <= 0) continue;
     count++;
     for (int k = 0; k < NAMED; k++) {
@@ -324,6 +328,8 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   char outside[260] = "";
   if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(s->r->c);
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
+  if (!outside[0])
+    snprintf(outside, sizeof outside, "bones on the surface of the mesh, which encloses no space");
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
       "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
       "--unit, --up and --forward",

@@ -15,6 +15,8 @@ enum { SAMPLES = 300, FIRST_SAMPLES = 40, KEPT = 4, PASSES = 12 };
 
 /* Farther is no worse, as a share of the rig's size. */
 static const double FARTHEST = 0.2;
+/* Farther away lies something else: another character, or what one holds. */
+static const double BESIDE = 0.1;
 /* So much better, as a share, a later candidate has to be. */
 static const double BETTER = 0.1;
 
@@ -147,15 +149,17 @@ bool sbfi_median_gap(const sbfi_rigging *r, double *median) {
   sbfi_arena scratch;
   sbfi_surface_finder rig;
   double distances[SAMPLES];
+  uint32_t count = 0;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   bool good = sbfi_surface_finder_make(&rig, &r->rig, &scratch);
   for (uint32_t i = 0; good && i < SAMPLES; i++) {
     sbfi_d3 p = sbfi_d3_of(r->input.mesh.positions.at[sample(&r->input, i)]);
     p = sbfi_similarity_apply(&r->alignment.to_asset, p);
-    distances[i] = distance_to(&rig, p, FARTHEST * r->rig.size) / r->rig.size;
+    double distance = distance_to(&rig, p, BESIDE * r->rig.size) / r->rig.size;
+    if (distance < BESIDE) distances[count++] = distance;
   }
-  if (good) qsort(distances, SAMPLES, sizeof *distances, compare);
-  *median = good ? distances[SAMPLES / 2] : 0;
+  if (count) qsort(distances, count, sizeof *distances, compare);
+  *median = count ? distances[count / 2] : 0;
   sbfi_arena_free(&scratch);
   return good;
 }
