@@ -6,7 +6,7 @@ converted with the file as its rig; the file's own conversion is the truth. Prin
 
     case b   weights equal within 1e-3 at >= 99.9 % of points; the same gait and legs; the distance walked in 4 s
              within 2 %; conversion in at most 1.3 times the time of the original. same_bundle: as many sections,
-             and springs and tetrahedra within 5 %; a section in pieces by material is several bodies, of more work
+             and springs and tetrahedra within 5 %
     case c   the skin, posed by the original's own walk, within 1 % of the longest side of the original's at 99 % of
              points; one line with the same in its clips, for what they bend farther
 

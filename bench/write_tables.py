@@ -82,6 +82,11 @@ def skin_row(r):
             r["of_full"]]
 
 
+def skin_weights_row(r):
+    return [r["model"], number(r["rms_percent"]), number(r["p95_percent"]), number(r["over_2_percent"]), number(r["wrong_side_percent"]),
+            r["gait"], number(r["s"])]
+
+
 def schemes_row(r):
     return [r["body"], r["scheme"], number(r["springs"]), r["substeps"], number(r["us_per_tick"]),
             r["ns_per_spring"], r["error_mm"]]
@@ -162,6 +167,7 @@ TABLES = {
     "progress": (progress_row, "asset | build | s | calls | max interval, s | pass", 2),
     "gait": (gait_row, "character | legs | bones | ground | drive | min µs | median µs | max µs", 1),
     "skin": (skin_row, "mesh | render level | triangles | vertices | min µs | median µs | of the full mesh", 1),
+    "skin_weights": (skin_weights_row, "models | rms, % | 95th percentile, % | points over 2 %, % | wrong side, % | gait | s", 1),
     "bullet": (bullet_row, "body | elements | engine | method | steps | iterations | threads | µs a tick | ns | error, mm | "
                            "× ours at that error", 1),
     "godot": (godot_row, "engine | precision | stiffness | pressure | ms a frame | min volume | volume at the end | lowest point, mm", 1),
