@@ -6,9 +6,10 @@
 
 #include "build/body_interior.h"
 #include "build/embed/carrier.h"
+#include "build/equal_bodies.h"
 #include "build/lattice/lattice_level.h"
 #include "build/lattice/region_level.h"
-#include "build/levels/ladder.h"
+#include "build/level_findings.h"
 #include "build/sections/level_pins.h"
 #include "build/sections/section_level.h"
 
@@ -110,41 +111,18 @@ static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   r->calibrated_springs++;
 }
 
-static void warn_of_poor_levels(sbfi_build *b, uint32_t number, const sbfi_ladder *ladder) {
-  const char *name = b->bodies[number].name;
-  if (ladder->has_reference && ladder->reference.statics.turns)
-    sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
-        "soft body \"%s\", or a piece of it, is held at points of one line alone and turns about them: "
-        "nothing "
-        "is calibrated and no error stated, pin points beside that line",
-        name);
-  for (uint32_t i = 0; i < ladder->poor_count; i++) {
-    const sbfi_poor_level *level = &ladder->poor[i];
-    if (level->off > 0)
-      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_OFF,
-          "a level of %u tetrahedra of soft body \"%s\" is off by %.0f %% of what its matter gives under one "
-          "of "
-          "the loads: %s, give it more elements (--elements, --cell)",
-          (unsigned)level->elements, name, 100 * level->off,
-          level->is_kept ? "the file states each" : "it is left out");
-    else
-      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
-          "a level of %u tetrahedra of soft body \"%s\" comes to no rest under gravity where a fine one "
-          "does: "
-          "%s, give it more elements (--elements, --cell) or pin more points",
-          (unsigned)level->elements, name, level->is_kept ? "its error is not stated" : "it is left out");
-  }
-}
-
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
-static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladder) {
+static sbf_status make_ladder(
+    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings) {
   sbf_soft_body *body = &b->bodies[number];
   const sbfi_interior_map *map = &b->maps[number];
   bool of_springs = body->levels.at[0].model == SBF_ELASTIC_MODEL_SPRINGS;
   sbf_status status = outcome_status(
       b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
-  warn_of_poor_levels(b, number, ladder);
+  findings->turns = ladder->has_reference && ladder->reference.statics.turns;
+  findings->poor_count = ladder->poor_count;
+  memcpy(findings->poor, ladder->poor, sizeof findings->poor);
   body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
   b->report.levels += ladder->level_count - 1;
   for (uint32_t l = 0; l < ladder->level_count; l++) {
@@ -188,10 +166,13 @@ static sbf_status make_lattice(sbfi_build *b, uint32_t number, sbfi_lattice_reci
   }
 }
 
-static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
+static sbf_status make_tetrahedra(
+    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
-  sbfi_lattice_recipe recipe = {
-      b->options.cell_m, b->options.elements, b->usual_elements, SBFI_BUILD_DERIVATION};
+  sbfi_lattice_recipe recipe = {.cell = b->options.cell_m,
+      .elements = b->options.elements,
+      .max = b->usual_elements,
+      .derivation = SBFI_BUILD_DERIVATION};
   sbfi_lattice_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return sbfi_build_no_memory(b);
@@ -200,10 +181,7 @@ static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *l
     recipe.cell = 0;
     sbf_status status = outcome_status(b, number, sbfi_ladder_pick(ladder, &recipe.elements, &met));
     if (status != SBF_OK) return status;
-    if (!met)
-      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_ERROR_MISSED,
-          "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
-          body->name, (unsigned)recipe.elements, b->options.error_m);
+    if (!met) findings->missed_elements = recipe.elements;
   }
   sbf_status status = make_lattice(b, number, recipe, level, &counts, ladder, scratch);
   if (status != SBF_OK) return status;
@@ -214,13 +192,8 @@ static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *l
         body->name, (double)level->cell);
     return make_springs(b, number, SBF_BUILD_INTERIOR_NONE, scratch) ? SBF_OK : sbfi_build_no_memory(b);
   }
-  /* Tips and rims are thin everywhere: a few such points are no thin limb. */
-  if (counts.thinness.thin_count > counts.thinness.sample_count / 50)
-    sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_THIN,
-        "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
-        "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
-        (unsigned)counts.thinness.thin_count, (unsigned)counts.thinness.sample_count, body->name,
-        counts.thinness.min, (double)level->cell);
+  findings->thinness = counts.thinness;
+  findings->cell = (double)level->cell;
   take_level(b, number, level, counts.pins);
   b->report.tetrahedra += counts.tetrahedra;
   b->report.thickened_points += counts.thickened;
@@ -229,8 +202,9 @@ static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *l
 }
 
 /* A lattice as for tetrahedra, then regions of its points in their stead. */
-static sbf_status make_regions(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
-  sbf_status status = make_tetrahedra(b, number, ladder, scratch);
+static sbf_status make_regions(
+    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings, sbfi_arena *scratch) {
+  sbf_status status = make_tetrahedra(b, number, ladder, findings, scratch);
   const sbf_soft_body *body = &b->bodies[number];
   if (status != SBF_OK || !b->made[number] || body->levels.at[0].model != SBF_ELASTIC_MODEL_TETRAHEDRA)
     return status;
@@ -258,7 +232,7 @@ static sbf_status make_section(sbfi_build *b, uint32_t number, sbfi_arena *scrat
   return SBF_OK;
 }
 
-static sbf_status make_level(sbfi_build *b, uint32_t number) {
+static sbf_status make_level(sbfi_build *b, uint32_t number, sbfi_level_findings *findings) {
   sbfi_arena scratch;
   sbf_build_interior interior = sbfi_body_interior(&b->options, &b->bodies[number]);
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
@@ -280,18 +254,51 @@ static sbf_status make_level(sbfi_build *b, uint32_t number) {
         "bodies",
         b->bodies[number].name, MAX_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
-    status = make_tetrahedra(b, number, &ladder, &scratch);
+    status = make_tetrahedra(b, number, &ladder, findings, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_SHAPE_MATCHING)
-    status = make_regions(b, number, &ladder, &scratch);
+    status = make_regions(b, number, &ladder, findings, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
     status = make_section(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = sbfi_build_no_memory(b);
   bool alone = b->bodies[number].levels.count &&
                b->bodies[number].levels.at[0].model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
-  if (status == SBF_OK && b->made[number] && !alone) status = make_ladder(b, number, &ladder);
+  if (status == SBF_OK && b->made[number] && !alone) status = make_ladder(b, number, &ladder, findings);
+  if (status == SBF_OK) sbfi_level_findings_report(b, number, findings);
   sbfi_ladder_free(&ladder);
   sbfi_arena_free(&scratch);
+  return status;
+}
+
+/* Of the bodies that others may equal. */
+typedef struct made_levels {
+  sbf_build_report before, after;
+  sbfi_level_findings findings;
+} made_levels;
+
+/* Levels of a body that equals an earlier one are that one's, moved. */
+static sbf_status make_or_repeat(
+    sbfi_build *b, uint32_t number, sbfi_equal_bodies *all, const made_levels **made) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbfi_d3 offset;
+  uint32_t other = sbfi_equal_bodies_find(all, number, &offset);
+  if (other != UINT32_MAX) {
+    if (!sbfi_levels_moved(&body->levels, &b->bodies[other].levels, offset, b->asset))
+      return sbfi_build_no_memory(b);
+    b->made[number] = true;
+    sbfi_level_counts_repeat(&b->report, &made[other]->before, &made[other]->after);
+    sbfi_level_findings_report(b, number, &made[other]->findings);
+    return SBF_OK;
+  }
+  made_levels *own = sbfi_arena_allocate(&b->scratch, 1, sizeof *own);
+  if (!own) return sbfi_build_no_memory(b);
+  own->before = b->report;
+  sbf_status status = make_level(b, number, &own->findings);
+  own->after = b->report;
+  made[number] = own;
+  /* Of a level of springs there is a map as well, which is about positions. */
+  bool is_lattice = b->made[number] && body->levels.at[0].model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  if (status == SBF_OK && is_lattice) sbfi_equal_bodies_add(all, number);
   return status;
 }
 
@@ -357,6 +364,9 @@ sbf_status sbfi_body_levels_make(sbfi_build *b) {
   share_elements(b);
   sbf_status refused = check_elements(b);
   if (refused != SBF_OK) return refused;
+  sbfi_equal_bodies all;
+  const made_levels **made = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *made);
+  if (!made || !sbfi_equal_bodies_make(&all, b->bodies, count, &b->scratch)) return sbfi_build_no_memory(b);
   for (uint32_t i = 0; i < count; i++) {
     sbf_status status = sbfi_build_tell(b, "levels", 0.2 + 0.4 * i / count);
     if (status != SBF_OK) return status;
@@ -364,7 +374,7 @@ sbf_status sbfi_body_levels_make(sbfi_build *b) {
     if (b->bodies[i].levels.count > 0) {
       if (!pin_authored_levels(b, i)) return sbfi_build_no_memory(b);
     } else if (b->bodies[i].surface.positions.count > 0) {
-      status = make_level(b, i);
+      status = make_or_repeat(b, i, &all, made);
       if (status != SBF_OK) return status;
     } else {
       sbfi_build_report_of_body(b, i, SBF_CODE_BODY_WITHOUT_POINTS,

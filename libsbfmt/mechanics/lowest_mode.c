@@ -90,7 +90,7 @@ static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOM
 /* Adds one element's part to the energy matrix: k g g^T. */
 static void add_energy(double stiffness[FIELDS * FIELDS], double k, const double g[FIELDS]) {
   for (int a = 0; a < FIELDS; a++)
-    for (int b = 0; b <= a; b++) stiffness[a * FIELDS + b] += k * g[a] * g[b];
+    for (int b = 0; b <= a && g[a] != 0; b++) stiffness[a * FIELDS + b] += k * g[a] * g[b];
 }
 
 /* Hooke's law as a sum of squares: lambda (tr e)^2 + 2 mu sum e_ii^2 + mu sum of the squared shears, halved.

@@ -1,4 +1,6 @@
 /* Equality of two assets: one walk over both along the schema tables. */
+#include "model/compare.h"
+
 #include <stdio.h>
 
 #include "model/place.h"
@@ -82,6 +84,12 @@ static bool equal_objects(const comparison *c, const sbfi_place *place, const vo
     if (!field->volatile_ && !equal_fields(c, place, field, other)) return false;
   }
   return true;
+}
+
+bool sbfi_objects_equal(const sbfi_element *element, const void *a, const void *b) {
+  const comparison c = {NULL, 0};
+  const sbfi_place place = {.element = element, .object = a};
+  return equal_objects(&c, &place, b);
 }
 
 bool sbf_asset_equal(const sbf_asset *a, const sbf_asset *b, char *path, size_t path_size) {

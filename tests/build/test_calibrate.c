@@ -144,8 +144,9 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   grid_level(&coarse, 2);
   ck_assert_uint_eq(fine.lattice.tetrahedra.count, 15360);
   ck_assert_uint_eq(coarse.lattice.tetrahedra.count, 240);
-  ck_assert_int_eq(
-      sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){true, true, {0}}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset,
+                       &(sbfi_reference_use){.falls = true, .twists = true, .pushes = true}, NULL),
+      0);
   ck_assert(r.sound);
   ck_assert(
       sbfi_level_calibrate(&coarse, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
@@ -226,8 +227,9 @@ START_TEST(an_arm_of_the_armadillo)
   body->pins = (sbf_pin_set_list){pins, 1};
   body->attributes.young_modulus = 1000 * 9.81f * size * 20;
   sbfi_reference r;
-  ck_assert_int_eq(
-      sbfi_reference_make(&r, body, 16000, asset, &(sbfi_reference_use){false, true, {0}}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_make(&r, body, 16000, false, asset,
+                       &(sbfi_reference_use){.twists = true, .pushes = true}, NULL),
+      0);
   sbf_level level;
   sbfi_arena scratch;
   sbfi_lattice_counts counts;
@@ -450,7 +452,7 @@ START_TEST(the_error_is_the_greatest_over_all_loads)
   sbfi_reference r;
   sbfi_calibration c;
   ck_assert_int_eq(
-      sbfi_reference_make(&r, body, 1500, asset, &(sbfi_reference_use){true, false, {0}}, NULL), 0);
+      sbfi_reference_make(&r, body, 1500, false, asset, &(sbfi_reference_use){.falls = true}, NULL), 0);
   double max = 0;
   uint32_t load = 0;
   for (uint32_t l = 0; l < r.statics.load_count; l++) {
@@ -488,8 +490,7 @@ START_TEST(one_factor_for_all_has_bounds)
     grid_level(&fine, 2);
     grid_level(&level, 2);
     body->attributes.young_modulus = 1e6f * cases[i].times;
-    ck_assert_int_eq(
-        sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){false, false, {0}}, NULL), 0);
+    ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
     body->attributes.young_modulus = 1e6f;
     ck_assert(
         sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
@@ -521,8 +522,7 @@ START_TEST(a_crumb_does_not_set_the_factor)
   grid_level(&fine, 2);
   grid_level(&level, 2);
   soften(&level, 6, 1e-6f);
-  ck_assert_int_eq(
-      sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){false, false, {0}}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){0}, NULL), 0);
   ck_assert(
       sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
   ck_assert_double_gt(c.residual, 50);
@@ -542,8 +542,9 @@ START_TEST(no_element_takes_more_than_twice_its_modulus)
   grid_level(&level, 2);
   body->attributes.young_modulus = 1e6f;
   soften(&fine, 30 * 4 * 4 * 4 / 2, 20); /* the outer half is stiffer: along x, as elements are listed */
-  ck_assert_int_eq(
-      sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){false, true, {0}}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset,
+                       &(sbfi_reference_use){.twists = true, .pushes = true}, NULL),
+      0);
   ck_assert(
       sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
   ck_assert_double_lt(c.max, 2.2);

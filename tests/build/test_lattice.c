@@ -111,7 +111,8 @@ START_TEST(the_count_asked_for)
     made m;
     wind(&m, &ball);
     ck_assert_int_eq(
-        sbfi_lattice_make_count(&m.lattice, &m.winding, wanted[i], silent, &arena), SBFI_LATTICE_MADE);
+        sbfi_lattice_make_count(&m.lattice, &m.winding, wanted[i], SBFI_LATTICE_TOLERANCE, silent, &arena),
+        SBFI_LATTICE_MADE);
     check(&m);
     ck_assert_uint_ge(m.lattice.made.count, wanted[i] * 85 / 100);
     ck_assert_uint_le(m.lattice.made.count, wanted[i] * 115 / 100);
@@ -156,7 +157,9 @@ START_TEST(real_surfaces)
   if (!path) return;
   sbf_polygon_mesh mesh = shape_of_obj(asset, path);
   wind(&m, &mesh);
-  ck_assert_int_eq(sbfi_lattice_make_count(&m.lattice, &m.winding, 20000, silent, &arena), SBFI_LATTICE_MADE);
+  ck_assert_int_eq(
+      sbfi_lattice_make_count(&m.lattice, &m.winding, 20000, SBFI_LATTICE_TOLERANCE, silent, &arena),
+      SBFI_LATTICE_MADE);
   check(&m);
   ck_assert_uint_ge(m.lattice.made.count, 19000);
   ck_assert_uint_le(m.lattice.made.count, 21000);
@@ -178,7 +181,8 @@ START_TEST(it_can_be_cancelled)
   for (int allowed = 0;; allowed++) {
     int left = allowed;
     sbfi_progress progress = sbfi_progress_whole(stop_at, &left);
-    if (sbfi_lattice_make_count(&m.lattice, &m.winding, 200, progress, &arena) == SBFI_LATTICE_MADE) {
+    if (sbfi_lattice_make_count(&m.lattice, &m.winding, 200, SBFI_LATTICE_TOLERANCE, progress, &arena) ==
+        SBFI_LATTICE_MADE) {
       ck_assert_int_ge(allowed, 5);
       break;
     }

@@ -111,7 +111,7 @@ static shares_off compare(const held_body *of, uint32_t elements) {
   for (int local = 0; local < 2; local++) {
     sbfi_reference reference;
     sbfi_calibration calibration;
-    const sbfi_reference_use use = {.pushes = local};
+    const sbfi_reference_use use = {.twists = local, .pushes = local};
     sbf_level level = lattice(of->body, elements);
     ck_assert_int_eq(sbfi_reference_take(&reference, of->body, &fine, NULL, asset, &use, NULL), 0);
     ck_assert(sbfi_level_calibrate(

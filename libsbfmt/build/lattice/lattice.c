@@ -167,10 +167,21 @@ static bool is_hollow(const sbfi_soup *soup, double cell, uint32_t elements) {
          grid.node_count > 64.0 * elements + 65536;
 }
 
+/* m^3, of surface and caps. */
+static double enclosed_volume(const sbfi_soup *soup) {
+  double sum = 0;
+  for (uint32_t t = 0; t < soup->triangle_count + soup->cap_count; t++) {
+    const uint32_t *at = soup->triangles[t];
+    sbfi_d3 a = sbfi_d3_sub(soup->points[at[0]], soup->low), b = sbfi_d3_sub(soup->points[at[1]], soup->low),
+            c = sbfi_d3_sub(soup->points[at[2]], soup->low);
+    sum += sbfi_d3_dot(a, sbfi_d3_cross(b, c)) / 6;
+  }
+  return fabs(sum);
+}
+
 sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
-    uint32_t elements, sbfi_progress progress, sbfi_arena *arena) {
-  enum { ROUNDS = 8 };
-  const double near_enough = 1.03;
+    uint32_t elements, double tolerance, sbfi_progress progress, sbfi_arena *arena) {
+  enum { ROUNDS = 8, TETRAHEDRA_OF_CELL = 14 };
   const sbfi_soup *soup = winding->soup;
   sbfi_d3 size = sbfi_d3_sub(soup->high, soup->low);
   double largest = fmax(size.x, fmax(size.y, size.z));
@@ -179,11 +190,14 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   *lattice = (sbfi_lattice){.cell = cell};
   if (soup->triangle_count == 0) return SBFI_LATTICE_MADE;
   if (volume > 0) cell = fmin(cell, cube_root(12 * volume / elements));
+  /* Where the number matters less, the first cell is near enough more often than not. */
+  double enclosed = tolerance > SBFI_LATTICE_TOLERANCE ? enclosed_volume(soup) : 0;
+  if (enclosed > 0) cell = cube_root(TETRAHEDRA_OF_CELL * enclosed / elements);
   double best = INFINITY;
   sbfi_lattice kept = *lattice;
   sbfi_arena trial, kept_in;
   sbfi_arena_init(&kept_in, &arena->allocator, 0);
-  for (int round = 0; round < ROUNDS && best > near_enough; round++) {
+  for (int round = 0; round < ROUNDS && best > 1 + tolerance; round++) {
     sbfi_progress part = sbfi_progress_part(progress, (double)round / ROUNDS, (round + 1.0) / ROUNDS);
     sbfi_arena_init(&trial, &arena->allocator, 0);
     sbfi_lattice_outcome outcome = sbfi_lattice_make(lattice, winding, cell, part, &trial);

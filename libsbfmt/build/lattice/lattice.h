@@ -6,6 +6,8 @@
 #include "build/geometry/winding_number.h"
 #include "build/lattice/lattice_stuffing.h"
 
+#define SBFI_LATTICE_TOLERANCE 0.03
+
 typedef struct sbfi_lattice {
   sbfi_tetrahedra made;
   double cell;           /* m, edge of the grid's cubes, which is the long edge of its tetrahedra */
@@ -24,9 +26,10 @@ typedef enum sbfi_lattice_outcome {
 sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding *winding, double cell,
     sbfi_progress progress, sbfi_arena *arena);
 
-/* The same with about as many tetrahedra as asked for: the cell is changed until there are within 3 per cent
- * of `elements`, or for eight rounds, of which the best counts. */
+/* The same with about as many tetrahedra as asked for: the cell is changed until their number is off by less
+ * than the factor 1 + `tolerance`, usually SBFI_LATTICE_TOLERANCE, or for eight rounds, of which the best
+ * counts. A greater tolerance also makes the first cell a better guess: most end after one round. */
 sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
-    uint32_t elements, sbfi_progress progress, sbfi_arena *arena);
+    uint32_t elements, double tolerance, sbfi_progress progress, sbfi_arena *arena);
 
 #endif

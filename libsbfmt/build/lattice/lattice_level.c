@@ -6,6 +6,8 @@
 #include "build/materials/point_factors.h"
 
 enum { USUAL_ELEMENTS = 2000 };
+/* Of bodies that get fewer because there are many. */
+static const double shared_tolerance = 0.1;
 
 static bool is_thin(const sbfi_thinness *of) {
   return of->thin_count > of->sample_count / 20;
@@ -21,9 +23,13 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
   uint32_t max =
       recipe->max && recipe->max < SBFI_LATTICE_THIN_ELEMENTS ? recipe->max : SBFI_LATTICE_THIN_ELEMENTS;
   uint32_t usual = max < USUAL_ELEMENTS ? max : USUAL_ELEMENTS;
+  double tolerance = recipe->tolerance > 0                             ? recipe->tolerance
+                     : recipe->elements > 0 || usual == USUAL_ELEMENTS ? SBFI_LATTICE_TOLERANCE
+                                                                       : shared_tolerance;
   for (uint32_t elements = recipe->elements ? recipe->elements : usual;; elements *= 2) {
-    outcome = recipe->cell > 0 ? sbfi_lattice_make(lattice, &winding, recipe->cell, progress, scratch)
-                               : sbfi_lattice_make_count(lattice, &winding, elements, progress, scratch);
+    outcome = recipe->cell > 0
+                  ? sbfi_lattice_make(lattice, &winding, recipe->cell, progress, scratch)
+                  : sbfi_lattice_make_count(lattice, &winding, elements, tolerance, progress, scratch);
     if (outcome != SBFI_LATTICE_MADE) return outcome;
     if (!sbfi_lattice_thinness(thinness, &body->surface, lattice->cell, scratch))
       return SBFI_LATTICE_NO_MEMORY;

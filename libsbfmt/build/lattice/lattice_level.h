@@ -15,6 +15,8 @@ typedef struct sbfi_lattice_recipe {
   uint32_t elements; /* about so many tetrahedra; 0: 2000, or more where much of the body is thin */
   uint32_t max;      /* of those that nobody asked for; 0: SBFI_LATTICE_THIN_ELEMENTS */
   int32_t derivation;
+  double tolerance; /* factor less 1 by which their number may be off; 0: SBFI_LATTICE_TOLERANCE, or
+                        a tenth where `max` leaves fewer than are usual */
 } sbfi_lattice_recipe;
 
 /* What was made of one body. */

@@ -21,6 +21,10 @@ enum { MEDIAN_STEPS = 24 };
 
 /* Of the modulus of each tetrahedron: more than twice would shorten the time step for little. */
 static const sbfi_factor_bounds lattice_bounds = {.min = 0.125, .max = 2, .share = 1e-3, .rounds = 25};
+enum { ROUGH_ROUNDS = 12 };
+
+/* Of a rough reference. */
+static const double rough_tolerance = 0.3;
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
@@ -30,6 +34,10 @@ static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
 }
 
 /* ---- The reference ---- */
+
+bool sbfi_surface_is_sparse(const sbf_soft_body *body) {
+  return body->surface.positions.count < 3 * SBFI_PUSHED_PATCHES;
+}
 
 static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use *use, sbfi_arena *scratch) {
   sbfi_linear_statics linear;
@@ -46,9 +54,10 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
     r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
     r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
   }
-  for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->pushes; k++)
+  for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->twists; k++)
     if (!sbfi_level_twist_frequency(&r->statics, &linear, k, lean_share, &r->twist_frequencies[k], scratch))
       return SBFI_LATTICE_NO_MEMORY;
+  r->has_twists = r->sound && use->twists;
   if (r->sound && use->pushes) {
     r->has_works = true;
     if (!sbfi_push_works_make(
@@ -86,10 +95,10 @@ sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_so
 }
 
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
-    uint32_t elements, const sbf_asset *asset, const sbfi_reference_use *use,
+    uint32_t elements, bool is_rough, const sbf_asset *asset, const sbfi_reference_use *use,
     const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls};
+  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls, .is_rough = is_rough};
   sbfi_arena_init(&reference->arena, allocator, 0);
   reference->memory = sbf_asset_create(allocator);
   if (!reference->memory) return SBFI_LATTICE_NO_MEMORY;
@@ -97,7 +106,8 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
   reference->memory->rigid_bodies = asset->rigid_bodies;
   sbfi_arena_init(&scratch, allocator, 0);
   sbfi_lattice_counts counts;
-  const sbfi_lattice_recipe recipe = {.elements = elements, .derivation = SBF_NONE};
+  const sbfi_lattice_recipe recipe = {
+      .elements = elements, .tolerance = is_rough ? rough_tolerance : 0, .derivation = SBF_NONE};
   sbfi_lattice_outcome outcome = sbfi_lattice_level_make(
       &reference->made, body, &recipe, reference->memory, &counts, use->progress, &scratch);
   if (outcome == SBFI_LATTICE_MADE && counts.tetrahedra > 0)
@@ -154,10 +164,8 @@ static bool find_yieldings(work *w) {
   return true;
 }
 
-/* A surface of few points has too few places to be pushed at or looked at: a cube's corners do not move where
- * it bends. What counts is then how slowly all of its matter would swing that way. */
 static bool is_sparse(const work *w) {
-  return w->body->surface.positions.count < 3 * SBFI_PUSHED_PATCHES;
+  return sbfi_surface_is_sparse(w->body);
 }
 
 static double yielding(const work *w, const double *yieldings, const double *frequencies, uint32_t load) {
@@ -283,8 +291,8 @@ static bool find_errors(work *w, double factor) {
   for (uint32_t l = 0; l < w->statics.load_count; l++)
     if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
       w->c->load_errors[l] = own_yielding(w, l) / factor / wanted_yielding(w, l) - 1;
-  if (!w->r->has_works) return true;
-  return is_sparse(w) ? find_slow_twists(w, factor) : find_twists(w, factor);
+  if (is_sparse(w)) return !w->r->has_twists || find_slow_twists(w, factor);
+  return !w->r->has_works || find_twists(w, factor);
 }
 
 /* Writes the moduli, all times `factor`, and those that they stand for: `stated`. */
@@ -328,10 +336,12 @@ static bool fit_lattice(work *w, double *factor) {
   if (!stated) return false;
   if (w->r->has_works && !is_sparse(w)) {
     const sbfi_wanted wanted = wanted_of(w);
+    sbfi_factor_bounds bounds = lattice_bounds;
     double left;
+    if (w->r->is_rough) bounds.rounds = ROUGH_ROUNDS;
     if (!sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
             sbfi_progress_part(w->progress, 0, 0.2), w->scratch) ||
-        !sbfi_stiffness_descent(&w->statics, &w->linear, stated, &wanted, &lattice_bounds, &left,
+        !sbfi_stiffness_descent(&w->statics, &w->linear, stated, &wanted, &bounds, &left,
             sbfi_progress_part(w->progress, 0.2, 0.7), w->scratch))
       return false;
   }

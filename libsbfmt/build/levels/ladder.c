@@ -40,15 +40,20 @@ static bool has_falls(const sbfi_ladder *l) {
 
 static sbfi_reference_use use_of(const sbfi_ladder *l) {
   bool lattice = l->level_count > 0 && l->levels[0].model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  bool calibrates = l->recipe->calibrate && (lattice || l->recipe->error > 0);
+  /* Levels of springs, the fourth and later ones, are fitted by pushes whatever the surface. */
+  bool pushes =
+      !sbfi_surface_is_sparse(l->body) || sbfi_ladder_lattices(l->recipe->levels) + 1 < l->recipe->levels;
   return (sbfi_reference_use){
-      has_falls(l), l->recipe->calibrate && (lattice || l->recipe->error > 0), l->progress};
+      .falls = has_falls(l), .twists = calibrates, .pushes = calibrates && pushes, .progress = l->progress};
 }
 
 static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
   if (l->has_reference) return SBFI_LATTICE_MADE;
   l->has_reference = true;
   const sbfi_reference_use use = use_of(l);
-  return sbfi_reference_make(&l->reference, l->body, elements, l->asset, &use, l->allocator);
+  return sbfi_reference_make(
+      &l->reference, l->body, elements, elements == 8 * l->recipe->share, l->asset, &use, l->allocator);
 }
 
 /* Compares the last level, where there is something to compare it with, and takes it out again where it comes

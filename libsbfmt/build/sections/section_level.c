@@ -214,7 +214,8 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
   sbfi_lattice_outcome outcome =
       recipe->cell > 0 ? sbfi_lattice_make(&w.lattice, &winding, recipe->cell, progress, scratch)
                        : sbfi_lattice_make_count(&w.lattice, &winding,
-                             recipe->elements ? recipe->elements : USUAL_ELEMENTS, progress, scratch);
+                             recipe->elements ? recipe->elements : USUAL_ELEMENTS, SBFI_LATTICE_TOLERANCE,
+                             progress, scratch);
   if (outcome != SBFI_LATTICE_MADE || w.lattice.made.count == 0) return outcome;
   level->derived = recipe->derivation;
   level->cell = (float)w.lattice.cell;
