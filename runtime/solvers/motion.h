@@ -238,11 +238,59 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
   for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
 }
 
+static inline bool sbri_touches_any(const sbri_island_tick *t) {
+  bool any = false;
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    any = any || sbri_touch_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
+  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
+    any = any || t->near_ground[block];
+  return any;
+}
+
+/* The fraction of an element's edge that the fastest point of a body near the ground covers in a substep, at
+ * most. It bounds the substep only of what strikes at about its speed of sound or faster: jelly balls of 20
+ * to 100 mm dropped from 3 m have elements inside out in 8 of 20 falls without it, in 1 at 0.125, in none at
+ * 0.1, where the fall costs a third to a half more. */
+static const float sbri_impact_share = 0.1f;
+
+/* m/s, the greatest speed of a point against the mean of its body's, and that of the mean where the body is
+ * about to strike. */
+static inline float sbri_impact_speed(const sbri_island_tick *t) {
+  float max = 0;
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    sbf_vec3 sum = {0, 0, 0};
+    float square = 0;
+    if (body->slot_real_end == body->slot_begin) continue;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+      sum = sbri_add(sum, sbri_slot_velocity(t, t->velocities, slot));
+    sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slot_real_end - body->slot_begin));
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      sbf_vec3 off = sbri_sub(sbri_slot_velocity(t, t->velocities, slot), mean);
+      square = fmaxf(square, sbri_dot(off, off));
+    }
+    max = fmaxf(max, sqrtf(square) + sqrtf(sbri_dot(mean, mean)));
+  }
+  return max;
+}
+
+/* Substeps of the `time_s` seconds to come in which no element of a solid body that strikes the ground is
+ * crossed; 1 where nothing is near it. Where others give the steps, as those of rigid bodies do, it keeps to
+ * them: more of its own would keep a pair from coming to rest. */
+static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
+  const sbri_island *island = t->island;
+  bool is_given = island->substeps || t->share < 1;
+  if (is_given || island->tetrahedron_block_count == 0 || !(island->cell_m > 0)) return 1;
+  return sbri_touches_any(t) ? time_s * sbri_impact_speed(t) / (sbri_impact_share * island->cell_m) : 1;
+}
+
 /* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. Their
  * number is bounded: a gas that is pressed flat would ask for a million and stop the world; what
  * goes wrong then is recovered from. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
+  float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
+  needed = (float)needed < crossing ? (uint32_t)crossing : needed;
   return needed < SBRI_MAX_STRAINED_SUBSTEPS ? needed : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 

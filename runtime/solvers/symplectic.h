@@ -20,15 +20,6 @@ static inline bool sbri_may_stiffen(const sbri_island_tick *t) {
 /* In fewer, what lies on the ground is pressed so hard against it by its weight that it would hop. */
 enum { SBRI_MIN_TOUCHING_SUBSTEPS = 5 };
 
-static inline bool sbri_touches_any(const sbri_island_tick *t) {
-  bool any = false;
-  for (uint32_t b = 0; b < t->island->body_count; b++)
-    any = any || sbri_touch_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
-  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
-    any = any || t->near_ground[block];
-  return any;
-}
-
 /* How many substeps share a damping of what nothing holds: on the ground, and where others may touch it, each
  * has its own, or bodies would creep by what falls between them. */
 static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {

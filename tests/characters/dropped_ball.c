@@ -81,3 +81,16 @@ void dropped_ball_check(const dropped_ball *ball) {
   sbr_model_destroy(d.model);
   sbf_asset_free(d.asset);
 }
+
+bool dropped_ball_inverts(const dropped_ball *ball) {
+  drop d = begin(ball);
+  bool inverts = false;
+  for (int i = 0; i < 90; i++) {
+    sbr_world_step(d.world, 1.0 / 60);
+    inverts |= sbr_character_health(d.world, d.id, 0).inverted;
+  }
+  sbr_world_destroy(d.world);
+  sbr_model_destroy(d.model);
+  sbf_asset_free(d.asset);
+  return inverts;
+}

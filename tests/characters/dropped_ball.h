@@ -3,6 +3,8 @@
 #ifndef TEST_DROPPED_BALL_H
 #define TEST_DROPPED_BALL_H
 
+#include <stdbool.h>
+
 typedef struct dropped_ball {
   const char *preset;
   float poisson; /* 0: the preset's */
@@ -14,5 +16,8 @@ typedef struct dropped_ball {
  * what its own weight takes. Balls that strike at more than twice their speed of sound in a rod may lose
  * their shape once: such a blow flattens their lowest elements, whatever the steps. */
 void dropped_ball_check(const dropped_ball *ball);
+
+/* Whether any of its elements is inside out at the end of any tick of the first 1.5 s. */
+bool dropped_ball_inverts(const dropped_ball *ball);
 
 #endif

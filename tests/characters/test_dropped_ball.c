@@ -12,10 +12,19 @@ START_TEST(balls_keep_shape_and_energy)
 { dropped_ball_check(&balls[_i]); }
 END_TEST
 
+/* From 3 m jelly strikes at 4.5 times its speed of sound in a rod, at the end of a tick. */
+START_TEST(what_strikes_faster_than_sound_is_not_turned_inside_out)
+{
+  const dropped_ball ball = {"jelly", 0, 0.02f * (float)(_i + 1), 3};
+  ck_assert(!dropped_ball_inverts(&ball));
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("dropped_ball");
   TCase *c = tcase_create("dropped_ball");
   tcase_add_loop_test(c, balls_keep_shape_and_energy, 0, BALLS);
+  tcase_add_loop_test(c, what_strikes_faster_than_sound_is_not_turned_inside_out, 0, 5);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }
