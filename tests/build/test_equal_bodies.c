@@ -47,6 +47,8 @@ START_TEST(a_copy_elsewhere_is_found)
 }
 END_TEST
 
+enum { BONE = 4, PINS, CHANGES };
+
 /* What makes the one body another than the other. */
 static void change(sbf_soft_body *body, int what) {
   /* The surface is the asset's, made here. */
@@ -55,12 +57,12 @@ static void change(sbf_soft_body *body, int what) {
   if (what == 0) points[5].x += 0.001f;
   if (what == 1) body->attributes.poisson_ratio += 0.01f;
   if (what == 2) body->attributes.friction += 0.1f;
-  if (what == 3) body->bone = 0;
-  if (what == 4) {
+  if (what == 3) {
     uint32_t first = corners[0];
     corners[0] = corners[1], corners[1] = corners[2], corners[2] = corners[3], corners[3] = first;
   }
-  if (what == 5) {
+  if (what == BONE) body->bone = 0;
+  if (what == PINS) {
     sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
     sbf_pin_set_init(pins);
     body->pins = (sbf_pin_set_list){pins, 1};
@@ -71,6 +73,16 @@ START_TEST(what_differs_is_not_equal)
 {
   sbfi_d3 offset;
   add_cube("a", 0.2f, (sbf_vec3){0, 1, 0});
+  change(add_cube("b", 0.2f, (sbf_vec3){3, 1, 0}), _i);
+  ck_assert_uint_eq(find(1, &offset), UINT32_MAX);
+}
+END_TEST
+
+/* Bones and pins hold at a position of their own. */
+START_TEST(what_is_held_equals_nothing)
+{
+  sbfi_d3 offset;
+  change(add_cube("a", 0.2f, (sbf_vec3){0, 1, 0}), _i);
   change(add_cube("b", 0.2f, (sbf_vec3){3, 1, 0}), _i);
   ck_assert_uint_eq(find(1, &offset), UINT32_MAX);
 }
@@ -128,7 +140,8 @@ static Suite *suite(void) {
   TCase *c = tcase_create("equal bodies");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_copy_elsewhere_is_found);
-  tcase_add_loop_test(c, what_differs_is_not_equal, 0, 6);
+  tcase_add_loop_test(c, what_differs_is_not_equal, 0, CHANGES);
+  tcase_add_loop_test(c, what_is_held_equals_nothing, BONE, CHANGES);
   tcase_add_test(c, copies_share_one_calibration);
   suite_add_tcase(s, c);
   return s;
