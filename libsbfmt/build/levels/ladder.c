@@ -8,6 +8,8 @@
 #include "build/springs/lattice_springs_level.h"
 
 enum { COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
+/* Bodies with a smaller share are so many that a rough reference has to do. */
+enum { ROUGH_SHARE = 128 };
 
 /* Tetrahedra of the lattice that the others are compared with. */
 static uint32_t reference_elements(const sbfi_ladder *l) {
@@ -52,8 +54,8 @@ static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
   if (l->has_reference) return SBFI_LATTICE_MADE;
   l->has_reference = true;
   const sbfi_reference_use use = use_of(l);
-  return sbfi_reference_make(
-      &l->reference, l->body, elements, elements == 8 * l->recipe->share, l->asset, &use, l->allocator);
+  bool is_rough = elements == 8 * l->recipe->share && l->recipe->share < ROUGH_SHARE;
+  return sbfi_reference_make(&l->reference, l->body, elements, is_rough, l->asset, &use, l->allocator);
 }
 
 /* Compares the last level, where there is something to compare it with, and takes it out again where it comes
