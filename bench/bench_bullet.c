@@ -49,16 +49,16 @@ typedef struct scene {
 
 static float *masses_of(const sbf_soft_body *body, float *masses) {
   const sbf_level *level = &body->levels.at[0];
-  uint8_t *held = bench_allocate(level->positions.count, 1);
+  uint8_t *pinned = bench_allocate(level->positions.count, 1);
   for (uint32_t s = 0; s < level->pins.count; s++) {
     const sbf_pin_set *set = &level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       uint32_t at = set->weights.count > 1 ? i : 0;
-      if (set->weights.count == 0 || set->weights.at[at] >= 1) held[set->points.at[i]] = 1;
+      if (set->weights.count == 0 || set->weights.at[at] >= 1) pinned[set->points.at[i]] = 1;
     }
   }
-  sbf_level_masses(body, level, held, masses);
-  free(held);
+  sbf_level_masses(body, level, pinned, masses);
+  free(pinned);
   return masses + level->positions.count;
 }
 
@@ -95,9 +95,9 @@ static scene make_scene(const char *name, sbf_asset *asset, uint32_t ticks) {
   scene s = {.name = name, .asset = asset, .ticks = ticks};
   uint32_t points = 0, springs = 0;
   count_elements(asset, &points, &springs);
-  sbf_vec3 *places = bench_allocate(points, sizeof *places);
+  sbf_vec3 *positions = bench_allocate(points, sizeof *positions);
   float *masses = bench_allocate(points, sizeof *masses), *next = masses;
-  s.shape = (bullet_shape){.points = places,
+  s.shape = (bullet_shape){.points = positions,
       .masses = masses,
       .point_count = points,
       .links = bench_allocate(springs, sizeof(sbf_uint2)),
@@ -110,7 +110,7 @@ static scene make_scene(const char *name, sbf_asset *asset, uint32_t ticks) {
     body->attributes.media_friction = 0;
     body->attributes.sag_free = false;
     if (!level) continue;
-    memcpy(places + first, level->positions.at, level->positions.count * sizeof *places);
+    memcpy(positions + first, level->positions.at, level->positions.count * sizeof *positions);
     next = masses_of(body, next);
     if (level->model == SBF_ELASTIC_MODEL_TETRAHEDRA) {
       s.shape.tetrahedra = level->lattice.tetrahedra.at;
@@ -138,17 +138,17 @@ static void free_scene(scene *s) {
 
 /* ---- Ways to step them ---- */
 
-typedef struct way {
+typedef struct method {
   const char *engine, *method;
   sbf_scheme scheme;          /* of ours */
   uint32_t steps, iterations; /* steps 0: ours, as many as are stable */
-  float share;                /* of Bullet's links; 0: implicit */
+  float fraction;             /* of Bullet's links; 0: implicit */
   double us, error_mm;        /* error below 0: it did not hold the body */
-} way;
+} method;
 
 /* Places of all points after each tick into `track`, unless NULL. Returns the
  * mean time of a tick, s. */
-static double run_ours(const scene *s, way *w, sbf_vec3 *track) {
+static double run_ours(const scene *s, method *w, sbf_vec3 *track) {
   sbf_diagnostic error;
   sbr_model *model;
   sbr_world *world;
@@ -169,23 +169,23 @@ static double run_ours(const scene *s, way *w, sbf_vec3 *track) {
     taken += bench_now_s() - begin;
     uint32_t left = track ? s->shape.point_count : 0;
     for (uint32_t b = 0; left > 0 && b < s->asset->soft_bodies.count; b++) {
-      uint32_t read = sbr_character_points(world, id, b, track, left);
+      uint32_t read = sbr_character_get_points(world, id, b, track, left);
       track += read, left -= read;
     }
   }
   w->iterations = 1;
-  if (!w->steps) w->steps = sbr_model_substeps(model);
+  if (!w->steps) w->steps = sbr_model_get_substeps(model);
   sbr_world_destroy(world);
   sbr_model_destroy(model);
   return taken / s->ticks;
 }
 
 #ifdef BENCH_BULLET
-static double run_bullet(const scene *s, const way *w, sbf_vec3 *track) {
+static double run_bullet(const scene *s, const method *w, sbf_vec3 *track) {
   float step_s = TICK_S / (float)w->steps;
   bullet_body *body = s->shape.tetrahedron_count
                           ? bullet_make_solid(&s->shape)
-                          : bullet_make_links(&s->shape, w->iterations, w->share, step_s);
+                          : bullet_make_links(&s->shape, w->iterations, w->fraction, step_s);
   double taken = 0;
   for (uint32_t i = 0; i < s->ticks; i++) {
     double begin = bench_now_s();
@@ -198,7 +198,7 @@ static double run_bullet(const scene *s, const way *w, sbf_vec3 *track) {
 }
 #endif
 
-static double run_way(const scene *s, way *w, sbf_vec3 *track) {
+static double run_method(const scene *s, method *w, sbf_vec3 *track) {
 #ifdef BENCH_BULLET
   if (strcmp(w->engine, "sbrun") != 0) return run_bullet(s, w, track);
 #endif
@@ -218,7 +218,7 @@ static double error_of(const scene *s, const sbf_vec3 *track) {
 }
 
 static void find_exact(scene *s) {
-  way stable = {"sbrun", "", SBF_SCHEME_SYMPLECTIC, 0, 1, 0, 0, 0};
+  method stable = {"sbrun", "", SBF_SCHEME_SYMPLECTIC, 0, 1, 0, 0, 0};
   s->exact = bench_allocate((size_t)s->ticks * s->shape.point_count, sizeof *s->exact);
   uint32_t ticks = s->ticks;
   s->ticks = 1;
@@ -229,19 +229,19 @@ static void find_exact(scene *s) {
 }
 
 #ifdef BENCH_BULLET
-static double error_with(const scene *s, way *w, float share, sbf_vec3 *track) {
-  w->share = share;
-  run_way(s, w, track);
+static double error_with(const scene *s, method *w, float fraction, sbf_vec3 *track) {
+  w->fraction = fraction;
+  run_method(s, w, track);
   double error = error_of(s, track);
   return error < 0 ? INFINITY : error;
 }
 
 /* The share of links with the least error: by powers of four, then by golden section around the best. */
-static void fit(const scene *s, way *w, sbf_vec3 *track) {
+static void fit(const scene *s, method *w, sbf_vec3 *track) {
   double best = INFINITY, at = 1, golden = 0.6180339887;
-  for (double share = 1; share > 1e-4; share /= 4) {
-    double error = error_with(s, w, (float)share, track);
-    if (error < best) best = error, at = share;
+  for (double fraction = 1; fraction > 1e-4; fraction /= 4) {
+    double error = error_with(s, w, (float)fraction, track);
+    if (error < best) best = error, at = fraction;
   }
   double low = log(at / 4), high = at < 1 ? log(at * 4) : 0;
   for (int i = 0; i < 4; i++) {
@@ -249,8 +249,8 @@ static void fit(const scene *s, way *w, sbf_vec3 *track) {
     bool left = error_with(s, w, (float)exp(a), track) < error_with(s, w, (float)exp(b), track);
     *(left ? &high : &low) = left ? b : a;
   }
-  w->share = (float)exp(0.5 * (low + high));
-  if (error_with(s, w, w->share, track) > best) w->share = (float)at;
+  w->fraction = (float)exp(0.5 * (low + high));
+  if (error_with(s, w, w->fraction, track) > best) w->fraction = (float)at;
 }
 #endif
 
@@ -258,18 +258,18 @@ static void fit(const scene *s, way *w, sbf_vec3 *track) {
 
 typedef struct twin {
   const scene *scene;
-  way way;
+  method method;
   double s;
 } twin;
 
 static void *run_twin(void *context) {
   twin *t = context;
-  t->s = run_way(t->scene, &t->way, NULL);
+  t->s = run_method(t->scene, &t->method, NULL);
   return NULL;
 }
 
 /* Two bodies, each on a thread: the busier one's time for a tick, us. */
-static double time_two(const scene *s, const way *w) {
+static double time_two(const scene *s, const method *w) {
   twin twins[2] = {{s, *w, 0}, {s, *w, 0}};
   pthread_t other;
   if (pthread_create(&other, NULL, run_twin, &twins[1]) != 0) bench_fail("no thread");
@@ -280,16 +280,16 @@ static double time_two(const scene *s, const way *w) {
 
 /* ---- Tables ---- */
 
-static const way *cheapest_ours(const way *ways, uint32_t count, double error_mm) {
-  const way *best = NULL;
+static const method *cheapest_ours(const method *methods, uint32_t count, double error_mm) {
+  const method *best = NULL;
   for (uint32_t i = 0; i < count; i++)
-    if (strcmp(ways[i].engine, "sbrun") == 0 && ways[i].error_mm >= 0 && ways[i].error_mm <= error_mm &&
-        (!best || ways[i].us < best->us))
-      best = &ways[i];
+    if (strcmp(methods[i].engine, "sbrun") == 0 && methods[i].error_mm >= 0 &&
+        methods[i].error_mm <= error_mm && (!best || methods[i].us < best->us))
+      best = &methods[i];
   return best;
 }
 
-static void print_way(const scene *s, const way *w, uint32_t threads, double us, const way *ours) {
+static void print_method(const scene *s, const method *w, uint32_t threads, double us, const method *ours) {
   char error[32] = "", against[64] = ",";
   if (w->error_mm >= 0) snprintf(error, sizeof error, "%.4f", w->error_mm);
   if (ours) snprintf(against, sizeof against, "%.1f,%.2f", ours->us, us / ours->us);
@@ -298,58 +298,58 @@ static void print_way(const scene *s, const way *w, uint32_t threads, double us,
       1e3 * us / s->element_count / w->steps / w->iterations, error, against);
 }
 
-static uint32_t list_ours(way *ways, bool solid) {
+static uint32_t list_ours(method *methods, bool solid) {
   uint32_t n = 0;
   static const uint32_t steps[] = {1, 5, 10, 20, 40, 80};
-  ways[n++] = (way){"sbrun", "symplectic", SBF_SCHEME_SYMPLECTIC, 0, 1, 0, 0, 0};
+  methods[n++] = (method){"sbrun", "symplectic", SBF_SCHEME_SYMPLECTIC, 0, 1, 0, 0, 0};
   for (int i = solid ? 2 : 0; i < 6; i++)
-    ways[n++] = (way){"sbrun", "position-based", SBF_SCHEME_POSITION_BASED, steps[i], 1, 0, 0, 0};
-  if (solid) ways[n++] = (way){"sbrun", "block descent", SBF_SCHEME_BLOCK_DESCENT, 0, 1, 0, 0, 0};
+    methods[n++] = (method){"sbrun", "position-based", SBF_SCHEME_POSITION_BASED, steps[i], 1, 0, 0, 0};
+  if (solid) methods[n++] = (method){"sbrun", "block descent", SBF_SCHEME_BLOCK_DESCENT, 0, 1, 0, 0, 0};
   return n;
 }
 
-static uint32_t list_bullet(way *ways, bool solid) {
+static uint32_t list_bullet(method *methods, bool solid) {
   uint32_t n = 0;
 #ifdef BENCH_BULLET
   static const uint32_t counts[] = {1, 5, 10, 20, 40}, solid_steps[] = {1, 2, 4};
   for (int i = 0; solid && i < 3; i++)
-    ways[n++] = (way){"Bullet", "deformable", SBF_SCHEME_AUTOMATIC, solid_steps[i], 1, 0, 0, 0};
+    methods[n++] = (method){"Bullet", "deformable", SBF_SCHEME_AUTOMATIC, solid_steps[i], 1, 0, 0, 0};
   for (int i = 0; !solid && i < 4; i++)
-    ways[n++] = (way){"Bullet", "links fitted", SBF_SCHEME_AUTOMATIC, 1, counts[i], 1, 0, 0};
+    methods[n++] = (method){"Bullet", "links fitted", SBF_SCHEME_AUTOMATIC, 1, counts[i], 1, 0, 0};
   for (int i = 1; !solid && i < 5; i++)
-    ways[n++] = (way){"Bullet", "links implicit", SBF_SCHEME_AUTOMATIC, counts[i], 1, 0, 0, 0};
+    methods[n++] = (method){"Bullet", "links implicit", SBF_SCHEME_AUTOMATIC, counts[i], 1, 0, 0, 0};
 #else
-  (void)ways, (void)solid;
+  (void)methods, (void)solid;
 #endif
   return n;
 }
 
 static void measure(const char *name, sbf_asset *asset, uint32_t ticks, bool quick) {
-  enum { MAX_WAYS = 24 };
-  way ways[MAX_WAYS];
+  enum { MAX_METHODS = 24 };
+  method methods[MAX_METHODS];
   scene s = make_scene(name, asset, quick ? 2 : ticks);
   bool solid = s.shape.tetrahedron_count > 0;
-  uint32_t count = list_ours(ways, solid);
-  count += list_bullet(ways + count, solid);
+  uint32_t count = list_ours(methods, solid);
+  count += list_bullet(methods + count, solid);
   find_exact(&s);
   sbf_vec3 *track = bench_allocate((size_t)s.ticks * s.shape.point_count, sizeof *track);
 #ifdef BENCH_BULLET
   for (uint32_t i = 0; !quick && i < count; i++)
-    if (ways[i].share > 0) fit(&s, &ways[i], track);
+    if (methods[i].fraction > 0) fit(&s, &methods[i], track);
 #endif
   for (uint32_t round = 0; round < (quick ? 1u : 2u); round++)
     for (uint32_t k = 0; k < count; k++) {
-      way *w = &ways[round % 2 ? count - 1 - k : k];
-      double us = 1e6 * run_way(&s, w, round == 0 ? track : NULL);
+      method *w = &methods[round % 2 ? count - 1 - k : k];
+      double us = 1e6 * run_method(&s, w, round == 0 ? track : NULL);
       if (round == 0) w->error_mm = error_of(&s, track);
       if (round == 0 || us < w->us) w->us = us;
     }
   for (uint32_t i = 0; i < count; i++) {
-    bool theirs = strcmp(ways[i].engine, "sbrun") != 0;
-    const way *ours = theirs ? cheapest_ours(ways, count, ways[i].error_mm) : NULL;
-    print_way(&s, &ways[i], 1, ways[i].us, ours);
-    if (i == 0 || (theirs && ways[i].iterations == 10) || (theirs && solid && ways[i].steps == 1))
-      print_way(&s, &ways[i], 2, time_two(&s, &ways[i]), NULL);
+    bool theirs = strcmp(methods[i].engine, "sbrun") != 0;
+    const method *ours = theirs ? cheapest_ours(methods, count, methods[i].error_mm) : NULL;
+    print_method(&s, &methods[i], 1, methods[i].us, ours);
+    if (i == 0 || (theirs && methods[i].iterations == 10) || (theirs && solid && methods[i].steps == 1))
+      print_method(&s, &methods[i], 2, time_two(&s, &methods[i]), NULL);
   }
   free(track);
   free_scene(&s);

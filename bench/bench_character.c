@@ -72,11 +72,11 @@ static sbf_asset *make_mesh(void) {
 static void hold_end(sbf_asset *asset) {
   sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)asset->soft_bodies.at;
   sbf_pin_set *pins = allocate(asset, 1, sizeof *pins);
-  uint32_t *held = allocate(asset, body->surface.positions.count, sizeof *held), count = 0;
+  uint32_t *pinned = allocate(asset, body->surface.positions.count, sizeof *pinned), count = 0;
   for (uint32_t i = 0; i < body->surface.positions.count; i++)
-    if (body->surface.positions.at[i].z < 0.05f) held[count++] = i;
+    if (body->surface.positions.at[i].z < 0.05f) pinned[count++] = i;
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned, count};
   body->pins = (sbf_pin_set_list){pins, 1};
 }
 
@@ -123,16 +123,16 @@ static void run_once(swing *s, const sbf_asset *asset, uint32_t ticks, uint32_t 
     double begin = bench_now_s();
     sbr_world_step(world, 1 / 60.0);
     double stepped = bench_now_s();
-    sbr_character_skin(world, id, 0, skin, skin + count, NULL, count);
+    sbr_character_get_skin(world, id, 0, skin, skin + count, NULL, count);
     double skinned = bench_now_s();
     if (number == 0 || stepped - begin < s->tick_s[i]) s->tick_s[i] = stepped - begin;
     if (number == 0 || skinned - stepped < s->skin_s[i]) s->skin_s[i] = skinned - stepped;
     if (number > 0) continue;
-    sbr_body_health health = sbr_character_health(world, id, 0);
+    sbr_body_health health = sbr_character_get_body_health(world, id, 0);
     if (!health.finite || health.inverted || health.recoveries) bench_fail("the limb lost its shape");
     s->strain = health.max_strain > s->strain ? health.max_strain : s->strain;
   }
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   if (number > 0 && hash != s->hash) bench_fail("two runs ended in different states");
   s->hash = hash;
   sbr_world_destroy(world);
@@ -160,7 +160,7 @@ int main(int argument_count, char **arguments) {
     }
     bench_print_row("%g,%u,%u,%u,%u,%.3f,%.3f,%.3f,%.2f,%.2f,%.2f,%.2f", (double)moduli[n],
         level->lattice.tetrahedra.count, level->positions.count,
-        asset->render_meshes.at[0].mesh.positions.count, sbr_model_substeps(s.model), (double)s.strain,
+        asset->render_meshes.at[0].mesh.positions.count, sbr_model_get_substeps(s.model), (double)s.strain,
         (double)level->calibration->residual, (double)level->calibration->period_error, tick, skin,
         tick + skin, worst);
     sbr_model_destroy(s.model);

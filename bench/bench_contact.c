@@ -90,7 +90,7 @@ static void measure(const char *body, sbf_asset *asset, bool quick) {
 typedef struct pair_scene {
   const char *name;
   bool contacts; /* between bodies */
-  double apart_m;
+  double separation_m;
 } pair_scene;
 
 static void run_pair(const sbr_model *model, const pair_scene *s, uint32_t number, fall *f) {
@@ -98,13 +98,13 @@ static void run_pair(const sbr_model *model, const pair_scene *s, uint32_t numbe
   sbr_world *world;
   sbr_world_definition definition = sbr_default_world_definition();
   bench_require(sbr_world_create(&definition, &world, &error), &error);
-  if (s->contacts) bench_require(sbr_world_bodies_meet(world, 0, &error), &error);
+  if (s->contacts) bench_require(sbr_world_enable_body_contacts(world, 0, &error), &error);
   for (int k = 0; k < 2; k++) {
     sbr_character_definition standing = sbr_default_character_definition();
     sbr_character_id character;
-    standing.position.x = s->apart_m * k;
+    standing.position.x = s->separation_m * k;
     bench_require(sbr_character_create(world, model, &standing, &character, &error), &error);
-    sbr_character_drive(world, character, 0.3f, 0, 0);
+    sbr_character_set_drive(world, character, 0.3f, 0, 0);
   }
   for (uint32_t i = 0; i < PAIR_FRAMES; i++) {
     double begin = bench_now_s();

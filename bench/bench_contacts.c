@@ -15,7 +15,7 @@
 #include "sbrun/collision.h"
 
 enum { HIGH = 4, SETTLES = 30, LIKE_THIS = 3 };
-typedef enum layout { ALONE, APART, TOWERS } layout;
+typedef enum layout { ALONE, SEPARATE, TOWERS } layout;
 static const char *const layout_names[LIKE_THIS] = {"alone", "apart", "towers"};
 static const float SIDE_M = 0.2f;
 
@@ -41,7 +41,7 @@ static sbr_world *make_world(const sbr_model *model, layout how, uint32_t count)
   definition.sleep_after_s = 0;
   definition.character_capacity = count;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
-  if (how != ALONE) bench_require(sbr_world_bodies_meet(world, 16 * count, &error), &error);
+  if (how != ALONE) bench_require(sbr_world_enable_body_contacts(world, 16 * count, &error), &error);
   for (uint32_t i = 0; i < count; i++) {
     sbr_character_definition d = sbr_default_character_definition();
     sbr_character_id id;
@@ -78,9 +78,9 @@ int main(int argc, char **argv) {
     double before = 0;
     for (uint32_t count = 16; count <= (quick ? 16 : 1024); count *= 4) {
       double tick = tick_s(model, (layout)how, count, quick ? 3 : 60);
-      uint32_t touches = how == TOWERS ? 4 * (HIGH - 1) * (count / HIGH) : 0;
-      bench_print_row("%s,%u,%u,%.1f,%.2f,%.0f,%.2f", layout_names[how], count, touches, 1e6 * tick,
-          1e6 * tick / count, touches / tick, before > 0 ? log(tick / before) / log(4) : 0);
+      uint32_t contacts = how == TOWERS ? 4 * (HIGH - 1) * (count / HIGH) : 0;
+      bench_print_row("%s,%u,%u,%.1f,%.2f,%.0f,%.2f", layout_names[how], count, contacts, 1e6 * tick,
+          1e6 * tick / count, contacts / tick, before > 0 ? log(tick / before) / log(4) : 0);
       before = tick;
     }
   }

@@ -88,7 +88,7 @@ static void open_crowd(crowd *c) {
     standing.position = (sbr_double3){2.0 * (i % 10), c->raise_m, 2.0 * (i / 10)};
     standing.heading = 0.1f * (float)i;
     bench_require(sbr_character_create(c->world, c->model, &standing, &id, &error), &error);
-    sbr_character_drive(c->world, id, 0.4f, 0, 0.1f);
+    sbr_character_set_drive(c->world, id, 0.4f, 0, 0.1f);
   }
 }
 
@@ -113,7 +113,7 @@ static crowd_times run_crowd(
     busy[measured++] = own > c.helper_s ? own : c.helper_s;
   }
   crowd_times t = {bench_spread_of(busy, measured).median, bench_spread_of(wall, measured).median,
-      sbr_world_state_hash(c.world)};
+      sbr_world_get_state_hash(c.world)};
   sbr_world_destroy(c.world);
   thread_pool_destroy(c.pool);
   free(busy);
@@ -137,8 +137,8 @@ static void measure_crowds(
       else if (hash != t.hash)
         bench_fail("two threads give other bits than one");
       bench_print_row("%s,%u,%u,%s,%u,%u,%.3f,%.3f,%.3f,,", name, counts[n], threads,
-          sbr_instructions_name(sbr_model_instructions(model)), elements_of(asset), sbr_model_substeps(model),
-          t.busy_s * 1e3, t.wall_s * 1e3, one / t.busy_s);
+          sbr_instructions_get_name(sbr_model_get_instructions(model)), elements_of(asset),
+          sbr_model_get_substeps(model), t.busy_s * 1e3, t.wall_s * 1e3, one / t.busy_s);
       fflush(stdout);
     }
   }
@@ -172,7 +172,7 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
       if (round == 0 || taken < min[k]) min[k] = taken;
     }
   double substep = (min[1] - min[0]) / SUBSTEPS;
-  bench_print_row("armadillo,1,1,%s,%u,%d,%.3f,,,%.2f,%.2f", sbr_instructions_name(instructions),
+  bench_print_row("armadillo,1,1,%s,%u,%d,%.3f,,,%.2f,%.2f", sbr_instructions_get_name(instructions),
       elements_of(asset), (int)SUBSTEPS, min[0] * 1e3, substep * 1e9 / elements_of(asset),
       bytes_of_substep(asset) / substep * 1e-9);
   for (uint32_t k = 0; k < 2; k++) sbr_model_destroy(models[k]);
@@ -207,7 +207,8 @@ int main(int argument_count, char **arguments) {
   sbf_asset *asset = armadillo_of_tetrahedra(2750);
   if (asset) {
     for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++)
-      if (sbr_instructions_available((sbr_instructions)i)) measure_substep(asset, (sbr_instructions)i, quick);
+      if (sbr_instructions_are_available((sbr_instructions)i))
+        measure_substep(asset, (sbr_instructions)i, quick);
     measure_crowds("armadillo in flight", asset, FLIES_M, 100, 40, quick);
     measure_crowds("armadillo on the floor", asset, STANDS_M, 1, 120, quick);
     measure_crowds("armadillo that strikes the floor", asset, STRIKES_M, 1, 60, quick);

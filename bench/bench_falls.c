@@ -35,7 +35,7 @@ static const float TICK_S = 1 / 60.0f;
 
 typedef struct fall {
   double fall_us, lie_us;
-  float apart_m, beyond, deep_m, rest_m_s, stretch;
+  float separation_m, beyond, deep_m, rest_m_s, stretch;
   uint32_t inside;
 } fall;
 
@@ -83,7 +83,7 @@ static float beyond_limits(sbf_quat a, sbf_quat b) {
   return max(max(swing - RAGDOLL_SWING, twist - RAGDOLL_TWIST), 0);
 }
 
-static void look_at_ragdoll(const part_state parts[RAGDOLL_PARTS], int tick, fall *f) {
+static void measure_ragdoll(const part_state parts[RAGDOLL_PARTS], int tick, fall *f) {
   for (int i = 0; i < RAGDOLL_PARTS; i++) {
     const ragdoll_part *p = &ragdoll_parts[i];
     for (int k = 0; k < 8; k++) {
@@ -97,7 +97,7 @@ static void look_at_ragdoll(const part_state parts[RAGDOLL_PARTS], int tick, fal
     const part_state *from = &parts[p->parent];
     sbf_vec3 a = plus(from->center, turned(from->rotation, minus(p->joint, q->middle)));
     sbf_vec3 b = plus(parts[i].center, turned(parts[i].rotation, minus(p->joint, p->middle)));
-    f->apart_m = max(f->apart_m, length(minus(a, b)));
+    f->separation_m = max(f->separation_m, length(minus(a, b)));
     f->beyond = max(f->beyond, beyond_limits(from->rotation, parts[i].rotation));
   }
 }
@@ -107,7 +107,7 @@ static void add_time(fall *f, int tick, double taken_s) {
   if (tick >= RAGDOLL_TICKS - RAGDOLL_LIES) f->lie_us += 1e6 * taken_s / RAGDOLL_LIES;
 }
 
-static sbf_vec3 pushed_place(void) {
+static sbf_vec3 pushed_position(void) {
   sbf_vec3 at = ragdoll_parts[PUSHED].middle;
   return (sbf_vec3){at.x, at.y + RAISE_M + 0.05f, at.z};
 }
@@ -126,21 +126,21 @@ static fall our_ragdoll(const sbr_model *model, bool undamped, int ticks) {
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   drive.joint_damping_1_s = drive.joint_friction = 0;
-  if (undamped) sbr_character_rigid_drive(world, id, &drive);
-  sbf_vec3 at = pushed_place();
-  sbr_character_rigid_push(world, id, PUSHED, (sbr_double3){at.x, at.y, at.z}, PUSH_N_S);
+  if (undamped) sbr_character_set_rigid_drive(world, id, &drive);
+  sbf_vec3 at = pushed_position();
+  sbr_character_apply_rigid_impulse(world, id, PUSHED, (sbr_double3){at.x, at.y, at.z}, PUSH_N_S);
   for (int t = 0; t < ticks; t++) {
     part_state parts[RAGDOLL_PARTS];
     double begin = bench_now_s();
     sbr_world_tick(world);
     add_time(&f, t, bench_now_s() - begin);
-    sbr_double3 o = sbr_character_origin(world, id);
+    sbr_double3 o = sbr_character_get_origin(world, id);
     for (uint32_t i = 0; i < RAGDOLL_PARTS; i++) {
-      sbr_rigid_state s = sbr_character_rigid_state(world, id, i);
+      sbr_rigid_state s = sbr_character_get_rigid_state(world, id, i);
       parts[i] = (part_state){{s.center.x + (float)o.x, s.center.y + (float)o.y, s.center.z + (float)o.z},
           s.velocity, s.frame.rotation};
     }
-    look_at_ragdoll(parts, t, &f);
+    measure_ragdoll(parts, t, &f);
   }
   sbr_world_destroy(world);
   return f;
@@ -150,14 +150,14 @@ static fall our_ragdoll(const sbr_model *model, bool undamped, int ticks) {
 static fall bullets_ragdoll(int steps, int iterations, int ticks) {
   fall f = {0};
   bullet_ragdoll *r = bullet_ragdoll_make(RAISE_M, FRICTION, iterations);
-  bullet_ragdoll_push(r, PUSHED, pushed_place(), PUSH_N_S);
+  bullet_ragdoll_push(r, PUSHED, pushed_position(), PUSH_N_S);
   for (int t = 0; t < ticks; t++) {
     part_state parts[RAGDOLL_PARTS];
     double begin = bench_now_s();
     for (int k = 0; k < steps; k++) bullet_ragdoll_step(r, TICK_S / (float)steps);
     add_time(&f, t, bench_now_s() - begin);
     bullet_ragdoll_read(r, parts);
-    look_at_ragdoll(parts, t, &f);
+    measure_ragdoll(parts, t, &f);
   }
   bullet_ragdoll_free(r);
   return f;
@@ -166,7 +166,7 @@ static fall bullets_ragdoll(int steps, int iterations, int ticks) {
 
 static void print_ragdoll(const char *engine, const char *method, int steps, int iterations, const fall *f) {
   bench_print_row("ragdoll,%d,%s,%s,%d,%d,%.1f,%.1f,%.3f,%.3f,%.2f,,%.2f,", (int)RAGDOLL_PARTS, engine,
-      method, steps, iterations, f->fall_us, f->lie_us, (double)(1e3f * f->apart_m),
+      method, steps, iterations, f->fall_us, f->lie_us, (double)(1e3f * f->separation_m),
       (double)(DEGREES * f->beyond), (double)(1e3f * f->deep_m), (double)(1e3f * f->rest_m_s));
 }
 
@@ -191,8 +191,8 @@ static void measure_ragdolls(bool quick) {
     }
     static const char *const methods[2][2] = {{"direct", "direct undamped"}, {"coarse", "coarse undamped"}};
     print_ragdoll("sbrun", methods[ours[k].coarse][ours[k].undamped], (int)ours[k].steps, 1, &best);
-    if (ours[k].steps == 0 && best.apart_m > 1e-3f)
-      bench_fail("our ragdoll comes apart by %g m", (double)best.apart_m);
+    if (ours[k].steps == 0 && best.separation_m > 1e-3f)
+      bench_fail("our ragdoll comes apart by %g m", (double)best.separation_m);
     if (ours[k].steps == 0 && best.beyond * DEGREES > 1)
       bench_fail("a limit is broken by %g degrees", (double)(best.beyond * DEGREES));
     sbr_model_destroy(model);
@@ -236,9 +236,9 @@ static cloth make_cloth(uint32_t side, uint32_t ticks) {
     at[i].x -= 0.005f * (float)(side - 1), at[i].z -= 0.005f * (float)(side - 1);
     at[i].y = BALL_M + ABOVE_M;
   }
-  uint8_t *held = bench_allocate(level->positions.count, 1);
-  sbf_level_masses(body, level, held, masses);
-  free(held);
+  uint8_t *pinned = bench_allocate(level->positions.count, 1);
+  sbf_level_masses(body, level, pinned, masses);
+  free(pinned);
   for (uint32_t i = 0; i < level->springs.at[0].ends.count; i++)
     stiffness[i] = level->springs.at[0].stiffness.at[0];
   c.shape = (bullet_shape){.points = at,
@@ -260,7 +260,7 @@ static float distance(const sbf_vec3 *a, const sbf_vec3 *b) {
   return length(minus(*a, *b));
 }
 
-static void look_at_cloth(const cloth *c, const sbf_vec3 *points, uint32_t tick, fall *f) {
+static void measure_cloth(const cloth *c, const sbf_vec3 *points, uint32_t tick, fall *f) {
   f->inside = 0;
   for (uint32_t i = 0; i < c->shape.point_count; i++) {
     float deep = BALL_M - length(points[i]);
@@ -306,11 +306,11 @@ static fall our_cloth(const cloth *c, const sbr_model *model, sbf_vec3 *points) 
     double begin = bench_now_s();
     sbr_world_tick(world);
     add_cloth_time(c, &f, t, bench_now_s() - begin);
-    sbr_double3 o = sbr_character_origin(world, id);
-    uint32_t count = sbr_character_points(world, id, 0, points, c->shape.point_count);
+    sbr_double3 o = sbr_character_get_origin(world, id);
+    uint32_t count = sbr_character_get_points(world, id, 0, points, c->shape.point_count);
     for (uint32_t i = 0; i < count; i++)
       points[i] = plus(points[i], (sbf_vec3){(float)o.x, (float)o.y, (float)o.z});
-    look_at_cloth(c, points, t, &f);
+    measure_cloth(c, points, t, &f);
   }
   sbr_world_destroy(world);
   sbr_shape_destroy(shape);
@@ -328,7 +328,7 @@ static fall bullets_cloth(const cloth *c, uint32_t steps, uint32_t iterations, s
     for (uint32_t k = 0; k < steps; k++) bullet_step(body, step_s);
     add_cloth_time(c, &f, t, bench_now_s() - begin);
     bullet_read(body, points);
-    look_at_cloth(c, points, t, &f);
+    measure_cloth(c, points, t, &f);
   }
   bullet_free(body);
   return f;
@@ -353,7 +353,7 @@ static void measure_our_cloth(
     fall f = our_cloth(c, model, points);
     keep_min(&best, &f, r == 0);
   }
-  print_cloth(c, "sbrun", method, steps ? steps : sbr_model_substeps(model), 1, &best);
+  print_cloth(c, "sbrun", method, steps ? steps : sbr_model_get_substeps(model), 1, &best);
   if (best.inside > 0) bench_fail("%s: %u points of the cloth are in the ball", method, best.inside);
   sbr_model_destroy(model);
 }

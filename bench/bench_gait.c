@@ -53,7 +53,7 @@ static void walk_once(walk *w) {
   definition.sleep_after_s = 0; /* what stands is awake, too */
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, w->model, &standing, &character, &error), &error);
-  sbr_character_drive(world, character, w->drive->forward * w->leg_m, 0, w->drive->turn);
+  sbr_character_set_drive(world, character, w->drive->forward * w->leg_m, 0, w->drive->turn);
   double sum = 0;
   for (uint32_t piece = 0; piece < w->piece_count; piece++) {
     double begin = bench_now_s();
@@ -63,7 +63,7 @@ static void walk_once(walk *w) {
     sum += took;
   }
   w->means[w->run] = sum / (TICKS * w->piece_count);
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   if (w->run && hash != w->hash) bench_fail("two runs end in different states");
   w->hash = hash;
   w->run++;

@@ -23,8 +23,8 @@ typedef struct solver {
 static const solver solvers[] = {{"fabrik", sbri_fabrik}, {"ccd", sbri_ccd},
     {"damped_least_squares", sbri_damped_least_squares}, {"spline", sbri_ik_spline}};
 
-typedef enum place { REACHABLE, UNREACHABLE, ROOT, PLACE_COUNT } place;
-static const char *const place_names[PLACE_COUNT] = {"reachable", "unreachable", "root"};
+typedef enum location { REACHABLE, UNREACHABLE, ROOT, TARGET_COUNT } location;
+static const char *const target_names[TARGET_COUNT] = {"reachable", "unreachable", "root"};
 
 /* Solving all targets of one kind, with one solver. */
 typedef struct work {
@@ -48,7 +48,7 @@ static sbf_vec3 in_ball(uint32_t *seed) {
   }
 }
 
-static void make_targets(place kind, sbf_vec3 *targets) {
+static void make_targets(location kind, sbf_vec3 *targets) {
   uint32_t seed = 1;
   for (int i = 0; i < TARGETS; i++) {
     sbf_vec3 p = in_ball(&seed);
@@ -89,9 +89,9 @@ static void solve_all(void *context) {
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
   const float tolerances[] = {1e-2f, 1e-4f};
-  sbf_quat turn = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(1, 0, 0));
-  const sbri_joint_limit limit = {.before = turn,
-      .after = sbri_quat_conjugate(turn),
+  sbf_quat rotation = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(1, 0, 0));
+  const sbri_joint_limit limit = {.before = rotation,
+      .after = sbri_quat_conjugate(rotation),
       .twist = {-0.8f, 0.8f},
       .swing_y = {-3.2f, 3.2f},
       .swing_z = {-3.2f, 3.2f},
@@ -100,12 +100,12 @@ int main(int argument_count, char **arguments) {
   sbf_vec3 targets[TARGETS];
   bench_print_columns("solver,limits,targets,tolerance_m,passes,us,error_mean_m,error_most_m,missed,of");
   for (int limited = 0; limited < 2; limited++)
-    for (int kind = 0; kind < PLACE_COUNT; kind++)
+    for (int kind = 0; kind < TARGET_COUNT; kind++)
       for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
         enum { SOLVERS = sizeof solvers / sizeof *solvers };
         work works[SOLVERS];
         bench_case cases[SOLVERS];
-        make_targets((place)kind, targets);
+        make_targets((location)kind, targets);
         for (int s = 0; s < SOLVERS; s++) {
           works[s] = (work){.with = &solvers[s],
               .targets = targets,
@@ -118,7 +118,7 @@ int main(int argument_count, char **arguments) {
         for (int s = 0; s < SOLVERS; s++) {
           const work *w = &works[s];
           bench_print_row("%s,%s,%s,%g,%.1f,%.2f,%.3g,%.3g,%u,%u", w->with->name,
-              limited ? "limited" : "free", place_names[kind], (double)w->tolerance,
+              limited ? "limited" : "free", target_names[kind], (double)w->tolerance,
               (double)w->passes / w->count, 1e6 * cases[s].s.min / w->count, w->error_sum / w->count,
               w->error_max, w->missed, w->count);
         }

@@ -38,10 +38,10 @@ static void knock_free(knock *k) {
 static void note(const sbr_world *world, sbr_character_id id, const sbf_asset *asset, knock *k, int tick) {
   k->point_count = 0;
   for (uint32_t b = 0; b < k->body_count; b++)
-    k->bodies[tick][b] = sbr_character_rigid_state(world, id, b).center;
+    k->bodies[tick][b] = sbr_character_get_rigid_state(world, id, b).center;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
     k->point_count +=
-        sbr_character_points(world, id, b, k->points[tick] + k->point_count, MAX_POINTS - k->point_count);
+        sbr_character_get_points(world, id, b, k->points[tick] + k->point_count, MAX_POINTS - k->point_count);
 }
 
 static double run(const sbf_asset *asset, const sbr_model *model, bool falls, int ticks, knock *k) {
@@ -56,9 +56,9 @@ static double run(const sbf_asset *asset, const sbr_model *model, bool falls, in
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);
   if (falls)
-    sbr_character_rigid_mode(world, id, -1, SBR_RIGID_PASSIVE);
+    sbr_character_set_rigid_mode(world, id, -1, SBR_RIGID_PASSIVE);
   else
-    sbr_character_drive(world, id, 0.3f, 0, 0);
+    sbr_character_set_drive(world, id, 0.3f, 0, 0);
   for (int t = 0; t < ticks; t++) {
     double begin = bench_now_s();
     sbr_world_tick(world);
@@ -104,14 +104,14 @@ int main(int argument_count, char **arguments) {
   }
   bench_print_columns("scene,sections,steps,tick_us,walk_us,bone_mm,flesh_mm");
   for (int i = 0; i < CASES; i++) {
-    double bones = 0, flesh = 0;
+    double bones = 0, soft = 0;
     for (int t = 0; t < COMPARED; t++) {
       bones += off_mm(knocks[i].bodies[t], knocks[0].bodies[t], knocks[i].body_count) / COMPARED;
-      flesh += off_mm(knocks[i].points[t], knocks[0].points[t], knocks[i].point_count) / COMPARED;
+      soft += off_mm(knocks[i].points[t], knocks[0].points[t], knocks[i].point_count) / COMPARED;
     }
     bench_print_row("knocked lizard,%u,%u,%.0f,%.0f,%.3f,%.3f", asset->soft_bodies.count, steps[i],
-        knocks[i].tick_us, walk_us, 1e3 * sqrt(bones), 1e3 * sqrt(flesh));
-    if (!(bones < 1e-5) || !(flesh < 4e-5)) bench_fail("it goes elsewhere in %u steps", steps[i]);
+        knocks[i].tick_us, walk_us, 1e3 * sqrt(bones), 1e3 * sqrt(soft));
+    if (!(bones < 1e-5) || !(soft < 4e-5)) bench_fail("it goes elsewhere in %u steps", steps[i]);
     sbr_model_destroy(models[i]);
   }
   for (int i = 0; i < CASES; i++) knock_free(&knocks[i]);

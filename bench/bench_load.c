@@ -31,7 +31,7 @@ static const char *const endings[FORM_COUNT] = {"xml.sbf", "zlib.sbfz", "stored.
 typedef struct loading {
   char path[PATH_SIZE];
   sbf_load_options options;
-  void *held;
+  void *retained;
 } loading;
 
 static void load(void *context) {
@@ -39,39 +39,39 @@ static void load(void *context) {
   sbf_asset *asset;
   sbf_diagnostic error;
   bench_require(sbf_load_file(l->path, &l->options, &asset, &error), &error);
-  l->held = asset;
+  l->retained = asset;
 }
 static void unload(void *context) {
-  sbf_asset_free(((loading *)context)->held);
+  sbf_asset_free(((loading *)context)->retained);
 }
 
 static void load_by_assimp(void *context) {
   loading *l = context;
   const struct aiScene *scene = aiImportFile(l->path, 0);
   if (!scene || !scene->mNumMeshes) bench_fail("assimp does not read %s: %s", l->path, aiGetErrorString());
-  l->held = (void *)(uintptr_t)scene;
+  l->retained = (void *)(uintptr_t)scene;
 }
 static void unload_by_assimp(void *context) {
-  aiReleaseImport(((loading *)context)->held);
+  aiReleaseImport(((loading *)context)->retained);
 }
 
 static void load_as_tree(void *context) {
   loading *l = context;
-  l->held = xmlReadFile(l->path, NULL, XML_PARSE_HUGE | XML_PARSE_NONET);
-  if (!l->held) bench_fail("libxml2 does not read %s", l->path);
+  l->retained = xmlReadFile(l->path, NULL, XML_PARSE_HUGE | XML_PARSE_NONET);
+  if (!l->retained) bench_fail("libxml2 does not read %s", l->path);
 }
 static void unload_tree(void *context) {
-  xmlFreeDoc(((loading *)context)->held);
+  xmlFreeDoc(((loading *)context)->retained);
 }
 
-typedef struct way {
+typedef struct method {
   const char *reader, *form, *crc, *file; /* as the table names them */
   form of;
   bool check_crc, copy_file;
   void (*load)(void *context), (*unload)(void *context);
-} way;
+} method;
 
-static const way ways[] = {
+static const method methods[] = {
     {"sbfmt", "xml", "", "read", XML, false, false, load, unload},
     {"sbfmt", "zlib", "no", "mapped", ZLIB, false, false, load, unload},
     {"sbfmt", "zlib", "yes", "mapped", ZLIB, true, false, load, unload},
@@ -82,14 +82,14 @@ static const way ways[] = {
     {"assimp", "glb", "", "read", GLB, false, false, load_by_assimp, unload_by_assimp},
     {"assimp", "obj", "", "read", OBJ, false, false, load_by_assimp, unload_by_assimp},
 };
-enum { WAY_COUNT = sizeof ways / sizeof *ways, ASSIMP_GLB = 7 };
+enum { METHOD_COUNT = sizeof methods / sizeof *methods, ASSIMP_GLB = 7 };
 
 static void path_of(char path[PATH_SIZE], const char *base, form of) {
   int length = snprintf(path, PATH_SIZE, "%s.%s", base, endings[of]);
   if (length < 0 || length >= PATH_SIZE) bench_fail("%s is too long a path", base);
 }
 
-static void prepare(loading *l, const char *base, const way *w) {
+static void prepare(loading *l, const char *base, const method *w) {
   *l = (loading){.options = {.check_crc = w->check_crc, .copy_file = w->copy_file}};
   path_of(l->path, base, w->of);
 }
@@ -99,7 +99,7 @@ static void prepare(loading *l, const char *base, const way *w) {
 /* What the child does: loads the file `arguments[0]` in the way of number `arguments[1]`, and keeps it. */
 static void load_in_child(char **arguments) {
   static loading l;
-  const way *w = &ways[strtoul(arguments[1], NULL, 10)];
+  const method *w = &methods[strtoul(arguments[1], NULL, 10)];
   prepare(&l, arguments[0], w);
   w->load(&l);
 }
@@ -129,27 +129,27 @@ static void remove_files(const char *base) {
 
 static void measure(const char *name, sbf_asset *asset, const char *folder, uint32_t rounds) {
   char base[BASE_SIZE];
-  loading loadings[WAY_COUNT];
-  bench_case cases[WAY_COUNT];
+  loading loadings[METHOD_COUNT];
+  bench_case cases[METHOD_COUNT];
   uint32_t vertices = vertex_count_of(asset);
   snprintf(base, sizeof base, "%s/%s", folder, name);
   write_files(asset, base);
   sbf_asset_free(asset);
-  for (int i = 0; i < WAY_COUNT; i++) {
-    prepare(&loadings[i], base, &ways[i]);
-    cases[i] = (bench_case){.run = ways[i].load, .after = ways[i].unload, .context = &loadings[i]};
+  for (int i = 0; i < METHOD_COUNT; i++) {
+    prepare(&loadings[i], base, &methods[i]);
+    cases[i] = (bench_case){.run = methods[i].load, .after = methods[i].unload, .context = &loadings[i]};
   }
-  bench_rounds(cases, WAY_COUNT, rounds);
-  for (int i = 0; i < WAY_COUNT; i++) {
+  bench_rounds(cases, METHOD_COUNT, rounds);
+  for (int i = 0; i < METHOD_COUNT; i++) {
     char number[12];
     snprintf(number, sizeof number, "%d", i);
     process_memory memory = process_memory_of((const char *const[]){base, number, NULL});
     size_t bytes = file_size_of(loadings[i].path);
     const bench_spread *s = &cases[i].s;
     bench_print_row("%s,%u,%s,%s,%s,%s,%zu,%u,%.4f,%.4f,%.4f,%.1f,%.3f,%zu,%zu", name, vertices,
-        ways[i].reader, ways[i].form, ways[i].crc, ways[i].file, bytes, rounds, s->min * 1e3, s->median * 1e3,
-        s->max * 1e3, (double)bytes / s->median / 1e6, cases[ASSIMP_GLB].s.median / s->median,
-        memory.peak_bytes / 1024, memory.private_bytes / 1024);
+        methods[i].reader, methods[i].form, methods[i].crc, methods[i].file, bytes, rounds, s->min * 1e3,
+        s->median * 1e3, s->max * 1e3, (double)bytes / s->median / 1e6,
+        cases[ASSIMP_GLB].s.median / s->median, memory.peak_bytes / 1024, memory.private_bytes / 1024);
   }
   remove_files(base);
 }

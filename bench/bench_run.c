@@ -79,19 +79,19 @@ static sbr_world *make_world(walk *w, sbr_character_id *character) {
   definition.character_capacity = 1;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, w->model, &standing, character, &error), &error);
-  sbr_character_drive(world, *character, 0.5f, 0, 0.2f);
+  sbr_character_set_drive(world, *character, 0.5f, 0, 0.2f);
   return world;
 }
 
-static void read_skin(const walk *w, const sbr_world *world, sbr_character_id character, sbf_vec3 *room) {
+static void read_skin(const walk *w, const sbr_world *world, sbr_character_id character, sbf_vec3 *buffer) {
   uint32_t count = vertex_count_of(w->asset), at = 0;
   for (uint32_t i = 0; i < w->asset->render_meshes.count; i++)
-    at += sbr_character_skin(world, character, i, room + at, room + count + at, NULL, count - at);
+    at += sbr_character_get_skin(world, character, i, buffer + at, buffer + count + at, NULL, count - at);
 }
 
 static void read_health(const walk *w, const sbr_world *world, sbr_character_id character) {
   for (uint32_t i = 0; i < w->asset->soft_bodies.count; i++) {
-    sbr_body_health health = sbr_character_health(world, character, i);
+    sbr_body_health health = sbr_character_get_body_health(world, character, i);
     if (!health.finite || health.inverted) bench_fail("a body lost its shape");
   }
 }
@@ -119,7 +119,7 @@ static void walk_once(walk *w) {
     }
   }
   for (int p = 0; p < PART_COUNT; p++) w->means[p][w->run] = sums[p] / w->frame_count;
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   if (w->run++ && hash != w->hash) bench_fail("two runs of the same walk ended in different states");
   w->hash = hash;
   free(skin);
@@ -185,7 +185,7 @@ static void measure(const char *name, sbf_asset *asset, uint32_t frames, uint32_
   about a = {.name = name};
   count_elements(asset, &a.points, &a.springs);
   open_walk(&walks[ONE_THREAD], asset, 1, 0, frames, runs);
-  a.substeps = sbr_model_substeps(walks[ONE_THREAD].model);
+  a.substeps = sbr_model_get_substeps(walks[ONE_THREAD].model);
   open_walk(&walks[TWO_THREADS], asset, 2, 0, frames, runs);
   open_walk(&walks[ONCE], asset, 1, a.substeps, frames, runs);
   open_walk(&walks[TWICE], asset, 1, 2 * a.substeps, frames, runs);

@@ -69,10 +69,10 @@ static void track(const sbf_asset *asset, sbf_scheme scheme, uint32_t substeps, 
   sbf_vec3 *points = bench_allocate(count, sizeof *points);
   for (int i = 0; i < SWING_TICKS; i++) {
     sbr_world_tick(r.world);
-    sbr_character_points(r.world, r.character, 0, points, count);
+    sbr_character_get_points(r.world, r.character, 0, points, count);
     tips[i] = points[count - 1];
   }
-  if (sbr_character_health(r.world, r.character, 0).recoveries) tips[0].x = NAN;
+  if (sbr_character_get_body_health(r.world, r.character, 0).recoveries) tips[0].x = NAN;
   free(points);
   stop(&r);
 }

@@ -24,9 +24,9 @@ static size_t gzip_size_of(const sbf_buffer *from) {
   z_stream stream = {.next_in = from->at, .avail_in = (uInt)from->size};
   if (deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
     bench_fail("memory ran out");
-  uLong room = deflateBound(&stream, (uLong)from->size);
-  stream.next_out = bench_allocate(room, 1);
-  stream.avail_out = (uInt)room;
+  uLong capacity = deflateBound(&stream, (uLong)from->size);
+  stream.next_out = bench_allocate(capacity, 1);
+  stream.avail_out = (uInt)capacity;
   Bytef *begin = stream.next_out;
   if (deflate(&stream, Z_FINISH) != Z_STREAM_END) bench_fail("zlib cannot compress");
   size_t size = stream.total_out;
@@ -80,8 +80,8 @@ enum { MAX_FILES = 256, PATH_SIZE = 1024 };
 static char found[MAX_FILES][PATH_SIZE];
 static int found_count;
 
-static int note_file(const char *path, const struct stat *about, int kind, struct FTW *place) {
-  (void)about, (void)place;
+static int note_file(const char *path, const struct stat *about, int kind, struct FTW *position) {
+  (void)about, (void)position;
   if (kind == FTW_F && found_count < MAX_FILES && strlen(path) < PATH_SIZE)
     strcpy(found[found_count++], path);
   return 0;

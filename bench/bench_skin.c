@@ -14,7 +14,7 @@ typedef struct wearer {
   sbr_model *model;
   sbr_world *world;
   sbr_character_id character;
-  sbf_vec3 *room; /* positions, then normals */
+  sbf_vec3 *buffer; /* positions, then normals */
   uint32_t vertex_count;
 } wearer;
 
@@ -28,8 +28,8 @@ static void run(void *context) {
   const wearer *w = c->of;
   for (int call = 0; call < CALLS; call++)
     for (uint32_t m = 0; m < w->asset->render_meshes.count; m++)
-      sbr_character_level_skin(
-          w->world, w->character, m, c->level, w->room, w->room + w->vertex_count, NULL, w->vertex_count);
+      sbr_character_get_level_skin(
+          w->world, w->character, m, c->level, w->buffer, w->buffer + w->vertex_count, NULL, w->vertex_count);
 }
 
 static void dress(wearer *w, sbf_asset *source) {
@@ -44,7 +44,7 @@ static void dress(wearer *w, sbf_asset *source) {
   bench_require(sbr_character_create(w->world, w->model, &standing, &w->character, &error), &error);
   sbr_world_tick(w->world);
   w->vertex_count = vertex_count_of(w->asset);
-  w->room = bench_allocate(2 * (size_t)w->vertex_count, sizeof *w->room);
+  w->buffer = bench_allocate(2 * (size_t)w->vertex_count, sizeof *w->buffer);
 }
 
 static void measure(const char *name, sbf_asset *source, uint32_t rounds) {
@@ -66,7 +66,7 @@ static void measure(const char *name, sbf_asset *source, uint32_t rounds) {
       const sbf_u32_list *points = l ? &mesh->levels.at[l - 1].polygon_points : &mesh->mesh.polygon_points;
       const sbf_u32_list *sizes = l ? &mesh->levels.at[l - 1].polygon_sizes : &mesh->mesh.polygon_sizes;
       triangles += points->count - 2 * sizes->count;
-      vertices += sbr_model_level_vertices(w.model, m, l, NULL, 0);
+      vertices += sbr_model_get_level_vertices(w.model, m, l, NULL, 0);
     }
     bench_print_row("%s,%u,%u,%u,%.2f,%.2f,%.3f", name, l, triangles, vertices, cases[l].s.min * 1e6 / CALLS,
         cases[l].s.median * 1e6 / CALLS, cases[l].s.min / cases[0].s.min);
@@ -74,7 +74,7 @@ static void measure(const char *name, sbf_asset *source, uint32_t rounds) {
   sbr_world_destroy(w.world);
   sbr_model_destroy(w.model);
   sbf_asset_free(w.asset);
-  free(w.room);
+  free(w.buffer);
 }
 
 int main(int argument_count, char **arguments) {

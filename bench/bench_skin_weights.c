@@ -36,7 +36,7 @@ static int compare_doubles(const void *left, const void *right) {
 
 /* Turn and offset of a bone from rest. */
 typedef struct bone_motion {
-  double turn[4], place[3], rest[3];
+  double rotation[4], position[3], rest[3];
 } bone_motion;
 
 static void motions_of(const rigged_model *m, const sbfi_bone_frame *frames, bone_motion *motions) {
@@ -45,17 +45,17 @@ static void motions_of(const rigged_model *m, const sbfi_bone_frame *frames, bon
     const double rest[4] = {bone->rotation.x, bone->rotation.y, bone->rotation.z, bone->rotation.w};
     double back[4];
     sbfi_turn_undo(rest, back);
-    sbfi_turn_product(frames[b].rotation, back, motions[b].turn);
-    memcpy(motions[b].place, frames[b].place, sizeof motions[b].place);
+    sbfi_turn_product(frames[b].rotation, back, motions[b].rotation);
+    memcpy(motions[b].position, frames[b].position, sizeof motions[b].position);
     motions[b].rest[0] = bone->head.x, motions[b].rest[1] = bone->head.y, motions[b].rest[2] = bone->head.z;
   }
 }
 
 static void add_moved(const bone_motion *motion, sbf_vec3 point, double weight, double to[3]) {
   const double from[3] = {point.x - motion->rest[0], point.y - motion->rest[1], point.z - motion->rest[2]};
-  double way[3];
-  sbfi_turn_vector(motion->turn, from, way);
-  for (int k = 0; k < 3; k++) to[k] += weight * (motion->place[k] + way[k]);
+  double direction[3];
+  sbfi_turn_vector(motion->rotation, from, direction);
+  for (int k = 0; k < 3; k++) to[k] += weight * (motion->position[k] + direction[k]);
 }
 
 /* Distance between the two skins at a point, % of the size. */
@@ -196,29 +196,29 @@ static bool measure(const char *path, rigging_errors *errors) {
 }
 
 /* One column of the errors, sorted: its value at a share of the models. */
-static double at_share(const rigging_errors *errors, uint32_t count, size_t field, double share) {
+static double at_fraction(const rigging_errors *errors, uint32_t count, size_t field, double fraction) {
   double values[MAX_MODELS];
   for (uint32_t i = 0; i < count; i++) memcpy(&values[i], (const char *)&errors[i] + field, sizeof *values);
   qsort(values, count, sizeof *values, compare_doubles);
-  return values[(uint32_t)(share * count)];
+  return values[(uint32_t)(fraction * count)];
 }
 
-static void print_share(
-    const char *name, const char *group, const rigging_errors *errors, uint32_t count, double share) {
+static void print_fraction(
+    const char *name, const char *group, const rigging_errors *errors, uint32_t count, double fraction) {
   uint32_t same = 0;
   for (uint32_t i = 0; i < count; i++) same += errors[i].same_gait;
   bench_print_row("%s of %s %u,,,,%.2f,%.2f,%.2f,%.2f,%.0f %% same,%.2f", name, group, count,
-      at_share(errors, count, offsetof(rigging_errors, rms), share),
-      at_share(errors, count, offsetof(rigging_errors, percentile), share),
-      at_share(errors, count, offsetof(rigging_errors, over), share),
-      at_share(errors, count, offsetof(rigging_errors, wrong_side), share), 100.0 * same / count,
-      at_share(errors, count, offsetof(rigging_errors, seconds), share));
+      at_fraction(errors, count, offsetof(rigging_errors, rms), fraction),
+      at_fraction(errors, count, offsetof(rigging_errors, percentile), fraction),
+      at_fraction(errors, count, offsetof(rigging_errors, over), fraction),
+      at_fraction(errors, count, offsetof(rigging_errors, wrong_side), fraction), 100.0 * same / count,
+      at_fraction(errors, count, offsetof(rigging_errors, seconds), fraction));
 }
 
-static void print_shares(const char *group, const rigging_errors *errors, uint32_t count) {
+static void print_fractions(const char *group, const rigging_errors *errors, uint32_t count) {
   if (!count) return;
-  print_share("median", group, errors, count, 0.5);
-  print_share("nine tenths", group, errors, count, 0.9);
+  print_fraction("median", group, errors, count, 0.5);
+  print_fraction("nine tenths", group, errors, count, 0.9);
 }
 
 /* A mesh of 60,000 points around a chain of 60 bones: what the largest character is to take. */
@@ -287,8 +287,8 @@ int main(int argument_count, char **arguments) {
     globfree(&found);
     if (i == 0) by_formula = count;
   }
-  print_shares("all", errors, count);
-  print_shares("painted", errors + by_formula, count - by_formula);
+  print_fractions("all", errors, count);
+  print_fractions("painted", errors + by_formula, count - by_formula);
   measure_large(quick ? 60 : 600);
   free(errors);
   return 0;

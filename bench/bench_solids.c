@@ -43,21 +43,21 @@ static sbf_uint4 *add_cell(sbf_uint4 *to, const uint32_t cells[3], const uint32_
 static sbf_asset *make_beam(uint32_t along) {
   const uint32_t cells[3] = {along, along / 5, along / 5};
   uint32_t point_count = (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1);
-  uint32_t count = 6 * cells[0] * cells[1] * cells[2], held_count = 0;
+  uint32_t count = 6 * cells[0] * cells[1] * cells[2], pinned_count = 0;
   sbf_asset *asset = sbf_asset_create(NULL);
   sbf_soft_body *body = asset ? sbf_asset_allocate(asset, 1, sizeof *body) : NULL;
   sbf_level *level = body ? sbf_asset_allocate(asset, 1, sizeof *level) : NULL;
   sbf_pin_set *pins = level ? sbf_asset_allocate(asset, 1, sizeof *pins) : NULL;
   sbf_vec3 *points = pins ? sbf_asset_allocate(asset, point_count, sizeof *points) : NULL;
-  uint32_t *held = points ? sbf_asset_allocate(asset, point_count, sizeof *held) : NULL;
-  sbf_uint4 *tetrahedra = held ? sbf_asset_allocate(asset, count, sizeof *tetrahedra) : NULL,
+  uint32_t *pinned = points ? sbf_asset_allocate(asset, point_count, sizeof *pinned) : NULL;
+  sbf_uint4 *tetrahedra = pinned ? sbf_asset_allocate(asset, count, sizeof *tetrahedra) : NULL,
             *next = tetrahedra;
   if (!tetrahedra) bench_fail("memory ran out");
   for (uint32_t i = 0; i < point_count; i++) {
     uint32_t x = i % (cells[0] + 1), y = i / (cells[0] + 1) % (cells[1] + 1),
              z = i / (cells[0] + 1) / (cells[1] + 1);
     points[i] = (sbf_vec3){(float)x / (float)along, (float)y / (float)along, (float)z / (float)along};
-    if (x == 0) held[held_count++] = i;
+    if (x == 0) pinned[pinned_count++] = i;
   }
   for (uint32_t z = 0; z < cells[2]; z++)
     for (uint32_t y = 0; y < cells[1]; y++)
@@ -73,7 +73,7 @@ static sbf_asset *make_beam(uint32_t along) {
   level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
   level->positions = (sbf_vec3_list){points, point_count};
   level->lattice.tetrahedra = (sbf_uint4_list){tetrahedra, count};
-  pins->points = (sbf_u32_list){held, held_count};
+  pins->points = (sbf_u32_list){pinned, pinned_count};
   level->pins = (sbf_pin_set_list){pins, 1};
   asset->soft_bodies = (sbf_soft_body_list){body, 1};
   return asset;
@@ -110,9 +110,9 @@ static void run_once(beam_run *r, uint32_t number) {
     double taken = bench_now_s() - begin;
     if (number == 0 || taken < r->min[i]) r->min[i] = taken;
   }
-  sbr_body_health health = sbr_character_health(world, character, 0);
+  sbr_body_health health = sbr_character_get_body_health(world, character, 0);
   if (!health.finite || health.inverted || health.recoveries) bench_fail("the beam lost its shape");
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   if (number > 0 && hash != r->hash) bench_fail("two runs ended in different states");
   r->hash = hash;
   sbr_world_destroy(world);
@@ -141,7 +141,7 @@ int main(int argument_count, char **arguments) {
     uint32_t ticks = quick ? 3 : elements > 500000 ? 4 : elements > 50000 ? 20 : 60, runs = quick ? 2 : 7;
     beam_run own, once, twice;
     open_run(&own, asset, 0, ticks);
-    uint32_t substeps = sbr_model_substeps(own.model);
+    uint32_t substeps = sbr_model_get_substeps(own.model);
     open_run(&once, asset, substeps, ticks);
     open_run(&twice, asset, 2 * substeps, ticks);
     for (uint32_t r = 0; r < runs; r++) {

@@ -47,7 +47,7 @@ static void *allocate(sbf_asset *asset, size_t count, size_t size) {
 }
 
 static sbf_asset *body_asset(
-    sbf_asset *asset, const sbf_polygon_mesh *mesh, const uint32_t *held, uint32_t count) {
+    sbf_asset *asset, const sbf_polygon_mesh *mesh, const uint32_t *pinned, uint32_t count) {
   sbf_soft_body *body = allocate(asset, 1, sizeof *body);
   sbf_pin_set *pins = allocate(asset, 1, sizeof *pins);
   sbf_soft_body_init(body);
@@ -56,7 +56,7 @@ static sbf_asset *body_asset(
   body->surface = *mesh;
   body->attributes.young_modulus = modulus;
   body->attributes.poisson_ratio = poisson;
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned, count};
   body->pins = (sbf_pin_set_list){pins, 1};
   asset->soft_bodies = (sbf_soft_body_list){body, 1};
   return asset;
@@ -65,7 +65,7 @@ static sbf_asset *body_asset(
 /* A bar of 4 x 4 x 40 squares, bent to three quarters of a ring of radius 0.3 m; held at one end. */
 static sbf_asset *make_c(void) {
   enum { ALONG = 40, AROUND = 16, SIDE = 4 };
-  static const int way[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  static const int path[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   sbf_asset *asset = sbf_asset_create(NULL);
   if (!asset) bench_fail("memory ran out");
   enum { RINGS = (ALONG + 1) * AROUND, INNER = (SIDE - 1) * (SIDE - 1), POINTS = RINGS + 2 * INNER };
@@ -73,7 +73,7 @@ static sbf_asset *make_c(void) {
   sbf_vec3 *positions = allocate(asset, POINTS, sizeof *positions);
   uint32_t *sizes = allocate(asset, QUADS, sizeof *sizes),
            *corners = allocate(asset, 4 * QUADS, sizeof *corners);
-  uint32_t *held = allocate(asset, AROUND + INNER, sizeof *held), quad = 0, held_count = 0;
+  uint32_t *pinned = allocate(asset, AROUND + INNER, sizeof *pinned), quad = 0, pinned_count = 0;
   uint32_t numbers[2][SIDE + 1][SIDE + 1];
   uint32_t inner = RINGS;
   for (int end = 0; end < 2; end++)
@@ -88,8 +88,8 @@ static sbf_asset *make_c(void) {
       positions[a * AROUND + k] = (sbf_vec3){(float)(radius * cos(angle)), (float)(radius * sin(angle)),
           (float)(0.15 * ((double)j / SIDE - 0.5))};
       if (a == 0 || a == ALONG) numbers[a != 0][i][j] = (uint32_t)(a * AROUND + k);
-      i += way[k / SIDE][0];
-      j += way[k / SIDE][1];
+      i += path[k / SIDE][0];
+      j += path[k / SIDE][1];
     }
   }
   for (int end = 0; end < 2; end++)
@@ -115,14 +115,14 @@ static sbf_asset *make_c(void) {
         sizes[quad++] = 4;
       }
   for (int i = 0; i <= SIDE; i++)
-    for (int j = 0; j <= SIDE; j++) held[held_count++] = numbers[0][i][j];
+    for (int j = 0; j <= SIDE; j++) pinned[pinned_count++] = numbers[0][i][j];
   sbf_polygon_mesh mesh;
   sbf_polygon_mesh_init(&mesh);
   mesh.target = SBF_MESH_TARGET_SURFACE;
   mesh.positions = (sbf_vec3_list){positions, POINTS};
   mesh.polygon_sizes = (sbf_u32_list){sizes, quad};
   mesh.polygon_points = (sbf_u32_list){corners, 4 * quad};
-  return body_asset(asset, &mesh, held, held_count);
+  return body_asset(asset, &mesh, pinned, pinned_count);
 }
 
 /* The left forearm of the armadillo, its triangles beyond x = 4.5 m, in a tenth of its size; the hole where
@@ -138,7 +138,7 @@ static sbf_asset *make_arm(void) {
   sbf_vec3 *positions = allocate(asset, (size_t)count + 1, sizeof *positions);
   uint32_t *corners = allocate(asset, 6 * (size_t)polygons, sizeof *corners);
   uint32_t *sizes = allocate(asset, 2 * (size_t)polygons, sizeof *sizes),
-           *held = allocate(asset, (size_t)count + 1, sizeof *held);
+           *pinned = allocate(asset, (size_t)count + 1, sizeof *pinned);
   memset(numbers, 0xff, count * sizeof *numbers);
   memset(next, 0xff, count * sizeof *next);
   for (uint32_t p = 0; p < polygons; p++) {
@@ -167,15 +167,15 @@ static sbf_asset *make_arm(void) {
   for (uint32_t i = 0; i < used; i++) {
     if (next[i] == UINT32_MAX) continue;
     middle = (v3){middle.x + positions[i].x, middle.y + positions[i].y, middle.z + positions[i].z};
-    held[rim++] = i;
+    pinned[rim++] = i;
   }
   positions[used] = (sbf_vec3){(float)(middle.x / rim), (float)(middle.y / rim), (float)(middle.z / rim)};
   for (uint32_t i = 0; i < rim; i++) {
-    const uint32_t three[3] = {held[i], next[held[i]], used};
+    const uint32_t three[3] = {pinned[i], next[pinned[i]], used};
     memcpy(&corners[3 * kept], three, sizeof three);
     sizes[kept++] = 3;
   }
-  held[rim++] = used++;
+  pinned[rim++] = used++;
   sbf_polygon_mesh mesh;
   sbf_polygon_mesh_init(&mesh);
   mesh.target = SBF_MESH_TARGET_SURFACE;
@@ -183,7 +183,7 @@ static sbf_asset *make_arm(void) {
   mesh.polygon_sizes = (sbf_u32_list){sizes, kept};
   mesh.polygon_points = (sbf_u32_list){corners, 3 * kept};
   sbf_asset_free(whole);
-  return body_asset(asset, &mesh, held, rim);
+  return body_asset(asset, &mesh, pinned, rim);
 }
 
 /* ---- What is measured -----------------------------------------------------------------------------------
@@ -211,10 +211,11 @@ static double leaving(const sbf_polygon_mesh *mesh, const sbf_level *level) {
     if (level->springs.at[set].kind != SBF_SPRING_KIND_INTERNAL) continue;
     for (uint32_t s = 0; s < ends->count; s += ends->count / MAX_SAMPLES + 1, looked_at++) {
       v3 a = of(level->positions.at[ends->at[s].at[0]]);
-      v3 way = minus(of(level->positions.at[ends->at[s].at[1]]), a);
+      v3 direction = minus(of(level->positions.at[ends->at[s].at[1]]), a);
       bool leaves = false;
       for (int k = 1; k < 4 && !leaves; k++)
-        leaves = !is_inside(mesh, (v3){a.x + way.x * k / 4, a.y + way.y * k / 4, a.z + way.z * k / 4});
+        leaves = !is_inside(
+            mesh, (v3){a.x + direction.x * k / 4, a.y + direction.y * k / 4, a.z + direction.z * k / 4});
       outside += leaves;
     }
   }
@@ -252,7 +253,7 @@ static sbf_spring_network network_of(const sbf_soft_body *body, const sbf_level 
   float *masses = bench_allocate(points, sizeof *masses),
         *moduli = bench_allocate((size_t)tetrahedra + 1, sizeof *moduli);
   float *ratios = bench_allocate((size_t)tetrahedra + 1, sizeof *ratios);
-  uint8_t *held = bench_allocate(points, 1);
+  uint8_t *pinned = bench_allocate(points, 1);
   for (uint32_t s = 0; s < level->springs.count; s++)
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++, next++) {
       ends[next] = level->springs.at[s].ends.at[i];
@@ -262,11 +263,11 @@ static sbf_spring_network network_of(const sbf_soft_body *body, const sbf_level 
     moduli[t] = modulus;
     ratios[t] = poisson;
   }
-  sbf_level_held_points(level, held);
-  sbf_level_masses(body, level, held, masses);
+  sbf_level_held_points(level, pinned);
+  sbf_level_masses(body, level, pinned, masses);
   for (uint32_t i = 0; i < points; i++)
-    if (held[i]) masses[i] = 0;
-  free(held);
+    if (pinned[i]) masses[i] = 0;
+  free(pinned);
   return (sbf_spring_network){.point_count = points,
       .spring_count = count,
       .positions = level->positions.at,

@@ -31,7 +31,7 @@
 #include "sbrun/rigid.h"
 
 enum { MARKS = 11, BENDS = 5, BALLS = 6, MAX_VERTICES = 4096, SETTLES = 360, EVERY = 30, RESTS = 480 };
-enum { MAX_FIGURES = 2, MOMENTS = 4, QUICK_SHARE = 3 }; /* of all that time and those balls */
+enum { MAX_FIGURES = 2, MOMENTS = 4, QUICK_FRACTION = 3 }; /* of all that time and those balls */
 
 static const double HANGS_M = 2;
 static const float NEAR_M = 0.11f, BALL_M = 0.12f, BALL_KG = 7, BALL_M_S = 8, DEGREES = 57.29578f;
@@ -81,8 +81,8 @@ static float dot(sbf_vec3 a, sbf_vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static void look(const scene *s, shape *to) {
-  to->count = sbr_character_skin(s->world, s->character, 0, to->at, NULL, NULL, MAX_VERTICES);
+static void check(const scene *s, shape *to) {
+  to->count = sbr_character_get_skin(s->world, s->character, 0, to->at, NULL, NULL, MAX_VERTICES);
   if (to->count > MAX_VERTICES) bench_fail("the figure has more vertices than there is room for");
 }
 
@@ -128,7 +128,7 @@ static void note(const scene *s, const shape *now, const shape *before, result *
     r->bend = bend > r->bend ? bend : r->bend;
   }
   for (uint32_t j = 0; j < s->joint_count; j++) {
-    float beyond = sbr_character_joint_state(s->world, s->character, j).beyond_angle;
+    float beyond = sbr_character_get_joint_state(s->world, s->character, j).angle_violation;
     r->beyond = beyond > r->beyond ? beyond : r->beyond;
   }
   float moved = rms(now, before);
@@ -138,27 +138,27 @@ static void note(const scene *s, const shape *now, const shape *before, result *
 /* A ball on its way to a place of a character's skin, half a metre off. */
 static sbr_character_id throw_ball(const scene *s, sbf_vec3 aim) {
   sbr_character_definition definition = sbr_default_character_definition();
-  sbr_double3 from = sbr_character_origin(s->world, s->character);
+  sbr_double3 from = sbr_character_get_origin(s->world, s->character);
   sbr_character_id id;
   sbf_diagnostic error;
   from = (sbr_double3){from.x + (double)aim.x, from.y + (double)aim.y, from.z + (double)aim.z + 0.5};
   definition.position = from;
   bench_require(sbr_character_create(s->world, s->ball, &definition, &id, &error), &error);
-  sbr_character_rigid_push(s->world, id, 0, from, (sbf_vec3){0, 0, -BALL_KG * BALL_M_S});
+  sbr_character_apply_rigid_impulse(s->world, id, 0, from, (sbf_vec3){0, 0, -BALL_KG * BALL_M_S});
   return id;
 }
 
 /* Throws one, goes on for a while, and takes it away. */
 static void throw_and_note(const scene *s, int number, const shape *before, result *r) {
   static shape now;
-  look(s, &now);
+  check(s, &now);
   sbr_character_id ball = throw_ball(s, carried(s, &now, targets[number]));
   for (int i = 0; i < EVERY; i++) {
     sbr_world_tick(s->world);
-    look(s, &now);
+    check(s, &now);
     note(s, &now, before, r);
   }
-  float given = BALL_KG * (BALL_M_S + sbr_character_rigid_state(s->world, ball, 0).velocity.z);
+  float given = BALL_KG * (BALL_M_S + sbr_character_get_rigid_state(s->world, ball, 0).velocity.z);
   if (!(given > 0.3f * BALL_KG * BALL_M_S)) bench_fail("ball %d passed by", number);
   r->given += given;
   sbr_character_destroy(s->world, ball);
@@ -170,7 +170,7 @@ static sbr_world *make_world(void) {
   sbf_diagnostic error;
   definition.sleep_after_s = 0;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
-  bench_require(sbr_world_bodies_meet(world, 0, &error), &error);
+  bench_require(sbr_world_enable_body_contacts(world, 0, &error), &error);
   return world;
 }
 
@@ -187,24 +187,24 @@ static sbr_character_id hang(sbr_world *world, const sbr_model *model, double x)
 static void hang_at_rest(scene *s, const sbr_model *model, double x, shape *rest) {
   s->rest = rest;
   s->character = hang(s->world, model, x);
-  look(s, rest);
-  float low = (float)(sbr_character_origin(s->world, s->character).y - HANGS_M);
+  check(s, rest);
+  float low = (float)(sbr_character_get_origin(s->world, s->character).y - HANGS_M);
   for (uint32_t i = 0; i < rest->count; i++) rest->at[i].y += low;
 }
 
 static result throw_all(const sbr_model *model, const sbr_model *ball, uint32_t joint_count, bool quick) {
-  int share = quick ? QUICK_SHARE : 1;
+  int portion = quick ? QUICK_FRACTION : 1;
   static shape rest, before, after;
   scene s = {.world = make_world(), .ball = ball, .joint_count = joint_count};
   result r = {0};
   hang_at_rest(&s, model, 0, &rest);
-  for (int i = 0; i < SETTLES / share; i++) sbr_world_tick(s.world);
-  look(&s, &before);
+  for (int i = 0; i < SETTLES / portion; i++) sbr_world_tick(s.world);
+  check(&s, &before);
   r.sag = rms(&before, &rest);
-  for (int b = 0; b < BALLS / share; b++) throw_and_note(&s, b, &before, &r);
-  r.given /= (float)(BALLS / share);
-  for (int i = 0; i < RESTS / share; i++) sbr_world_tick(s.world);
-  look(&s, &after);
+  for (int b = 0; b < BALLS / portion; b++) throw_and_note(&s, b, &before, &r);
+  r.given /= (float)(BALLS / portion);
+  for (int i = 0; i < RESTS / portion; i++) sbr_world_tick(s.world);
+  check(&s, &after);
   r.left_m = rms(&after, &before);
   for (int b = 0; b < BENDS; b++) {
     float off = fabsf(angle_of(&s, &after, bends[b]) - angle_of(&s, &before, bends[b]));
@@ -229,7 +229,7 @@ static double frames_a_second(
   for (uint32_t i = 0; i < frames; i++) {
     for (uint32_t k = 0; k < figures && i % EVERY == 0; k++) {
       if (i > 0) sbr_character_destroy(world, balls[k]);
-      look(&s[k], &now);
+      check(&s[k], &now);
       balls[k] = throw_ball(&s[k], carried(&s[k], &now, targets[i / EVERY % BALLS]));
     }
     double begin = bench_now_s();
@@ -286,11 +286,11 @@ static result measure_loose(bool quick) {
 }
 
 static void measure_rest(void) {
-  sbf_asset *even = read_figure("figure.sbf"), *flesh = read_figure("flesh.sbf");
+  sbf_asset *even = read_figure("figure.sbf"), *soft_figure = read_figure("flesh.sbf");
   even_masses(even);
   (void)measure("skeleton of even masses", even, false);
-  (void)measure("flesh alone", flesh, false);
-  sbf_asset_free(even), sbf_asset_free(flesh);
+  (void)measure("flesh alone", soft_figure, false);
+  sbf_asset_free(even), sbf_asset_free(soft_figure);
 }
 
 /* ---- Pictures ---- */
@@ -332,15 +332,16 @@ static void draw_throw(const char *name, const char *folder) {
   drawn->materials = (sbf_material_list){materials, 2};
   hang_at_rest(&s, model, 0, &rest);
   for (int i = 0; i < SETTLES; i++) sbr_world_tick(s.world);
-  look(&s, &now);
+  check(&s, &now);
   sbr_character_id thrown = throw_ball(&s, carried(&s, &now, targets[4]));
   for (int i = 0, next = 0; next < MOMENTS; i++) {
     sbr_world_tick(s.world);
     if (i != moments[next]) continue;
-    sbr_double3 o = sbr_character_origin(s.world, s.character), b = sbr_character_origin(s.world, thrown);
-    sbf_vec3 c = sbr_character_rigid_state(s.world, thrown, 0).center;
+    sbr_double3 o = sbr_character_get_origin(s.world, s.character),
+                b = sbr_character_get_origin(s.world, thrown);
+    sbf_vec3 c = sbr_character_get_rigid_state(s.world, thrown, 0).center;
     float across = 1.75f * (float)next;
-    look(&s, &now);
+    check(&s, &now);
     add_mesh(drawn, &meshes[2 * next], ids[2 * next], skin, now.at,
         (sbf_vec3){across + (float)o.x, (float)o.y, (float)o.z}, &slots[0]);
     add_mesh(drawn, &meshes[2 * next + 1], ids[2 * next + 1], hull, hull->positions.at,

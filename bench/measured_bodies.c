@@ -14,8 +14,8 @@ typedef struct builder {
   sbf_vec3 *points;
   uint32_t point_count;
   sbf_uint2 *ends;
-  uint32_t spring_count, held_count;
-  uint32_t *held;
+  uint32_t spring_count, pinned_count;
+  uint32_t *pinned;
 } builder;
 
 static void *allocate(sbf_asset *asset, size_t count, size_t size) {
@@ -92,7 +92,7 @@ static builder begin(uint32_t points) {
   if (!b.asset) bench_fail("memory ran out");
   b.points = allocate(b.asset, points, sizeof *b.points);
   b.ends = allocate(b.asset, 7 * (size_t)points, sizeof *b.ends);
-  b.held = allocate(b.asset, points, sizeof *b.held);
+  b.pinned = allocate(b.asset, points, sizeof *b.pinned);
   return b;
 }
 
@@ -108,8 +108,8 @@ static sbf_level *make_body(builder *b, sbf_soft_body **made) {
   sbf_soft_body_init(body), sbf_level_init(level), sbf_pin_set_init(pins);
   body->id = "body";
   level->positions = (sbf_vec3_list){b->points, b->point_count};
-  pins->points = (sbf_u32_list){b->held, b->held_count};
-  level->pins = (sbf_pin_set_list){pins, b->held_count ? 1 : 0};
+  pins->points = (sbf_u32_list){b->pinned, b->pinned_count};
+  level->pins = (sbf_pin_set_list){pins, b->pinned_count ? 1 : 0};
   body->levels = (sbf_level_list){level, 1};
   b->asset->soft_bodies = (sbf_soft_body_list){body, 1};
   *made = body;
@@ -147,7 +147,7 @@ sbf_asset *cloth_of_springs(uint32_t side) {
       if (i > 0) join(&b, at - side, at);
       if (i > 0 && k > 0) join(&b, at - side - 1, at);
     }
-  b.held[0] = 0, b.held[1] = side - 1, b.held_count = 2;
+  b.pinned[0] = 0, b.pinned[1] = side - 1, b.pinned_count = 2;
   return finish_springs(&b, 0.2f * 4, 200);
 }
 
@@ -157,7 +157,7 @@ static void put_beam_points(builder *b, uint32_t across, uint32_t along, float c
   for (uint32_t z = 0; z <= along; z++)
     for (uint32_t y = 0; y <= across; y++)
       for (uint32_t x = 0; x <= across; x++) {
-        if (z == 0) b->held[b->held_count++] = b->point_count;
+        if (z == 0) b->pinned[b->pinned_count++] = b->point_count;
         b->points[b->point_count++] = (sbf_vec3){cell_m * (float)x, cell_m * (float)y, cell_m * (float)z};
       }
 }
@@ -287,11 +287,11 @@ sbf_asset *slab_of_tetrahedra(uint32_t elements) {
 
 /* ---- Others of them ---- */
 
-void hold_above(sbf_asset *asset, double share) {
+void hold_above(sbf_asset *asset, double fraction) {
   sbf_level *level = (sbf_level *)(uintptr_t)asset->soft_bodies.at[0].levels.at;
   const sbf_vec3 *points = level->positions.at;
-  uint32_t count = level->positions.count, held_count = 0;
-  uint32_t *held = allocate(asset, count, sizeof *held);
+  uint32_t count = level->positions.count, pinned_count = 0;
+  uint32_t *pinned = allocate(asset, count, sizeof *pinned);
   sbf_pin_set *pins = allocate(asset, 1, sizeof *pins);
   float low = points[0].y, high = points[0].y;
   for (uint32_t i = 0; i < count; i++) {
@@ -299,9 +299,9 @@ void hold_above(sbf_asset *asset, double share) {
     high = points[i].y > high ? points[i].y : high;
   }
   for (uint32_t i = 0; i < count; i++)
-    if (points[i].y > low + (float)share * (high - low)) held[held_count++] = i;
+    if (points[i].y > low + (float)fraction * (high - low)) pinned[pinned_count++] = i;
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, held_count};
+  pins->points = (sbf_u32_list){pinned, pinned_count};
   level->pins = (sbf_pin_set_list){pins, 1};
 }
 

@@ -29,7 +29,7 @@ sbf_asset *armadillo_of_tetrahedra(uint32_t elements);
 sbf_asset *slab_of_tetrahedra(uint32_t elements);
 
 /* Holds what of the first body is above this share of its height. */
-void hold_above(sbf_asset *asset, double share);
+void hold_above(sbf_asset *asset, double fraction);
 
 /* The first body of `solid` with springs along the edges of its tetrahedra in their stead, as stiff as
  * springs without a stiffness of their own are. */

@@ -49,7 +49,7 @@ static std::unique_ptr<btSoftBody> make_body(btSoftBodyWorldInfo *info, const bu
   return body;
 }
 
-bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, float share, float step_s) {
+bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, float linear_stiffness, float step_s) {
   auto made = std::make_unique<bullet_body>();
   auto *world =
       new btSoftRigidDynamicsWorld(&made->dispatcher, &made->broadphase, &made->solver, &made->configuration);
@@ -57,8 +57,8 @@ bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, f
   world->setGravity(GRAVITY);
   world->getWorldInfo().m_gravity = GRAVITY;
   made->body = make_body(&world->getWorldInfo(), *shape);
-  btSoftBody::Material *common = share > 0 ? made->body->appendMaterial() : nullptr;
-  if (common) common->m_kLST = share;
+  btSoftBody::Material *common = linear_stiffness > 0 ? made->body->appendMaterial() : nullptr;
+  if (common) common->m_kLST = linear_stiffness;
   for (uint32_t i = 0; i < shape->link_count; i++) {
     const uint32_t *ends = shape->links[i].at;
     btSoftBody::Material *material = common;
@@ -78,9 +78,9 @@ bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, f
   return made.release();
 }
 
-bullet_body *bullet_make_links_over_ball(const bullet_shape *shape, uint32_t iterations, float share,
+bullet_body *bullet_make_links_over_ball(const bullet_shape *shape, uint32_t iterations, float linear_stiffness,
     float step_s, sbf_vec3 center, float radius, float friction) {
-  std::unique_ptr<bullet_body> made(bullet_make_links(shape, iterations, share, step_s));
+  std::unique_ptr<bullet_body> made(bullet_make_links(shape, iterations, linear_stiffness, step_s));
   auto &distances = static_cast<btSoftRigidDynamicsWorld *>(made->world.get())->getWorldInfo().m_sparsesdf;
   distances.setDefaultVoxelsz(btScalar(0.02)); /* unasked 0.25 m: far too coarse for this ball */
   distances.Reset();

@@ -29,7 +29,8 @@ typedef struct bullet_shape {
 /* The classic soft body: links, positions corrected `iterations` times a step. A link's own stiffness has no
  * unit there. With `share` above 0 all have that one, as users set it; else each link has what makes a step
  * of `step_s` with one iteration an implicit step of its spring. */
-bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, float share, float step_s);
+bullet_body *bullet_make_links(
+    const bullet_shape *shape, uint32_t iterations, float linear_stiffness, float step_s);
 /* The deformable body: neo-Hookean tetrahedra, implicit steps, no damping. */
 bullet_body *bullet_make_solid(const bullet_shape *shape);
 void bullet_step(bullet_body *body, float step_s);

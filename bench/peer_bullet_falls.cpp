@@ -65,9 +65,9 @@ bullet_ragdoll *bullet_ragdoll_make(float raise, float friction, int iterations)
   return made.release();
 }
 
-void bullet_ragdoll_push(bullet_ragdoll *r, int part, sbf_vec3 place, sbf_vec3 impulse) {
+void bullet_ragdoll_push(bullet_ragdoll *r, int part, sbf_vec3 point, sbf_vec3 impulse) {
   btRigidBody &body = *r->bodies[size_t(part)];
-  body.applyImpulse(of(impulse), of(place) - body.getCenterOfMassPosition());
+  body.applyImpulse(of(impulse), of(point) - body.getCenterOfMassPosition());
 }
 
 void bullet_ragdoll_step(bullet_ragdoll *r, float step_s) {

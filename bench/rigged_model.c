@@ -122,25 +122,25 @@ static void bend(const rigged_model *m, uint32_t number, sbfi_bone_frame *frames
     bool is_limb = m->sides[b] != 0;
     const double *half = is_limb ? limb : spine;
     double sign = (number & 1 ? 1 : -1) * ((number & 2) && m->sides[b] < 0 ? -1 : 1);
-    double turn[4] = {0, 0, 0, 1}, way[3], back[4];
+    double rotation[4] = {0, 0, 0, 1}, direction[3], back[4];
     if (is_limb || m->bones[b].parent != SBF_NONE) {
-      turn[number & 4 ? 2 : 0] = sign * half[0];
-      turn[3] = half[1];
+      rotation[number & 4 ? 2 : 0] = sign * half[0];
+      rotation[3] = half[1];
     }
     int32_t parent = m->bones[b].parent;
-    sbfi_turn_product(turn, rest.rotation, frames[b].rotation);
+    sbfi_turn_product(rotation, rest.rotation, frames[b].rotation);
     if (parent == SBF_NONE) continue;
     /* The parent stands before, and is posed already. */
     const sbf_quat q = m->bones[parent].rotation;
     const double parent_rest[4] = {q.x, q.y, q.z, q.w};
     const sbf_vec3 head = m->bones[parent].head;
-    const double from[3] = {rest.place[0] - head.x, rest.place[1] - head.y, rest.place[2] - head.z};
+    const double from[3] = {rest.position[0] - head.x, rest.position[1] - head.y, rest.position[2] - head.z};
     double moved[4];
     sbfi_turn_undo(parent_rest, back);
     sbfi_turn_product(frames[parent].rotation, back, moved);
-    sbfi_turn_vector(moved, from, way);
-    for (int k = 0; k < 3; k++) frames[b].place[k] = frames[parent].place[k] + way[k];
-    sbfi_turn_product(moved, turn, frames[b].rotation);
+    sbfi_turn_vector(moved, from, direction);
+    for (int k = 0; k < 3; k++) frames[b].position[k] = frames[parent].position[k] + direction[k];
+    sbfi_turn_product(moved, rotation, frames[b].rotation);
     sbfi_turn_product(frames[b].rotation, rest.rotation, frames[b].rotation);
   }
 }
@@ -157,7 +157,7 @@ bool rigged_model_pose(rigged_model *m, uint32_t number, sbfi_bone_frame *frames
     return true;
   }
   if (clips || number >= RIGGED_POSES) return false;
-  sbfi_rest_frames(m->asset, frames);
+  sbfi_compute_rest_frames(m->asset, frames);
   bend(m, number, frames);
   return true;
 }

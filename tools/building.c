@@ -8,7 +8,7 @@
 #include "sbfmt/build.h"
 #include "section_budget.h"
 
-/* As sbf_build_interior, and another word for one of them. */
+/* In the order of sbf_build_interior, and an alias. */
 static const char *const methods[] = {
     "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching", "surface"};
 enum { METHOD_COUNT = sizeof methods / sizeof *methods, SURFACE = METHOD_COUNT - 1 };
@@ -39,20 +39,20 @@ static bool read_options(const cli_call *call, sbf_build_options *options) {
   return true;
 }
 
-/* A build may take minutes: that nothing can be written where it is to go is said before. */
-static bool has_place(const cli_call *call) {
+/* A build may take minutes, so unwritable outputs are reported before it starts. */
+static bool has_position(const cli_call *call) {
   const char *out = cli_value(call, "-o");
   struct stat facts;
   sbf_diagnostic error;
   bool is_special = out && stat(out, &facts) == 0 && !S_ISREG(facts.st_mode) && !S_ISDIR(facts.st_mode);
-  if (!out || is_special || chart_place_check(out, &error) == SBF_OK) return true;
+  if (!out || is_special || chart_check_writable(out, &error) == SBF_OK) return true;
   cli_print_diagnostic(call, &error);
   return false;
 }
 
 bool building_check(const cli_call *call) {
   sbf_build_options options;
-  return read_options(call, &options) && has_place(call);
+  return read_options(call, &options) && has_position(call);
 }
 
 static bool progress(void *user, const char *pass, double done) {
@@ -72,7 +72,7 @@ static void print_lattices(const sbf_build_report *r) {
   printf("\n");
 }
 
-/* Sections whose springs do not give as their matter does, by more than a quarter of what it gives. */
+/* Prints sections whose springs differ from their material's compliance by more than a quarter. */
 static void print_left_over(const sbf_asset *built) {
   for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
     const sbf_soft_body *body = &built->soft_bodies.at[i];
@@ -88,7 +88,7 @@ static const char *many(uint32_t count) {
   return count == 1 ? "" : "s";
 }
 
-/* Bodies whose finest level somebody made, and not the build. */
+/* Prints bodies whose finest level is authored, not built. */
 static void print_kept(const sbf_asset *built) {
   uint32_t bodies = 0;
   uint64_t tetrahedra = 0, springs = 0;
@@ -145,27 +145,27 @@ static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   print_springs(r);
 }
 
-/* What was chosen within a budget, and what was left out for it. */
+/* Prints what was chosen within a budget and what was left out. */
 static void say_choice(const cli_call *call, const section_budget *choice) {
-  sbf_diagnostic finding = {
+  sbf_diagnostic diagnostic = {
       .code = SBF_CODE_SOFTNESS_PROPOSED, .severity = SBF_SEVERITY_INFO, .offset = -1, .index = -1};
   const double us = SECTION_BUDGET_NS_PER_VISIT / 1e3;
   char off[96] = "", left[320] = "";
-  if (choice->p99_share >= 0)
+  if (choice->p99_fraction >= 0)
     snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of what %u give, ",
-        100 * choice->p99_share, (unsigned)choice->finest);
+        100 * choice->p99_fraction, (unsigned)choice->finest);
   if (choice->left_out)
     snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)%s",
         (unsigned)choice->left_out, choice->names,
         choice->visits > choice->max_visits ? ", and the skin alone takes more: give it fewer vertices" : "");
-  snprintf(finding.message, sizeof finding.message,
+  snprintf(diagnostic.message, sizeof diagnostic.message,
       "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "
       "us of "
       "%.0f at %.0f ns each)%s",
       (unsigned)choice->elements, off, choice->visits, choice->max_visits, us * choice->visits,
       us * choice->max_visits, SECTION_BUDGET_NS_PER_VISIT, left);
   cli_progress_end();
-  cli_print_diagnostic(call, &finding);
+  cli_print_diagnostic(call, &diagnostic);
 }
 
 static sbf_status choose(const cli_call *call, sbf_asset *source, double budget_us,

@@ -1,5 +1,4 @@
-/* The build passes as `convert` and `build` run them: their options, progress, and what they say they made.
- */
+/* Build passes as `convert` and `build` run them: options, progress and messages. */
 #ifndef BUILDING_H
 #define BUILDING_H
 
@@ -24,12 +23,12 @@
     "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
   }
 
-/* False, with a message, where the options are wrong. */
+/* Checks the options; false, with a message, if they are wrong. */
 bool building_check(const cli_call *call);
 
-/* Replaces *asset by what the passes make of it, and says what they made. `budget_us` above 0: the sections
- * of a skin are as fine, and as many, as that allows (section_budget.h), and their levels state what they
- * cost. *asset is freed where that fails. */
+/* Runs the build passes on *asset, replaces it by the result and prints what was made. If `budget_us` is
+ * above 0, chooses the number and resolution of sections within that budget (section_budget.h) and stores the
+ * cost of their levels. Frees *asset on failure. */
 sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf_diagnostic *error);
 
 #endif

@@ -80,7 +80,7 @@ bool checked_is_valid(const checked *one, bool strict) {
   return one->status == SBF_OK && one->result.errors == 0 && !(strict && one->result.warnings);
 }
 
-void checked_tell(const cli_call *call, checked *one, json_t *messages) {
+void checked_report(const cli_call *call, checked *one, json_t *messages) {
   for (size_t i = 0; i < one->found.count; i++) {
     sbf_diagnostic *d = &one->found.at[i];
     if (!d->file[0]) snprintf(d->file, sizeof d->file, "%s", one->path);

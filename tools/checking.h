@@ -33,6 +33,6 @@ void check_loaded(const sbf_asset *asset, const char *path, checked *result);
 bool checked_is_valid(const checked *one, bool strict);
 
 /* Prints what was found, or adds it to `messages` where that is not NULL. */
-void checked_tell(const cli_call *call, checked *one, json_t *messages);
+void checked_report(const cli_call *call, checked *one, json_t *messages);
 
 #endif

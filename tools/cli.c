@@ -23,7 +23,7 @@ const char *cli_value(const cli_call *call, const char *name) {
 const char *cli_next_value(const cli_call *call, const char *name, int *at) {
   while (*at < call->given_count) {
     const struct cli_given *given = &call->given[(*at)++];
-    if (strcmp(call->verb->options[given->place].name, name) == 0) return given->value;
+    if (strcmp(call->verb->options[given->index].name, name) == 0) return given->value;
   }
   return NULL;
 }
@@ -207,9 +207,9 @@ int cli_print_json(json_t *object, int status) {
 
 static bool progress_shown;
 
-void cli_progress(const char *what, double share) {
+void cli_progress(const char *what, double fraction) {
   if (!isatty(STDERR_FILENO)) return;
-  fprintf(stderr, "\r\033[K%s %3.0f %%", what, 100 * share);
+  fprintf(stderr, "\r\033[K%s %3.0f %%", what, 100 * fraction);
   fflush(stderr);
   progress_shown = true;
 }

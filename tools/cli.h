@@ -33,7 +33,7 @@ struct cli_call {
   int input_count;
   const char *values[CLI_MAX_OPTIONS]; /* by place in verb->options; NULL: not given; "" for a switch */
   struct cli_given {                   /* every option with a value as it was given, in order */
-    int place;
+    int index;
     const char *value;
   } * given;
   int given_count;
@@ -78,9 +78,9 @@ json_t *cli_diagnostic_json(const sbf_diagnostic *diagnostic);
 /* Prints the object on standard output, and nothing else; frees it. Returns `status`. */
 int cli_print_json(json_t *object, int status);
 
-/* A line that overwrites itself on a terminal, and says nothing elsewhere. `share` 0..1; cli_progress_end
+/* A line that overwrites itself on a terminal, and says nothing elsewhere. `fraction` 0..1; cli_progress_end
  * clears it. */
-void cli_progress(const char *what, double share);
+void cli_progress(const char *what, double fraction);
 void cli_progress_end(void);
 
 #endif

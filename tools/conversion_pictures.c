@@ -12,27 +12,27 @@
 #include "render/draw_scene.h"
 #include "render/painter.h"
 #include "render/picture.h"
-#include "skin_look.h"
+#include "skin_material.h"
 
 enum { WIDTH = 960, HEIGHT = 720 };
 
 /* Polygons as fans of triangles: those of one material slot, or all where `slots` is NULL. An image needs the
  * mesh that the polygons are of. */
 static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const sbf_u32_list *slots,
-    uint32_t slot, const skin_look *look, const sbf_render_mesh *unwrapped, float transparency) {
-  size_t room = 3 * (size_t)mesh->polygon_points.count + 1;
-  uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
-  bool stated = unwrapped && unwrapped->normal_corners.count == mesh->polygon_points.count && room > 1;
-  sbf_vec2 *uvs = look->image ? malloc(room * sizeof *uvs) : NULL;
-  draw_colour *colours = unwrapped && look->has_colours ? malloc(room * sizeof *colours) : NULL;
-  sbf_vec3 *normals = stated ? malloc(room * sizeof *normals) : NULL;
+    uint32_t slot, const skin_material *style, const sbf_render_mesh *unwrapped, float transparency) {
+  size_t capacity = 3 * (size_t)mesh->polygon_points.count + 1;
+  uint32_t *triangles = malloc(capacity * sizeof *triangles), count = 0;
+  bool stated = unwrapped && unwrapped->normal_corners.count == mesh->polygon_points.count && capacity > 1;
+  sbf_vec2 *uvs = style->image ? malloc(capacity * sizeof *uvs) : NULL;
+  draw_colour *colours = unwrapped && style->has_colours ? malloc(capacity * sizeof *colours) : NULL;
+  sbf_vec3 *normals = stated ? malloc(capacity * sizeof *normals) : NULL;
   for (uint32_t i = 0, at = 0; triangles && i < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[i++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i] && (!slots || !slots->count || slots->at[i] == slot);
          k++) {
       const uint32_t corners[3] = {at, at + k - 1, at + k};
       for (int c = 0; c < 3; c++) {
-        if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, look, corners[c]);
-        if (colours) colours[3 * count + (uint32_t)c] = skin_corner_colour(unwrapped, look, corners[c]);
+        if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, style, corners[c]);
+        if (colours) colours[3 * count + (uint32_t)c] = skin_corner_colour(unwrapped, style, corners[c]);
         if (normals)
           normals[3 * count + (uint32_t)c] = unwrapped->normals.at[unwrapped->normal_corners.at[corners[c]]];
         triangles[3 * count + (uint32_t)c] = mesh->polygon_points.at[corners[c]];
@@ -47,7 +47,7 @@ static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const 
       .corner_colours = colours,
       .corner_normals = normals,
       .transparency = transparency};
-  skin_look_apply(look, &drawn);
+  skin_material_apply(style, &drawn);
   if (count) draw_scene_add_mesh(scene, &drawn);
   free(colours);
   free(triangles);
@@ -66,8 +66,8 @@ static bool add_skin(const subject *of, draw_scene *scene, float transparency) {
     const sbf_render_mesh *mesh = &of->asset->render_meshes.at[i];
     uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
     for (uint32_t s = 0; s < slots; s++) {
-      skin_look look = skin_look_of(of->asset, of->images, mesh, s);
-      add_polygons(scene, &mesh->mesh, &mesh->polygon_materials, s, &look, mesh, transparency);
+      skin_material style = skin_material_of(of->asset, of->images, mesh, s);
+      add_polygons(scene, &mesh->mesh, &mesh->polygon_materials, s, &style, mesh, transparency);
     }
   }
   return of->asset->render_meshes.count > 0;
@@ -92,8 +92,8 @@ static bool add_sections(const subject *of, draw_scene *scene) {
   uint32_t shown = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_polygon_mesh *surface = &asset->soft_bodies.at[i].surface;
-    skin_look look = {.colour = colour_of_section(i)};
-    add_polygons(scene, surface, NULL, 0, &look, NULL, 0);
+    skin_material style = {.colour = colour_of_section(i)};
+    add_polygons(scene, surface, NULL, 0, &style, NULL, 0);
     shown += surface->polygon_sizes.count > 0;
   }
   return shown > 0;
@@ -128,10 +128,10 @@ static void middle_of(const sbf_level *level, float *x) {
 static bool add_cut(const sbf_level *level, const draw_colour_map *map, draw_scene *scene) {
   static const int sides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   const sbf_uint4_list *all = &level->lattice.tetrahedra;
-  size_t room = 12 * (size_t)all->count + 1;
-  sbf_vec3 *points = malloc(room * sizeof *points);
-  draw_colour *colours = malloc(room * sizeof *colours);
-  uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
+  size_t capacity = 12 * (size_t)all->count + 1;
+  sbf_vec3 *points = malloc(capacity * sizeof *points);
+  draw_colour *colours = malloc(capacity * sizeof *colours);
+  uint32_t *triangles = malloc(capacity * sizeof *triangles), count = 0;
   float middle;
   middle_of(level, &middle);
   for (uint32_t i = 0; points && colours && triangles && i < all->count; i++) {
@@ -179,17 +179,17 @@ static bool add_springs(const subject *of, draw_scene *scene) {
     const sbf_level *level = finest(&asset->soft_bodies.at[i]);
     for (uint32_t s = 0; level && s < level->springs.count; s++) {
       const sbf_spring_set *set = &level->springs.at[s];
-      const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)set->kind);
+      const draw_spring_style *style = draw_spring_style_of((draw_spring_style_kind)set->kind);
       draw_scene_add_lines(scene, level->positions.at, level->positions.count, set->ends.at, NULL,
-          set->ends.count, look->colour, look->width);
+          set->ends.count, style->colour, style->width);
       seen |= set->ends.count ? 1u << set->kind : 0;
     }
   }
   if (!seen) return false;
   add_skin(of, scene, 0.88f);
-  for (int k = DRAW_SPRING_LOOK_COUNT - 1; k >= 0; k--) {
-    const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)k);
-    if (seen & 1u << k) draw_scene_add_legend(scene, look->name, look->colour);
+  for (int k = DRAW_SPRING_STYLE_COUNT - 1; k >= 0; k--) {
+    const draw_spring_style *style = draw_spring_style_of((draw_spring_style_kind)k);
+    if (seen & 1u << k) draw_scene_add_legend(scene, style->name, style->colour);
   }
   return true;
 }

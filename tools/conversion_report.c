@@ -72,7 +72,7 @@ static json_t *sources(const conversion_report *of) {
 
 /* --- What was mended, guessed, lost -------------------------------------------------------------------- */
 
-static const char *const mended[] = {"IMPORT_INSIDE_OUT", "IMPORT_POINTS_JOINED", "IMPORT_POSE",
+static const char *const repaired[] = {"IMPORT_INSIDE_OUT", "IMPORT_POINTS_JOINED", "IMPORT_POSE",
     "IMPORT_GROUND", "RIG_ALIGNED", "IMPORT_TETRAHEDRA_TURNED", "IMPORT_TETRAHEDRA_FLAT", "RIG_BONE_REHUNG",
     "SECTION_MERGED", NULL};
 static const char *const guessed[] = {"IMPORT_UNIT", "IMPORT_AXES", "IMPORT_NAME_AMBIGUOUS",
@@ -94,7 +94,7 @@ static json_t *messages_of(const json_t *messages, const char *const *codes) {
   for (size_t i = 0; i < json_array_size(messages); i++) {
     json_t *one = json_array_get(messages, i);
     const char *code = json_string_value(json_object_get(one, "code"));
-    bool other = !is_among(code, mended) && !is_among(code, guessed) && !is_among(code, lost);
+    bool other = !is_among(code, repaired) && !is_among(code, guessed) && !is_among(code, lost);
     if (codes ? is_among(code, codes) : other) json_array_append(list, one);
   }
   return list;
@@ -163,7 +163,7 @@ json_t *conversion_report_make(const conversion_report *of) {
       "{s:i, s:s, s:s}", "report_version", 1, "program", PROGRAM, "output", slash ? slash + 1 : of->output);
   if (!report) return NULL;
   json_object_set_new(report, "sources", sources(of));
-  json_object_set_new(report, "mended", messages_of(of->messages, mended));
+  json_object_set_new(report, "mended", messages_of(of->messages, repaired));
   json_object_set_new(report, "guessed", messages_of(of->messages, guessed));
   json_object_set_new(report, "proposed", proposed(of->asset));
   json_object_set_new(report, "lost", messages_of(of->messages, lost));

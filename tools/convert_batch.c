@@ -17,7 +17,7 @@ static const char header[] = "file\tstatus\tkind\tlegs\tbodies\tvisits\tbytes\ts
 
 /* --- What a conversion depends on -------------------------------------------------------------------- */
 
-/* FNV-1a of 64 bits: it guards against forgetting, not against forgery. */
+/* FNV-1a, 64 bits: detects changes, not forgery. */
 static void add_bytes(uint64_t *hash, const void *bytes, size_t size) {
   for (size_t i = 0; i < size; i++) *hash = (*hash ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
 }
@@ -26,7 +26,7 @@ static void add_text(uint64_t *hash, const char *text) {
   add_bytes(hash, text, strlen(text) + 1);
 }
 
-/* The content of a file; what cannot be read counts by its name alone. */
+/* Hashes the content of a file; an unreadable file counts by its name. */
 static void add_file(uint64_t *hash, const char *path) {
   unsigned char bytes[65536];
   struct stat about;
@@ -41,7 +41,7 @@ static int by_name(const struct dirent **a, const struct dirent **b) {
   return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-/* Files beside the input that begin with its name up to the last dot: buffers, material libraries. */
+/* Hashes files beside the input with the same stem: buffers, material libraries. */
 static void add_siblings(uint64_t *hash, const char *input) {
   char folder[MAX_PATH], path[MAX_PATH];
   const char *slash = strrchr(input, '/'), *name = slash ? slash + 1 : input, *dot = strrchr(name, '.');
@@ -59,17 +59,17 @@ static void add_siblings(uint64_t *hash, const char *input) {
   if (count >= 0) free(entries);
 }
 
-/* Of the input and all that its conversion reads or obeys. */
+/* Hash of the input and of everything that its conversion depends on. */
 static void hash_input(const cli_call *call, const char *input, char text[HASH_TEXT]) {
   uint64_t hash = 14695981039346656037u;
-  struct stat program = {.st_size = 0}; /* another build may convert in another way */
+  struct stat program = {.st_size = 0}; /* another version of the program may convert differently */
   stat("/proc/self/exe", &program);
   add_bytes(&hash, &program.st_size, sizeof program.st_size);
   add_bytes(&hash, &program.st_mtime, sizeof program.st_mtime);
   add_file(&hash, input);
   add_siblings(&hash, input);
   for (int i = 0; i < call->given_count; i++) {
-    const char *option = call->verb->options[call->given[i].place].name;
+    const char *option = call->verb->options[call->given[i].index].name;
     if (strcmp(option, "--out-dir") == 0 || strcmp(option, "--jobs") == 0) continue;
     add_text(&hash, option);
     add_file(&hash, call->given[i].value);
@@ -90,7 +90,7 @@ static bool row_path(const char *folder, const char *out, char *path) {
   return snprintf(path, MAX_PATH, "%s/.sbfmt/%s.tsv", folder, name_of(out)) < MAX_PATH;
 }
 
-/* A file that is there whole or not at all. */
+/* Writes a file atomically: completely or not at all. */
 static bool write_whole(const char *path, const char *text, size_t size) {
   char temporary[MAX_PATH + 32];
   snprintf(temporary, sizeof temporary, "%s.%ld", path, (long)getpid());
@@ -102,7 +102,7 @@ static bool write_whole(const char *path, const char *text, size_t size) {
   return false;
 }
 
-/* The row of an earlier call; false where there is none. */
+/* Reads the row of an earlier call; false if there is none. */
 static bool read_row(const char *folder, const char *out, char row[MAX_ROW]) {
   char path[MAX_PATH];
   FILE *file = row_path(folder, out, path) ? fopen(path, "r") : NULL;
@@ -117,7 +117,7 @@ static bool ends_with_hash(const char *row, const char *hash) {
   return last && strncmp(last + 1, hash, length) == 0 && (last[1 + length] == '\n' || !last[1 + length]);
 }
 
-/* Element visits of a tick on the finest levels. */
+/* Element visits per tick at the finest levels. */
 static double count_visits(const sbf_asset *asset) {
   double visits = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
@@ -126,7 +126,7 @@ static double count_visits(const sbf_asset *asset) {
   return visits;
 }
 
-/* The child's last deed: its row, from the bundle that it wrote. */
+/* Writes the row of a finished child process, from the bundle that it wrote. */
 static void write_row(
     const char *folder, const char *input, const char *out, int status, double seconds, const char *hash) {
   char path[MAX_PATH], row[MAX_ROW];
@@ -148,7 +148,7 @@ static void write_row(
   if (length > 0 && length < MAX_ROW && row_path(folder, out, path)) write_whole(path, row, (size_t)length);
 }
 
-/* All rows of the folder, in the order of their names, into FOLDER/summary.tsv. */
+/* Writes all rows of the folder, sorted by name, to FOLDER/summary.tsv. */
 static void write_summary(const char *folder) {
   char path[MAX_PATH], row[MAX_ROW], out[MAX_PATH];
   struct dirent **entries;
@@ -178,7 +178,7 @@ static void write_summary(const char *folder) {
 
 typedef struct job {
   pid_t process; /* 0: none */
-  int output;    /* what it said: a file without a name */
+  int output;    /* its output, in an unnamed temporary file */
 } job;
 
 static double now_s(void) {
@@ -195,7 +195,7 @@ static void pass_on(int output) {
   close(output);
 }
 
-/* Waits for one of the jobs; its exit status, what it said printed in one piece. */
+/* Waits for one job, prints its output in one piece and returns its exit status. */
 static int finish_one(job *jobs, long count) {
   int state;
   pid_t process = wait(&state);
@@ -247,7 +247,7 @@ int convert_batch(
       (mkdir(path, 0777) != 0 && errno != EEXIST))
     return cli_wrong(call, "the folder %s cannot be made: %s", path, strerror(errno));
   for (int i = 0; i < call->input_count; i++) {
-    long place = 0;
+    long index = 0;
     if (!path_of(folder, call->inputs[i], path, sizeof path)) continue; /* checked before */
     hash_input(call, call->inputs[i], hash);
     if (is_unchanged(folder, path, hash)) {
@@ -256,8 +256,8 @@ int convert_batch(
     }
     for (; busy >= jobs; busy--)
       if ((status = finish_one(running, jobs)) > worst) worst = status;
-    while (running[place].process) place++;
-    if (start(&running[place], call, folder, call->inputs[i], path, hash, convert, user))
+    while (running[index].process) index++;
+    if (start(&running[index], call, folder, call->inputs[i], path, hash, convert, user))
       busy++;
     else
       worst = cli_wrong(call, "no process can be started for %s: %s", call->inputs[i], strerror(errno));

@@ -53,11 +53,11 @@ static bool read_folder(const char *folder, file_list *entries) {
   while (length > 1 && folder[length - 1] == '/') length--;
   for (struct dirent *entry; good && (entry = readdir(directory));) {
     if (entry->d_name[0] == '.') continue;
-    size_t room = length + 1 + strlen(entry->d_name) + 1;
-    char *path = malloc(room);
+    size_t capacity = length + 1 + strlen(entry->d_name) + 1;
+    char *path = malloc(capacity);
     if (path)
-      snprintf(
-          path, room, "%.*s%s%s", (int)length, folder, folder[length - 1] == '/' ? "" : "/", entry->d_name);
+      snprintf(path, capacity, "%.*s%s%s", (int)length, folder, folder[length - 1] == '/' ? "" : "/",
+          entry->d_name);
     good = keep(entries, path);
   }
   closedir(directory);

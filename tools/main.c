@@ -94,21 +94,21 @@ static bool parse(cli_call *call, int count, char **arguments) {
       call->verbose = true;
       continue;
     }
-    int place = find_option(verb, argument, &value);
-    if (place < 0) {
+    int index = find_option(verb, argument, &value);
+    if (index < 0) {
       cli_wrong(call, "no option %s; see sbfmt %s --help", argument, verb->name);
       return false;
     }
-    if (!verb->options[place].argument) {
-      call->values[place] = "";
+    if (!verb->options[index].argument) {
+      call->values[index] = "";
       continue;
     }
     if (!value && i + 1 == count) {
-      cli_wrong(call, "%s needs a value: %s", argument, verb->options[place].argument);
+      cli_wrong(call, "%s needs a value: %s", argument, verb->options[index].argument);
       return false;
     }
-    call->values[place] = value ? value : arguments[++i];
-    call->given[call->given_count++] = (struct cli_given){place, call->values[place]};
+    call->values[index] = value ? value : arguments[++i];
+    call->given[call->given_count++] = (struct cli_given){index, call->values[index]};
   }
   if (call->input_count < verb->min_inputs ||
       (verb->max_inputs >= 0 && call->input_count > verb->max_inputs)) {

@@ -42,8 +42,8 @@ static double spring_length(const sbf_level *level, const sbf_spring_set *set, u
   return length(between(level->positions.at[ends[0]], level->positions.at[ends[1]]));
 }
 
-static uint32_t bin_of(double share) {
-  return share >= 1 ? MESH_QUALITY_BINS - 1 : share > 0 ? (uint32_t)(share * MESH_QUALITY_BINS) : 0;
+static uint32_t bin_of(double fraction) {
+  return fraction >= 1 ? MESH_QUALITY_BINS - 1 : fraction > 0 ? (uint32_t)(fraction * MESH_QUALITY_BINS) : 0;
 }
 
 static void add_tetrahedra(const sbf_level *level, mesh_quality *q) {

@@ -13,7 +13,7 @@ bool motion_asked(const cli_call *call) {
   return cli_value(call, "--seconds") || cli_value(call, "--script") || cli_value(call, "--replay");
 }
 
-static bool make_room(frames *f, const session *s) {
+static bool reserve(frames *f, const session *s) {
   size_t count = (size_t)s->frame_count + 1;
   for (uint32_t i = 0; i < s->asset->render_meshes.count; i++)
     f->points += s->asset->render_meshes.at[i].mesh.positions.count;
@@ -31,17 +31,17 @@ static sbf_vec3 in_world(sbr_double3 origin, sbf_vec3 v) {
 }
 
 static void keep(frames *f, const session *s) {
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
   sbf_vec3 *skin = f->skin + (size_t)s->frame * f->points;
   uint32_t at = 0;
   for (uint32_t i = 0; i < s->asset->render_meshes.count; i++)
-    at += sbr_character_skin(s->world, s->character, i, skin + at, NULL, NULL, f->points - at);
+    at += sbr_character_get_skin(s->world, s->character, i, skin + at, NULL, NULL, f->points - at);
   for (uint32_t i = 0; i < f->points; i++) skin[i] = in_world(origin, skin[i]);
-  sbr_character_bones(s->world, s->character, f->bones, f->bone_count);
+  sbr_character_get_bones(s->world, s->character, f->bones, f->bone_count);
   for (uint32_t i = 0; i < f->bone_count; i++) {
-    size_t place = (size_t)s->frame * f->bone_count + i;
-    f->heads[place] = in_world(origin, f->bones[i].position);
-    f->turns[place] = f->bones[i].rotation;
+    size_t index = (size_t)s->frame * f->bone_count + i;
+    f->heads[index] = in_world(origin, f->bones[i].position);
+    f->turns[index] = f->bones[i].rotation;
   }
 }
 
@@ -51,7 +51,7 @@ int motion_bake(cli_call *call, sbf_export_motion *motion) {
   int status;
   *motion = (sbf_export_motion){0};
   if (!session_open(&s, call, 5, 30, &status)) return status;
-  if (make_room(&f, &s)) {
+  if (reserve(&f, &s)) {
     keep(&f, &s);
     while (session_step(&s)) {
       keep(&f, &s);

@@ -109,7 +109,7 @@ static bool read_softness(const cli_call *call, pin_options *pins, sbf_convert_o
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
   *pins = (pin_options){.pins = NULL};
   if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
-      !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count) ||
+      !read_names(call, "--hold", &pins->holds, &pins->pin_text, &options->hold_count) ||
       !read_attachments(call, pins, options) || !read_shells(call, pins, options) ||
       !read_softness(call, pins, options))
     return false;
@@ -126,7 +126,7 @@ void pin_options_free(pin_options *pins) {
   free(pins->pins);
   free(pins->text);
   free(pins->holds);
-  free(pins->held_text);
+  free(pins->pin_text);
   free(pins->shells);
   free(pins->shell_text);
   free(pins->attachments);

@@ -31,8 +31,8 @@
 typedef struct pin_options {
   sbf_convert_pin *pins, *holds, *shells;
   sbf_convert_attachment *attachments;
-  const char **soft, **rigid;                          /* bones */
-  char *text, *held_text, *attached_text, *shell_text; /* of all names */
+  const char **soft, **rigid;                         /* bones */
+  char *text, *pin_text, *attached_text, *shell_text; /* of all names */
   char *soft_text, *rigid_text;
 } pin_options;
 

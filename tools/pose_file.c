@@ -33,8 +33,8 @@ static bool put_name(FILE *file, const char *name) {
 }
 
 sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error) {
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
-  sbr_character_bones(s->world, s->character, p->bones, s->asset->bones.count);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
+  sbr_character_get_bones(s->world, s->character, p->bones, s->asset->bones.count);
   bool good = true;
   for (uint32_t i = 0; i < s->asset->bones.count && good; i++) {
     const sbr_transform *b = &p->bones[i];

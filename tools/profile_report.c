@@ -74,7 +74,7 @@ bool profile_report_measure(profile_report *p, const session *s, double skin_beg
     good = put_span(p, "tick", tick.whole.begin_s, tick.whole.duration_s, tick.tick);
     for (int i = 0; i < SBR_STAGE_COUNT && good; i++)
       good = put_span(
-          p, sbr_stage_name((sbr_stage)i), tick.stages[i].begin_s, tick.stages[i].duration_s, tick.tick);
+          p, sbr_stage_get_name((sbr_stage)i), tick.stages[i].begin_s, tick.stages[i].duration_s, tick.tick);
   }
   good = good && put_span(p, "skin", skin_begin_s, skin_s, tick.tick);
   if (!good) fault(p, errno, error);
@@ -103,7 +103,7 @@ void profile_report_add(const profile_report *p, const session *s, json_t *to) {
   json_t *profile = json_object();
   json_object_set_new(profile, "tick", json_real(us * p->tick_s));
   for (int i = 0; i < SBR_STAGE_COUNT; i++)
-    json_object_set_new(profile, sbr_stage_name((sbr_stage)i), json_real(us * p->stage_s[i]));
+    json_object_set_new(profile, sbr_stage_get_name((sbr_stage)i), json_real(us * p->stage_s[i]));
   json_object_set_new(profile, "skin", json_real(us * p->skin_s));
   json_object_set_new(to, "profile", profile);
   add_counters(s, to);

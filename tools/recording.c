@@ -12,15 +12,15 @@ static void write_bytes(void *user, const void *bytes, size_t size) {
 static unsigned char *read_all(const cli_call *call, const char *path, size_t *size) {
   FILE *file = fopen(path, "rb");
   unsigned char *bytes = NULL, *grown;
-  size_t room = 0;
+  size_t capacity = 0;
   *size = 0;
   while (file && !ferror(file) && !feof(file)) {
-    if (*size == room) {
-      room = room ? 2 * room : 65536;
-      if (!(grown = realloc(bytes, room))) break;
+    if (*size == capacity) {
+      capacity = capacity ? 2 * capacity : 65536;
+      if (!(grown = realloc(bytes, capacity))) break;
       bytes = grown;
     }
-    *size += fread(bytes + *size, 1, room - *size, file);
+    *size += fread(bytes + *size, 1, capacity - *size, file);
   }
   bool good = file && feof(file) && !ferror(file);
   if (!good) {
@@ -55,13 +55,13 @@ int recording_open(recording *r, const cli_call *call, sbr_world *world) {
   if (!(r->file = fopen(record, "wb")))
     return cli_wrong(call, "the recording %s cannot be written: %s", record, strerror(errno));
   const sbr_record_output output = {write_bytes, r->file};
-  sbr_world_record(world, &output);
+  sbr_world_set_recording(world, &output);
   return SBF_OK;
 }
 
 bool recording_finish(recording *r, const cli_call *call, sbr_world *world) {
   if (!r->file) return true;
-  sbr_world_record(world, NULL);
+  sbr_world_set_recording(world, NULL);
   bool good = !ferror(r->file);
   if (fclose(r->file) != 0) good = false;
   r->file = NULL;

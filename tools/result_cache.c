@@ -26,7 +26,7 @@ struct result_cache {
   uint8_t *sizes;
   sbf_vec3 *read; /* (points of the largest body) */
   double *first, *points;
-  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS], *shares; /* shares: volume about each point */
+  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS], *fractions; /* shares: volume about each point */
   sbr_tetrahedron_state *tetrahedra;
   sbr_spring_state *springs;
   bool begun;
@@ -60,9 +60,9 @@ static bool list_bodies(result_cache *r, const session *s) {
   r->bodies = calloc(s->asset->soft_bodies.count + 1, sizeof *r->bodies);
   for (uint32_t i = 0; r->bodies && i < s->asset->soft_bodies.count; i++) {
     result_body b = {.soft_body = i, .first_point = r->mesh.point_count, .first_cell = r->mesh.cell_count};
-    b.point_count = sbr_character_points(s->world, s->character, i, NULL, 0);
-    b.tetrahedron_count = sbr_character_tetrahedra(s->world, s->character, i, NULL, 0);
-    b.spring_count = sbr_character_springs(s->world, s->character, i, NULL, 0);
+    b.point_count = sbr_character_get_points(s->world, s->character, i, NULL, 0);
+    b.tetrahedron_count = sbr_character_get_tetrahedra(s->world, s->character, i, NULL, 0);
+    b.spring_count = sbr_character_get_springs(s->world, s->character, i, NULL, 0);
     if (b.point_count == 0) continue;
     r->mesh.point_count += b.point_count, r->mesh.cell_count += cells_of(&b);
     r->max_points = larger(r->max_points, b.point_count);
@@ -73,7 +73,7 @@ static bool list_bodies(result_cache *r, const session *s) {
   return r->bodies != NULL;
 }
 
-static bool make_room(result_cache *r) {
+static bool reserve(result_cache *r) {
   size_t points = r->mesh.point_count, cells = r->mesh.cell_count;
   bool good = true;
   r->read = calloc(r->max_points + 1, sizeof *r->read);
@@ -81,28 +81,28 @@ static bool make_room(result_cache *r) {
   r->springs = calloc(r->max_springs + 1, sizeof *r->springs);
   r->first = calloc(3 * points + 1, sizeof *r->first);
   r->points = calloc(3 * points + 1, sizeof *r->points);
-  r->shares = calloc(points + 1, sizeof *r->shares);
+  r->fractions = calloc(points + 1, sizeof *r->fractions);
   r->corners = calloc(4 * cells + 1, sizeof *r->corners);
   r->sizes = calloc(cells + 1, sizeof *r->sizes);
   for (int i = 0; i < CELL_ARRAYS; i++)
     good = (r->cells[i] = calloc(of_cells[i].width * cells + 1, sizeof(float))) && good;
   for (int i = 0; i < POINT_ARRAYS; i++)
     good = (r->nodes[i] = calloc(of_points[i].width * points + 1, sizeof(float))) && good;
-  return good && r->read && r->tetrahedra && r->springs && r->first && r->points && r->shares && r->corners &&
-         r->sizes;
+  return good && r->read && r->tetrahedra && r->springs && r->first && r->points && r->fractions &&
+         r->corners && r->sizes;
 }
 
-static void free_room(result_cache *r) {
+static void free_space(result_cache *r) {
   free(r->bodies), free(r->read), free(r->tetrahedra), free(r->springs), free(r->first), free(r->points);
-  free(r->shares), free(r->corners), free(r->sizes);
+  free(r->fractions), free(r->corners), free(r->sizes);
   for (int i = 0; i < CELL_ARRAYS; i++) free(r->cells[i]);
   for (int i = 0; i < POINT_ARRAYS; i++) free(r->nodes[i]);
   free(r);
 }
 
 static void read_elements(const result_cache *r, const session *s, const result_body *b) {
-  sbr_character_tetrahedra(s->world, s->character, b->soft_body, r->tetrahedra, b->tetrahedron_count);
-  sbr_character_springs(s->world, s->character, b->soft_body, r->springs, b->spring_count);
+  sbr_character_get_tetrahedra(s->world, s->character, b->soft_body, r->tetrahedra, b->tetrahedron_count);
+  sbr_character_get_springs(s->world, s->character, b->soft_body, r->springs, b->spring_count);
 }
 
 /* Which points each cell has. */
@@ -131,19 +131,19 @@ static sbf_status fail(sbf_diagnostic *error, sbf_code code, const char *message
 
 result_cache *result_cache_open(const session *s, const char *path, sbf_diagnostic *error) {
   result_cache *r = calloc(1, sizeof *r);
-  if (!r || !list_bodies(r, s) || !make_room(r)) {
-    if (r) free_room(r);
+  if (!r || !list_bodies(r, s) || !reserve(r)) {
+    if (r) free_space(r);
     fail(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the results");
     return NULL;
   }
   if (r->mesh.point_count == 0) {
-    free_room(r);
+    free_space(r);
     fail(error, SBF_CODE_EXPORT_EMPTY, "no soft body is simulated: there are no results to write");
     return NULL;
   }
   fill_mesh(r, s);
   if (sbf_result_series_open(path, &r->mesh, &r->series, error) == SBF_OK) return r;
-  free_room(r);
+  free_space(r);
   return NULL;
 }
 
@@ -155,8 +155,8 @@ static float mises_of(const float t[6]) {
 }
 
 static void fill_points(result_cache *r, const session *s, const result_body *b) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
-  sbr_character_points(s->world, s->character, b->soft_body, r->read, b->point_count);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
+  sbr_character_get_points(s->world, s->character, b->soft_body, r->read, b->point_count);
   for (uint32_t i = 0; i < b->point_count; i++) {
     double *to = r->points + 3 * (size_t)(b->first_point + i);
     to[0] = o.x + (double)r->read[i].x, to[1] = o.y + (double)r->read[i].y,
@@ -165,12 +165,12 @@ static void fill_points(result_cache *r, const session *s, const result_body *b)
 }
 
 static void add_node(result_cache *r, uint32_t point, const sbr_tetrahedron_state *t) {
-  double volume = (double)t->rest_volume, sum = r->shares[point] + volume;
-  float share = sum > 0 ? (float)(volume / sum) : 0;
+  double volume = (double)t->rest_volume, sum = r->fractions[point] + volume;
+  float fraction = sum > 0 ? (float)(volume / sum) : 0;
   float *stress = r->nodes[POINT_STRESS] + 6 * (size_t)point, *energy = r->nodes[POINT_ENERGY] + point;
-  r->shares[point] = sum;
-  for (int k = 0; k < 6; k++) stress[k] += (t->stress[k] - stress[k]) * share;
-  *energy += (t->energy_density - *energy) * share;
+  r->fractions[point] = sum;
+  for (int k = 0; k < 6; k++) stress[k] += (t->stress[k] - stress[k]) * fraction;
+  *energy += (t->energy_density - *energy) * fraction;
 }
 
 static void fill_cells(result_cache *r, const result_body *b) {
@@ -200,7 +200,7 @@ static void fill_nodes(result_cache *r) {
 
 sbf_status result_cache_add(result_cache *r, const session *s, sbf_diagnostic *error) {
   sbf_result_array cells[CELL_ARRAYS], nodes[POINT_ARRAYS];
-  memset(r->shares, 0, r->mesh.point_count * sizeof *r->shares);
+  memset(r->fractions, 0, r->mesh.point_count * sizeof *r->fractions);
   memset(r->nodes[POINT_STRESS], 0, 6 * (size_t)r->mesh.point_count * sizeof(float));
   memset(r->nodes[POINT_ENERGY], 0, r->mesh.point_count * sizeof(float));
   for (uint32_t i = 0; i < r->body_count; i++) {
@@ -221,12 +221,12 @@ sbf_status result_cache_add(result_cache *r, const session *s, sbf_diagnostic *e
 
 sbf_status result_cache_commit(result_cache *r, sbf_diagnostic *error) {
   sbf_status status = sbf_result_series_commit(r->series, error);
-  free_room(r);
+  free_space(r);
   return status;
 }
 
 void result_cache_abandon(result_cache *r) {
   if (!r) return;
   sbf_result_series_abandon(r->series);
-  free_room(r);
+  free_space(r);
 }

@@ -8,8 +8,8 @@
 
 typedef struct rigid_report {
   bool asked;          /* the call has rigid parts simulated */
-  double beyond_angle; /* rad, by which the worst hard limit of an angle was broken */
-  double apart;        /* m, by which the worst joint was off in place */
+  double angle_violation; /* rad, by which the worst hard limit of an angle was broken */
+  double separation;   /* m, by which the worst joint was off in place */
   double moving_s;     /* time at which something last moved faster than REST_M_S */
 } rigid_report;
 

@@ -1,13 +1,13 @@
-/* The one way in which the program writes a bundle. */
+/* Writes bundles. All commands use it. */
 #ifndef SAVING_H
 #define SAVING_H
 
 #include "cli.h"
 #include "sbfmt/io.h"
 
-/* Checks the asset as `sbfmt validate` checks a file, and saves it by the ending of `out` where it is valid.
- * Else prints what is wrong with what `from` gives and leaves `out` as it was. `options` may be NULL. Returns
- * the exit status. */
+/* Validates the asset as `sbfmt validate` does and saves it in the format of `out`'s ending. If it is
+ * invalid, prints what is wrong in `from` and does not change `out`. `options` may be NULL. Returns the exit
+ * status. */
 int saving_run(const cli_call *call, const char *from, const char *out, const sbf_asset *asset,
     const sbf_save_options *options);
 

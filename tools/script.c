@@ -13,7 +13,7 @@ typedef struct command {
   int min, max; /* numbers */
 } command;
 
-enum { LAYERS = 4 }; /* of sbr_character_play */
+enum { LAYERS = 4 }; /* of sbr_character_play_clip */
 
 static const command commands[] = {
     {"drive", SCRIPT_DRIVE, 2, 4},       /* forward, turn, sideways, up */
@@ -136,7 +136,7 @@ void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id c
     double sideways, double turn, double up) {
   s->speed = hypot(hypot(forward, sideways), up);
   s->since_s = time_s;
-  sbr_character_drive(world, character, (float)forward, (float)sideways, (float)turn);
+  sbr_character_set_drive(world, character, (float)forward, (float)sideways, (float)turn);
   if (up != 0 || s->up != 0) sbr_character_set_vertical_speed(world, character, (float)up);
   s->up = up;
 }
@@ -159,28 +159,28 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
       const sbr_ik_target target = {.position = {n[1], n[2], n[3]},
           .rotation = {0, 0, 0, 1},
           .weight = line->count > 4 ? (float)n[4] : 1};
-      if (n[0] >= 0) sbr_character_ik_target(world, character, (uint32_t)n[0], &target);
+      if (n[0] >= 0) sbr_character_set_ik_target(world, character, (uint32_t)n[0], &target);
       break;
     }
     case SCRIPT_RELEASE:
-      if (n[0] >= 0) sbr_character_ik_target(world, character, (uint32_t)n[0], NULL);
+      if (n[0] >= 0) sbr_character_set_ik_target(world, character, (uint32_t)n[0], NULL);
       break;
     case SCRIPT_PLAY: {
       const sbr_clip_play how = {.weight = line->count > 1 ? (float)n[1] : 1,
           .fade_s = (float)n[2],
           .speed = 1,
           .bone_mask = SBF_NONE};
-      sbr_character_play(world, character, n[3] > 0 ? (uint32_t)n[3] : 0, (int32_t)n[0], &how);
+      sbr_character_play_clip(world, character, n[3] > 0 ? (uint32_t)n[3] : 0, (int32_t)n[0], &how);
       break;
     }
     case SCRIPT_PIVOT:
-      sbr_character_pivot(world, character, (int32_t)n[0]);
+      sbr_character_set_pivot_leg(world, character, (int32_t)n[0]);
       break;
     case SCRIPT_PAUSE:
-      sbr_character_pause(world, character, true);
+      sbr_character_set_paused(world, character, true);
       break;
     case SCRIPT_RESUME:
-      sbr_character_pause(world, character, false);
+      sbr_character_set_paused(world, character, false);
       break;
     }
   }

@@ -3,19 +3,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct place {
+typedef struct location {
   sbf_vec3 at;
   uint32_t mesh, vertex; /* vertex in the skin */
-} place;
+} location;
 
 struct seams {
-  place *sorted; /* by mesh and place at rest, of the same the first vertex first */
+  location *sorted; /* by mesh and place at rest, of the same the first vertex first */
   uint32_t count;
   double gap_m;
 };
 
-static int by_place(const void *a, const void *b) {
-  const place *p = a, *q = b;
+static int by_position(const void *a, const void *b) {
+  const location *p = a, *q = b;
   if (p->mesh != q->mesh) return p->mesh < q->mesh ? -1 : 1;
   if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
   if (p->at.y != q->at.y) return p->at.y < q->at.y ? -1 : 1;
@@ -23,7 +23,7 @@ static int by_place(const void *a, const void *b) {
   return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-static bool is_same_place(const place *p, const place *q) {
+static bool is_same_position(const location *p, const location *q) {
   return p->mesh == q->mesh && p->at.x == q->at.x && p->at.y == q->at.y && p->at.z == q->at.z;
 }
 
@@ -38,9 +38,9 @@ seams *seams_create(const session *s) {
   for (uint32_t m = 0; m < s->asset->render_meshes.count; m++) {
     const sbf_vec3_list at = s->asset->render_meshes.at[m].mesh.positions;
     for (uint32_t v = 0; v < at.count; v++, all->count++)
-      all->sorted[all->count] = (place){at.at[v], m, all->count};
+      all->sorted[all->count] = (location){at.at[v], m, all->count};
   }
-  qsort(all->sorted, all->count, sizeof *all->sorted, by_place);
+  qsort(all->sorted, all->count, sizeof *all->sorted, by_position);
   return all;
 }
 
@@ -51,7 +51,7 @@ void seams_destroy(seams *all) {
 
 void seams_measure(seams *all, const sbf_vec3 *skin) {
   for (uint32_t i = 1, first = 0; all && i < all->count; i++) {
-    if (!is_same_place(&all->sorted[first], &all->sorted[i])) {
+    if (!is_same_position(&all->sorted[first], &all->sorted[i])) {
       first = i;
       continue;
     }

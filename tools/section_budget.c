@@ -13,7 +13,7 @@
 /* Coarsest first; the finest that all are measured against. */
 static const uint32_t sizes[] = {40, 80, 160};
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes, FINEST = 640 };
-static const double NEAR_SHARE = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
+static const double NEAR_FRACTION = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
 static const double ALIKE = 1.15;    /* ratio of volumes of left and right */
 static const double SKIN_VISITS = 2; /* that the skin takes for a vertex, with its normal: 8 to 14 ns */
 
@@ -40,14 +40,14 @@ bool section_budget_applies(const sbf_asset *source, const sbf_build_options *bu
 static double visits_of(const sbf_asset *asset) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
-  sbr_rung rung;
+  sbr_detail_level detail_level;
   double skin = 0;
   if (sbr_model_create(asset, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK) return NAN;
-  sbr_model_rungs(model, &rung, 1);
+  sbr_model_get_detail_levels(model, &detail_level, 1);
   sbr_model_destroy(model);
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
     skin += SKIN_VISITS * asset->render_meshes.at[i].mesh.positions.count;
-  return (double)rung.visits + skin;
+  return (double)detail_level.visits + skin;
 }
 
 static sbf_status build_one(const sbf_asset *source, const sbf_build_options *build, uint32_t elements,
@@ -60,14 +60,14 @@ static sbf_status build_one(const sbf_asset *source, const sbf_build_options *bu
 }
 
 static bool is_near(const candidate *c, double size_m) {
-  return c->is.sound && c->is.off.p99_m <= NEAR_SHARE * size_m && c->is.min_volume >= MIN_VOLUME &&
+  return c->is.sound && c->is.off.p99_m <= NEAR_FRACTION * size_m && c->is.min_volume >= MIN_VOLUME &&
          c->is.max_strain <= MAX_STRAIN;
 }
 
 static void take(section_budget *choice, const candidate *c, uint32_t elements, double size_m) {
   choice->elements = elements;
   choice->visits = c->visits;
-  choice->p99_share = c->is.off.p99_m / size_m;
+  choice->p99_fraction = c->is.off.p99_m / size_m;
   choice->near = is_near(c, size_m);
 }
 
@@ -158,7 +158,7 @@ sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *bui
   sbf_asset *finest = NULL;
   bool chosen = false;
   *choice = (section_budget){
-      .max_visits = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, .finest = FINEST, .p99_share = NAN};
+      .max_visits = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, .finest = FINEST, .p99_fraction = NAN};
   sbf_status status = build_one(source, build, FINEST, &finest, error);
   for (int i = 0; status == SBF_OK && i < SIZE_COUNT; i++) {
     status = build_one(source, build, sizes[i], &all[i].asset, error);

@@ -9,14 +9,14 @@
 #define SECTION_BUDGET_NS_PER_VISIT 6.0
 
 typedef struct section_budget {
-  uint32_t elements; /* tetrahedra of the lattice that a section's springs follow */
-  double visits;     /* of the whole character with skin, a tick */
-  double max_visits; /* that the budget allows */
-  double p99_share;  /* of the size: 99 of 100 vertices and ticks are no farther off the finest */
-  uint32_t finest;   /* elements of that */
-  bool near;         /* within 1 % of the size, nine tenths of its volume, strains of half */
-  uint32_t left_out; /* parts that were made rigid to keep the budget */
-  char names[160];   /* of those */
+  uint32_t elements;   /* tetrahedra of the lattice that a section's springs follow */
+  double visits;       /* of the whole character with skin, a tick */
+  double max_visits;   /* that the budget allows */
+  double p99_fraction; /* of the size: 99 of 100 vertices and ticks are no farther off the finest */
+  uint32_t finest;     /* elements of that */
+  bool near;           /* within 1 % of the size, nine tenths of its volume, strains of half */
+  uint32_t left_out;   /* parts that were made rigid to keep the budget */
+  char names[160];     /* of those */
 } section_budget;
 
 /* Whether there is anything to choose: soft parts of a skin that are to be cut, and nothing else that is

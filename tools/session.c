@@ -69,7 +69,7 @@ static bool parse_instructions(cli_call *call, sbr_instructions *instructions) {
   enum { COUNT = SBR_INSTRUCTIONS_WASM_SIMD128 + 1 };
   const char *names[COUNT];
   int chosen = SBR_INSTRUCTIONS_AUTOMATIC;
-  for (int i = 0; i < COUNT; i++) names[i] = sbr_instructions_name((sbr_instructions)i);
+  for (int i = 0; i < COUNT; i++) names[i] = sbr_instructions_get_name((sbr_instructions)i);
   if (!cli_word(call, "--instructions", names, COUNT, &chosen)) return false;
   *instructions = (sbr_instructions)chosen;
   return true;
@@ -129,8 +129,8 @@ static bool parse_settings(session *s, cli_call *call) {
   return good;
 }
 
-static void tell(void *user, const sbf_diagnostic *finding) {
-  cli_print_diagnostic(user, finding);
+static void report(void *user, const sbf_diagnostic *diagnostic) {
+  cli_print_diagnostic(user, diagnostic);
 }
 
 static sbf_status create_character(session *s, sbf_diagnostic *error) {
@@ -149,9 +149,9 @@ static bool has_rigid_parts(const session *s, const cli_call *call) {
 static void loosen_rigid_parts(session *s) {
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   drive.strength = (float)s->settings.strength;
-  if (s->settings.driven) sbr_character_rigid_drive(s->world, s->character, &drive);
+  if (s->settings.driven) sbr_character_set_rigid_drive(s->world, s->character, &drive);
   if (s->settings.driven || s->settings.ragdoll)
-    sbr_character_rigid_mode(
+    sbr_character_set_rigid_mode(
         s->world, s->character, -1, s->settings.driven ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
 }
 
@@ -164,7 +164,7 @@ static void begin(session *s) {
   }
   script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1], set->drive[2]);
   const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
-  if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
+  if (set->clip != SBF_NONE) sbr_character_play_clip(s->world, s->character, 0, set->clip, &how);
   loosen_rigid_parts(s);
 }
 
@@ -212,8 +212,8 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
   if (*status != SBF_OK) {
     cli_print_diagnostic(call, &error);
   } else {
-    sbr_model_left_out(s->model, tell, call);
-    sbr_model_scheme_doubts(s->model, tell, call);
+    sbr_model_report_unsupported(s->model, report, call);
+    sbr_model_report_scheme_bias(s->model, report, call);
     if ((*status = recording_open(&s->recording, call, s->world)) == SBF_OK) {
       begin(s);
       return true;
@@ -247,7 +247,7 @@ void session_close(session *s) {
 }
 
 static bool replay_frame(session *s) {
-  if (!sbr_replay_frame(&s->recording.replay)) return false;
+  if (!sbr_replay_step(&s->recording.replay)) return false;
   s->frame_s = s->recording.replay.frame_s;
   s->frame++;
   s->time_s += s->frame_s;

@@ -11,30 +11,30 @@ typedef struct patch {
   draw_colour *colours, *whole_colours; /* (3 triangle_count) likewise; NULL: the look's */
   uint32_t *corners, *whole_corners; /* (3 triangle_count) likewise, of the polygons; NULL: no hard edges */
   uint32_t triangle_count;
-  skin_look look;
+  skin_material style;
 } patch;
 
-typedef struct mesh_look {
+typedef struct mesh_style {
   patch *patches;
   uint32_t patch_count;
   uint8_t *torn;  /* (polygons) */
   uint32_t level; /* of the mesh that is shown */
-} mesh_look;
+} mesh_style;
 
 struct shown_skin {
-  mesh_look *meshes;
+  mesh_style *meshes;
   uint32_t mesh_count;
   sbf_vec3 *positions, *normals; /* room for the largest mesh */
   sbf_vec3 *of_corners;          /* room for the corners of the largest mesh or level with hard edges */
   sbf_vec3 *of_triangles;        /* likewise for those of its triangles, three each */
-  uint32_t room, corner_room;
+  uint32_t capacity, corner_capacity;
 };
 
 /* The polygons of a mesh or of one of its levels, over the vertices that the runtime writes for it. */
 typedef struct shown_polygons {
   sbf_u32_list sizes, points, materials;
-  uint32_t *place_of;  /* (vertices of the mesh); NULL: all are written */
-  uint32_t *corner_of; /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
+  uint32_t *position_of; /* (vertices of the mesh); NULL: all are written */
+  uint32_t *corner_of;   /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
 } shown_polygons;
 
 /* A level may leave unsaid which corner of the full mesh each of its own looks like: then the first there is.
@@ -58,12 +58,12 @@ static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, sho
       mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL, NULL};
   if (level == 0) return true;
   const sbf_render_level *from = &mesh->levels.at[level - 1];
-  uint32_t count = sbr_model_level_vertices(s->model, number, level, NULL, 0);
+  uint32_t count = sbr_model_get_level_vertices(s->model, number, level, NULL, 0);
   uint32_t *vertices = malloc((count + 1u) * sizeof *vertices);
-  shown->place_of = calloc(mesh->mesh.positions.count + 1u, sizeof *shown->place_of);
-  bool good = vertices && shown->place_of;
-  if (good) sbr_model_level_vertices(s->model, number, level, vertices, count);
-  for (uint32_t i = 0; good && i < count; i++) shown->place_of[vertices[i]] = i;
+  shown->position_of = calloc(mesh->mesh.positions.count + 1u, sizeof *shown->position_of);
+  bool good = vertices && shown->position_of;
+  if (good) sbr_model_get_level_vertices(s->model, number, level, vertices, count);
+  for (uint32_t i = 0; good && i < count; i++) shown->position_of[vertices[i]] = i;
   free(vertices);
   shown->sizes = from->polygon_sizes;
   shown->points = from->polygon_points;
@@ -79,12 +79,12 @@ static bool cut_patch(
   p->whole = malloc(max * sizeof *p->whole);
   p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
   if (!p->triangles || !p->whole || !p->polygons) return false;
-  if (p->look.image) {
+  if (p->style.image) {
     p->uvs = malloc(max * sizeof *p->uvs);
     p->whole_uvs = malloc(max * sizeof *p->whole_uvs);
     if (!p->uvs || !p->whole_uvs) return false;
   }
-  if (p->look.has_colours) {
+  if (p->style.has_colours) {
     p->colours = malloc(max * sizeof *p->colours);
     p->whole_colours = malloc(max * sizeof *p->whole_colours);
     if (!p->colours || !p->whole_colours) return false;
@@ -102,11 +102,11 @@ static bool cut_patch(
       const uint32_t corners[3] = {at, at + k - 1, at + k};
       for (uint32_t c = 0; c < 3; c++) {
         uint32_t to = 3 * p->triangle_count + c;
-        p->triangles[to] = shown->place_of ? shown->place_of[fan[c]] : fan[c];
+        p->triangles[to] = shown->position_of ? shown->position_of[fan[c]] : fan[c];
         if (p->corners) p->corners[to] = corners[c];
         uint32_t of_full = shown->corner_of ? shown->corner_of[corners[c]] : corners[c];
-        if (p->uvs) p->uvs[to] = skin_corner_uv(mesh, &p->look, of_full);
-        if (p->colours) p->colours[to] = skin_corner_colour(mesh, &p->look, of_full);
+        if (p->uvs) p->uvs[to] = skin_corner_uv(mesh, &p->style, of_full);
+        if (p->colours) p->colours[to] = skin_corner_colour(mesh, &p->style, of_full);
       }
       p->polygons[p->triangle_count++] = i;
     }
@@ -132,41 +132,41 @@ static bool has_hard_edges(const sbf_render_mesh *mesh, bool *hard) {
   return true;
 }
 
-static bool look_of_mesh(
-    const session *s, const skin_images *images, uint32_t number, uint32_t level, mesh_look *look) {
+static bool style_of_mesh(
+    const session *s, const skin_images *images, uint32_t number, uint32_t level, mesh_style *style) {
   const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
   uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
   shown_polygons shown;
-  look->level = level < mesh->levels.count ? level : mesh->levels.count;
-  look->patches = calloc(slots, sizeof *look->patches);
-  look->patch_count = slots;
-  bool hard, good = shown_of_mesh(s, number, look->level, &shown) && look->patches;
-  look->torn = calloc(shown.sizes.count + 1u, 1);
-  good = good && look->torn && has_hard_edges(mesh, &hard);
+  style->level = level < mesh->levels.count ? level : mesh->levels.count;
+  style->patches = calloc(slots, sizeof *style->patches);
+  style->patch_count = slots;
+  bool hard, good = shown_of_mesh(s, number, style->level, &shown) && style->patches;
+  style->torn = calloc(shown.sizes.count + 1u, 1);
+  good = good && style->torn && has_hard_edges(mesh, &hard);
   for (uint32_t p = 0; good && p < slots; p++) {
-    look->patches[p].look = skin_look_of(s->asset, images, mesh, p);
-    good = cut_patch(mesh, &shown, hard, p, &look->patches[p]);
+    style->patches[p].style = skin_material_of(s->asset, images, mesh, p);
+    good = cut_patch(mesh, &shown, hard, p, &style->patches[p]);
   }
-  free(shown.place_of);
+  free(shown.position_of);
   free(shown.corner_of);
   return good;
 }
 
 /* Room for what is written anew in each frame. */
-static bool make_room(shown_skin *skin, const sbf_asset *asset) {
+static bool reserve(shown_skin *skin, const sbf_asset *asset) {
   uint32_t corners = 0;
-  skin->room = 1;
+  skin->capacity = 1;
   for (uint32_t m = 0; m < skin->mesh_count; m++) {
     const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
-    if (mesh->mesh.positions.count > skin->room) skin->room = mesh->mesh.positions.count;
+    if (mesh->mesh.positions.count > skin->capacity) skin->capacity = mesh->mesh.positions.count;
     if (mesh->mesh.polygon_points.count > corners) corners = mesh->mesh.polygon_points.count;
     for (uint32_t l = 0; l < mesh->levels.count; l++)
       if (mesh->levels.at[l].polygon_points.count > corners)
         corners = mesh->levels.at[l].polygon_points.count;
   }
-  skin->corner_room = corners;
-  skin->positions = malloc(skin->room * sizeof *skin->positions);
-  skin->normals = malloc(skin->room * sizeof *skin->normals);
+  skin->corner_capacity = corners;
+  skin->positions = malloc(skin->capacity * sizeof *skin->positions);
+  skin->normals = malloc(skin->capacity * sizeof *skin->normals);
   skin->of_corners = malloc((corners + 1u) * sizeof *skin->of_corners);
   skin->of_triangles = malloc((3 * (size_t)corners + 1) * sizeof *skin->of_triangles);
   return skin->positions && skin->normals && skin->of_corners && skin->of_triangles;
@@ -177,9 +177,9 @@ shown_skin *shown_skin_create(const session *s, const skin_images *images, uint3
   if (!skin) return NULL;
   skin->mesh_count = s->asset->render_meshes.count;
   skin->meshes = calloc(skin->mesh_count + 1u, sizeof *skin->meshes);
-  bool good = skin->meshes && make_room(skin, s->asset);
+  bool good = skin->meshes && reserve(skin, s->asset);
   for (uint32_t i = 0; good && i < skin->mesh_count; i++)
-    good = look_of_mesh(s, images, i, render_level, &skin->meshes[i]);
+    good = style_of_mesh(s, images, i, render_level, &skin->meshes[i]);
   if (good) return skin;
   shown_skin_destroy(skin);
   return NULL;
@@ -237,18 +237,18 @@ static const sbf_vec3 *normals_of(shown_skin *skin, const patch *p, uint32_t tri
 
 static void add_mesh(shown_skin *skin, const session *s, uint32_t number, sbf_vec3 origin, float transparency,
     draw_scene *scene) {
-  const mesh_look *mesh = &skin->meshes[number];
-  uint32_t count = sbr_character_level_skin(
-      s->world, s->character, number, mesh->level, skin->positions, skin->normals, NULL, skin->room);
+  const mesh_style *mesh = &skin->meshes[number];
+  uint32_t count = sbr_character_get_level_skin(
+      s->world, s->character, number, mesh->level, skin->positions, skin->normals, NULL, skin->capacity);
   for (uint32_t i = 0; i < count; i++) {
     sbf_vec3 *p = &skin->positions[i];
     *p = (sbf_vec3){p->x + origin.x, p->y + origin.y, p->z + origin.z};
   }
-  uint32_t polygons = sbr_character_torn_polygons(s->world, s->character, number, mesh->level, NULL, 0);
-  sbr_character_torn_polygons(s->world, s->character, number, mesh->level, mesh->torn, polygons);
+  uint32_t polygons = sbr_character_get_torn_polygons(s->world, s->character, number, mesh->level, NULL, 0);
+  sbr_character_get_torn_polygons(s->world, s->character, number, mesh->level, mesh->torn, polygons);
   if (mesh->patches[0].corners)
-    sbr_character_level_corner_normals(
-        s->world, s->character, number, mesh->level, skin->of_corners, skin->corner_room);
+    sbr_character_get_level_corner_normals(
+        s->world, s->character, number, mesh->level, skin->of_corners, skin->corner_capacity);
   for (uint32_t p = 0; p < mesh->patch_count; p++) {
     const patch *one = &mesh->patches[p];
     uint32_t triangles = keep_whole(one, mesh->torn);
@@ -262,7 +262,7 @@ static void add_mesh(shown_skin *skin, const session *s, uint32_t number, sbf_ve
         .corner_uvs = one->whole_uvs,
         .corner_colours = one->whole_colours,
         .transparency = transparency};
-    skin_look_apply(&one->look, &drawn);
+    skin_material_apply(&one->style, &drawn);
     draw_scene_add_mesh(scene, &drawn);
   }
 }

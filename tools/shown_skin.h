@@ -5,7 +5,7 @@
 
 #include "render/draw_scene.h"
 #include "session.h"
-#include "skin_look.h"
+#include "skin_material.h"
 
 typedef struct shown_skin shown_skin;
 

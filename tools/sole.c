@@ -67,10 +67,10 @@ static bool gather_skinned(const sbf_asset *asset, int32_t foot, float above, fl
     if (!grown) return false;
     s->vertices = grown;
     for (uint32_t i = 0, at = 0; mesh->skin && i < count; at += mesh->skin->influence_counts.at[i++]) {
-      float held = 0;
+      float limited = 0;
       for (uint32_t k = at; k < at + mesh->skin->influence_counts.at[i]; k++)
-        if (is_below(asset, (int32_t)mesh->skin->bones.at[k], foot)) held += mesh->skin->weights.at[k];
-      if (held > above && held <= up_to) s->vertices[s->count++] = offset + i;
+        if (is_below(asset, (int32_t)mesh->skin->bones.at[k], foot)) limited += mesh->skin->weights.at[k];
+      if (limited > above && limited <= up_to) s->vertices[s->count++] = offset + i;
     }
   }
   return true;
@@ -83,7 +83,7 @@ static bool gather_firm_first(const sbf_asset *asset, int32_t foot, sole *s) {
   return gather_skinned(asset, foot, MOSTLY, FIRM, s);
 }
 
-static sbf_vec3 rest_place(const sbf_asset *asset, uint32_t vertex) {
+static sbf_vec3 rest_position(const sbf_asset *asset, uint32_t vertex) {
   uint32_t mesh = 0;
   while (vertex >= asset->render_meshes.at[mesh].mesh.positions.count)
     vertex -= asset->render_meshes.at[mesh++].mesh.positions.count;
@@ -91,7 +91,7 @@ static sbf_vec3 rest_place(const sbf_asset *asset, uint32_t vertex) {
 }
 
 static double rest_height(const sbf_asset *asset, uint32_t vertex) {
-  return (double)rest_place(asset, vertex).y;
+  return (double)rest_position(asset, vertex).y;
 }
 
 /* Keeps the lowest vertices and notes their heights. */
@@ -143,8 +143,8 @@ void soles_destroy(soles *all) {
 
 void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
   sbr_leg_state legs[MAX_LEGS];
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
-  uint32_t leg_count = sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
+  uint32_t leg_count = sbr_character_get_legs(s->world, s->character, legs, MAX_LEGS);
   for (uint32_t l = 0; l < all->count && l < leg_count; l++) {
     sole *one = &all->at[l];
     double x = 0, z = 0;
@@ -181,12 +181,12 @@ double soles_radius(const soles *all, const session *s, uint32_t leg) {
   const sole *one = leg < all->count ? &all->at[leg] : NULL;
   double x = 0, z = 0, radius = 0;
   for (uint32_t i = 0; one && i < one->count; i++) {
-    sbf_vec3 p = rest_place(s->asset, one->vertices[i]);
+    sbf_vec3 p = rest_position(s->asset, one->vertices[i]);
     x += (double)p.x / one->count;
     z += (double)p.z / one->count;
   }
   for (uint32_t i = 0; one && i < one->count; i++) {
-    sbf_vec3 p = rest_place(s->asset, one->vertices[i]);
+    sbf_vec3 p = rest_position(s->asset, one->vertices[i]);
     radius = fmax(radius, hypot((double)p.x - x, (double)p.z - z));
   }
   return radius;

@@ -9,17 +9,17 @@
 #include "shown_skin.h"
 #include "sole.h"
 
-typedef struct body_look {
+typedef struct body_style {
   sbf_uint2 *edges; /* of its tetrahedra, each once */
   uint32_t edge_count;
-} body_look;
+} body_style;
 
 enum { MAX_LEGS = 16, PRINTS = 64 };
 static const float AROUND = 1.3f; /* of a sole: its footprint is drawn so wide, to be seen round it */
 
 /* Where a foot came down. */
 typedef struct footprint {
-  sbf_vec3 place, normal;
+  sbf_vec3 position, normal;
   float radius; /* m */
   uint32_t leg;
 } footprint;
@@ -32,13 +32,13 @@ struct stage {
   float sole_radii[MAX_LEGS]; /* m, at rest */
   unsigned show;
   shown_skin *skin;
-  body_look *bodies;
+  body_style *bodies;
   uint32_t body_count;
   sbf_vec3 *positions; /* room for the points of the largest level */
   sbr_transform *bones;
   draw_colour *colours; /* room for the largest set of springs */
   draw_colour_map strains;
-  uint32_t room;
+  uint32_t capacity;
 };
 
 static int compare_edges(const void *a, const void *b) {
@@ -48,7 +48,7 @@ static int compare_edges(const void *a, const void *b) {
 /* The level of a body that the session simulates, as far as its points' number tells. */
 static const sbf_level *level_of(const session *s, uint32_t b) {
   const sbf_soft_body *body = &s->asset->soft_bodies.at[b];
-  uint32_t count = sbr_character_points(s->world, s->character, b, NULL, 0);
+  uint32_t count = sbr_character_get_points(s->world, s->character, b, NULL, 0);
   const sbf_level *best = NULL;
   for (uint32_t l = 0; l < body->levels.count; l++)
     if (body->levels.at[l].positions.count == count && (!best || l <= s->settings.model.level))
@@ -56,36 +56,36 @@ static const sbf_level *level_of(const session *s, uint32_t b) {
   return best;
 }
 
-static bool look_of_lattice(const session *s, uint32_t number, body_look *look) {
+static bool style_of_lattice(const session *s, uint32_t number, body_style *style) {
   static const int pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const sbf_level *level = level_of(s, number);
   uint32_t count = level ? level->lattice.tetrahedra.count : 0, kept = 0;
-  look->edges = malloc((6 * (size_t)count + 1) * sizeof *look->edges);
-  if (!look->edges) return false;
+  style->edges = malloc((6 * (size_t)count + 1) * sizeof *style->edges);
+  if (!style->edges) return false;
   for (uint32_t t = 0; t < count; t++)
     for (int k = 0; k < 6; k++) {
       const uint32_t *p = level->lattice.tetrahedra.at[t].at;
       uint32_t a = p[pairs[k][0]], b = p[pairs[k][1]];
-      look->edges[6 * t + (uint32_t)k] = (sbf_uint2){{a < b ? a : b, a < b ? b : a}};
+      style->edges[6 * t + (uint32_t)k] = (sbf_uint2){{a < b ? a : b, a < b ? b : a}};
     }
-  qsort(look->edges, 6 * (size_t)count, sizeof *look->edges, compare_edges);
+  qsort(style->edges, 6 * (size_t)count, sizeof *style->edges, compare_edges);
   for (uint32_t i = 0; i < 6 * count; i++)
-    if (kept == 0 || memcmp(&look->edges[i], &look->edges[kept - 1], sizeof *look->edges) != 0)
-      look->edges[kept++] = look->edges[i];
-  look->edge_count = kept;
+    if (kept == 0 || memcmp(&style->edges[i], &style->edges[kept - 1], sizeof *style->edges) != 0)
+      style->edges[kept++] = style->edges[i];
+  style->edge_count = kept;
   return true;
 }
 
-static uint32_t largest_room(const sbf_asset *asset) {
-  uint32_t room = 1;
+static uint32_t largest_extent(const sbf_asset *asset) {
+  uint32_t capacity = 1;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     for (uint32_t l = 0; l < asset->soft_bodies.at[i].levels.count; l++) {
       const sbf_level *level = &asset->soft_bodies.at[i].levels.at[l];
-      if (level->positions.count > room) room = level->positions.count;
+      if (level->positions.count > capacity) capacity = level->positions.count;
       for (uint32_t s = 0; s < level->springs.count; s++)
-        if (level->springs.at[s].ends.count > room) room = level->springs.at[s].ends.count;
+        if (level->springs.at[s].ends.count > capacity) capacity = level->springs.at[s].ends.count;
     }
-  return room;
+  return capacity;
 }
 
 static bool measure_soles(stage *st, const session *s) {
@@ -102,14 +102,14 @@ stage *stage_create(const session *s, const skin_images *images, unsigned show, 
   if (!st) return NULL;
   st->show = show;
   st->body_count = asset->soft_bodies.count;
-  st->room = largest_room(asset);
+  st->capacity = largest_extent(asset);
   st->skin = shown_skin_create(s, images, render_level);
   st->bodies = calloc(st->body_count + 1u, sizeof *st->bodies);
-  st->positions = malloc(st->room * sizeof *st->positions);
+  st->positions = malloc(st->capacity * sizeof *st->positions);
   st->bones = malloc((asset->bones.count + 1u) * sizeof *st->bones);
-  st->colours = malloc(st->room * sizeof *st->colours);
+  st->colours = malloc(st->capacity * sizeof *st->colours);
   bool good = st->skin && st->bodies && st->positions && st->bones && st->colours;
-  for (uint32_t i = 0; good && i < st->body_count; i++) good = look_of_lattice(s, i, &st->bodies[i]);
+  for (uint32_t i = 0; good && i < st->body_count; i++) good = style_of_lattice(s, i, &st->bodies[i]);
   if (good && show & STAGE_FEET) good = measure_soles(st, s);
   draw_colour_map_init_diverging(&st->strains);
   if (good) return st;
@@ -129,7 +129,7 @@ void stage_destroy(stage *st) {
 }
 
 static sbf_vec3 world_origin(const session *s) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   return (sbf_vec3){(float)o.x, (float)o.y, (float)o.z};
 }
 
@@ -159,30 +159,30 @@ static void show_springs(stage *st, const session *s, sbf_vec3 origin, draw_scen
   for (uint32_t b = 0; b < st->body_count; b++) {
     const sbf_level *level = level_of(s, b);
     if (!level) continue;
-    uint32_t count = sbr_character_points(s->world, s->character, b, st->positions, st->room);
+    uint32_t count = sbr_character_get_points(s->world, s->character, b, st->positions, st->capacity);
     to_world(origin, st->positions, count);
     for (uint32_t k = 0; k < level->springs.count; k++) {
       const sbf_spring_set *set = &level->springs.at[k];
-      const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)set->kind);
+      const draw_spring_style *style = draw_spring_style_of((draw_spring_style_kind)set->kind);
       for (uint32_t i = 0; by_strain && i < set->ends.count; i++)
         st->colours[i] =
             draw_colour_map_at_strain(&st->strains, strain_of(level, set, i, st->positions), FULL_STRAIN);
       draw_scene_add_lines(scene, st->positions, count, set->ends.at, by_strain ? st->colours : NULL,
-          set->ends.count, look->colour, look->width);
+          set->ends.count, style->colour, style->width);
       seen |= 1u << set->kind;
     }
   }
   if (by_strain) draw_scene_add_scale(scene, &st->strains, "-20%", "0", "+20%");
-  for (int k = DRAW_SPRING_LOOK_COUNT - 1; !by_strain && k >= 0; k--) {
-    const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)k);
-    if (seen & 1u << k) draw_scene_add_legend(scene, look->name, look->colour);
+  for (int k = DRAW_SPRING_STYLE_COUNT - 1; !by_strain && k >= 0; k--) {
+    const draw_spring_style *style = draw_spring_style_of((draw_spring_style_kind)k);
+    if (seen & 1u << k) draw_scene_add_legend(scene, style->name, style->colour);
   }
 }
 
 static void show_lattices(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   for (uint32_t b = 0; b < st->body_count; b++) {
     if (st->bodies[b].edge_count == 0) continue;
-    uint32_t count = sbr_character_points(s->world, s->character, b, st->positions, st->room);
+    uint32_t count = sbr_character_get_points(s->world, s->character, b, st->positions, st->capacity);
     to_world(origin, st->positions, count);
     draw_scene_add_lines(scene, st->positions, count, st->bodies[b].edges, NULL, st->bodies[b].edge_count,
         draw_colour_of_tetrahedron(), 0.8f);
@@ -228,7 +228,7 @@ static void show_prints(const stage *st, const sbr_leg_state *legs, draw_scene *
     const footprint *print = &st->prints[p % PRINTS];
     bool stands = legs[print->leg].planted && st->print_of[print->leg] == p;
     (stands ? draw_scene_add_ring_mark : draw_scene_add_print)(
-        scene, print->place, print->normal, print->radius, 3, draw_colour_of_contact());
+        scene, print->position, print->normal, print->radius, 3, draw_colour_of_contact());
   }
 }
 
@@ -242,7 +242,7 @@ static void mark_line(draw_scene *scene, sbf_vec3 from, sbf_vec3 to, float dot, 
  * from it down to the ground. */
 static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   sbr_leg_state legs[MAX_LEGS];
-  uint32_t count = sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
+  uint32_t count = sbr_character_get_legs(s->world, s->character, legs, MAX_LEGS);
   float size = 0;
   count = count < MAX_LEGS ? count : MAX_LEGS;
   for (uint32_t i = 0; i < count; i++) {
@@ -254,8 +254,8 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
   }
   for (uint32_t i = 0; i < count; i++) {
     float around = AROUND * st->sole_radii[i];
-    footprint print = {.place = legs[i].foot, .radius = around > size ? around : size, .leg = i};
-    s->ground.height(&s->ground, (double)print.place.x, (double)print.place.z, &print.normal);
+    footprint print = {.position = legs[i].foot, .radius = around > size ? around : size, .leg = i};
+    s->ground.height(&s->ground, (double)print.position.x, (double)print.position.z, &print.normal);
     if (legs[i].planted && !st->was_planted[i]) {
       st->print_of[i] = st->print_count;
       st->prints[st->print_count++ % PRINTS] = print;
@@ -289,7 +289,7 @@ static void show_hull(stage *st, const session *s, sbf_vec3 origin, uint32_t num
       triangles[3 * count + 1] = hull->polygon_points.at[at + k - 1];
       triangles[3 * count++ + 2] = hull->polygon_points.at[at + k];
     }
-  sbr_transform now = sbr_character_rigid_state(s->world, s->character, number).frame;
+  sbr_transform now = sbr_character_get_rigid_state(s->world, s->character, number).frame;
   sbf_vec3 from = body->center;
   to_world(origin, &now.position, 1);
   if (body->bone >= 0) {
@@ -299,11 +299,11 @@ static void show_hull(stage *st, const session *s, sbf_vec3 origin, uint32_t num
     now.rotation = multiply(now.rotation, back);
   }
   from = rotate(now.rotation, from);
-  draw_place place = {
+  draw_transform transform = {
       now.rotation, {now.position.x - from.x, now.position.y - from.y, now.position.z - from.z}};
   if (triangles)
-    draw_scene_add_hull(
-        scene, hull->positions.at, hull->positions.count, triangles, count, &place, draw_colour_of_hull());
+    draw_scene_add_hull(scene, hull->positions.at, hull->positions.count, triangles, count, &transform,
+        draw_colour_of_hull());
   free(triangles);
 }
 
@@ -350,7 +350,7 @@ static void show_ground(const session *s, sbf_vec3 origin, draw_scene *scene) {
 void stage_show(stage *st, const session *s, draw_scene *scene) {
   sbf_vec3 origin = world_origin(s);
   draw_scene_clear(scene);
-  sbr_character_bones(s->world, s->character, st->bones, s->asset->bones.count);
+  sbr_character_get_bones(s->world, s->character, st->bones, s->asset->bones.count);
   for (uint32_t i = 0; i < s->asset->bones.count; i++) to_world(origin, &st->bones[i].position, 1);
   bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
   if (st->show & STAGE_SURFACE) shown_skin_add(st->skin, s, origin, inside ? DRAW_XRAY : 0, scene);

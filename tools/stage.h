@@ -4,7 +4,7 @@
 
 #include "render/draw_scene.h"
 #include "session.h"
-#include "skin_look.h"
+#include "skin_material.h"
 
 enum {
   STAGE_SURFACE = 1,

@@ -18,11 +18,11 @@ static bool is_loose(const sbf_asset *asset) {
 
 /* The highest ground below the box, looked at in a grid of places. */
 static double highest(const sbr_ground *ground, sbf_vec3 low, sbf_vec3 high) {
-  enum { PLACES = 33 };
+  enum { GRID_POINTS = 33 };
   double top = 0;
-  for (int i = 0; i < PLACES * PLACES; i++) {
-    int column = i % PLACES, row = i / PLACES;
-    double u = column / (PLACES - 1.0), v = row / (PLACES - 1.0);
+  for (int i = 0; i < GRID_POINTS * GRID_POINTS; i++) {
+    int column = i % GRID_POINTS, row = i / GRID_POINTS;
+    double u = column / (GRID_POINTS - 1.0), v = row / (GRID_POINTS - 1.0);
     sbf_vec3 normal;
     double here = ground->height(
         ground, low.x + u * ((double)high.x - low.x), low.z + v * ((double)high.z - low.z), &normal);

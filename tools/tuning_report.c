@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-static const tune_trial *on_front(const tuning *t, uint32_t place) {
-  return &t->trials.at[t->trials.front[place]];
+static const tune_trial *on_front(const tuning *t, uint32_t index) {
+  return &t->trials.at[t->trials.front[index]];
 }
 
-static void say_way(const tuning *t, const tune_trial *trial, char *text, size_t size) {
+static void describe_method(const tuning *t, const tune_trial *trial, char *text, size_t size) {
   char steps[24] = "";
   if (trial->setting.substeps)
     snprintf(steps, sizeof steps, ", %u substeps", (unsigned)trial->setting.substeps);
@@ -21,8 +21,8 @@ static void say_length(const tuning *t, double length_m, char *text, size_t size
 
 void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
   const tune_trial *near = on_front(t, t->chosen);
-  char way[128], asked[48], is[48];
-  say_way(t, near, way, sizeof way);
+  char how[128], asked[48], is[48];
+  describe_method(t, near, how, sizeof how);
   double error = tune_distance_by(&near->promised, t->by);
   say_length(t, t->goal.error_m, asked, sizeof asked);
   say_length(t, error, is, sizeof is);
@@ -30,30 +30,30 @@ void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]) {
     snprintf(text, TUNING_TEXT,
         "nothing that was tried keeps within %s: the nearest is off by %s (%s), %.2g m of it the reference's "
         "own: ask for %.3g m or more, or try finer lattices with --elements and --reference",
-        asked, is, way, tune_distance_by(&t->yard.own, t->by), error * 1.01);
+        asked, is, how, tune_distance_by(&t->yard.own, t->by), error * 1.01);
   else if (t->verdict == TUNE_TOO_CHEAP)
     snprintf(text, TUNING_TEXT,
         "nothing that was tried takes less than %.4g us a tick here: the cheapest takes %.4g us (%s; off by "
         "%s): give it more, or try coarser lattices with --elements",
-        t->goal.budget_us, near->us.median, way, is);
+        t->goal.budget_us, near->us.median, how, is);
   else
     snprintf(text, TUNING_TEXT,
         "what keeps within %s takes %.4g us a tick here at least (%s), more than %.4g: allow either to be "
         "more",
-        asked, near->us.median, way, t->goal.budget_us);
+        asked, near->us.median, how, t->goal.budget_us);
 }
 
 /* ---- Text ---- */
 
 static void print_level(const tuning *t, uint32_t number) {
   const tune_trial *trial = t->levels[number].trial;
-  char way[128];
-  say_way(t, trial, way, sizeof way);
+  char how[128];
+  describe_method(t, trial, how, sizeof how);
   const tune_distances *of = &trial->promised;
   printf("  level %u: %s: off by %.2e m (RMS), %.2e m (99 of 100 vertices), %.2e m at most; %.0f visits, "
          "%.4g us a "
          "tick\n",
-      (unsigned)number, way, of->rms_m, of->p99_m, of->max_m, trial->visits, trial->us.median);
+      (unsigned)number, how, of->rms_m, of->p99_m, of->max_m, trial->visits, trial->us.median);
 }
 
 static void print_harsher(const tuning *t) {

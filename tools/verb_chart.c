@@ -31,11 +31,11 @@ typedef struct request {
   const chart_case *now;
 } request;
 
-static void show_progress(void *user, const char *what, double share) {
+static void show_progress(void *user, const char *what, double fraction) {
   const request *r = user;
   char text[96];
   snprintf(text, sizeof text, "%s: %s", r->now->name, what);
-  cli_progress(text, share);
+  cli_progress(text, fraction);
 }
 
 static const chart_case *case_named(const request *r, const char *name) {

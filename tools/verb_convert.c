@@ -1,4 +1,4 @@
-/* sbfmt convert: foreign files to bundles. */
+/* sbfmt convert: converts files of other programs to bundles. */
 #include <errno.h>
 #include <float.h>
 #include <math.h>
@@ -20,7 +20,7 @@
 enum { MAX_PATH = 4096 };
 static const double MIN_BUDGET_US = 1, MAX_BUDGET_US = 1e6;
 
-/* OUT-DIR/NAME.sbf for an input's NAME.ending. */
+/* Writes the output path OUT-DIR/NAME.sbf of an input NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
   const char *slash = strrchr(input, '/'), *name = slash ? slash + 1 : input, *dot = strrchr(name, '.');
   int length = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
@@ -37,7 +37,7 @@ static bool is_bundle(const char *path) {
   return dot && (strcmp(dot, ".sbf") == 0 || strcmp(dot, ".sbfz") == 0);
 }
 
-/* The source parts of an input; a bundle is taken as it is, to add motion to it. */
+/* Reads an input as source parts. A bundle is loaded unchanged, to add motion to it. */
 static sbf_status read_input(cli_call *call, const char *input, const sbf_convert_options *options,
     sbf_asset **asset, sbf_diagnostic *error) {
   const sbf_load_options loading = {.report = options->report, .user = options->user};
@@ -51,7 +51,7 @@ static sbf_status read_input(cli_call *call, const char *input, const sbf_conver
   return status;
 }
 
-/* The report of a conversion that went well; its own failure fails the call. */
+/* Writes the report of a successful conversion; an error here fails the call. */
 static sbf_status write_report(cli_call *call, const char *input, const char *out,
     const sbf_convert_options *options, const sbf_asset *asset, sbf_diagnostic *error) {
   const conversion_report of = {.input = input,
@@ -68,7 +68,8 @@ static sbf_status write_report(cli_call *call, const char *input, const char *ou
   return status;
 }
 
-/* As a build does: a large file can then be described without reading its geometry. */
+/* Stores summary values in the asset, as a build does, so that a large file can be described without reading
+ * its geometry. */
 static void state_figures(sbf_asset *asset) {
   sbf_asset_measures measures;
   sbf_asset_measure(asset, &measures);
@@ -78,7 +79,8 @@ static void state_figures(sbf_asset *asset) {
   asset->info.high = measures.high;
 }
 
-/* 0: the usual sections. False, with a message, where it is no number or is given with what it chooses. */
+/* Reads the budget in microseconds; 0: default sections. False, with a message, if it is not a number or
+ * conflicts with other options. */
 static bool read_budget(const cli_call *call, double *budget_us) {
   static const char *const chosen[] = {
       "--elements", "--cell", "--error", "--levels", "--springs", "--sections"};
@@ -120,7 +122,7 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   return (int)status;
 }
 
-/* That every input has a place of its own in the folder, and that the folder is there: it is made. */
+/* Checks that every input has its own output path and creates the folder. */
 static bool prepare_folder(const cli_call *call, const char *folder) {
   char path[MAX_PATH], other[MAX_PATH];
   for (int i = 0; i < call->input_count; i++) {

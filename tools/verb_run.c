@@ -36,7 +36,7 @@ typedef struct run_state {
   bool valid;
 } run_state;
 
-static bool make_room(run_state *r) {
+static bool reserve(run_state *r) {
   const sbf_asset *asset = r->s.asset;
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
     r->skin_count += asset->render_meshes.at[i].mesh.positions.count;
@@ -53,14 +53,14 @@ static bool make_room(run_state *r) {
 static void read_skin(run_state *r) {
   uint32_t at = 0;
   for (uint32_t i = 0; i < r->s.asset->render_meshes.count; i++)
-    at += sbr_character_skin(
+    at += sbr_character_get_skin(
         r->s.world, r->s.character, i, r->skin + at, r->normals + at, NULL, r->skin_count - at);
 }
 
 static void read_health(run_state *r) {
   r->end_volume = 1;
   for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
-    sbr_body_health health = sbr_character_health(r->s.world, r->s.character, i);
+    sbr_body_health health = sbr_character_get_body_health(r->s.world, r->s.character, i);
     r->valid = r->valid && health.finite && !health.inverted;
     recovery_report_measure(&r->recoveries, i, &health);
     r->end_volume = fmin(r->end_volume, (double)health.volume_ratio);
@@ -72,7 +72,7 @@ static void read_health(run_state *r) {
 static double energy(const run_state *r) {
   double sum = 0;
   for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
-    sbr_body_health health = sbr_character_health(r->s.world, r->s.character, i);
+    sbr_body_health health = sbr_character_get_body_health(r->s.world, r->s.character, i);
     sum += health.kinetic_j + health.elastic_j + health.potential_j;
   }
   return sum;
@@ -80,10 +80,10 @@ static double energy(const run_state *r) {
 
 /* The skin, or the surfaces, in world space into the cache. */
 static bool add_to_cache(run_state *r, sbf_diagnostic *error) {
-  sbr_double3 origin = sbr_character_origin(r->s.world, r->s.character);
+  sbr_double3 origin = sbr_character_get_origin(r->s.world, r->s.character);
   uint32_t count = r->cache_of_surface ? r->surface_count : r->skin_count, at = 0;
   for (uint32_t i = 0; r->cache_of_surface && i < r->s.asset->soft_bodies.count; i++)
-    at += sbr_character_surface(r->s.world, r->s.character, i, r->surface + at, count - at);
+    at += sbr_character_get_surface(r->s.world, r->s.character, i, r->surface + at, count - at);
   const sbf_vec3 *from = r->cache_of_surface ? r->surface : r->skin;
   for (uint32_t i = 0; i < count; i++)
     r->sample[i] = (sbf_vec3){(float)(origin.x + (double)from[i].x), (float)(origin.y + (double)from[i].y),
@@ -150,19 +150,19 @@ static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
 static void add_distance(const run_state *r, json_t *o) {
   const sbf_gait_list gaits = r->s.asset->gaits;
   if (gaits.count && gaits.at[0].kind != SBF_GAIT_KIND_WALK)
-    json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
+    json_object_set_new(o, "distance", json_real(sbr_character_get_distance(r->s.world, r->s.character)));
 }
 
 static void add_steps(const run_state *r, json_t *o) {
   sbr_leg_state legs[16];
-  uint32_t leg_count = sbr_character_legs(r->s.world, r->s.character, legs, 16);
+  uint32_t leg_count = sbr_character_get_legs(r->s.world, r->s.character, legs, 16);
   if (leg_count == 0 || !r->soles) return;
   const sbf_gait *gait = &r->s.asset->gaits.at[0];
   json_t *steps = json_object();
   for (uint32_t l = 0; l < leg_count && l < 16; l++)
     json_object_set_new(steps, gait->legs.at[l].name, json_integer(legs[l].steps_taken));
   sole_report walked = soles_report(r->soles);
-  json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
+  json_object_set_new(o, "distance", json_real(sbr_character_get_distance(r->s.world, r->s.character)));
   json_object_set_new(o, "steps_taken", steps);
   json_object_set_new(o, "stance_slip", json_real(walked.slip_m));
   json_object_set_new(o, "penetration", json_real(walked.penetration_m));
@@ -171,13 +171,13 @@ static void add_steps(const run_state *r, json_t *o) {
 
 static json_t *report(const run_state *r) {
   char hash[24];
-  snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_state_hash(r->s.world));
-  uint64_t ticks = sbr_world_ticks(r->s.world);
+  snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_get_state_hash(r->s.world));
+  uint64_t ticks = sbr_world_get_tick_count(r->s.world);
   json_t *o = json_object();
   json_object_set_new(o, "seconds", json_real(r->s.time_s));
   json_object_set_new(o, "frames", json_integer(r->s.frame));
   json_object_set_new(o, "steps", json_integer((json_int_t)ticks));
-  json_object_set_new(o, "substeps", json_integer(sbr_model_substeps(r->s.model)));
+  json_object_set_new(o, "substeps", json_integer(sbr_model_get_substeps(r->s.model)));
   json_object_set_new(o, "us_per_frame", json_real(r->s.frame ? 1e6 * r->busy_s / r->s.frame : 0));
   json_object_set_new(o, "state_hash", json_string(hash));
   json_object_set_new(o, "valid", json_boolean(r->valid && recovery_report_total(&r->recoveries) == 0));
@@ -214,7 +214,7 @@ static bool play(run_state *r, cli_call *call) {
 }
 
 /* The exit status of what was played. */
-static int judge_replay(const recording *r, const cli_call *call) {
+static int check_replay(const recording *r, const cli_call *call) {
   if (!r->replay.differs) return SBF_OK;
   cli_wrong(call, "the motion is not the one that was recorded, at tick %llu at the latest",
       (unsigned long long)r->replay.differs_at_tick);
@@ -230,7 +230,7 @@ static int run(cli_call *call) {
     return SBF_FAILED;
   if (!session_open(&r.s, call, 5, 60, &status)) return status;
   status = SBF_FAILED;
-  if (!make_room(&r))
+  if (!reserve(&r))
     cli_wrong(call, "memory ran out");
   else if (open_outputs(&r, call)) {
     rigid_report_begin(&r.rigid, &r.s);
@@ -242,7 +242,7 @@ static int run(cli_call *call) {
   if (!close_outputs(&r, status == SBF_OK, call)) status = SBF_FAILED;
   if (status == SBF_OK) {
     json_t *object = report(&r);
-    status = judge_replay(&r.s.recording, call);
+    status = check_replay(&r.s.recording, call);
     recovery_report_warn(&r.recoveries, r.s.asset);
     if (call->json)
       status = cli_print_json(object, status);

@@ -11,15 +11,15 @@
 #include "tune/forecast.h"
 #include "tuning_report.h"
 
-static void show(void *user, const char *what, double share) {
+static void show(void *user, const char *what, double fraction) {
   (void)user;
-  cli_progress(what, share);
+  cli_progress(what, fraction);
 }
 /* `user` says of which drive. */
-static void show_reference(void *user, const char *motion, uint32_t substeps, double share) {
+static void show_reference(void *user, const char *motion, uint32_t substeps, double fraction) {
   char what[96];
   snprintf(what, sizeof what, "%s: %s by %u substeps", (const char *)user, motion, (unsigned)substeps);
-  cli_progress(what, share);
+  cli_progress(what, fraction);
 }
 
 typedef struct request {
@@ -213,10 +213,10 @@ static void say_unmet(const cli_call *call, const tuning *t, const request *r) {
 
 static int finish(cli_call *call, tuning *t, const request *r) {
   if (!t->meshes.nothing_is_soft && !choose(t)) return cli_wrong(call, "memory ran out");
-  bool met = t->meshes.nothing_is_soft || t->verdict == TUNE_MET, writes = met || r->nearest;
+  bool reached = t->meshes.nothing_is_soft || t->verdict == TUNE_MET, writes = reached || r->nearest;
   int saved = writes ? write_out(call, t) : SBF_OK;
   cli_progress_end();
-  if (!met) say_unmet(call, t, r);
+  if (!reached) say_unmet(call, t, r);
   if (saved != SBF_OK) return saved;
   if (call->json) return cli_print_json(tuning_json(t), writes ? SBF_OK : SBF_BAD_INPUT);
   if (!writes) return SBF_BAD_INPUT;
@@ -233,7 +233,7 @@ static int run(cli_call *call) {
   t->machine = chart_this_machine();
   int status = SBF_FAILED;
   if (parse(call, t, &r)) {
-    status = (int)chart_place_check(t->out, &error); /* before minutes of work */
+    status = (int)chart_check_writable(t->out, &error); /* before minutes of work */
     if (status == SBF_OK) status = (int)sweep(call, t, &r, &error);
     cli_progress_end();
     if (status == SBF_OK)

@@ -55,8 +55,9 @@ static void print_counts(const sbf_validate_result *r) {
       r->warnings == 1 ? "" : "s", r->infos, r->infos == 1 ? "" : "s");
 }
 
-static void tell(const cli_call *call, checked *one, bool strict, json_t *messages, json_t *files) {
-  checked_tell(call, one, messages);
+static void report_progress(
+    const cli_call *call, checked *one, bool strict, json_t *messages, json_t *files) {
+  checked_report(call, one, messages);
   if (call->json) {
     json_array_append_new(files, file_json(one, strict));
   } else {
@@ -99,7 +100,7 @@ static int validate(const cli_call *call, const file_list *list, thread_pool *po
     if (tasks.run) tasks.run(tasks.user, check_one, &b, count);
     cli_progress_end();
     for (uint32_t i = 0; i < count; i++) {
-      tell(call, &results[i], strict, messages, files);
+      report_progress(call, &results[i], strict, messages, files);
       add(&t, &results[i], strict);
       findings_free(&results[i].found);
     }
@@ -109,13 +110,13 @@ static int validate(const cli_call *call, const file_list *list, thread_pool *po
 }
 
 /* What was mended of a file, and what is left to find in the one written. */
-typedef struct mended {
+typedef struct repaired {
   findings done;
   checked left;
-} mended;
+} repaired;
 
 /* A file that is refused for what can be mended is loaded all the same. */
-static sbf_status load_for_mending(const char *path, sbf_asset **asset, checked *refused) {
+static sbf_status load_for_repair(const char *path, sbf_asset **asset, checked *refused) {
   sbf_load_options loading = {
       .check_crc = true, .mendable = true, .report = findings_take, .user = &refused->found};
   sbf_diagnostic error;
@@ -126,10 +127,10 @@ static sbf_status load_for_mending(const char *path, sbf_asset **asset, checked 
   return status;
 }
 
-static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnostic *error) {
+static sbf_status repair(const char *from, const char *to, repaired *m, sbf_diagnostic *error) {
   sbf_asset *asset, *fixed;
   sbf_fix_options options = {.report = findings_take, .user = &m->done};
-  sbf_status status = load_for_mending(from, &asset, &m->left);
+  sbf_status status = load_for_repair(from, &asset, &m->left);
   if (status != SBF_OK) return status;
   uint32_t left_out = (uint32_t)m->left.found.count; /* of a newer version */
   status = sbf_fix(asset, &options, &fixed, NULL, error);
@@ -154,7 +155,7 @@ static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnost
   return status;
 }
 
-static json_t *mended_json(const cli_call *call, const mended *m, const char *from) {
+static json_t *repaired_json(const cli_call *call, const repaired *m, const char *from) {
   json_t *list = json_array();
   for (size_t i = 0; i < m->done.count; i++) {
     sbf_diagnostic *d = &m->done.at[i];
@@ -171,13 +172,13 @@ static json_t *mended_json(const cli_call *call, const mended *m, const char *fr
 static int fix(const cli_call *call, const char *from, const char *to) {
   bool strict = cli_switch(call, "--strict");
   sbf_diagnostic error;
-  mended m = {.left = {.path = from}};
+  repaired m = {.left = {.path = from}};
   json_t *messages = call->json ? json_array() : NULL, *files = call->json ? json_array() : NULL;
-  m.left.status = mend(from, to, &m, &error);
+  m.left.status = repair(from, to, &m, &error);
   bool written = m.left.status == SBF_OK;
-  json_t *done = mended_json(call, &m, from);
+  json_t *done = repaired_json(call, &m, from);
   totals t = {.status = SBF_OK};
-  tell(call, &m.left, strict, messages, files);
+  report_progress(call, &m.left, strict, messages, files);
   add(&t, &m.left, strict);
   findings_free(&m.done);
   findings_free(&m.left.found);

@@ -74,21 +74,21 @@ static sbf_status show(viewing *g, sbf_diagnostic *error) {
   return status == SBF_OK && shot ? write_shot(g, shot, error) : status;
 }
 
-static int tell(const viewer *v) {
+static int report(const viewer *v) {
   const session *s = &v->st.s;
   char hash[24];
   json_t *o = json_object();
   bool valid = true;
   for (uint32_t i = 0; i < s->asset->soft_bodies.count; i++) {
-    sbr_body_health health = sbr_character_health(s->world, s->character, i);
+    sbr_body_health health = sbr_character_get_body_health(s->world, s->character, i);
     valid = valid && health.finite && !health.inverted;
   }
-  snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_state_hash(s->world));
+  snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_get_state_hash(s->world));
   json_object_set_new(o, "frames", json_integer(s->frame));
   json_object_set_new(o, "seconds", json_real(s->time_s));
   json_object_set_new(o, "state_hash", json_string(hash));
   json_object_set_new(o, "valid", json_boolean(valid));
-  json_object_set_new(o, "walked", json_real(sbr_character_distance(s->world, s->character)));
+  json_object_set_new(o, "walked", json_real(sbr_character_get_distance(s->world, s->character)));
   json_object_set_new(o, "level", json_integer(s->settings.model.level));
   json_object_set_new(o, "render_level", json_integer(v->st.render_level));
   json_object_set_new(o, "ground", json_string(viewer_ground_name(v)));
@@ -137,7 +137,7 @@ static int run(cli_call *call) {
     cli_print_diagnostic(call, &error);
   else if (status == SBF_OK && !session_finish(&v->st.s, call))
     status = SBF_FAILED;
-  if (status == SBF_OK && call->json) status = tell(v);
+  if (status == SBF_OK && call->json) status = report(v);
   if (v->p.s) player_close(&v->p);
   studio_close(&v->st);
   input_script_free(&v->input);

@@ -148,7 +148,7 @@ static void measure_balance(
     walk_report *r, const session *s, const sbr_leg_state *legs, const sbf_vec3 *skin) {
   sbf_vec3 center;
   int count = 0;
-  if (!sbr_character_center(s->world, s->character, &center)) return;
+  if (!sbr_character_get_center_of_mass(s->world, s->character, &center)) return;
   for (uint32_t l = 0; l < r->leg_count; l++) {
     const uint32_t *vertices;
     uint32_t n = soles_vertices(r->soles, l, &vertices), max = MAX_HULL / r->leg_count;
@@ -171,7 +171,7 @@ static void measure_balance(
 static void measure_leg(walk_report *r, const session *s, uint32_t l, const sbr_leg_state *state,
     const sbf_vec3 *skin, double dt) {
   leg_track *leg = &r->legs[l];
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
   if (leg->lower >= 0) {
     double knee = angle_between(away(&r->bones[leg->upper], &r->bones[leg->lower]),
         away(&r->bones[leg->lower], &r->bones[leg->foot]));
@@ -227,12 +227,12 @@ static void turn_rate(sbf_quat a, sbf_quat b, double dt, double rate[3]) {
   double v[3] = {(double)a.w * b.x - (double)b.w * a.x - (double)b.y * a.z + (double)b.z * a.y,
       (double)a.w * b.y - (double)b.w * a.y - (double)b.z * a.x + (double)b.x * a.z,
       (double)a.w * b.z - (double)b.w * a.z - (double)b.x * a.y + (double)b.y * a.x};
-  double sine = length3(v), angle = 2 * atan2(sine, fabs(w)), share = sine > 1e-9 ? angle / sine : 2;
-  for (int i = 0; i < 3; i++) rate[i] = DEGREES * v[i] * share * (w < 0 ? -1 : 1) / dt;
+  double sine = length3(v), angle = 2 * atan2(sine, fabs(w)), fraction = sine > 1e-9 ? angle / sine : 2;
+  for (int i = 0; i < 3; i++) rate[i] = DEGREES * v[i] * fraction * (w < 0 ? -1 : 1) / dt;
 }
 
 static void measure_body(walk_report *r, const session *s, double dt) {
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
   const sbr_transform *b = &r->bones[r->body];
   double at[3] = {
       origin.x + (double)b->position.x, origin.y + (double)b->position.y, origin.z + (double)b->position.z};
@@ -257,7 +257,7 @@ static void measure_body(walk_report *r, const session *s, double dt) {
 }
 
 static void measure_drive(walk_report *r, const session *s, double dt) {
-  double distance = sbr_character_distance(s->world, s->character);
+  double distance = sbr_character_get_distance(s->world, s->character);
   if (s->script.speed > 0 && s->time_s - s->script.since_s > STARTS_S) {
     r->driven_m += s->script.speed * dt;
     r->gone_m += distance - r->distance_m;
@@ -268,8 +268,8 @@ static void measure_drive(walk_report *r, const session *s, double dt) {
 void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin) {
   sbr_leg_state legs[MAX_LEGS];
   memset(legs, 0, sizeof legs);
-  sbr_character_legs(s->world, s->character, legs, MAX_LEGS);
-  sbr_character_bones(s->world, s->character, r->bones, s->asset->bones.count);
+  sbr_character_get_legs(s->world, s->character, legs, MAX_LEGS);
+  sbr_character_get_bones(s->world, s->character, r->bones, s->asset->bones.count);
   double dt = s->frame_s;
   uint32_t in_air = 0;
   for (uint32_t l = 0; l < r->leg_count; l++) {
@@ -277,7 +277,7 @@ void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin)
     if (!legs[l].planted) in_air |= 1u << (r->legs[l].group & 31);
   }
   r->opposite_frames += (in_air & (in_air - 1)) != 0;
-  r->limit_excess = fmax(r->limit_excess, (double)sbr_character_limit_excess(s->world, s->character));
+  r->limit_excess = fmax(r->limit_excess, (double)sbr_character_get_limit_violation(s->world, s->character));
   measure_balance(r, s, legs, skin);
   measure_body(r, s, dt);
   measure_drive(r, s, dt);

@@ -11,7 +11,7 @@ enum { CROWD_COLUMNS = 20 };
 static const float CROWD_HEIGHT_RAD = 1.0471976f, CROWD_WIDE = 16.0f / 9, CROWD_LINES = 1080;
 
 /* The i-th of them: three metres apart, each looking elsewhere, and at its own speed. */
-static inline sbr_character_definition crowd_place(uint32_t i) {
+static inline sbr_character_definition crowd_arrange(uint32_t i) {
   sbr_character_definition at = sbr_default_character_definition();
   sbr_double3 position = {3.0 * (i % CROWD_COLUMNS) - 1.5 * CROWD_COLUMNS, 0, 3.0 * (i / CROWD_COLUMNS)};
   at.position = position;
@@ -19,21 +19,21 @@ static inline sbr_character_definition crowd_place(uint32_t i) {
   return at;
 }
 /* Likewise, so close that they run into each other. */
-static inline sbr_character_definition crowd_place_close(uint32_t i) {
-  sbr_character_definition at = crowd_place(i);
+static inline sbr_character_definition crowd_arrange_close(uint32_t i) {
+  sbr_character_definition at = crowd_arrange(i);
   sbr_double3 position = {2.4 * (i % 10) - 12, 0, 2.4 * (i / 10)};
   at.position = position;
   return at;
 }
 static inline void crowd_drive(sbr_world *world, sbr_character_id id, uint32_t i) {
-  sbr_character_drive(world, id, 0.2f + 0.05f * (float)(i % 7), 0, 0.1f * (float)(i % 5) - 0.2f);
+  sbr_character_set_drive(world, id, 0.2f + 0.05f * (float)(i % 7), 0, 0.1f * (float)(i % 5) - 0.2f);
 }
 
 /* Along the front of the crowd, two metres from it, at a man's height; it turns as it goes. */
 static inline sbr_view crowd_view(double seconds, double all_s) {
-  double share = seconds / all_s, turn = 0.8 * (share - 0.5);
+  double fraction = seconds / all_s, turn = 0.8 * (fraction - 0.5);
   sbr_view view;
-  sbr_double3 eye = {40 * share - 20, 1.7, -3.5};
+  sbr_double3 eye = {40 * fraction - 20, 1.7, -3.5};
   sbf_vec3 forward = {(float)sin(turn), -0.12f, (float)cos(turn)};
   view.eye = eye, view.forward = forward;
   view.height_rad = CROWD_HEIGHT_RAD, view.width_ratio = CROWD_WIDE, view.lines = CROWD_LINES;

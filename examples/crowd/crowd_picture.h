@@ -62,10 +62,10 @@ static inline void crowd_empty(crowd_picture *p, const sbr_view *view) {
 
 /* False where it lies behind the eye. `normal` NULL: it has no light of its own. */
 static inline bool crowd_corner_at(
-    const crowd_picture *p, const double place[3], const sbf_vec3 *normal, crowd_corner *corner) {
+    const crowd_picture *p, const double position[3], const sbf_vec3 *normal, crowd_corner *corner) {
   double along = 0, across = 0, over = 0;
   for (int k = 0; k < 3; k++) {
-    double from = place[k] - p->eye[k];
+    double from = position[k] - p->eye[k];
     along += from * p->forward[k], across += from * p->right[k], over += from * p->up[k];
   }
   if (!(along > 0.1)) return false;

@@ -28,27 +28,27 @@ int main(int argc, char **argv) {
   sbr_character_definition of_character = sbr_default_character_definition();
   if (sbr_character_create(world, model, &of_character, &character, &error) != SBF_OK) return failed(&error);
 
-  uint32_t count = sbr_character_skin(world, character, 0, NULL, NULL, NULL, 0);
+  uint32_t count = sbr_character_get_skin(world, character, 0, NULL, NULL, NULL, 0);
   sbf_vec3 *skin = (sbf_vec3 *)calloc(count + 1, sizeof *skin);
   sbr_event events[64];
   uint32_t steps = 0;
   if (!skin) return 2;
 
-  sbr_character_drive(world, character, 0.5f, 0, 0); /* half a metre a second, straight on */
+  sbr_character_set_drive(world, character, 0.5f, 0, 0); /* half a metre a second, straight on */
   for (int frame = 1; frame <= 300; frame++) {
     sbr_world_step(world, 1.0 / 60); /* an engine gives its frame time */
-    uint32_t event_count = sbr_world_events(world, events, 64);
+    uint32_t event_count = sbr_world_take_events(world, events, 64);
     for (uint32_t i = 0; i < event_count; i++) steps += events[i].kind == SBR_EVENT_FOOT_DOWN;
     if (frame % 60) continue;
-    sbr_double3 origin = sbr_character_origin(world, character); /* what follows is relative to it */
+    sbr_double3 origin = sbr_character_get_origin(world, character); /* what follows is relative to it */
     sbr_transform root;
-    sbr_character_bones(world, character, &root, 1);
-    sbr_character_skin(world, character, 0, skin, NULL, NULL, count); /* an engine draws it */
+    sbr_character_get_bones(world, character, &root, 1);
+    sbr_character_get_skin(world, character, 0, skin, NULL, NULL, count); /* an engine draws it */
     printf("%d s: root at %.2f %.2f %.2f m, %u steps taken, vertex 0 of %u at a height of %.3f m\n",
         frame / 60, origin.x + root.position.x, origin.y + root.position.y, origin.z + root.position.z,
         (unsigned)steps, (unsigned)count, origin.y + (count ? skin[0].y : 0));
   }
-  printf("state %016llx\n", (unsigned long long)sbr_world_state_hash(world));
+  printf("state %016llx\n", (unsigned long long)sbr_world_get_state_hash(world));
 
   free(skin);
   sbr_world_destroy(world);

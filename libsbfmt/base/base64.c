@@ -8,17 +8,17 @@ bool sbfi_base64_encode(sbfi_text *to, const uint8_t *bytes, size_t size) {
     return false;
   }
   size_t length = (size + 2) / 3 * 4;
-  char *place = sbfi_text_reserve(to, length);
-  if (!place) return false;
+  char *destination = sbfi_text_reserve(to, length);
+  if (!destination) return false;
   for (size_t i = 0; i < size; i += 3) {
     size_t left = size - i;
     uint32_t bits = (uint32_t)bytes[i] << 16;
     if (left > 1) bits |= (uint32_t)bytes[i + 1] << 8;
     if (left > 2) bits |= bytes[i + 2];
-    *place++ = alphabet[bits >> 18];
-    *place++ = alphabet[bits >> 12 & 63];
-    *place++ = left > 1 ? alphabet[bits >> 6 & 63] : '=';
-    *place++ = left > 2 ? alphabet[bits & 63] : '=';
+    *destination++ = alphabet[bits >> 18];
+    *destination++ = alphabet[bits >> 12 & 63];
+    *destination++ = left > 1 ? alphabet[bits >> 6 & 63] : '=';
+    *destination++ = left > 2 ? alphabet[bits & 63] : '=';
   }
   to->length += length;
   return true;

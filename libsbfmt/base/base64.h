@@ -16,7 +16,7 @@ typedef struct sbfi_base64_reader {
 } sbfi_base64_reader;
 
 /* Room that sbfi_base64_read needs at most for `length` characters of text, whatever came before. */
-#define SBFI_BASE64_ROOM(length) ((length) / 4 * 3 + 3)
+#define SBFI_BASE64_CAPACITY(length) ((length) / 4 * 3 + 3)
 
 /* Decodes the next piece to `to`; `*size` becomes how many bytes that gave. Returns the offset in `text` of
  * the first character that cannot stand there, or `length`. */

@@ -30,7 +30,7 @@ bool sbfi_file_grow(sbfi_file_content *content, size_t capacity) {
   return true;
 }
 
-bool sbfi_file_writer_room(sbfi_file_writer *writer, const char *final_path) {
+bool sbfi_file_writer_reserve(sbfi_file_writer *writer, const char *final_path) {
   size_t length = strlen(final_path) + 1;
   writer->memory_bytes = 2 * length + SBFI_TEMPORARY_NAME_BYTES + SBFI_FILE_BUFFER_BYTES;
   writer->memory = sbfi_allocate(&writer->allocator, writer->memory_bytes);

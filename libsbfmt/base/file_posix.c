@@ -206,7 +206,7 @@ int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
   /* A rename would replace a link, not the file it names. */
   char *resolved = exists && !direct ? realpath(path, NULL) : NULL;
   if (exists && !direct && !resolved) return errno;
-  bool allocated = sbfi_file_writer_room(writer, resolved ? resolved : path);
+  bool allocated = sbfi_file_writer_reserve(writer, resolved ? resolved : path);
   free(resolved);
   if (!allocated) return ENOMEM;
   if (direct) writer->temporary_path = NULL;

@@ -36,6 +36,6 @@ sbf_status sbfi_file_too_large(sbf_diagnostic *error, const char *path, uint64_t
 /* That the file ends `missing` bytes before what is to be read at `offset`. */
 sbf_status sbfi_file_ends_early(sbf_diagnostic *error, const char *path, uint64_t offset, size_t missing);
 /* Memory for `final_path`, a temporary one beside it, and the buffer. */
-bool sbfi_file_writer_room(sbfi_file_writer *writer, const char *final_path);
+bool sbfi_file_writer_reserve(sbfi_file_writer *writer, const char *final_path);
 
 #endif

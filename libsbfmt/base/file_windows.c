@@ -60,11 +60,12 @@ static HANDLE open_to_read(const char *path, uint64_t *size, sbf_status *status,
 static sbf_status read_to_end(HANDLE handle, const char *path, uint64_t expected_bytes, uint64_t limit_bytes,
     sbfi_file_content *content, sbf_diagnostic *error) {
   if (limit_bytes && expected_bytes > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
-  size_t room = expected_bytes && expected_bytes < SIZE_MAX ? (size_t)expected_bytes + 1 : FIRST_READ_BYTES;
+  size_t capacity =
+      expected_bytes && expected_bytes < SIZE_MAX ? (size_t)expected_bytes + 1 : FIRST_READ_BYTES;
   for (;;) {
     if (content->size == content->allocated_bytes) {
-      if (content->size && !sbfi_multiply_size(content->size, 2, &room)) room = 0;
-      if (!room || !sbfi_file_grow(content, room))
+      if (content->size && !sbfi_multiply_size(content->size, 2, &capacity)) capacity = 0;
+      if (!capacity || !sbfi_file_grow(content, capacity))
         return sbfi_file_fault(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ERROR_NOT_ENOUGH_MEMORY);
     }
     size_t left = content->allocated_bytes - content->size;
@@ -128,11 +129,11 @@ sbf_status sbfi_file_read_at(
     const sbfi_file *file, uint64_t offset, void *to, size_t size, sbf_diagnostic *error) {
   uint8_t *at = to;
   while (size > 0) {
-    OVERLAPPED place = {.Offset = (DWORD)offset, .OffsetHigh = (DWORD)(offset >> 32)};
+    OVERLAPPED overlapped = {.Offset = (DWORD)offset, .OffsetHigh = (DWORD)(offset >> 32)};
     DWORD got = 0;
     if (offset <= INT64_MAX &&
         !ReadFile(handle_of(file->handle), at, (DWORD)(size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER),
-            &got, &place)) {
+            &got, &overlapped)) {
       if (GetLastError() != ERROR_HANDLE_EOF)
         return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, file->path, "read", (int)GetLastError());
       got = 0;
@@ -207,7 +208,7 @@ int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
         CreateFileW(wide, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, NULL, OPEN_EXISTING, 0, NULL);
   direct = device != INVALID_HANDLE_VALUE && GetFileType(device) != FILE_TYPE_DISK;
   if (device != INVALID_HANDLE_VALUE && !direct) CloseHandle(device);
-  if (!sbfi_file_writer_room(writer, path)) {
+  if (!sbfi_file_writer_reserve(writer, path)) {
     if (direct) CloseHandle(device);
     return ERROR_NOT_ENOUGH_MEMORY;
   }

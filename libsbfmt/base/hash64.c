@@ -47,7 +47,7 @@ void sbfi_hash64_init(sbfi_hash64 *hash) {
   hash->lane[3] = 0 - prime1;
 }
 
-void sbfi_hash64_bytes(sbfi_hash64 *hash, const void *bytes, size_t size) {
+void sbfi_hash64_add_bytes(sbfi_hash64 *hash, const void *bytes, size_t size) {
   const uint8_t *at = bytes;
   size_t pending = hash->size % STRIPE;
   hash->size += size;
@@ -73,30 +73,30 @@ static bool is_little_endian(void) {
 /* Numbers of `width` bytes as little-endian bytes. */
 static void take_numbers(sbfi_hash64 *hash, const void *numbers, size_t count, size_t width) {
   if (is_little_endian()) {
-    sbfi_hash64_bytes(hash, numbers, count * width);
+    sbfi_hash64_add_bytes(hash, numbers, count * width);
     return;
   }
   const uint8_t *at = numbers;
   for (size_t i = 0; i < count; i++, at += width) {
     uint8_t turned[8];
     for (size_t k = 0; k < width; k++) turned[k] = at[width - 1 - k];
-    sbfi_hash64_bytes(hash, turned, width);
+    sbfi_hash64_add_bytes(hash, turned, width);
   }
 }
 
-void sbfi_hash64_u32(sbfi_hash64 *hash, const uint32_t *numbers, size_t count) {
+void sbfi_hash64_add_u32(sbfi_hash64 *hash, const uint32_t *numbers, size_t count) {
   take_numbers(hash, numbers, count, sizeof *numbers);
 }
 
-void sbfi_hash64_u64(sbfi_hash64 *hash, const uint64_t *numbers, size_t count) {
+void sbfi_hash64_add_u64(sbfi_hash64 *hash, const uint64_t *numbers, size_t count) {
   take_numbers(hash, numbers, count, sizeof *numbers);
 }
 
-void sbfi_hash64_f32(sbfi_hash64 *hash, const float *numbers, size_t count) {
+void sbfi_hash64_add_f32(sbfi_hash64 *hash, const float *numbers, size_t count) {
   take_numbers(hash, numbers, count, sizeof *numbers);
 }
 
-void sbfi_hash64_f64(sbfi_hash64 *hash, const double *numbers, size_t count) {
+void sbfi_hash64_add_f64(sbfi_hash64 *hash, const double *numbers, size_t count) {
   take_numbers(hash, numbers, count, sizeof *numbers);
 }
 

@@ -14,11 +14,11 @@ typedef struct sbfi_hash64 {
 
 void sbfi_hash64_init(sbfi_hash64 *hash);
 /* How a sequence of bytes is divided into calls does not matter. */
-void sbfi_hash64_bytes(sbfi_hash64 *hash, const void *bytes, size_t size);
-void sbfi_hash64_u32(sbfi_hash64 *hash, const uint32_t *numbers, size_t count);
-void sbfi_hash64_u64(sbfi_hash64 *hash, const uint64_t *numbers, size_t count);
-void sbfi_hash64_f32(sbfi_hash64 *hash, const float *numbers, size_t count);
-void sbfi_hash64_f64(sbfi_hash64 *hash, const double *numbers, size_t count);
+void sbfi_hash64_add_bytes(sbfi_hash64 *hash, const void *bytes, size_t size);
+void sbfi_hash64_add_u32(sbfi_hash64 *hash, const uint32_t *numbers, size_t count);
+void sbfi_hash64_add_u64(sbfi_hash64 *hash, const uint64_t *numbers, size_t count);
+void sbfi_hash64_add_f32(sbfi_hash64 *hash, const float *numbers, size_t count);
+void sbfi_hash64_add_f64(sbfi_hash64 *hash, const double *numbers, size_t count);
 /* The value of all so far; more may follow. */
 uint64_t sbfi_hash64_value(const sbfi_hash64 *hash);
 

@@ -61,7 +61,7 @@ void sbfi_arena_free(sbfi_arena *arena) {
   arena->used_bytes = 0;
 }
 
-static size_t aligned_place(const sbfi_arena_block *block, size_t align) {
+static size_t aligned_address(const sbfi_arena_block *block, size_t align) {
   uintptr_t address = (uintptr_t)block + block->used;
   return block->used + (size_t)(-address & (align - 1));
 }
@@ -73,8 +73,8 @@ void *sbfi_arena_allocate(sbfi_arena *arena, size_t count, size_t size) {
     return NULL;
   size_t align = bytes >= LARGE_FROM ? LARGE_ALIGN : SMALL_ALIGN;
   sbfi_arena_block *block = arena->last;
-  size_t place = block ? aligned_place(block, align) : 0;
-  if (!block || place > block->size || bytes > block->size - place) {
+  size_t index = block ? aligned_address(block, align) : 0;
+  if (!block || index > block->size || bytes > block->size - index) {
     size_t step = block ? block->size * 2 : FIRST_BLOCK;
     if (step > LARGEST_STEP) step = LARGEST_STEP;
     if (!sbfi_add_size(bytes, sizeof(sbfi_arena_block) + LARGE_ALIGN, &needed)) return NULL;
@@ -83,12 +83,12 @@ void *sbfi_arena_allocate(sbfi_arena *arena, size_t count, size_t size) {
     if (!fresh) return NULL;
     *fresh = (sbfi_arena_block){block, needed, sizeof(sbfi_arena_block)};
     arena->last = block = fresh;
-    place = aligned_place(block, align);
+    index = aligned_address(block, align);
   }
-  SBF_ASSERT(place <= block->size && bytes <= block->size - place);
-  block->used = place + bytes;
+  SBF_ASSERT(index <= block->size && bytes <= block->size - index);
+  block->used = index + bytes;
   arena->used_bytes += bytes;
-  return memset((char *)block + place, 0, bytes);
+  return memset((char *)block + index, 0, bytes);
 }
 
 void *sbfi_arena_copy(sbfi_arena *arena, const void *from, size_t count, size_t size) {
@@ -124,16 +124,16 @@ void *sbfi_array_push(sbfi_array *array, size_t count) {
   /* Room for one even where none is asked for: NULL means that memory ran out. */
   if (!sbfi_add_size(array->count, count, &total) || !sbfi_array_reserve(array, total ? total : 1))
     return NULL;
-  char *place = (char *)array->at + array->count * array->item_size;
+  char *destination = (char *)array->at + array->count * array->item_size;
   array->count = total;
-  return memset(place, 0, count * array->item_size);
+  return memset(destination, 0, count * array->item_size);
 }
 
 bool sbfi_array_append(sbfi_array *array, const void *items, size_t count) {
   if (count == 0) return true;
-  void *place = sbfi_array_push(array, count);
-  if (!place) return false;
-  memcpy(place, items, count * array->item_size);
+  void *destination = sbfi_array_push(array, count);
+  if (!destination) return false;
+  memcpy(destination, items, count * array->item_size);
   return true;
 }
 

@@ -97,7 +97,7 @@ size_t sbfi_print_f32(char *to, float value) {
   int q = field ? (int)field - 150 : -149;
   decimal shortest = shortest_decimal(c, q, fraction == 0 && field > 1);
 
-  char room[SBFI_INTEGER_TEXT_SIZE], *end = room + sizeof room;
+  char buffer[SBFI_INTEGER_TEXT_SIZE], *end = buffer + sizeof buffer;
   const char *digits = digits_before(end, shortest.digits);
   int count = (int)(end - digits), exponent = shortest.exponent + count - 1;
   int length_with_exponent = count + (count > 1) + 4;

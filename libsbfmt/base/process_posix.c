@@ -34,8 +34,8 @@
 
 enum {
   READ_BYTES = 1 << 16,
-  LOOK_MS = 50,     /* how often to look for an end that no pipe shows */
-  LOOK_SOON_MS = 2, /* the same once both pipes are closed: the end is near */
+  POLL_MS = 50,      /* how often to look for an end that no pipe shows */
+  FIRST_POLL_MS = 2, /* the same once both pipes are closed: the end is near */
   LAST_DESCRIPTOR = 65536
 };
 
@@ -207,8 +207,8 @@ static ssize_t read_some(int *end, void *to, size_t size) {
 
 /* Returns whether there was something; `kept.failed` tells of missing memory. */
 static bool read_output(child *c) {
-  char *place = c->output >= 0 ? sbfi_text_reserve(&c->kept, READ_BYTES) : NULL;
-  size_t got = place ? (size_t)read_some(&c->output, place, READ_BYTES) : 0;
+  char *destination = c->output >= 0 ? sbfi_text_reserve(&c->kept, READ_BYTES) : NULL;
+  size_t got = destination ? (size_t)read_some(&c->output, destination, READ_BYTES) : 0;
   c->kept.length += got;
   return got > 0;
 }
@@ -244,8 +244,8 @@ static void wait_for_more(const child *c, int64_t left_ms) {
   nfds_t count = 0;
   if (c->output >= 0) ends[count++] = (struct pollfd){.fd = c->output, .events = POLLIN};
   if (c->errors >= 0) ends[count++] = (struct pollfd){.fd = c->errors, .events = POLLIN};
-  int64_t look_ms = count ? LOOK_MS : LOOK_SOON_MS;
-  poll(ends, count, (int)(left_ms < look_ms ? left_ms : look_ms));
+  int64_t poll_ms = count ? POLL_MS : FIRST_POLL_MS;
+  poll(ends, count, (int)(left_ms < poll_ms ? left_ms : poll_ms));
 }
 
 /* Serves the pipes until the program ends or has to be ended. */

@@ -93,7 +93,7 @@ void sbfi_sha256_finish(sbfi_sha256 *hash, uint8_t digest[SBFI_SHA256_BYTES]) {
   for (int i = 0; i < SBFI_SHA256_BYTES; i++) digest[i] = (uint8_t)(hash->state[i / 4] >> (24 - 8 * (i % 4)));
 }
 
-void sbfi_sha256_text(const uint8_t digest[SBFI_SHA256_BYTES], char text[SBFI_SHA256_TEXT_SIZE]) {
+void sbfi_sha256_format(const uint8_t digest[SBFI_SHA256_BYTES], char text[SBFI_SHA256_TEXT_SIZE]) {
   for (int i = 0; i < SBFI_SHA256_BYTES; i++) {
     text[2 * i] = "0123456789abcdef"[digest[i] >> 4];
     text[2 * i + 1] = "0123456789abcdef"[digest[i] & 15];

@@ -17,6 +17,6 @@ void sbfi_sha256_update(sbfi_sha256 *hash, const void *bytes, size_t size);
 void sbfi_sha256_finish(sbfi_sha256 *hash, uint8_t digest[SBFI_SHA256_BYTES]); /* then init again */
 
 /* As 64 lower-case hexadecimal digits and a NUL. */
-void sbfi_sha256_text(const uint8_t digest[SBFI_SHA256_BYTES], char text[SBFI_SHA256_TEXT_SIZE]);
+void sbfi_sha256_format(const uint8_t digest[SBFI_SHA256_BYTES], char text[SBFI_SHA256_TEXT_SIZE]);
 
 #endif

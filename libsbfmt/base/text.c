@@ -150,9 +150,9 @@ char *sbfi_text_reserve(sbfi_text *text, size_t more) {
 }
 
 bool sbfi_text_append(sbfi_text *text, const void *bytes, size_t size) {
-  char *place = sbfi_text_reserve(text, size);
-  if (!place) return false;
-  if (size) memcpy(place, bytes, size);
+  char *destination = sbfi_text_reserve(text, size);
+  if (!destination) return false;
+  if (size) memcpy(destination, bytes, size);
   text->length += size;
   return true;
 }
@@ -166,17 +166,17 @@ bool sbfi_text_char(sbfi_text *text, char c) {
 }
 
 bool sbfi_text_repeat(sbfi_text *text, char c, size_t count) {
-  char *place = sbfi_text_reserve(text, count);
-  if (!place) return false;
-  memset(place, c, count);
+  char *destination = sbfi_text_reserve(text, count);
+  if (!destination) return false;
+  memset(destination, c, count);
   text->length += count;
   return true;
 }
 
 bool sbfi_text_i32(sbfi_text *text, int32_t value) {
-  char *place = sbfi_text_reserve(text, SBFI_INTEGER_TEXT_SIZE);
-  if (place) text->length += sbfi_print_i32(place, value);
-  return place;
+  char *destination = sbfi_text_reserve(text, SBFI_INTEGER_TEXT_SIZE);
+  if (destination) text->length += sbfi_print_i32(destination, value);
+  return destination;
 }
 
 bool sbfi_text_u32(sbfi_text *text, uint32_t value) {
@@ -184,14 +184,14 @@ bool sbfi_text_u32(sbfi_text *text, uint32_t value) {
 }
 
 bool sbfi_text_u64(sbfi_text *text, uint64_t value) {
-  char *place = sbfi_text_reserve(text, SBFI_INTEGER_TEXT_SIZE);
-  if (place) text->length += sbfi_print_u64(place, value);
-  return place;
+  char *destination = sbfi_text_reserve(text, SBFI_INTEGER_TEXT_SIZE);
+  if (destination) text->length += sbfi_print_u64(destination, value);
+  return destination;
 }
 
 bool sbfi_text_f32(sbfi_text *text, float value) {
-  char *place = sbfi_text_reserve(text, SBFI_F32_TEXT_SIZE);
-  size_t length = place ? sbfi_print_f32(place, value) : 0;
+  char *destination = sbfi_text_reserve(text, SBFI_F32_TEXT_SIZE);
+  size_t length = destination ? sbfi_print_f32(destination, value) : 0;
   text->length += length;
   return length > 0;
 }

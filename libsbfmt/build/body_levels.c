@@ -13,7 +13,7 @@
 #include "build/sections/level_pins.h"
 #include "build/sections/section_level.h"
 
-enum { MAX_BRUTE_POINTS = 4096, MIN_SHARE = 100, MAX_REFINED = 3 };
+enum { MAX_BRUTE_POINTS = 4096, MIN_FRACTION = 100, MAX_REFINED = 3 };
 static const double MAX_OFF = 1e-3; /* of a body's size, a point carried by its lattice */
 static const double MAX_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
 
@@ -28,13 +28,13 @@ static void warn_of_attachments(sbfi_build *b, uint32_t body) {
     const sbf_attachment *rule = &b->bodies[body].attachments.at[i];
     if (rule->rule != SBF_ATTACHMENT_RULE_INSIDE_HULL || b->asset->rigid_bodies.at[rule->rigid_body].hull)
       continue;
-    sbf_diagnostic finding;
-    sbfi_diagnose(&finding, SBF_CODE_ATTACHMENT_NO_HULL,
+    sbf_diagnostic diagnostic;
+    sbfi_diagnose(&diagnostic, SBF_CODE_ATTACHMENT_NO_HULL,
         "rigid body \"%s\" has no hull that points could be inside of",
         b->asset->rigid_bodies.at[rule->rigid_body].name);
-    snprintf(
-        finding.path, sizeof finding.path, "/sbf/soft_body[%u]/attachments/attachment[%u]", body + 1, i + 1);
-    sbfi_report(&b->reporter, &finding);
+    snprintf(diagnostic.path, sizeof diagnostic.path, "/sbf/soft_body[%u]/attachments/attachment[%u]",
+        body + 1, i + 1);
+    sbfi_report(&b->reporter, &diagnostic);
   }
 }
 
@@ -112,25 +112,25 @@ static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
 }
 
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
-static sbf_status make_ladder(
-    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings) {
+static sbf_status make_level_set(
+    sbfi_build *b, uint32_t number, sbfi_level_set *set, sbfi_level_findings *findings) {
   sbf_soft_body *body = &b->bodies[number];
   const sbfi_interior_map *map = &b->maps[number];
   bool of_springs = body->levels.at[0].model == SBF_ELASTIC_MODEL_SPRINGS;
   sbf_status status = outcome_status(
-      b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
+      b, number, sbfi_level_set_make(set, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
-  findings->turns = ladder->has_reference && ladder->reference.statics.turns;
-  findings->poor_count = ladder->poor_count;
-  memcpy(findings->poor, ladder->poor, sizeof findings->poor);
-  body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
-  b->report.levels += ladder->level_count - 1;
-  for (uint32_t l = 0; l < ladder->level_count; l++) {
-    if (!ladder->levels[l].calibration) continue;
-    if (ladder->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
-      note_calibration(b, &ladder->calibrations[l]);
+  findings->turns = set->has_reference && set->reference.statics.turns;
+  findings->poor_count = set->poor_count;
+  memcpy(findings->poor, set->poor, sizeof findings->poor);
+  body->levels = (sbf_level_list){set->levels, set->level_count};
+  b->report.levels += set->level_count - 1;
+  for (uint32_t l = 0; l < set->level_count; l++) {
+    if (!set->levels[l].calibration) continue;
+    if (set->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
+      note_calibration(b, &set->calibrations[l]);
     else
-      note_spring_calibration(b, &ladder->calibrations[l]);
+      note_spring_calibration(b, &set->calibrations[l]);
   }
   return SBF_OK;
 }
@@ -152,13 +152,13 @@ static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level
 
 /* Finer where nobody sizes it and it would miss a part of the surface. */
 static sbf_status make_lattice(sbfi_build *b, uint32_t number, sbfi_lattice_recipe recipe, sbf_level *level,
-    sbfi_lattice_counts *counts, sbfi_ladder *ladder, sbfi_arena *scratch) {
+    sbfi_lattice_counts *counts, sbfi_level_set *set, sbfi_arena *scratch) {
   bool sized = recipe.cell > 0 || recipe.elements > 0;
   for (int round = 0;; round++) {
     bool missed = false;
     sbf_status status = outcome_status(b, number,
         sbfi_lattice_level_make(
-            level, &b->bodies[number], &recipe, b->asset, counts, ladder->progress, scratch));
+            level, &b->bodies[number], &recipe, b->asset, counts, set->progress, scratch));
     if (status != SBF_OK || sized || round == MAX_REFINED || counts->tetrahedra == 0) return status;
     if (!find_missed(&missed, &b->bodies[number], level, b)) return sbfi_build_no_memory(b);
     if (!missed) return SBF_OK;
@@ -167,7 +167,7 @@ static sbf_status make_lattice(sbfi_build *b, uint32_t number, sbfi_lattice_reci
 }
 
 static sbf_status make_tetrahedra(
-    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings, sbfi_arena *scratch) {
+    sbfi_build *b, uint32_t number, sbfi_level_set *set, sbfi_level_findings *findings, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
   sbfi_lattice_recipe recipe = {.cell = b->options.cell_m,
       .elements = b->options.elements,
@@ -177,13 +177,13 @@ static sbf_status make_tetrahedra(
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return sbfi_build_no_memory(b);
   if (b->options.error_m > 0) {
-    bool met;
+    bool reached;
     recipe.cell = 0;
-    sbf_status status = outcome_status(b, number, sbfi_ladder_pick(ladder, &recipe.elements, &met));
+    sbf_status status = outcome_status(b, number, sbfi_level_set_pick(set, &recipe.elements, &reached));
     if (status != SBF_OK) return status;
-    if (!met) findings->missed_elements = recipe.elements;
+    if (!reached) findings->missed_elements = recipe.elements;
   }
-  sbf_status status = make_lattice(b, number, recipe, level, &counts, ladder, scratch);
+  sbf_status status = make_lattice(b, number, recipe, level, &counts, set, scratch);
   if (status != SBF_OK) return status;
   if (counts.tetrahedra == 0) {
     sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
@@ -203,8 +203,8 @@ static sbf_status make_tetrahedra(
 
 /* A lattice as for tetrahedra, then regions of its points in their stead. */
 static sbf_status make_regions(
-    sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_level_findings *findings, sbfi_arena *scratch) {
-  sbf_status status = make_tetrahedra(b, number, ladder, findings, scratch);
+    sbfi_build *b, uint32_t number, sbfi_level_set *set, sbfi_level_findings *findings, sbfi_arena *scratch) {
+  sbf_status status = make_tetrahedra(b, number, set, findings, scratch);
   const sbf_soft_body *body = &b->bodies[number];
   if (status != SBF_OK || !b->made[number] || body->levels.at[0].model != SBF_ELASTIC_MODEL_TETRAHEDRA)
     return status;
@@ -239,33 +239,33 @@ static sbf_status make_level(sbfi_build *b, uint32_t number, sbfi_level_findings
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
   bool is_sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0;
-  const sbfi_ladder_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
+  const sbfi_level_set_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
       .error = o->error_m,
       .calibrate = !o->without_calibration && sbfi_body_is_calibrated(&b->bodies[number], interior),
       .tick = (double)b->asset->environment.control_tick,
-      .share = is_sized ? 0 : b->usual_elements,
+      .part = is_sized ? 0 : b->usual_elements,
       .derivation = SBFI_BUILD_DERIVATION};
-  sbfi_ladder ladder;
-  sbfi_ladder_init(
-      &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
+  sbfi_level_set set;
+  sbfi_level_set_init(
+      &set, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
   if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MAX_BRUTE_POINTS)
     status = sbfi_build_report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
         "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
         "bodies",
         b->bodies[number].name, MAX_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
-    status = make_tetrahedra(b, number, &ladder, findings, &scratch);
+    status = make_tetrahedra(b, number, &set, findings, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_SHAPE_MATCHING)
-    status = make_regions(b, number, &ladder, findings, &scratch);
+    status = make_regions(b, number, &set, findings, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
     status = make_section(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = sbfi_build_no_memory(b);
   bool alone = b->bodies[number].levels.count &&
                b->bodies[number].levels.at[0].model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
-  if (status == SBF_OK && b->made[number] && !alone) status = make_ladder(b, number, &ladder, findings);
+  if (status == SBF_OK && b->made[number] && !alone) status = make_level_set(b, number, &set, findings);
   if (status == SBF_OK) sbfi_level_findings_report(b, number, findings);
-  sbfi_ladder_free(&ladder);
+  sbfi_level_set_free(&set);
   sbfi_arena_free(&scratch);
   return status;
 }
@@ -320,13 +320,13 @@ static bool pin_authored_levels(sbfi_build *b, uint32_t number) {
 }
 
 /* Bodies that nobody sizes share what one would get, so that a scene of many is not many times as dear. */
-static void share_elements(sbfi_build *b) {
+static void distribute_elements(sbfi_build *b) {
   uint32_t sharing = 0;
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     sharing += b->bodies[i].levels.count == 0 &&
                sbfi_body_interior(&b->options, &b->bodies[i]) >= SBF_BUILD_INTERIOR_TETRAHEDRA;
-  uint32_t share = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
-  b->usual_elements = share > MIN_SHARE ? share : MIN_SHARE;
+  uint32_t portion = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
+  b->usual_elements = portion > MIN_FRACTION ? portion : MIN_FRACTION;
 }
 
 /* Tetrahedra that the options ask for of the body; 0 where nobody sizes it. */
@@ -361,14 +361,14 @@ static sbf_status check_elements(sbfi_build *b) {
 
 sbf_status sbfi_body_levels_make(sbfi_build *b) {
   uint32_t count = b->asset->soft_bodies.count;
-  share_elements(b);
+  distribute_elements(b);
   sbf_status refused = check_elements(b);
   if (refused != SBF_OK) return refused;
   sbfi_equal_bodies all;
   const made_levels **made = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *made);
   if (!made || !sbfi_equal_bodies_make(&all, b->bodies, count, &b->scratch)) return sbfi_build_no_memory(b);
   for (uint32_t i = 0; i < count; i++) {
-    sbf_status status = sbfi_build_tell(b, "levels", 0.2 + 0.4 * i / count);
+    sbf_status status = sbfi_build_report_progress(b, "levels", 0.2 + 0.4 * i / count);
     if (status != SBF_OK) return status;
     warn_of_attachments(b, i);
     if (b->bodies[i].levels.count > 0) {

@@ -9,7 +9,7 @@
 #include "build/build_state.h"
 #include "build/embed/embed.h"
 #include "build/geometry/topology.h"
-#include "build/new_places.h"
+#include "build/new_positions.h"
 #include "build/render/render_levels.h"
 #include "build/sections/section_frame.h"
 #include "build/sections/section_hulls.h"
@@ -135,12 +135,12 @@ static sbf_status make_hulls(sbfi_build *b) {
 /* Authored parts name others by their places, which have moved where derived ones stood between. */
 static sbf_status renumber(sbfi_build *b) {
   sbfi_lost_reference lost;
-  switch (sbfi_new_places_take(b->asset, b->from, &b->ids, &lost, &b->scratch)) {
-  case SBFI_PLACES_NO_MEMORY:
+  switch (sbfi_new_positions_apply(b->asset, b->from, &b->ids, &lost, &b->scratch)) {
+  case SBFI_POSITIONS_NO_MEMORY:
     return sbfi_build_no_memory(b);
-  case SBFI_PLACES_TAKEN:
+  case SBFI_POSITIONS_APPLIED:
     return SBF_OK;
-  case SBFI_PLACES_LOST:
+  case SBFI_POSITIONS_LOST:
     break;
   }
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_DERIVED_LOST,
@@ -227,19 +227,19 @@ static sbf_status hash_source(sbfi_build *b) {
   return SBF_OK;
 }
 
-static void take_finding(void *user, const sbf_diagnostic *finding) {
-  *(sbf_diagnostic *)user = *finding;
+static void take_finding(void *user, const sbf_diagnostic *diagnostic) {
+  *(sbf_diagnostic *)user = *diagnostic;
 }
 
 /* Sizes and moduli beyond all measure can make numbers that no file may hold. */
 static sbf_status check_made(sbfi_build *b) {
-  sbf_diagnostic finding;
-  if (sbf_asset_check(b->asset, take_finding, &finding, 1) == 0) return SBF_OK;
-  if (finding.code == SBF_CODE_OUT_OF_MEMORY) return sbfi_build_no_memory(b);
+  sbf_diagnostic diagnostic;
+  if (sbf_asset_check(b->asset, take_finding, &diagnostic, 1) == 0) return SBF_OK;
+  if (diagnostic.code == SBF_CODE_OUT_OF_MEMORY) return sbfi_build_no_memory(b);
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_VALUE_NOT_FINITE,
       "what the build makes here is no sound number (%.200s): look at the source's sizes and attributes",
-      finding.message);
-  if (b->error) memcpy(b->error->path, finding.path, sizeof b->error->path);
+      diagnostic.message);
+  if (b->error) memcpy(b->error->path, diagnostic.path, sizeof b->error->path);
   return status;
 }
 
@@ -257,11 +257,11 @@ static sbf_status run(sbfi_build *b) {
       {"figures of the whole", 0.9, record_figures}, {"the check of what was made", 0.92, check_made},
       {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
-    sbf_status status = sbfi_build_tell(b, passes[i].name, passes[i].done);
+    sbf_status status = sbfi_build_report_progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);
     if (status != SBF_OK) return status;
   }
-  return sbfi_build_tell(b, "the last of it", 1);
+  return sbfi_build_report_progress(b, "the last of it", 1);
 }
 
 sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, sbf_asset **built,

@@ -6,7 +6,7 @@
 #include "base/diagnostic.h"
 #include "base/number.h"
 #include "base/text.h"
-#include "build/levels/ladder.h"
+#include "build/levels/level_set.h"
 #include "build/render/render_levels.h"
 
 typedef enum setting_kind {

@@ -38,7 +38,7 @@ typedef struct sbfi_build {
 sbf_status sbfi_build_no_memory(sbfi_build *build);
 
 /* Tells how much of the whole is done before that pass; not SBF_OK where the work is to end. */
-sbf_status sbfi_build_tell(sbfi_build *build, const char *pass, double done);
+sbf_status sbfi_build_report_progress(sbfi_build *build, const char *pass, double done);
 
 /* For a pass that takes the stretch from `from` to `to` of the whole; one at a time. */
 sbfi_progress sbfi_build_stretch(sbfi_build *build, const char *pass, double from, double to);

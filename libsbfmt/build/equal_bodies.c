@@ -6,8 +6,8 @@
 #include "base/hash64.h"
 #include "model/compare.h"
 
-enum { MAX_LOOKS = 64 };
-static const double MAX_APART = 1e-4; /* of a body's size */
+enum { MAX_SAMPLES = 64 };
+static const double MAX_DISTANCE = 1e-4; /* of a body's size */
 
 bool sbfi_equal_bodies_make(
     sbfi_equal_bodies *made, const sbf_soft_body *bodies, uint32_t count, sbfi_arena *arena) {
@@ -28,9 +28,9 @@ static uint32_t slot_of(const sbfi_equal_bodies *all, const sbf_soft_body *body)
   const float matter[] = {body->attributes.young_modulus, body->attributes.density};
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
-  sbfi_hash64_u32(&hash, counts, 2);
-  sbfi_hash64_f32(&hash, matter, 2);
-  sbfi_hash64_u32(&hash, surface->polygon_points.at, surface->polygon_points.count);
+  sbfi_hash64_add_u32(&hash, counts, 2);
+  sbfi_hash64_add_f32(&hash, matter, 2);
+  sbfi_hash64_add_u32(&hash, surface->polygon_points.at, surface->polygon_points.count);
   return (uint32_t)sbfi_hash64_value(&hash) & (all->slot_count - 1);
 }
 
@@ -49,10 +49,10 @@ static bool is_moved(const sbf_vec3_list *from, const sbf_vec3_list *to, sbfi_d3
     high = (sbfi_d3){fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z)};
   }
   *offset = sbfi_d3_scale(sum, 1.0 / from->count);
-  double limit = MAX_APART * sbfi_d3_length(sbfi_d3_sub(high, low));
+  double limit = MAX_DISTANCE * sbfi_d3_length(sbfi_d3_sub(high, low));
   for (uint32_t i = 0; i < from->count; i++) {
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(to->at[i]), sbfi_d3_of(from->at[i]));
-    if (!(sbfi_d3_length(sbfi_d3_sub(way, *offset)) <= limit)) return false;
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(to->at[i]), sbfi_d3_of(from->at[i]));
+    if (!(sbfi_d3_length(sbfi_d3_sub(displacement, *offset)) <= limit)) return false;
   }
   return true;
 }
@@ -75,7 +75,7 @@ uint32_t sbfi_equal_bodies_find(const sbfi_equal_bodies *all, uint32_t number, s
   const sbf_soft_body *body = &all->bodies[number];
   if (!is_loose(body) || body->levels.count > 0) return UINT32_MAX;
   uint32_t other = all->slots[slot_of(all, body)];
-  for (int looks = 0; other != UINT32_MAX && looks < MAX_LOOKS; looks++, other = all->earlier[other])
+  for (int styles = 0; other != UINT32_MAX && styles < MAX_SAMPLES; styles++, other = all->earlier[other])
     if (is_loose(&all->bodies[other]) && is_equal(&all->bodies[other], body, offset)) return other;
   return UINT32_MAX;
 }

@@ -5,7 +5,7 @@
 
 #include "build/build_state.h"
 #include "build/lattice/lattice_thin.h"
-#include "build/levels/ladder.h"
+#include "build/levels/level_set.h"
 
 typedef struct sbfi_level_findings {
   uint32_t missed_elements; /* tetrahedra it got as none came within the error asked for; 0: one did */

@@ -8,7 +8,7 @@ static bool is_one_of(const char *name, const char *const *names, size_t count) 
   return false;
 }
 
-static bool is_read(void *user, const sbfi_place *child) {
+static bool is_read(void *user, const sbfi_element_path *child) {
   static const char *const of_asset[] = {
       "bones", "rigid_bodies", "render_meshes", "soft_bodies", "section_recipes"};
   static const char *const not_of_meshes[] = {"uv_sets", "material_slots", "shape_keys", "levels"};

@@ -1,6 +1,6 @@
 #include "build/source_view.h"
 
-#include "model/place.h"
+#include "model/element_path.h"
 
 /* The field by which an element says what derived it; NULL where it cannot be derived by itself. */
 static const sbfi_field *mark_of(const sbfi_element *element) {
@@ -70,7 +70,7 @@ bool sbfi_source_view(const sbf_asset *asset, sbfi_arena *arena, sbf_asset *view
   return view_children(&sbfi_asset_element, view, arena);
 }
 
-void sbfi_source_places(
+void sbfi_find_source_indices(
     const void *items, uint32_t count, size_t size, size_t derived, int32_t *new_from_old) {
   int32_t kept = 0;
   for (uint32_t i = 0; i < count; i++) {
@@ -87,9 +87,9 @@ typedef struct renumber_walk {
   bool good;
 } renumber_walk;
 
-static void renumber_field(renumber_walk *walk, const sbfi_place *place, const sbfi_field *field) {
+static void renumber_field(renumber_walk *walk, const sbfi_element_path *path, const sbfi_field *field) {
   /* The walk sees the asset as constant; the caller says that its structs may be written to. */
-  void *object = (void *)(uintptr_t)place->object;
+  void *object = (void *)(uintptr_t)path->object;
   int32_t value = sbfi_get_integer(object, field);
   for (uint32_t i = 0; i < walk->count && value != SBF_NONE; i++) {
     const sbfi_renumbering *by = &walk->renumberings[i];
@@ -97,7 +97,7 @@ static void renumber_field(renumber_walk *walk, const sbfi_place *place, const s
     int32_t new_value = (uint32_t)value < by->old_count ? by->new_from_old[value] : SBF_NONE;
     if (new_value == SBF_NONE && field->required && walk->good) {
       walk->good = false;
-      sbfi_place_path(place, field, walk->lost->path, sizeof walk->lost->path);
+      sbfi_element_path_print(path, field, walk->lost->path, sizeof walk->lost->path);
       walk->lost->collection = field->target_name;
     }
     sbfi_set_integer(object, field, new_value);
@@ -105,13 +105,13 @@ static void renumber_field(renumber_walk *walk, const sbfi_place *place, const s
   }
 }
 
-static void renumber(renumber_walk *walk, const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    if (field->type == SBFI_REF) renumber_field(walk, place, field);
-    uint32_t children = sbfi_child_count(place->object, field);
+static void renumber(renumber_walk *walk, const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    if (field->type == SBFI_REF) renumber_field(walk, path, field);
+    uint32_t children = sbfi_child_count(path->object, field);
     for (uint32_t c = 0; c < children; c++) {
-      sbfi_place child = sbfi_place_child(place, field, c);
+      sbfi_element_path child = sbfi_element_path_child(path, field, c);
       renumber(walk, &child);
     }
   }
@@ -120,7 +120,7 @@ static void renumber(renumber_walk *walk, const sbfi_place *place) {
 bool sbfi_references_renumber(
     sbf_asset *asset, const sbfi_renumbering *renumberings, uint32_t count, sbfi_lost_reference *lost) {
   renumber_walk walk = {renumberings, count, lost, true};
-  sbfi_place root = sbfi_place_root(asset);
+  sbfi_element_path root = sbfi_element_path_root(asset);
   renumber(&walk, &root);
   return walk.good;
 }

@@ -31,7 +31,7 @@ bool sbfi_references_renumber(
 
 /* Place in the view of each item of one of the root's collections of the asset (old_count): SBF_NONE where
  * it is derived. `derived` is the offset of the item's own mark. */
-void sbfi_source_places(
+void sbfi_find_source_indices(
     const void *items, uint32_t count, size_t size, size_t derived, int32_t *new_from_old);
 
 #endif

@@ -42,11 +42,11 @@ static void end_line(paper_writer *w) {
   sbfi_text_string(&w->e->text, "/>\n");
 }
 
-static void place_line(paper_writer *w, int depth, const char *name, uint32_t id, sbf_vec3 place) {
+static void position_line(paper_writer *w, int depth, const char *name, uint32_t id, sbf_vec3 position) {
   numbered(w, depth, name, id);
-  attribute(w, "x", place.x);
-  attribute(w, "y", place.y);
-  attribute(w, "z", place.z);
+  attribute(w, "x", position.x);
+  attribute(w, "y", position.y);
+  attribute(w, "z", position.z);
   end_line(w);
 }
 
@@ -61,7 +61,7 @@ static void value_element(paper_writer *w, int depth, const char *name, float va
 
 static void write_vertices(paper_writer *w, int depth, sbf_vec3_list points) {
   line(w, depth, "<vertices>");
-  for (uint32_t i = 0; i < points.count; i++) place_line(w, depth + 1, "vertex", i + 1, points.at[i]);
+  for (uint32_t i = 0; i < points.count; i++) position_line(w, depth + 1, "vertex", i + 1, points.at[i]);
   line(w, depth, "</vertices>");
 }
 
@@ -104,7 +104,8 @@ static void write_render_mesh(paper_writer *w, const sbf_render_mesh *mesh) {
   }
   if (mesh->normals.count) {
     line(w, 3, "<normals>");
-    for (uint32_t i = 0; i < mesh->normals.count; i++) place_line(w, 4, "vector", i + 1, mesh->normals.at[i]);
+    for (uint32_t i = 0; i < mesh->normals.count; i++)
+      position_line(w, 4, "vector", i + 1, mesh->normals.at[i]);
     line(w, 3, "</normals>");
   }
   write_faces(w, 3, &mesh->mesh, mesh);
@@ -137,7 +138,7 @@ static const uint32_t *source_order(paper_writer *w, const sbf_soft_body *body, 
 }
 
 typedef struct tetrahedron_key {
-  uint32_t sorted[4], place;
+  uint32_t sorted[4], index;
 } tetrahedron_key;
 
 static int compare_u32(const void *a, const void *b) {
@@ -149,8 +150,8 @@ static int compare_keys(const void *a, const void *b) {
   return memcmp(a, b, sizeof(uint32_t[4]));
 }
 
-static tetrahedron_key key_of(sbf_uint4 points, uint32_t place) {
-  tetrahedron_key key = {.place = place};
+static tetrahedron_key key_of(sbf_uint4 points, uint32_t index) {
+  tetrahedron_key key = {.index = index};
   memcpy(key.sorted, points.at, sizeof key.sorted);
   qsort(key.sorted, 4, sizeof *key.sorted, compare_u32);
   return key;
@@ -167,7 +168,7 @@ static void write_lattice(paper_writer *w, const sbf_level *level, const uint32_
   line(w, 2, "<tetrahedron_mesh target=\"volume\">");
   line(w, 3, "<vertices>");
   for (uint32_t i = 0; i < count; i++)
-    place_line(w, 4, "vertex", i + 1, level->positions.at[new_from_old[i]]);
+    position_line(w, 4, "vertex", i + 1, level->positions.at[new_from_old[i]]);
   line(w, 3, "</vertices>");
   line(w, 3, "<tetrahedra>");
   for (uint32_t i = 0; i < level->lattice.tetrahedra.count; i++) {
@@ -209,9 +210,9 @@ static void write_barycentric(paper_writer *w, const sbf_level *level, const sbf
       w->lost_vertices++;
       continue;
     }
-    const uint32_t *nodes = level->lattice.tetrahedra.at[found->place].at;
+    const uint32_t *nodes = level->lattice.tetrahedra.at[found->index].at;
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
-    sbfi_export_format(w->e, "      <coord render_id=\"%u\" tetr_id=\"%u\"", vertex + 1, found->place + 1);
+    sbfi_export_format(w->e, "      <coord render_id=\"%u\" tetr_id=\"%u\"", vertex + 1, found->index + 1);
     attribute(w, "v0", weight_at(embedding, i, nodes[0]));
     attribute(w, "v1", weight_at(embedding, i, nodes[1]));
     attribute(w, "v2", weight_at(embedding, i, nodes[2]));

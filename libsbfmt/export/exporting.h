@@ -56,9 +56,9 @@ void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each behind
 const sbf_level *sbfi_export_lattice(const sbf_soft_body *body);
 /* Its first level of springs, or NULL. */
 const sbf_level *sbfi_export_network(const sbf_soft_body *body);
-/* Place in the level of a surface point; SBFI_NO_PLACE: it has none there. */
-#define SBFI_NO_PLACE UINT32_MAX
-uint32_t sbfi_export_place(const sbf_level *level, uint32_t point);
+/* Place in the level of a surface point; SBFI_NOT_IN_LEVEL: it has none there. */
+#define SBFI_NOT_IN_LEVEL UINT32_MAX
+uint32_t sbfi_export_index(const sbf_level *level, uint32_t point);
 /* Whether the body is a sheet whose surface the level has every point of. */
 bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level);
 /* The lattice, or the springs of a sheet; NULL: neither. */

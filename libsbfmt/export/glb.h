@@ -30,10 +30,10 @@ typedef struct sbfi_glb_array {
 } sbfi_glb_array;
 
 /* Where a bone is, in asset or world space. */
-typedef struct sbfi_glb_place {
+typedef struct sbfi_glb_transform {
   sbf_vec3 position;
   sbf_quat rotation;
-} sbfi_glb_place;
+} sbfi_glb_transform;
 
 /* m, then t added. */
 typedef struct sbfi_glb_affine {
@@ -57,12 +57,12 @@ typedef struct sbfi_glb {
   sbfi_arena arena;
   sbfi_text bytes; /* of the binary chunk */
   sbfi_glb_array parts[SBFI_GLB_PARTS];
-  const int32_t *texture_places; /* by texture of the asset: number among the written ones, or SBF_NONE */
-  sbfi_glb_mesh *meshes;         /* by render mesh */
-  sbfi_glb_affine *bone_motions; /* (bones) room for sbfi_glb_offsets; NULL without a motion */
-  size_t frame_points;           /* of all render meshes */
-  uint32_t root_node;            /* that bones hang on */
-  bool root_is_joint;            /* it also holds what no bone holds */
+  const int32_t *texture_indices; /* by texture of the asset: number among the written ones, or SBF_NONE */
+  sbfi_glb_mesh *meshes;          /* by render mesh */
+  sbfi_glb_affine *bone_motions;  /* (bones) room for sbfi_glb_compute_offsets; NULL without a motion */
+  size_t frame_points;            /* of all render meshes */
+  uint32_t root_node;             /* that bones hang on */
+  bool root_is_joint;             /* it also holds what no bone holds */
   bool emissive_strength, texture_transform, texture_webp; /* these extensions are used */
   bool failed;                                             /* memory ran out */
   uint32_t lost_images, lost_tracks;
@@ -89,25 +89,25 @@ uint32_t sbfi_glb_view(sbfi_glb *g, const void *bytes, size_t size);
 
 /* Begins a new item of a part: its text to append to, behind a comma where needed. */
 sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number);
-void sbfi_glb_string(sbfi_text *text, const char *string);                    /* quoted and escaped */
-void sbfi_glb_numbers(sbfi_text *text, const float *numbers, uint32_t count); /* [a,b,...] */
+void sbfi_glb_write_string(sbfi_text *text, const char *string);                    /* quoted and escaped */
+void sbfi_glb_write_numbers(sbfi_text *text, const float *numbers, uint32_t count); /* [a,b,...] */
 
 /* Zeroed memory until the end; NULL, and `failed` set, where it runs out or the count is 0. */
-void *sbfi_glb_room(sbfi_glb *g, size_t count, size_t size);
+void *sbfi_glb_allocate(sbfi_glb *g, size_t count, size_t size);
 
-sbfi_glb_place sbfi_glb_rest(const sbf_asset *asset, uint32_t bone);
+sbfi_glb_transform sbfi_glb_rest(const sbf_asset *asset, uint32_t bone);
 /* A place in its parent's frame; NULL: as it is. The rotation has unit length. */
-void sbfi_glb_local(
-    sbfi_glb_place own, const sbfi_glb_place *parent, float translation[3], float rotation[4]);
+void sbfi_glb_compute_local(
+    sbfi_glb_transform own, const sbfi_glb_transform *parent, float translation[3], float rotation[4]);
 
 /* What each file of the writer adds. */
-void sbfi_glb_materials(sbfi_glb *g);
+void sbfi_glb_write_materials(sbfi_glb *g);
 void sbfi_glb_choose_meshes(sbfi_glb *g); /* fills g->meshes; before nodes and meshes */
-void sbfi_glb_meshes(sbfi_glb *g);
-void sbfi_glb_nodes(sbfi_glb *g); /* and the skin */
-void sbfi_glb_clips(sbfi_glb *g);
+void sbfi_glb_write_meshes(sbfi_glb *g);
+void sbfi_glb_write_nodes(sbfi_glb *g); /* and the skin */
+void sbfi_glb_write_clips(sbfi_glb *g);
 /* The motion's channels; behind the meshes. */
-void sbfi_glb_motion(sbfi_glb *g);
+void sbfi_glb_write_motion(sbfi_glb *g);
 /* What of a mesh's normals its morph targets turn; NULL where it has none, or memory runs out. */
 typedef struct sbfi_glb_normals sbfi_glb_normals;
 sbfi_glb_normals *sbfi_glb_normals_begin(sbfi_glb *g, const sbfi_glb_mesh *mesh);
@@ -117,6 +117,6 @@ void sbfi_glb_normals_move(sbfi_glb_normals *normals, const sbf_vec3 *offsets);
 sbf_vec3 sbfi_glb_normals_offset(const sbfi_glb_normals *normals, uint32_t corner, sbf_vec3 normal);
 uint32_t sbfi_glb_normal_of(const sbf_render_mesh *m, uint32_t corner); /* index of a corner's normal */
 /* Offset of each point of `mesh->shown` at that frame, in the place that its joints move from. */
-void sbfi_glb_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets);
+void sbfi_glb_compute_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets);
 
 #endif

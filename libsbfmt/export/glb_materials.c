@@ -21,7 +21,7 @@ static bool write_image(sbfi_glb *g, const sbf_texture *texture, const uint8_t *
   uint32_t view = sbfi_glb_view(g, bytes, size), image;
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_IMAGES, &image);
   sbfi_text_string(text, "{\"name\":");
-  sbfi_glb_string(text, *texture->name ? texture->name : texture->id);
+  sbfi_glb_write_string(text, *texture->name ? texture->name : texture->id);
   sbfi_export_print(text, ",\"bufferView\":%u,\"mimeType\":\"%s\"}", view, type);
   bool is_webp = strcmp(type, "image/webp") == 0;
   g->texture_webp = g->texture_webp || is_webp;
@@ -48,32 +48,32 @@ static bool read_image(sbfi_glb *g, const sbf_texture *texture) {
 
 static void write_images(sbfi_glb *g) {
   const sbf_texture_list textures = g->e->asset->textures;
-  int32_t *places = sbfi_glb_room(g, textures.count, sizeof *places);
-  g->texture_places = places;
-  for (uint32_t i = 0; i < textures.count && places; i++) {
+  int32_t *indices = sbfi_glb_allocate(g, textures.count, sizeof *indices);
+  g->texture_indices = indices;
+  for (uint32_t i = 0; i < textures.count && indices; i++) {
     const sbf_texture *texture = &textures.at[i];
-    places[i] = (int32_t)g->parts[SBFI_GLB_TEXTURES].count;
+    indices[i] = (int32_t)g->parts[SBFI_GLB_TEXTURES].count;
     bool written = texture->bytes.count ? write_image(g, texture, texture->bytes.at, texture->bytes.count)
                                         : read_image(g, texture);
     if (written) continue;
-    places[i] = SBF_NONE;
+    indices[i] = SBF_NONE;
     g->lost_images++;
   }
 }
 
 static void write_texture(
     sbfi_glb *g, sbfi_text *text, const char *key, int32_t texture, const sbf_uv_transform *uv) {
-  if (texture < 0 || !g->texture_places || g->texture_places[texture] < 0) return;
-  sbfi_export_print(text, ",\"%s\":{\"index\":%d", key, (int)g->texture_places[texture]);
+  if (texture < 0 || !g->texture_indices || g->texture_indices[texture] < 0) return;
+  sbfi_export_print(text, ",\"%s\":{\"index\":%d", key, (int)g->texture_indices[texture]);
   if (uv) {
     g->texture_transform = true;
     const float offset[2] = {uv->offset.x, uv->offset.y}, scale[2] = {uv->scale.x, uv->scale.y};
     sbfi_text_string(text, ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":");
-    sbfi_glb_numbers(text, offset, 2);
+    sbfi_glb_write_numbers(text, offset, 2);
     sbfi_text_string(text, ",\"rotation\":");
     sbfi_text_f32(text, uv->rotation);
     sbfi_text_string(text, ",\"scale\":");
-    sbfi_glb_numbers(text, scale, 2);
+    sbfi_glb_write_numbers(text, scale, 2);
     sbfi_text_string(text, "}}");
   }
   sbfi_text_char(text, '}');
@@ -87,7 +87,7 @@ static void write_glow(sbfi_glb *g, sbfi_text *text, sbf_vec3 glow) {
   float colour[3] = {glow.x, glow.y, glow.z};
   for (int k = 0; k < 3 && max > 1; k++) colour[k] /= max;
   sbfi_text_string(text, ",\"emissiveFactor\":");
-  sbfi_glb_numbers(text, colour, 3);
+  sbfi_glb_write_numbers(text, colour, 3);
   if (max <= 1) return;
   g->emissive_strength = true;
   sbfi_text_string(text, ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":");
@@ -100,9 +100,9 @@ static void write_material(sbfi_glb *g, const sbf_material *m) {
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MATERIALS, NULL);
   const float colour[4] = {m->base_color.x, m->base_color.y, m->base_color.z, m->base_color.w};
   sbfi_text_string(text, "{\"name\":");
-  sbfi_glb_string(text, *m->name ? m->name : m->id);
+  sbfi_glb_write_string(text, *m->name ? m->name : m->id);
   sbfi_text_string(text, ",\"pbrMetallicRoughness\":{\"baseColorFactor\":");
-  sbfi_glb_numbers(text, colour, 4);
+  sbfi_glb_write_numbers(text, colour, 4);
   sbfi_text_string(text, ",\"metallicFactor\":");
   sbfi_text_f32(text, m->metallic);
   sbfi_text_string(text, ",\"roughnessFactor\":");
@@ -120,7 +120,7 @@ static void write_material(sbfi_glb *g, const sbf_material *m) {
   sbfi_text_string(text, m->double_sided ? ",\"doubleSided\":true}" : "}");
 }
 
-void sbfi_glb_materials(sbfi_glb *g) {
+void sbfi_glb_write_materials(sbfi_glb *g) {
   write_images(g);
   for (uint32_t i = 0; i < g->e->asset->materials.count; i++)
     write_material(g, &g->e->asset->materials.at[i]);

@@ -31,7 +31,7 @@ static void end(sbfi_glb *g, channels *c, const char *name) {
   if (c->count) {
     sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_ANIMATIONS, NULL);
     sbfi_text_string(text, "{\"name\":");
-    sbfi_glb_string(text, name);
+    sbfi_glb_write_string(text, name);
     sbfi_text_string(text, ",\"channels\":[");
     sbfi_text_append(text, c->channels.at, c->channels.length);
     sbfi_text_string(text, "],\"samplers\":[");
@@ -44,25 +44,25 @@ static void end(sbfi_glb *g, channels *c, const char *name) {
 }
 
 /* glTF wants keys at increasing times from 0 on, as many values as they need, and each property once. */
-static bool fits(const sbf_clip *clip, uint32_t place) {
-  const sbf_track *t = &clip->tracks.at[place];
+static bool fits(const sbf_clip *clip, uint32_t index) {
+  const sbf_track *t = &clip->tracks.at[index];
   uint32_t width = t->property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
   if (t->interpolation == SBF_INTERPOLATION_CUBIC) width *= 3;
   if (!t->times.count || t->values.count != t->times.count * width || t->times.at[0] < 0) return false;
   for (uint32_t i = 1; i < t->times.count; i++)
     if (!(t->times.at[i] > t->times.at[i - 1])) return false;
-  for (uint32_t i = 0; i < place; i++)
+  for (uint32_t i = 0; i < index; i++)
     if (clip->tracks.at[i].bone == t->bone && clip->tracks.at[i].property == t->property) return false;
   return true;
 }
 
 static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
   static const char *const paths[] = {"translation", "rotation", "scale"};
-  static const char *const ways[] = {"LINEAR", "STEP", "CUBICSPLINE"};
+  static const char *const directions[] = {"LINEAR", "STEP", "CUBICSPLINE"};
   bool turns = t->property == SBF_TRACK_PROPERTY_ROTATION,
        cubic = t->interpolation == SBF_INTERPOLATION_CUBIC;
   uint32_t width = turns ? 4 : 3, count = t->values.count / width;
-  float *values = sbfi_glb_room(g, t->values.count, sizeof *values);
+  float *values = sbfi_glb_allocate(g, t->values.count, sizeof *values);
   if (!values) return;
   memcpy(values, t->values.at, t->values.count * sizeof *values);
   for (uint32_t i = 0; turns && i < count; i++) {
@@ -75,10 +75,10 @@ static void write_track(sbfi_glb *g, const sbf_track *t, channels *c) {
   uint32_t times = sbfi_glb_accessor(g, t->times.at, t->times.count, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);
   uint32_t numbers =
       sbfi_glb_accessor(g, values, count, turns ? SBFI_GLB_VEC4 : SBFI_GLB_VEC3, SBFI_GLB_NO_TARGET);
-  add_channel(c, (uint32_t)t->bone, paths[t->property], ways[t->interpolation], times, numbers);
+  add_channel(c, (uint32_t)t->bone, paths[t->property], directions[t->interpolation], times, numbers);
 }
 
-void sbfi_glb_clips(sbfi_glb *g) {
+void sbfi_glb_write_clips(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   for (uint32_t i = 0; i < asset->clips.count && !g->failed; i++) {
     const sbf_clip *clip = &asset->clips.at[i];
@@ -93,9 +93,9 @@ void sbfi_glb_clips(sbfi_glb *g) {
   }
 }
 
-static sbfi_glb_place place_at(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
+static sbfi_glb_transform write_position_at(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
   size_t at = (size_t)frame * g->e->asset->bones.count + bone;
-  return (sbfi_glb_place){g->e->motion->bone_positions[at], g->e->motion->bone_rotations[at]};
+  return (sbfi_glb_transform){g->e->motion->bone_positions[at], g->e->motion->bone_rotations[at]};
 }
 
 static void write_bone(
@@ -105,8 +105,9 @@ static void write_bone(
   int32_t up = asset->bones.at[bone].parent;
   for (uint32_t f = 0; f < frames; f++) {
     float *q = rotations + 4 * (size_t)f;
-    sbfi_glb_place parent = up >= 0 ? place_at(g, f, (uint32_t)up) : (sbfi_glb_place){0};
-    sbfi_glb_local(place_at(g, f, bone), up >= 0 ? &parent : NULL, translations + 3 * (size_t)f, q);
+    sbfi_glb_transform parent = up >= 0 ? write_position_at(g, f, (uint32_t)up) : (sbfi_glb_transform){0};
+    sbfi_glb_compute_local(
+        write_position_at(g, f, bone), up >= 0 ? &parent : NULL, translations + 3 * (size_t)f, q);
     /* The nearer of the two signs, for players that mix without asking. */
     const float *last = q - 4;
     if (f && q[0] * last[0] + q[1] * last[1] + q[2] * last[2] + q[3] * last[3] < 0)
@@ -121,22 +122,22 @@ static void write_bone(
 /* Meshes of as many shape keys share one list. */
 static uint32_t write_weights(sbfi_glb *g, uint32_t keys) {
   uint32_t frames = g->e->motion->frame_count, count = keys + frames;
-  float *weights = sbfi_glb_room(g, (size_t)frames * count, sizeof *weights);
+  float *weights = sbfi_glb_allocate(g, (size_t)frames * count, sizeof *weights);
   if (!weights) return 0;
   for (uint32_t f = 0; f < frames; f++) weights[(size_t)f * count + keys + f] = 1;
   return sbfi_glb_accessor(g, weights, frames * count, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);
 }
 
-void sbfi_glb_motion(sbfi_glb *g) {
+void sbfi_glb_write_motion(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   const sbf_export_motion *motion = g->e->motion;
   if (!motion) return;
   channels c;
   begin(g, &c);
   uint32_t frames = motion->frame_count;
-  float *times = sbfi_glb_room(g, frames, sizeof *times);
-  float *translations = sbfi_glb_room(g, 3 * (size_t)frames, sizeof *translations);
-  float *rotations = sbfi_glb_room(g, 4 * (size_t)frames, sizeof *rotations);
+  float *times = sbfi_glb_allocate(g, frames, sizeof *times);
+  float *translations = sbfi_glb_allocate(g, 3 * (size_t)frames, sizeof *translations);
+  float *rotations = sbfi_glb_allocate(g, 4 * (size_t)frames, sizeof *rotations);
   for (uint32_t f = 0; f < frames && !g->failed; f++) times[f] = (float)(f * motion->frame_s);
   if (!g->failed) {
     uint32_t input = sbfi_glb_accessor(g, times, frames, SBFI_GLB_FLOAT, SBFI_GLB_NO_TARGET);

@@ -13,32 +13,32 @@ static void unit(sbf_quat q, double to[4]) {
   if (!(squares > 0)) to[3] = 1;
 }
 
-void sbfi_glb_local(
-    sbfi_glb_place own, const sbfi_glb_place *parent, float translation[3], float rotation[4]) {
-  double turn[4], up[4] = {0, 0, 0, 1}, at[3] = {own.position.x, own.position.y, own.position.z};
-  unit(own.rotation, turn);
+void sbfi_glb_compute_local(
+    sbfi_glb_transform own, const sbfi_glb_transform *parent, float translation[3], float rotation[4]) {
+  double orientation[4], up[4] = {0, 0, 0, 1}, at[3] = {own.position.x, own.position.y, own.position.z};
+  unit(own.rotation, orientation);
   if (parent) {
     const double from[3] = {parent->position.x, parent->position.y, parent->position.z};
     unit(parent->rotation, up);
     sbfi_turn_undo(up, up);
     for (int k = 0; k < 3; k++) at[k] -= from[k];
     sbfi_turn_vector(up, at, at);
-    sbfi_turn_product(up, turn, turn);
+    sbfi_turn_product(up, orientation, orientation);
   }
   for (int k = 0; k < 3; k++) translation[k] = (float)at[k];
-  for (int k = 0; k < 4; k++) rotation[k] = (float)turn[k];
+  for (int k = 0; k < 4; k++) rotation[k] = (float)orientation[k];
 }
 
-sbfi_glb_place sbfi_glb_rest(const sbf_asset *asset, uint32_t bone) {
-  return (sbfi_glb_place){asset->bones.at[bone].head, asset->bones.at[bone].rotation};
+sbfi_glb_transform sbfi_glb_rest(const sbf_asset *asset, uint32_t bone) {
+  return (sbfi_glb_transform){asset->bones.at[bone].head, asset->bones.at[bone].rotation};
 }
 
 /* Whether some point of a skin is held by no bone. */
 static bool leaves_points(const sbf_skin *skin, uint32_t points) {
   for (uint32_t p = 0, at = 0; p < points; p++) {
-    bool held = false;
-    for (uint32_t i = 0; i < skin->influence_counts.at[p]; i++) held |= skin->weights.at[at++] > 0;
-    if (!held) return true;
+    bool pinned = false;
+    for (uint32_t i = 0; i < skin->influence_counts.at[p]; i++) pinned |= skin->weights.at[at++] > 0;
+    if (!pinned) return true;
   }
   return false;
 }
@@ -48,7 +48,7 @@ static void choose_polygons(sbfi_glb *g, sbfi_glb_mesh *mesh) {
   uint32_t level = g->e->render_level < full->levels.count ? g->e->render_level : full->levels.count;
   mesh->shown = full;
   if (!level) return;
-  sbfi_level_mesh *made = sbfi_glb_room(g, 1, sizeof *made);
+  sbfi_level_mesh *made = sbfi_glb_allocate(g, 1, sizeof *made);
   if (!made) return;
   if (!sbfi_level_mesh_make(made, full, &full->levels.at[level - 1], &g->arena)) {
     g->failed = true;
@@ -61,7 +61,7 @@ static void choose_polygons(sbfi_glb *g, sbfi_glb_mesh *mesh) {
 void sbfi_glb_choose_meshes(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t node = asset->bones.count, point = 0;
-  g->meshes = sbfi_glb_room(g, asset->render_meshes.count, sizeof *g->meshes);
+  g->meshes = sbfi_glb_allocate(g, asset->render_meshes.count, sizeof *g->meshes);
   for (uint32_t i = 0; i < asset->render_meshes.count && !g->failed; i++) {
     sbfi_glb_mesh *mesh = &g->meshes[i];
     *mesh = (sbfi_glb_mesh){
@@ -87,25 +87,25 @@ static void add_child(sbfi_text *text, uint32_t child, bool *first) {
   *first = false;
 }
 
-static void write_place(sbfi_text *text, const float translation[3], const float rotation[4]) {
+static void write_position(sbfi_text *text, const float translation[3], const float rotation[4]) {
   sbfi_text_string(text, ",\"translation\":");
-  sbfi_glb_numbers(text, translation, 3);
+  sbfi_glb_write_numbers(text, translation, 3);
   sbfi_text_string(text, ",\"rotation\":");
-  sbfi_glb_numbers(text, rotation, 4);
+  sbfi_glb_write_numbers(text, rotation, 4);
 }
 
 static void write_bone(sbfi_glb *g, uint32_t i) {
   const sbf_asset *asset = g->e->asset;
   const sbf_bone *bone = &asset->bones.at[i];
-  sbfi_glb_place parent =
-      bone->parent >= 0 ? sbfi_glb_rest(asset, (uint32_t)bone->parent) : (sbfi_glb_place){0};
+  sbfi_glb_transform parent =
+      bone->parent >= 0 ? sbfi_glb_rest(asset, (uint32_t)bone->parent) : (sbfi_glb_transform){0};
   float translation[3], rotation[4];
-  sbfi_glb_local(sbfi_glb_rest(asset, i), bone->parent >= 0 ? &parent : NULL, translation, rotation);
+  sbfi_glb_compute_local(sbfi_glb_rest(asset, i), bone->parent >= 0 ? &parent : NULL, translation, rotation);
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_NODES, NULL);
   bool first = true;
   sbfi_text_string(text, "{\"name\":");
-  sbfi_glb_string(text, *bone->name ? bone->name : bone->id);
-  write_place(text, translation, rotation);
+  sbfi_glb_write_string(text, *bone->name ? bone->name : bone->id);
+  write_position(text, translation, rotation);
   for (uint32_t k = i + 1; k < asset->bones.count; k++)
     if (asset->bones.at[k].parent == (int32_t)i) add_child(text, k, &first);
   for (uint32_t k = 0; k < asset->render_meshes.count; k++)
@@ -117,16 +117,16 @@ static void write_bone(sbfi_glb *g, uint32_t i) {
 static void write_mesh_node(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t number) {
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_NODES, NULL);
   sbfi_text_string(text, "{\"name\":");
-  sbfi_glb_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
+  sbfi_glb_write_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
   sbfi_export_print(text, ",\"mesh\":%u", number);
   if (mesh->skin) sbfi_text_string(text, ",\"skin\":0");
   if (mesh->bone >= 0) {
     /* Its points are in asset space. */
-    sbfi_glb_place asset_space = {{0, 0, 0}, {0, 0, 0, 1}};
-    sbfi_glb_place bone = sbfi_glb_rest(g->e->asset, (uint32_t)mesh->bone);
+    sbfi_glb_transform asset_space = {{0, 0, 0}, {0, 0, 0, 1}};
+    sbfi_glb_transform bone = sbfi_glb_rest(g->e->asset, (uint32_t)mesh->bone);
     float translation[3], rotation[4];
-    sbfi_glb_local(asset_space, &bone, translation, rotation);
-    write_place(text, translation, rotation);
+    sbfi_glb_compute_local(asset_space, &bone, translation, rotation);
+    write_position(text, translation, rotation);
   }
   sbfi_text_char(text, '}');
 }
@@ -146,19 +146,19 @@ static void write_root(sbfi_glb *g) {
 static void write_skin(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t count = asset->bones.count + (g->root_is_joint ? 1 : 0);
-  float(*binds)[16] = sbfi_glb_room(g, count, sizeof *binds);
+  float(*binds)[16] = sbfi_glb_allocate(g, count, sizeof *binds);
   if (!binds) return;
   for (uint32_t i = 0; i < count; i++) {
     float t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
-    sbfi_glb_place asset_space = {{0, 0, 0}, {0, 0, 0, 1}};
+    sbfi_glb_transform asset_space = {{0, 0, 0}, {0, 0, 0, 1}};
     if (i < asset->bones.count) {
-      sbfi_glb_place bone = sbfi_glb_rest(asset, i);
-      sbfi_glb_local(asset_space, &bone, t, q);
+      sbfi_glb_transform bone = sbfi_glb_rest(asset, i);
+      sbfi_glb_compute_local(asset_space, &bone, t, q);
     }
-    const double turn[4] = {q[0], q[1], q[2], q[3]};
+    const double rotation[4] = {q[0], q[1], q[2], q[3]};
     for (int column = 0; column < 3; column++) {
       double axis[3] = {column == 0, column == 1, column == 2};
-      sbfi_turn_vector(turn, axis, axis);
+      sbfi_turn_vector(rotation, axis, axis);
       for (int row = 0; row < 3; row++) binds[i][4 * column + row] = (float)axis[row];
     }
     for (int row = 0; row < 3; row++) binds[i][12 + row] = t[row];
@@ -172,7 +172,7 @@ static void write_skin(sbfi_glb *g) {
   sbfi_text_string(text, "]}");
 }
 
-void sbfi_glb_nodes(sbfi_glb *g) {
+void sbfi_glb_write_nodes(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t number = 0;
   for (uint32_t i = 0; i < asset->bones.count && !g->failed; i++) write_bone(g, i);

@@ -50,10 +50,10 @@ static void add_areas(const sbfi_glb_normals *n, const sbf_vec3 *offsets, double
 static bool number_pairs(sbfi_glb *g, sbfi_glb_normals *n) {
   const sbf_polygon_mesh *mesh = &n->mesh->mesh;
   uint32_t corners = mesh->polygon_points.count;
-  uint32_t *first = sbfi_glb_room(g, mesh->positions.count, sizeof *first);
-  uint32_t *next = sbfi_glb_room(g, corners, sizeof *next);
-  uint32_t *normals = sbfi_glb_room(g, corners, sizeof *normals);
-  n->pairs = sbfi_glb_room(g, corners, sizeof *n->pairs);
+  uint32_t *first = sbfi_glb_allocate(g, mesh->positions.count, sizeof *first);
+  uint32_t *next = sbfi_glb_allocate(g, corners, sizeof *next);
+  uint32_t *normals = sbfi_glb_allocate(g, corners, sizeof *normals);
+  n->pairs = sbfi_glb_allocate(g, corners, sizeof *n->pairs);
   if (!first || !next || !normals || !n->pairs) return false;
   memset(first, 0xff, mesh->positions.count * sizeof *first);
   for (uint32_t c = 0; c < corners; c++) {
@@ -72,12 +72,12 @@ static bool number_pairs(sbfi_glb *g, sbfi_glb_normals *n) {
 
 sbfi_glb_normals *sbfi_glb_normals_begin(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
   if (!mesh->shown->normals.count || !mesh->target_count) return NULL;
-  sbfi_glb_normals *n = sbfi_glb_room(g, 1, sizeof *n);
+  sbfi_glb_normals *n = sbfi_glb_allocate(g, 1, sizeof *n);
   if (!n) return NULL;
   n->mesh = mesh->shown;
   if (!number_pairs(g, n)) return NULL;
-  n->rest = sbfi_glb_room(g, n->count, sizeof *n->rest);
-  n->now = sbfi_glb_room(g, n->count, sizeof *n->now);
+  n->rest = sbfi_glb_allocate(g, n->count, sizeof *n->rest);
+  n->now = sbfi_glb_allocate(g, n->count, sizeof *n->now);
   if (!n->rest || !n->now) return NULL;
   add_areas(n, NULL, n->rest);
   return n;
@@ -95,11 +95,11 @@ static bool unit(const double v[3], double to[3]) {
 
 sbf_vec3 sbfi_glb_normals_offset(const sbfi_glb_normals *normals, uint32_t corner, sbf_vec3 normal) {
   uint32_t pair = normals->pairs[corner];
-  double from[3], to[3], turn[4];
+  double from[3], to[3], rotation[4];
   const double own[3] = {normal.x, normal.y, normal.z};
   double now[3];
   if (!unit(normals->rest[pair], from) || !unit(normals->now[pair], to)) return (sbf_vec3){0, 0, 0};
-  sbfi_turn_between(from, to, turn);
-  sbfi_turn_vector(turn, own, now);
+  sbfi_turn_between(from, to, rotation);
+  sbfi_turn_vector(rotation, own, now);
   return (sbf_vec3){(float)(now[0] - own[0]), (float)(now[1] - own[1]), (float)(now[2] - own[2])};
 }

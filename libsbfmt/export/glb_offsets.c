@@ -14,7 +14,7 @@ static affine motion_of(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
   const sbf_bone *rest = &g->e->asset->bones.at[bone];
   size_t at = (size_t)frame * g->e->asset->bones.count + bone;
   sbf_quat now = g->e->motion->bone_rotations[at];
-  sbf_vec3 place = g->e->motion->bone_positions[at];
+  sbf_vec3 position = g->e->motion->bone_positions[at];
   double a[4] = {now.x, now.y, now.z, now.w};
   double b[4] = {rest->rotation.x, rest->rotation.y, rest->rotation.z, rest->rotation.w};
   affine to;
@@ -28,9 +28,9 @@ static affine motion_of(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
   const double head[3] = {rest->head.x, rest->head.y, rest->head.z};
   double moved[3];
   sbfi_turn_vector(a, head, moved);
-  to.t[0] = (double)place.x - moved[0];
-  to.t[1] = (double)place.y - moved[1];
-  to.t[2] = (double)place.z - moved[2];
+  to.t[0] = (double)position.x - moved[0];
+  to.t[1] = (double)position.y - moved[1];
+  to.t[2] = (double)position.z - moved[2];
   return to;
 }
 
@@ -110,7 +110,7 @@ static affine blend_of(const sbf_skin *skin, uint32_t from, uint32_t count, cons
   return blend;
 }
 
-void sbfi_glb_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets) {
+void sbfi_glb_compute_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets) {
   const sbf_asset *asset = g->e->asset;
   const sbf_export_motion *motion = g->e->motion;
   const sbf_vec3 *wanted = motion->skin + (size_t)frame * g->frame_points + mesh->first_point;

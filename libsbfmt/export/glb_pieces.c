@@ -3,10 +3,10 @@
 
 #include "export/glb.h"
 
-void *sbfi_glb_room(sbfi_glb *g, size_t count, size_t size) {
-  void *room = count ? sbfi_arena_allocate(&g->arena, count, size) : NULL;
-  if (count && !room) g->failed = true;
-  return room;
+void *sbfi_glb_allocate(sbfi_glb *g, size_t count, size_t size) {
+  void *buffer = count ? sbfi_arena_allocate(&g->arena, count, size) : NULL;
+  if (count && !buffer) g->failed = true;
+  return buffer;
 }
 
 sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number) {
@@ -17,7 +17,7 @@ sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number) {
   return &array->text;
 }
 
-void sbfi_glb_string(sbfi_text *text, const char *string) {
+void sbfi_glb_write_string(sbfi_text *text, const char *string) {
   sbfi_text_char(text, '"');
   for (; *string; string++) {
     unsigned char c = (unsigned char)*string;
@@ -31,7 +31,7 @@ void sbfi_glb_string(sbfi_text *text, const char *string) {
   sbfi_text_char(text, '"');
 }
 
-void sbfi_glb_numbers(sbfi_text *text, const float *numbers, uint32_t count) {
+void sbfi_glb_write_numbers(sbfi_text *text, const float *numbers, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
     sbfi_text_char(text, i ? ',' : '[');
     sbfi_text_f32(text, numbers[i]);
@@ -82,9 +82,9 @@ static void write_bounds(sbfi_text *text, const float *items, uint32_t count, ui
     if (items[i] > high[k]) high[k] = items[i];
   }
   sbfi_text_string(text, ",\"min\":");
-  sbfi_glb_numbers(text, low, width);
+  sbfi_glb_write_numbers(text, low, width);
   sbfi_text_string(text, ",\"max\":");
-  sbfi_glb_numbers(text, high, width);
+  sbfi_glb_write_numbers(text, high, width);
 }
 
 uint32_t sbfi_glb_accessor(

@@ -80,7 +80,7 @@ static uint32_t full_point_of(const vertices *v, uint32_t vertex) {
 }
 
 static uint32_t write_positions(const vertices *v) {
-  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  sbf_vec3 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   if (!at) return 0;
   for (uint32_t i = 0; i < v->count; i++) at[i] = v->mesh->shown->mesh.positions.at[point_of(v, i)];
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
@@ -95,14 +95,14 @@ static sbf_vec3 unit_normal(const sbf_render_mesh *m, uint32_t corner) {
 }
 
 static uint32_t write_normals(const vertices *v) {
-  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  sbf_vec3 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   if (!at) return 0;
   for (uint32_t i = 0; i < v->count; i++) at[i] = unit_normal(v->mesh->shown, v->corners[i]);
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
 }
 
 static uint32_t write_colors(const vertices *v) {
-  sbf_vec4 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  sbf_vec4 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   if (!at) return 0;
   for (uint32_t i = 0; i < v->count; i++) {
     uint32_t from = color_of(v->mesh->shown, v->corners[i]);
@@ -113,7 +113,7 @@ static uint32_t write_colors(const vertices *v) {
 
 /* Their origin is the upper left corner there. */
 static uint32_t write_coordinates(const vertices *v, const sbf_uv_set *set) {
-  sbf_vec2 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  sbf_vec2 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   if (!at) return 0;
   for (uint32_t i = 0; i < v->count; i++) {
     sbf_vec2 uv = set->coordinates.at[coordinate_of(v->mesh->shown, set, v->corners[i])];
@@ -164,18 +164,18 @@ static void gather(const sbf_skin *skin, uint32_t from, uint32_t count, uint32_t
 static void write_skin(const vertices *v, sbfi_text *attributes) {
   const sbf_skin *skin = v->mesh->skin;
   uint32_t points = v->mesh->full->mesh.positions.count, max = 1, sets = 0;
-  uint32_t *begins = sbfi_glb_room(v->g, points, sizeof *begins);
+  uint32_t *begins = sbfi_glb_allocate(v->g, points, sizeof *begins);
   if (!begins) return;
   for (uint32_t p = 0, at = 0; p < points; p++) {
     begins[p] = at;
     at += skin->influence_counts.at[p];
     if (skin->influence_counts.at[p] > max) max = skin->influence_counts.at[p];
   }
-  influences found = {
-      sbfi_glb_room(v->g, max, sizeof *found.bones), sbfi_glb_room(v->g, max, sizeof *found.weights), 0};
-  uint32_t room = (max + 3) / 4;
-  uint16_t *joints = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *joints);
-  float *weights = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *weights);
+  influences found = {sbfi_glb_allocate(v->g, max, sizeof *found.bones),
+      sbfi_glb_allocate(v->g, max, sizeof *found.weights), 0};
+  uint32_t capacity = (max + 3) / 4;
+  uint16_t *joints = sbfi_glb_allocate(v->g, (size_t)capacity * v->count, 4 * sizeof *joints);
+  float *weights = sbfi_glb_allocate(v->g, (size_t)capacity * v->count, 4 * sizeof *weights);
   if (v->g->failed) return;
   for (uint32_t i = 0; i < v->count; i++) {
     uint32_t p = full_point_of(v, i);
@@ -202,7 +202,7 @@ static void take_target(const vertices *v, uint32_t target, sbf_vec3 *of_full, s
   const sbfi_glb_mesh *mesh = v->mesh;
   uint32_t keys = mesh->full->shape_keys.count;
   if (target >= keys) {
-    sbfi_glb_offsets(v->g, mesh, target - keys, of_shown);
+    sbfi_glb_compute_offsets(v->g, mesh, target - keys, of_shown);
     return;
   }
   const sbf_shape_key *key = &mesh->full->shape_keys.at[target];
@@ -214,9 +214,9 @@ static void take_target(const vertices *v, uint32_t target, sbf_vec3 *of_full, s
 
 static void write_targets(const vertices *v, sbfi_text *text) {
   const sbfi_glb_mesh *mesh = v->mesh;
-  sbf_vec3 *of_full = sbfi_glb_room(v->g, mesh->full->mesh.positions.count, sizeof *of_full);
-  sbf_vec3 *of_shown = sbfi_glb_room(v->g, mesh->shown->mesh.positions.count, sizeof *of_shown);
-  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  sbf_vec3 *of_full = sbfi_glb_allocate(v->g, mesh->full->mesh.positions.count, sizeof *of_full);
+  sbf_vec3 *of_shown = sbfi_glb_allocate(v->g, mesh->shown->mesh.positions.count, sizeof *of_shown);
+  sbf_vec3 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   for (uint32_t t = 0; t < mesh->target_count && !v->g->failed; t++) {
     take_target(v, t, of_full, of_shown);
     for (uint32_t i = 0; i < v->count; i++) at[i] = of_shown[point_of(v, i)];
@@ -259,7 +259,7 @@ static void write_target_names(const sbfi_glb_mesh *mesh, sbfi_text *text) {
   for (uint32_t t = 0; t < mesh->target_count; t++) {
     if (t) sbfi_text_char(text, ',');
     if (t < keys)
-      sbfi_glb_string(text, mesh->full->shape_keys.at[t].name);
+      sbfi_glb_write_string(text, mesh->full->shape_keys.at[t].name);
     else
       sbfi_export_print(text, "\"frame %u\"", t - keys);
   }
@@ -272,16 +272,16 @@ static void write_mesh(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
   vertices v = {.g = g,
       .mesh = mesh,
       .normals = sbfi_glb_normals_begin(g, mesh),
-      .corners = sbfi_glb_room(g, corners, sizeof *v.corners),
-      .next = sbfi_glb_room(g, corners, sizeof *v.next),
-      .first = sbfi_glb_room(g, m->mesh.positions.count, sizeof *v.first),
-      .indices = sbfi_glb_room(g, 3 * (size_t)corners, sizeof *v.indices)};
+      .corners = sbfi_glb_allocate(g, corners, sizeof *v.corners),
+      .next = sbfi_glb_allocate(g, corners, sizeof *v.next),
+      .first = sbfi_glb_allocate(g, m->mesh.positions.count, sizeof *v.first),
+      .indices = sbfi_glb_allocate(g, 3 * (size_t)corners, sizeof *v.indices)};
   for (uint32_t s = 0; s < m->uv_sets.count && v.uv_count < MAX_UV_SETS; s++)
     if (m->uv_sets.at[s].coordinates.count) v.uv_sets[v.uv_count++] = s;
   if (g->failed) return;
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MESHES, NULL);
   sbfi_text_string(text, "{\"name\":");
-  sbfi_glb_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
+  sbfi_glb_write_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
   const char *before = ",\"primitives\":[";
   for (v.slot = 0; v.slot < (slots ? slots : 1) && !g->failed; v.slot++) {
     find_vertices(&v);
@@ -295,7 +295,7 @@ static void write_mesh(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
   sbfi_text_char(text, '}');
 }
 
-void sbfi_glb_meshes(sbfi_glb *g) {
+void sbfi_glb_write_meshes(sbfi_glb *g) {
   for (uint32_t i = 0; i < g->e->asset->render_meshes.count && !g->failed; i++)
     if (g->meshes[i].node != UINT32_MAX) write_mesh(g, &g->meshes[i]);
 }

@@ -28,7 +28,7 @@ static void write_json(sbfi_glb *g, sbfi_text *json) {
   sbfi_text_string(json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sbfmt\"");
   if (*info->copyright) {
     sbfi_text_string(json, ",\"copyright\":");
-    sbfi_glb_string(json, info->copyright);
+    sbfi_glb_write_string(json, info->copyright);
   }
   sbfi_text_char(json, '}');
   const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
@@ -107,11 +107,11 @@ static sbf_status write_all(sbfi_glb *g) {
   sbfi_text json;
   sbfi_text_init(&json, &e->allocator);
   sbfi_glb_choose_meshes(g);
-  if (!g->failed) sbfi_glb_materials(g);
-  if (!g->failed) sbfi_glb_meshes(g);
-  if (!g->failed) sbfi_glb_nodes(g);
-  if (!g->failed) sbfi_glb_clips(g);
-  if (!g->failed) sbfi_glb_motion(g);
+  if (!g->failed) sbfi_glb_write_materials(g);
+  if (!g->failed) sbfi_glb_write_meshes(g);
+  if (!g->failed) sbfi_glb_write_nodes(g);
+  if (!g->failed) sbfi_glb_write_clips(g);
+  if (!g->failed) sbfi_glb_write_motion(g);
   sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
   if (!g->failed) write_json(g, &json);
   sbf_status status;
@@ -137,7 +137,7 @@ sbf_status sbfi_export_glb(sbfi_export *e) {
   for (int i = 0; i < SBFI_GLB_PARTS; i++) sbfi_text_init(&g.parts[i].text, &e->allocator);
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
     g.frame_points += asset->render_meshes.at[i].mesh.positions.count;
-  if (e->motion) g.bone_motions = sbfi_glb_room(&g, asset->bones.count, sizeof *g.bone_motions);
+  if (e->motion) g.bone_motions = sbfi_glb_allocate(&g, asset->bones.count, sizeof *g.bone_motions);
   sbf_status status = g.failed ? sbfi_export_no_memory(e) : write_all(&g);
   for (int i = 0; i < SBFI_GLB_PARTS; i++) sbfi_text_free(&g.parts[i].text);
   sbfi_text_free(&g.bytes);

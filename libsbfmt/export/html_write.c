@@ -13,22 +13,22 @@
 enum { PATH_SIZE = 4096, LARGEST_PART = 64 << 20 };
 static const char template_name[] = "viewer.html";
 
-static bool is_file(const char *folder, const char *place, char *to, size_t size) {
+static bool is_file(const char *folder, const char *destination, char *to, size_t size) {
   char path[PATH_SIZE];
   sbfi_file file;
-  int length = snprintf(path, sizeof path, "%s%s/%s", folder, place, template_name);
+  int length = snprintf(path, sizeof path, "%s%s/%s", folder, destination, template_name);
   if (length <= 0 || (size_t)length >= sizeof path || sbfi_file_open(path, &file, NULL) != SBF_OK)
     return false;
   sbfi_file_close(&file);
-  length = snprintf(to, size, "%s%s", folder, place);
+  length = snprintf(to, size, "%s%s", folder, destination);
   return length > 0 && (size_t)length < size;
 }
 
 /* From an installed program, an installed library (its folder may have the machine's name), a build tree. */
-static bool look_from(const char *folder, char *to, size_t size) {
-  static const char *const places[] = {"/../share/sbfmt/web", "/../../share/sbfmt/web", "/../web"};
-  for (size_t i = 0; i < sizeof places / sizeof *places; i++)
-    if (is_file(folder, places[i], to, size)) return true;
+static bool find_from(const char *folder, char *to, size_t size) {
+  static const char *const positions[] = {"/../share/sbfmt/web", "/../../share/sbfmt/web", "/../web"};
+  for (size_t i = 0; i < sizeof positions / sizeof *positions; i++)
+    if (is_file(folder, positions[i], to, size)) return true;
   return false;
 }
 
@@ -40,8 +40,8 @@ static sbf_status find_parts(sbfi_export *e, char *to, size_t size) {
     return sbfi_diagnose(e->error, SBF_CODE_EXPORT_PAGE_MISSING, "%s, which SBFMT_WEB names, has no %s",
         stated, template_name);
   }
-  if (sbfi_program_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
-  if (sbfi_library_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
+  if (sbfi_program_folder(folder, sizeof folder) && find_from(folder, to, size)) return SBF_OK;
+  if (sbfi_library_folder(folder, sizeof folder) && find_from(folder, to, size)) return SBF_OK;
 #ifdef SBFMT_DATA_FOLDER
   if (is_file(SBFMT_DATA_FOLDER, "/web", to, size)) return SBF_OK;
 #endif

@@ -10,7 +10,7 @@ typedef struct mjcf_flex {
   const sbf_level *level;              /* NULL: nothing of it can be written */
   int dim;                             /* 3: tetrahedra, 2: a sheet's triangles, 1: springs */
   int32_t *holder;                     /* (points) the pin set that holds it fast, or SBF_NONE */
-  sbf_vec3 *places;                    /* (points) at rest, asset space */
+  sbf_vec3 *positions;                 /* (points) at rest, asset space */
   float *masses;                       /* (points) */
   uint32_t contact_type, contact_with; /* MuJoCo's bits */
 } mjcf_flex;
@@ -28,7 +28,7 @@ typedef struct mjcf_writer {
   int32_t *parent; /* (rigid bodies) */
   bool *placed;    /* (rigid bodies) */
   struct mjcf_extent *hull_extents; /* (rigid bodies) */
-  uint32_t *hull_meets;             /* (rigid bodies) bits of the flexes that it touches */
+  uint32_t *hull_partners;          /* (rigid bodies) bits of the flexes that it touches */
   uint8_t *jointed;                 /* (rigid bodies) scratch */
   /* Left out. */
   uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, bare, loop_bounds, goals,
@@ -40,8 +40,8 @@ typedef struct mjcf_writer {
 
 sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v);
 sbf_vec3 sbfi_mjcf_rotated(sbf_quat q, sbf_vec3 v);
-void sbfi_mjcf_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space); /* an attribute, turned */
-void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value);
+void sbfi_mjcf_write_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space); /* an attribute, turned */
+void sbfi_mjcf_write_f32(mjcf_writer *w, const char *name, float value);
 /* The id as a word of an XML attribute's list: what is not a letter, digit, '_', '-' or '.' is '_', with the
  * index behind it then, as ids that differ there alone must. */
 void sbfi_mjcf_name(mjcf_writer *w, const char *id, uint32_t index);

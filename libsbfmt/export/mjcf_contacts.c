@@ -16,7 +16,7 @@ enum { FIRST_CLASS_BIT = 2, CLASSES = 31 - FIRST_CLASS_BIT, DIRECTIONS = 13 };
 #define HULL_BIT 2u
 /* Lying in each other begins this share of the smaller one's least width deep: what lies on another touches.
  */
-#define SUNK_SHARE 0.01f
+#define SUNK_FRACTION 0.01f
 
 struct mjcf_extent {
   const sbf_vec3 *points;
@@ -60,7 +60,7 @@ static float min_width(const extent *e) {
 }
 
 static float sunk_depth(const extent *a, const extent *b) {
-  return SUNK_SHARE * fminf(min_width(a), min_width(b));
+  return SUNK_FRACTION * fminf(min_width(a), min_width(b));
 }
 
 /* Whether some face of the hull is `gap` from all of the other's points. */
@@ -83,14 +83,14 @@ static bool is_outside(const sbf_polygon_mesh *hull, const extent *other, float 
 
 /* Whether they are further than `gap` (negative: less deep in each other) from each other at rest. Hulls:
  * NULL for a flex. May say no where they are. */
-static bool are_apart(const extent *a, const sbf_polygon_mesh *hull_a, const extent *b,
+static bool are_separated(const extent *a, const sbf_polygon_mesh *hull_a, const extent *b,
     const sbf_polygon_mesh *hull_b, float gap) {
   for (int k = 0; k < DIRECTIONS; k++)
     if (fmaxf(a->min[k] - b->max[k], b->min[k] - a->max[k]) > gap) return true;
   return (hull_a && is_outside(hull_a, b, gap)) || (hull_b && is_outside(hull_b, a, gap));
 }
 
-static bool layers_meet(uint32_t layer_a, uint32_t mask_a, uint32_t layer_b, uint32_t mask_b) {
+static bool layers_collide(uint32_t layer_a, uint32_t mask_a, uint32_t layer_b, uint32_t mask_b) {
   return (layer_a & mask_b) && (layer_b & mask_a);
 }
 
@@ -104,27 +104,29 @@ static bool has_hull(const sbf_rigid_body *body) {
 
 /* ---- Flexes ---- */
 
-static bool is_held(const mjcf_flex *flex) {
+static bool is_point_pinned(const mjcf_flex *flex) {
   return flex->level->pins.count > 0;
 }
 
-static bool flexes_meet(const mjcf_flex *a, const extent *of_a, const mjcf_flex *b, const extent *of_b) {
+static bool flexes_collide(const mjcf_flex *a, const extent *of_a, const mjcf_flex *b, const extent *of_b) {
   const sbf_collision *ca = &a->body->collision, *cb = &b->body->collision;
-  if (!layers_meet(ca->layer, ca->mask, cb->layer, cb->mask)) return false;
-  float gap = is_held(a) && is_held(b) ? ca->particle_radius + cb->particle_radius : -sunk_depth(of_a, of_b);
-  return are_apart(of_a, NULL, of_b, NULL, gap);
+  if (!layers_collide(ca->layer, ca->mask, cb->layer, cb->mask)) return false;
+  float gap = is_point_pinned(a) && is_point_pinned(b) ? ca->particle_radius + cb->particle_radius
+                                                       : -sunk_depth(of_a, of_b);
+  return are_separated(of_a, NULL, of_b, NULL, gap);
 }
 
-static bool flex_meets_hull(const mjcf_writer *w, const mjcf_flex *flex, const extent *of_flex, uint32_t body,
-    const extent *of_body) {
+static bool flex_collides_with_hull(const mjcf_writer *w, const mjcf_flex *flex, const extent *of_flex,
+    uint32_t body, const extent *of_body) {
   const sbf_rigid_body *rigid = &w->e->asset->rigid_bodies.at[body];
   const sbf_collision *c = &flex->body->collision;
-  if (!layers_meet(c->layer, c->mask, rigid->layer, rigid->mask)) return false;
-  if (is_held(flex) && is_kinematic(w->e->asset, body)) return false;
+  if (!layers_collide(c->layer, c->mask, rigid->layer, rigid->mask)) return false;
+  if (is_point_pinned(flex) && is_kinematic(w->e->asset, body)) return false;
   for (uint32_t s = 0; s < flex->level->pins.count; s++)
     if (flex->level->pins.at[s].rigid_body == (int32_t)body) return false;
-  float gap = is_held(flex) ? c->particle_radius : -fmaxf(c->particle_radius, sunk_depth(of_flex, of_body));
-  return are_apart(of_flex, NULL, of_body, rigid->hull, gap);
+  float gap =
+      is_point_pinned(flex) ? c->particle_radius : -fmaxf(c->particle_radius, sunk_depth(of_flex, of_body));
+  return are_separated(of_flex, NULL, of_body, rigid->hull, gap);
 }
 
 static uint32_t class_of(uint32_t flex) {
@@ -141,28 +143,28 @@ static uint32_t host_bit(uint32_t layer, uint32_t mask) {
 
 static void sort_flexes(mjcf_writer *w, const extent *softs, const extent *rigids) {
   const sbf_asset *asset = w->e->asset;
-  uint32_t meets[CLASSES], all = 0;
+  uint32_t collides[CLASSES], all = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     if (w->flexes[i].level) all |= class_bit(i);
-  for (uint32_t k = 0; k < CLASSES; k++) meets[k] = all & ~class_bit(k);
-  for (uint32_t b = 0; b < asset->rigid_bodies.count; b++) w->hull_meets[b] = all;
+  for (uint32_t k = 0; k < CLASSES; k++) collides[k] = all & ~class_bit(k);
+  for (uint32_t b = 0; b < asset->rigid_bodies.count; b++) w->hull_partners[b] = all;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     if (!w->flexes[i].level) continue;
     w->sharing += i >= CLASSES;
     for (uint32_t j = 0; j < i; j++) {
-      if (!w->flexes[j].level || flexes_meet(&w->flexes[i], &softs[i], &w->flexes[j], &softs[j])) continue;
-      meets[class_of(i)] &= ~class_bit(j);
-      meets[class_of(j)] &= ~class_bit(i);
+      if (!w->flexes[j].level || flexes_collide(&w->flexes[i], &softs[i], &w->flexes[j], &softs[j])) continue;
+      collides[class_of(i)] &= ~class_bit(j);
+      collides[class_of(j)] &= ~class_bit(i);
     }
     for (uint32_t b = 0; b < asset->rigid_bodies.count; b++)
       if (!has_hull(&asset->rigid_bodies.at[b]) ||
-          !flex_meets_hull(w, &w->flexes[i], &softs[i], b, &rigids[b]))
-        w->hull_meets[b] &= ~class_bit(i);
+          !flex_collides_with_hull(w, &w->flexes[i], &softs[i], b, &rigids[b]))
+        w->hull_partners[b] &= ~class_bit(i);
   }
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_collision *c = &asset->soft_bodies.at[i].collision;
     w->flexes[i].contact_type = c->layer && c->mask ? class_bit(i) : 0;
-    w->flexes[i].contact_with = meets[class_of(i)] | host_bit(c->layer, c->mask);
+    w->flexes[i].contact_with = collides[class_of(i)] | host_bit(c->layer, c->mask);
   }
 }
 
@@ -171,11 +173,12 @@ bool sbfi_mjcf_take_contacts(mjcf_writer *w) {
   uint32_t bodies = asset->rigid_bodies.count, softs = asset->soft_bodies.count;
   extent *of_softs = sbfi_arena_allocate(&w->scratch, (size_t)softs + 1, sizeof *of_softs);
   w->hull_extents = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->hull_extents);
-  w->hull_meets = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->hull_meets);
+  w->hull_partners = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->hull_partners);
   w->jointed = sbfi_arena_allocate(&w->scratch, (size_t)bodies + 1, sizeof *w->jointed);
-  if (!of_softs || !w->hull_extents || !w->hull_meets || !w->jointed) return false;
+  if (!of_softs || !w->hull_extents || !w->hull_partners || !w->jointed) return false;
   for (uint32_t i = 0; i < softs; i++)
-    if (w->flexes[i].level) of_softs[i] = extent_of(w->flexes[i].places, w->flexes[i].level->positions.count);
+    if (w->flexes[i].level)
+      of_softs[i] = extent_of(w->flexes[i].positions, w->flexes[i].level->positions.count);
   for (uint32_t i = 0; i < bodies; i++)
     if (has_hull(&asset->rigid_bodies.at[i]))
       w->hull_extents[i] = extent_of(
@@ -195,18 +198,18 @@ void sbfi_mjcf_flex_bits(mjcf_writer *w, const mjcf_flex *flex) {
 void sbfi_mjcf_hull_bits(mjcf_writer *w, uint32_t body) {
   const sbf_rigid_body *rigid = &w->e->asset->rigid_bodies.at[body];
   if (rigid->layer && rigid->mask)
-    write_bits(w, HULL_BIT, HOST_BIT | HULL_BIT | w->hull_meets[body]);
+    write_bits(w, HULL_BIT, HOST_BIT | HULL_BIT | w->hull_partners[body]);
   else
     write_bits(w, 0, 0);
 }
 
 /* ---- Hulls ---- */
 
-static bool hulls_meet(const mjcf_writer *w, uint32_t a, uint32_t b) {
+static bool hulls_collide(const mjcf_writer *w, uint32_t a, uint32_t b) {
   const sbf_rigid_body *bodies = w->e->asset->rigid_bodies.at;
   const extent *of_a = &w->hull_extents[a], *of_b = &w->hull_extents[b];
-  return layers_meet(bodies[a].layer, bodies[a].mask, bodies[b].layer, bodies[b].mask) &&
-         are_apart(of_a, bodies[a].hull, of_b, bodies[b].hull, -sunk_depth(of_a, of_b));
+  return layers_collide(bodies[a].layer, bodies[a].mask, bodies[b].layer, bodies[b].mask) &&
+         are_separated(of_a, bodies[a].hull, of_b, bodies[b].hull, -sunk_depth(of_a, of_b));
 }
 
 static void write_exclude(mjcf_writer *w, uint32_t a, uint32_t b) {
@@ -220,7 +223,7 @@ static void write_exclude(mjcf_writer *w, uint32_t a, uint32_t b) {
 /* MuJoCo lets no two bodies touch that stand still or are led: those are not named. */
 void sbfi_mjcf_write_excludes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
-  enum { MAY_TOUCH = 1, JOINED = 2 };
+  enum { MAY_COLLIDE = 1, JOINED = 2 };
   sbfi_text_string(&w->e->text, "  <contact>\n");
   for (uint32_t a = 0; a < asset->rigid_bodies.count; a++) {
     for (uint32_t b = a + 1; b < asset->rigid_bodies.count; b++) w->jointed[b] = 0;
@@ -229,14 +232,14 @@ void sbfi_mjcf_write_excludes(mjcf_writer *w) {
       int32_t b = joint->body_a == (int32_t)a   ? joint->body_b
                   : joint->body_b == (int32_t)a ? joint->body_a
                                                 : SBF_NONE;
-      if (b > (int32_t)a) w->jointed[b] |= joint->collide ? MAY_TOUCH : JOINED;
+      if (b > (int32_t)a) w->jointed[b] |= joint->collide ? MAY_COLLIDE : JOINED;
     }
     for (uint32_t b = a + 1; b < asset->rigid_bodies.count; b++) {
-      bool apart = w->jointed[b] & JOINED;
+      bool is_separate = w->jointed[b] & JOINED;
       if (!w->jointed[b] && has_hull(&asset->rigid_bodies.at[a]) && has_hull(&asset->rigid_bodies.at[b]) &&
           !(is_kinematic(asset, a) && is_kinematic(asset, b)))
-        apart = !hulls_meet(w, a, b);
-      if (apart) write_exclude(w, a, b);
+        is_separate = !hulls_collide(w, a, b);
+      if (is_separate) write_exclude(w, a, b);
     }
   }
   sbfi_text_string(&w->e->text, "  </contact>\n");

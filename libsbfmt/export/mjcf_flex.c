@@ -44,21 +44,21 @@ static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
     } else if (set->rigid_body >= 0) {
       from = asset->rigid_bodies.at[set->rigid_body].center;
     }
-    flex->places[p] = (sbf_vec3){at.x + from.x, at.y + from.y, at.z + from.z};
+    flex->positions[p] = (sbf_vec3){at.x + from.x, at.y + from.y, at.z + from.z};
   }
 }
 
 static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
   uint32_t count = flex->level->positions.count;
-  uint8_t *held = sbfi_arena_allocate(&w->scratch, count, sizeof *held);
+  uint8_t *pinned = sbfi_arena_allocate(&w->scratch, count, sizeof *pinned);
   flex->holder = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->holder);
-  flex->places = sbfi_arena_copy(&w->scratch, flex->level->positions.at, count, sizeof *flex->places);
+  flex->positions = sbfi_arena_copy(&w->scratch, flex->level->positions.at, count, sizeof *flex->positions);
   flex->masses = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->masses);
-  if (!held || !flex->holder || !flex->places || !flex->masses) return false;
+  if (!pinned || !flex->holder || !flex->positions || !flex->masses) return false;
   for (uint32_t i = 0; i < count; i++) flex->holder[i] = SBF_NONE;
   for (uint32_t s = 0; s < flex->level->pins.count; s++) take_pins(w, flex, (int32_t)s);
-  sbf_level_held_points(flex->level, held);
-  sbf_level_masses(flex->body, flex->level, held, flex->masses);
+  sbf_level_held_points(flex->level, pinned);
+  sbf_level_masses(flex->body, flex->level, pinned, flex->masses);
   return true;
 }
 
@@ -97,11 +97,11 @@ static void write_point(mjcf_writer *w, const mjcf_flex *flex, uint32_t b, uint3
   sbfi_text_string(text, "    <body name=\"");
   sbfi_mjcf_name(w, flex->body->id, b);
   sbfi_export_format(w->e, ":%u\"", p);
-  sbfi_mjcf_vec3(w, "pos", flex->places[p]);
+  sbfi_mjcf_write_vec3(w, "pos", flex->positions[p]);
   if (flex->body->attributes.gravity_scale != 1)
-    sbfi_mjcf_f32(w, "gravcomp", 1 - flex->body->attributes.gravity_scale);
+    sbfi_mjcf_write_f32(w, "gravcomp", 1 - flex->body->attributes.gravity_scale);
   sbfi_text_string(text, "><inertial pos=\"0 0 0\"");
-  sbfi_mjcf_f32(w, "mass", mass);
+  sbfi_mjcf_write_f32(w, "mass", mass);
   sbfi_text_string(text, " diaginertia=\"");
   for (int k = 0; k < 3; k++) {
     if (k) sbfi_text_char(text, ' ');
@@ -127,7 +127,7 @@ void sbfi_mjcf_write_holders_and_points(mjcf_writer *w) {
     write_bone_name(w, i);
     sbfi_text_char(&w->e->text, '"');
     if (!w->bone_elastic[i]) sbfi_text_string(&w->e->text, " mocap=\"true\"");
-    sbfi_mjcf_vec3(w, "pos", asset->bones.at[i].head);
+    sbfi_mjcf_write_vec3(w, "pos", asset->bones.at[i].head);
     sbfi_text_string(&w->e->text, "/>\n");
   }
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
@@ -153,8 +153,8 @@ static void write_elements(mjcf_writer *w, const mjcf_flex *flex) {
   for (uint32_t i = 0, corner = 0; flex->dim == 2 && i < mesh->polygon_sizes.count; i++) {
     const uint32_t *points = mesh->polygon_points.at + corner;
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++, gap = " ")
-      sbfi_export_format(w->e, "%s%u %u %u", gap, sbfi_export_place(level, points[0]),
-          sbfi_export_place(level, points[k - 1]), sbfi_export_place(level, points[k]));
+      sbfi_export_format(w->e, "%s%u %u %u", gap, sbfi_export_index(level, points[0]),
+          sbfi_export_index(level, points[k - 1]), sbfi_export_index(level, points[k]));
     corner += mesh->polygon_sizes.at[i];
   }
   sbfi_text_char(&w->e->text, '"');
@@ -190,7 +190,7 @@ bool sbfi_mjcf_matter(mjcf_writer *w, const mjcf_flex *flex, float *value, bool 
   return true;
 }
 
-static bool is_held(const mjcf_flex *flex) {
+static bool is_point_pinned(const mjcf_flex *flex) {
   for (uint32_t p = 0; p < flex->level->positions.count; p++)
     if (flex->holder[p] >= 0) return true;
   return false;
@@ -204,20 +204,20 @@ static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
   if (!sbfi_mjcf_matter(w, flex, &value, &differ)) return false;
   if (flex->dim == 1) {
     sbfi_text_string(&w->e->text, "<edge");
-    sbfi_mjcf_f32(w, "stiffness", value);
-    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping * value);
+    sbfi_mjcf_write_f32(w, "stiffness", value);
+    sbfi_mjcf_write_f32(w, "damping", matter->stiffness_damping * value);
   } else {
     w->ratios += matter->poisson_ratio != sbfi_mjcf_ratio(flex->body);
     sbfi_text_string(&w->e->text, "<elasticity");
-    sbfi_mjcf_f32(w, "young", value);
-    sbfi_mjcf_f32(w, "poisson", sbfi_mjcf_ratio(flex->body));
-    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping);
+    sbfi_mjcf_write_f32(w, "young", value);
+    sbfi_mjcf_write_f32(w, "poisson", sbfi_mjcf_ratio(flex->body));
+    sbfi_mjcf_write_f32(w, "damping", matter->stiffness_damping);
     if (flex->dim == 2) {
       /* MuJoCo's compiler refuses bending where a point hangs on what is held. */
-      bool held = is_held(flex);
-      w->bending += held;
-      sbfi_mjcf_f32(w, "thickness", matter->thickness);
-      sbfi_export_format(w->e, " elastic2d=\"%s\"", held ? "stretch" : "both");
+      bool pinned = is_point_pinned(flex);
+      w->bending += pinned;
+      sbfi_mjcf_write_f32(w, "thickness", matter->thickness);
+      sbfi_export_format(w->e, " elastic2d=\"%s\"", pinned ? "stretch" : "both");
     }
   }
   w->moduli += differ;
@@ -246,12 +246,12 @@ static void write_vertices(mjcf_writer *w, const mjcf_flex *flex, uint32_t b) {
     const sbf_pin_set *set = flex->holder[p] < 0 ? NULL : &flex->level->pins.at[flex->holder[p]];
     sbf_vec3 from = {0, 0, 0};
     if (!set)
-      from = flex->places[p];
+      from = flex->positions[p];
     else if (set->bone >= 0)
       from = asset->bones.at[set->bone].head;
     else if (set->rigid_body >= 0)
       from = asset->rigid_bodies.at[set->rigid_body].center;
-    sbfi_export_vec3(w->e, sbfi_mjcf_turned(minus(flex->places[p], from)));
+    sbfi_export_vec3(w->e, sbfi_mjcf_turned(minus(flex->positions[p], from)));
   }
   sbfi_text_char(&w->e->text, '"');
 }
@@ -269,7 +269,7 @@ bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
     sbfi_text_string(text, "    <flex name=\"");
     sbfi_mjcf_name(w, flex->body->id, b);
     sbfi_export_format(w->e, "\" dim=\"%d\"", flex->dim);
-    sbfi_mjcf_f32(w, "radius", flex->dim < 3 && !(radius > 0) ? 1e-3f : radius);
+    sbfi_mjcf_write_f32(w, "radius", flex->dim < 3 && !(radius > 0) ? 1e-3f : radius);
     write_vertices(w, flex, b);
     write_elements(w, flex);
     sbfi_text_char(text, '>');

@@ -53,7 +53,7 @@ typedef struct motion {
 static void take_motions(mjcf_writer *w, const sbf_joint *joint, motion motions[6]) {
   for (int k = 0; k < 6; k++)
     motions[k] =
-        (motion){!(sbfi_joint_held(joint->kind) >> k & 1), false, false, -INFINITY, INFINITY, 0, 0, 0};
+        (motion){!(sbfi_joint_is_locked(joint->kind) >> k & 1), false, false, -INFINITY, INFINITY, 0, 0, 0};
   for (uint32_t i = 0; i < joint->limits.count; i++) {
     const sbf_limit *limit = &joint->limits.at[i];
     w->soft_limits += limit->stiffness > 0;
@@ -87,7 +87,7 @@ static void begin_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t index, 
   sbfi_text_string(&w->e->text, "      <joint name=\"");
   sbfi_mjcf_name(w, joint->id, index);
   sbfi_export_format(w->e, ":%s\" type=\"%s\"", part, type);
-  sbfi_mjcf_vec3(w, "pos", anchor);
+  sbfi_mjcf_write_vec3(w, "pos", anchor);
 }
 
 /* MJCF moves the first joint of a body with what it hangs on, the last with the body. Slides and swings are
@@ -117,8 +117,8 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
     axis = sbfi_mjcf_rotated(k == 3 ? joint->frame_b.rotation : joint->frame_a.rotation, axis);
     if (!forward) axis = (sbf_vec3){0 - axis.x, 0 - axis.y, 0 - axis.z};
     begin_joint(w, joint, index, parts[k], k < 3 ? "slide" : "hinge", anchor);
-    sbfi_mjcf_vec3(w, "axis", axis);
-    if (rest[k] != 0) sbfi_mjcf_f32(w, "ref", rest[k]);
+    sbfi_mjcf_write_vec3(w, "axis", axis);
+    if (rest[k] != 0) sbfi_mjcf_write_f32(w, "ref", rest[k]);
     if (motions[k].bounded) {
       sbfi_text_string(&w->e->text, " range=\"");
       sbfi_text_f32(&w->e->text, motions[k].min);
@@ -127,9 +127,9 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
       sbfi_text_char(&w->e->text, '"');
     }
     if (motions[k].driven) {
-      sbfi_mjcf_f32(w, "stiffness", motions[k].stiffness);
-      sbfi_mjcf_f32(w, "springref", motions[k].position);
-      sbfi_mjcf_f32(w, "damping", motions[k].damping);
+      sbfi_mjcf_write_f32(w, "stiffness", motions[k].stiffness);
+      sbfi_mjcf_write_f32(w, "springref", motions[k].position);
+      sbfi_mjcf_write_f32(w, "damping", motions[k].damping);
     }
     sbfi_text_string(&w->e->text, "/>\n");
   }
@@ -156,7 +156,7 @@ static void write_connect(
   sbfi_mjcf_name(w, joint->id, index);
   sbfi_export_format(w->e, ":%s\"", part);
   write_pair(w, joint);
-  sbfi_mjcf_vec3(w, "anchor", (sbf_vec3){p.x + along.x, p.y + along.y, p.z + along.z});
+  sbfi_mjcf_write_vec3(w, "anchor", (sbf_vec3){p.x + along.x, p.y + along.y, p.z + along.z});
   sbfi_text_string(&w->e->text, "/>\n");
 }
 

@@ -7,13 +7,13 @@ sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v) {
   return (sbf_vec3){v.x, 0 - v.z, v.y};
 }
 
-void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value) {
+void sbfi_mjcf_write_f32(mjcf_writer *w, const char *name, float value) {
   sbfi_export_format(w->e, " %s=\"", name);
   sbfi_text_f32(&w->e->text, value);
   sbfi_text_char(&w->e->text, '"');
 }
 
-void sbfi_mjcf_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space) {
+void sbfi_mjcf_write_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space) {
   const sbf_vec3 v = sbfi_mjcf_turned(asset_space);
   const float numbers[3] = {v.x, v.y, v.z};
   sbfi_export_format(w->e, " %s=\"", name);

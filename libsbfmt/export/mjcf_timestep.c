@@ -13,7 +13,7 @@ static bool fastest_of_lattice(
     mjcf_writer *w, const mjcf_flex *flex, float value, float *mass, double *scratch, double *w2) {
   const sbf_level *level = flex->level;
   sbf_spring_network network = {
-      .point_count = level->positions.count, .positions = flex->places, .masses = mass};
+      .point_count = level->positions.count, .positions = flex->positions, .masses = mass};
   if (flex->dim == 3) {
     uint32_t count = level->lattice.tetrahedra.count;
     float *moduli = sbfi_arena_allocate(&w->scratch, count, sizeof *moduli);
@@ -54,9 +54,9 @@ static double fastest_of_sheet(
       const uint32_t at[3] = {corner, corner + k - 1, corner + k};
       uint32_t p[3];
       double sides[3][3], squares = 0;
-      for (int c = 0; c < 3; c++) p[c] = sbfi_export_place(flex->level, mesh->polygon_points.at[at[c]]);
+      for (int c = 0; c < 3; c++) p[c] = sbfi_export_index(flex->level, mesh->polygon_points.at[at[c]]);
       for (int c = 0; c < 3; c++) {
-        const sbf_vec3 a = flex->places[p[c]], b = flex->places[p[(c + 1) % 3]];
+        const sbf_vec3 a = flex->positions[p[c]], b = flex->positions[p[(c + 1) % 3]];
         sides[c][0] = (double)b.x - a.x, sides[c][1] = (double)b.y - a.y, sides[c][2] = (double)b.z - a.z;
         for (int d = 0; d < 3; d++) squares += sides[c][d] * sides[c][d];
       }

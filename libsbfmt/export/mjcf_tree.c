@@ -86,9 +86,9 @@ static void write_matter(mjcf_writer *w, const sbf_rigid_body *body) {
   }
   const sbf_vec3 from = body->center, at = measures.center;
   sbfi_text_string(text, "      <inertial");
-  sbfi_mjcf_vec3(w, "pos", (sbf_vec3){at.x - from.x, at.y - from.y, at.z - from.z});
+  sbfi_mjcf_write_vec3(w, "pos", (sbf_vec3){at.x - from.x, at.y - from.y, at.z - from.z});
   write_quaternion(w, measures.inertia_rotation);
-  sbfi_mjcf_f32(w, "mass", (float)measures.mass);
+  sbfi_mjcf_write_f32(w, "mass", (float)measures.mass);
   sbfi_text_string(text, " diaginertia=\"");
   const float moments[3] = {measures.inertia.x, measures.inertia.y, measures.inertia.z};
   for (int k = 0; k < 3; k++) {
@@ -111,9 +111,9 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   sbfi_mjcf_rigid_name(w, (int32_t)i);
   sbfi_text_char(text, '"');
   if (kinematic && !w->rigid_elastic[i]) sbfi_text_string(text, " mocap=\"true\"");
-  sbfi_mjcf_vec3(
+  sbfi_mjcf_write_vec3(
       w, "pos", (sbf_vec3){body->center.x - from.x, body->center.y - from.y, body->center.z - from.z});
-  if (body->gravity_scale != 1) sbfi_mjcf_f32(w, "gravcomp", 1 - body->gravity_scale);
+  if (body->gravity_scale != 1) sbfi_mjcf_write_f32(w, "gravcomp", 1 - body->gravity_scale);
   sbfi_text_string(text, ">\n");
   if (end != MJCF_END) {
     /* `end` is the parent's: the joint runs forward where that is body a. */
@@ -144,7 +144,7 @@ static void write_sites(mjcf_writer *w, uint32_t at) {
     sbfi_text_string(&w->e->text, "      <site name=\"");
     sbfi_mjcf_name(w, joint->id, end / 2);
     sbfi_export_format(w->e, ":%c\"", end & 1 ? 'b' : 'a');
-    sbfi_mjcf_vec3(w, "pos", end & 1 ? joint->frame_b.position : joint->frame_a.position);
+    sbfi_mjcf_write_vec3(w, "pos", end & 1 ? joint->frame_b.position : joint->frame_a.position);
     sbfi_text_string(&w->e->text, "/>\n");
   }
 }

@@ -10,8 +10,8 @@ static void write_all(mjcf_writer *w, float step) {
                          "  <!-- Metres, kilograms, radians. Turned from +Y up to +Z up: (x, y, z) is "
                          "(x, -z, y) of the file it was made from. -->\n"
                          "  <compiler angle=\"radian\"/>\n  <option");
-  sbfi_mjcf_f32(w, "timestep", step);
-  sbfi_mjcf_vec3(w, "gravity", w->e->asset->environment.gravity);
+  sbfi_mjcf_write_f32(w, "timestep", step);
+  sbfi_mjcf_write_vec3(w, "gravity", w->e->asset->environment.gravity);
   sbfi_text_string(text, "/>\n");
   sbfi_mjcf_write_meshes(w);
   sbfi_text_string(text, "  <worldbody>\n");

@@ -20,16 +20,16 @@ const sbf_level *sbfi_export_network(const sbf_soft_body *body) {
   return NULL;
 }
 
-uint32_t sbfi_export_place(const sbf_level *level, uint32_t point) {
-  uint32_t place = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
-  return place < level->positions.count ? place : SBFI_NO_PLACE;
+uint32_t sbfi_export_index(const sbf_level *level, uint32_t point) {
+  uint32_t index = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
+  return index < level->positions.count ? index : SBFI_NOT_IN_LEVEL;
 }
 
 bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level) {
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   for (uint32_t i = 0; i < body->surface.positions.count; i++)
-    if (sbfi_export_place(level, i) == SBFI_NO_PLACE) return false;
+    if (sbfi_export_index(level, i) == SBFI_NOT_IN_LEVEL) return false;
   return measures.sheet && body->surface.polygon_sizes.count;
 }
 

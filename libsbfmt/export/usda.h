@@ -30,10 +30,11 @@ typedef struct usda_writer {
  * it then, as ids that differ there alone must. */
 void sbfi_usda_name(usda_writer *w, const char *id, uint32_t index);
 /* </asset/SCOPE/NAME followed by `rest`, which ends with '>'. */
-void sbfi_usda_path(usda_writer *w, const char *scope, const char *id, uint32_t index, const char *rest);
+void sbfi_usda_write_path(
+    usda_writer *w, const char *scope, const char *id, uint32_t index, const char *rest);
 
 /* A line of up to 255 bytes at this depth. */
-void sbfi_usda_line(usda_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void sbfi_usda_write_line(usda_writer *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_usda_begin(usda_writer *w, const char *text); /* the same without its end */
 void sbfi_usda_end(usda_writer *w);
 /* def TYPE "NAME" with its schemas, "" for none, as in "\"A\", \"B\""; the prim stays open. */
@@ -41,26 +42,26 @@ void sbfi_usda_open(usda_writer *w, const char *type, const char *id, uint32_t i
 void sbfi_usda_open_plain(usda_writer *w, const char *type, const char *name, const char *schemas);
 void sbfi_usda_close(usda_writer *w);
 
-void sbfi_usda_f32(usda_writer *w, const char *declaration, float value); /* DECLARATION = value */
-void sbfi_usda_vec3(usda_writer *w, const char *declaration, sbf_vec3 v);
-void sbfi_usda_quat(usda_writer *w, const char *declaration, sbf_quat q); /* w first */
-void sbfi_usda_place(usda_writer *w, sbf_vec3 at);                        /* the prim's xform */
-void sbfi_usda_tuple(usda_writer *w, const float *numbers, int count);    /* (a, b, c) */
+void sbfi_usda_write_f32(usda_writer *w, const char *declaration, float value); /* DECLARATION = value */
+void sbfi_usda_write_vec3(usda_writer *w, const char *declaration, sbf_vec3 v);
+void sbfi_usda_write_quat(usda_writer *w, const char *declaration, sbf_quat q); /* w first */
+void sbfi_usda_write_translation(usda_writer *w, sbf_vec3 at);                  /* the prim's xform */
+void sbfi_usda_write_tuple(usda_writer *w, const float *numbers, int count);    /* (a, b, c) */
 /* DECLARATION = [...]: points less `origin`, and indices in tuples of `size`. */
-void sbfi_usda_points(
+void sbfi_usda_write_points(
     usda_writer *w, const char *declaration, const sbf_vec3 *points, uint32_t count, sbf_vec3 origin);
-void sbfi_usda_indices(
+void sbfi_usda_write_indices(
     usda_writer *w, const char *declaration, const uint32_t *indices, uint32_t count, int size);
 /* The bounds of points, as `extent`. */
-void sbfi_usda_extent(usda_writer *w, const sbf_vec3 *points, uint32_t count, sbf_vec3 origin);
+void sbfi_usda_write_extent(usda_writer *w, const sbf_vec3 *points, uint32_t count, sbf_vec3 origin);
 
 /* What each file of the writer adds; false where memory runs out. */
 bool sbfi_usda_choose_meshes(usda_writer *w);
-void sbfi_usda_materials(usda_writer *w);
+void sbfi_usda_write_materials(usda_writer *w);
 bool sbfi_usda_skeleton_and_meshes(usda_writer *w);
 bool sbfi_usda_mesh(usda_writer *w, uint32_t index);
-void sbfi_usda_rigid_bodies(usda_writer *w);
-void sbfi_usda_joints(usda_writer *w);
+void sbfi_usda_write_rigid_bodies(usda_writer *w);
+void sbfi_usda_write_joints(usda_writer *w);
 bool sbfi_usda_soft_bodies(usda_writer *w); /* and the bones that hold their points */
 
 #endif

@@ -37,7 +37,7 @@ bool sbfi_usda_choose_meshes(usda_writer *w) {
         return false;
       mesh->shown = &made->mesh;
       mesh->full_of_shown = made->vertices;
-      mesh->shown_of_full = made->place_of;
+      mesh->shown_of_full = made->position_of;
     }
     mesh->skin = asset->bones.count ? mesh->full->skin : NULL;
     if (mesh->skin || mesh->full->bone >= 0) continue;
@@ -66,23 +66,23 @@ static void write_joint(usda_writer *w, uint32_t bone, uint32_t *chain) {
   sbfi_text_char(&w->e->text, '"');
 }
 
-static void turn_of(sbf_quat q, double turn[4]) {
+static void turn_of(sbf_quat q, double rotation[4]) {
   const double parts[4] = {q.x, q.y, q.z, q.w};
   double length = sqrt(parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2] + parts[3] * parts[3]);
-  for (int k = 0; k < 4; k++) turn[k] = length > 0 ? parts[k] / length : k == 3;
+  for (int k = 0; k < 4; k++) rotation[k] = length > 0 ? parts[k] / length : k == 3;
 }
 
 /* Rows are the axes, as USD's vectors are multiplied from the left. */
-static void write_matrix(usda_writer *w, const double turn[4], const double at[3]) {
+static void write_matrix(usda_writer *w, const double rotation[4], const double at[3]) {
   float row[4] = {0, 0, 0, 0};
   sbfi_text_char(&w->e->text, '(');
   for (int k = 0; k < 4; k++) {
     double axis[3] = {k == 0, k == 1, k == 2};
-    if (k < 3) sbfi_turn_vector(turn, axis, axis);
+    if (k < 3) sbfi_turn_vector(rotation, axis, axis);
     for (int i = 0; i < 3; i++) row[i] = (float)(k < 3 ? axis[i] : at[i]);
     row[3] = k == 3;
     if (k) sbfi_text_string(&w->e->text, ", ");
-    sbfi_usda_tuple(w, row, 4);
+    sbfi_usda_write_tuple(w, row, 4);
   }
   sbfi_text_char(&w->e->text, ')');
 }
@@ -93,8 +93,8 @@ static void write_transforms(usda_writer *w, const char *declaration, bool local
   sbfi_text_string(&w->e->text, " = [");
   for (uint32_t b = 0; b < asset->bones.count; b++) {
     const sbf_bone *bone = &asset->bones.at[b];
-    double turn[4], at[3] = {bone->head.x, bone->head.y, bone->head.z};
-    turn_of(bone->rotation, turn);
+    double rotation[4], at[3] = {bone->head.x, bone->head.y, bone->head.z};
+    turn_of(bone->rotation, rotation);
     if (local && bone->parent >= 0) {
       const sbf_bone *parent = &asset->bones.at[bone->parent];
       double back[4];
@@ -102,10 +102,10 @@ static void write_transforms(usda_writer *w, const char *declaration, bool local
       sbfi_turn_undo(back, back);
       at[0] -= parent->head.x, at[1] -= parent->head.y, at[2] -= parent->head.z;
       sbfi_turn_vector(back, at, at);
-      sbfi_turn_product(back, turn, turn);
+      sbfi_turn_product(back, rotation, rotation);
     }
     if (b) sbfi_text_string(&w->e->text, ", ");
-    write_matrix(w, turn, at);
+    write_matrix(w, rotation, at);
   }
   sbfi_text_char(&w->e->text, ']');
   sbfi_usda_end(w);
@@ -169,8 +169,8 @@ static void write_one_bone(usda_writer *w, const usda_mesh *mesh) {
 }
 
 static bool write_binding(usda_writer *w, const usda_mesh *mesh) {
-  sbfi_usda_line(w, "matrix4d primvars:skel:geomBindTransform = "
-                    "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))");
+  sbfi_usda_write_line(w, "matrix4d primvars:skel:geomBindTransform = "
+                          "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))");
   if (!mesh->skin) {
     write_one_bone(w, mesh);
   } else {
@@ -181,7 +181,7 @@ static bool write_binding(usda_writer *w, const usda_mesh *mesh) {
     write_influences(w, mesh, begins, size, false);
     write_influences(w, mesh, begins, size, true);
   }
-  sbfi_usda_line(w, "rel skel:skeleton = </asset/character/skeleton>");
+  sbfi_usda_write_line(w, "rel skel:skeleton = </asset/character/skeleton>");
   return true;
 }
 
@@ -192,13 +192,13 @@ static void write_uv(usda_writer *w, const sbf_uv_set *set, uint32_t index) {
   sbfi_export_format(w->e, "%s = [", name);
   for (uint32_t i = 0; i < set->coordinates.count; i++) {
     if (i) sbfi_text_string(&w->e->text, ", ");
-    sbfi_usda_tuple(w, (const float[2]){set->coordinates.at[i].x, set->coordinates.at[i].y}, 2);
+    sbfi_usda_write_tuple(w, (const float[2]){set->coordinates.at[i].x, set->coordinates.at[i].y}, 2);
   }
   sbfi_export_format(w->e, "] (interpolation = \"%s\")\n", set->corners.count ? "faceVarying" : "vertex");
   if (!set->corners.count) return;
   char declaration[64];
   snprintf(declaration, sizeof declaration, "int[] primvars:st%s:indices", name);
-  sbfi_usda_indices(w, declaration, set->corners.at, set->corners.count, 1);
+  sbfi_usda_write_indices(w, declaration, set->corners.at, set->corners.count, 1);
 }
 
 static void write_normals(usda_writer *w, const sbf_render_mesh *m) {
@@ -207,7 +207,7 @@ static void write_normals(usda_writer *w, const sbf_render_mesh *m) {
   for (uint32_t i = 0; i < count; i++) {
     const sbf_vec3 n = m->normals.at[m->normal_corners.count ? m->normal_corners.at[i] : i];
     if (i) sbfi_text_string(&w->e->text, ", ");
-    sbfi_usda_tuple(w, (const float[3]){n.x, n.y, n.z}, 3);
+    sbfi_usda_write_tuple(w, (const float[3]){n.x, n.y, n.z}, 3);
   }
   sbfi_export_format(
       w->e, "] (interpolation = \"%s\")\n", m->normal_corners.count ? "faceVarying" : "vertex");
@@ -228,14 +228,14 @@ static void write_shape_keys(usda_writer *w, const usda_mesh *mesh) {
     sbfi_usda_begin(w, "def BlendShape \"");
     write_key_name(w, keys, k);
     sbfi_text_string(&w->e->text, "\"\n");
-    sbfi_usda_line(w, "{");
+    sbfi_usda_write_line(w, "{");
     w->depth++;
     sbfi_usda_begin(w, "uniform vector3f[] offsets = [");
     for (uint32_t i = 0; i < keys.at[k].points.count; i++) {
       if (mesh->shown_of_full && mesh->shown_of_full[keys.at[k].points.at[i]] == UINT32_MAX) continue;
       const sbf_vec3 o = keys.at[k].offsets.at[i];
       sbfi_text_string(&w->e->text, gap);
-      sbfi_usda_tuple(w, (const float[3]){o.x, o.y, o.z}, 3);
+      sbfi_usda_write_tuple(w, (const float[3]){o.x, o.y, o.z}, 3);
       gap = ", ";
     }
     sbfi_text_string(&w->e->text, "]\n");
@@ -266,7 +266,7 @@ static void write_key_targets(usda_writer *w, const usda_mesh *mesh, uint32_t in
   sbfi_usda_begin(w, "rel skel:blendShapeTargets = [");
   for (uint32_t k = 0; k < keys.count; k++) {
     if (k) sbfi_text_string(&w->e->text, ", ");
-    sbfi_usda_path(w, "character/meshes", mesh->full->id, index, "/");
+    sbfi_usda_write_path(w, "character/meshes", mesh->full->id, index, "/");
     write_key_name(w, keys, k);
     sbfi_text_char(&w->e->text, '>');
   }
@@ -277,7 +277,7 @@ static void bind_material(usda_writer *w, const sbf_render_mesh *m, uint32_t slo
   int32_t material = m->material_slots.at[slot].material;
   if (material < 0) return;
   sbfi_usda_begin(w, "rel material:binding = ");
-  sbfi_usda_path(w, "materials", w->e->asset->materials.at[material].id, (uint32_t)material, ">");
+  sbfi_usda_write_path(w, "materials", w->e->asset->materials.at[material].id, (uint32_t)material, ">");
   sbfi_usda_end(w);
 }
 
@@ -288,8 +288,8 @@ static void write_subsets(usda_writer *w, const sbf_render_mesh *m) {
     char name[32];
     snprintf(name, sizeof name, "slot__%u", slot);
     sbfi_usda_open_plain(w, "GeomSubset", name, "\"MaterialBindingAPI\"");
-    sbfi_usda_line(w, "uniform token elementType = \"face\"");
-    sbfi_usda_line(w, "uniform token familyName = \"materialBind\"");
+    sbfi_usda_write_line(w, "uniform token elementType = \"face\"");
+    sbfi_usda_write_line(w, "uniform token familyName = \"materialBind\"");
     sbfi_usda_begin(w, "int[] indices = [");
     for (uint32_t p = 0; p < m->mesh.polygon_sizes.count; p++) {
       if (m->polygon_materials.at[p] != slot) continue;
@@ -306,20 +306,22 @@ static void write_subsets(usda_writer *w, const sbf_render_mesh *m) {
 bool sbfi_usda_mesh(usda_writer *w, uint32_t index) {
   const usda_mesh *mesh = &w->meshes[index];
   const sbf_render_mesh *m = mesh->shown;
-  bool held = mesh->body < 0 && (mesh->skin || mesh->full->bone >= 0);
+  bool pinned = mesh->body < 0 && (mesh->skin || mesh->full->bone >= 0);
   bool keys = mesh->body < 0 && mesh->full->shape_keys.count;
   const sbf_vec3 zero = {0, 0, 0};
   sbfi_usda_open(w, "Mesh", mesh->full->id, index,
-      held || keys ? "\"MaterialBindingAPI\", \"SkelBindingAPI\"" : "\"MaterialBindingAPI\"");
-  sbfi_usda_line(w, "uniform token subdivisionScheme = \"none\"");
-  sbfi_usda_extent(w, m->mesh.positions.at, m->mesh.positions.count, zero);
-  sbfi_usda_points(w, "point3f[] points", m->mesh.positions.at, m->mesh.positions.count, zero);
-  sbfi_usda_indices(w, "int[] faceVertexCounts", m->mesh.polygon_sizes.at, m->mesh.polygon_sizes.count, 1);
-  sbfi_usda_indices(w, "int[] faceVertexIndices", m->mesh.polygon_points.at, m->mesh.polygon_points.count, 1);
+      pinned || keys ? "\"MaterialBindingAPI\", \"SkelBindingAPI\"" : "\"MaterialBindingAPI\"");
+  sbfi_usda_write_line(w, "uniform token subdivisionScheme = \"none\"");
+  sbfi_usda_write_extent(w, m->mesh.positions.at, m->mesh.positions.count, zero);
+  sbfi_usda_write_points(w, "point3f[] points", m->mesh.positions.at, m->mesh.positions.count, zero);
+  sbfi_usda_write_indices(
+      w, "int[] faceVertexCounts", m->mesh.polygon_sizes.at, m->mesh.polygon_sizes.count, 1);
+  sbfi_usda_write_indices(
+      w, "int[] faceVertexIndices", m->mesh.polygon_points.at, m->mesh.polygon_points.count, 1);
   if (m->normals.count) write_normals(w, m);
   for (uint32_t i = 0; i < m->uv_sets.count; i++)
     if (m->uv_sets.at[i].coordinates.count) write_uv(w, &m->uv_sets.at[i], i);
-  if (held && !write_binding(w, mesh)) return false;
+  if (pinned && !write_binding(w, mesh)) return false;
   if (m->material_slots.count) bind_material(w, m, 0);
   if (keys) write_key_targets(w, mesh, index);
   if (keys) write_shape_keys(w, mesh);

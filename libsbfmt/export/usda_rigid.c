@@ -14,36 +14,38 @@ static void write_mass(usda_writer *w, const sbf_rigid_body *body) {
   sbf_rigid_body_measure(body, &measures);
   if (!(measures.mass > 0)) return;
   const sbf_vec3 at = measures.center, from = body->center;
-  sbfi_usda_vec3(w, "point3f physics:centerOfMass", (sbf_vec3){at.x - from.x, at.y - from.y, at.z - from.z});
-  sbfi_usda_vec3(w, "float3 physics:diagonalInertia", measures.inertia);
-  sbfi_usda_f32(w, "float physics:mass", (float)measures.mass);
-  sbfi_usda_quat(w, "quatf physics:principalAxes", measures.inertia_rotation);
+  sbfi_usda_write_vec3(
+      w, "point3f physics:centerOfMass", (sbf_vec3){at.x - from.x, at.y - from.y, at.z - from.z});
+  sbfi_usda_write_vec3(w, "float3 physics:diagonalInertia", measures.inertia);
+  sbfi_usda_write_f32(w, "float physics:mass", (float)measures.mass);
+  sbfi_usda_write_quat(w, "quatf physics:principalAxes", measures.inertia_rotation);
 }
 
 static void write_hull(usda_writer *w, const sbf_rigid_body *body, uint32_t index) {
   const sbf_polygon_mesh *hull = body->hull;
   sbfi_usda_open_plain(
       w, "Mesh", "hull", "\"MaterialBindingAPI\", \"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"");
-  sbfi_usda_line(w, "uniform token subdivisionScheme = \"none\"");
-  sbfi_usda_line(w, "uniform token purpose = \"guide\"");
-  sbfi_usda_line(w, "uniform token physics:approximation = \"convexHull\"");
-  sbfi_usda_extent(w, hull->positions.at, hull->positions.count, body->center);
-  sbfi_usda_points(w, "point3f[] points", hull->positions.at, hull->positions.count, body->center);
-  sbfi_usda_indices(w, "int[] faceVertexCounts", hull->polygon_sizes.at, hull->polygon_sizes.count, 1);
-  sbfi_usda_indices(w, "int[] faceVertexIndices", hull->polygon_points.at, hull->polygon_points.count, 1);
+  sbfi_usda_write_line(w, "uniform token subdivisionScheme = \"none\"");
+  sbfi_usda_write_line(w, "uniform token purpose = \"guide\"");
+  sbfi_usda_write_line(w, "uniform token physics:approximation = \"convexHull\"");
+  sbfi_usda_write_extent(w, hull->positions.at, hull->positions.count, body->center);
+  sbfi_usda_write_points(w, "point3f[] points", hull->positions.at, hull->positions.count, body->center);
+  sbfi_usda_write_indices(w, "int[] faceVertexCounts", hull->polygon_sizes.at, hull->polygon_sizes.count, 1);
+  sbfi_usda_write_indices(
+      w, "int[] faceVertexIndices", hull->polygon_points.at, hull->polygon_points.count, 1);
   sbfi_usda_begin(w, "rel material:binding:physics = ");
-  sbfi_usda_path(w, "rigid", body->id, index, "/matter>");
+  sbfi_usda_write_path(w, "rigid", body->id, index, "/matter>");
   sbfi_usda_end(w);
   sbfi_usda_close(w);
   sbfi_usda_open_plain(w, "Material", "matter", "\"PhysicsMaterialAPI\"");
-  sbfi_usda_f32(w, "float physics:density", body->density);
-  sbfi_usda_f32(w, "float physics:dynamicFriction", body->friction);
-  sbfi_usda_f32(w, "float physics:staticFriction", body->friction);
-  sbfi_usda_f32(w, "float physics:restitution", body->restitution);
+  sbfi_usda_write_f32(w, "float physics:density", body->density);
+  sbfi_usda_write_f32(w, "float physics:dynamicFriction", body->friction);
+  sbfi_usda_write_f32(w, "float physics:staticFriction", body->friction);
+  sbfi_usda_write_f32(w, "float physics:restitution", body->restitution);
   sbfi_usda_close(w);
 }
 
-void sbfi_usda_rigid_bodies(usda_writer *w) {
+void sbfi_usda_write_rigid_bodies(usda_writer *w) {
   const sbf_asset *asset = w->e->asset;
   if (!asset->rigid_bodies.count) return;
   sbfi_usda_open_plain(w, "Scope", "rigid", "");
@@ -52,8 +54,9 @@ void sbfi_usda_rigid_bodies(usda_writer *w) {
     w->filters += body->layer != 1 || body->mask != UINT32_MAX;
     w->weights += body->gravity_scale != 1;
     sbfi_usda_open(w, "Xform", body->id, i, "\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"");
-    sbfi_usda_place(w, body->center);
-    if (body->motion == SBF_BODY_MOTION_KINEMATIC) sbfi_usda_line(w, "bool physics:kinematicEnabled = true");
+    sbfi_usda_write_translation(w, body->center);
+    if (body->motion == SBF_BODY_MOTION_KINEMATIC)
+      sbfi_usda_write_line(w, "bool physics:kinematicEnabled = true");
     write_mass(w, body);
     if (body->hull && body->hull->polygon_sizes.count) write_hull(w, body, i);
     sbfi_usda_close(w);
@@ -78,7 +81,7 @@ static bool is_of(sbf_joint_axis target, unsigned axis) {
 
 static void take_motions(usda_writer *w, const sbf_joint *joint, motion motions[6], float distance[2]) {
   for (unsigned k = 0; k < 6; k++)
-    motions[k] = (motion){!(sbfi_joint_held(joint->kind) >> k & 1), false, -INFINITY, INFINITY, NULL};
+    motions[k] = (motion){!(sbfi_joint_is_locked(joint->kind) >> k & 1), false, -INFINITY, INFINITY, NULL};
   for (uint32_t i = 0; i < joint->limits.count; i++) {
     const sbf_limit *limit = &joint->limits.at[i];
     w->soft_limits += limit->stiffness > 0 || limit->restitution > 0;
@@ -105,11 +108,11 @@ static void write_drive(usda_writer *w, const char *name, const sbf_drive *drive
   } parts[] = {{"damping", drive->damping / angle}, {"stiffness", drive->stiffness / angle},
       {"targetPosition", cone ? 0 : drive->position * angle},
       {"targetVelocity", cone ? 0 : drive->velocity * angle}, {"maxForce", drive->maximum}};
-  sbfi_usda_line(w, "uniform token drive:%s:physics:type = \"force\"", name);
+  sbfi_usda_write_line(w, "uniform token drive:%s:physics:type = \"force\"", name);
   for (size_t i = 0; i < sizeof parts / sizeof *parts - (drive->maximum > 0 ? 0 : 1); i++) {
     char declaration[80];
     snprintf(declaration, sizeof declaration, "float drive:%s:physics:%s", name, parts[i].what);
-    sbfi_usda_f32(w, declaration, (float)parts[i].value);
+    sbfi_usda_write_f32(w, declaration, (float)parts[i].value);
   }
 }
 
@@ -120,15 +123,15 @@ static void write_ends(usda_writer *w, const sbf_joint *joint) {
     const sbf_frame *frame = end ? &joint->frame_b : &joint->frame_a;
     if (body >= 0) {
       sbfi_usda_begin(w, end ? "rel physics:body1 = " : "rel physics:body0 = ");
-      sbfi_usda_path(w, "rigid", asset->rigid_bodies.at[body].id, (uint32_t)body, ">");
+      sbfi_usda_write_path(w, "rigid", asset->rigid_bodies.at[body].id, (uint32_t)body, ">");
       sbfi_usda_end(w);
     }
-    sbfi_usda_vec3(w, end ? "point3f physics:localPos1" : "point3f physics:localPos0", frame->position);
-    sbfi_usda_quat(w, end ? "quatf physics:localRot1" : "quatf physics:localRot0", frame->rotation);
+    sbfi_usda_write_vec3(w, end ? "point3f physics:localPos1" : "point3f physics:localPos0", frame->position);
+    sbfi_usda_write_quat(w, end ? "quatf physics:localRot1" : "quatf physics:localRot0", frame->rotation);
   }
-  if (joint->break_force > 0) sbfi_usda_f32(w, "float physics:breakForce", joint->break_force);
-  if (joint->break_torque > 0) sbfi_usda_f32(w, "float physics:breakTorque", joint->break_torque);
-  if (joint->collide) sbfi_usda_line(w, "bool physics:collisionEnabled = true");
+  if (joint->break_force > 0) sbfi_usda_write_f32(w, "float physics:breakForce", joint->break_force);
+  if (joint->break_torque > 0) sbfi_usda_write_f32(w, "float physics:breakTorque", joint->break_torque);
+  if (joint->collide) sbfi_usda_write_line(w, "bool physics:collisionEnabled = true");
 }
 
 /* "\"PhysicsLimitAPI:rotX\", ...": of what a plain joint holds or bounds, and of the drives. */
@@ -152,14 +155,14 @@ static void write_plain(usda_writer *w, const sbf_joint *joint, uint32_t index, 
   write_ends(w, joint);
   for (int k = 0; k < 6; k++) {
     double angle = k < 3 ? 1 : DEGREES;
-    bool held = !motions[k].free || (motions[k].bounded && !(motions[k].min < motions[k].max));
-    if (held || motions[k].bounded)
+    bool pinned = !motions[k].free || (motions[k].bounded && !(motions[k].min < motions[k].max));
+    if (pinned || motions[k].bounded)
       for (int high = 0; high < 2; high++) {
         char declaration[64];
-        float value = held ? (high ? -1 : 1) : (float)((high ? motions[k].max : motions[k].min) * angle);
+        float value = pinned ? (high ? -1 : 1) : (float)((high ? motions[k].max : motions[k].min) * angle);
         snprintf(declaration, sizeof declaration, "float limit:%s:physics:%s", axis_names[k],
             high ? "high" : "low");
-        sbfi_usda_f32(w, declaration, value);
+        sbfi_usda_write_f32(w, declaration, value);
       }
     if (motions[k].free && motions[k].drive) write_drive(w, axis_names[k], motions[k].drive, k >= 3);
   }
@@ -174,11 +177,11 @@ static void write_single(
       !one->drive ? ""
       : turns     ? "\"PhysicsDriveAPI:angular\""
                   : "\"PhysicsDriveAPI:linear\"");
-  sbfi_usda_line(w, "uniform token physics:axis = \"X\"");
+  sbfi_usda_write_line(w, "uniform token physics:axis = \"X\"");
   write_ends(w, joint);
   if (one->bounded) {
-    sbfi_usda_f32(w, "float physics:lowerLimit", (float)(one->min * (turns ? DEGREES : 1)));
-    sbfi_usda_f32(w, "float physics:upperLimit", (float)(one->max * (turns ? DEGREES : 1)));
+    sbfi_usda_write_f32(w, "float physics:lowerLimit", (float)(one->min * (turns ? DEGREES : 1)));
+    sbfi_usda_write_f32(w, "float physics:upperLimit", (float)(one->max * (turns ? DEGREES : 1)));
   }
   if (one->drive) write_drive(w, name, one->drive, turns);
   sbfi_usda_close(w);
@@ -198,8 +201,8 @@ static void write_distance(usda_writer *w, const sbf_joint *joint, uint32_t inde
   }
   sbfi_usda_open(w, "PhysicsDistanceJoint", joint->id, index, "");
   write_ends(w, joint);
-  sbfi_usda_f32(w, "float physics:minDistance", low);
-  sbfi_usda_f32(w, "float physics:maxDistance", high);
+  sbfi_usda_write_f32(w, "float physics:minDistance", low);
+  sbfi_usda_write_f32(w, "float physics:maxDistance", high);
   sbfi_usda_close(w);
 }
 
@@ -211,12 +214,12 @@ static bool is_cone(const sbf_joint *joint) {
 
 static void write_cone(usda_writer *w, const sbf_joint *joint, uint32_t index) {
   sbfi_usda_open(w, "PhysicsSphericalJoint", joint->id, index, "");
-  sbfi_usda_line(w, "uniform token physics:axis = \"X\"");
+  sbfi_usda_write_line(w, "uniform token physics:axis = \"X\"");
   write_ends(w, joint);
   if (joint->limits.count) {
     float angle = (float)(joint->limits.at[0].max * DEGREES);
-    sbfi_usda_f32(w, "float physics:coneAngle0Limit", angle);
-    sbfi_usda_f32(w, "float physics:coneAngle1Limit", angle);
+    sbfi_usda_write_f32(w, "float physics:coneAngle0Limit", angle);
+    sbfi_usda_write_f32(w, "float physics:coneAngle1Limit", angle);
   }
   sbfi_usda_close(w);
 }
@@ -227,7 +230,7 @@ static void write_fixed(usda_writer *w, const sbf_joint *joint, uint32_t index) 
   sbfi_usda_close(w);
 }
 
-void sbfi_usda_joints(usda_writer *w) {
+void sbfi_usda_write_joints(usda_writer *w) {
   const sbf_joint_list joints = w->e->asset->joints;
   if (!joints.count) return;
   sbfi_usda_open_plain(w, "Scope", "joints", "");

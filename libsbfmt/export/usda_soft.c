@@ -53,7 +53,7 @@ static bool write_surface(usda_writer *w, const sbf_level *level) {
       kept++;
     }
   }
-  sbfi_usda_indices(w, "int3[] surfaceFaceVertexIndices", outer, kept, 3);
+  sbfi_usda_write_indices(w, "int3[] surfaceFaceVertexIndices", outer, kept, 3);
   return true;
 }
 
@@ -86,21 +86,21 @@ static bool write_matter(usda_writer *w, const sbf_soft_body *body, const sbf_le
       sheet ? "\"PhysicsMaterialAPI\", \"PhysicsSurfaceDeformableMaterialAPI\""
             : "\"PhysicsMaterialAPI\", \"PhysicsVolumeDeformableMaterialAPI\"");
   float density = sheet && matter->area_density > 0 ? matter->area_density / thick : matter->density;
-  sbfi_usda_f32(w, "float physics:density", density);
-  sbfi_usda_f32(w, "float physics:dynamicFriction", matter->friction);
-  sbfi_usda_f32(w, "float physics:staticFriction", matter->friction);
+  sbfi_usda_write_f32(w, "float physics:density", density);
+  sbfi_usda_write_f32(w, "float physics:dynamicFriction", matter->friction);
+  sbfi_usda_write_f32(w, "float physics:staticFriction", matter->friction);
   if (sheet) {
     /* All three are moduli there; a stated rigidity becomes the modulus that gives it. */
     float bend = matter->bending_stiffness > 0
                      ? matter->bending_stiffness * 12 * (1 - ratio * ratio) / (thick * thick * thick)
                      : modulus;
-    sbfi_usda_f32(w, "float physics:thickness", thick);
-    sbfi_usda_f32(w, "float physics:stretchStiffness", modulus);
-    sbfi_usda_f32(w, "float physics:shearStiffness", modulus / (2 * (1 + ratio)));
-    sbfi_usda_f32(w, "float physics:bendStiffness", bend);
+    sbfi_usda_write_f32(w, "float physics:thickness", thick);
+    sbfi_usda_write_f32(w, "float physics:stretchStiffness", modulus);
+    sbfi_usda_write_f32(w, "float physics:shearStiffness", modulus / (2 * (1 + ratio)));
+    sbfi_usda_write_f32(w, "float physics:bendStiffness", bend);
   } else {
-    sbfi_usda_f32(w, "float physics:youngsModulus", modulus);
-    sbfi_usda_f32(w, "float physics:poissonsRatio", ratio);
+    sbfi_usda_write_f32(w, "float physics:youngsModulus", modulus);
+    sbfi_usda_write_f32(w, "float physics:poissonsRatio", ratio);
   }
   sbfi_usda_close(w);
   return true;
@@ -132,13 +132,13 @@ static bool write_triangles(usda_writer *w, const sbf_soft_body *body, const sbf
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++, count++) {
       const uint32_t at[3] = {corner, corner + k - 1, corner + k};
       for (int c = 0; c < 3; c++)
-        points[3 * (size_t)count + (size_t)c] = sbfi_export_place(level, mesh->polygon_points.at[at[c]]);
+        points[3 * (size_t)count + (size_t)c] = sbfi_export_index(level, mesh->polygon_points.at[at[c]]);
       sizes[count] = 3;
     }
     corner += mesh->polygon_sizes.at[i];
   }
-  sbfi_usda_indices(w, "int[] faceVertexCounts", sizes, count, 1);
-  sbfi_usda_indices(w, "int[] faceVertexIndices", points, 3 * count, 1);
+  sbfi_usda_write_indices(w, "int[] faceVertexCounts", sizes, count, 1);
+  sbfi_usda_write_indices(w, "int[] faceVertexIndices", points, 3 * count, 1);
   return true;
 }
 
@@ -148,22 +148,23 @@ static bool write_geometry(
   sbfi_usda_open_plain(w, sheet ? "Mesh" : "TetMesh", "simulation",
       sheet ? "\"MaterialBindingAPI\", \"PhysicsSurfaceDeformableSimAPI\", \"PhysicsCollisionAPI\""
             : "\"MaterialBindingAPI\", \"PhysicsVolumeDeformableSimAPI\", \"PhysicsCollisionAPI\"");
-  sbfi_usda_line(w, "uniform token purpose = \"guide\"");
-  if (sheet) sbfi_usda_line(w, "uniform token subdivisionScheme = \"none\"");
-  sbfi_usda_extent(w, level->positions.at, level->positions.count, zero);
-  sbfi_usda_points(w, "point3f[] points", level->positions.at, level->positions.count, zero);
+  sbfi_usda_write_line(w, "uniform token purpose = \"guide\"");
+  if (sheet) sbfi_usda_write_line(w, "uniform token subdivisionScheme = \"none\"");
+  sbfi_usda_write_extent(w, level->positions.at, level->positions.count, zero);
+  sbfi_usda_write_points(w, "point3f[] points", level->positions.at, level->positions.count, zero);
   if (sheet) {
     if (!write_triangles(w, body, level)) return false;
-    sbfi_usda_line(w, "uniform token physics:restBendAnglesDefault = \"restShape\"");
+    sbfi_usda_write_line(w, "uniform token physics:restBendAnglesDefault = \"restShape\"");
   } else {
-    sbfi_usda_indices(
+    sbfi_usda_write_indices(
         w, "int4[] tetVertexIndices", level->lattice.tetrahedra.at->at, level->lattice.tetrahedra.count, 4);
     if (!write_surface(w, level)) return false;
   }
-  sbfi_usda_points(w, "point3f[] physics:restShapePoints", level->positions.at, level->positions.count, zero);
+  sbfi_usda_write_points(
+      w, "point3f[] physics:restShapePoints", level->positions.at, level->positions.count, zero);
   if (!write_masses(w, body, level)) return false;
   sbfi_usda_begin(w, "rel material:binding:physics = ");
-  sbfi_usda_path(w, "soft", body->id, index, "/matter>");
+  sbfi_usda_write_path(w, "soft", body->id, index, "/matter>");
   sbfi_usda_end(w);
   sbfi_usda_close(w);
   return true;
@@ -178,7 +179,7 @@ static sbf_vec3 turned_back(sbf_quat q, sbf_vec3 v) {
       v.z + q.w * t.z + u.x * t.y - u.y * t.x};
 }
 
-static sbf_vec3 place_in_frame(
+static sbf_vec3 position_in_frame(
     const sbf_asset *asset, const sbf_level *level, const sbf_pin_set *set, uint32_t k) {
   if (set->offsets.count) return set->offsets.at[k];
   const sbf_vec3 p = level->positions.at[set->points.at[k]];
@@ -195,36 +196,37 @@ static bool write_pins(
   const sbf_asset *asset = w->e->asset;
   const sbf_pin_set *set = &level->pins.at[s];
   uint32_t *points = sbfi_arena_allocate(&w->scratch, (size_t)set->points.count + 1, sizeof *points);
-  sbf_vec3 *places = sbfi_arena_allocate(&w->scratch, (size_t)set->points.count + 1, sizeof *places);
+  sbf_vec3 *positions = sbfi_arena_allocate(&w->scratch, (size_t)set->points.count + 1, sizeof *positions);
   uint32_t count = 0;
-  if (!points || !places) return false;
+  if (!points || !positions) return false;
   for (uint32_t k = 0; k < set->points.count; k++) {
     if (sbfi_export_pin_weight(set, k) < 1) {
       w->goals++;
       continue;
     }
     points[count] = set->points.at[k];
-    places[count++] = place_in_frame(asset, level, set, k);
+    positions[count++] = position_in_frame(asset, level, set, k);
   }
   if (!count) return true;
   char name[32];
   snprintf(name, sizeof name, "pins__%u", s);
   sbfi_usda_open_plain(w, "PhysicsAttachment", name, "");
   sbfi_usda_begin(w, "rel physics:src0 = ");
-  sbfi_usda_path(w, "soft", body->id, index, "/simulation>");
+  sbfi_usda_write_path(w, "soft", body->id, index, "/simulation>");
   sbfi_usda_end(w);
   sbfi_usda_begin(w, "rel physics:src1 = ");
   if (set->bone >= 0)
-    sbfi_usda_path(w, "bones", asset->bones.at[set->bone].id, (uint32_t)set->bone, ">");
+    sbfi_usda_write_path(w, "bones", asset->bones.at[set->bone].id, (uint32_t)set->bone, ">");
   else if (set->rigid_body >= 0)
-    sbfi_usda_path(w, "rigid", asset->rigid_bodies.at[set->rigid_body].id, (uint32_t)set->rigid_body, ">");
+    sbfi_usda_write_path(
+        w, "rigid", asset->rigid_bodies.at[set->rigid_body].id, (uint32_t)set->rigid_body, ">");
   else
     sbfi_text_string(&w->e->text, "</asset>");
   sbfi_usda_end(w);
-  sbfi_usda_line(w, "uniform token physics:type0 = \"point\"");
-  sbfi_usda_line(w, "uniform token physics:type1 = \"xform\"");
-  sbfi_usda_indices(w, "int[] physics:indices0", points, count, 1);
-  sbfi_usda_points(w, "vector3f[] physics:coords1", places, count, (sbf_vec3){0, 0, 0});
+  sbfi_usda_write_line(w, "uniform token physics:type0 = \"point\"");
+  sbfi_usda_write_line(w, "uniform token physics:type1 = \"xform\"");
+  sbfi_usda_write_indices(w, "int[] physics:indices0", points, count, 1);
+  sbfi_usda_write_points(w, "vector3f[] physics:coords1", positions, count, (sbf_vec3){0, 0, 0});
   sbfi_usda_close(w);
   if (set->bone >= 0) w->bone_holds[set->bone] = true;
   return true;
@@ -268,9 +270,9 @@ bool sbfi_usda_soft_bodies(usda_writer *w) {
     const sbf_bone *bone = &asset->bones.at[b];
     if (!w->bone_holds[b]) continue;
     sbfi_usda_open(w, "Xform", bone->id, b, "");
-    sbfi_usda_vec3(w, "double3 xformOp:translate", bone->head);
-    sbfi_usda_quat(w, "quatf xformOp:orient", bone->rotation);
-    sbfi_usda_line(w, "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
+    sbfi_usda_write_vec3(w, "double3 xformOp:translate", bone->head);
+    sbfi_usda_write_quat(w, "quatf xformOp:orient", bone->rotation);
+    sbfi_usda_write_line(w, "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
     sbfi_usda_close(w);
   }
   sbfi_usda_close(w);

@@ -9,7 +9,7 @@
 
 /* ---- Materials ---- */
 
-void sbfi_usda_materials(usda_writer *w) {
+void sbfi_usda_write_materials(usda_writer *w) {
   const sbf_asset *asset = w->e->asset;
   if (!asset->materials.count) return;
   sbfi_usda_open_plain(w, "Scope", "materials", "");
@@ -20,18 +20,19 @@ void sbfi_usda_materials(usda_writer *w) {
         (m->base_color_texture >= 0) + (m->metallic_roughness_texture >= 0) + (m->normal_texture >= 0);
     sbfi_usda_open(w, "Material", m->id, i, "");
     sbfi_usda_begin(w, "token outputs:surface.connect = ");
-    sbfi_usda_path(w, "materials", m->id, i, "/surface.outputs:surface>");
+    sbfi_usda_write_path(w, "materials", m->id, i, "/surface.outputs:surface>");
     sbfi_usda_end(w);
     sbfi_usda_open_plain(w, "Shader", "surface", "");
-    sbfi_usda_line(w, "uniform token info:id = \"UsdPreviewSurface\"");
-    sbfi_usda_vec3(w, "color3f inputs:diffuseColor", base);
-    sbfi_usda_vec3(w, "color3f inputs:emissiveColor", m->emissive);
-    sbfi_usda_f32(w, "float inputs:metallic", m->metallic);
-    sbfi_usda_f32(w, "float inputs:roughness", m->roughness);
-    if (m->alpha_mode != SBF_ALPHA_MODE_OPAQUE) sbfi_usda_f32(w, "float inputs:opacity", m->base_color.w);
+    sbfi_usda_write_line(w, "uniform token info:id = \"UsdPreviewSurface\"");
+    sbfi_usda_write_vec3(w, "color3f inputs:diffuseColor", base);
+    sbfi_usda_write_vec3(w, "color3f inputs:emissiveColor", m->emissive);
+    sbfi_usda_write_f32(w, "float inputs:metallic", m->metallic);
+    sbfi_usda_write_f32(w, "float inputs:roughness", m->roughness);
+    if (m->alpha_mode != SBF_ALPHA_MODE_OPAQUE)
+      sbfi_usda_write_f32(w, "float inputs:opacity", m->base_color.w);
     if (m->alpha_mode == SBF_ALPHA_MODE_MASK)
-      sbfi_usda_f32(w, "float inputs:opacityThreshold", m->alpha_cutoff);
-    sbfi_usda_line(w, "token outputs:surface");
+      sbfi_usda_write_f32(w, "float inputs:opacityThreshold", m->alpha_cutoff);
+    sbfi_usda_write_line(w, "token outputs:surface");
     sbfi_usda_close(w);
     sbfi_usda_close(w);
   }
@@ -44,9 +45,9 @@ static void write_scene(usda_writer *w) {
   const sbf_vec3 g = w->e->asset->environment.gravity;
   float size = sqrtf(g.x * g.x + g.y * g.y + g.z * g.z);
   sbfi_usda_open_plain(w, "PhysicsScene", "physics", "");
-  sbfi_usda_vec3(w, "vector3f physics:gravityDirection",
+  sbfi_usda_write_vec3(w, "vector3f physics:gravityDirection",
       size > 0 ? (sbf_vec3){g.x / size, g.y / size, g.z / size} : (sbf_vec3){0, -1, 0});
-  sbfi_usda_f32(w, "float physics:gravityMagnitude", size);
+  sbfi_usda_write_f32(w, "float physics:gravityMagnitude", size);
   sbfi_usda_close(w);
 }
 
@@ -58,10 +59,10 @@ static bool write_all(usda_writer *w) {
   sbfi_usda_open_plain(w, "Xform", "asset", "");
   if (!sbfi_usda_choose_meshes(w)) return false;
   write_scene(w);
-  sbfi_usda_materials(w);
+  sbfi_usda_write_materials(w);
   if (!sbfi_usda_skeleton_and_meshes(w)) return false;
-  sbfi_usda_rigid_bodies(w);
-  sbfi_usda_joints(w);
+  sbfi_usda_write_rigid_bodies(w);
+  sbfi_usda_write_joints(w);
   if (!sbfi_usda_soft_bodies(w)) return false;
   sbfi_usda_close(w);
   return true;

@@ -46,14 +46,14 @@ bool sbfi_paper_measure(sbf_vec3_list positions, sbf_uint4_list tetrahedra, cons
 }
 
 /* What `iterations` of a slider take off an error in a tick, and the slider for it. */
-static double share_of(double slider, uint32_t iterations) {
+static double fraction_of(double slider, uint32_t iterations) {
   double left = slider < 1 ? pow(1 - slider, iterations > 1 ? iterations : 1) : 0;
   return 1 - left < MAX ? 1 - left : MAX;
 }
 
-static double slider_of(double share, uint32_t iterations) {
-  double held = share < 0 ? 0 : share < MAX ? share : MAX;
-  return 1 - pow(1 - held, 1.0 / (iterations > 1 ? iterations : 1));
+static double slider_of(double fraction, uint32_t iterations) {
+  double limited = fraction < 0 ? 0 : fraction < MAX ? fraction : MAX;
+  return 1 - pow(1 - limited, 1.0 / (iterations > 1 ? iterations : 1));
 }
 
 /* Pa at a share of one half. */
@@ -65,14 +65,14 @@ void sbfi_paper_to_si(const sbf_legacy *sliders, const sbfi_paper_sums *sums, sb
   double mass = (double)sliders->mass;
   to->friction = sliders->friction;
   to->poisson_ratio =
-      (float)(0.25 + 0.24 * share_of((double)sliders->volume_stiffness, sliders->solver_iterations));
+      (float)(0.25 + 0.24 * fraction_of((double)sliders->volume_stiffness, sliders->solver_iterations));
   if (!(sums->volume > 0)) return;
   if (mass > 0)
     to->density = (float)(mass / sums->volume);
   else
     mass = (double)to->density * sums->volume;
-  double share = share_of((double)sliders->stretching_stiffness, sliders->solver_iterations);
-  double modulus = modulus_scale(mass, sums) * share / (1 - share);
+  double fraction = fraction_of((double)sliders->stretching_stiffness, sliders->solver_iterations);
+  double modulus = modulus_scale(mass, sums) * fraction / (1 - fraction);
   to->young_modulus = modulus > 1 ? (float)modulus : 1;
 }
 

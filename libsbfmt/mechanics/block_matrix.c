@@ -89,7 +89,7 @@ static void put(double *to, sbfi_d3 v) {
   to[0] = v.x, to[1] = v.y, to[2] = v.z;
 }
 
-void sbfi_block_matrix_times(const sbfi_block_matrix *m, const double *x, double *y) {
+void sbfi_block_matrix_multiply(const sbfi_block_matrix *m, const double *x, double *y) {
   for (uint32_t row = 0; row < m->row_count; row++)
     put(y + 3 * (size_t)row, row_times(m, m->begins[row], m->begins[row + 1], x));
 }

@@ -22,7 +22,7 @@ bool sbfi_block_matrix_make(
 uint32_t sbfi_block_matrix_find(const sbfi_block_matrix *matrix, uint32_t row, uint32_t column);
 
 /* y = A x, vectors (3 x row_count). */
-void sbfi_block_matrix_times(const sbfi_block_matrix *matrix, const double *x, double *y);
+void sbfi_block_matrix_multiply(const sbfi_block_matrix *matrix, const double *x, double *y);
 /* Inverts the diagonal blocks, which must be positive definite; those that are not become 0, and their rows
  * take no part in the sweep. */
 void sbfi_block_matrix_prepare(sbfi_block_matrix *matrix);

@@ -24,19 +24,19 @@ void sbf_body_measure(const sbf_soft_body *body, sbf_body_measures *measures) {
     measures->depth = 3 * volume / area;
 }
 
-uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *held) {
+uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *pinned) {
   uint32_t count = 0;
-  for (uint32_t i = 0; i < level->positions.count; i++) held[i] = 0;
+  for (uint32_t i = 0; i < level->positions.count; i++) pinned[i] = 0;
   for (uint32_t s = 0; s < level->pins.count; s++) {
     const sbf_pin_set *set = &level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       float weight = set->weights.count == 0 ? 1 : set->weights.at[set->weights.count == 1 ? 0 : i];
       if (weight < set->minimum) weight = set->minimum;
       if (weight > set->maximum) weight = set->maximum;
-      if (weight >= 1) held[set->points.at[i]] = 1;
+      if (weight >= 1) pinned[set->points.at[i]] = 1;
     }
   }
-  for (uint32_t i = 0; i < level->positions.count; i++) count += held[i];
+  for (uint32_t i = 0; i < level->positions.count; i++) count += pinned[i];
   return count;
 }
 
@@ -47,33 +47,34 @@ static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
     uint32_t size = mesh->polygon_sizes.at[p];
     sbfi_d3 middle = sbfi_polygon_middle(mesh->positions.at, corners, size);
-    float share =
+    float fraction =
         (float)(sbfi_d3_length(sbfi_polygon_area(mesh->positions.at, corners, size, middle)) / size);
     for (uint32_t k = 0; k < size; k++) {
       uint32_t point = sbfi_level_point(level, corners[k]);
-      if (point != UINT32_MAX) areas[point] += share;
+      if (point != UINT32_MAX) areas[point] += fraction;
     }
   }
 }
 
-void sbf_level_shares(const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *shares) {
+void sbf_level_shares(
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *fractions) {
   uint32_t count = level->positions.count, with_area = 0;
-  for (uint32_t i = 0; i < count; i++) shares[i] = 0;
-  add_areas(body, level, shares);
+  for (uint32_t i = 0; i < count; i++) fractions[i] = 0;
+  add_areas(body, level, fractions);
   double all = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) {
-    all += shares[i];
-    with_area += shares[i] > 0;
+    all += fractions[i];
+    with_area += fractions[i] > 0;
   }
   float mean = with_area ? (float)(all / with_area) : 1;
   for (uint32_t i = 0; i < count; i++) {
-    if (held && held[i])
-      shares[i] = 0;
-    else if (!(shares[i] > 0))
-      shares[i] = mean;
-    sum += shares[i];
+    if (pinned && pinned[i])
+      fractions[i] = 0;
+    else if (!(fractions[i] > 0))
+      fractions[i] = mean;
+    sum += fractions[i];
   }
-  for (uint32_t i = 0; i < count && sum > 0; i++) shares[i] = (float)(shares[i] / sum);
+  for (uint32_t i = 0; i < count && sum > 0; i++) fractions[i] = (float)(fractions[i] / sum);
 }
 
 static void add_tetrahedra(const sbf_soft_body *body, const sbf_level *level, float *masses) {
@@ -91,12 +92,12 @@ static void add_tetrahedra(const sbf_soft_body *body, const sbf_level *level, fl
   }
 }
 
-static void share_mass(
-    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses) {
+static void distribute_mass(
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *masses) {
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   double mass = measures.mass;
-  sbf_level_shares(body, level, held, masses);
+  sbf_level_shares(body, level, pinned, masses);
   if (!(mass > 0)) {
     double radius = body->collision.particle_radius > 0 ? body->collision.particle_radius : 0.01;
     double ball = 4.0 / 3 * pi * radius * radius * radius * body->attributes.density;
@@ -107,11 +108,11 @@ static void share_mass(
 }
 
 double sbf_level_masses(
-    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses) {
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *masses) {
   uint32_t count = level->positions.count;
   double sum = 0, stated = body->attributes.mass;
   if (level->masses.count == 0 && level->lattice.tetrahedra.count == 0) {
-    share_mass(body, level, held, masses);
+    distribute_mass(body, level, pinned, masses);
   } else {
     for (uint32_t i = 0; i < count; i++) masses[i] = level->masses.count ? level->masses.at[i] : 0;
     if (level->masses.count == 0) {
@@ -122,7 +123,7 @@ double sbf_level_masses(
     }
   }
   for (uint32_t i = 0; i < count; i++) {
-    if (held && held[i]) masses[i] = 0;
+    if (pinned && pinned[i]) masses[i] = 0;
     sum += masses[i];
   }
   if (!(stated > 0) || !(sum > 0)) return sum;

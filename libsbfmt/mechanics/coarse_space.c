@@ -44,7 +44,7 @@ static bool make_patches(sbfi_coarse_space *c, const sbfi_block_matrix *m, sbfi_
   return true;
 }
 
-static bool place_modes(sbfi_coarse_space *c, const sbf_vec3 *positions, sbfi_arena *arena) {
+static bool index_modes(sbfi_coarse_space *c, const sbf_vec3 *positions, sbfi_arena *arena) {
   sbfi_d3 *middles = sbfi_arena_allocate(arena, (size_t)c->patch_count + 1, sizeof *middles);
   double *counts = sbfi_arena_allocate(arena, (size_t)c->patch_count + 1, sizeof *counts);
   double *reaches = sbfi_arena_allocate(arena, (size_t)c->patch_count + 1, sizeof *reaches);
@@ -136,7 +136,7 @@ bool sbfi_coarse_space_make(
   space->patches = sbfi_arena_allocate(arena, (size_t)matrix->row_count + 1, sizeof *space->patches);
   space->arms = sbfi_arena_allocate(arena, (size_t)matrix->row_count + 1, sizeof *space->arms);
   if (!space->patches || !space->arms || !make_patches(space, matrix, arena) ||
-      !place_modes(space, positions, arena))
+      !index_modes(space, positions, arena))
     return false;
   size_t size = MODES * (size_t)space->patch_count;
   space->factor = sbfi_arena_allocate(arena, size * size + 1, sizeof *space->factor);

@@ -5,7 +5,7 @@ static const unsigned linear = AXIS(LINEAR_X) | AXIS(LINEAR_Y) | AXIS(LINEAR_Z);
 static const unsigned swings = AXIS(SWING_Y) | AXIS(SWING_Z);
 static const unsigned angular = AXIS(TWIST) | AXIS(SWING_Y) | AXIS(SWING_Z);
 
-unsigned sbfi_joint_held(sbf_joint_kind kind) {
+unsigned sbfi_joint_is_locked(sbf_joint_kind kind) {
   switch (kind) {
   case SBF_JOINT_KIND_PRISMATIC:
     return AXIS(LINEAR_Y) | AXIS(LINEAR_Z) | angular;
@@ -30,7 +30,7 @@ unsigned sbfi_joint_held(sbf_joint_kind kind) {
 }
 
 bool sbfi_joint_is_free(sbf_joint_kind kind, sbf_joint_axis axis) {
-  unsigned free = (linear | angular) & ~sbfi_joint_held(kind);
+  unsigned free = (linear | angular) & ~sbfi_joint_is_locked(kind);
   if (axis == SBF_JOINT_AXIS_SWING) return (free & swings) != 0;
   if (axis == SBF_JOINT_AXIS_DISTANCE) return (free & linear) != 0;
   return free >> axis & 1;

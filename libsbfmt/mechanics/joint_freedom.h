@@ -5,7 +5,7 @@
 #include "sbfmt/model.h"
 
 /* Bits 1 << sbf_joint_axis of the six coordinates linear_x .. swing_z that are held at 0. */
-unsigned sbfi_joint_held(sbf_joint_kind kind);
+unsigned sbfi_joint_is_locked(sbf_joint_kind kind);
 
 /* Whether the kind leaves the coordinate free, be it by way of another: `swing` by swing_y, `distance` by any
  * linear one. */

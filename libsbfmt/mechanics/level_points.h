@@ -6,10 +6,10 @@
 
 /* Place in the level of a source point; UINT32_MAX where it has none. */
 static inline uint32_t sbfi_level_point(const sbf_level *level, uint32_t source_point) {
-  uint32_t place = source_point;
+  uint32_t index = source_point;
   if (level->new_from_old.count > 0)
-    place = source_point < level->new_from_old.count ? level->new_from_old.at[source_point] : UINT32_MAX;
-  return place < level->positions.count ? place : UINT32_MAX;
+    index = source_point < level->new_from_old.count ? level->new_from_old.at[source_point] : UINT32_MAX;
+  return index < level->positions.count ? index : UINT32_MAX;
 }
 
 /* Multiplies `values` (level->positions.count, none negative) by the body's weight maps of the property;

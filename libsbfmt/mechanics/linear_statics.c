@@ -6,14 +6,14 @@
 #include "mechanics/static_solve.h"
 
 enum { MAX_STEPS = 200 };
-static const double singular = 1e-9, held = 0.1;
+static const double singular = 1e-9, limited = 0.1;
 
 static void hold_loose(double *block) {
   sbfi_d3 x = {block[0], block[1], block[2]}, y = {block[3], block[4], block[5]},
           z = {block[6], block[7], block[8]};
   double trace = x.x + y.y + z.z;
   if (sbfi_d3_dot(x, sbfi_d3_cross(y, z)) > singular * trace * trace * trace) return;
-  for (int k = 0; k < 3; k++) block[4 * k] += held * trace;
+  for (int k = 0; k < 3; k++) block[4 * k] += limited * trace;
 }
 
 static void fill(sbfi_linear_statics *s) {
@@ -52,11 +52,11 @@ static void precondition(const sbfi_linear_statics *s) {
 }
 
 uint32_t sbfi_linear_statics_solve(
-    sbfi_linear_statics *s, const double *forces, double share, double *displacements) {
+    sbfi_linear_statics *s, const double *forces, double fraction, double *displacements) {
   const sbf_spring_network *n = s->stiffness.network;
   const sbfi_block_matrix *matrix = &s->stiffness.matrix;
   size_t size = 3 * (size_t)n->point_count;
-  sbfi_block_matrix_times(matrix, displacements, s->q);
+  sbfi_block_matrix_multiply(matrix, displacements, s->q);
   for (size_t i = 0; i < size; i++) s->r[i] = n->masses[i / 3] > 0 ? forces[i] - s->q[i] : 0;
   precondition(s);
   memcpy(s->p, s->z, size * sizeof *s->p);
@@ -65,8 +65,8 @@ uint32_t sbfi_linear_statics_solve(
   for (; steps < MAX_STEPS && left > 0; steps++) {
     double work = 0;
     for (size_t i = 0; i < size; i++) work += n->masses[i / 3] > 0 ? forces[i] * displacements[i] : 0;
-    if (left <= share * share * work) break;
-    sbfi_block_matrix_times(matrix, s->p, s->q);
+    if (left <= fraction * fraction * work) break;
+    sbfi_block_matrix_multiply(matrix, s->p, s->q);
     double curvature = sbfi_dot(s->p, s->q, size), before = left;
     if (!(curvature > 0)) break;
     double step = left / curvature;

@@ -26,9 +26,9 @@ void sbfi_linear_statics_refresh(sbfi_linear_statics *statics);
 
 /* `displacements` (3 x points) m: in where to start, 0 at held points; out the answer to the forces (3 x
  * points) N, whose part at held points does not count. Goes on until the work that is still missing is about
- * `share`^2 of all, so that displacements are right to `share` on the whole, or for 200 steps. Returns
+ * `fraction`^2 of all, so that displacements are right to `fraction` on the whole, or for 200 steps. Returns
  * the number of steps. */
 uint32_t sbfi_linear_statics_solve(
-    sbfi_linear_statics *statics, const double *forces, double share, double *displacements);
+    sbfi_linear_statics *statics, const double *forces, double fraction, double *displacements);
 
 #endif

@@ -48,7 +48,7 @@ static void find_scales(const sbf_spring_network *network, double *scale_of) {
   }
 }
 
-static void place_basis(basis *of, const sbf_spring_network *network, const double *scale_of) {
+static void fill_basis(basis *of, const sbf_spring_network *network, const double *scale_of) {
   double mass = 0, spread = 0;
   *of = (basis){.network = network, .scale_of = scale_of, .shrink = 1};
   for (uint32_t i = 0; i < network->point_count; i++) {
@@ -73,7 +73,7 @@ static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOM
     for (int a = 0; a < MONOMIALS; a++)
       for (int b = 0; b < MONOMIALS; b++) gram[a * MONOMIALS + b] += mass_of(of, i) * phi[a] * phi[b];
   }
-  sbfi_symmetric_eigen(MONOMIALS, gram, vectors);
+  sbfi_symmetric_compute_eigen(MONOMIALS, gram, vectors);
   for (int a = 0; a < MONOMIALS; a++)
     if (gram[a * (MONOMIALS + 1)] > max) max = gram[a * (MONOMIALS + 1)];
   int count = 0;
@@ -199,7 +199,7 @@ static double ritz(basis *of, double threshold, double field[FIELDS]) {
       small[i * count + j] = sum;
     }
   }
-  sbfi_symmetric_eigen(count, small, vectors);
+  sbfi_symmetric_compute_eigen(count, small, vectors);
   of->null_count = 0;
   for (int i = 0; i < count; i++) {
     double value = small[i * (count + 1)], *target = field;
@@ -232,14 +232,14 @@ static void project(const void *user, double *v) {
   const basis *of = user;
   double part[3];
   for (uint32_t n = 0; n < of->null_count; n++) {
-    double share = 0;
+    double fraction = 0;
     for (uint32_t i = 0; i < of->network->point_count; i++) {
       weigh(of, of->null[n], i, part);
-      share += sbfi_dot(part, v + 3 * (size_t)i, 3);
+      fraction += sbfi_dot(part, v + 3 * (size_t)i, 3);
     }
     for (uint32_t i = 0; i < of->network->point_count; i++) {
       weigh(of, of->null[n], i, part);
-      for (int axis = 0; axis < 3; axis++) v[3 * (size_t)i + axis] -= share * part[axis];
+      for (int axis = 0; axis < 3; axis++) v[3 * (size_t)i + axis] -= fraction * part[axis];
     }
   }
 }
@@ -276,7 +276,7 @@ double sbf_network_lowest(const sbf_spring_network *network, bool refine, double
   double field[FIELDS], bound = sbf_network_highest_bound(network, scratch);
   if (!(bound > 0)) return 0;
   find_scales(network, scratch);
-  place_basis(&of, network, scratch);
+  fill_basis(&of, network, scratch);
   double nothing = network->hinge_count ? NOTHING_OF_SHEETS : NOTHING;
   double value = ritz(&of, nothing * bound * bound, field);
   if (!(value > 0)) return 0;

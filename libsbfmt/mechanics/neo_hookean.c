@@ -41,7 +41,7 @@ double sbfi_tetrahedron_energy(const sbfi_tetrahedron *t, const sbfi_d3 x[4]) {
   return t->volume * (t->lame.mu * deviation + 0.5 * t->lame.lambda * more * more);
 }
 
-void sbfi_tetrahedron_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[4], sbfi_d3 forces[4]) {
+void sbfi_tetrahedron_compute_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[4], sbfi_d3 forces[4]) {
   sbfi_columns f = sbfi_tetrahedron_gradient(t, x), cofactors = sbfi_cofactors(&f), p;
   double s = tension(t, sbfi_d3_dot(f.at[0], cofactors.at[0]));
   for (int k = 0; k < 3; k++)
@@ -68,7 +68,7 @@ void sbfi_tetrahedron_product(
 
 /* The part of corners i and j: mu g_i.g_j 1 + lambda c_i c_j^T + s d^2 J / dx_i dx_j with c = cof F g. That
  * last is u -> u x F (g_i x g_j): take g_i = a x b in cof F (a x b) = F a x F b and vary F by u g_j^T. */
-void sbfi_tetrahedron_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]) {
+void sbfi_tetrahedron_compute_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]) {
   sbfi_columns f = sbfi_tetrahedron_gradient(t, x), cofactors = sbfi_cofactors(&f);
   double s = tension(t, sbfi_d3_dot(f.at[0], cofactors.at[0])), v = t->volume;
   sbfi_d3 c[4];
@@ -93,7 +93,7 @@ sbfi_strains sbfi_tetrahedron_strains(const sbfi_tetrahedron *t, const sbfi_d3 x
   double squares[9], vectors[9];
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) squares[3 * i + k] = sbfi_d3_dot(f.at[i], f.at[k]);
-  sbfi_symmetric_eigen(3, squares, vectors);
+  sbfi_symmetric_compute_eigen(3, squares, vectors);
   int min = 0;
   for (int i = 1; i < 3; i++)
     if (squares[4 * i] < squares[4 * min]) min = i;

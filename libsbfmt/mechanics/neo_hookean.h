@@ -77,13 +77,13 @@ double sbfi_tetrahedron_volume_ratio(const sbfi_tetrahedron *t, const sbfi_d3 x[
 /* U in J: 0 at rest, never below. */
 double sbfi_tetrahedron_energy(const sbfi_tetrahedron *t, const sbfi_d3 x[4]);
 /* Forces in N on the corners, which sum to 0 in force and moment. */
-void sbfi_tetrahedron_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[4], sbfi_d3 forces[4]);
+void sbfi_tetrahedron_compute_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[4], sbfi_d3 forces[4]);
 /* The second derivatives at `x` times the displacements u, in N: minus the change of the forces. */
 void sbfi_tetrahedron_product(
     const sbfi_tetrahedron *t, const sbfi_d3 x[4], const sbfi_d3 u[4], sbfi_d3 products[4]);
 /* The whole matrix of second derivatives, block of corners i and j by block, N/m:
  * blocks[i][j][3 * row + column]. */
-void sbfi_tetrahedron_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]);
+void sbfi_tetrahedron_compute_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]);
 /* Largest |s - 1| over the singular values s of F, and their largest s - 1: what yields and what tears. */
 typedef struct sbfi_strains {
   double max, stretch;

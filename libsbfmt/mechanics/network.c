@@ -13,11 +13,11 @@ static sbfi_d3 load(const double *x, uint32_t point, double scale) {
   return (sbfi_d3){at[0] * scale, at[1] * scale, at[2] * scale};
 }
 
-static void add(double *y, uint32_t point, sbfi_d3 way, double factor) {
+static void add(double *y, uint32_t point, sbfi_d3 direction, double factor) {
   double *at = y + 3 * (size_t)point;
-  at[0] += way.x * factor;
-  at[1] += way.y * factor;
-  at[2] += way.z * factor;
+  at[0] += direction.x * factor;
+  at[1] += direction.y * factor;
+  at[2] += direction.z * factor;
 }
 
 bool sbfi_network_tetrahedron(const sbf_spring_network *network, uint32_t t, sbfi_tetrahedron *made) {
@@ -69,13 +69,13 @@ void sbfi_network_apply(const sbf_spring_network *network, const double *scale, 
     uint32_t a = network->ends[s].at[0], b = network->ends[s].at[1];
     double a_scale = network->masses[a] > 0 ? (scale ? scale[a] : 1) : 0;
     double b_scale = network->masses[b] > 0 ? (scale ? scale[b] : 1) : 0;
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(network->positions[b]), sbfi_d3_of(network->positions[a]));
-    double squared = sbfi_d3_dot(way, way);
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(network->positions[b]), sbfi_d3_of(network->positions[a]));
+    double squared = sbfi_d3_dot(displacement, displacement);
     if (!(squared > 0)) continue;
-    double stretch = sbfi_d3_dot(sbfi_d3_sub(load(x, b, b_scale), load(x, a, a_scale)), way);
+    double stretch = sbfi_d3_dot(sbfi_d3_sub(load(x, b, b_scale), load(x, a, a_scale)), displacement);
     double pull = network->stiffness[s] * stretch / squared;
-    add(y, a, way, -pull * a_scale);
-    add(y, b, way, pull * b_scale);
+    add(y, a, displacement, -pull * a_scale);
+    add(y, b, displacement, pull * b_scale);
   }
   apply_tetrahedra(network, scale, x, y);
   apply_hinges(network, scale, x, y);
@@ -130,9 +130,9 @@ double sbf_network_static(const sbf_spring_network *network, const double *force
   for (uint32_t i = 0; i < count; i++) {
     scale[i] = network->masses[i] > 0 && scale[i] > 0 ? 1 / sqrt(scale[i]) : 0;
     for (int k = 0; k < 3; k++) {
-      size_t place = 3 * (size_t)i + (size_t)k;
-      r[place] = forces[place] * scale[i];
-      if (network->masses[i] > 0) total += forces[place] * forces[place];
+      size_t index = 3 * (size_t)i + (size_t)k;
+      r[index] = forces[index] * scale[i];
+      if (network->masses[i] > 0) total += forces[index] * forces[index];
     }
   }
   sbfi_network_solve(

@@ -11,7 +11,7 @@ typedef struct sbfi_network_matrix {
   const sbf_spring_network *network;
   sbfi_tetrahedron *elements; /* (tetrahedron_count), volume 0 where the network has none */
   double *rest_lengths;       /* (spring_count) m */
-  uint32_t *places_of;        /* (tetrahedron_count x 16 + spring_count x 4) blocks in the matrix */
+  uint32_t *block_indices;    /* (tetrahedron_count x 16 + spring_count x 4) blocks in the matrix */
   sbfi_block_matrix matrix;
 } sbfi_network_matrix;
 
@@ -25,6 +25,6 @@ void sbfi_network_matrix_refresh(sbfi_network_matrix *m);
 
 /* The matrix at the places (3 x point_count), prepared for the sweep. Of a spring that is pressed, what
  * resists sideways, negatively, is left out. */
-void sbfi_network_matrix_fill(sbfi_network_matrix *m, const double *places);
+void sbfi_network_matrix_fill(sbfi_network_matrix *m, const double *positions);
 
 #endif

@@ -2,11 +2,11 @@
 
 #include "mechanics/symmetric_eigen.h"
 
-sbfi_d3 sbfi_region_center(const double *weights, const sbfi_d3 *places, size_t count) {
+sbfi_d3 sbfi_region_center(const double *weights, const sbfi_d3 *positions, size_t count) {
   sbfi_d3 sum = {0, 0, 0};
   double whole = 0;
   for (size_t i = 0; i < count; i++) {
-    sum = sbfi_d3_add(sum, sbfi_d3_scale(places[i], weights[i]));
+    sum = sbfi_d3_add(sum, sbfi_d3_scale(positions[i], weights[i]));
     whole += weights[i];
   }
   return sbfi_d3_scale(sum, 1 / whole);
@@ -20,16 +20,16 @@ static void columns_of(const double q[4], sbfi_d3 columns[3]) {
   columns[2] = (sbfi_d3){2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
 }
 
-void sbfi_region_add(sbfi_region_sums *sums, double weight, sbfi_d3 offset, sbfi_d3 place) {
-  const double r[3] = {offset.x, offset.y, offset.z}, x[3] = {place.x, place.y, place.z};
+void sbfi_region_add(sbfi_region_sums *sums, double weight, sbfi_d3 offset, sbfi_d3 position) {
+  const double r[3] = {offset.x, offset.y, offset.z}, x[3] = {position.x, position.y, position.z};
   sums->weight += weight;
-  sums->place = sbfi_d3_add(sums->place, sbfi_d3_scale(place, weight));
+  sums->position = sbfi_d3_add(sums->position, sbfi_d3_scale(position, weight));
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) sums->moments[3 * a + b] += weight * r[a] * x[b];
 }
 
 sbfi_region_fit sbfi_region_fit_of(const sbfi_region_sums *sums) {
-  sbfi_region_fit fit = {.center = sbfi_d3_scale(sums->place, 1 / sums->weight)};
+  sbfi_region_fit fit = {.center = sbfi_d3_scale(sums->position, 1 / sums->weight)};
   double s[3][3];
   for (int i = 0; i < 9; i++) s[i / 3][i % 3] = sums->moments[i];
   double m[16] = {s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0],
@@ -37,7 +37,7 @@ sbfi_region_fit sbfi_region_fit_of(const sbfi_region_sums *sums) {
       s[0][1] + s[1][0], s[1][1] - s[0][0] - s[2][2], s[1][2] + s[2][1], s[0][1] - s[1][0], s[2][0] + s[0][2],
       s[1][2] + s[2][1], s[2][2] - s[0][0] - s[1][1]};
   double vectors[16], q[4];
-  sbfi_symmetric_eigen(4, m, vectors);
+  sbfi_symmetric_compute_eigen(4, m, vectors);
   int best = 0;
   for (int i = 1; i < 4; i++)
     if (m[5 * i] > m[5 * best]) best = i;

@@ -26,15 +26,15 @@
 #include "mechanics/vector.h"
 
 /* Centre c = sum a x / sum a of `count` weights above 0. */
-sbfi_d3 sbfi_region_center(const double *weights, const sbfi_d3 *places, size_t count);
+sbfi_d3 sbfi_region_center(const double *weights, const sbfi_d3 *positions, size_t count);
 
 /* What R and c are found from. Begins empty ({0}); then every point of the region is added. */
 typedef struct sbfi_region_sums {
   double weight;
-  sbfi_d3 place;     /* sum a x */
+  sbfi_d3 position;  /* sum a x */
   double moments[9]; /* sum a r x^T, row of r by row: the a r sum to 0, so that it needs no centre */
 } sbfi_region_sums;
-void sbfi_region_add(sbfi_region_sums *sums, double weight, sbfi_d3 offset, sbfi_d3 place);
+void sbfi_region_add(sbfi_region_sums *sums, double weight, sbfi_d3 offset, sbfi_d3 position);
 
 typedef struct sbfi_region_fit {
   sbfi_d3 center;     /* c */

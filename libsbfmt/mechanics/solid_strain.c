@@ -42,7 +42,7 @@ bool sbfi_stretches_find(const sbfi_solid_metric *metric, const sbfi_d3 edges[3]
   }
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) squares[3 * i + k] = sbfi_d3_dot(columns[i], columns[k]);
-  sbfi_symmetric_eigen(3, squares, vectors);
+  sbfi_symmetric_compute_eigen(3, squares, vectors);
   int min = 0;
   for (int k = 0; k < 3; k++) {
     double value = squares[4 * k];
@@ -58,7 +58,7 @@ bool sbfi_stretches_find(const sbfi_solid_metric *metric, const sbfi_d3 edges[3]
 }
 
 bool sbfi_solid_flow(
-    const sbfi_stretches *stretches, double yield_strain, double share, sbfi_solid_metric *metric) {
+    const sbfi_stretches *stretches, double yield_strain, double fraction, sbfi_solid_metric *metric) {
   double grown[3], product = 1;
   bool beyond = false;
   for (int k = 0; k < 3; k++) {
@@ -67,7 +67,7 @@ bool sbfi_solid_flow(
     if (value > 1 + yield_strain) bound = 1 + yield_strain;
     if (value < 1 - yield_strain) bound = 1 - yield_strain;
     beyond = beyond || bound != value;
-    grown[k] = bound != value ? power(value / bound, share) : 1;
+    grown[k] = bound != value ? power(value / bound, fraction) : 1;
     product *= grown[k];
   }
   if (!beyond) return false;

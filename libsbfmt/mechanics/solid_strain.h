@@ -23,10 +23,10 @@ typedef struct sbfi_stretches {
 /* Of the edges from the first corner to the others; false where the metric is none. */
 bool sbfi_stretches_find(const sbfi_solid_metric *metric, const sbfi_d3 edges[3], sbfi_stretches *found);
 
-/* The metric after a flow towards strains within `yield_strain`, of which `share` of the way (1 - exp(-r h))
- * is gone: r_i of section 10.2 of the specification. The volume stays. False, and nothing is changed, where
- * no stretch is beyond, or the element is flat or inside out. */
+/* The metric after a flow towards strains within `yield_strain`, of which `fraction` of the way (1 - exp(-r
+ * h)) is gone: r_i of section 10.2 of the specification. The volume stays. False, and nothing is changed,
+ * where no stretch is beyond, or the element is flat or inside out. */
 bool sbfi_solid_flow(
-    const sbfi_stretches *stretches, double yield_strain, double share, sbfi_solid_metric *metric);
+    const sbfi_stretches *stretches, double yield_strain, double fraction, sbfi_solid_metric *metric);
 
 #endif

@@ -28,8 +28,8 @@ static inline float sbfi_spring_strain(const sbfi_spring *s, float length_m) {
 
 static inline double sbfi_spring_energy(const sbfi_spring *s, double length_m) {
   double stretch = length_m - s->rest_length_m;
-  double share = stretch < 0 ? 1 - (double)s->slack : 1;
-  return 0.5 * share * s->stiffness_n_m * stretch * stretch;
+  double fraction = stretch < 0 ? 1 - (double)s->slack : 1;
+  return 0.5 * fraction * s->stiffness_n_m * stretch * stretch;
 }
 
 /* What the vector from end a to end b is multiplied by to give the force on a, which is minus that on b. A

@@ -5,7 +5,7 @@
 #include "sbfmt/mechanics.h"
 
 /* Springs shorter than this share of the mean of their neighbours count as that long. */
-static const double short_share = 0.5;
+static const double short_fraction = 0.5;
 
 static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
@@ -27,7 +27,7 @@ static void add_lengths(const sbf_vec3 *positions, const sbf_uint2 *ends, uint32
 }
 
 /* C E V_s / L^2 with V_s = L (V_a / sum_a + V_b / sum_b): one length cancels. */
-static void share_volumes(double modulus, const sbf_vec3 *positions, const float *volumes,
+static void distribute_volumes(double modulus, const sbf_vec3 *positions, const float *volumes,
     const sbf_uint2 *ends, uint32_t count, const length_sum *sums, float *stiffness) {
   for (uint32_t s = 0; s < count; s++) {
     uint32_t a = ends[s].at[0], b = ends[s].at[1];
@@ -36,7 +36,7 @@ static void share_volumes(double modulus, const sbf_vec3 *positions, const float
     if (!(length > 0)) continue;
     double mean = (sums[a].length + sums[b].length) / (sums[a].count + sums[b].count);
     double section = volumes[a] / sums[a].length + volumes[b] / sums[b].length;
-    double counted = length > short_share * mean ? length : short_share * mean;
+    double counted = length > short_fraction * mean ? length : short_fraction * mean;
     stiffness[s] = (float)(modulus * section / counted);
   }
 }
@@ -47,7 +47,7 @@ void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_
   length_sum *sums = (length_sum *)scratch;
   for (uint32_t i = 0; i < point_count; i++) sums[i] = (length_sum){0, 0};
   add_lengths(positions, ends, spring_count, sums);
-  share_volumes(modulus, positions, volumes, ends, spring_count, sums, stiffness);
+  distribute_volumes(modulus, positions, volumes, ends, spring_count, sums, stiffness);
 }
 
 /* What is gathered of the anchored springs at one free point. */
@@ -58,12 +58,12 @@ typedef struct anchored {
 } anchored;
 
 enum { ANCHORED_NUMBERS = 9, MAX_RAISED = 4 /* twice the frequency */ };
-static const double min_share = 0.05;
+static const double min_fraction = 0.05;
 
 /* The free end, or the point count where the spring does not join a held to a free point. */
-static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_count) {
-  if (!held[ends.at[0]] == !held[ends.at[1]]) return point_count;
-  return held[ends.at[0]] ? ends.at[1] : ends.at[0];
+static uint32_t free_end(const uint8_t *pinned, sbf_uint2 ends, uint32_t point_count) {
+  if (!pinned[ends.at[0]] == !pinned[ends.at[1]]) return point_count;
+  return pinned[ends.at[0]] ? ends.at[1] : ends.at[0];
 }
 
 static sbfi_d3 direction(const sbf_vec3 *positions, sbf_uint2 ends) {
@@ -93,10 +93,10 @@ static void fit(anchored *at) {
 static void raise(anchored *at) {
   const double *t = at->tensor;
   double matrix[9] = {t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]}, vectors[9];
-  sbfi_symmetric_eigen(3, matrix, vectors);
+  sbfi_symmetric_compute_eigen(3, matrix, vectors);
   double min = matrix[0] < matrix[4] ? matrix[0] : matrix[4];
   if (matrix[8] < min) min = matrix[8];
-  double wanted = min_share / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
+  double wanted = min_fraction / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
   if (min < wanted) raised = min > wanted / MAX_RAISED ? wanted / min : MAX_RAISED;
   if (min < 1e-6) raised = 1; /* no spring leads there: none can help */
   at->count *= raised;
@@ -104,13 +104,13 @@ static void raise(anchored *at) {
 }
 
 void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *normals,
-    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
+    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *pinned,
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness) {
   _Static_assert(sizeof(anchored) == ANCHORED_NUMBERS * sizeof(double), "the scratch memory's shape");
   anchored *gathered = (anchored *)scratch;
   for (uint32_t i = 0; i < point_count; i++) gathered[i] = (anchored){0};
   for (uint32_t s = 0; s < spring_count; s++) {
-    uint32_t point = free_end(held, ends[s], point_count);
+    uint32_t point = free_end(pinned, ends[s], point_count);
     if (point == point_count || !(distance(positions, ends[s]) > 0)) continue;
     double square = squared_cosine(normals[point], positions, ends[s]);
     gathered[point].count += 1;
@@ -120,7 +120,7 @@ void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *norm
   for (uint32_t i = 0; i < point_count; i++)
     if (gathered[i].count > 0) fit(&gathered[i]);
   for (uint32_t s = 0; s < spring_count; s++) {
-    uint32_t point = free_end(held, ends[s], point_count);
+    uint32_t point = free_end(pinned, ends[s], point_count);
     if (point == point_count) continue;
     sbfi_d3 n = direction(positions, ends[s]);
     anchored *at = &gathered[point];
@@ -131,7 +131,7 @@ void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *norm
   for (uint32_t i = 0; i < point_count; i++)
     if (gathered[i].count > 0) raise(&gathered[i]);
   for (uint32_t s = 0; s < spring_count; s++) {
-    uint32_t point = free_end(held, ends[s], point_count);
+    uint32_t point = free_end(pinned, ends[s], point_count);
     stiffness[s] = 0;
     if (point == point_count || !(distance(positions, ends[s]) > 0) || !(depth > 0)) continue;
     double trace = SBF_STIFFNESS_ANCHOR * modulus * volumes[point] / (depth * depth);
@@ -162,7 +162,8 @@ void sbf_level_stiffness(
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
     if (set->stiffness.count == 0)
-      share_volumes(modulus, level->positions.at, volumes, set->ends.at, set->ends.count, sums, stiffness);
+      distribute_volumes(
+          modulus, level->positions.at, volumes, set->ends.at, set->ends.count, sums, stiffness);
     for (uint32_t i = 0; i < set->ends.count && set->stiffness.count > 0; i++)
       stiffness[i] = set->stiffness.at[set->stiffness.count == 1 ? 0 : i];
     stiffness += set->ends.count;

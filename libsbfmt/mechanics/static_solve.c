@@ -16,15 +16,15 @@ typedef struct statics {
   sbfi_network_matrix derivatives;
   bool coarse; /* `space` is there */
   sbfi_coarse_space space;
-  double *load;                                        /* (3 x points) N, 0 at held points */
-  double *forces, *way, *residual, *z, *p, *q, *trial; /* (3 x points) */
-  double rounding_j;                                   /* what the energy's sum may be wrong by */
+  double *load;                                              /* (3 x points) N, 0 at held points */
+  double *forces, *direction, *residual, *z, *p, *q, *trial; /* (3 x points) */
+  double rounding_j;                                         /* what the energy's sum may be wrong by */
   uint32_t products, steps, max_steps;
   bool ended;
 } statics;
 
-static sbfi_d3 at(const double *places, uint32_t point) {
-  const double *p = places + 3 * (size_t)point;
+static sbfi_d3 at(const double *positions, uint32_t point) {
+  const double *p = positions + 3 * (size_t)point;
   return (sbfi_d3){p[0], p[1], p[2]};
 }
 static void add(double *to, uint32_t point, sbfi_d3 v) {
@@ -34,8 +34,8 @@ static void add(double *to, uint32_t point, sbfi_d3 v) {
 static bool is_free(const statics *s, uint32_t point) {
   return s->network->masses[point] > 0;
 }
-static void corners(const statics *s, uint32_t t, const double *places, sbfi_d3 x[4]) {
-  for (int k = 0; k < 4; k++) x[k] = at(places, s->network->tetrahedra[t].at[k]);
+static void corners(const statics *s, uint32_t t, const double *positions, sbfi_d3 x[4]) {
+  for (int k = 0; k < 4; k++) x[k] = at(positions, s->network->tetrahedra[t].at[k]);
 }
 
 /* ---- Setting up ---- */
@@ -62,7 +62,7 @@ static bool make_load(statics *s) {
 }
 
 static bool make_vectors(statics *s) {
-  double **vectors[] = {&s->forces, &s->way, &s->residual, &s->z, &s->p, &s->q, &s->trial};
+  double **vectors[] = {&s->forces, &s->direction, &s->residual, &s->z, &s->p, &s->q, &s->trial};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
     *vectors[i] = reserve(s, 3 * (size_t)s->network->point_count, sizeof(double));
     if (!*vectors[i]) return false;
@@ -72,22 +72,22 @@ static bool make_vectors(statics *s) {
 
 /* ---- Energy and its derivatives ---- */
 
-static double energy_of(const statics *s, const double *places) {
+static double energy_of(const statics *s, const double *positions) {
   const sbf_spring_network *n = s->network;
   double energy = 0;
   sbfi_d3 x[4];
   for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
     if (!(s->derivatives.elements[t].volume > 0)) continue;
-    corners(s, t, places, x);
+    corners(s, t, positions, x);
     energy += sbfi_tetrahedron_energy(&s->derivatives.elements[t], x);
   }
   for (uint32_t i = 0; i < n->spring_count; i++) {
-    sbfi_d3 way = sbfi_d3_sub(at(places, n->ends[i].at[1]), at(places, n->ends[i].at[0]));
-    double stretch = sbfi_d3_length(way) - s->derivatives.rest_lengths[i];
+    sbfi_d3 displacement = sbfi_d3_sub(at(positions, n->ends[i].at[1]), at(positions, n->ends[i].at[0]));
+    double stretch = sbfi_d3_length(displacement) - s->derivatives.rest_lengths[i];
     energy += 0.5 * n->stiffness[i] * stretch * stretch;
   }
   for (uint32_t i = 0; i < n->point_count; i++) {
-    sbfi_d3 moved = sbfi_d3_sub(at(places, i), sbfi_d3_of(n->positions[i]));
+    sbfi_d3 moved = sbfi_d3_sub(at(positions, i), sbfi_d3_of(n->positions[i]));
     if (n->anchors && is_free(s, i)) energy += 0.5 * n->anchors[i] * sbfi_d3_dot(moved, moved);
     energy -= sbfi_d3_dot(at(s->load, i), moved);
   }
@@ -95,23 +95,24 @@ static double energy_of(const statics *s, const double *places) {
 }
 
 /* Forces on free points, the load's included; 0 on held ones. Returns their length. */
-static double find_forces(const statics *s, const double *places, double *forces) {
+static double find_forces(const statics *s, const double *positions, double *forces) {
   const sbf_spring_network *n = s->network;
   size_t size = 3 * (size_t)n->point_count;
   sbfi_d3 x[4], f[4];
   memcpy(forces, s->load, size * sizeof *forces);
   for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
     if (!(s->derivatives.elements[t].volume > 0)) continue;
-    corners(s, t, places, x);
-    sbfi_tetrahedron_forces(&s->derivatives.elements[t], x, f);
+    corners(s, t, positions, x);
+    sbfi_tetrahedron_compute_forces(&s->derivatives.elements[t], x, f);
     for (int k = 0; k < 4; k++) add(forces, n->tetrahedra[t].at[k], f[k]);
   }
   for (uint32_t i = 0; i < n->spring_count; i++) {
     uint32_t a = n->ends[i].at[0], b = n->ends[i].at[1];
-    sbfi_d3 way = sbfi_d3_sub(at(places, b), at(places, a));
-    double length = sbfi_d3_length(way);
+    sbfi_d3 displacement = sbfi_d3_sub(at(positions, b), at(positions, a));
+    double length = sbfi_d3_length(displacement);
     if (!(length > 0)) continue;
-    sbfi_d3 pull = sbfi_d3_scale(way, n->stiffness[i] * (length - s->derivatives.rest_lengths[i]) / length);
+    sbfi_d3 pull =
+        sbfi_d3_scale(displacement, n->stiffness[i] * (length - s->derivatives.rest_lengths[i]) / length);
     add(forces, a, pull);
     add(forces, b, sbfi_d3_scale(pull, -1));
   }
@@ -120,14 +121,15 @@ static double find_forces(const statics *s, const double *places, double *forces
     if (!is_free(s, i))
       f_i[0] = f_i[1] = f_i[2] = 0;
     else if (n->anchors)
-      add(forces, i, sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(n->positions[i]), at(places, i)), n->anchors[i]));
+      add(forces, i,
+          sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(n->positions[i]), at(positions, i)), n->anchors[i]));
   }
   return sqrt(sbfi_dot(forces, forces, size));
 }
 
 /* ---- Newton ---- */
 
-static bool goes_on(statics *s) {
+static bool continues(statics *s) {
   if (!s->ended) s->ended = !sbfi_progress_say(s->problem->progress, (double)s->steps / s->max_steps);
   return !s->ended && (s->problem->max_products == 0 || s->products < s->problem->max_products);
 }
@@ -137,27 +139,27 @@ static void precondition(const statics *s) {
   if (s->coarse) sbfi_coarse_space_add(&s->space, s->residual, s->z);
 }
 
-/* Solves matrix way = forces until what remains is `share` of it, or curvature turns negative. */
-static void find_way(statics *s, double share) {
+/* Solves matrix way = forces until what remains is `fraction` of it, or curvature turns negative. */
+static void find_direction(statics *s, double fraction) {
   size_t size = 3 * (size_t)s->network->point_count;
-  memset(s->way, 0, size * sizeof *s->way);
+  memset(s->direction, 0, size * sizeof *s->direction);
   memcpy(s->residual, s->forces, size * sizeof *s->residual);
   precondition(s);
   memcpy(s->p, s->z, size * sizeof *s->p);
   double left = sbfi_dot(s->residual, s->z, size);
-  double enough = share * share * sbfi_dot(s->residual, s->residual, size);
+  double enough = fraction * fraction * sbfi_dot(s->residual, s->residual, size);
   for (size_t n = 0; n < MIN_PRODUCTS + size && left > 0; n++) {
-    if (s->products % SAID_EVERY == 0 && !goes_on(s)) return;
-    sbfi_block_matrix_times(&s->derivatives.matrix, s->p, s->q);
+    if (s->products % SAID_EVERY == 0 && !continues(s)) return;
+    sbfi_block_matrix_multiply(&s->derivatives.matrix, s->p, s->q);
     s->products++;
     double curvature = sbfi_dot(s->p, s->q, size);
     if (!(curvature > 0)) {
-      if (n == 0) memcpy(s->way, s->p, size * sizeof *s->way);
+      if (n == 0) memcpy(s->direction, s->p, size * sizeof *s->direction);
       return;
     }
     double step = left / curvature, before = left;
     for (size_t i = 0; i < size; i++) {
-      s->way[i] += step * s->p[i];
+      s->direction[i] += step * s->p[i];
       s->residual[i] -= step * s->q[i];
     }
     if (sbfi_dot(s->residual, s->residual, size) <= enough) return;
@@ -168,31 +170,31 @@ static void find_way(statics *s, double share) {
 }
 
 /* Goes along the way until the energy has fallen enough. False: it does not fall any more. */
-static bool go(statics *s, double *places, double *energy) {
+static bool go(statics *s, double *positions, double *energy) {
   size_t size = 3 * (size_t)s->network->point_count;
-  double slope = sbfi_dot(s->forces, s->way, size), step = 1;
+  double slope = sbfi_dot(s->forces, s->direction, size), step = 1;
   double before = sqrt(sbfi_dot(s->forces, s->forces, size));
   if (!(slope > 0)) return false;
   for (int n = 0; n < MAX_BACKTRACKS; n++, step *= 0.5) {
-    for (size_t i = 0; i < size; i++) s->trial[i] = places[i] + step * s->way[i];
+    for (size_t i = 0; i < size; i++) s->trial[i] = positions[i] + step * s->direction[i];
     double reached = energy_of(s, s->trial), rounding = s->rounding_j + 1e-14 * fabs(reached);
     bool falls = reached <= *energy - SUFFICIENT_FALL * step * slope;
     /* Near the end the fall drowns in rounding; there smaller forces decide. */
     if (!falls && fabs(reached - *energy) <= rounding) falls = find_forces(s, s->trial, s->q) < before;
     if (!falls) continue;
-    memcpy(places, s->trial, size * sizeof *places);
+    memcpy(positions, s->trial, size * sizeof *positions);
     *energy = reached;
     return true;
   }
   return false;
 }
 
-static double min_ratio(const statics *s, const double *places) {
+static double min_ratio(const statics *s, const double *positions) {
   double min = 1;
   sbfi_d3 x[4];
   for (uint32_t t = 0; t < s->network->tetrahedron_count; t++) {
     if (!(s->derivatives.elements[t].volume > 0)) continue;
-    corners(s, t, places, x);
+    corners(s, t, positions, x);
     double ratio = sbfi_tetrahedron_volume_ratio(&s->derivatives.elements[t], x);
     min = ratio < min ? ratio : min;
   }
@@ -208,33 +210,33 @@ static bool make_space(statics *s) {
   return sbfi_coarse_space_make(&s->space, &s->derivatives.matrix, s->network->positions, &s->arena);
 }
 
-static void iterate(statics *s, double *places, sbfi_static_outcome *outcome) {
+static void iterate(statics *s, double *positions, sbfi_static_outcome *outcome) {
   double tolerance = s->problem->tolerance > 0 ? s->problem->tolerance : TOLERANCE;
   s->max_steps = s->problem->max_steps ? s->problem->max_steps : MAX_STEPS;
   size_t size = 3 * (size_t)s->network->point_count;
-  double load = sqrt(sbfi_dot(s->load, s->load, size)), energy = energy_of(s, places);
-  double length = find_forces(s, places, s->forces), reference = load > 0 ? load : length;
+  double load = sqrt(sbfi_dot(s->load, s->load, size)), energy = energy_of(s, positions);
+  double length = find_forces(s, positions, s->forces), reference = load > 0 ? load : length;
   for (;;) {
     outcome->residual = reference > 0 ? length / reference : 0;
     outcome->converged = outcome->residual <= tolerance;
-    if (outcome->converged || s->steps == s->max_steps || !goes_on(s)) break;
+    if (outcome->converged || s->steps == s->max_steps || !continues(s)) break;
     /* As exact as the residual is small: superlinear, and no work is lost far away. */
-    double share = 0.1 * sqrt(outcome->residual < 1 ? outcome->residual : 1);
-    sbfi_network_matrix_fill(&s->derivatives, places);
+    double fraction = 0.1 * sqrt(outcome->residual < 1 ? outcome->residual : 1);
+    sbfi_network_matrix_fill(&s->derivatives, positions);
     if (s->coarse) sbfi_coarse_space_fill(&s->space, &s->derivatives.matrix);
-    find_way(s, share > 1e-3 ? share : 1e-3);
-    if (!go(s, places, &energy)) break;
+    find_direction(s, fraction > 1e-3 ? fraction : 1e-3);
+    if (!go(s, positions, &energy)) break;
     s->steps++;
-    length = find_forces(s, places, s->forces);
+    length = find_forces(s, positions, s->forces);
   }
   outcome->energy_j = energy;
-  outcome->min_ratio = min_ratio(s, places);
+  outcome->min_ratio = min_ratio(s, positions);
   outcome->steps = s->steps;
   outcome->products = s->products;
   outcome->ended = s->ended;
 }
 
-bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_static_outcome *outcome,
+bool sbfi_static_solve(const sbfi_static_problem *problem, double *positions, sbfi_static_outcome *outcome,
     const sbf_allocator *allocator) {
   statics s = {.problem = problem, .network = problem->network};
   *outcome = (sbfi_static_outcome){.min_ratio = 1};
@@ -242,15 +244,15 @@ bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_
   sbfi_arena_init(&s.arena, &chosen, 0);
   bool good = sbfi_network_matrix_make(&s.derivatives, s.network, problem->rest_lengths, &s.arena) &&
               make_load(&s) && make_vectors(&s) && make_space(&s);
-  if (good) iterate(&s, places, outcome);
+  if (good) iterate(&s, positions, outcome);
   sbfi_arena_free(&s.arena);
   return good;
 }
 
-void sbfi_static_start(const sbf_spring_network *network, double *places) {
+void sbfi_static_start(const sbf_spring_network *network, double *positions) {
   for (uint32_t i = 0; i < network->point_count; i++) {
-    places[3 * (size_t)i] = network->positions[i].x;
-    places[3 * (size_t)i + 1] = network->positions[i].y;
-    places[3 * (size_t)i + 2] = network->positions[i].z;
+    positions[3 * (size_t)i] = network->positions[i].x;
+    positions[3 * (size_t)i + 1] = network->positions[i].y;
+    positions[3 * (size_t)i + 2] = network->positions[i].z;
   }
 }

@@ -40,12 +40,12 @@ typedef struct sbfi_static_outcome {
   uint32_t products; /* of the matrix with a vector, in all */
 } sbfi_static_outcome;
 
-/* `places` (3 x point_count) m: in where to start, held points where they are held (which need not be where
- * they rest); out the equilibrium. False where memory runs out; not converging is no failure.  */
-bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_static_outcome *outcome,
+/* `positions` (3 x point_count) m: in where to start, held points where they are held (which need not be
+ * where they rest); out the equilibrium. False where memory runs out; not converging is no failure.  */
+bool sbfi_static_solve(const sbfi_static_problem *problem, double *positions, sbfi_static_outcome *outcome,
     const sbf_allocator *allocator);
 
-/* The start: `places` (3 x point_count) at rest. */
-void sbfi_static_start(const sbf_spring_network *network, double *places);
+/* The start: `positions` (3 x point_count) at rest. */
+void sbfi_static_start(const sbf_spring_network *network, double *positions);
 
 #endif

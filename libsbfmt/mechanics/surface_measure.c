@@ -34,9 +34,9 @@ void sbf_surface_point_areas(const sbf_polygon_mesh *mesh, float *areas) {
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
     uint32_t size = mesh->polygon_sizes.at[p];
     sbfi_d3 middle = sbfi_polygon_middle(mesh->positions.at, corners, size);
-    float share =
+    float fraction =
         (float)(sbfi_d3_length(sbfi_polygon_area(mesh->positions.at, corners, size, middle)) / size);
-    for (uint32_t k = 0; k < size; k++) areas[corners[k]] += share;
+    for (uint32_t k = 0; k < size; k++) areas[corners[k]] += fraction;
   }
 }
 
@@ -99,7 +99,7 @@ static void find_principal_axes(const double second[6], sbf_solid *solid) {
   double trace = second[0] + second[1] + second[2], vectors[9];
   double inertia[9] = {trace - second[0], -second[3], -second[5], -second[3], trace - second[1], -second[4],
       -second[5], -second[4], trace - second[2]};
-  sbfi_symmetric_eigen(3, inertia, vectors);
+  sbfi_symmetric_compute_eigen(3, inertia, vectors);
   int order[3] = {0, 1, 2};
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2 - i; j++)

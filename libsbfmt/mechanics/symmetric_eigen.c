@@ -26,7 +26,7 @@ static void rotate(int n, double *matrix, double *vectors, int p, int q) {
   matrix[p * n + q] = matrix[q * n + p] = 0;
 }
 
-void sbfi_symmetric_eigen(int n, double *matrix, double *vectors) {
+void sbfi_symmetric_compute_eigen(int n, double *matrix, double *vectors) {
   double trace = 0;
   for (int i = 0; i < n * n; i++) vectors[i] = i % (n + 1) == 0;
   for (int i = 0; i < n; i++) trace += fabs(matrix[i * n + i]);

@@ -4,6 +4,6 @@
 
 /* Diagonalises the symmetric n x n `matrix` (row by row, overwritten: eigenvalues on the diagonal) by cyclic
  * Jacobi rotations; column i of `vectors` (n x n) is the unit eigenvector of matrix[i][i]. */
-void sbfi_symmetric_eigen(int n, double *matrix, double *vectors);
+void sbfi_symmetric_compute_eigen(int n, double *matrix, double *vectors);
 
 #endif

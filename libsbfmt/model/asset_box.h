@@ -16,9 +16,9 @@ typedef struct sbfi_asset_box {
 } sbfi_asset_box;
 
 static inline sbfi_asset_box *sbfi_asset_box_of(const sbf_asset *asset) {
-  const char *place = (const char *)asset - offsetof(sbfi_asset_box, asset);
+  const char *destination = (const char *)asset - offsetof(sbfi_asset_box, asset);
   sbfi_asset_box *box;
-  memcpy(&box, &place, sizeof box);
+  memcpy(&box, &destination, sizeof box);
   return box;
 }
 

@@ -9,8 +9,8 @@
 #include "base/text.h"
 #include "model/asset_box.h"
 #include "model/bulk_check.h"
+#include "model/element_path.h"
 #include "model/ids.h"
-#include "model/place.h"
 #include "model/version.h"
 
 typedef struct checker {
@@ -27,8 +27,8 @@ static bool is_done(const checker *c) {
   return c->limit && c->found >= c->limit;
 }
 
-__attribute__((format(printf, 6, 7))) static void fault(checker *c, sbf_code code, const sbfi_place *place,
-    const sbfi_field *field, int64_t index, const char *format, ...) {
+__attribute__((format(printf, 6, 7))) static void fault(checker *c, sbf_code code,
+    const sbfi_element_path *path, const sbfi_field *field, int64_t index, const char *format, ...) {
   if (is_done(c)) return;
   c->found++;
   if (!c->report) return;
@@ -37,7 +37,7 @@ __attribute__((format(printf, 6, 7))) static void fault(checker *c, sbf_code cod
   va_start(arguments, format);
   sbfi_diagnose_v(&diagnostic, code, format, arguments);
   va_end(arguments);
-  sbfi_place_path(place, field, diagnostic.path, sizeof diagnostic.path);
+  sbfi_element_path_print(path, field, diagnostic.path, sizeof diagnostic.path);
   diagnostic.index = index;
   c->report(c->user, &diagnostic);
 }
@@ -55,50 +55,49 @@ static const char *find_forbidden(const char *text) {
   return NULL;
 }
 
-static void check_text(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  const char *text = sbfi_get_pointer(place->object, field);
+static void check_text(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  const char *text = sbfi_get_pointer(path->object, field);
   if (!text) {
     fault(
-        c, SBF_CODE_BAD_TEXT, place, field, -1, "`%s` is NULL: an absent text is the empty one", field->name);
+        c, SBF_CODE_BAD_TEXT, path, field, -1, "`%s` is NULL: an absent text is the empty one", field->name);
     return;
   }
   if (!*text) {
     if (field->type == SBFI_ID)
-      fault(
-          c, SBF_CODE_ID_EMPTY, place, field, -1, "the id is empty: give it one that is unique in the file");
+      fault(c, SBF_CODE_ID_EMPTY, path, field, -1, "the id is empty: give it one that is unique in the file");
     else if (field->required)
-      fault(c, SBF_CODE_REQUIRED_MISSING, place, field, -1, "`%s` must be given and not empty", field->name);
+      fault(c, SBF_CODE_REQUIRED_MISSING, path, field, -1, "`%s` must be given and not empty", field->name);
     return;
   }
   size_t length = strlen(text), good = sbfi_utf8_check(text, length);
   const char *forbidden;
   if (good < length)
-    fault(c, SBF_CODE_NOT_UTF8, place, field, -1,
+    fault(c, SBF_CODE_NOT_UTF8, path, field, -1,
         "`%s` is not valid UTF-8 from its byte %zu on: write it in that encoding", field->name, good);
   else if ((forbidden = find_forbidden(text)))
-    fault(c, SBF_CODE_BAD_TEXT, place, field, -1,
+    fault(c, SBF_CODE_BAD_TEXT, path, field, -1,
         "`%s` holds a character at byte %zu that XML cannot carry: remove it", field->name,
         (size_t)(forbidden - text));
 }
 
-static void check_id(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  const char *id = sbfi_get_pointer(place->object, field);
+static void check_id(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  const char *id = sbfi_get_pointer(path->object, field);
   const sbfi_id_entry *first;
   if (!id || !*id) return;
-  sbfi_id_entry entry = {.id = id, .index = place->index};
-  if (place->up && !place->up->up) entry.collection = place->field;
+  sbfi_id_entry entry = {.id = id, .index = path->index};
+  if (path->up && !path->up->up) entry.collection = path->field;
   if (!sbfi_ids_add(&c->ids, entry, &first)) {
-    fault(c, SBF_CODE_OUT_OF_MEMORY, place, field, -1, "memory ran out while ids were compared");
+    fault(c, SBF_CODE_OUT_OF_MEMORY, path, field, -1, "memory ran out while ids were compared");
     return;
   }
   if (!first) return;
   char other[sizeof((sbf_diagnostic *)0)->path] = "an object further up";
   if (first->collection) {
-    sbfi_place root = sbfi_place_root(c->asset);
-    sbfi_place there = sbfi_place_child(&root, first->collection, first->index);
-    sbfi_place_path(&there, NULL, other, sizeof other);
+    sbfi_element_path root = sbfi_element_path_root(c->asset);
+    sbfi_element_path there = sbfi_element_path_child(&root, first->collection, first->index);
+    sbfi_element_path_print(&there, NULL, other, sizeof other);
   }
-  fault(c, SBF_CODE_ID_REPEATED, place, field, -1,
+  fault(c, SBF_CODE_ID_REPEATED, path, field, -1,
       "the id `%s` is that of %s as well: ids are unique in the whole file", id, other);
 }
 
@@ -159,18 +158,18 @@ static bool is_finite(float value) {
 }
 
 /* Lists of weights that sbf_fix brings back into their range. */
-static bool is_mendable(const sbfi_place *place, const sbfi_field *field) {
+static bool is_mendable(const sbfi_element_path *path, const sbfi_field *field) {
   static const char *const lists[][2] = {
       {"skin", "weights"}, {"pin_set", "weights"}, {"embedding", "blends"}};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-    if (strcmp(place->element->name, lists[i][0]) == 0 && strcmp(field->name, lists[i][1]) == 0) return true;
+    if (strcmp(path->element->name, lists[i][0]) == 0 && strcmp(field->name, lists[i][1]) == 0) return true;
   return false;
 }
 
 static void check_floats(
-    checker *c, const sbfi_place *place, const sbfi_field *field, const float *at, size_t count) {
+    checker *c, const sbfi_element_path *path, const sbfi_field *field, const float *at, size_t count) {
   bounds b = bounds_of(field);
-  if (c->mendable && is_mendable(place, field)) b = (bounds){-FLT_MAX, FLT_MAX};
+  if (c->mendable && is_mendable(path, field)) b = (bounds){-FLT_MAX, FLT_MAX};
   size_t bad = sbfi_find_f32_outside(at, count, b.low, b.high);
   if (bad == count) return;
   int64_t item = field->type == SBFI_LIST ? (int64_t)(bad / field->width) : -1;
@@ -178,42 +177,42 @@ static void check_floats(
   if (field->width > 1) snprintf(component, sizeof component, ".%c", "xyzw"[bad % field->width]);
   const char *verb = field->type == SBFI_LIST ? "holds" : "is";
   if (!is_finite(at[bad]))
-    fault(c, SBF_CODE_VALUE_NOT_FINITE, place, field, item, "`%s`%s %s %s: every number must be finite",
+    fault(c, SBF_CODE_VALUE_NOT_FINITE, path, field, item, "`%s`%s %s %s: every number must be finite",
         field->name, component, verb, text_of(at[bad]).at);
   else
-    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, place, field, item, "`%s`%s %s %s, outside %s: give a value inside",
+    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, item, "`%s`%s %s %s, outside %s: give a value inside",
         field->name, component, verb, text_of(at[bad]).at, text_of_range(field).at);
 }
 
-static void check_integer(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  int32_t value = sbfi_get_integer(place->object, field);
+static void check_integer(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t value = sbfi_get_integer(path->object, field);
   double number = field->type == SBFI_UINT ? (double)(uint32_t)value : (double)value;
   if (!field->has_range || ((field->min_open ? number > field->min : number >= field->min) &&
                                (field->max_open ? number < field->max : number <= field->max)))
     return;
-  fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, place, field, -1, "`%s` is %.0f, outside %s: give a value inside",
+  fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, -1, "`%s` is %.0f, outside %s: give a value inside",
       field->name, number, text_of_range(field).at);
 }
 
-static void check_enum(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  int32_t value = sbfi_get_integer(place->object, field);
+static void check_enum(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t value = sbfi_get_integer(path->object, field);
   if ((uint32_t)value >= field->value_count)
-    fault(c, SBF_CODE_ENUM_OUT_OF_RANGE, place, field, -1, "`%s` is %d, but its words are numbered 0 to %u",
+    fault(c, SBF_CODE_ENUM_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but its words are numbered 0 to %u",
         field->name, value, field->value_count - 1);
 }
 
-static void check_ref(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  int32_t value = sbfi_get_integer(place->object, field);
+static void check_ref(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t value = sbfi_get_integer(path->object, field);
   uint32_t count = sbfi_ref_count(c->asset, field);
   if (value == SBF_NONE) {
     if (field->required)
-      fault(c, SBF_CODE_REQUIRED_MISSING, place, field, -1, "`%s` must name one of the %s", field->name,
+      fault(c, SBF_CODE_REQUIRED_MISSING, path, field, -1, "`%s` must name one of the %s", field->name,
           field->target_name);
   } else if ((uint32_t)value >= count) {
-    fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, place, field, -1, "`%s` is %d, but there are %u %s", field->name,
+    fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, path, field, -1, "`%s` is %d, but there are %u %s", field->name,
         value, count, field->target_name);
-  } else if (field->earlier && (uint32_t)value >= place->index) {
-    fault(c, SBF_CODE_BONE_ORDER, place, field, -1,
+  } else if (field->earlier && (uint32_t)value >= path->index) {
+    fault(c, SBF_CODE_BONE_ORDER, path, field, -1,
         "`%s` is `%s`, which does not stand before it: sort the %s, each after the one it names", field->name,
         sbfi_ref_id(c->asset, field, value), field->target_name);
   }
@@ -221,13 +220,13 @@ static void check_ref(checker *c, const sbfi_place *place, const sbfi_field *fie
 
 /* --- lists --- */
 
-static void check_length(checker *c, const sbfi_place *place, const sbfi_field *field, uint32_t count) {
+static void check_length(checker *c, const sbfi_element_path *path, const sbfi_field *field, uint32_t count) {
   char allowed[192] = "";
   size_t used = 0;
   for (uint32_t i = 0; i < field->length_count; i++) {
     const sbfi_length *length = &field->lengths[i];
-    if (c->outline && !sbfi_length_is_known(length, place)) return;
-    uint64_t value = sbfi_length_value(length, place);
+    if (c->outline && !sbfi_length_is_known(length, path)) return;
+    uint64_t value = sbfi_length_value(length, path);
     if (value == count) return;
     const char *before = i == 0 ? "" : " or ";
     bool plain = length->terms[0].kind == SBFI_TERM_NUMBER && length->term_count == 1;
@@ -237,7 +236,7 @@ static void check_length(checker *c, const sbfi_place *place, const sbfi_field *
     if (added > 0 && (used += (size_t)added) >= sizeof allowed) used = sizeof allowed - 1;
   }
   if (field->length_count)
-    fault(c, SBF_CODE_WRONG_LENGTH, place, field, -1, "`%s` has %u items where %s belong", field->name, count,
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items where %s belong", field->name, count,
         allowed);
 }
 
@@ -246,57 +245,58 @@ static uint32_t bound_to_u32(double bound) {
 }
 
 static void check_integers(
-    checker *c, const sbfi_place *place, const sbfi_field *field, const uint32_t *at, size_t count) {
+    checker *c, const sbfi_element_path *path, const sbfi_field *field, const uint32_t *at, size_t count) {
   if (!field->has_range) return;
   uint32_t low = bound_to_u32(field->min) + (field->min_open && field->min >= 0);
   uint32_t high = bound_to_u32(field->max) - (field->max_open && field->max <= UINT32_MAX);
   size_t bad = sbfi_find_u32_outside(at, count, low, high);
   if (bad < count)
-    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, place, field, (int64_t)(bad / field->width),
+    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, path, field, (int64_t)(bad / field->width),
         "`%s` holds %u, outside %s: give a value inside", field->name, at[bad], text_of_range(field).at);
 }
 
 static bool check_indices(
-    checker *c, const sbfi_place *place, const sbfi_field *field, const uint32_t *at, size_t count) {
-  uint64_t limit = sbfi_length_value(field->index, place);
-  if (!count || limit > UINT32_MAX || !sbfi_length_is_known(field->index, place)) return true;
+    checker *c, const sbfi_element_path *path, const sbfi_field *field, const uint32_t *at, size_t count) {
+  uint64_t limit = sbfi_length_value(field->index, path);
+  if (!count || limit > UINT32_MAX || !sbfi_length_is_known(field->index, path)) return true;
   size_t bad = limit ? sbfi_find_u32_outside(at, count, 0, (uint32_t)limit - 1) : 0;
   if (bad == count) return true;
-  fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, place, field, (int64_t)(bad / field->width),
+  fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, path, field, (int64_t)(bad / field->width),
       "`%s` names %u, but %s counts %llu, from 0 on", field->name, at[bad], field->index->text,
       (unsigned long long)limit);
   return false;
 }
 
-static void check_positive(checker *c, const sbfi_place *place, const sbfi_field *field, sbfi_list list) {
-  sbfi_list positions = sbfi_term_list(&field->index->terms[0], place);
+static void check_positive(
+    checker *c, const sbfi_element_path *path, const sbfi_field *field, sbfi_list list) {
+  sbfi_list positions = sbfi_term_list(&field->index->terms[0], path);
   if (!positions.at || c->mendable) return;
   size_t bad = sbfi_find_not_positive(list.at, list.count, positions.at);
   if (bad < list.count)
-    fault(c, SBF_CODE_TETRAHEDRON_INVERTED, place, field, (int64_t)bad,
+    fault(c, SBF_CODE_TETRAHEDRON_INVERTED, path, field, (int64_t)bad,
         "tetrahedron %zu is inverted or flat: swap two of its points, or take it out", bad);
 }
 
-static void check_list(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  sbfi_list list = sbfi_get_list(place->object, field);
+static void check_list(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  sbfi_list list = sbfi_get_list(path->object, field);
   size_t scalars = (size_t)list.count * field->width;
-  check_length(c, place, field, list.count);
+  check_length(c, path, field, list.count);
   if (list.count && !list.at) {
     if (c->outline) return;
-    fault(c, SBF_CODE_WRONG_LENGTH, place, field, -1, "`%s` has %u items, but points nowhere", field->name,
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but points nowhere", field->name,
         list.count);
     return;
   }
-  if (field->item == SBFI_ITEM_F32) check_floats(c, place, field, list.at, scalars);
+  if (field->item == SBFI_ITEM_F32) check_floats(c, path, field, list.at, scalars);
   if (field->item != SBFI_ITEM_U32) return;
-  check_integers(c, place, field, list.at, scalars);
-  if (field->index && check_indices(c, place, field, list.at, scalars) && field->positive)
-    check_positive(c, place, field, list);
+  check_integers(c, path, field, list.at, scalars);
+  if (field->index && check_indices(c, path, field, list.at, scalars) && field->positive)
+    check_positive(c, path, field, list);
 }
 
 /* --- objects --- */
 
-static void check_fixed(checker *c, const sbfi_place *child) {
+static void check_fixed(checker *c, const sbfi_element_path *child) {
   const sbfi_field *field = child->field;
   if (!field->fixed_name) return;
   const sbfi_field *fixed = sbfi_element_field(field->element, field->fixed_name);
@@ -305,29 +305,29 @@ static void check_fixed(checker *c, const sbfi_place *child) {
         fixed->values[field->fixed_value]);
 }
 
-static void check_object(checker *c, const sbfi_place *place);
+static void check_object(checker *c, const sbfi_element_path *path);
 
-static void check_children(checker *c, const sbfi_place *place, const sbfi_field *field) {
-  uint32_t count = sbfi_child_count(place->object, field);
-  if (field->type == SBFI_MANY && count && !sbfi_get_list(place->object, field).at) {
-    fault(c, SBF_CODE_WRONG_LENGTH, place, field, -1, "`%s` has %u items, but points nowhere", field->name,
+static void check_children(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
+  uint32_t count = sbfi_child_count(path->object, field);
+  if (field->type == SBFI_MANY && count && !sbfi_get_list(path->object, field).at) {
+    fault(c, SBF_CODE_WRONG_LENGTH, path, field, -1, "`%s` has %u items, but points nowhere", field->name,
         count);
     return;
   }
   for (uint32_t i = 0; i < count && !is_done(c); i++) {
-    sbfi_place child = sbfi_place_child(place, field, i);
+    sbfi_element_path child = sbfi_element_path_child(path, field, i);
     check_fixed(c, &child);
     check_object(c, &child);
   }
 }
 
-static void check_field(checker *c, const sbfi_place *place, const sbfi_field *field) {
+static void check_field(checker *c, const sbfi_element_path *path, const sbfi_field *field) {
   switch (field->type) {
   case SBFI_BOOL:
     break;
   case SBFI_INT:
   case SBFI_UINT:
-    check_integer(c, place, field);
+    check_integer(c, path, field);
     break;
   case SBFI_FLOAT:
   case SBFI_VEC2:
@@ -335,45 +335,45 @@ static void check_field(checker *c, const sbfi_place *place, const sbfi_field *f
   case SBFI_VEC4:
   case SBFI_QUAT: {
     float values[4];
-    memcpy(values, (const char *)place->object + field->offset, field->width * sizeof *values);
-    check_floats(c, place, field, values, field->width);
+    memcpy(values, (const char *)path->object + field->offset, field->width * sizeof *values);
+    check_floats(c, path, field, values, field->width);
     break;
   }
   case SBFI_ID:
-    check_text(c, place, field);
-    check_id(c, place, field);
+    check_text(c, path, field);
+    check_id(c, path, field);
     break;
   case SBFI_STRING:
   case SBFI_TEXT:
-    check_text(c, place, field);
+    check_text(c, path, field);
     break;
   case SBFI_ENUM:
-    check_enum(c, place, field);
+    check_enum(c, path, field);
     break;
   case SBFI_REF:
-    check_ref(c, place, field);
+    check_ref(c, path, field);
     break;
   case SBFI_LIST:
-    check_list(c, place, field);
+    check_list(c, path, field);
     break;
   case SBFI_ONE:
   case SBFI_OPTIONAL:
   case SBFI_MANY:
-    check_children(c, place, field);
+    check_children(c, path, field);
     break;
   }
 }
 
-static void check_object(checker *c, const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count && !is_done(c); i++)
-    check_field(c, place, &place->element->fields[i]);
+static void check_object(checker *c, const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count && !is_done(c); i++)
+    check_field(c, path, &path->element->fields[i]);
 }
 
-static void check_version(checker *c, const sbfi_place *root) {
+static void check_version(checker *c, const sbfi_element_path *root) {
   const sbfi_field *field = sbfi_element_field(root->element, "version");
   const char *version = c->asset->version;
   if (!version || !*version) return; /* reported as a text */
-  switch (sbfi_version_judge(version)) {
+  switch (sbfi_version_check(version)) {
   case SBFI_VERSION_KNOWN:
   case SBFI_VERSION_NEWER_MINOR:
     break;
@@ -390,7 +390,7 @@ static void check_version(checker *c, const sbfi_place *root) {
 
 static uint32_t check_asset(checker *c) {
   sbfi_ids_init(&c->ids, &sbfi_asset_box_of(c->asset)->arena.allocator);
-  sbfi_place root = sbfi_place_root(c->asset);
+  sbfi_element_path root = sbfi_element_path_root(c->asset);
   check_version(c, &root);
   check_object(c, &root);
   sbfi_ids_free(&c->ids);

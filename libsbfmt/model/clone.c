@@ -9,15 +9,15 @@ static bool clone_element(sbfi_arena *arena, const sbfi_element *element, void *
 static void *clone_row(sbfi_arena *arena, const sbfi_element *element, const void *from, uint32_t count) {
   char *row = sbfi_arena_allocate(arena, count, element->struct_size);
   for (uint32_t i = 0; row && i < count; i++) {
-    size_t place = (size_t)i * element->struct_size;
-    if (!clone_element(arena, element, row + place, (const char *)from + place)) return NULL;
+    size_t index = (size_t)i * element->struct_size;
+    if (!clone_element(arena, element, row + index, (const char *)from + index)) return NULL;
   }
   return row;
 }
 
 /* `to` holds the fields of `from` as they are; what they point at is replaced by copies. */
 static bool clone_field(sbfi_arena *arena, const sbfi_field *field, void *to, const void *from) {
-  char *place = (char *)to + field->offset;
+  char *destination = (char *)to + field->offset;
   sbfi_list list;
   void *copy;
   switch (field->type) {
@@ -36,7 +36,7 @@ static bool clone_field(sbfi_arena *arena, const sbfi_field *field, void *to, co
     sbfi_set_list(to, field, copy, list.count);
     return copy != NULL;
   case SBFI_ONE:
-    return clone_element(arena, field->element, place, (const char *)from + field->offset);
+    return clone_element(arena, field->element, destination, (const char *)from + field->offset);
   case SBFI_OPTIONAL: {
     const void *child = sbfi_get_pointer(from, field);
     if (!child) return true;

@@ -1,29 +1,29 @@
 #include "model/defaults.h"
 
-static bool object_is_default(const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count; i++)
-    if (!sbfi_field_is_default(place, &place->element->fields[i])) return false;
+static bool object_is_default(const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count; i++)
+    if (!sbfi_field_is_default(path, &path->element->fields[i])) return false;
   return true;
 }
 
 /* The value the place demands, where it does, else the schema's default. */
-static int32_t expected_integer(const sbfi_place *place, const sbfi_field *field) {
-  const sbfi_field *holder = place->field;
+static int32_t expected_integer(const sbfi_element_path *path, const sbfi_field *field) {
+  const sbfi_field *holder = path->field;
   bool fixed = holder && holder->fixed_name && strcmp(holder->fixed_name, field->name) == 0;
   return fixed ? holder->fixed_value : (int32_t)field->default_integer;
 }
 
-bool sbfi_field_is_default(const sbfi_place *place, const sbfi_field *field) {
-  const char *at = (const char *)place->object + field->offset;
+bool sbfi_field_is_default(const sbfi_element_path *path, const sbfi_field *field) {
+  const char *at = (const char *)path->object + field->offset;
   switch (field->type) {
   case SBFI_BOOL:
     return *(const bool *)at == (field->default_integer != 0);
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
-    return sbfi_get_integer(place->object, field) == expected_integer(place, field);
+    return sbfi_get_integer(path->object, field) == expected_integer(path, field);
   case SBFI_REF:
-    return sbfi_get_integer(place->object, field) == SBF_NONE;
+    return sbfi_get_integer(path->object, field) == SBF_NONE;
   case SBFI_FLOAT:
   case SBFI_VEC2:
   case SBFI_VEC3:
@@ -33,16 +33,16 @@ bool sbfi_field_is_default(const sbfi_place *place, const sbfi_field *field) {
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    return strcmp(sbfi_get_pointer(place->object, field), field->default_text) == 0;
+    return strcmp(sbfi_get_pointer(path->object, field), field->default_text) == 0;
   case SBFI_LIST:
-    return sbfi_get_list(place->object, field).count == 0;
+    return sbfi_get_list(path->object, field).count == 0;
   case SBFI_ONE: {
-    sbfi_place child = sbfi_place_child(place, field, 0);
+    sbfi_element_path child = sbfi_element_path_child(path, field, 0);
     return object_is_default(&child);
   }
   case SBFI_OPTIONAL:
   case SBFI_MANY:
-    return sbfi_child_count(place->object, field) == 0;
+    return sbfi_child_count(path->object, field) == 0;
   }
   return false;
 }

@@ -27,10 +27,10 @@ static uint64_t hash_of(const sbfi_ids *ids, const char *id) {
 }
 
 static sbfi_id_entry *slot_of(const sbfi_ids *ids, const char *id, uint64_t hash) {
-  size_t mask = ids->capacity - 1, place = (size_t)(hash >> 32) & mask;
-  while (ids->slots[place].id && (ids->slots[place].hash != hash || strcmp(ids->slots[place].id, id) != 0))
-    place = (place + 1) & mask;
-  return &ids->slots[place];
+  size_t mask = ids->capacity - 1, index = (size_t)(hash >> 32) & mask;
+  while (ids->slots[index].id && (ids->slots[index].hash != hash || strcmp(ids->slots[index].id, id) != 0))
+    index = (index + 1) & mask;
+  return &ids->slots[index];
 }
 
 static bool grow(sbfi_ids *ids) {

@@ -16,25 +16,26 @@ static uint32_t *new_list(const taking *t, size_t count) {
 
 static bool find_vertices(taking *t) {
   uint32_t full_count = t->full->mesh.positions.count, count = 0;
-  uint32_t *place_of = new_list(t, full_count), *points = new_list(t, t->level->polygon_points.count);
-  if (!place_of || !points) return false;
-  memset(place_of, 0xff, full_count * sizeof *place_of);
-  for (uint32_t c = 0; c < t->level->polygon_points.count; c++) place_of[t->level->polygon_points.at[c]] = 0;
+  uint32_t *position_of = new_list(t, full_count), *points = new_list(t, t->level->polygon_points.count);
+  if (!position_of || !points) return false;
+  memset(position_of, 0xff, full_count * sizeof *position_of);
+  for (uint32_t c = 0; c < t->level->polygon_points.count; c++)
+    position_of[t->level->polygon_points.at[c]] = 0;
   for (uint32_t v = 0; v < full_count; v++)
-    if (place_of[v] == 0) place_of[v] = count++;
+    if (position_of[v] == 0) position_of[v] = count++;
   uint32_t *vertices = new_list(t, count);
   sbf_vec3 *positions = sbfi_arena_allocate(t->arena, (size_t)count + 1, sizeof *positions);
   if (!vertices || !positions) return false;
   for (uint32_t v = 0; v < full_count; v++)
-    if (place_of[v] != UINT32_MAX) {
-      vertices[place_of[v]] = v;
-      positions[place_of[v]] = t->full->mesh.positions.at[v];
+    if (position_of[v] != UINT32_MAX) {
+      vertices[position_of[v]] = v;
+      positions[position_of[v]] = t->full->mesh.positions.at[v];
     }
   for (uint32_t c = 0; c < t->level->polygon_points.count; c++)
-    points[c] = place_of[t->level->polygon_points.at[c]];
+    points[c] = position_of[t->level->polygon_points.at[c]];
   t->made->vertices = vertices;
   t->made->vertex_count = count;
-  t->made->place_of = place_of;
+  t->made->position_of = position_of;
   t->made->mesh.mesh.positions = (sbf_vec3_list){positions, count};
   t->made->mesh.mesh.polygon_sizes = t->level->polygon_sizes;
   t->made->mesh.mesh.polygon_points = (sbf_u32_list){points, t->level->polygon_points.count};

@@ -10,7 +10,7 @@ typedef struct sbfi_level_mesh {
                                there;     no skin, shape keys, source points or levels */
   const uint32_t *vertices; /* (vertex_count) of the full mesh, ascending */
   uint32_t vertex_count;
-  const uint32_t *place_of; /* (vertices of the full mesh) in `vertices`; UINT32_MAX: not there */
+  const uint32_t *position_of; /* (vertices of the full mesh) in `vertices`; UINT32_MAX: not there */
 } sbfi_level_mesh;
 
 /* Memory of `arena`, and lists of `full` and `level`; false where it runs out. */

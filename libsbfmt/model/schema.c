@@ -16,34 +16,34 @@ bool sbfi_child_fix(const sbfi_field *field, void *child) {
   return same;
 }
 
-static void init_field(const sbfi_field *field, char *place) {
+static void init_field(const sbfi_field *field, char *destination) {
   switch (field->type) {
   case SBFI_BOOL:
-    *(bool *)place = field->default_integer != 0;
+    *(bool *)destination = field->default_integer != 0;
     break;
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
-    memcpy(place, &field->default_integer, sizeof field->default_integer);
+    memcpy(destination, &field->default_integer, sizeof field->default_integer);
     break;
   case SBFI_FLOAT:
   case SBFI_VEC2:
   case SBFI_VEC3:
   case SBFI_VEC4:
   case SBFI_QUAT:
-    memcpy(place, field->defaults, field->width * sizeof(float));
+    memcpy(destination, field->defaults, field->width * sizeof(float));
     break;
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
-    memcpy(place, &field->default_text, sizeof field->default_text);
+    memcpy(destination, &field->default_text, sizeof field->default_text);
     break;
   case SBFI_REF:
-    memcpy(place, &(int32_t){SBF_NONE}, sizeof(int32_t));
+    memcpy(destination, &(int32_t){SBF_NONE}, sizeof(int32_t));
     break;
   case SBFI_ONE:
-    sbfi_element_init(field->element, place);
-    sbfi_child_fix(field, place);
+    sbfi_element_init(field->element, destination);
+    sbfi_child_fix(field, destination);
     break;
   case SBFI_LIST:
   case SBFI_OPTIONAL:

@@ -122,17 +122,17 @@ bool sbfi_child_fix(const sbfi_field *field, void *child);
 const char *sbfi_child_xml_name(const sbfi_field *field, const void *child, char *buffer, size_t size);
 
 static inline sbfi_list sbfi_get_list(const void *object, const sbfi_field *field) {
-  const char *place = (const char *)object + field->offset;
+  const char *destination = (const char *)object + field->offset;
   sbfi_list list;
-  memcpy(&list.at, place, sizeof list.at);
-  memcpy(&list.count, place + sizeof list.at, sizeof list.count);
+  memcpy(&list.at, destination, sizeof list.at);
+  memcpy(&list.count, destination + sizeof list.at, sizeof list.count);
   return list;
 }
 
 static inline void sbfi_set_list(void *object, const sbfi_field *field, const void *at, uint32_t count) {
-  char *place = (char *)object + field->offset;
-  memcpy(place, &at, sizeof at);
-  memcpy(place + sizeof at, &count, sizeof count);
+  char *destination = (char *)object + field->offset;
+  memcpy(destination, &at, sizeof at);
+  memcpy(destination + sizeof at, &count, sizeof count);
 }
 
 static inline const void *sbfi_get_pointer(const void *object, const sbfi_field *field) {

@@ -12,7 +12,7 @@ typedef enum sbfi_version_verdict {
   SBFI_VERSION_MALFORMED /* not major.minor */
 } sbfi_version_verdict;
 
-sbfi_version_verdict sbfi_version_judge(const char *version);
+sbfi_version_verdict sbfi_version_check(const char *version);
 
 /* The minor number of a version 1.x; 0 for others. Fields that a later minor version brought are unknown in a
  * file of it. */

@@ -123,7 +123,7 @@ static bool hips_run_down(const sbf_asset *asset, const meaning *all, side s) {
   return true;
 }
 
-static void settle(const sbf_asset *asset, meaning *all) {
+static void resolve(const sbf_asset *asset, meaning *all) {
   static const char *const leg[] = {"thigh", "shin", "foot", "toe", NULL};
   static const char *const arm[] = {"upperarm", "forearm", "hand", NULL};
   static const char *const hips[] = {"hips", NULL};
@@ -143,7 +143,7 @@ static void settle(const sbf_asset *asset, meaning *all) {
 static meaning *meanings_of(const sbf_asset *asset, sbfi_arena *scratch) {
   meaning *all = sbfi_arena_allocate(scratch, asset->bones.count + 1, sizeof *all);
   for (uint32_t i = 0; all && i < asset->bones.count; i++) take_meaning(asset->bones.at[i].name, &all[i]);
-  if (all) settle(asset, all);
+  if (all) resolve(asset, all);
   return all;
 }
 
@@ -154,7 +154,7 @@ static bool same_meaning(const meaning *a, const meaning *b) {
 }
 
 /* Of `m` bones the one that goes with number `k` of `n`: by share, the last with the last. */
-static uint32_t share(uint32_t k, uint32_t n, uint32_t m) {
+static uint32_t fraction_of(uint32_t k, uint32_t n, uint32_t m) {
   return (uint32_t)(((uint64_t)(k + 1) * m + n - 1) / n) - 1;
 }
 
@@ -171,7 +171,7 @@ static void match_chains(const sbf_asset *from, const sbf_asset *to, sbfi_bone_m
       for (uint32_t k = 0; k < chain->bones.count; k++)
         if (matches[chain->bones.at[k]].source == SBF_NONE)
           matches[chain->bones.at[k]].source =
-              (int32_t)other->bones.at[share(k, chain->bones.count, other->bones.count)];
+              (int32_t)other->bones.at[fraction_of(k, chain->bones.count, other->bones.count)];
       break;
     }
   }
@@ -196,7 +196,7 @@ static void match_meanings(const meaning *there, uint32_t there_count, const mea
     }
     for (uint32_t k = 0; k < there_count; k++)
       if (same_meaning(&there[k], &here[i])) of_part[count++] = k;
-    if (count) matches[i].source = (int32_t)of_part[share(before, own, count)];
+    if (count) matches[i].source = (int32_t)of_part[fraction_of(before, own, count)];
   }
 }
 

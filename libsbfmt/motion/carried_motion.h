@@ -33,11 +33,11 @@ int sbfi_name_side(const char *name);
 
 /* A bone's frame in asset space: a turn (x y z w) and a place. */
 typedef struct sbfi_bone_frame {
-  double rotation[4], place[3];
+  double rotation[4], position[3];
 } sbfi_bone_frame;
 
 /* Frames at rest, (asset->bones.count). */
-void sbfi_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames);
+void sbfi_compute_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames);
 
 /* A clip laid out by bone. Scales are left out: they carry no pose from one body to another. */
 typedef struct sbfi_clip_poses {
@@ -52,8 +52,8 @@ bool sbfi_clip_poses_init(
 void sbfi_clip_pose(const sbfi_clip_poses *poses, float time_s, sbfi_bone_frame *frames);
 
 /* Carries the clips of `from` over to the bones of an asset under construction and adds them to it: how, says
- * sbr_carry_clips. `file` names where they come from, in messages and where a clip has no name. On failure
- * the asset has the clips it had. */
+ * sbr_asset_retarget_clips. `file` names where they come from, in messages and where a clip has no name. On
+ * failure the asset has the clips it had. */
 sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
     const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error);
 

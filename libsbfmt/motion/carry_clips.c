@@ -88,8 +88,8 @@ static double lowest(const sbf_asset *asset, const sbfi_bone_frame *rest) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     double tail[3];
     sbfi_turn_vector(rest[i].rotation, along, tail);
-    low = fmin(low, rest[i].place[1]);
-    low = fmin(low, rest[i].place[1] + tail[1] * (double)asset->bones.at[i].length);
+    low = fmin(low, rest[i].position[1]);
+    low = fmin(low, rest[i].position[1] + tail[1] * (double)asset->bones.at[i].length);
   }
   return low;
 }
@@ -98,7 +98,7 @@ static double lowest(const sbf_asset *asset, const sbfi_bone_frame *rest) {
 static void middle_of(const sbfi_bone_frame *frames, const int32_t *bones, uint32_t count, double *to) {
   for (int k = 0; k < 3; k++) {
     to[k] = 0;
-    for (uint32_t i = 0; i < count; i++) to[k] += frames[bones[i]].place[k] / count;
+    for (uint32_t i = 0; i < count; i++) to[k] += frames[bones[i]].position[k] / count;
   }
 }
 
@@ -135,7 +135,7 @@ static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
   double back[4];
   for (int k = 0; k < 3; k++) {
     m->pivot[k] = own[k];
-    m->arm[k] = own[k] - m->rest[m->traveller].place[k];
+    m->arm[k] = own[k] - m->rest[m->traveller].position[k];
   }
   sbfi_turn_undo(m->rest[m->traveller].rotation, back);
   sbfi_turn_vector(back, m->arm, m->arm);
@@ -157,8 +157,8 @@ static sbf_status prepare(motion *m) {
         "...), or "
         "give both bundles retarget chains",
         m->from->bones.count, m->to->bones.count);
-  sbfi_rest_frames(m->to, m->rest);
-  sbfi_rest_frames(m->from, from_rest);
+  sbfi_compute_rest_frames(m->to, m->rest);
+  sbfi_compute_rest_frames(m->from, from_rest);
   align_bones(m, from_rest);
   find_traveller(m, from_rest);
   return SBF_OK;
@@ -166,16 +166,16 @@ static sbf_status prepare(motion *m) {
 
 /* --- Who goes without --------------------------------------------------------------------------------- */
 
-enum { NAMES_SHOWN = 8, NAMES_ROOM = 240 };
+enum { NAMES_SHOWN = 8, NAMES_CAPACITY = 240 };
 
 static void add_name(char *list, uint32_t *count, const char *name) {
   size_t length = strlen(list);
-  if ((*count)++ < NAMES_SHOWN && length + strlen(name) + 4 < NAMES_ROOM)
-    snprintf(list + length, NAMES_ROOM - length, "%s%s", length ? ", " : "", name);
+  if ((*count)++ < NAMES_SHOWN && length + strlen(name) + 4 < NAMES_CAPACITY)
+    snprintf(list + length, NAMES_CAPACITY - length, "%s%s", length ? ", " : "", name);
 }
 
 static sbf_status say_unmatched(motion *m) {
-  char here[NAMES_ROOM] = "", there[NAMES_ROOM] = "";
+  char here[NAMES_CAPACITY] = "", there[NAMES_CAPACITY] = "";
   uint32_t here_count = 0, there_count = 0;
   bool *taken = sbfi_arena_allocate(&m->scratch, m->from->bones.count + 1, sizeof *taken);
   if (!taken) return no_memory(m);
@@ -224,7 +224,7 @@ static bool gather_times(motion *m, const sbf_clip *clip, sbfi_arena *scratch) {
 }
 
 typedef struct bone_keys {
-  float *rotations, *places; /* NULL where the bone has none */
+  float *rotations, *positions; /* NULL where the bone has none */
 } bone_keys;
 
 /* A key of the shorter way round from the one before. */
@@ -248,8 +248,8 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
     double back[4], local[4];
     sbfi_bone_frame *f = &frames[i];
     sbfi_turn_product(above->rotation, rest->rest_local[i].rotation, f->rotation);
-    sbfi_turn_vector(above->rotation, rest->rest_local[i].place, f->place);
-    for (int k = 0; k < 3; k++) f->place[k] += above->place[k];
+    sbfi_turn_vector(above->rotation, rest->rest_local[i].position, f->position);
+    for (int k = 0; k < 3; k++) f->position[k] += above->position[k];
     sbfi_turn_undo(above->rotation, back);
     if (m->matches[i].source != SBF_NONE) {
       sbfi_turn_product(source[m->matches[i].source].rotation, m->aligned[i], f->rotation);
@@ -257,15 +257,15 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
       put_rotation(keys[i].rotations + 4 * (size_t)key, local, key == 0);
     }
     if ((int32_t)i != m->traveller) continue;
-    double way[3], arm[3], within[3];
-    middle_of(source, m->leaders, m->pivot_count, way);
+    double direction[3], arm[3], within[3];
+    middle_of(source, m->leaders, m->pivot_count, direction);
     sbfi_turn_vector(f->rotation, m->arm, arm);
     for (int k = 0; k < 3; k++) {
-      f->place[k] = m->pivot[k] + m->ratio * (way[k] - start[k]) - arm[k];
-      within[k] = f->place[k] - above->place[k];
+      f->position[k] = m->pivot[k] + m->ratio * (direction[k] - start[k]) - arm[k];
+      within[k] = f->position[k] - above->position[k];
     }
     sbfi_turn_vector(back, within, within);
-    for (int k = 0; k < 3; k++) keys[i].places[3 * (size_t)key + (size_t)k] = (float)within[k];
+    for (int k = 0; k < 3; k++) keys[i].positions[3 * (size_t)key + (size_t)k] = (float)within[k];
   }
 }
 
@@ -311,8 +311,8 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
     bool follows = m->matches[i].source != SBF_NONE, travels = (int32_t)i == m->traveller;
     matched += follows;
     if (follows) keys[i].rotations = sbfi_arena_allocate(scratch, m->time_count, 4 * sizeof(float));
-    if (travels) keys[i].places = sbfi_arena_allocate(scratch, m->time_count, 3 * sizeof(float));
-    if ((follows && !keys[i].rotations) || (travels && !keys[i].places)) return false;
+    if (travels) keys[i].positions = sbfi_arena_allocate(scratch, m->time_count, 3 * sizeof(float));
+    if ((follows && !keys[i].rotations) || (travels && !keys[i].positions)) return false;
   }
   for (uint32_t k = 0; k < m->time_count; k++) {
     sbfi_clip_pose(&poses, m->times[k], source);
@@ -324,8 +324,8 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
   if (!times || !tracks) return false;
   memcpy(times, m->times, m->time_count * sizeof *times);
   for (uint32_t i = 0; i < bone_count; i++) {
-    if (keys[i].places &&
-        !add_track(m->to, i, SBF_TRACK_PROPERTY_TRANSLATION, m, keys[i].places, times, tracks, &count))
+    if (keys[i].positions &&
+        !add_track(m->to, i, SBF_TRACK_PROPERTY_TRANSLATION, m, keys[i].positions, times, tracks, &count))
       return false;
     if (keys[i].rotations &&
         !add_track(m->to, i, SBF_TRACK_PROPERTY_ROTATION, m, keys[i].rotations, times, tracks, &count))

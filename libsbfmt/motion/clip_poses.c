@@ -3,10 +3,10 @@
 
 #include "motion/carried_motion.h"
 
-void sbfi_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames) {
+void sbfi_compute_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     const sbf_bone *b = &asset->bones.at[i];
-    frames[i] = (sbfi_bone_frame){.place = {(double)b->head.x, (double)b->head.y, (double)b->head.z},
+    frames[i] = (sbfi_bone_frame){.position = {(double)b->head.x, (double)b->head.y, (double)b->head.z},
         .rotation = {
             (double)b->rotation.x, (double)b->rotation.y, (double)b->rotation.z, (double)b->rotation.w}};
   }
@@ -27,16 +27,16 @@ bool sbfi_clip_poses_init(
     if (track->property == SBF_TRACK_PROPERTY_TRANSLATION) p->translations[track->bone] = track;
     if (track->property == SBF_TRACK_PROPERTY_ROTATION) p->rotations[track->bone] = track;
   }
-  sbfi_rest_frames(asset, p->rest);
+  sbfi_compute_rest_frames(asset, p->rest);
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     int32_t parent = asset->bones.at[i].parent;
     p->rest_local[i] = p->rest[i];
     if (parent == SBF_NONE) continue;
     double back[4], from[3];
     sbfi_turn_undo(p->rest[parent].rotation, back);
-    for (int k = 0; k < 3; k++) from[k] = p->rest[i].place[k] - p->rest[parent].place[k];
+    for (int k = 0; k < 3; k++) from[k] = p->rest[i].position[k] - p->rest[parent].position[k];
     sbfi_turn_product(back, p->rest[i].rotation, p->rest_local[i].rotation);
-    sbfi_turn_vector(back, from, p->rest_local[i].place);
+    sbfi_turn_vector(back, from, p->rest_local[i].position);
   }
   return true;
 }
@@ -91,12 +91,12 @@ void sbfi_clip_pose(const sbfi_clip_poses *p, float time_s, sbfi_bone_frame *fra
   for (uint32_t i = 0; i < p->asset->bones.count; i++) {
     int32_t parent = p->asset->bones.at[i].parent;
     sbfi_bone_frame own = p->rest_local[i];
-    if (p->translations[i]) value_at(p->translations[i], time_s, 3, own.place);
+    if (p->translations[i]) value_at(p->translations[i], time_s, 3, own.position);
     if (p->rotations[i]) value_at(p->rotations[i], time_s, 4, own.rotation);
     frames[i] = own;
     if (parent == SBF_NONE) continue;
     sbfi_turn_product(frames[parent].rotation, own.rotation, frames[i].rotation);
-    sbfi_turn_vector(frames[parent].rotation, own.place, frames[i].place);
-    for (int k = 0; k < 3; k++) frames[i].place[k] += frames[parent].place[k];
+    sbfi_turn_vector(frames[parent].rotation, own.position, frames[i].position);
+    for (int k = 0; k < 3; k++) frames[i].position[k] += frames[parent].position[k];
   }
 }

@@ -26,22 +26,22 @@ void sbfi_turn_vector(const double a[4], const double v[3], double to[3]) {
   memcpy(to, p, 3 * sizeof *p);
 }
 
-void sbfi_turn_between(const double from[3], const double to[3], double turn[4]) {
+void sbfi_turn_between(const double from[3], const double to[3], double rotation[4]) {
   double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2], length = 0;
   if (dot < -0.999999) { /* opposite: about any axis across */
     const double spare[3] = {fabs(from[0]) < 0.9, fabs(from[0]) >= 0.9, 0};
-    turn[0] = from[1] * spare[2] - from[2] * spare[1];
-    turn[1] = from[2] * spare[0] - from[0] * spare[2];
-    turn[2] = from[0] * spare[1] - from[1] * spare[0];
-    turn[3] = 0;
+    rotation[0] = from[1] * spare[2] - from[2] * spare[1];
+    rotation[1] = from[2] * spare[0] - from[0] * spare[2];
+    rotation[2] = from[0] * spare[1] - from[1] * spare[0];
+    rotation[3] = 0;
   } else {
-    turn[0] = from[1] * to[2] - from[2] * to[1];
-    turn[1] = from[2] * to[0] - from[0] * to[2];
-    turn[2] = from[0] * to[1] - from[1] * to[0];
-    turn[3] = 1 + dot;
+    rotation[0] = from[1] * to[2] - from[2] * to[1];
+    rotation[1] = from[2] * to[0] - from[0] * to[2];
+    rotation[2] = from[0] * to[1] - from[1] * to[0];
+    rotation[3] = 1 + dot;
   }
-  for (int k = 0; k < 4; k++) length += turn[k] * turn[k];
-  for (int k = 0; k < 4; k++) turn[k] /= sqrt(length);
+  for (int k = 0; k < 4; k++) length += rotation[k] * rotation[k];
+  for (int k = 0; k < 4; k++) rotation[k] /= sqrt(length);
 }
 
 /* For 0 <= x <= pi / 2. */

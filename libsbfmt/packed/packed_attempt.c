@@ -1,8 +1,8 @@
 #include "packed/packed_attempt.h"
 
 bool sbfi_packed_try(sbfi_packed_attempt *attempt, sbfi_packed_coder *coder, const void *items, size_t size,
-    uint32_t stride, sbfi_packed_filter filter, size_t room) {
-  size_t smaller, limit = attempt->size ? attempt->size - 1 : room;
+    uint32_t stride, sbfi_packed_filter filter, size_t capacity) {
+  size_t smaller, limit = attempt->size ? attempt->size - 1 : capacity;
   sbfi_coded coded =
       sbfi_packed_deflate(coder, items, size, filter, stride / 4, attempt->spare, limit, &smaller);
   if (coded != SBFI_CODED) return coded != SBFI_CODED_NO_MEMORY;

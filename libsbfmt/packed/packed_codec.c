@@ -77,13 +77,13 @@ static uInt piece_of(size_t size) {
 static int inflate_some(z_stream *stream, const uint8_t **in, size_t *in_size, uint8_t *out, size_t size) {
   int result = Z_OK;
   while (size && result == Z_OK) {
-    uInt given = piece_of(*in_size), room = piece_of(size);
+    uInt given = piece_of(*in_size), capacity = piece_of(size);
     stream->next_in = *in;
     stream->avail_in = given;
     stream->next_out = out;
-    stream->avail_out = room;
+    stream->avail_out = capacity;
     result = inflate(stream, Z_NO_FLUSH);
-    uInt taken = given - stream->avail_in, made = room - stream->avail_out;
+    uInt taken = given - stream->avail_in, made = capacity - stream->avail_out;
     *in += taken;
     *in_size -= taken;
     out += made;
@@ -122,29 +122,29 @@ sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, 
 }
 
 /* Deflates `size` bytes more; false where the room is used up. */
-static bool deflate_some(z_stream *stream, const uint8_t *in, size_t size, size_t *room, bool last) {
+static bool deflate_some(z_stream *stream, const uint8_t *in, size_t size, size_t *buffer, bool last) {
   do {
-    uInt given = piece_of(size), free_bytes = piece_of(*room);
+    uInt given = piece_of(size), free_bytes = piece_of(*buffer);
     int flush = last && given == size ? Z_FINISH : Z_NO_FLUSH;
     stream->next_in = in;
     stream->avail_in = given;
     stream->avail_out = free_bytes;
     int result = deflate(stream, flush);
-    *room -= free_bytes - stream->avail_out;
+    *buffer -= free_bytes - stream->avail_out;
     in += given - stream->avail_in;
     size -= given - stream->avail_in;
     if (flush == Z_FINISH && result == Z_STREAM_END) return true;
-    if (*room == 0 || (result != Z_OK && result != Z_BUF_ERROR)) return false;
+    if (*buffer == 0 || (result != Z_OK && result != Z_BUF_ERROR)) return false;
   } while (size || last);
   return true;
 }
 
 sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, size_t raw_size,
-    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t room, size_t *stored_size) {
+    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t capacity, size_t *stored_size) {
   z_stream *stream = ready_stream(coder, &coder->deflater, false);
   if (!stream || (filter && !ready_block(coder))) return SBFI_CODED_NO_MEMORY;
   stream->next_out = to;
-  size_t left = room;
+  size_t left = capacity;
   bool fits = true;
   if (!filter || raw_size == 0) fits = deflate_some(stream, raw, raw_size, &left, true);
   for (size_t done = 0; filter && fits && done < raw_size;) {
@@ -153,6 +153,6 @@ sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, siz
     done += some;
     fits = fits && deflate_some(stream, coder->block, some, &left, done == raw_size);
   }
-  *stored_size = room - left;
+  *stored_size = capacity - left;
   return fits ? SBFI_CODED : SBFI_CODED_TOO_LONG;
 }

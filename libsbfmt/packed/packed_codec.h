@@ -1,4 +1,4 @@
-/* The only place that knows zlib: chunks to bytes and back, and CRC-32. */
+/* Compression and CRC-32 of chunks. The only user of zlib. */
 #ifndef SBFI_PACKED_CODEC_H
 #define SBFI_PACKED_CODEC_H
 
@@ -10,7 +10,7 @@ uint32_t sbfi_crc32(const void *bytes, size_t size);
 /* Working memory for any number of chunks, one after the other. */
 typedef struct sbfi_packed_coder {
   sbf_allocator allocator;
-  void *inflater, *deflater; /* made when first needed */
+  void *inflater, *deflater; /* created on first use */
   uint8_t *block;            /* one block of planes */
   int level;                 /* zlib's, 1 to 9 */
 } sbfi_packed_coder;
@@ -25,14 +25,15 @@ typedef enum sbfi_coded {
   SBFI_CODED_NO_MEMORY
 } sbfi_coded;
 
-/* Inflates all of `stored` into exactly `raw_size` bytes, the filter undone (scalars of `width` in an item;
- * with SBFI_FILTER_NONE anything). Damaged: the stream is broken, ends early, or has more behind it. */
+/* Inflates `stored` into exactly `raw_size` bytes and undoes the filter (scalars of `width` per item; any
+ * value with SBFI_FILTER_NONE). Returns damaged if the stream is broken, too short or followed by more bytes.
+ */
 sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, size_t stored_size,
     sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t raw_size);
 
-/* Filters and deflates into `room` bytes; too long where they do not suffice, or where the filter is not for
- * such scalars. */
+/* Filters and deflates into at most `capacity` bytes. Returns too long if they do not suffice or the filter
+ * does not apply to such scalars. */
 sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, size_t raw_size,
-    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t room, size_t *stored_size);
+    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t capacity, size_t *stored_size);
 
 #endif

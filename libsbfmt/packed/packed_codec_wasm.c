@@ -42,8 +42,8 @@ sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, 
 }
 
 sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, size_t raw_size,
-    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t room, size_t *stored_size) {
-  (void)coder, (void)raw, (void)raw_size, (void)filter, (void)width, (void)to, (void)room;
+    sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t capacity, size_t *stored_size) {
+  (void)coder, (void)raw, (void)raw_size, (void)filter, (void)width, (void)to, (void)capacity;
   *stored_size = 0;
   return SBFI_CODED_TOO_LONG;
 }

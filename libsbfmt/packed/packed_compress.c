@@ -4,30 +4,30 @@
 
 /* The bytes that a compressed chunk may take: one block of alignment less than before, and a sixteenth, or it
  * is better left as it is and used in place. */
-static size_t room_of(size_t raw_size) {
+static size_t compressed_capacity(size_t raw_size) {
   size_t aligned = (raw_size + SBFI_PACKED_ALIGN - 1) / SBFI_PACKED_ALIGN * SBFI_PACKED_ALIGN;
-  size_t by_blocks = aligned - SBFI_PACKED_ALIGN, by_share = raw_size - raw_size / 16;
-  return by_blocks < by_share ? by_blocks : by_share;
+  size_t by_blocks = aligned - SBFI_PACKED_ALIGN, by_fraction = raw_size - raw_size / 16;
+  return by_blocks < by_fraction ? by_blocks : by_fraction;
 }
 
-static bool try_filters(
-    sbfi_packed_attempt *attempt, sbfi_packed_coder *coder, const sbfi_planned_chunk *planned, size_t room) {
+static bool try_filters(sbfi_packed_attempt *attempt, sbfi_packed_coder *coder,
+    const sbfi_planned_chunk *planned, size_t capacity) {
   bool is_record = planned->item == SBFI_ITEM_U8, is_index = planned->item == SBFI_ITEM_U32;
   int first = is_record ? SBFI_FILTER_NONE : SBFI_FILTER_PLANES;
   int last = is_record ? SBFI_FILTER_NONE : is_index ? SBFI_FILTER_RECENT : SBFI_FILTER_DELTA;
   for (int f = first; f <= last; f++)
     if (!sbfi_packed_try(attempt, coder, planned->at, (size_t)planned->chunk.raw_size, planned->chunk.stride,
-            (sbfi_packed_filter)f, room))
+            (sbfi_packed_filter)f, capacity))
       return false;
   return true;
 }
 
 static sbfi_planned compress_chunk(
     sbfi_packed_plan *plan, sbfi_packed_coder *coder, sbfi_planned_chunk *planned, uint8_t *memory[2]) {
-  size_t room = room_of((size_t)planned->chunk.raw_size);
+  size_t capacity = compressed_capacity((size_t)planned->chunk.raw_size);
   sbfi_packed_attempt attempt = {.best = memory[0], .spare = memory[1]};
-  if (room == 0) return SBFI_PLANNED;
-  if (!try_filters(&attempt, coder, planned, room)) return SBFI_PLANNED_NO_MEMORY;
+  if (capacity == 0) return SBFI_PLANNED;
+  if (!try_filters(&attempt, coder, planned, capacity)) return SBFI_PLANNED_NO_MEMORY;
   if (attempt.size == 0) return SBFI_PLANNED;
   void *kept = sbfi_arena_copy(&plan->arena, attempt.best, attempt.size, 1);
   if (!kept) return SBFI_PLANNED_NO_MEMORY;
@@ -40,16 +40,16 @@ static sbfi_planned compress_chunk(
 
 sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder) {
   sbf_allocator *allocator = &plan->arena.allocator;
-  size_t room = 1;
+  size_t capacity = 1;
   for (size_t i = 0; i < plan->chunks.count; i++) {
-    size_t needed = room_of((size_t)sbfi_packed_plan_chunk(plan, i)->chunk.raw_size);
-    if (needed > room) room = needed;
+    size_t needed = compressed_capacity((size_t)sbfi_packed_plan_chunk(plan, i)->chunk.raw_size);
+    if (needed > capacity) capacity = needed;
   }
-  uint8_t *memory[2] = {sbfi_allocate(allocator, room), sbfi_allocate(allocator, room)};
+  uint8_t *memory[2] = {sbfi_allocate(allocator, capacity), sbfi_allocate(allocator, capacity)};
   sbfi_planned result = memory[0] && memory[1] ? SBFI_PLANNED : SBFI_PLANNED_NO_MEMORY;
   for (size_t i = 0; i < plan->chunks.count && result == SBFI_PLANNED; i++)
     result = compress_chunk(plan, coder, sbfi_packed_plan_chunk(plan, i), memory);
-  sbfi_free(allocator, memory[0], room);
-  sbfi_free(allocator, memory[1], room);
+  sbfi_free(allocator, memory[0], capacity);
+  sbfi_free(allocator, memory[1], capacity);
   return result;
 }

@@ -20,9 +20,9 @@ void sbfi_scalars_to_host(void *at, size_t scalar_count) {
   }
 }
 
-static uint32_t load_scalar(const uint8_t *from, size_t place) {
+static uint32_t load_scalar(const uint8_t *from, size_t index) {
   uint32_t value;
-  memcpy(&value, from + 4 * place, sizeof value);
+  memcpy(&value, from + 4 * index, sizeof value);
   return value;
 }
 

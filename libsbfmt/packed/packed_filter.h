@@ -24,12 +24,12 @@ enum { SBFI_FILTER_BLOCK = 65520 };
 bool sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
     uint32_t width, uint8_t *planes);
 
-/* The way back. Reads what it has written before `done`. False, of SBFI_FILTER_RECENT alone, where the planes
- * say what cannot be. */
+/* Undoes the filter. Reads its own output before `done`. False, for SBFI_FILTER_RECENT only, if the planes
+ * are invalid. */
 bool sbfi_unfilter_block(
     sbfi_packed_filter filter, const uint8_t *planes, size_t count, uint32_t width, uint8_t *to, size_t done);
 
-/* Unfiltered scalars are little-endian in a file: turns each over on a big-endian machine, there or back. */
+/* Swaps the bytes of unfiltered scalars, little-endian in files, on a big-endian machine. */
 void sbfi_scalars_to_host(void *at, size_t scalar_count);
 bool sbfi_host_is_little_endian(void);
 

@@ -8,27 +8,28 @@
 #include "model/schema.h"
 
 enum {
-  SBFI_PACKED_MAJOR = 1, /* the version of which this library knows everything */
+  SBFI_PACKED_MAJOR = 1, /* newest version that this library fully supports */
   SBFI_PACKED_MINOR = 2,
   SBFI_PACKED_HEADER_SIZE = 64,
   SBFI_PACKED_ENTRY_SIZE = 64,
-  SBFI_PACKED_ALIGN = 64,       /* chunks begin at multiples of it */
-  SBFI_PACKED_CHUNK_FROM = 256, /* lists of so many bytes and more have a chunk of their own */
-  /* ... where chunks are compressed: in a record, short lists share one stream and need no entry */
+  SBFI_PACKED_ALIGN = 64,       /* alignment of chunks */
+  SBFI_PACKED_CHUNK_FROM = 256, /* minimum size of a list with its own chunk, bytes */
+  /* the same with compression: short lists share the stream of their record */
   SBFI_PACKED_CHUNK_FROM_COMPRESSED = 1024,
-  SBFI_PACKED_OUTLINE_FROM = 128, /* files of so many chunks have an outline, behind all others */
-  SBFI_PACKED_FIELD_SIZE = 8      /* number, form and payload size, before each payload of a record */
+  SBFI_PACKED_OUTLINE_FROM =
+      128, /* minimum number of chunks of a file with an outline, which follows all others */
+  SBFI_PACKED_FIELD_SIZE = 8 /* number, form and payload size before each payload of a record */
 };
 
 #define SBFI_PACKED_MAGIC "\x89SBF\r\n\x1a\n"
 #define SBFI_PACKED_OUTLINE SBFI_KIND('O', 'U', 'T', 'L')
-#define SBFI_PACKED_NO_LEVEL UINT32_MAX /* of a chunk that belongs to no nested part */
+#define SBFI_PACKED_NO_LEVEL UINT32_MAX /* level of a chunk outside nested parts */
 
 typedef enum sbfi_packed_filter {
   SBFI_FILTER_NONE,
-  SBFI_FILTER_PLANES, /* bytes of equal weight stand together */
-  SBFI_FILTER_DELTA,  /* the same, of the zigzag differences to the item before */
-  SBFI_FILTER_RECENT, /* places among the scalars named last, and differences of new ones */
+  SBFI_FILTER_PLANES, /* bytes of equal significance are grouped */
+  SBFI_FILTER_DELTA,  /* planes of zigzag differences to the previous item */
+  SBFI_FILTER_RECENT, /* move-to-front indices of recent scalars, and differences of new ones */
   SBFI_FILTER_COUNT
 } sbfi_packed_filter;
 
@@ -43,15 +44,15 @@ typedef struct sbfi_packed_header {
 } sbfi_packed_header;
 
 typedef struct sbfi_packed_chunk {
-  uint32_t kind;        /* of the part it belongs to */
-  uint32_t owner;       /* place of that part, or of the one it is nested in, in its collection of the root */
-  uint32_t level;       /* place of a nested part in the one it is nested in; else SBFI_PACKED_NO_LEVEL */
-  uint16_t field, list; /* both 0: the part's record; else the part's field and the list's own number */
+  uint32_t kind;        /* kind of its part */
+  uint32_t owner;       /* index of that part, or of its parent, in its collection of the root */
+  uint32_t level;       /* index of a nested part in its parent; else SBFI_PACKED_NO_LEVEL */
+  uint16_t field, list; /* both 0: the part's record; else the part's field and the number of the list */
   uint8_t filter, codec;
   uint16_t flags;
-  uint32_t stride; /* bytes of an item */
+  uint32_t stride; /* bytes per item */
   uint64_t offset, stored_size, raw_size, count;
-  uint32_t crc; /* of the bytes as stored */
+  uint32_t crc; /* CRC-32 of the stored bytes */
 } sbfi_packed_chunk;
 
 /* How the payload of a record's field is written. */

@@ -45,7 +45,7 @@ static bool is_beyond(const stream *s) {
 
 /* A set of codes may leave out some of the bit patterns only where it is of a single code, or none. */
 static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
-  uint32_t first[LONGEST + 1], places[LONGEST + 1], code = 0, place = 0, used = 0;
+  uint32_t first[LONGEST + 1], indices[LONGEST + 1], code = 0, index = 0, used = 0;
   int32_t left = 1;
   memset(h, 0, sizeof *h);
   for (uint32_t i = 0; i < count; i++) h->count[lengths[i]]++;
@@ -56,15 +56,15 @@ static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
     if (left < 0) return false;
     code = (code + h->count[length - 1]) << 1;
     first[length] = code;
-    places[length] = place;
-    place += h->count[length];
+    indices[length] = index;
+    index += h->count[length];
   }
   if (left > 0 && (used > 1 || (used == 1 && h->count[1] != 1))) return false;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t length = lengths[i];
     if (length == 0) continue;
     uint32_t own = first[length]++, turned = 0;
-    h->symbols[places[length]++] = (uint16_t)i;
+    h->symbols[indices[length]++] = (uint16_t)i;
     if (length > FAST_BITS) continue;
     for (uint32_t bit = 0; bit < length; bit++) turned |= (own >> bit & 1) << (length - 1 - bit);
     for (uint32_t at = turned; at < 1u << FAST_BITS; at += 1u << length)
@@ -80,16 +80,16 @@ static int32_t decode(stream *s, const huffman *h) {
     take(s, entry & 15);
     return (int32_t)(entry >> 4);
   }
-  int32_t code = 0, first = 0, place = 0;
+  int32_t code = 0, first = 0, index = 0;
   uint64_t bits = s->bits;
   for (uint32_t length = 1; length <= LONGEST; length++, bits >>= 1) {
     int32_t count = h->count[length];
     code |= (int32_t)(bits & 1);
     if (code - first < count) {
       take(s, length);
-      return h->symbols[place + code - first];
+      return h->symbols[index + code - first];
     }
-    place += count;
+    index += count;
     first = (first + count) << 1;
     code <<= 1;
   }
@@ -136,10 +136,10 @@ static bool coded_block(stream *s, const huffman *literals, const huffman *dista
       *s->out++ = (uint8_t)symbol;
       continue;
     }
-    uint32_t place = (uint32_t)symbol - END_OF_BLOCK - 1;
-    if (place >= 29) return false;
-    uint32_t extra = place < 8 || place == 28 ? 0 : place / 4 - 1;
-    if (!copy_match(s, bases[place] + take(s, extra), distances)) return false;
+    uint32_t index = (uint32_t)symbol - END_OF_BLOCK - 1;
+    if (index >= 29) return false;
+    uint32_t extra = index < 8 || index == 28 ? 0 : index / 4 - 1;
+    if (!copy_match(s, bases[index] + take(s, extra), distances)) return false;
   }
 }
 

@@ -101,7 +101,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
     char stated[16];
     snprintf(stated, sizeof stated, "1.%u", reader.table.header.minor);
     sbfi_report_left_out(options, stated, reader.left_out, reader.first_left_out);
-    if (sbfi_version_judge(made->version) == SBFI_VERSION_NEWER_MINOR) made->version = SBF_FORMAT_VERSION;
+    if (sbfi_version_check(made->version) == SBFI_VERSION_NEWER_MINOR) made->version = SBF_FORMAT_VERSION;
   }
   if (status != SBF_OK) {
     sbf_asset_free(made);

@@ -72,17 +72,17 @@ static void write_child(planner *p, const sbfi_field *field, const void *child, 
 /* --- values --- */
 
 static bool is_default(const sbfi_field *field, const void *object) {
-  const char *place = (const char *)object + field->offset;
+  const char *destination = (const char *)object + field->offset;
   const int32_t none = SBF_NONE;
   switch (field->type) {
   case SBFI_BOOL:
-    return *(const bool *)place == (field->default_integer != 0);
+    return *(const bool *)destination == (field->default_integer != 0);
   case SBFI_INT:
   case SBFI_UINT:
   case SBFI_ENUM:
-    return memcmp(place, &field->default_integer, sizeof field->default_integer) == 0;
+    return memcmp(destination, &field->default_integer, sizeof field->default_integer) == 0;
   case SBFI_REF:
-    return memcmp(place, &none, sizeof none) == 0;
+    return memcmp(destination, &none, sizeof none) == 0;
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
@@ -95,19 +95,19 @@ static bool is_default(const sbfi_field *field, const void *object) {
   case SBFI_ONE:
     return false;
   default: /* floats and vectors, bit by bit: -0 is not 0 */
-    return memcmp(place, field->defaults, field->width * sizeof(float)) == 0;
+    return memcmp(destination, field->defaults, field->width * sizeof(float)) == 0;
   }
 }
 
 static void write_value(planner *p, const sbfi_field *field, const void *object) {
-  const char *place = (const char *)object + field->offset;
+  const char *destination = (const char *)object + field->offset;
   size_t begin = begin_field(p, field, SBFI_FORM_VALUE);
   for (uint32_t i = 0; i < field->width; i++) {
     uint32_t value;
     if (field->type == SBFI_BOOL)
-      value = *(const bool *)place;
+      value = *(const bool *)destination;
     else
-      memcpy(&value, place + 4 * i, sizeof value);
+      memcpy(&value, destination + 4 * i, sizeof value);
     put_u32(p, value);
   }
   end_field(p, begin);

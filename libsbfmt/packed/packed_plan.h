@@ -1,4 +1,4 @@
-/* What a packed file will hold: every chunk with its bytes, before places in the file are given out. */
+/* Plan of a packed file: all chunks and their bytes, before offsets are assigned. */
 #ifndef SBFI_PACKED_PLAN_H
 #define SBFI_PACKED_PLAN_H
 
@@ -8,8 +8,8 @@
 
 typedef struct sbfi_planned_chunk {
   sbfi_packed_chunk chunk; /* offset 0 */
-  const void *at;          /* its stored bytes: the asset's, or the plan's */
-  sbfi_item item;          /* what a list is made of; SBFI_ITEM_U8 for a record */
+  const void *at;          /* stored bytes, owned by the asset or the plan */
+  sbfi_item item;          /* item type of a list; SBFI_ITEM_U8 for a record */
 } sbfi_planned_chunk;
 
 typedef struct sbfi_packed_plan {
@@ -20,14 +20,14 @@ typedef struct sbfi_packed_plan {
 
 typedef enum sbfi_planned { SBFI_PLANNED, SBFI_PLANNED_NO_MEMORY, SBFI_PLANNED_TOO_LARGE } sbfi_planned;
 
-/* Plans all chunks, none of them compressed yet; with a coder (may be NULL) they are made to be. The asset
- * must stay as it is while the plan lives. Free the plan whatever is returned; too large where a record would
- * pass 4 GiB. */
+/* Plans all chunks, uncompressed. With a coder (may be NULL) chunk sizes are chosen for compression. The
+ * asset must not change while the plan exists. Free the plan after any result. Returns too large if a record
+ * would exceed 4 GiB. */
 sbfi_planned sbfi_packed_plan_make(
     sbfi_packed_plan *plan, const sbf_asset *asset, sbfi_packed_coder *coder, const sbf_allocator *allocator);
 void sbfi_packed_plan_free(sbfi_packed_plan *plan);
 
-/* Compresses what becomes smaller by it, each list with the filter that serves it best. */
+/* Compresses the chunks that become smaller, each list with its best filter. */
 sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder);
 
 static inline sbfi_planned_chunk *sbfi_packed_plan_chunk(const sbfi_packed_plan *plan, size_t number) {

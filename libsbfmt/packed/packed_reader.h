@@ -1,8 +1,8 @@
-/* A packed file being read: its table, the chunks fetched so far, and what that may cost. */
+/* Reader of a packed file: its table, the fetched chunks and the limits. */
 #ifndef SBFI_PACKED_READER_H
 #define SBFI_PACKED_READER_H
 
-#include "model/place.h"
+#include "model/element_path.h"
 #include "packed/packed_codec.h"
 #include "packed/packed_table.h"
 
@@ -12,27 +12,27 @@ typedef struct sbfi_packed_reader {
   sbfi_packed_coder coder;
   sbf_load_options options; /* filled */
   sbfi_arena *arena;        /* of the asset being made */
-  uint8_t *used;            /* a byte a chunk: already referred to */
-  uint64_t read_bytes;      /* of the file: header, table and chunks fetched */
+  uint8_t *used;            /* one byte per chunk: 1 once a record refers to it */
+  uint64_t read_bytes;      /* bytes read so far: header, table and chunks */
   uint64_t inflated_bytes;
   bool has_outline;  /* the file's outline is read, and is chunk 0 */
   bool in_place;     /* some list points into `bytes` */
-  uint32_t left_out; /* fields and chunks of a newer version */
+  uint32_t left_out; /* number of skipped fields and chunks of a newer version */
   char first_left_out[160];
   sbf_diagnostic *error;
 } sbfi_packed_reader;
 
-/* Reads header and table. `arena` is where lists go. On failure nothing is left to free. */
+/* Reads header and table. Lists are allocated in `arena`. On failure there is nothing to free. */
 sbf_status sbfi_packed_reader_open(sbfi_packed_reader *reader, const uint8_t *bytes, size_t size,
     const sbf_load_options *filled, const sbf_allocator *allocator, sbfi_arena *arena, sbf_diagnostic *error);
 void sbfi_packed_reader_close(sbfi_packed_reader *reader);
 
-/* Takes a chunk that a record refers to; every chunk is referred to once. `wanted` says which it must be, by
- * kind, owner, level, field and list. */
+/* Claims the chunk that a record refers to; a second claim fails. `wanted` states its kind, owner, level,
+ * field and list. */
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted);
 
-/* The items of a list's chunk: in the file itself where they can be used there, else in the arena; NULL where
- * an outline is read. */
+/* Items of a list's chunk: in the file's bytes if they can be used directly, else in the arena; NULL for an
+ * outline. */
 sbf_status sbfi_packed_fetch_list(
     sbfi_packed_reader *reader, uint32_t number, const sbfi_field *field, const void **items);
 
@@ -46,12 +46,12 @@ typedef struct sbfi_packed_record {
 sbf_status sbfi_packed_fetch_record(sbfi_packed_reader *reader, uint32_t number, sbfi_packed_record *record);
 void sbfi_packed_release_record(sbfi_packed_reader *reader, sbfi_packed_record *record);
 
-/* Reads the root's record and all that is selected into `asset`, which is at its defaults. */
+/* Reads the root's record and all selected parts into `asset`, which must have default values. */
 sbf_status sbfi_packed_read_asset(sbfi_packed_reader *reader, sbf_asset *asset);
 
-/* Whether a part is to be read: `part` holds its label. */
-bool sbfi_packed_selects(const sbf_selection *selection, const sbfi_place *part);
-/* Whether the lists of the root itself are. */
+/* Whether a part is selected; `part` contains its label. */
+bool sbfi_packed_selects(const sbf_selection *selection, const sbfi_element_path *part);
+/* Whether the root's own lists are selected. */
 bool sbfi_packed_selects_root_lists(const sbf_selection *selection);
 
 #endif

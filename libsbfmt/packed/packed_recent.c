@@ -8,9 +8,9 @@ typedef struct recent {
   uint32_t last_new;
 } recent;
 
-static uint32_t load_scalar(const uint8_t *from, size_t place) {
+static uint32_t load_scalar(const uint8_t *from, size_t index) {
   uint32_t value;
-  memcpy(&value, from + 4 * place, sizeof value);
+  memcpy(&value, from + 4 * index, sizeof value);
   return value;
 }
 
@@ -19,16 +19,16 @@ static void begin(recent *r, const uint8_t *scalars, size_t done) {
   r->last_new = done ? load_scalar(scalars, done - 1) : 0;
 }
 
-/* Puts the value before the first `place` others. */
-static void put_first(recent *r, size_t place, uint32_t value) {
-  memmove(r->at + 1, r->at, place * sizeof *r->at);
+/* Puts the value before the first `index` others. */
+static void put_first(recent *r, size_t index, uint32_t value) {
+  memmove(r->at + 1, r->at, index * sizeof *r->at);
   r->at[0] = value;
 }
 
 static size_t find(const recent *r, uint32_t value) {
-  size_t place = 0;
-  while (place < SBFI_RECENT_COUNT && r->at[place] != value) place++;
-  return place;
+  size_t index = 0;
+  while (index < SBFI_RECENT_COUNT && r->at[index] != value) index++;
+  return index;
 }
 
 bool sbfi_filter_recent(const uint8_t *from, size_t done, size_t count, uint8_t *block) {
@@ -37,11 +37,11 @@ bool sbfi_filter_recent(const uint8_t *from, size_t done, size_t count, uint8_t 
   begin(&r, from, done);
   for (size_t i = 0; i < count; i++) {
     uint32_t value = load_scalar(from, done + i);
-    size_t place = find(&r, value);
-    bool is_new = place == SBFI_RECENT_COUNT;
-    block[i] = is_new ? 0 : (uint8_t)(place + 1);
+    size_t index = find(&r, value);
+    bool is_new = index == SBFI_RECENT_COUNT;
+    block[i] = is_new ? 0 : (uint8_t)(index + 1);
     new_count += is_new;
-    put_first(&r, is_new ? place - 1 : place, value);
+    put_first(&r, is_new ? index - 1 : index, value);
   }
   if (new_count > 3 * count / 4) return false;
   uint8_t *planes = block + count;
@@ -70,18 +70,18 @@ bool sbfi_unfilter_recent(const uint8_t *block, size_t count, uint8_t *to, size_
   const uint8_t *planes = block + count;
   begin(&r, to, done);
   for (size_t i = 0; i < count; i++) {
-    size_t place = block[i];
+    size_t index = block[i];
     uint32_t value;
-    if (place) {
-      value = r.at[--place];
+    if (index) {
+      value = r.at[--index];
     } else {
       uint32_t zigzag = planes[k] | (uint32_t)planes[new_count + k] << 8 |
                         (uint32_t)planes[2 * new_count + k] << 16 | (uint32_t)planes[3 * new_count + k] << 24;
       value = r.last_new += zigzag >> 1 ^ (0u - (zigzag & 1));
-      place = SBFI_RECENT_COUNT - 1;
+      index = SBFI_RECENT_COUNT - 1;
       k++;
     }
-    put_first(&r, place, value);
+    put_first(&r, index, value);
     memcpy(to + 4 * (done + i), &value, sizeof value);
   }
   return true;

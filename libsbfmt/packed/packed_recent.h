@@ -6,15 +6,14 @@
 
 #include "sbfmt/base.h"
 
-/* Scalars that are remembered. 16 to 64 are within some hundredths of each other on lattices, springs and
- * polygons. */
+/* Length of the move-to-front list. 16 to 64 differ by a few per cent on lattices, springs and polygons. */
 enum { SBFI_RECENT_COUNT = 32 };
 
 /* One block of `count` scalars from `from` + `done` on into count * 4 bytes; false where so many are new that
  * they do not fit. */
 bool sbfi_filter_recent(const uint8_t *from, size_t done, size_t count, uint8_t *block);
 
-/* The way back; false where a block says what cannot be. */
+/* Undoes the filter; false if the block is invalid. */
 bool sbfi_unfilter_recent(const uint8_t *block, size_t count, uint8_t *to, size_t done);
 
 #endif

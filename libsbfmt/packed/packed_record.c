@@ -29,7 +29,7 @@ static bool is_in(field_set set, const sbfi_field *field) {
 typedef struct reading {
   sbfi_packed_reader *reader;
   const part_context *part;
-  const sbfi_place *place; /* of the object being filled */
+  const sbfi_element_path *path; /* of the object being filled */
   char *object;
 } reading;
 
@@ -43,7 +43,7 @@ __attribute__((format(printf, 5, 6))) static sbf_status fault(
   if (!error) return status;
   const sbfi_packed_chunk *chunk = &r->reader->table.chunks[s->record->number];
   error->offset = (int64_t)(chunk->offset + (s->record->allocated ? 0 : s->at));
-  sbfi_place_path(r->place, field, error->path, sizeof error->path);
+  sbfi_element_path_print(r->path, field, error->path, sizeof error->path);
   return status;
 }
 
@@ -58,11 +58,11 @@ static sbf_status read_fields(const reading *r, span s, field_set set);
 /* Reads the fields of one child that stands in the record itself. */
 static sbf_status read_child(
     const reading *r, span s, const sbfi_field *field, uint32_t index, void *child, field_set set) {
-  sbfi_place place = sbfi_place_child(r->place, field, index);
+  sbfi_element_path path = sbfi_element_path_child(r->path, field, index);
   part_context within = *r->part;
   if (within.address.field == 0) within.address.field = field->number;
   within.depth++;
-  reading inner = {r->reader, &within, &place, child};
+  reading inner = {r->reader, &within, &path, child};
   return read_fields(&inner, s, set);
 }
 
@@ -159,7 +159,7 @@ static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *fi
   if (status == SBF_OK)
     sbfi_set_list(r->object, field, items, (uint32_t)r->reader->table.chunks[number].count);
   else if (r->reader->error)
-    sbfi_place_path(r->place, field, r->reader->error->path, sizeof r->reader->error->path);
+    sbfi_element_path_print(r->path, field, r->reader->error->path, sizeof r->reader->error->path);
   return status;
 }
 
@@ -245,15 +245,15 @@ static sbf_status read_records(const reading *r, span s, const sbfi_field *field
 /* --- parts --- */
 
 static sbf_status read_part(sbfi_packed_reader *reader, uint32_t number, const part_context *part,
-    const sbfi_place *place, void *object, field_set set) {
+    const sbfi_element_path *path, void *object, field_set set) {
   sbfi_packed_record record;
   sbf_status status = sbfi_packed_claim(reader, number, &part->address);
   if (status == SBF_OK) status = sbfi_packed_fetch_record(reader, number, &record);
   if (status != SBF_OK) {
-    if (reader->error) sbfi_place_path(place, NULL, reader->error->path, sizeof reader->error->path);
+    if (reader->error) sbfi_element_path_print(path, NULL, reader->error->path, sizeof reader->error->path);
     return status;
   }
-  const reading r = {reader, part, place, object};
+  const reading r = {reader, part, path, object};
   status = read_fields(&r, (span){&record, 0, record.size}, set);
   sbfi_packed_release_record(reader, &record);
   return status;
@@ -281,10 +281,10 @@ static sbf_status read_parts(const reading *r, span s, const sbfi_field *field) 
     status = take_piece(r, &s, field, &label);
     if (status == SBF_OK) status = read_child(r, label, field, i, child, LABEL_FIELDS);
     if (status != SBF_OK) return status;
-    sbfi_place place = sbfi_place_child(r->place, field, i);
-    if (!sbfi_packed_selects(r->reader->options.selection, &place)) continue;
+    sbfi_element_path path = sbfi_element_path_child(r->path, field, i);
+    if (!sbfi_packed_selects(r->reader->options.selection, &path)) continue;
     part_context inner = part_inside(r->part, field->element, i);
-    status = read_part(r->reader, number, &inner, &place, child, FIELDS_BUT_LABEL);
+    status = read_part(r->reader, number, &inner, &path, child, FIELDS_BUT_LABEL);
   }
   return status == SBF_OK ? check_end(r, &s, field) : status;
 }
@@ -345,7 +345,7 @@ static sbf_status read_field(const reading *r, span s, const sbfi_field *field, 
 }
 
 static sbf_status check_required(const reading *r, const span *s, field_set set, uint64_t seen) {
-  const sbfi_element *element = r->place->element;
+  const sbfi_element *element = r->path->element;
   for (uint32_t i = 0; i < element->field_count; i++) {
     const sbfi_field *field = &element->fields[i];
     if (field->required && is_in(set, field) && !(seen >> i & 1))
@@ -356,7 +356,7 @@ static sbf_status check_required(const reading *r, const span *s, field_set set,
 
 /* Fields stand in the order of their numbers; those that a later version brought are passed over. */
 static sbf_status read_fields(const reading *r, span s, field_set set) {
-  const sbfi_element *element = r->place->element;
+  const sbfi_element *element = r->path->element;
   uint32_t last = 0;
   uint64_t seen = 0;
   if (r->part->depth > r->reader->options.limits.depth)
@@ -388,7 +388,7 @@ static sbf_status read_fields(const reading *r, span s, field_set set) {
       return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u has no place here", number);
     } else if (r->reader->left_out++ == 0) {
       char path[120];
-      sbfi_place_path(r->place, NULL, path, sizeof path);
+      sbfi_element_path_print(r->path, NULL, path, sizeof path);
       snprintf(r->reader->first_left_out, sizeof r->reader->first_left_out, "field %u of %s", number, path);
     }
     last = number;
@@ -398,11 +398,11 @@ static sbf_status read_fields(const reading *r, span s, field_set set) {
 }
 
 sbf_status sbfi_packed_read_asset(sbfi_packed_reader *reader, sbf_asset *asset) {
-  sbfi_place place = sbfi_place_root(asset);
+  sbfi_element_path path = sbfi_element_path_root(asset);
   part_context root = {
       .depth = 1, .without_lists = !sbfi_packed_selects_root_lists(reader->options.selection)};
   root.address.kind = sbfi_asset_element.kind;
   root.address.level = SBFI_PACKED_NO_LEVEL;
   if (reader->has_outline) root.address.kind = SBFI_PACKED_OUTLINE;
-  return read_part(reader, 0, &root, &place, asset, ALL_FIELDS);
+  return read_part(reader, 0, &root, &path, asset, ALL_FIELDS);
 }

@@ -1,4 +1,4 @@
-/* Assets to packed files. */
+/* Saves assets to packed files. */
 #include "base/diagnostic.h"
 #include "base/file.h"
 #include "model/asset_box.h"
@@ -11,7 +11,7 @@
 #include "packed/packed_table.h"
 
 typedef struct layout {
-  sbf_asset stated; /* the asset with the version that the file states */
+  sbf_asset stated; /* the asset with the version to be written */
   char version[SBFI_VERSION_TEXT];
   sbfi_packed_plan plan;
   sbfi_packed_header header;
@@ -40,7 +40,7 @@ static uint16_t minor_of(const char *version) {
   return (uint16_t)(minor < UINT16_MAX ? minor : UINT16_MAX);
 }
 
-/* Stored scalars are little-endian; on such a machine there is nothing to do. */
+/* Converts scalars to little-endian; nothing to do on a little-endian machine. */
 static bool order_bytes(sbfi_packed_plan *plan) {
   if (sbfi_host_is_little_endian()) return true;
   for (size_t i = 0; i < plan->chunks.count; i++) {
@@ -55,7 +55,7 @@ static bool order_bytes(sbfi_packed_plan *plan) {
   return true;
 }
 
-/* Gives out places: header, table, then the chunks in their order. */
+/* Assigns offsets: header, table, then the chunks in order. */
 static sbf_status lay_out(layout *l, sbf_diagnostic *error) {
   size_t count = l->plan.chunks.count;
   l->front_size = SBFI_PACKED_HEADER_SIZE + count * SBFI_PACKED_ENTRY_SIZE;

@@ -7,7 +7,7 @@ static bool is_among(const char *text, sbf_string_list list) {
   return false;
 }
 
-static bool is_named(const sbfi_place *part, sbf_string_list names) {
+static bool is_named(const sbfi_element_path *part, sbf_string_list names) {
   for (uint32_t i = 0; i < part->element->field_count; i++) {
     const sbfi_field *field = &part->element->fields[i];
     if (sbfi_packed_is_label(field) && is_among(sbfi_get_pointer(part->object, field), names)) return true;
@@ -27,7 +27,7 @@ static bool must_be_read(const sbfi_element *element) {
   return false;
 }
 
-bool sbfi_packed_selects(const sbf_selection *selection, const sbfi_place *part) {
+bool sbfi_packed_selects(const sbf_selection *selection, const sbfi_element_path *part) {
   if (!selection || must_be_read(part->element)) return true;
   if (selection->kinds.count && !is_among(part->element->name, selection->kinds)) return false;
   if (!part->up->up) return !selection->parts.count || is_named(part, selection->parts);

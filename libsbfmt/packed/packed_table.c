@@ -194,7 +194,7 @@ static sbf_status check_header(
   return SBF_OK;
 }
 
-static sbf_status check_table_place(const sbfi_packed_header *h, sbf_diagnostic *error) {
+static sbf_status check_table_offset(const sbfi_packed_header *h, sbf_diagnostic *error) {
   if (h->table_size != (uint64_t)h->chunk_count * SBFI_PACKED_ENTRY_SIZE || h->chunk_count == 0)
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_SIZE,
         "a table of %llu bytes does not hold %u entries", (unsigned long long)h->table_size, h->chunk_count);
@@ -287,7 +287,7 @@ static sbf_status begin_table(sbfi_packed_table *table, const uint8_t *bytes, si
     return fault(error, SBF_CODE_IO_TOO_LARGE, 0, "the file has %zu bytes, more than the limit of %llu", size,
         (unsigned long long)limits->file_bytes);
   sbf_status status = check_header(table, bytes, size, error);
-  if (status == SBF_OK) status = check_table_place(&table->header, error);
+  if (status == SBF_OK) status = check_table_offset(&table->header, error);
   if (status == SBF_OK && !last_only) status = check_table_crc(&table->header, bytes, error);
   if (status != SBF_OK) return status;
   table->chunk_count = last_only ? 1 : table->header.chunk_count;

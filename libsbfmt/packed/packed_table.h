@@ -1,4 +1,4 @@
-/* Header and table of contents of a packed file, read as from an enemy. */
+/* Header and table of contents of a packed file. The bytes are untrusted. */
 #ifndef SBFI_PACKED_TABLE_H
 #define SBFI_PACKED_TABLE_H
 
@@ -13,14 +13,13 @@ typedef struct sbfi_packed_table {
   sbf_allocator allocator;
 } sbfi_packed_table;
 
-/* Reads and checks both, checksums included. Afterwards every chunk lies inside the file at an aligned place,
- * none overlaps another, sizes agree with counts, and kinds, filters and codecs are known or may be passed
- * over. The first chunk is the root's record. Nothing is kept of `bytes`. On failure nothing is left to free.
- */
+/* Reads and checks header and table including checksums. Then every chunk is aligned and inside the file,
+ * none overlaps another, sizes agree with counts, and kinds, filters and codecs are known or may be skipped.
+ * The first chunk is the root's record. Does not keep `bytes`. On failure there is nothing to free. */
 sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
-/* The header and the last entry alone, if that is an outline's: then `chunks` has it, else it is NULL. Its
- * checksum guards the outline; that of the table is not looked at. */
+/* Reads only the header and the last entry, if it is an outline: `chunks` then has this entry, else it is
+ * NULL. The entry's checksum guards the outline; the table's checksum is not checked. */
 sbf_status sbfi_packed_table_read_outline(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_packed_table_free(sbfi_packed_table *table);

@@ -2,7 +2,7 @@
  * again. */
 #include <string.h>
 
-#include "validate/mend/mending.h"
+#include "validate/repair/repair.h"
 
 static sbf_fix_options options_of(const sbf_fix_options *given) {
   sbf_fix_options options = {0};
@@ -17,10 +17,10 @@ static void take_first(void *user, const sbf_diagnostic *diagnostic) {
 }
 
 /* Source parts come first: what is derived from them is made again at the end. */
-static sbf_status run(sbfi_mending *m, sbf_diagnostic *error) {
-  static void (*const passes[])(sbfi_mending *) = {sbfi_mend_rotations, sbfi_mend_weights,
-      sbfi_mend_tetrahedra, sbfi_mend_winding, sbfi_mend_points, sbfi_mend_mesh_points, sbfi_mend_pins,
-      sbfi_mend_springs, sbfi_mend_blends};
+static sbf_status run(sbfi_repair *m, sbf_diagnostic *error) {
+  static void (*const passes[])(sbfi_repair *) = {sbfi_repair_rotations, sbfi_repair_weights,
+      sbfi_repair_tetrahedra, sbfi_repair_winding, sbfi_repair_points, sbfi_repair_mesh_points,
+      sbfi_repair_pins, sbfi_repair_springs, sbfi_repair_blends};
   sbf_diagnostic first;
   for (size_t i = 0; i < sizeof passes / sizeof *passes && !m->out_of_memory; i++) {
     sbfi_arena_init(&m->scratch, m->options->allocator, 0);
@@ -32,14 +32,14 @@ static sbf_status run(sbfi_mending *m, sbf_diagnostic *error) {
     if (error) *error = first;
     return sbf_code_find(first.code)->fault;
   }
-  return m->options->without_build ? SBF_OK : sbfi_mend_derived(m, error);
+  return m->options->without_build ? SBF_OK : sbfi_repair_derived(m, error);
 }
 
 sbf_status sbf_fix(const sbf_asset *asset, const sbf_fix_options *given, sbf_asset **fixed,
     sbf_fix_result *result, sbf_diagnostic *error) {
   sbf_fix_result unseen;
   sbf_fix_options options = options_of(given);
-  sbfi_mending m = {.options = &options, .result = result ? result : &unseen};
+  sbfi_repair m = {.options = &options, .result = result ? result : &unseen};
   *fixed = NULL;
   *m.result = (sbf_fix_result){0};
   m.asset = sbf_asset_clone(asset, options.allocator);

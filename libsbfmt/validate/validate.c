@@ -33,7 +33,7 @@ sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *give
     families[i](&v);
     sbfi_arena_free(&v.scratch);
   }
-  sbfi_leave_place(&v);
+  sbfi_report_unlisted(&v);
   if (v.out_of_memory) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while validating");
   return SBF_OK;
 }

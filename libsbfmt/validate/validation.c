@@ -29,32 +29,32 @@ static void add_advice(sbf_diagnostic *d) {
   }
 }
 
-static void tell(const sbfi_validation *v, sbf_diagnostic *d, const char *path, int64_t index) {
+static void report(const sbfi_validation *v, sbf_diagnostic *d, const char *path, int64_t index) {
   if (!v->options->report) return;
   sbfi_copy_text(d->path, sizeof d->path, path);
   d->index = index;
   v->options->report(v->options->user, d);
 }
 
-void sbfi_leave_place(sbfi_validation *v) {
+void sbfi_report_unlisted(sbfi_validation *v) {
   for (uint32_t i = 0; i < v->tally_count; i++) {
     sbf_diagnostic d;
     uint32_t unlisted = v->tallies[i].count - v->repeats;
     if (v->tallies[i].count <= v->repeats) continue;
     sbfi_diagnose(&d, v->tallies[i].code, "and %u more of this kind here", unlisted);
-    tell(v, &d, v->place, -1);
+    report(v, &d, v->path, -1);
   }
   v->tally_count = 0;
 }
 
 static uint32_t count_here(sbfi_validation *v, sbf_code code, const char *path) {
-  if (strcmp(path, v->place) != 0) {
-    sbfi_leave_place(v);
-    sbfi_copy_text(v->place, sizeof v->place, path);
+  if (strcmp(path, v->path) != 0) {
+    sbfi_report_unlisted(v);
+    sbfi_copy_text(v->path, sizeof v->path, path);
   }
   for (uint32_t i = 0; i < v->tally_count; i++)
     if (v->tallies[i].code == code) return ++v->tallies[i].count;
-  if (v->tally_count == SBFI_MAX_TALLIES) sbfi_leave_place(v);
+  if (v->tally_count == SBFI_MAX_TALLIES) sbfi_report_unlisted(v);
   v->tallies[v->tally_count++] = (sbfi_tally){code, 1};
   return 1;
 }
@@ -69,5 +69,5 @@ void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t ind
   ++*counts[d.severity];
   if (count_here(v, code, path) > v->repeats) return;
   add_advice(&d);
-  tell(v, &d, path, index);
+  report(v, &d, path, index);
 }

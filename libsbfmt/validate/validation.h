@@ -20,7 +20,7 @@ typedef struct sbfi_validation {
   sbf_validate_result *result;
   sbfi_arena scratch; /* emptied after each family of rules */
   uint32_t repeats;
-  char place[256]; /* what `tallies` are about */
+  char path[256]; /* what `tallies` are about */
   sbfi_tally tallies[SBFI_MAX_TALLIES];
   uint32_t tally_count;
   bool out_of_memory;
@@ -39,7 +39,7 @@ void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t ind
     __attribute__((format(printf, 5, 6)));
 
 /* Says how many findings were not listed at the place that is left now. */
-void sbfi_leave_place(sbfi_validation *v);
+void sbfi_report_unlisted(sbfi_validation *v);
 
 /* Zeroed scratch memory, never NULL for want of a count; NULL, with out_of_memory set, where it ran out. */
 void *sbfi_scratch(sbfi_validation *v, size_t count, size_t size);

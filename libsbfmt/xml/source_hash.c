@@ -9,7 +9,7 @@ static sbf_status add_to_hash(void *user, const void *bytes, size_t size, sbf_di
   return SBF_OK;
 }
 
-sbf_status sbfi_source_hash(const sbf_asset *asset, bool (*keep)(void *user, const sbfi_place *child),
+sbf_status sbfi_source_hash(const sbf_asset *asset, bool (*keep)(void *user, const sbfi_element_path *child),
     void *user, char text[SBFI_SHA256_TEXT_SIZE], sbf_diagnostic *error) {
   const sbfi_xml_selection selection = {.source_only = true, .keep = keep, .user = user};
   sbfi_sha256 hash;
@@ -21,6 +21,6 @@ sbf_status sbfi_source_hash(const sbf_asset *asset, bool (*keep)(void *user, con
   if (status != SBF_OK) return status;
   uint8_t digest[SBFI_SHA256_BYTES];
   sbfi_sha256_finish(&hash, digest);
-  sbfi_sha256_text(digest, text);
+  sbfi_sha256_format(digest, text);
   return SBF_OK;
 }

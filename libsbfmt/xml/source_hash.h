@@ -3,12 +3,12 @@
 #define SBFI_SOURCE_HASH_H
 
 #include "base/sha256.h"
-#include "model/place.h"
+#include "model/element_path.h"
 
 /* SHA-256, in hexadecimal, of the canonical XML of everything that is source: not derived, not a record of a
  * derivation, not different by machine. `keep` narrows that down to the parts that a build pass reads: it is
  * asked about every child element; NULL keeps all. The asset has passed sbf_asset_check. */
-sbf_status sbfi_source_hash(const sbf_asset *asset, bool (*keep)(void *user, const sbfi_place *child),
+sbf_status sbfi_source_hash(const sbf_asset *asset, bool (*keep)(void *user, const sbfi_element_path *child),
     void *user, char text[SBFI_SHA256_TEXT_SIZE], sbf_diagnostic *error);
 
 #endif

@@ -99,10 +99,10 @@ static bool count_attributes(tag_counter *tags, const char *text, size_t size) {
   return true;
 }
 
-static int read_some(void *user, char *to, int room) {
+static int read_some(void *user, char *to, int capacity) {
   parse *p = user;
   uint64_t left = p->source->size - p->offset;
-  size_t size = left < (uint64_t)room ? (size_t)left : (size_t)room;
+  size_t size = left < (uint64_t)capacity ? (size_t)left : (size_t)capacity;
   if (size == 0 || p->stopped) return 0;
   if (!read_source(p->source, p->offset, to, size, &p->status, p->error)) {
     p->stopped = true; /* the parser ends with an error of its own, which nobody needs */
@@ -187,12 +187,12 @@ static void decode_value(sbfi_text *values, sbfi_xml_attribute *attribute) {
 
 static bool decode_values(parse *p) {
   sbfi_xml_attribute *attributes = p->attributes.at;
-  size_t room = 0;
+  size_t capacity = 0;
   for (size_t i = 0; i < p->attributes.count; i++)
-    if (memchr(attributes[i].value, '&', attributes[i].length)) room += attributes[i].length;
+    if (memchr(attributes[i].value, '&', attributes[i].length)) capacity += attributes[i].length;
   sbfi_text_clear(&p->values);
-  if (room && !sbfi_text_reserve(&p->values, room)) return false;
-  for (size_t i = 0; room && i < p->attributes.count; i++)
+  if (capacity && !sbfi_text_reserve(&p->values, capacity)) return false;
+  for (size_t i = 0; capacity && i < p->attributes.count; i++)
     if (memchr(attributes[i].value, '&', attributes[i].length)) decode_value(&p->values, &attributes[i]);
   return true;
 }

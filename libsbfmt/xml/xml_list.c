@@ -68,7 +68,7 @@ static bool is_word_for_no_number(const char *text, size_t length) {
 }
 
 /* Why the word that begins here is no number of the type. */
-static sbfi_xml_fault judge(const char *text, size_t length, sbfi_number_status status) {
+static sbfi_xml_fault check(const char *text, size_t length, sbfi_number_status status) {
   size_t word = word_length(text, length);
   if (is_word_for_no_number(text, word)) return SBFI_XML_NOT_FINITE;
   return status == SBFI_NUMBER_OUT_OF_RANGE ? SBFI_XML_OUT_OF_RANGE : SBFI_XML_MALFORMED;
@@ -78,7 +78,7 @@ sbfi_xml_fault sbfi_xml_scan_number(const sbfi_field *field, const char *text, s
   sbfi_number_status status = field->type == SBFI_INT    ? sbfi_parse_i32(text, length, to)
                               : field->type == SBFI_UINT ? sbfi_parse_u32(text, length, to)
                                                          : sbfi_parse_f32(text, length, to);
-  return status == SBFI_NUMBER_READ ? SBFI_XML_FINE : judge(text, length, status);
+  return status == SBFI_NUMBER_READ ? SBFI_XML_FINE : check(text, length, status);
 }
 
 static void keep_wrong(sbfi_xml_list *list, const char *text, size_t length) {
@@ -88,7 +88,7 @@ static void keep_wrong(sbfi_xml_list *list, const char *text, size_t length) {
 }
 
 /* Reads the numbers of `text`, in which none is cut off. */
-static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t length, size_t *place) {
+static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
   size_t i = 0, used = 0, scalar_limit = (size_t)list->item_limit * list->field->width;
   bool floats = list->field->item == SBFI_ITEM_F32;
   sbfi_number_status status = SBFI_NUMBER_READ;
@@ -102,10 +102,10 @@ static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t 
     if (status != SBFI_NUMBER_READ || (i + used < length && !sbfi_is_space(text[i + used]))) break;
   }
   list->scalars.count = (size_t)(to - begin);
-  *place = i;
+  *offset = i;
   if (i == length) return list->scalars.count > scalar_limit ? SBFI_XML_TOO_LONG : SBFI_XML_FINE;
   keep_wrong(list, text + i, length - i);
-  return judge(text + i, length - i, status);
+  return check(text + i, length - i, status);
 }
 
 /* A number that the last piece began goes on in this one. */
@@ -114,44 +114,44 @@ static sbfi_xml_fault add_to_begun(sbfi_xml_list *list, const char *text, size_t
 }
 
 static sbfi_xml_fault finish_begun(sbfi_xml_list *list) {
-  size_t place, length = list->begun.length;
+  size_t index, length = list->begun.length;
   list->begun.length = 0;
-  return length ? add_numbers(list, list->begun.at, length, &place) : SBFI_XML_FINE;
+  return length ? add_numbers(list, list->begun.at, length, &index) : SBFI_XML_FINE;
 }
 
-static sbfi_xml_fault add_number_text(sbfi_xml_list *list, const char *text, size_t length, size_t *place) {
+static sbfi_xml_fault add_number_text(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
   size_t first = list->begun.length ? word_length(text, length) : 0, last = length;
   sbfi_xml_fault fault = add_to_begun(list, text, first);
-  *place = 0;
+  *offset = 0;
   if (fault || first == length) return fault;
   if ((fault = finish_begun(list))) return fault;
   while (last > first && !sbfi_is_space(text[last - 1])) last--;
-  fault = add_numbers(list, text + first, last - first, place);
-  *place += first;
+  fault = add_numbers(list, text + first, last - first, offset);
+  *offset += first;
   if (fault) return fault;
-  *place = last;
+  *offset = last;
   return add_to_begun(list, text + last, length - last);
 }
 
 /* --- bytes --- */
 
-static sbfi_xml_fault add_base64(sbfi_xml_list *list, const char *text, size_t length, size_t *place) {
+static sbfi_xml_fault add_base64(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
   size_t size;
-  if (!sbfi_array_reserve(&list->scalars, list->scalars.count + SBFI_BASE64_ROOM(length)))
+  if (!sbfi_array_reserve(&list->scalars, list->scalars.count + SBFI_BASE64_CAPACITY(length)))
     return SBFI_XML_NO_MEMORY;
   uint8_t *to = (uint8_t *)list->scalars.at + list->scalars.count;
-  *place = sbfi_base64_read(&list->base64, text, length, to, &size);
+  *offset = sbfi_base64_read(&list->base64, text, length, to, &size);
   list->scalars.count += size;
-  if (*place < length) {
-    keep_wrong(list, text + *place, length - *place);
+  if (*offset < length) {
+    keep_wrong(list, text + *offset, length - *offset);
     return SBFI_XML_MALFORMED;
   }
   return list->scalars.count > list->item_limit ? SBFI_XML_TOO_LONG : SBFI_XML_FINE;
 }
 
-sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *place) {
-  return is_bytes(list->field) ? add_base64(list, text, length, place)
-                               : add_number_text(list, text, length, place);
+sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
+  return is_bytes(list->field) ? add_base64(list, text, length, offset)
+                               : add_number_text(list, text, length, offset);
 }
 
 sbfi_xml_fault sbfi_xml_list_end(sbfi_xml_list *list) {

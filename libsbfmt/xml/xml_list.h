@@ -34,7 +34,7 @@ void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field);
 /* Items that stand in memory. */
 sbfi_xml_fault sbfi_xml_list_give(sbfi_xml_list *list, const sbf_given_list *given);
 /* On a fault, `*place` becomes the offset in `text` where it is; the scalars before it are counted. */
-sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *place);
+sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *offset);
 sbfi_xml_fault sbfi_xml_list_end(sbfi_xml_list *list);
 uint32_t sbfi_xml_list_count(const sbfi_xml_list *list); /* whole items so far */
 size_t sbfi_xml_list_bytes(const sbfi_xml_list *list);   /* of memory used */

@@ -11,7 +11,7 @@ enum { DEEPEST = 16 };
 
 /* One finding's path cut into steps, and how far the open elements agree with it. */
 typedef struct target {
-  sbf_diagnostic *finding;
+  sbf_diagnostic *diagnostic;
   sbfi_span names[DEEPEST];
   uint32_t numbers[DEEPEST]; /* among siblings of the same name, from 1 */
   uint32_t depth;            /* steps */
@@ -39,7 +39,7 @@ static void add_step(target *t, sbfi_span step) {
 }
 
 static void cut_path(target *t) {
-  const char *path = t->finding->path;
+  const char *path = t->diagnostic->path;
   while (*path == '/' && path[1] != '@') {
     size_t length = strcspn(path + 1, "/");
     add_step(t, (sbfi_span){path + 1, length});
@@ -68,7 +68,7 @@ static uint32_t width_of(const target *t) {
 }
 
 static void hit(locator *l, target *t, uint32_t line) {
-  t->finding->line = line;
+  t->diagnostic->line = line;
   t->found = true;
   l->unfound--;
 }
@@ -87,7 +87,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
     } else if (!t->item_scalars) {
       hit(l, t, l->events.line);
     } else {
-      t->finding->line = l->events.line; /* should the item not be there */
+      t->diagnostic->line = l->events.line; /* should the item not be there */
       t->in_list = true;
     }
   }
@@ -134,14 +134,14 @@ void sbfi_xml_locate(
   l.targets = sbfi_allocate(allocator, bytes);
   if (!l.targets) return; /* a finding without a line is better than none */
   for (uint32_t i = 0; i < findings->count; i++) {
-    sbf_diagnostic *finding = &findings->at[i];
-    if (finding->line || !*finding->path) continue;
+    sbf_diagnostic *diagnostic = &findings->at[i];
+    if (diagnostic->line || !*diagnostic->path) continue;
     target *t = &l.targets[l.count++];
-    *t = (target){.finding = finding};
+    *t = (target){.diagnostic = diagnostic};
     cut_path(t);
-    if (finding->index < 0) continue;
+    if (diagnostic->index < 0) continue;
     t->item_scalars = width_of(t);
-    t->scalar = (uint64_t)finding->index * t->item_scalars;
+    t->scalar = (uint64_t)diagnostic->index * t->item_scalars;
   }
   l.unfound = l.count;
   sbf_diagnostic ignored;

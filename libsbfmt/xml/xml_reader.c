@@ -93,7 +93,7 @@ static void show_children(const reader *r, const open_element *element) {
 
 static void write_path(const reader *r, const sbfi_field *field, char *path, size_t size) {
   enum { DEEPEST = 16 };
-  sbfi_place places[DEEPEST];
+  sbfi_element_path paths[DEEPEST];
   uint32_t depth = 0;
   const open_element *open = r->open.at;
   const sbfi_field *wrapper = NULL;
@@ -103,11 +103,11 @@ static void write_path(const reader *r, const sbfi_field *field, char *path, siz
     wrapper = open[i].kind == OPEN_WRAPPER ? open[i].field : NULL;
     if (open[i].kind != OPEN_OBJECT) continue;
     show_children(r, &open[i]);
-    places[depth] = (sbfi_place){
-        depth ? &places[depth - 1] : NULL, open[i].element, open[i].object, open[i].field, open[i].index};
+    paths[depth] = (sbfi_element_path){
+        depth ? &paths[depth - 1] : NULL, open[i].element, open[i].object, open[i].field, open[i].index};
     depth++;
   }
-  if (depth) sbfi_place_path(&places[depth - 1], field ? field : wrapper, path, size);
+  if (depth) sbfi_element_path_print(&paths[depth - 1], field ? field : wrapper, path, size);
 }
 
 /* About the element on top, or a field of the object on top. */
@@ -374,7 +374,7 @@ static bool begin_root(reader *r, const char *name, const sbfi_xml_attribute *at
         !read_attribute(r, version, value_of(&attributes[i]), self->object))
       return false;
   r->minor = sbfi_version_minor(r->asset->version);
-  switch (sbfi_version_judge(r->asset->version)) {
+  switch (sbfi_version_check(r->asset->version)) {
   case SBFI_VERSION_KNOWN:
     break;
   case SBFI_VERSION_NEWER_MINOR:
@@ -515,13 +515,13 @@ static bool on_text(void *user, const char *text, size_t length) {
   reader *r = user;
   if (r->open.count == 0) return true;
   const open_element *self = top(r);
-  size_t place;
+  size_t index;
   switch (self->kind) {
   case OPEN_LIST: {
-    sbfi_xml_fault fault = sbfi_xml_list_add(&r->list, text, length, &place);
+    sbfi_xml_fault fault = sbfi_xml_list_add(&r->list, text, length, &index);
     if (fault) {
       fail_list(r, fault);
-      if (fault < SBFI_XML_NOT_WHOLE) r->error->line -= count_lines(text + place, length - place);
+      if (fault < SBFI_XML_NOT_WHOLE) r->error->line -= count_lines(text + index, length - index);
       return false;
     }
     return fits_memory(r) || fail_memory(r);

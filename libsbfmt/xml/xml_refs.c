@@ -5,8 +5,8 @@
 #include "base/diagnostic.h"
 #include "base/suggest.h"
 #include "model/asset_box.h"
+#include "model/element_path.h"
 #include "model/ids.h"
-#include "model/place.h"
 #include "xml/xml_reader.h"
 
 typedef struct resolver {
@@ -24,20 +24,20 @@ static sbfi_suggestion_text suggest_id(const sbf_asset *asset, const sbfi_field 
   return sbfi_suggestion_text_of(&suggestion);
 }
 
-static void report_unknown(resolver *r, const sbfi_place *place, const sbfi_field *field, const char *text,
-    const sbfi_id_entry *other) {
+static void report_unknown(resolver *r, const sbfi_element_path *path, const sbfi_field *field,
+    const char *text, const sbfi_id_entry *other) {
   if (r->findings->count == r->findings->capacity) return;
-  sbf_diagnostic *finding = &r->findings->at[r->findings->count++];
+  sbf_diagnostic *diagnostic = &r->findings->at[r->findings->count++];
   if (other)
-    sbfi_diagnose(finding, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, which stands in %s, not in %s",
+    sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, which stands in %s, not in %s",
         field->name, text, other->collection->name, field->target_name);
   else if (!*text)
     sbfi_diagnose(
-        finding, SBF_CODE_REF_UNKNOWN, "`%s` is empty: leave it out where nothing is meant", field->name);
+        diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` is empty: leave it out where nothing is meant", field->name);
   else
-    sbfi_diagnose(finding, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, but no item of %s has that id%s",
+    sbfi_diagnose(diagnostic, SBF_CODE_REF_UNKNOWN, "`%s` names `%.60s`, but no item of %s has that id%s",
         field->name, text, field->target_name, suggest_id(r->asset, field, text).at);
-  sbfi_place_path(place, field, finding->path, sizeof finding->path);
+  sbfi_element_path_print(path, field, diagnostic->path, sizeof diagnostic->path);
 }
 
 /* The item of that id in the collection referred to; another may have it too, which the check reports. */
@@ -48,26 +48,26 @@ static int32_t find_repeated(const resolver *r, const sbfi_field *field, const c
   return SBF_NONE;
 }
 
-static void resolve_ref(resolver *r, const sbfi_place *place, const sbfi_field *field) {
-  int32_t slot = sbfi_get_integer(place->object, field);
+static void resolve_ref(resolver *r, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t slot = sbfi_get_integer(path->object, field);
   if (slot == SBF_NONE) return;
   const char *text = r->texts[slot];
   const sbfi_id_entry *entry = sbfi_ids_find(&r->ids, text);
   int32_t index = entry && entry->collection->offset == field->target ? (int32_t)entry->index
                   : entry                                             ? find_repeated(r, field, text)
                                                                       : SBF_NONE;
-  if (index == SBF_NONE) report_unknown(r, place, field, text, entry);
+  if (index == SBF_NONE) report_unknown(r, path, field, text, entry);
   /* the asset was made by the reader, which may write to what is read-only for everybody else */
-  sbfi_set_integer((void *)(uintptr_t)place->object, field, index);
+  sbfi_set_integer((void *)(uintptr_t)path->object, field, index);
 }
 
-static void resolve_object(resolver *r, const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    if (field->type == SBFI_REF) resolve_ref(r, place, field);
-    uint32_t count = sbfi_child_count(place->object, field);
+static void resolve_object(resolver *r, const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    if (field->type == SBFI_REF) resolve_ref(r, path, field);
+    uint32_t count = sbfi_child_count(path->object, field);
     for (uint32_t k = 0; k < count; k++) {
-      sbfi_place child = sbfi_place_child(place, field, k);
+      sbfi_element_path child = sbfi_element_path_child(path, field, k);
       resolve_object(r, &child);
     }
   }
@@ -77,7 +77,7 @@ bool sbfi_xml_resolve_refs(sbf_asset *asset, const sbfi_array *refs, sbfi_xml_fi
   resolver r = {.asset = asset, .texts = refs->at, .findings = findings};
   sbfi_ids_init(&r.ids, &sbfi_asset_box_of(asset)->arena.allocator);
   bool good = sbfi_ids_add_collections(&r.ids, asset);
-  sbfi_place root = sbfi_place_root(asset);
+  sbfi_element_path root = sbfi_element_path_root(asset);
   if (good) resolve_object(&r, &root);
   sbfi_ids_free(&r.ids);
   return good;

@@ -3,7 +3,7 @@
 #define SBFI_XML_SCHEMA_H
 
 #include "base/suggest.h"
-#include "model/place.h"
+#include "model/element_path.h"
 
 /* The field that an element of that name inside `element` is about: a list, a text, a wrapper or children.
  * NULL where there is none. */

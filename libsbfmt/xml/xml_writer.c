@@ -108,18 +108,18 @@ static void write_escaped(writer *w, const char *text, bool in_attribute) {
 
 /* --- attributes --- */
 
-static void write_value(writer *w, const sbfi_place *place, const sbfi_field *field) {
-  const char *at = (const char *)place->object + field->offset;
+static void write_value(writer *w, const sbfi_element_path *path, const sbfi_field *field) {
+  const char *at = (const char *)path->object + field->offset;
   int32_t integer = 0;
   switch (field->type) {
   case SBFI_BOOL:
     sbfi_text_string(w->text, *(const bool *)at ? "true" : "false");
     break;
   case SBFI_INT:
-    sbfi_text_i32(w->text, sbfi_get_integer(place->object, field));
+    sbfi_text_i32(w->text, sbfi_get_integer(path->object, field));
     break;
   case SBFI_UINT:
-    sbfi_text_u32(w->text, (uint32_t)sbfi_get_integer(place->object, field));
+    sbfi_text_u32(w->text, (uint32_t)sbfi_get_integer(path->object, field));
     break;
   case SBFI_FLOAT:
   case SBFI_VEC2:
@@ -134,16 +134,16 @@ static void write_value(writer *w, const sbfi_place *place, const sbfi_field *fi
     }
     break;
   case SBFI_ENUM:
-    integer = sbfi_get_integer(place->object, field);
+    integer = sbfi_get_integer(path->object, field);
     write_escaped(w, field->values[integer], true);
     break;
   case SBFI_REF: {
-    const char *id = sbfi_ref_id(w->asset, field, sbfi_get_integer(place->object, field));
+    const char *id = sbfi_ref_id(w->asset, field, sbfi_get_integer(path->object, field));
     write_escaped(w, id ? id : "", true);
     break;
   }
   default:
-    write_escaped(w, sbfi_get_pointer(place->object, field), true);
+    write_escaped(w, sbfi_get_pointer(path->object, field), true);
     break;
   }
 }
@@ -153,16 +153,16 @@ static bool points_at_derivation(const sbfi_field *field) {
 }
 
 static void write_attribute(
-    writer *w, const sbfi_place *place, const sbfi_field *field, open_element *element) {
-  bool by_name = place->field && place->field->by && strcmp(place->field->by, field->name) == 0;
-  bool is_default = sbfi_field_is_default(place, field);
+    writer *w, const sbfi_element_path *path, const sbfi_field *field, open_element *element) {
+  bool by_name = path->field && path->field->by && strcmp(path->field->by, field->name) == 0;
+  bool is_default = sbfi_field_is_default(path, field);
   if (by_name || (is_default && !field->required)) return;
   if (w->selection.source_only && (field->volatile_ || points_at_derivation(field))) return;
   if (!is_default) element->says_something = true;
   sbfi_text_char(w->text, ' ');
   sbfi_text_string(w->text, field->name);
   sbfi_text_string(w->text, "=\"");
-  write_value(w, place, field);
+  write_value(w, path, field);
   sbfi_text_char(w->text, '"');
 }
 
@@ -188,8 +188,9 @@ static void write_line(writer *w, const sbfi_field *field, sbfi_list list, size_
     write_numbers(w, field, (const uint32_t *)list.at + first, count);
 }
 
-static void write_list(writer *w, const sbfi_place *place, const sbfi_field *field, open_element *parent) {
-  sbfi_list list = sbfi_get_list(place->object, field);
+static void write_list(
+    writer *w, const sbfi_element_path *path, const sbfi_field *field, open_element *parent) {
+  sbfi_list list = sbfi_get_list(path->object, field);
   if (!list.count) return;
   size_t scalars = (size_t)list.count * field->width;
   size_t line = field->item == SBFI_ITEM_U8 ? LINE_BYTES : LINE_SCALARS;
@@ -212,8 +213,9 @@ static void write_list(writer *w, const sbfi_place *place, const sbfi_field *fie
   write_end_tag(w, field->name);
 }
 
-static void write_text(writer *w, const sbfi_place *place, const sbfi_field *field, open_element *parent) {
-  const char *text = sbfi_get_pointer(place->object, field);
+static void write_text(
+    writer *w, const sbfi_element_path *path, const sbfi_field *field, open_element *parent) {
+  const char *text = sbfi_get_pointer(path->object, field);
   if (!*text) return;
   const open_element self = {.name = field->name, .depth = parent->depth + 1};
   begin_content(w, parent);
@@ -232,7 +234,7 @@ static bool is_set(const void *object, const sbfi_element *element, const char *
 }
 
 /* An object says that it is derived itself; for a mesh, the object around it does. */
-static bool is_derived(const sbfi_place *child) {
+static bool is_derived(const sbfi_element_path *child) {
   char companion[64] = "";
   strncat(companion, child->field->name, sizeof companion - sizeof "_derived");
   strcat(companion, "_derived");
@@ -240,20 +242,20 @@ static bool is_derived(const sbfi_place *child) {
          is_set(child->up->object, child->up->element, companion);
 }
 
-static bool is_kept(const writer *w, const sbfi_place *child) {
+static bool is_kept(const writer *w, const sbfi_element_path *child) {
   if (w->selection.source_only && is_derived(child)) return false;
   return !w->selection.keep || w->selection.keep(w->selection.user, child);
 }
 
-static bool is_source(const sbfi_place *place, const sbfi_field *field) {
-  return !field->volatile_ && (place->up || strcmp(field->name, "derivations") != 0);
+static bool is_source(const sbfi_element_path *path, const sbfi_field *field) {
+  return !field->volatile_ && (path->up || strcmp(field->name, "derivations") != 0);
 }
 
-static bool write_object(writer *w, const sbfi_place *place, const char *name, uint32_t depth);
+static bool write_object(writer *w, const sbfi_element_path *path, const char *name, uint32_t depth);
 
 /* A `one` child that turns out to say nothing is taken back, with the end of its parent's start tag; nothing
  * of it can have been flushed, since only lists flush. */
-static void write_child(writer *w, const sbfi_place *child, open_element *parent) {
+static void write_child(writer *w, const sbfi_element_path *child, open_element *parent) {
   char buffer[128];
   if (!is_kept(w, child)) return;
   size_t start = w->text->length;
@@ -270,8 +272,8 @@ static void write_child(writer *w, const sbfi_place *child, open_element *parent
 }
 
 static void write_children(
-    writer *w, const sbfi_place *place, const sbfi_field *field, open_element *parent) {
-  uint32_t count = sbfi_child_count(place->object, field);
+    writer *w, const sbfi_element_path *path, const sbfi_field *field, open_element *parent) {
+  uint32_t count = sbfi_child_count(path->object, field);
   size_t start = w->text->length;
   bool had_content = parent->has_content;
   open_element wrapper = {.name = field->wrapper, .depth = parent->depth + 1};
@@ -281,7 +283,7 @@ static void write_children(
     open_start_tag(w, &wrapper);
   }
   for (uint32_t i = 0; i < count && !w->text->failed && w->status == SBF_OK; i++) {
-    sbfi_place child = sbfi_place_child(place, field, i);
+    sbfi_element_path child = sbfi_element_path_child(path, field, i);
     write_child(w, &child, inside);
   }
   if (!field->wrapper) return;
@@ -295,21 +297,21 @@ static void write_children(
 }
 
 /* Whether it said more than its defaults. */
-static bool write_object(writer *w, const sbfi_place *place, const char *name, uint32_t depth) {
+static bool write_object(writer *w, const sbfi_element_path *path, const char *name, uint32_t depth) {
   open_element self = {.name = name, .depth = depth};
   open_start_tag(w, &self);
-  for (uint32_t i = 0; i < place->element->field_count; i++)
-    if (sbfi_field_is_attribute(&place->element->fields[i]))
-      write_attribute(w, place, &place->element->fields[i], &self);
-  for (uint32_t i = 0; i < place->element->field_count; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    if (w->selection.source_only && !is_source(place, field)) continue;
+  for (uint32_t i = 0; i < path->element->field_count; i++)
+    if (sbfi_field_is_attribute(&path->element->fields[i]))
+      write_attribute(w, path, &path->element->fields[i], &self);
+  for (uint32_t i = 0; i < path->element->field_count; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    if (w->selection.source_only && !is_source(path, field)) continue;
     if (field->type == SBFI_LIST)
-      write_list(w, place, field, &self);
+      write_list(w, path, field, &self);
     else if (field->type == SBFI_TEXT)
-      write_text(w, place, field, &self);
+      write_text(w, path, field, &self);
     else if (field->element)
-      write_children(w, place, field, &self);
+      write_children(w, path, field, &self);
   }
   close_element(w, &self);
   return self.says_something;
@@ -323,7 +325,7 @@ sbf_status sbfi_xml_write(const sbf_asset *asset, const sbfi_xml_selection *sele
   if (selection) w.selection = *selection;
   /* A hash of the source: a material of a later version makes no part stale. */
   stated.version = w.selection.source_only ? "1.0" : sbfi_version_to_state(asset, version);
-  sbfi_place root = sbfi_place_root(&stated);
+  sbfi_element_path root = sbfi_element_path_root(&stated);
   sbfi_text_string(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   write_object(&w, &root, root.element->xml, 0);
   flush(&w);

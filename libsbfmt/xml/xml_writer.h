@@ -8,7 +8,7 @@
 #define SBFI_XML_WRITER_H
 
 #include "base/text.h"
-#include "model/place.h"
+#include "model/element_path.h"
 
 /* Takes finished bytes. On failure it fills `*error` and the writing ends. */
 typedef struct sbfi_xml_sink {
@@ -18,7 +18,7 @@ typedef struct sbfi_xml_sink {
 
 typedef struct sbfi_xml_selection {
   bool source_only; /* leave out what is derived, the records of derivations, and what differs by machine */
-  bool (*keep)(void *user, const sbfi_place *child); /* a further choice among children; NULL: all */
+  bool (*keep)(void *user, const sbfi_element_path *child); /* a further choice among children; NULL: all */
   void *user;
 } sbfi_xml_selection;
 

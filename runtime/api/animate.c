@@ -3,7 +3,7 @@
 #include "sbrun/animation.h"
 #include "world/world.h"
 
-void sbr_character_ik_target(
+void sbr_character_set_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || ik_chain >= c->model->asset->ik_chains.count) return;
@@ -18,14 +18,14 @@ void sbr_character_ik_target(
   sbri_limb_target *to = &sbri_limb_targets(&c->model->rig, sbri_gait(c))[ik_chain];
   *to = (sbri_limb_target){.weight = 0};
   if (!target) return;
-  sbr_double3 origin = sbri_head(c)->origin;
+  sbr_double3 origin = sbri_header(c)->origin;
   to->position = (sbf_vec3){(float)(target->position.x - origin.x), (float)(target->position.y - origin.y),
       (float)(target->position.z - origin.z)};
   to->rotation = sbri_quat_normalize(target->rotation);
   to->weight = sbri_clamp(target->weight, 0, 1);
 }
 
-void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg) {
+void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, int32_t leg) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || leg >= (int32_t)c->model->rig.leg_count) return;
   sbri_record(world, SBRI_RECORDED_PIVOT, (const double[]){character.value, leg});
@@ -33,7 +33,7 @@ void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t l
   ((sbri_gait_state *)sbri_gait(c))->pivot = leg < 0 ? 0 : (uint32_t)leg + 1;
 }
 
-void sbr_character_play(
+void sbr_character_play_clip(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || !how || layer >= SBRI_CLIP_LAYERS || clip >= (int32_t)c->model->asset->clips.count) return;

@@ -5,7 +5,7 @@
 #include "base/diagnostic.h"
 #include "body_contact/body_contacts.h"
 #include "collide/ground.h"
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/usable.h"
 #include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
@@ -37,13 +37,13 @@ static double whole(double metres) {
 /* The origin at whole metres near `position`, and the gait's state standing there. */
 static void put(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
   double ground = sbri_ground_height(&c->ground, position.x, position.z, NULL);
-  sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
-  sbr_double3 origin = sbri_head(c)->origin;
+  sbri_header(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
+  sbr_double3 origin = sbri_header(c)->origin;
   sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
-  sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
-  sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
+  sbf_vec3 point = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
+  sbri_gait_reset(&c->model->rig, sbri_gait(c), &input, point, heading);
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, sbri_pose(c));
-  sbr_transform root = sbri_root_place(c, &c->ground);
+  sbr_transform root = sbri_current_root_frame(c, &c->ground);
   sbri_pose(c)[sbri_root_frame(c->model)] = root;
   sbri_pose(c)[sbri_anchor_frame(c->model)] = root;
   sbri_rigid_frames_follow(c, sbri_pose(c));
@@ -72,10 +72,10 @@ static sbf_status check_definition(const sbr_character_definition *definition, s
 /* It stands where it is to, at rest. */
 static void begin(sbr_world *world, sbri_character *c, const sbr_character_definition *definition) {
   put(world, c, definition->position, definition->heading);
-  sbri_rigid_place(c, true);
-  sbri_jiggles_place(c);
-  sbri_mend(c);
-  sbri_place_at_rest(c);
+  sbri_rigid_reset(c, true);
+  sbri_jiggles_reset(c);
+  sbri_restore_elements(c);
+  sbri_character_reset_to_rest(c);
   sbri_work_list(world);
   world->stamp++;
 }
@@ -93,12 +93,14 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: the world holds its %u characters already: raise character_capacity",
         world->character_capacity);
-  uint32_t rung = definition->rung < model->rung_count ? definition->rung : model->rung_count - 1;
-  sbri_room room;
-  if (!sbri_room_make(&world->allocator, model->rungs[rung], &room))
+  uint32_t detail_level = definition->detail_level < model->detail_level_count
+                              ? definition->detail_level
+                              : model->detail_level_count - 1;
+  sbri_character_storage storage;
+  if (!sbri_character_storage_create(&world->allocator, model->levels[detail_level], &storage))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   if (!reserve_work(world, model->max_islands) || !sbri_body_contacts_reserve(world, model)) {
-    sbri_room_free(&world->allocator, &room);
+    sbri_character_storage_free(&world->allocator, &storage);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   }
   sbri_character *c = &world->characters[index];
@@ -107,15 +109,16 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .scale = definition->scale,
       .time_scale = 1 / sqrtf(definition->scale),
       .ground = definition->ground.height ? definition->ground : world->ground,
-      .spare = room};
-  sbri_room_swap(c);
+      .spare = storage};
+  sbri_character_storage_swap(c);
   if (!sbri_contact_surfaces_create(world, index)) {
-    sbri_room_free(&world->allocator, &room);
+    sbri_character_storage_free(&world->allocator, &storage);
     c->model = NULL;
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
   }
-  sbri_head(c)->rung = sbri_head(c)->next_rung = rung;
-  sbri_head(c)->rung_ticks = UINT32_MAX; /* it has not ticked: it may go over to any other at once */
+  sbri_header(c)->detail_level = sbri_header(c)->next_detail_level = detail_level;
+  sbri_header(c)->detail_level_ticks =
+      UINT32_MAX; /* it has not ticked: it may go over to any other at once */
   begin(world, c, definition);
   *character = sbri_id_of(world, c);
   sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
@@ -129,13 +132,13 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_contact_surfaces_free(world, (uint32_t)(c - world->characters));
   sbri_touching_pairs_remove(world, (uint32_t)(c - world->characters));
   sbri_rigid_work_free(&world->allocator, c);
-  sbri_room_free(&world->allocator, &(sbri_room){c->model, c->state, c->scratch});
-  sbri_room_free(&world->allocator, &c->spare);
+  sbri_character_storage_free(&world->allocator, &(sbri_character_storage){c->model, c->state, c->scratch});
+  sbri_character_storage_free(&world->allocator, &c->spare);
   *c = (sbri_character){.generation = c->generation};
   sbri_work_list(world);
 }
 
-void sbr_character_drive(
+void sbr_character_set_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
@@ -143,9 +146,9 @@ void sbr_character_drive(
           (const double[]){character.value, (double)forward, (double)sideways, (double)turn}))
     return;
   sbri_character_wake(c);
-  sbri_head(c)->forward = forward;
-  sbri_head(c)->sideways = sideways;
-  sbri_head(c)->turn = turn;
+  sbri_header(c)->forward = forward;
+  sbri_header(c)->sideways = sideways;
+  sbri_header(c)->turn = turn;
 }
 
 void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id character, float up) {
@@ -153,7 +156,7 @@ void sbr_character_set_vertical_speed(sbr_world *world, sbr_character_id charact
   if (!c) return;
   if (!sbri_record(world, SBRI_RECORDED_VERTICAL, (const double[]){character.value, (double)up})) return;
   sbri_character_wake(c);
-  sbri_head(c)->up = up;
+  sbri_header(c)->up = up;
 }
 
 void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_vec3 by, float turn) {
@@ -163,15 +166,15 @@ void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_ve
           (const double[]){character.value, (double)by.x, (double)by.y, (double)by.z, (double)turn}))
     return;
   sbri_character_wake(c);
-  sbri_head(c)->moved = sbri_add(sbri_head(c)->moved, by);
-  sbri_head(c)->turned += turn;
+  sbri_header(c)->moved = sbri_add(sbri_header(c)->moved, by);
+  sbri_header(c)->turned += turn;
 }
 
-void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused) {
+void sbr_character_set_paused(sbr_world *world, sbr_character_id character, bool paused) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_PAUSE, (const double[]){character.value, paused});
-  sbri_head(c)->paused = paused;
+  sbri_header(c)->paused = paused;
 }
 
 void sbr_character_teleport(
@@ -183,14 +186,14 @@ void sbr_character_teleport(
     return;
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
-  sbri_head(c)->moved = sbri_vec3(0, 0, 0), sbri_head(c)->turned = 0;
+  sbri_header(c)->moved = sbri_vec3(0, 0, 0), sbri_header(c)->turned = 0;
   put(world, c, position, heading);
   sbri_rigid_carry(c);
-  sbri_jiggles_place(c);
+  sbri_jiggles_reset(c);
   sbri_fade_end(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
-  sbri_settle(c);
+  sbri_character_stop(c);
   world->stamp++;
 }
 
@@ -198,19 +201,20 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_RESET, (const double[]){character.value});
-  sbf_vec3 place;
+  sbf_vec3 position;
   float heading;
   sbri_character_wake(c);
-  sbri_gait_placement(sbri_gait(c), &place, &heading);
-  sbr_double3 origin = sbri_head(c)->origin;
-  sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = sbri_head(c)->up = 0;
+  sbri_gait_get_placement(sbri_gait(c), &position, &heading);
+  sbr_double3 origin = sbri_header(c)->origin;
+  sbri_header(c)->forward = sbri_header(c)->sideways = sbri_header(c)->turn = sbri_header(c)->up = 0;
   memset(sbri_loads(c), 0, SBR_LOAD_CAPACITY * sizeof(sbri_load));
-  put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
-  sbri_rigid_place(c, false);
-  sbri_jiggles_place(c);
+  put(world, c, (sbr_double3){origin.x + (double)position.x, position.y, origin.z + (double)position.z},
+      heading);
+  sbri_rigid_reset(c, false);
+  sbri_jiggles_reset(c);
   sbri_fade_end(c);
-  sbri_mend(c);
-  sbri_place_at_rest(c);
+  sbri_restore_elements(c);
+  sbri_character_reset_to_rest(c);
   world->stamp++;
 }
 

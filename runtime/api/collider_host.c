@@ -49,9 +49,9 @@ static sbri_collider *collider_of(sbr_world *world, sbr_collider_id id) {
   return c->shape && c->generation == id.value >> INDEX_BITS ? c : NULL;
 }
 
-static bool is_place(sbr_double3 position, sbf_quat turn) {
-  const double numbers[7] = {
-      position.x, position.y, position.z, (double)turn.x, (double)turn.y, (double)turn.z, (double)turn.w};
+static bool is_position(sbr_double3 position, sbf_quat rotation) {
+  const double numbers[7] = {position.x, position.y, position.z, (double)rotation.x, (double)rotation.y,
+      (double)rotation.z, (double)rotation.w};
   return sbri_usable(numbers, 7);
 }
 
@@ -69,7 +69,7 @@ static sbf_status check_body(
         "to 1e15, none of the masses below 0",
         numbers[0], numbers[1], numbers[2], numbers[3]);
   const sbri_collider *leader = collider_of((sbr_world *)world, d->part_of);
-  if (d->part_of.value && (!leader || !(leader->body.ease > 0)))
+  if (d->part_of.value && (!leader || !(leader->body.inverse_mass > 0)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_collider_create: part_of names no collider with a mass: make that one first, and give the parts "
         "none");
@@ -94,7 +94,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
         "sbr_collider_create: begin the definition with sbr_default_collider_definition, and give it a "
         "shape");
   const double how[2] = {(double)definition->friction, (double)definition->restitution};
-  if (!is_place(definition->position, definition->rotation) || !sbri_usable(how, 2))
+  if (!is_position(definition->position, definition->rotation) || !sbri_usable(how, 2))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_collider_create: position %g %g %g m, its rotation, friction %g or restitution %g: give finite "
         "numbers, to 1e15",
@@ -107,7 +107,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_collider_create: the world holds its %u colliders already: raise collider_capacity",
         (unsigned)set->capacity);
-  sbf_quat turn = sbri_quat_normalize(definition->rotation);
+  sbf_quat rotation = sbri_quat_normalize(definition->rotation);
   sbri_collider *c = &set->at[index];
   if (set->end <= index) set->end = index + 1;
   *c = (sbri_collider){.shape = definition->shape,
@@ -115,9 +115,9 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
       .from = definition->position,
       .to = definition->position,
       .next = definition->position,
-      .turn_from = turn,
-      .turn_to = turn,
-      .turn_next = turn,
+      .turn_from = rotation,
+      .turn_to = rotation,
+      .turn_next = rotation,
       .friction = definition->friction,
       .restitution = definition->restitution,
       .layer = definition->layer,
@@ -126,7 +126,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
   if (definition->part_of.value)
     c->leader = (definition->part_of.value & 0xffff) - 1;
   else if (definition->mass > 0)
-    c->body = (sbri_host_body){.ease = 1 / definition->mass,
+    c->body = (sbri_host_body){.inverse_mass = 1 / definition->mass,
         .inverse_inertias = {inverse(definition->inertia.x), inverse(definition->inertia.y),
             inverse(definition->inertia.z)},
         .axes = sbri_quat_normalize(definition->inertia_axes),
@@ -148,16 +148,17 @@ void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider) {
 
 void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c || !is_place(position, rotation)) return;
+  if (!c || !is_position(position, rotation)) return;
   c->next = position;
   c->turn_next = sbri_quat_normalize(rotation);
   c->body.goes = false;
   stir(world);
 }
 
-void sbr_collider_place(sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
+void sbr_collider_set_transform(
+    sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c || !is_place(position, rotation)) return;
+  if (!c || !is_position(position, rotation)) return;
   c->from = c->to = c->next = position;
   c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
   c->body.goes = false;
@@ -168,31 +169,32 @@ void sbr_collider_place(sbr_world *world, sbr_collider_id collider, sbr_double3 
 static const float FROM_WEIGHT = 0.2f, FROM_NOWHERE_M_S = 0.01f;
 
 /* What its velocity shows that the host's own things have pushed it with since it was last told. */
-static void look_who_holds(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
-  b->held_along = sbri_vec3(0, 0, 0);
+static void find_holder(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
+  b->blocked_normal = sbri_vec3(0, 0, 0);
   if (!b->goes || !(m->since_s > 0)) {
     b->sharers = b->sharing = 0;
     return;
   }
-  sbf_vec3 known = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->ease);
-  sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->told_velocity), known);
+  sbf_vec3 known = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->inverse_mass);
+  sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->reported_velocity), known);
   float size = sbri_length(other), weight = sbri_length(b->acceleration) * m->since_s;
-  if (size > FROM_WEIGHT * weight + FROM_NOWHERE_M_S) b->held_along = sbri_scale(other, 1 / size);
+  if (size > FROM_WEIGHT * weight + FROM_NOWHERE_M_S) b->blocked_normal = sbri_scale(other, 1 / size);
 }
 
 void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c || !motion || !is_place(motion->position, motion->rotation)) return;
-  const sbf_vec3 v = motion->velocity, w = motion->spin, a = motion->acceleration;
+  if (!c || !motion || !is_position(motion->position, motion->rotation)) return;
+  const sbf_vec3 v = motion->velocity, w = motion->angular_velocity, a = motion->acceleration;
   const double numbers[10] = {(double)v.x, (double)v.y, (double)v.z, (double)w.x, (double)w.y, (double)w.z,
       (double)a.x, (double)a.y, (double)a.z, (double)motion->since_s};
   if (!sbri_usable(numbers, 10)) return;
   c->to = c->next = motion->position;
   c->turn_to = c->turn_next = sbri_quat_normalize(motion->rotation);
   sbf_vec3 of_mass = sbri_add(v, sbri_cross(w, sbri_rotate(c->turn_to, c->body.centre)));
-  look_who_holds(&c->body, motion, of_mass);
-  c->body.goes = c->body.told = true;
-  c->body.velocity = v, c->body.told_velocity = of_mass, c->body.spin = w, c->body.acceleration = a;
+  find_holder(&c->body, motion, of_mass);
+  c->body.goes = c->body.is_reported = true;
+  c->body.velocity = v, c->body.reported_velocity = of_mass, c->body.angular_velocity = w,
+  c->body.acceleration = a;
   c->body.handed = sbri_vec3(0, 0, 0);
   stir(world);
 }
@@ -203,11 +205,11 @@ static sbf_vec3 taken(double sum[3]) {
   return all;
 }
 
-sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider) {
+sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id collider) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c) return (sbr_collider_push){{0, 0, 0}, {0, 0, 0}};
+  if (!c) return (sbr_collider_impulse){{0, 0, 0}, {0, 0, 0}};
   sbf_vec3 impulse = taken(c->impulse);
   sbri_host_body *body = &world->colliders.at[c->leader].body;
   body->handed = sbri_add(body->handed, impulse);
-  return (sbr_collider_push){impulse, taken(c->moment)};
+  return (sbr_collider_impulse){impulse, taken(c->moment)};
 }

@@ -1,4 +1,4 @@
-/* Choosing rungs as hosts ask for it: sbrun/detail.h. */
+/* Choosing detail levels as hosts ask for it: sbrun/detail.h. */
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "detail/choose.h"
@@ -10,7 +10,7 @@ sbr_detail_definition sbr_default_detail_definition(void) {
   return (sbr_detail_definition){.cookie = DETAIL_COOKIE,
       .error_px = 0.5f,
       .ns_per_visit = 6,
-      .settle = 0.7f,
+      .coarsen_fraction = 0.7f,
       .stay_s = 0.5f,
       .away_after_s = 1};
 }
@@ -37,27 +37,29 @@ static bool make(sbr_world *world) {
   return false;
 }
 
-sbf_status sbr_world_detail(
+sbf_status sbr_world_select_detail_levels(
     sbr_world *world, const sbr_detail_definition *definition, sbf_diagnostic *error) {
   if (!world || !definition)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_world_detail: NULL argument");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_world_select_detail_levels: NULL argument");
   if (definition->cookie != DETAIL_COOKIE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_detail: begin the definition with sbr_default_detail_definition");
-  if (!(definition->error_px > 0) || !(definition->ns_per_visit > 0) || !(definition->settle > 0) ||
-      definition->settle > 1 || !(definition->budget_us >= 0) || !(definition->stay_s >= 0))
+        "sbr_world_select_detail_levels: begin the definition with sbr_default_detail_definition");
+  if (!(definition->error_px > 0) || !(definition->ns_per_visit > 0) || !(definition->coarsen_fraction > 0) ||
+      definition->coarsen_fraction > 1 || !(definition->budget_us >= 0) || !(definition->stay_s >= 0))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_detail: error_px %g and ns_per_visit %g must be above 0, settle %g within (0, 1], "
+        "sbr_world_select_detail_levels: error_px %g and ns_per_visit %g must be above 0, settle %g within "
+        "(0, 1], "
         "budget_us "
         "%g and stay_s %g not below 0",
-        (double)definition->error_px, (double)definition->ns_per_visit, (double)definition->settle,
+        (double)definition->error_px, (double)definition->ns_per_visit, (double)definition->coarsen_fraction,
         (double)definition->budget_us, (double)definition->stay_s);
   const double numbers[6] = {(double)definition->error_px, (double)definition->budget_us,
-      (double)definition->ns_per_visit, (double)definition->settle, (double)definition->stay_s,
+      (double)definition->ns_per_visit, (double)definition->coarsen_fraction, (double)definition->stay_s,
       (double)definition->away_after_s};
   if (!sbri_usable(numbers, 6))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_detail: error_px %g, budget_us %g, ns_per_visit %g, stay_s %g or away_after_s %g: give "
+        "sbr_world_select_detail_levels: error_px %g, budget_us %g, ns_per_visit %g, stay_s %g or "
+        "away_after_s %g: give "
         "finite numbers, to 1e15",
         numbers[0], numbers[1], numbers[2], numbers[4], numbers[5]);
   if (!world->detail && !make(world))
@@ -72,32 +74,32 @@ void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_v
       (double)view->lines};
   if (!sbri_record(world, SBRI_RECORDED_VIEW, numbers)) return;
   if (!world->detail) return;
-  world->detail->eye_count = count < SBR_MOST_VIEWS ? count : SBR_MOST_VIEWS;
+  world->detail->eye_count = count < SBR_MAX_VIEWS ? count : SBR_MAX_VIEWS;
   if (index < world->detail->eye_count) world->detail->eyes[index] = sbri_eye_of(view);
 }
 
-void sbr_world_views(sbr_world *world, const sbr_view *views, uint32_t count) {
+void sbr_world_set_views(sbr_world *world, const sbr_view *views, uint32_t count) {
   static const sbr_view none = {{0, 0, 0}, {0, 0, 1}, 1, 1, 1};
   if (!world || !world->detail) return;
   if (!views || count == 0) sbri_view_set(world, 0, 0, &none);
-  for (uint32_t i = 0; views && i < count && i < SBR_MOST_VIEWS; i++)
-    sbri_view_set(world, i, count < SBR_MOST_VIEWS ? count : SBR_MOST_VIEWS, &views[i]);
+  for (uint32_t i = 0; views && i < count && i < SBR_MAX_VIEWS; i++)
+    sbri_view_set(world, i, count < SBR_MAX_VIEWS ? count : SBR_MAX_VIEWS, &views[i]);
 }
 
-void sbr_character_shown(sbr_world *world, sbr_character_id character, sbr_shown shown) {
+void sbr_character_set_visibility(sbr_world *world, sbr_character_id character, sbr_visibility shown) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_SHOWN, (const double[]){character.value, shown});
-  sbri_head(c)->shown = (uint32_t)shown;
+  sbri_header(c)->shown = (uint32_t)shown;
 }
 
-float sbr_character_error_px(const sbr_world *world, sbr_character_id character) {
+float sbr_character_get_error_px(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
   if (!c || !world->detail) return 0;
-  float error = c->model->base->ladder[sbri_head(c)->next_rung].error_m * c->scale;
+  float error = c->model->base->detail_levels[sbri_header(c)->next_detail_level].error_m * c->scale;
   return sbri_pixels_of(world, c) * sbri_speed_factor(c) * error;
 }
 
-double sbr_world_visits(const sbr_world *world) {
+double sbr_world_get_element_visits(const sbr_world *world) {
   return world && world->detail ? world->detail->visits : 0;
 }

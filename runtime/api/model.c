@@ -24,7 +24,7 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
         "sbr_model_options: gravity %g %g %g m/s^2 or step_error_m %g: give finite numbers, to 1e15",
         numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!sbri_kernels_of(options->instructions)) {
-    const char *name = sbr_instructions_name(options->instructions);
+    const char *name = sbr_instructions_get_name(options->instructions);
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "this processor, or this library, does not have instructions %s: ask for automatic",
         name ? name : "of that number");
@@ -49,7 +49,7 @@ sbf_status sbr_model_create(
   made->base = made;
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = sbri_model_prepare(made, options, error);
-  if (status == SBF_OK) status = sbri_rungs_make(made, options, error);
+  if (status == SBF_OK) status = sbri_detail_levels_make(made, options, error);
   if (status != SBF_OK) {
     sbr_model_destroy(made);
     return status;
@@ -62,12 +62,12 @@ sbf_status sbr_model_create(
 void sbr_model_destroy(sbr_model *model) {
   if (!model) return;
   sbf_allocator allocator = model->arena.allocator;
-  sbri_rungs_free(model);
+  sbri_detail_levels_free(model);
   sbfi_arena_free(&model->arena);
   sbfi_free(&allocator, model, sizeof *model);
 }
 
-sbr_instructions sbr_model_instructions(const sbr_model *model) {
+sbr_instructions sbr_model_get_instructions(const sbr_model *model) {
   return model ? model->kernels->instructions : SBR_INSTRUCTIONS_AUTOMATIC;
 }
 
@@ -75,7 +75,7 @@ static uint32_t substeps_at_rest(const sbri_island *island) {
   return sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
 }
 
-uint32_t sbr_model_substeps(const sbr_model *model) {
+uint32_t sbr_model_get_substeps(const sbr_model *model) {
   uint32_t max = 1;
   for (uint32_t i = 0; model && i < model->island_count; i++) {
     uint32_t substeps = substeps_at_rest(&model->islands[i]);
@@ -84,7 +84,7 @@ uint32_t sbr_model_substeps(const sbr_model *model) {
   return max;
 }
 
-uint32_t sbr_model_body_substeps(const sbr_model *model, uint32_t soft_body) {
+uint32_t sbr_model_get_body_substeps(const sbr_model *model, uint32_t soft_body) {
   for (uint32_t i = 0; model && i < model->island_count; i++)
     for (uint32_t b = 0; b < model->islands[i].body_count; b++)
       if (model->islands[i].bodies[b] == soft_body) return substeps_at_rest(&model->islands[i]);

@@ -30,7 +30,7 @@ static int32_t index_of(double value) {
 
 static void check(sbr_replay *r, const double *n) {
   uint64_t hash = (uint64_t)whole(n[1]) << 32 | whole(n[2]);
-  bool same = hash == sbr_world_state_hash(r->world) && (double)r->world->ticks == n[0];
+  bool same = hash == sbr_world_get_state_hash(r->world) && (double)r->world->ticks == n[0];
   r->checks++;
   if (same || r->differs) return;
   r->differs = true;
@@ -50,15 +50,15 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
       .joint_damping_1_s = (float)n[4],
       .joint_friction = (float)n[5]};
   if (what == SBRI_RECORDED_RIGID_MODE)
-    sbr_character_rigid_mode(world, id, index_of(n[1]), (sbr_rigid_mode)whole(n[2]));
+    sbr_character_set_rigid_mode(world, id, index_of(n[1]), (sbr_rigid_mode)whole(n[2]));
   else if (what == SBRI_RECORDED_RIGID_DRIVE)
-    sbr_character_rigid_drive(world, id, &drive);
+    sbr_character_set_rigid_drive(world, id, &drive);
   else if (what == SBRI_RECORDED_RIGID_SHARE)
-    sbr_character_rigid_share(world, id, index_of(n[1]), (float)n[2]);
+    sbr_character_set_rigid_drive_fraction(world, id, index_of(n[1]), (float)n[2]);
   else if (what == SBRI_RECORDED_RIGID_FALL)
-    sbr_character_rigid_fall(world, id, &(sbr_rigid_fall){(float)n[1], (float)n[2], (float)n[3]});
+    sbr_character_knock_over(world, id, &(sbr_fall_definition){(float)n[1], (float)n[2], (float)n[3]});
   else
-    sbr_character_rigid_push(world, id, whole(n[1]), (sbr_double3){n[2], n[3], n[4]},
+    sbr_character_apply_rigid_impulse(world, id, whole(n[1]), (sbr_double3){n[2], n[3], n[4]},
         (sbf_vec3){(float)n[5], (float)n[6], (float)n[7]});
 }
 
@@ -107,7 +107,7 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     sbr_character_destroy(r->world, id);
     break;
   case SBRI_RECORDED_DRIVE:
-    sbr_character_drive(r->world, id, (float)n[1], (float)n[2], (float)n[3]);
+    sbr_character_set_drive(r->world, id, (float)n[1], (float)n[2], (float)n[3]);
     break;
   case SBRI_RECORDED_VERTICAL:
     sbr_character_set_vertical_speed(r->world, id, (float)n[1]);
@@ -125,25 +125,25 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     sbr_character_wake(r->world, id);
     break;
   case SBRI_RECORDED_PAUSE:
-    sbr_character_pause(r->world, id, n[1] != 0);
+    sbr_character_set_paused(r->world, id, n[1] != 0);
     break;
   case SBRI_RECORDED_REACH:
-    sbr_character_ik_target(r->world, id, whole(n[1]), &target);
+    sbr_character_set_ik_target(r->world, id, whole(n[1]), &target);
     break;
   case SBRI_RECORDED_RELEASE:
-    sbr_character_ik_target(r->world, id, whole(n[1]), NULL);
+    sbr_character_set_ik_target(r->world, id, whole(n[1]), NULL);
     break;
   case SBRI_RECORDED_PIVOT:
-    sbr_character_pivot(r->world, id, index_of(n[1]));
+    sbr_character_set_pivot_leg(r->world, id, index_of(n[1]));
     break;
   case SBRI_RECORDED_PLAY:
-    sbr_character_play(r->world, id, whole(n[1]), index_of(n[2]), &how);
+    sbr_character_play_clip(r->world, id, whole(n[1]), index_of(n[2]), &how);
     break;
-  case SBRI_RECORDED_RUNG:
-    sbr_character_set_rung(r->world, id, whole(n[1]));
+  case SBRI_RECORDED_DETAIL_LEVEL:
+    sbr_character_set_detail_level(r->world, id, whole(n[1]));
     break;
   case SBRI_RECORDED_SHOWN:
-    sbr_character_shown(r->world, id, (sbr_shown)whole(n[1]));
+    sbr_character_set_visibility(r->world, id, (sbr_visibility)whole(n[1]));
     break;
   case SBRI_RECORDED_VIEW:
     play_view(r->world, n);
@@ -161,16 +161,16 @@ static size_t read(
   size_t left = size - r->at;
   *bad = false;
   memset(numbers, 0, SBRI_RECORDED_MAX * sizeof *numbers);
-  if (left < SBRI_RECORDED_HEAD_BYTES) return 0;
+  if (left < SBRI_RECORDED_HEADER_BYTES) return 0;
   *what = u32_at(from);
   uint32_t count = u32_at(from + 4);
   *bad = *what >= SBRI_RECORDED_COUNT || count != sbri_recorded_count(*what);
-  if (*bad || left < SBRI_RECORDED_HEAD_BYTES + (size_t)count * SBRI_RECORDED_NUMBER_BYTES) return 0;
+  if (*bad || left < SBRI_RECORDED_HEADER_BYTES + (size_t)count * SBRI_RECORDED_NUMBER_BYTES) return 0;
   for (uint32_t i = 0; i < count; i++) {
-    numbers[i] = double_at(from + SBRI_RECORDED_HEAD_BYTES + i * SBRI_RECORDED_NUMBER_BYTES);
+    numbers[i] = double_at(from + SBRI_RECORDED_HEADER_BYTES + i * SBRI_RECORDED_NUMBER_BYTES);
     *bad = *bad || !sbri_usable(&numbers[i], 1);
   }
-  return *bad ? 0 : SBRI_RECORDED_HEAD_BYTES + (size_t)count * SBRI_RECORDED_NUMBER_BYTES;
+  return *bad ? 0 : SBRI_RECORDED_HEADER_BYTES + (size_t)count * SBRI_RECORDED_NUMBER_BYTES;
 }
 
 static bool steps(uint32_t what) {
@@ -213,7 +213,7 @@ sbf_status sbr_replay_begin(
   return SBF_OK;
 }
 
-bool sbr_replay_frame(sbr_replay *r) {
+bool sbr_replay_step(sbr_replay *r) {
   double numbers[SBRI_RECORDED_MAX];
   uint32_t what = 0;
   bool bad;

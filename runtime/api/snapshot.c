@@ -7,10 +7,10 @@
 #include "body_contact/body_contacts.h"
 #include "pose/frames.h"
 
-typedef struct snapshot_head {
+typedef struct snapshot_header {
   uint64_t magic, size, ticks, characters;
   int64_t ahead_units;
-} snapshot_head;
+} snapshot_header;
 
 /* One before each character's state block. */
 typedef struct snapshot_part {
@@ -20,8 +20,8 @@ typedef struct snapshot_part {
 
 static const uint64_t MAGIC = 0x31706e7372627321; /* "!sbrsnp1" */
 
-size_t sbr_world_snapshot_size(const sbr_world *world) {
-  size_t size = sizeof(snapshot_head);
+size_t sbr_world_get_snapshot_size(const sbr_world *world) {
+  size_t size = sizeof(snapshot_header);
   if (world) size += sbri_contact_cache_size(world);
   for (uint32_t i = 0; world && i < world->character_capacity; i++)
     if (world->characters[i].model)
@@ -35,9 +35,9 @@ static uint64_t count_characters(const sbr_world *world) {
   return count;
 }
 
-sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size) {
-  if (!world || !bytes || size != sbr_world_snapshot_size(world)) return SBF_FAILED;
-  snapshot_head head = {MAGIC, size, world->ticks, count_characters(world), world->ahead_units};
+sbf_status sbr_world_save_snapshot(const sbr_world *world, void *bytes, size_t size) {
+  if (!world || !bytes || size != sbr_world_get_snapshot_size(world)) return SBF_FAILED;
+  snapshot_header head = {MAGIC, size, world->ticks, count_characters(world), world->ahead_units};
   unsigned char *to = bytes;
   memcpy(to, &head, sizeof head);
   to += sizeof head;
@@ -51,27 +51,29 @@ sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t s
   }
   sbri_contact_cache_save(world, to);
   to += sbri_contact_cache_size(world);
-  memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* what other rungs would need */
+  memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* what other detail levels would need */
   return SBF_OK;
 }
 
-/* The model of the rung that a state is on; NULL: it is none of the character's, or does not lie within. */
+/* The model of the detail level that a state is on; NULL: it is none of the character's, or does not lie
+ * within. */
 static const sbr_model *model_of(
     const sbri_character *c, const snapshot_part *part, const unsigned char *state, size_t left) {
   sbri_character_state head;
   if (part->size < sizeof head || part->size > left) return NULL;
   memcpy(&head, state, sizeof head);
   const sbr_model *base = c->model->base;
-  const sbr_model *model = head.rung < base->rung_count ? base->rungs[head.rung] : NULL;
+  const sbr_model *model =
+      head.detail_level < base->detail_level_count ? base->levels[head.detail_level] : NULL;
   return model && part->size == model->layout.state_size ? model : NULL;
 }
 
-/* Whether the snapshot is of this world with these characters, and there is room for the rungs that they were
- * on; nothing is changed before that is known. */
+/* Whether the snapshot is of this world with these characters, and there is room for the detail levels that
+ * they were on; nothing is changed before that is known. */
 static bool fits(sbr_world *world, const unsigned char *bytes, size_t size) {
   const unsigned char *end = bytes + size;
-  snapshot_head head;
-  if (size != sbr_world_snapshot_size(world)) return false;
+  snapshot_header head;
+  if (size != sbr_world_get_snapshot_size(world)) return false;
   memcpy(&head, bytes, sizeof head);
   if (head.magic != MAGIC || head.size != size || head.characters != count_characters(world)) return false;
   bytes += sizeof head;
@@ -86,16 +88,16 @@ static bool fits(sbr_world *world, const unsigned char *bytes, size_t size) {
     if (part.index != i || part.generation != c->generation || !model) return false;
     bytes += part.size;
     if (model == c->model || model == c->spare.model) continue;
-    sbri_room_free(&world->allocator, &c->spare);
-    if (!sbri_room_make(&world->allocator, model, &c->spare)) return false;
+    sbri_character_storage_free(&world->allocator, &c->spare);
+    if (!sbri_character_storage_create(&world->allocator, model, &c->spare)) return false;
   }
   return sbri_contact_cache_size(world) <= (size_t)(end - bytes);
 }
 
-sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size) {
+sbf_status sbr_world_restore_snapshot(sbr_world *world, const void *bytes, size_t size) {
   if (!world || !bytes || !fits(world, bytes, size)) return SBF_FAILED;
   const unsigned char *from = bytes;
-  snapshot_head head;
+  snapshot_header head;
   memcpy(&head, from, sizeof head);
   world->ticks = head.ticks;
   world->ahead_units = head.ahead_units;
@@ -107,7 +109,7 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
     if (!c->model) continue;
     memcpy(&part, from, sizeof part);
     from += sizeof part;
-    if (model_of(c, &part, from, part.size) != c->model) sbri_room_swap(c);
+    if (model_of(c, &part, from, part.size) != c->model) sbri_character_storage_swap(c);
     memcpy(c->state, from, part.size);
     from += part.size;
     sbri_contact_surfaces_select_level(world, i);
@@ -117,56 +119,57 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
   return SBF_OK;
 }
 
-static void hash_rung(sbfi_hash64 *hash, const sbri_character *c) {
-  const sbri_character_state *head = sbri_head(c);
-  const uint32_t words[10] = {head->rung, head->next_rung, head->set_rung_plus_1, head->rung_ticks,
-      head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks, head->fade_kept,
-      head->swing_ticks};
-  const float shares[2] = {head->fade, head->fade_before};
+static void hash_detail_level(sbfi_hash64 *hash, const sbri_character *c) {
+  const sbri_character_state *head = sbri_header(c);
+  const uint32_t words[10] = {head->detail_level, head->next_detail_level, head->set_detail_level_plus_1,
+      head->detail_level_ticks, head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks,
+      head->fade_kept, head->swing_ticks};
+  const float fractions[2] = {head->fade, head->fade_before};
   const uint32_t *first = c->model->base->first_vertices;
-  sbfi_hash64_u32(hash, words, 10);
-  sbfi_hash64_f32(hash, shares, 2);
+  sbfi_hash64_add_u32(hash, words, 10);
+  sbfi_hash64_add_f32(hash, fractions, 2);
   if (head->fade_before > 0 || head->fade_kept)
-    sbfi_hash64_f32(hash, &sbri_faded(c)->place.x, 12 * (size_t)first[c->model->asset->render_meshes.count]);
+    sbfi_hash64_add_f32(
+        hash, &sbri_faded(c)->position.x, 12 * (size_t)first[c->model->asset->render_meshes.count]);
 }
 
-uint64_t sbr_world_state_hash(const sbr_world *world) {
+uint64_t sbr_world_get_state_hash(const sbr_world *world) {
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
   if (!world) return 0;
-  sbfi_hash64_u64(&hash, &world->ticks, 1);
+  sbfi_hash64_add_u64(&hash, &world->ticks, 1);
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
     if (!c->model) continue;
     const sbri_layout *l = &c->model->layout;
-    const sbri_character_state *head = sbri_head(c);
+    const sbri_character_state *head = sbri_header(c);
     const float wanted[3] = {head->forward, head->sideways, head->turn};
     uint32_t id[3] = {i, head->paused, head->asleep};
-    sbfi_hash64_u32(&hash, id, 3);
-    sbfi_hash64_f64(&hash, &head->origin.x, 3);
-    sbfi_hash64_f32(&hash, wanted, 3);
-    sbfi_hash64_bytes(&hash, sbri_gait(c), sbri_gait_state_size(&c->model->rig));
-    sbfi_hash64_f32(&hash, &sbri_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
-    sbfi_hash64_f32(&hash, &sbri_previous_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
-    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
+    sbfi_hash64_add_u32(&hash, id, 3);
+    sbfi_hash64_add_f64(&hash, &head->origin.x, 3);
+    sbfi_hash64_add_f32(&hash, wanted, 3);
+    sbfi_hash64_add_bytes(&hash, sbri_gait(c), sbri_gait_state_size(&c->model->rig));
+    sbfi_hash64_add_f32(&hash, &sbri_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_add_f32(&hash, &sbri_previous_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
         (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
     /* Positions, the tick before and velocities follow each other. */
-    sbfi_hash64_f32(&hash, (const float *)(const void *)(c->state + l->positions),
+    sbfi_hash64_add_f32(&hash, (const float *)(const void *)(c->state + l->positions),
         (l->solids - l->positions) / sizeof(float));
-    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
+    sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
         (l->used_size - l->solids) / sizeof(uint32_t));
-    if (c->model->base->rung_count > 1) hash_rung(&hash, c);
+    if (c->model->base->detail_level_count > 1) hash_detail_level(&hash, c);
   }
   for (uint32_t i = 0; world->body_contacts && i < world->body_contacts->cached_count; i++) {
     const sbri_cached_contact *m = &world->body_contacts->cached[i];
-    sbfi_hash64_u64(&hash, m->body_ids, 2);
-    sbfi_hash64_u32(&hash, &m->feature, 1);
-    sbfi_hash64_f32(&hash, &m->local_point.x, 3);
-    sbfi_hash64_f32(&hash, &m->normal_force, 1);
-    sbfi_hash64_f32(&hash, &m->friction_force.x, 3);
-    sbfi_hash64_f32(&hash, &m->tangent_slip.x, 3);
-    sbfi_hash64_f32(&hash, &m->external_acceleration, 1);
-    if (sbri_dot(m->common_exit, m->common_exit) > 0) sbfi_hash64_f32(&hash, &m->common_exit.x, 3);
+    sbfi_hash64_add_u64(&hash, m->body_ids, 2);
+    sbfi_hash64_add_u32(&hash, &m->feature, 1);
+    sbfi_hash64_add_f32(&hash, &m->local_point.x, 3);
+    sbfi_hash64_add_f32(&hash, &m->normal_force, 1);
+    sbfi_hash64_add_f32(&hash, &m->friction_force.x, 3);
+    sbfi_hash64_add_f32(&hash, &m->tangent_slip.x, 3);
+    sbfi_hash64_add_f32(&hash, &m->external_acceleration, 1);
+    if (sbri_dot(m->common_exit, m->common_exit) > 0) sbfi_hash64_add_f32(&hash, &m->common_exit.x, 3);
   }
   return sbfi_hash64_value(&hash);
 }

@@ -111,7 +111,7 @@ static void push_carriers(const soft_call *call, sbf_vec3 own) {
       add_velocity(velocity_of(c, call->body, slot), sbri_scale(part, now.inverse_masses[slot]));
       continue;
     }
-    int32_t carrier = now.carrier_of_held[slot - now.free_count];
+    int32_t carrier = now.rigid_body_of_pinned[slot - now.free_count];
     const sbri_point *x = &sbri_positions(c)[now.first_slot + slot];
     if (carrier >= 0 && sbri_rigid_is_simulated(c, (uint32_t)carrier))
       sbri_rigid_push(c, (uint32_t)carrier, sbri_vec3(x->x, x->y, x->z), part);
@@ -132,9 +132,9 @@ sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id c
   sbf_vec3 own = sbri_scale(impulse, sbri_own_impulse(call.c));
   if (vertex == SBR_WHOLE_BODY) {
     const sbri_island now = sbri_island_now(call.c, &call.c->model->islands[call.body->island]);
-    sbf_vec3 gain = sbri_scale(own, 1 / sbri_body_mass(call.c, call.body));
+    sbf_vec3 velocity_change = sbri_scale(own, 1 / sbri_body_mass(call.c, call.body));
     for (uint32_t slot = call.body->slot_begin; slot < call.body->slot_end; slot++)
-      if (now.masses[slot] > 0) add_velocity(velocity_of(call.c, call.body, slot), gain);
+      if (now.masses[slot] > 0) add_velocity(velocity_of(call.c, call.body, slot), velocity_change);
   } else {
     push_carriers(&call, own);
   }
@@ -152,7 +152,7 @@ static sbri_load *find_hold(sbri_character *c, uint32_t soft_body, uint32_t vert
   return NULL;
 }
 
-static sbri_load *find_room(const soft_call *call, sbf_status *status, sbf_diagnostic *error) {
+static sbri_load *find_free_index(const soft_call *call, sbf_status *status, sbf_diagnostic *error) {
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     if (sbri_loads(call->c)[i].kind == SBRI_LOAD_NONE) return &sbri_loads(call->c)[i];
   *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL,
@@ -174,7 +174,7 @@ sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_character_id cha
   if (!(seconds > 0))
     return sbfi_diagnose(
         error, SBF_CODE_BAD_CALL, "%s: %g seconds: give more than 0", call.name, (double)seconds);
-  sbri_load *load = find_room(&call, &status, error);
+  sbri_load *load = find_free_index(&call, &status, error);
   if (!load) return status;
   sbri_record(world, SBRI_RECORDED_SOFT_FORCE, numbers);
   *load = (sbri_load){
@@ -214,7 +214,7 @@ sbf_status sbr_character_hold_vertex(sbr_world *world, sbr_character_id characte
       (status = check_hold(call.name, hold, error)) != SBF_OK)
     return status;
   sbri_load *load = find_hold(call.c, soft_body, vertex);
-  if (!load) load = find_room(&call, &status, error);
+  if (!load) load = find_free_index(&call, &status, error);
   if (!load) return status;
   sbri_record(world, SBRI_RECORDED_SOFT_HOLD, numbers);
   load->kind = SBRI_LOAD_HOLD, load->body = soft_body, load->vertex = vertex;

@@ -89,7 +89,7 @@ sbf_status sbr_world_create(
 
 void sbr_world_destroy(sbr_world *world) {
   if (!world) return;
-  sbr_world_record(world, NULL);
+  sbr_world_set_recording(world, NULL);
   for (uint32_t i = 0; i < world->character_capacity; i++)
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
@@ -123,10 +123,10 @@ void sbr_world_tick(sbr_world *world) {
   sbri_record_hash(world);
 }
 
-uint64_t sbr_world_ticks(const sbr_world *world) {
+uint64_t sbr_world_get_tick_count(const sbr_world *world) {
   return world ? world->ticks : 0;
 }
 
-uint32_t sbr_world_awake(const sbr_world *world) {
+uint32_t sbr_world_count_awake_bodies(const sbr_world *world) {
   return world ? world->awake_count : 0;
 }

@@ -345,7 +345,7 @@ const sbri_cached_contact *sbri_next_cached_contact(
 /* Sets the start values of the group's contacts from the cache. */
 void sbri_contacts_load_cached(const sbri_body_contacts *all, const sbri_contact_group *group, float step_s);
 /* Rescales impulses of the previous step to steps of `step_s`. */
-void sbri_contacts_rescale(const sbri_body_contacts *all, sbri_contact_group *group, float step_s);
+void sbri_contacts_scale_impulses(const sbri_body_contacts *all, sbri_contact_group *group, float step_s);
 /* Stores the loaded contacts in the cache, after all groups have stepped. */
 void sbri_contacts_store(sbr_world *world);
 /* Snapshot of the cache; the size depends on the capacity only. */

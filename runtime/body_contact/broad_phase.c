@@ -20,13 +20,13 @@ static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const 
   sbri_box box = sbri_box_of_point(sbri_vec3(points[first].x, points[first].y, points[first].z));
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
-  for (uint32_t slot = island->free_count; body->held && slot < island->slot_count; slot++)
+  for (uint32_t slot = island->free_count; body->is_pinned && slot < island->slot_count; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
   float margin = 2 * sbri_fastest_of(body, velocities) * (float)world->tick_s * c->time_scale +
                  MOTION_FRACTION * body->rest_size_m + body->source->collision.outer_thickness +
                  body->margin_m + body->sample_beyond * (size.x + size.y + size.z);
-  return sbri_box_in_world(sbri_box_grown(box, margin), sbri_head(c)->origin, c->scale);
+  return sbri_box_in_world(sbri_box_grown(box, margin), sbri_header(c)->origin, c->scale);
 }
 
 static sbri_box rigid_box(const sbr_world *world, const sbri_character *c, uint32_t b) {
@@ -40,7 +40,7 @@ static sbri_box rigid_box(const sbr_world *world, const sbri_character *c, uint3
       simulated ? sbri_length(s->velocity) * tick_s : sbri_length(sbri_sub(now.position, before.position));
   float margin = body->radius * (1 + MOTION_FRACTION) + 2 * displacement;
   return sbri_box_in_world(
-      sbri_box_grown(sbri_box_of_point(now.position), margin), sbri_head(c)->origin, c->scale);
+      sbri_box_grown(sbri_box_of_point(now.position), margin), sbri_header(c)->origin, c->scale);
 }
 
 static void add(sbri_body_contacts *all, sbri_contact_body body, sbri_box box) {
@@ -51,7 +51,8 @@ static void add(sbri_body_contacts *all, sbri_contact_body body, sbri_box box) {
 static void list_character(sbr_world *world, uint32_t index) {
   const sbri_character *c = &world->characters[index];
   const sbr_model *model = c->model;
-  if (model->base->ladder[sbri_head(c)->rung].kind == SBR_RUNG_AWAY) return; /* no other character is near */
+  if (model->base->detail_levels[sbri_header(c)->detail_level].kind == SBR_DETAIL_OFFSCREEN)
+    return; /* no other character is near */
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &model->bodies[b];
     const sbf_collision *rule = &body->source->collision;
@@ -102,11 +103,11 @@ static bool are_connected(const sbr_world *world, const sbri_contact_body *a, co
   const sbri_island *island = &model->islands[model->bodies[soft->body_index].island];
   for (uint32_t i = 0; i < island->carrier_count; i++)
     if (island->carriers[i] == rigid->body_index) return true;
-  return !rigid->is_dynamic && model->bodies[soft->body_index].held; /* its own bones are inside of it */
+  return !rigid->is_dynamic && model->bodies[soft->body_index].is_pinned; /* its own bones are inside of it */
 }
 
 static bool may_collide(const sbr_world *world, const sbri_contact_body *a, const sbri_contact_body *b) {
-  if ((!a->is_dynamic && !b->is_dynamic) || !sbri_layers_meet(a->layer, a->mask, b->layer, b->mask))
+  if ((!a->is_dynamic && !b->is_dynamic) || !sbri_layers_collide(a->layer, a->mask, b->layer, b->mask))
     return false;
   return a->character != b->character || !are_connected(world, a, b);
 }
@@ -119,7 +120,7 @@ static void find_pairs(sbr_world *world) {
     uint32_t b;
     sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
     while (sbri_bounds_walk_next(&walk, &b)) {
-      if (b < a || !sbri_box_meets(&all->boxes[a], &all->boxes[b]) ||
+      if (b < a || !sbri_boxes_overlap(&all->boxes[a], &all->boxes[b]) ||
           !(a == b ? all->bodies[a].self_contact : may_collide(world, &all->bodies[a], &all->bodies[b])))
         continue;
       if (all->pair_count < all->contact_capacity)
@@ -136,7 +137,7 @@ static uint32_t root_of(uint32_t *group_of, uint32_t i) {
 }
 
 bool sbri_character_is_awake(const sbri_character *c) {
-  if (sbri_head(c)->asleep) return false;
+  if (sbri_header(c)->asleep) return false;
   bool simulated = c->model->rigid.body_count && sbri_rigid_drive(c)->any;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (!sbri_island_states(c)[i].asleep) return true;
@@ -192,7 +193,7 @@ static bool add_members(sbr_world *world, sbri_contact_group *group, uint32_t nu
         world->characters[i].model && group->first_member + group->member_count < all->character_capacity);
     all->members[group->first_member + group->member_count++].character = &world->characters[i];
   }
-  group->origin = sbri_head(all->members[group->first_member].character)->origin;
+  group->origin = sbri_header(all->members[group->first_member].character)->origin;
   for (uint32_t i = 0; i < group->member_count && awake; i++) {
     sbri_character *c = all->members[group->first_member + i].character;
     all->group_of[c - world->characters] |= STEPS_ALONG;
@@ -241,7 +242,7 @@ void sbri_broad_phase_update(sbr_world *world) {
     group_of[i] = i;
     if (world->characters[i].model)
       memset(sbri_contact_islands(&world->characters[i]), 0, world->characters[i].model->island_count);
-    if (world->characters[i].model && !sbri_head(&world->characters[i])->paused) list_character(world, i);
+    if (world->characters[i].model && !sbri_header(&world->characters[i])->paused) list_character(world, i);
   }
   find_pairs(world);
   for (uint32_t i = 0; i < all->pair_count; i++) {

@@ -62,7 +62,7 @@ static bool is_along_edge(const crossing *l, const sbri_overlap_edge *e, sbf_vec
 /* Distance from an edge's middle to the nearest face, m, and its direction; 0: none. */
 static float edge_exit_distance(const crossing *l, const sbri_overlap_edge *e, sbf_vec3 *distance) {
   const sbri_pair_body *other = l->overlap.bodies[1 - sbri_side_of_edge(&l->overlap, e)];
-  sbri_surface_finding found;
+  sbri_surface_hit found;
   if (!sbri_find_nearest_exit(other, e->position, &found)) return 0;
   *distance = found.normal;
   return sbri_pair_body_distance(other, &found, e->position);
@@ -73,7 +73,7 @@ static float edge_exit_distance(const crossing *l, const sbri_overlap_edge *e, s
 /* Exit distance of a point, m, or `longest` if that is more. */
 static float max_exit_distance(const sbri_contact_surface *other, const sbri_ray_frame *direction, sbf_vec3 x,
     float max_distance, float longest) {
-  sbri_surface_finding found;
+  sbri_surface_hit found;
   float distance = sbri_find_exit_along(other, direction, x, max_distance, &found);
   return distance > longest ? distance : longest;
 }
@@ -184,7 +184,7 @@ static float cluster_depth(const crossing *l, uint32_t cluster) {
     const sbri_contact_surface *s = l->overlap.bodies[side]->surface;
     const sbri_pair_body *other = l->overlap.bodies[1 - side];
     for (uint32_t v = 0; v < s->vertex_count; v++) {
-      sbri_surface_finding found;
+      sbri_surface_hit found;
       if (s->inside_parents[v] == SBRI_VERTEX_OUTSIDE ||
           sbri_cluster_of_feature(&l->overlap, side, v) != cluster)
         continue;
@@ -327,7 +327,7 @@ static sbf_vec3 choose_exit(const crossing *l, uint32_t cluster) {
 static bool set_exit(const crossing *l, uint32_t side, sbf_vec3 direction, sbf_vec3 x, sbri_contact *t) {
   const sbri_pair_body *other = l->overlap.bodies[1 - side];
   sbri_ray_frame ray = sbri_ray_frame_make(direction);
-  sbri_surface_finding found;
+  sbri_surface_hit found;
   if (!(sbri_find_exit_along(other->surface, &ray, x, l->max_exit_m, &found) < l->max_exit_m)) return false;
   t->b = sbri_pair_body_side(other, other->surface->triangles + 3 * (size_t)found.face, found.weights, 3);
   t->normal = ray.direction;
@@ -363,7 +363,8 @@ static bool blocks_exit(const crossing *l, const sbri_contact *t) {
     sbf_vec3 direction = l->exits[l->overlap.sets[i].cluster];
     sbri_box frame = sbri_box_of_point(x),
              region = sbri_box_grown(l->overlap.sets[i].box, l->cluster_margin_m);
-    if (sbri_dot(t->normal, direction) * sign_of(side) < OPPOSED_COSINE && sbri_box_meets(&frame, &region))
+    if (sbri_dot(t->normal, direction) * sign_of(side) < OPPOSED_COSINE &&
+        sbri_boxes_overlap(&frame, &region))
       return true;
   }
   return false;
@@ -397,7 +398,7 @@ static bool are_near(const sbri_pair_body *a, const sbri_pair_body *b) {
     sbr_transform frame = sbri_pair_body_frame(b, false);
     box = sbri_box_grown(sbri_box_of_point(frame.position), b->rigid->radius * b->owner->scale);
   }
-  return sbri_box_meets(&a->surface->tree.nodes[0].box, &box);
+  return sbri_boxes_overlap(&a->surface->tree.nodes[0].box, &box);
 }
 
 void sbri_resolve_crossings(

@@ -34,7 +34,7 @@ static uint32_t count_triangles(const sbf_polygon_mesh *mesh) {
 }
 
 /* Shares the arrays that a tick renews with the surface of another detail level, or allocates them. */
-static bool allocate_or_share(sbri_contact_surface *s, const sbri_contact_surface *other, uint32_t vertices,
+static bool allocate_or_reuse(sbri_contact_surface *s, const sbri_contact_surface *other, uint32_t vertices,
     uint32_t triangles, sbfi_arena *arena) {
   if (!other) return sbri_contact_surface_allocate(s, vertices, triangles, arena);
   s->positions = other->positions, s->displacements = other->displacements, s->boxes = other->boxes;
@@ -60,7 +60,7 @@ static bool create(const sbr_model *model, const sbri_body *body, sbri_contact_s
   s->samples = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->samples);
   s->triangles = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->triangles);
   if (!s->samples || !s->triangles ||
-      !allocate_or_share(s, meshed ? first : NULL, vertices, triangles, arena))
+      !allocate_or_reuse(s, meshed ? first : NULL, vertices, triangles, arena))
     return false;
   s->vertex_count = vertices;
   for (uint32_t v = 0; v < vertices; v++) {
@@ -98,7 +98,7 @@ static void find_relations(sbr_world *world, uint32_t character, sbri_contact_su
 
 static uint32_t count_soft_levels(const sbr_model *base) {
   uint32_t count = 0;
-  while (count < base->rung_count && base->ladder[count].kind == SBR_RUNG_SOFT) count++;
+  while (count < base->detail_level_count && base->detail_levels[count].kind == SBR_DETAIL_SOFT) count++;
   return count;
 }
 
@@ -107,9 +107,9 @@ static bool create_all(const sbr_model *base, sbri_contact_surface *surfaces, sb
   uint32_t count = base->asset->soft_bodies.count;
   for (uint32_t r = 0; r < count_soft_levels(base); r++)
     for (uint32_t b = 0; b < count; b++) {
-      const sbri_body *body = &base->rungs[r]->bodies[b];
+      const sbri_body *body = &base->levels[r]->bodies[b];
       const sbri_contact_surface *first = r > 0 && base->bodies[b].level ? &surfaces[b] : NULL;
-      if (body->level && !create(base->rungs[r], body, &surfaces[(size_t)r * count + b], first, arena))
+      if (body->level && !create(base->levels[r], body, &surfaces[(size_t)r * count + b], first, arena))
         return false;
     }
   return true;
@@ -120,7 +120,7 @@ void sbri_contact_surfaces_select_level(sbr_world *world, uint32_t character) {
   const sbr_model *model = world->characters[character].model;
   if (!all || !model || !all->level_surfaces[character]) return;
   for (uint32_t r = 0; r < count_soft_levels(model->base); r++)
-    if (model->base->rungs[r] == model)
+    if (model->base->levels[r] == model)
       all->surfaces[character] = all->level_surfaces[character] + (size_t)r * model->asset->soft_bodies.count;
 }
 

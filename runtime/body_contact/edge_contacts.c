@@ -4,7 +4,7 @@
  * the bodies apart. At a ridge with angle a between its normals, an edge of length L can penetrate by L
  * tan(a/2) / 2 without a vertex inside; pairs below a tolerance are left to their vertices. */
 #include "body_contact/narrow_phase.h"
-#include "collide/ridge_look.h"
+#include "collide/ridge_query.h"
 #include "math/vec3.h"
 
 /* Fractions of the smaller thickness: tolerated penetration; depth past a ridge at which deep contacts take
@@ -20,7 +20,8 @@ static surface_edge surface_edge_of(const sbri_contact_surface *s, uint32_t tria
   const uint32_t *c = s->triangles + 3 * (size_t)triangle;
   surface_edge r = {.ends = {c[side], c[(side + 1) % 3]}};
   for (int k = 0; k < 2; k++)
-    r.geometry.edge.at[k] = s->positions[r.ends[k]], r.geometry.edge.ways[k] = s->displacements[r.ends[k]];
+    r.geometry.edge.at[k] = s->positions[r.ends[k]],
+    r.geometry.edge.directions[k] = s->displacements[r.ends[k]];
   if (s->two_sided) return r;
   r.wings[0] = c[(side + 2) % 3], r.wings[1] = s->opposite_vertices[3 * (size_t)triangle + side];
   for (int k = 0; k < 2; k++) r.geometry.wings[k] = s->positions[r.wings[k]];
@@ -31,11 +32,11 @@ static surface_edge surface_edge_of(const sbri_contact_surface *s, uint32_t tria
 static float rest_distance(
     const sbri_pair_body *a, const surface_edge *p, const sbri_pair_body *b, const surface_edge *q) {
   sbri_soft_edge edges[2] = {0};
-  sbri_edge_finding found;
+  sbri_edge_hit found;
   for (int k = 0; k < 2; k++)
     edges[0].at[k] = sbri_pair_body_rest_position(a, p->ends[k]),
     edges[1].at[k] = sbri_pair_body_rest_position(b, q->ends[k]);
-  return sbri_edges_look(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
+  return sbri_edges_query(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
 }
 
 /* A search for crossing edges of two surfaces. */
@@ -48,10 +49,10 @@ typedef struct edge_search {
 } edge_search;
 
 static bool find_crossing(
-    const edge_search *m, const surface_edge *p, const surface_edge *q, sbri_edge_finding *found) {
+    const edge_search *m, const surface_edge *p, const surface_edge *q, sbri_edge_hit *found) {
   if (m->closed)
-    return sbri_ridges_look(&p->geometry, &q->geometry, m->search_distance, m->max_past_ridge, found);
-  return sbri_edges_look(&p->geometry.edge, &q->geometry.edge, m->search_distance, found);
+    return sbri_ridges_query(&p->geometry, &q->geometry, m->search_distance, m->max_past_ridge, found);
+  return sbri_edges_query(&p->geometry.edge, &q->geometry.edge, m->search_distance, found);
 }
 
 /* Whether the pair has a contact so deep that ridges do not matter. */
@@ -63,7 +64,7 @@ static bool has_deep_contact(const sbri_narrow_phase *f, uint32_t first) {
 }
 
 static void add_edge_contact(const edge_search *m, const surface_edge *p, const surface_edge *q) {
-  sbri_edge_finding found;
+  sbri_edge_hit found;
   float margin = m->margin;
   if (!find_crossing(m, p, q, &found)) return;
   if (sbri_are_same_character(m->a, m->b) && m->b->soft) {
@@ -72,7 +73,7 @@ static void add_edge_contact(const edge_search *m, const surface_edge *p, const 
     margin = SBRI_REST_DISTANCE_FACTOR * rest < margin ? SBRI_REST_DISTANCE_FACTOR * rest : margin;
   }
   const float weights[2][2] = {
-      {1 - found.shares[0], found.shares[0]}, {1 - found.shares[1], found.shares[1]}};
+      {1 - found.fractions[0], found.fractions[0]}, {1 - found.fractions[1], found.fractions[1]}};
   uint32_t hash = p->ends[0] * 0x9e3779b1u ^ p->ends[1] * 0x85ebca6bu ^ q->ends[0] * 0xc2b2ae35u ^
                   q->ends[1] * 0x27d4eb2fu;
   sbri_contact t = {.feature = hash | 0x80000000u, /* features of vertices are less */
@@ -94,13 +95,13 @@ static void search_edge(const edge_search *m, const surface_edge *p) {
   const sbri_contact_surface *other = m->b->surface;
   const sbri_soft_edge *edge = &p->geometry.edge;
   sbri_box box = sbri_box_with(sbri_box_of_point(edge->at[0]), edge->at[1]);
-  for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(edge->at[k], edge->ways[k]));
+  for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(edge->at[k], edge->directions[k]));
   box = sbri_box_grown(box, m->search_distance);
   sbri_bounds_walk walk;
   uint32_t triangle;
   sbri_bounds_walk_begin(&walk, &other->tree, box);
   while (sbri_bounds_walk_next(&walk, &triangle)) {
-    if (!other->edge_flags[triangle] || !sbri_box_meets(&box, &other->boxes[triangle])) continue;
+    if (!other->edge_flags[triangle] || !sbri_boxes_overlap(&box, &other->boxes[triangle])) continue;
     for (uint32_t side = 0; side < 3; side++) {
       if (!(other->edge_flags[triangle] >> side & 1)) continue;
       surface_edge q = surface_edge_of(other, triangle, side);
@@ -114,7 +115,7 @@ static void search_surface(const edge_search *m) {
   if (!m->b->surface->tree.node_count) return;
   sbri_box region = sbri_box_grown(m->b->surface->tree.nodes[0].box, m->search_distance);
   for (uint32_t t = 0; t < s->triangle_count; t++) {
-    if (!s->edge_flags[t] || !sbri_box_meets(&s->boxes[t], &region)) continue;
+    if (!s->edge_flags[t] || !sbri_boxes_overlap(&s->boxes[t], &region)) continue;
     for (uint32_t side = 0; side < 3; side++) {
       if (!(s->edge_flags[t] >> side & 1)) continue;
       surface_edge p = surface_edge_of(s, t, side);

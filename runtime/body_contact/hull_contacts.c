@@ -19,7 +19,7 @@ static bool overlap_at_rest(const sbri_pair_body *a, const sbri_pair_body *b) {
                 at_b = {sbri_scale(b->rigid->center, b->owner->scale), b->rigid->axes};
   sbri_placed_hull hull_a = hull_at(a, &at_a), hull_b = hull_at(b, &at_b);
   sbri_hull_pair pair;
-  return sbri_hulls_meet(&hull_a, &hull_b, 0, &pair) && pair.gap < 0;
+  return sbri_collide_hulls(&hull_a, &hull_b, 0, &pair) && pair.gap < 0;
 }
 
 /* A body hit off-center at high speed turns several times in a tick. A contact at its center keeps it at its
@@ -60,12 +60,13 @@ void sbri_find_hull_contacts(const sbri_narrow_phase *f, const sbri_pair_body *a
     const sbri_placed_hull from[2] = {hull_a, hull_b}, to[2] = {hull_at(a, &to_a), hull_at(b, &to_b)};
     float fraction = sbri_hulls_sweep(from, to, near);
     if (fraction > 1) return;
-    hull_a = sbri_hull_on_way(&from[0], &to[0], fraction),
-    hull_b = sbri_hull_on_way(&from[1], &to[1], fraction);
-    from_a = (sbr_transform){hull_a.at, hull_a.turn}, from_b = (sbr_transform){hull_b.at, hull_b.turn};
+    hull_a = sbri_hull_interpolate(&from[0], &to[0], fraction),
+    hull_b = sbri_hull_interpolate(&from[1], &to[1], fraction);
+    from_a = (sbr_transform){hull_a.at, hull_a.rotation},
+    from_b = (sbr_transform){hull_b.at, hull_b.rotation};
     reach = 2 * near;
   }
-  if (!sbri_hulls_meet(&hull_a, &hull_b, reach, &pair)) return;
+  if (!sbri_collide_hulls(&hull_a, &hull_b, reach, &pair)) return;
   if (sbri_are_same_character(a, b) && overlap_at_rest(a, b)) return;
   for (uint32_t i = 0; i < pair.count; i++) {
     sbri_contact t = {.a = sbri_rigid_contact_side(a, sbri_to_local(&from_a, pair.on_a[i], a->owner->scale)),

@@ -6,7 +6,7 @@
 #include "body_contact/narrow_phase.h"
 #include "base/assert.h"
 #include "collide/shape.h"
-#include "collide/surface_look.h"
+#include "collide/surface_query.h"
 #include "model/reach.h"
 
 /* A sheet's normal within this cosine of a corner's outward direction: the corner has passed through the
@@ -44,7 +44,7 @@ static sbri_surface_face face_of(const sbri_pair_body *p, uint32_t triangle) {
   sbri_surface_face face;
   for (int k = 0; k < 3; k++) {
     uint32_t v = p->surface->triangles[3 * (size_t)triangle + (uint32_t)k];
-    face.at[k] = p->surface->positions[v], face.ways[k] = p->surface->displacements[v];
+    face.at[k] = p->surface->positions[v], face.directions[k] = p->surface->displacements[v];
   }
   return face;
 }
@@ -71,8 +71,7 @@ static sbri_box search_box(const face_search *search, sbf_vec3 x, sbf_vec3 displ
 }
 
 /* Finds the most urgent triangle for a moving point. */
-static bool find_face(
-    const face_search *search, sbf_vec3 x, sbf_vec3 displacement, sbri_surface_finding *best) {
+static bool find_face(const face_search *search, sbf_vec3 x, sbf_vec3 displacement, sbri_surface_hit *best) {
   const sbri_pair_body *b = search->b;
   sbri_box box = search_box(search, x, displacement);
   sbri_bounds_walk walk;
@@ -80,9 +79,9 @@ static bool find_face(
   *best = sbri_surface_nothing();
   sbri_bounds_walk_begin(&walk, &b->surface->tree, box);
   while (sbri_bounds_walk_next(&walk, &triangle)) {
-    if (!sbri_box_meets(&box, &b->surface->boxes[triangle])) continue;
+    if (!sbri_boxes_overlap(&box, &b->surface->boxes[triangle])) continue;
     sbri_surface_face face = face_of(b, triangle);
-    sbri_surface_look(&search->rule, x, displacement, &face, triangle, best);
+    sbri_surface_query(&search->rule, x, displacement, &face, triangle, best);
   }
   return sbri_surface_found(best);
 }
@@ -104,11 +103,11 @@ static void find_face_contacts(
   const face_search search = face_search_of(a, b);
   const float full_weight = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
-    sbri_surface_finding best;
+    sbri_surface_hit best;
     sbf_vec3 x = a->surface->positions[v], displacement = a->surface->displacements[v];
     sbri_box box = search_box(&search, x, displacement);
     if (!(a->surface->samples[v].mass_kg > 0) || !b->surface->triangle_count ||
-        !sbri_box_meets(&box, &b->surface->tree.nodes[0].box))
+        !sbri_boxes_overlap(&box, &b->surface->tree.nodes[0].box))
       continue;
     bool deep = !find_face(&search, x, displacement, &best);
     if (deep && (!resolves_deep || !sbri_find_nearest_exit(b, x, &best))) continue;
@@ -134,7 +133,7 @@ static void find_face_contacts(
 
 /* ---- Itself ---- */
 
-static bool share_points(const sbri_sample *a, const sbri_sample *b) {
+static bool distribute_points(const sbri_sample *a, const sbri_sample *b) {
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 4; k++)
       if (a->weights[i] != 0 && b->weights[k] != 0 && a->slots[i] == b->slots[k]) return true;
@@ -142,12 +141,12 @@ static bool share_points(const sbri_sample *a, const sbri_sample *b) {
 }
 
 /* Excludes faces with shared points and faces that touch the vertex at rest. */
-static bool may_touch_face(
+static bool may_collide_with_face(
     const sbri_pair_body *p, const sbri_surface_rule *rule, uint32_t v, uint32_t triangle) {
   const uint32_t *corners = p->surface->triangles + 3 * (size_t)triangle;
   sbf_vec3 rest[3];
   for (int k = 0; k < 3; k++) {
-    if (corners[k] == v || share_points(&p->surface->samples[v], &p->surface->samples[corners[k]]))
+    if (corners[k] == v || distribute_points(&p->surface->samples[v], &p->surface->samples[corners[k]]))
       return false;
     rest[k] = sbri_pair_body_rest_position(p, corners[k]);
   }
@@ -155,7 +154,7 @@ static bool may_touch_face(
          SBRI_REST_CONTACT_FRACTION * p->soft->rest_size_m * p->owner->scale;
 }
 
-static bool find_own_face(const sbri_pair_body *p, uint32_t v, sbri_surface_finding *best) {
+static bool find_own_face(const sbri_pair_body *p, uint32_t v, sbri_surface_hit *best) {
   sbri_surface_rule rule = rule_of(p);
   sbf_vec3 x = p->surface->positions[v], displacement = p->surface->displacements[v];
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, displacement));
@@ -164,10 +163,11 @@ static bool find_own_face(const sbri_pair_body *p, uint32_t v, sbri_surface_find
   *best = sbri_surface_nothing();
   sbri_bounds_walk_begin(&walk, &p->surface->tree, box);
   while (sbri_bounds_walk_next(&walk, &triangle)) {
-    if (!sbri_box_meets(&box, &p->surface->boxes[triangle]) || !may_touch_face(p, &rule, v, triangle))
+    if (!sbri_boxes_overlap(&box, &p->surface->boxes[triangle]) ||
+        !may_collide_with_face(p, &rule, v, triangle))
       continue;
     sbri_surface_face face = face_of(p, triangle);
-    sbri_surface_look(&rule, x, displacement, &face, triangle, best);
+    sbri_surface_query(&rule, x, displacement, &face, triangle, best);
   }
   return sbri_surface_found(best);
 }
@@ -176,7 +176,7 @@ static bool find_own_face(const sbri_pair_body *p, uint32_t v, sbri_surface_find
 static void find_self_contacts(const sbri_narrow_phase *f, const sbri_pair_body *p) {
   const float full_weight = 1;
   for (uint32_t v = 0; v < p->surface->vertex_count; v++) {
-    sbri_surface_finding best;
+    sbri_surface_hit best;
     if (!(p->surface->samples[v].mass_kg > 0) || !find_own_face(p, v, &best)) continue;
     sbri_contact t = {.feature = v,
         .a = sbri_soft_contact_side(p, &v, &full_weight, 1),
@@ -209,8 +209,8 @@ static void find_hull_vertex_contacts(
     float reach =
         sbri_reach_of(soft->soft, soft->owner->scale, local, soft->surface->max_displacement_m) / scale;
     uint32_t face;
-    sbri_box way = sbri_box_grown(sbri_box_with(sbri_box_of_point(begin), end), reach);
-    if (!sbri_box_meets(&way, &hull->box) || sbri_hull_depth(hull, begin, &face) > reach) continue;
+    sbri_box swept_box = sbri_box_grown(sbri_box_with(sbri_box_of_point(begin), end), reach);
+    if (!sbri_boxes_overlap(&swept_box, &hull->box) || sbri_hull_depth(hull, begin, &face) > reach) continue;
     float gap = sbri_hull_nearest(hull, begin, &point, &normal);
     if (gap > 0 && sbri_hull_enter(hull, begin, displacement, &fraction, &entered))
       point = sbri_add_scaled(begin, displacement, fraction), normal = entered;
@@ -236,7 +236,7 @@ static void find_hull_vertex_contacts(
 /* A corner that has passed through a sheet without thickness is pushed back through it. The opposite normal
  * would fight the contact of the sheet's points with the hull. */
 static void flip_if_passed_through(const sbri_pair_body *rigid, const sbri_pair_body *soft, sbf_vec3 corner,
-    const sbr_transform *at, sbri_surface_finding *best) {
+    const sbr_transform *at, sbri_surface_hit *best) {
   sbf_vec3 out = sbri_rotate(at->rotation, sbri_sub(corner, rigid->rigid->hull.middle));
   sbri_surface_rule rule = rule_of(soft);
   bool is_near = best->urgency >= 1 && best->urgency - 1 <= rule.inner && rule.outer == 0;
@@ -251,7 +251,7 @@ static void find_hull_corner_contacts(
   const face_search search = face_search_of(rigid, soft);
   for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
     sbf_vec3 local = rigid->rigid->vertices[i], x = to_world(&source, local, rigid->owner->scale);
-    sbri_surface_finding best;
+    sbri_surface_hit best;
     bool deep = !find_face(&search, x, sbri_sub(to_world(&to, local, rigid->owner->scale), x), &best);
     if (deep && (!resolves_deep || !sbri_find_nearest_exit(soft, x, &best))) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
@@ -280,8 +280,8 @@ static void find_hull_corner_contacts(
 static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
   const sbri_group_member *m = &f->members[member];
   const sbri_rigid_solving *work = &m->parts.work;
-  for (uint32_t i = 0; m->parts.steps && i < work->touch_count; i++) {
-    const sbri_ground_touch *source = &work->touches[i];
+  for (uint32_t i = 0; m->parts.steps && i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *source = &work->contacts[i];
     bool is_dynamic =
         source->external_body &&
         sbri_rigid_external_body_gives(&work->external_bodies[source->external_body - 1], source->normal);
@@ -311,22 +311,22 @@ static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
 /* ---- All ---- */
 
 /* Whether a soft body and a hull are nearer than any search between them goes. */
-static bool may_touch_hull(const sbri_pair_body *soft, const sbri_pair_body *rigid) {
+static bool may_collide_with_hull(const sbri_pair_body *soft, const sbri_pair_body *rigid) {
   const sbri_contact_surface *s = soft->surface;
   if (!s->triangle_count) return true;
   float reach = sbri_reach_of(soft->soft, soft->owner->scale, s->max_displacement_m, s->max_displacement_m),
         distance = sbri_pair_search_distance(sbri_pair_margin(rigid, soft), soft);
   sbri_box grown = sbri_box_grown(sbri_pair_body_hull_box(rigid), reach > distance ? reach : distance);
-  return sbri_box_meets(&grown, &s->tree.nodes[0].box);
+  return sbri_boxes_overlap(&grown, &s->tree.nodes[0].box);
 }
 
 /* The same of two soft bodies. */
-static bool may_touch(const sbri_pair_body *a, const sbri_pair_body *b) {
+static bool may_collide(const sbri_pair_body *a, const sbri_pair_body *b) {
   if (!a->surface->triangle_count || !b->surface->triangle_count) return true;
   float distance = fmaxf(sbri_pair_search_distance(sbri_pair_margin(a, b), b),
       sbri_pair_search_distance(sbri_pair_margin(b, a), a));
   sbri_box grown = sbri_box_grown(a->surface->tree.nodes[0].box, distance);
-  return sbri_box_meets(&grown, &b->surface->tree.nodes[0].box);
+  return sbri_boxes_overlap(&grown, &b->surface->tree.nodes[0].box);
 }
 
 /* Surfaces of the soft bodies that are in a pair. */
@@ -371,7 +371,7 @@ void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
       sbri_find_hull_contacts(&f, &a, &b);
     } else if (a.rigid || b.rigid) {
       const sbri_pair_body *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
-      if (!may_touch_hull(soft, rigid)) continue;
+      if (!may_collide_with_hull(soft, rigid)) continue;
       uint32_t first = group->contact_count;
       bool resolve_deep = may_resolve_deep(&f, soft, rigid);
       find_hull_vertex_contacts(&f, soft, rigid);
@@ -380,7 +380,7 @@ void sbri_narrow_phase_update(sbr_world *world, sbri_contact_group *group) {
         sbri_resolve_crossings(&f, soft, rigid, first);
         sbri_find_ridge_contacts(&f, soft, rigid, first);
       }
-    } else if (may_touch(&a, &b)) {
+    } else if (may_collide(&a, &b)) {
       uint32_t first = group->contact_count;
       bool resolve_deep = may_resolve_deep(&f, &a, &b);
       find_face_contacts(&f, &a, &b, resolve_deep);

@@ -3,7 +3,7 @@
 #define SBRI_NARROW_PHASE_H
 
 #include "body_contact/body_contacts.h"
-#include "collide/surface_look.h"
+#include "collide/surface_query.h"
 #include "math/quat.h"
 
 /* Contacts within a character keep at most this fraction of their rest distance. */
@@ -59,7 +59,7 @@ sbri_box sbri_pair_body_hull_box(const sbri_pair_body *p);
 sbri_contact_side sbri_pair_body_side(
     const sbri_pair_body *p, const uint32_t *vertices, const float *weights, int count);
 /* Distance from x to a found point of its surface, m. */
-float sbri_pair_body_distance(const sbri_pair_body *p, const sbri_surface_finding *found, sbf_vec3 x);
+float sbri_pair_body_distance(const sbri_pair_body *p, const sbri_surface_hit *found, sbf_vec3 x);
 float sbri_pair_body_size(const sbri_pair_body *p);
 /* Thickness of its surface, m. */
 float sbri_pair_body_thickness(const sbri_pair_body *p);
@@ -81,7 +81,7 @@ void sbri_find_ridge_contacts(
 /* ---- nearest_exit.c ---- */
 
 /* Whether x is inside of the closed surface of b, at any depth; `best`: nearest point of the surface. */
-bool sbri_find_nearest_exit(const sbri_pair_body *b, sbf_vec3 x, sbri_surface_finding *best);
+bool sbri_find_nearest_exit(const sbri_pair_body *b, sbf_vec3 x, sbri_surface_hit *best);
 
 /* Whether x is inside of a closed surface. */
 bool sbri_surface_contains(const sbri_contact_surface *s, sbf_vec3 x);
@@ -93,7 +93,7 @@ typedef struct sbri_ray_frame {
 sbri_ray_frame sbri_ray_frame_make(sbf_vec3 direction);
 /* Distance along the ray from x to where it leaves the surface, m; INFINITY: not below `max_distance`. */
 float sbri_find_exit_along(const sbri_contact_surface *s, const sbri_ray_frame *frame, sbf_vec3 x,
-    float max_distance, sbri_surface_finding *best);
+    float max_distance, sbri_surface_hit *best);
 
 /* ---- common_exit.c ---- */
 

@@ -19,7 +19,7 @@ static sbri_box box_of(const sbr_world *world, const sbri_character *c) {
   }
   for (uint32_t b = 0; b < base->asset->soft_bodies.count; b++)
     size = fmaxf(size, base->bodies[b].rest_size_m);
-  const sbri_character_state *state = sbri_head(c);
+  const sbri_character_state *state = sbri_header(c);
   float target_step =
       sqrtf(state->forward * state->forward + state->sideways * state->sideways) * (float)world->tick_s;
   float margin = c->scale * size + fmaxf(displacement, target_step) * (LOOKAHEAD_S / (float)world->tick_s);
@@ -32,7 +32,7 @@ static bool has_contact_bodies(const sbri_character *c) {
 }
 
 static bool has_detail_levels(const sbri_character *c) {
-  return c->model->base->rung_count > 1;
+  return c->model->base->detail_level_count > 1;
 }
 
 void sbri_near_characters_find(sbr_world *world) {
@@ -58,6 +58,6 @@ void sbri_near_characters_find(sbr_world *world) {
     if (!has_detail_levels(c)) continue;
     sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
     while (!c->near && sbri_bounds_walk_next(&walk, &b))
-      c->near = b != a && sbri_box_meets(&all->boxes[a], &all->boxes[b]);
+      c->near = b != a && sbri_boxes_overlap(&all->boxes[a], &all->boxes[b]);
   }
 }

@@ -4,7 +4,7 @@
  * that is reset to its rest shape may overlap another. A winding count along a ray tells whether a point is
  * inside; the nearest surface point is then its exit. */
 #include "body_contact/narrow_phase.h"
-#include "collide/surface_look.h"
+#include "collide/surface_query.h"
 
 /* m; nearer points lie on the surface */
 static const float ON_SURFACE_M = 1e-6f;
@@ -64,7 +64,7 @@ static void corners_of(const sbri_contact_surface *s, uint32_t triangle, sbf_vec
 bool sbri_surface_contains(const sbri_contact_surface *s, sbf_vec3 x) {
   const sbri_box *all = &s->tree.nodes[0].box;
   sbri_box ray = sbri_box_of_point(x);
-  if (!sbri_box_meets(all, &ray)) return false;
+  if (!sbri_boxes_overlap(all, &ray)) return false;
   float up = all->high.y - x.y < x.y - all->low.y ? 1.0f : -1.0f;
   ray = sbri_box_with(ray, sbri_vec3(x.x, up > 0 ? all->high.y : all->low.y, x.z));
   sbri_bounds_walk walk;
@@ -82,7 +82,7 @@ bool sbri_surface_contains(const sbri_contact_surface *s, sbf_vec3 x) {
 /* ---- Out ---- */
 
 /* Nearest surface point within `reach`, as a contact to leave by. */
-static bool find_nearest(const sbri_contact_surface *s, sbf_vec3 x, float reach, sbri_surface_finding *best) {
+static bool find_nearest(const sbri_contact_surface *s, sbf_vec3 x, float reach, sbri_surface_hit *best) {
   sbri_bounds_walk walk;
   uint32_t triangle;
   float min_distance = reach;
@@ -91,8 +91,8 @@ static bool find_nearest(const sbri_contact_surface *s, sbf_vec3 x, float reach,
     sbf_vec3 p[3];
     float weights[3];
     corners_of(s, triangle, p);
-    sbri_triangle_nearest(x, p[0], p[1], p[2], weights);
-    sbf_vec3 to_surface = sbri_sub(sbri_triangle_place(weights, p[0], p[1], p[2]), x);
+    sbri_triangle_find_nearest(x, p[0], p[1], p[2], weights);
+    sbf_vec3 to_surface = sbri_sub(sbri_triangle_point(weights, p[0], p[1], p[2]), x);
     float distance = sbri_length(to_surface);
     if (!(distance < min_distance) || distance < ON_SURFACE_M) continue;
     min_distance = distance;
@@ -102,7 +102,7 @@ static bool find_nearest(const sbri_contact_surface *s, sbf_vec3 x, float reach,
   return min_distance < reach;
 }
 
-bool sbri_find_nearest_exit(const sbri_pair_body *b, sbf_vec3 x, sbri_surface_finding *best) {
+bool sbri_find_nearest_exit(const sbri_pair_body *b, sbf_vec3 x, sbri_surface_hit *best) {
   const sbri_contact_surface *s = b->surface;
   if (!s->closed || !sbri_surface_contains(s, x)) return false;
   float size = sbri_pair_body_size(b);
@@ -127,7 +127,7 @@ sbri_ray_frame sbri_ray_frame_make(sbf_vec3 direction) {
 
 /* The same crossing test as sbri_surface_contains: rays cannot slip between two triangles. */
 static void test_triangle_along(const sbri_contact_surface *s, const sbri_ray_frame *w, sbf_vec3 x,
-    uint32_t triangle, float *min_distance, sbri_surface_finding *best) {
+    uint32_t triangle, float *min_distance, sbri_surface_hit *best) {
   sbf_vec3 p[3], q[3], from = to_ray_frame(w, x);
   corners_of(s, triangle, p);
   for (int k = 0; k < 3; k++) q[k] = to_ray_frame(w, p[k]);
@@ -137,11 +137,11 @@ static void test_triangle_along(const sbri_contact_surface *s, const sbri_ray_fr
   if (!(ahead < *min_distance)) return;
   *min_distance = ahead;
   best->face = triangle, best->normal = w->direction, best->behind = true;
-  sbri_triangle_nearest(sbri_add_scaled(x, w->direction, ahead), p[0], p[1], p[2], best->weights);
+  sbri_triangle_find_nearest(sbri_add_scaled(x, w->direction, ahead), p[0], p[1], p[2], best->weights);
 }
 
 float sbri_find_exit_along(const sbri_contact_surface *s, const sbri_ray_frame *w, sbf_vec3 x,
-    float max_distance, sbri_surface_finding *best) {
+    float max_distance, sbri_surface_hit *best) {
   for (float reach = FIRST_REACH_FRACTION * max_distance;; reach *= 2) {
     float far = reach < max_distance ? reach : max_distance, min_distance = far;
     sbri_box ray = sbri_box_with(sbri_box_of_point(x), sbri_add_scaled(x, w->direction, far));

@@ -68,7 +68,7 @@ static bool next_edge(edge_walk *w) {
     uint32_t i = w->next_side++, from = s->triangles[i], to = s->triangles[i % 3 == 2 ? i - 2 : i + 1];
     if (from > to) continue; /* handled by the other triangle */
     sbri_box box = sbri_box_with(sbri_box_of_point(s->positions[from]), s->positions[to]);
-    if (!(s->samples[from].mass_kg > 0) || !(s->samples[to].mass_kg > 0) || !sbri_box_meets(&box, all))
+    if (!(s->samples[from].mass_kg > 0) || !(s->samples[to].mass_kg > 0) || !sbri_boxes_overlap(&box, all))
       continue;
     w->ends_inside[0] = w->vertices_classified && s->inside_parents[from] != SBRI_VERTEX_OUTSIDE;
     w->ends_inside[1] = w->vertices_classified && s->inside_parents[to] != SBRI_VERTEX_OUTSIDE;
@@ -83,7 +83,7 @@ static bool next_edge(edge_walk *w) {
 bool sbri_edges_intersect(const sbri_contact_surface *a, const sbri_contact_surface *b) {
   edge_walk one = {.surface = a, .other = b}, other = {.surface = b, .other = a};
   const sbri_box *p = &a->tree.nodes[0].box, *q = &b->tree.nodes[0].box;
-  return sbri_box_meets(p, q) && (next_edge(&one) || next_edge(&other));
+  return sbri_boxes_overlap(p, q) && (next_edge(&one) || next_edge(&other));
 }
 
 static void add_edges(sbri_overlap *overlap, uint32_t side) {
@@ -165,7 +165,7 @@ static void merge_clusters(sbri_overlap *overlap) {
     for (uint32_t k = 0; k < i; k++) {
       const sbri_overlap_set *p = &overlap->sets[i], *q = &overlap->sets[k];
       if (p->side == q->side && !is_edge(p) && !is_edge(q)) continue;
-      if (p->cluster == q->cluster || !sbri_box_meets(&p->box, &q->box)) continue;
+      if (p->cluster == q->cluster || !sbri_boxes_overlap(&p->box, &q->box)) continue;
       uint32_t one = p->cluster, other = q->cluster, low = one < other ? one : other;
       for (uint32_t j = 0; j < overlap->set_count; j++)
         if (overlap->sets[j].cluster == one || overlap->sets[j].cluster == other)

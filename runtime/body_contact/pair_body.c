@@ -29,7 +29,8 @@ sbr_transform sbri_pair_body_frame(const sbri_pair_body *p, bool end) {
     frame = s->pose;
     if (end) {
       frame.position = sbri_add_scaled(frame.position, s->velocity, p->owner->tick_s);
-      (void)sbri_free_turn(p->rigid, s->pose.rotation, s->spin, p->owner->tick_s, &frame.rotation);
+      (void)sbri_free_turn(
+          p->rigid, s->pose.rotation, s->angular_momentum, p->owner->tick_s, &frame.rotation);
     }
   } else {
     frame = sbri_rigid_target(c, end ? sbri_pose(c) : sbri_previous_pose(c), b);
@@ -63,10 +64,10 @@ sbri_contact_side sbri_pair_body_side(
   return sbri_rigid_contact_side(p, sbri_to_local(&frame, x, p->owner->scale));
 }
 
-float sbri_pair_body_distance(const sbri_pair_body *p, const sbri_surface_finding *found, sbf_vec3 x) {
+float sbri_pair_body_distance(const sbri_pair_body *p, const sbri_surface_hit *found, sbf_vec3 x) {
   const uint32_t *c = p->surface->triangles + 3 * (size_t)found->face;
   const sbf_vec3 *frame = p->surface->positions;
-  return sbri_length(sbri_sub(sbri_triangle_place(found->weights, frame[c[0]], frame[c[1]], frame[c[2]]), x));
+  return sbri_length(sbri_sub(sbri_triangle_point(found->weights, frame[c[0]], frame[c[1]], frame[c[2]]), x));
 }
 
 float sbri_pair_body_size(const sbri_pair_body *p) {

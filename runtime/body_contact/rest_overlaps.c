@@ -17,12 +17,12 @@ static void set_rest_positions(const sbr_model *model, uint32_t body, sbri_conta
 }
 
 /* Whether a vertex of the one touches, or is inside of, the other at rest. */
-static bool touches(const sbr_model *model, uint32_t one, const sbri_contact_surface *surfaces,
+static bool overlap(const sbr_model *model, uint32_t one, const sbri_contact_surface *surfaces,
     uint32_t other, const sbri_surface_rule *rule) {
   const sbri_contact_surface *a = &surfaces[one], *b = &surfaces[other];
   for (uint32_t v = 0; v < a->vertex_count; v++) {
     sbf_vec3 x = sbri_sample_rest_position(model, one, &a->samples[v]), no_displacement = {0, 0, 0};
-    sbri_surface_finding best = sbri_surface_nothing();
+    sbri_surface_hit best = sbri_surface_nothing();
     sbri_bounds_walk walk;
     uint32_t triangle;
     sbri_box box = sbri_box_of_point(x);
@@ -32,8 +32,8 @@ static bool touches(const sbr_model *model, uint32_t one, const sbri_contact_sur
       const uint32_t *c = b->triangles + 3 * (size_t)triangle;
       sbri_surface_face face = {{b->positions[c[0]], b->positions[c[1]], b->positions[c[2]]},
           {no_displacement, no_displacement, no_displacement}};
-      if (sbri_box_meets(&box, &b->boxes[triangle]))
-        sbri_surface_look(rule, x, no_displacement, &face, triangle, &best);
+      if (sbri_boxes_overlap(&box, &b->boxes[triangle]))
+        sbri_surface_query(rule, x, no_displacement, &face, triangle, &best);
     }
     if (sbri_surface_found(&best) || (b->closed && sbri_surface_contains(b, x))) return true;
   }
@@ -57,19 +57,19 @@ static void find_soft_relations(
           TOUCHING_FRACTION * min_size, INSIDE_FRACTION * min_size, surfaces[b].two_sided};
       uint8_t relation =
           is_section(model, a) && is_section(model, b) ? SBRI_REST_ADJACENT : SBRI_REST_TOUCHING;
-      if (touches(model, a, surfaces, b, &rule))
+      if (overlap(model, a, surfaces, b, &rule))
         relations[(size_t)a * count + b] = relations[(size_t)b * count + a] = relation;
     }
   }
 }
 
 /* Whether the hull at its rest frame and the soft body touch. */
-static bool hull_touches(const sbri_rigid_body *body, const sbri_contact_surface *hull,
+static bool hull_overlaps(const sbri_rigid_body *body, const sbri_contact_surface *hull,
     const sbri_contact_surface *soft, float distance) {
   sbr_transform frame = {body->center, body->axes};
   sbri_box grown = sbri_box_grown(hull->tree.nodes[0].box, distance);
   uint32_t face;
-  if (!sbri_box_meets(&grown, &soft->tree.nodes[0].box)) return false;
+  if (!sbri_boxes_overlap(&grown, &soft->tree.nodes[0].box)) return false;
   for (uint32_t v = 0; v < hull->vertex_count; v++)
     if (sbri_surface_contains(soft, hull->positions[v])) return true;
   for (uint32_t v = 0; v < soft->vertex_count; v++)
@@ -87,7 +87,7 @@ static void find_hull_relations(const sbr_model *model, const sbri_contact_surfa
     sbri_contact_hull_update(body, &frame, &frame, 1, &hulls[r]);
     for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
       if (surfaces[b].closed &&
-          hull_touches(body, &hulls[r], &surfaces[b], TOUCHING_FRACTION * model->bodies[b].rest_size_m))
+          hull_overlaps(body, &hulls[r], &surfaces[b], TOUCHING_FRACTION * model->bodies[b].rest_size_m))
         with_hulls[(size_t)b * model->rigid.body_count + r] = SBRI_REST_TOUCHING;
   }
 }

@@ -58,7 +58,7 @@ static void read_rigid(const sbri_group_member *m, sbri_solver_body *to) {
   to->position = sbri_add_scaled(m->offset, s->pose.position, size);
   to->position_remainder = sbri_scale(s->fine, size);
   to->velocity = sbri_four_of(sbri_scale(s->velocity, m->velocity_scale));
-  sbf_vec3 angular_velocity = rotate_back(to->rotation, s->spin), e = body->inverse_inertia;
+  sbf_vec3 angular_velocity = rotate_back(to->rotation, s->angular_momentum), e = body->inverse_inertia;
   angular_velocity = rotate(
       to->rotation, sbri_vec3(angular_velocity.x * e.x, angular_velocity.y * e.y, angular_velocity.z * e.z));
   to->angular_velocity = sbri_four_of(sbri_scale(angular_velocity, rate));
@@ -85,7 +85,7 @@ static void read_external(const sbri_contact_group *group, const sbri_group_memb
   to->position = sbri_add_scaled(m->offset, position, m->scale);
   to->position_remainder = to->impulse = to->angular_impulse = sbri_vec3(0, 0, 0);
   to->velocity = sbri_four_of(sbri_scale(g->begin_velocity, m->velocity_scale));
-  to->angular_velocity = sbri_four_of(sbri_scale(g->begin_spin, m->velocity_scale / m->scale));
+  to->angular_velocity = sbri_four_of(sbri_scale(g->begin_angular_velocity, m->velocity_scale / m->scale));
   to->inverse_mass = factor * g->max_inverse_mass / m->mass;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -98,7 +98,7 @@ static void write_external(const sbri_group_member *m, const sbri_solver_body *f
   g->begin_velocity = sbri_add_scaled(g->begin_velocity, from->impulse, g->max_inverse_mass * impulse);
   sbf_vec3 rotation =
       sbri_external_body_times(g->inverse_inertia, sbri_scale(from->angular_impulse, impulse / m->scale));
-  g->begin_spin = sbri_add(g->begin_spin, rotation);
+  g->begin_angular_velocity = sbri_add(g->begin_angular_velocity, rotation);
 }
 
 sbf_vec3 sbri_external_body_acceleration(
@@ -126,7 +126,8 @@ void sbri_solver_bodies_write(const sbri_body_contacts *all, const sbri_contact_
     if (body->external || !is_dynamic(m, body->body)) continue;
     sbri_rigid_body_state *s = &sbri_rigid_bodies(m->character)[body->body];
     s->velocity = sbri_add_scaled(s->velocity, body->impulse, body->inverse_mass / m->velocity_scale);
-    s->spin = sbri_add_scaled(s->spin, body->angular_impulse, 1 / (m->mass * m->velocity_scale * m->scale));
+    s->angular_momentum = sbri_add_scaled(
+        s->angular_momentum, body->angular_impulse, 1 / (m->mass * m->velocity_scale * m->scale));
   }
 }
 
@@ -188,7 +189,7 @@ static sbf_vec3 prepare_side(const sbri_body_contacts *all, const sbri_contact_g
   if (side->external) {
     end->body = &all->solver_bodies[group->first_solver_body + m->first_external + side->external - 1];
     const sbri_external_body *g = external_of(m, end->body);
-    sbf_vec3 moved_by = sbri_scale(sbri_cross(g->begin_spin, side->point), g->elapsed_s);
+    sbf_vec3 moved_by = sbri_scale(sbri_cross(g->begin_angular_velocity, side->point), g->elapsed_s);
     end->lever_arm = sbri_scale(sbri_add(side->point, moved_by), m->scale);
     return sbri_add(end->body->position, end->lever_arm);
   }

@@ -73,7 +73,7 @@ static bool rests(const sbr_world *world, uint64_t body_id) {
   uint32_t index = (uint32_t)(body_id >> 32);
   const sbri_character *c = &world->characters[index];
   return c->model && world->body_contacts->group_of[index] == UINT32_MAX &&
-         (sbri_head(c)->paused || !sbri_character_is_awake(c));
+         (sbri_header(c)->paused || !sbri_character_is_awake(c));
 }
 
 /* Sleeping or paused bodies stay in contact. */
@@ -125,16 +125,16 @@ void sbri_report_touching_pairs(sbr_world *world) {
   sort(now, all->touching_count);
   for (uint32_t i = 0; i < all->touching_count; i++) {
     sbri_touching_pair c = now[i];
-    while (b < before_count && order(&before[b], &c) < 0) report(world, &before[b++], SBR_EVENT_PARTED);
+    while (b < before_count && order(&before[b], &c) < 0) report(world, &before[b++], SBR_EVENT_CONTACT_END);
     bool was_touching = b < before_count && order(&before[b], &c) == 0;
     if (was_touching && !(c.impulse > 0)) c.position = before[b].position, c.normal = before[b].normal;
     if (was_touching) b++;
     if (!was_touching && !(c.impulse > 0)) continue;
-    if (!was_touching) report(world, &c, SBR_EVENT_CONTACT);
+    if (!was_touching) report(world, &c, SBR_EVENT_CONTACT_BEGIN);
     c.impulse = c.speed = 0; /* of this tick only */
     now[kept++] = c;
   }
-  while (b < before_count) report(world, &before[b++], SBR_EVENT_PARTED);
+  while (b < before_count) report(world, &before[b++], SBR_EVENT_CONTACT_END);
   all->touching_count = kept;
 }
 

@@ -99,7 +99,7 @@ void sbri_contacts_load_cached(const sbri_body_contacts *all, const sbri_contact
 
 /* ---- Remembering ---- */
 
-void sbri_contacts_rescale(const sbri_body_contacts *all, sbri_contact_group *group, float step_s) {
+void sbri_contacts_scale_impulses(const sbri_body_contacts *all, sbri_contact_group *group, float step_s) {
   float ratio = step_s / group->step_s;
   for (uint32_t i = 0; i < group->contact_count; i++) {
     sbri_contact *t = &all->contacts[group->first_contact + i];
@@ -124,7 +124,7 @@ static sbri_cached_contact cached_from(const sbri_contact *t, float step_s) {
 static bool stays_asleep(const sbr_world *world, const sbri_cached_contact *m) {
   uint32_t character = (uint32_t)(m->body_ids[0] >> 32);
   return world->characters[character].model && world->body_contacts->group_of[character] == UINT32_MAX &&
-         sbri_head(&world->characters[character])->asleep;
+         sbri_header(&world->characters[character])->asleep;
 }
 
 void sbri_contacts_store(sbr_world *world) {

@@ -89,7 +89,7 @@ bool sbri_bounds_walk_next(sbri_bounds_walk *walk, uint32_t *item) {
     if (!walk->depth) return false;
     uint32_t number = walk->stack[--walk->depth];
     const sbri_bounds_node *node = &tree->nodes[number];
-    if (!sbri_box_meets(&node->box, &walk->box)) continue;
+    if (!sbri_boxes_overlap(&node->box, &walk->box)) continue;
     if (node->count) {
       walk->at = node->first, walk->end = node->first + node->count;
     } else {

@@ -31,7 +31,7 @@ static inline sbri_box sbri_box_grown(sbri_box a, float by) {
   return (sbri_box){
       {a.low.x - by, a.low.y - by, a.low.z - by}, {a.high.x + by, a.high.y + by, a.high.z + by}};
 }
-static inline bool sbri_box_meets(const sbri_box *a, const sbri_box *b) {
+static inline bool sbri_boxes_overlap(const sbri_box *a, const sbri_box *b) {
   return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
          a->low.z <= b->high.z && b->low.z <= a->high.z;
 }
@@ -39,7 +39,7 @@ static inline bool sbri_box_meets(const sbri_box *a, const sbri_box *b) {
 /* About what moves, and how far that part of it goes that goes furthest. */
 typedef struct sbri_moving_ball {
   sbf_vec3 middle;
-  float radius, way;
+  float radius, distance;
 } sbri_moving_ball;
 
 typedef struct sbri_bounds_node {

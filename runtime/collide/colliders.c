@@ -10,12 +10,12 @@ static sbf_vec3 single(sbr_double3 x) {
 }
 
 /* Of a shape's bounds, turned and moved. */
-static sbri_box turned(sbri_box box, sbf_quat turn, sbf_vec3 at) {
+static sbri_box turned(sbri_box box, sbf_quat rotation, sbf_vec3 at) {
   sbri_box all = {at, at};
   for (int i = 0; i < 8; i++) {
     sbf_vec3 corner = {
         i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y, i & 4 ? box.high.z : box.low.z};
-    sbf_vec3 x = sbri_add(at, sbri_rotate(turn, corner));
+    sbf_vec3 x = sbri_add(at, sbri_rotate(rotation, corner));
     all = i ? sbri_box_with(all, x) : sbri_box_of_point(x);
   }
   return all;
@@ -50,26 +50,26 @@ static void begin_body(sbri_collider *c, float tick_s) {
   b->sharers = b->sharing, b->push = single_of(b->pushing), b->moment = single_of(b->turning);
   b->sharing = 0;
   for (int k = 0; k < 3; k++) b->pushing[k] = b->turning[k] = 0;
-  if (!b->goes || b->told) return;
-  sbf_vec3 faster = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->ease);
+  if (!b->goes || b->is_reported) return;
+  sbf_vec3 faster = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->inverse_mass);
   b->velocity = sbri_add(b->velocity, sbri_host_body_free(b, faster));
 }
 
 /* To where it will be after the tick if nothing pushes it. */
-static void go_on(const sbri_collider_set *set, sbri_collider *c, float tick_s) {
+static void advance(const sbri_collider_set *set, sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
   if (!b->goes) return;
   const sbri_collider *leader = &set->at[c->leader];
-  if (!b->told && leader != c) {
+  if (!b->is_reported && leader != c) {
     sbf_vec3 arm = {
         (float)(c->to.x - leader->to.x), (float)(c->to.y - leader->to.y), (float)(c->to.z - leader->to.z)};
-    b->spin = leader->body.spin;
-    b->velocity = sbri_add(leader->body.velocity, sbri_cross(b->spin, arm));
+    b->angular_velocity = leader->body.angular_velocity;
+    b->velocity = sbri_add(leader->body.velocity, sbri_cross(b->angular_velocity, arm));
   }
-  b->told = false;
+  b->is_reported = false;
   c->next = (sbr_double3){c->to.x + (double)(tick_s * b->velocity.x),
       c->to.y + (double)(tick_s * b->velocity.y), c->to.z + (double)(tick_s * b->velocity.z)};
-  sbf_vec3 half = sbri_scale(b->spin, 0.5f * tick_s);
+  sbf_vec3 half = sbri_scale(b->angular_velocity, 0.5f * tick_s);
   if (!(sbri_dot(half, half) > 0)) {
     c->turn_next = c->turn_to;
     return;
@@ -81,9 +81,9 @@ void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s) {
   uint32_t count = 0;
   set->moving = set->stirred, set->stirred = false;
   for (uint32_t i = 0; i < set->end; i++)
-    if (set->at[i].shape && set->at[i].body.ease > 0) begin_body(&set->at[i], (float)tick_s);
+    if (set->at[i].shape && set->at[i].body.inverse_mass > 0) begin_body(&set->at[i], (float)tick_s);
   for (uint32_t i = 0; i < set->end; i++)
-    if (set->at[i].shape) go_on(set, &set->at[i], (float)tick_s);
+    if (set->at[i].shape) advance(set, &set->at[i], (float)tick_s);
   for (uint32_t i = 0; i < set->end; i++) {
     sbri_collider *c = &set->at[i];
     if (!c->shape) continue;

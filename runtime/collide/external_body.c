@@ -24,28 +24,28 @@ static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
 /* What moves it in its share of the mass; what something else holds is not turned either. */
 static void take_mass(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
   const sbri_host_body *b = &leader->body;
-  float cube = scale * scale * scale, share = (float)sharers * cube;
-  bool is_held = sbri_dot(b->held_along, b->held_along) > 0;
-  g->max_inverse_mass = b->ease * share;
-  g->ease[0] = g->ease[1] = g->ease[2] = g->max_inverse_mass;
-  add_outer(g->ease, b->held_along, -g->max_inverse_mass);
-  if (is_held) return;
-  sbf_vec3 turning = sbri_scale(b->inverse_inertias, share * scale * scale);
+  float cube = scale * scale * scale, fraction = (float)sharers * cube;
+  bool is_point_pinned = sbri_dot(b->blocked_normal, b->blocked_normal) > 0;
+  g->max_inverse_mass = b->inverse_mass * fraction;
+  g->inverse_mass[0] = g->inverse_mass[1] = g->inverse_mass[2] = g->max_inverse_mass;
+  add_outer(g->inverse_mass, b->blocked_normal, -g->max_inverse_mass);
+  if (is_point_pinned) return;
+  sbf_vec3 turning = sbri_scale(b->inverse_inertias, fraction * scale * scale);
   add_axes(g->inverse_inertia, leader, turning);
   g->max_inverse_inertia = largest(turning);
 }
 
-void sbri_external_body_roots(
-    const sbri_external_body *g, const sbri_collider *leader, float ease[6], float inverse_inertia[6]) {
+void sbri_external_body_compute_roots(const sbri_external_body *g, const sbri_collider *leader,
+    float inverse_mass[6], float inverse_inertia[6]) {
   const sbri_host_body *b = &leader->body;
-  float root = sqrtf(g->max_inverse_mass), share = largest(b->inverse_inertias);
+  float root = sqrtf(g->max_inverse_mass), fraction = largest(b->inverse_inertias);
   for (int k = 0; k < 6; k++)
-    ease[k] = g->ease[k] / root, inverse_inertia[k] = 0; /* it lets by all or nothing */
+    inverse_mass[k] = g->inverse_mass[k] / root, inverse_inertia[k] = 0; /* it lets by all or nothing */
   if (!(g->max_inverse_inertia > 0)) return;
-  share = g->max_inverse_inertia / share;
+  fraction = g->max_inverse_inertia / fraction;
   add_axes(inverse_inertia, leader,
-      sbri_vec3(sqrtf(share * b->inverse_inertias.x), sqrtf(share * b->inverse_inertias.y),
-          sqrtf(share * b->inverse_inertias.z)));
+      sbri_vec3(sqrtf(fraction * b->inverse_inertias.x), sqrtf(fraction * b->inverse_inertias.y),
+          sqrtf(fraction * b->inverse_inertias.z)));
 }
 
 typedef struct own_push {
@@ -61,7 +61,7 @@ static own_push push_before(const sbri_external_body_maker *m, const sbri_extern
     if (one->thing >= m->colliders->end || m->colliders->at[one->thing].leader != g->leader) continue;
     own.any = true;
     own.impulse = sbri_sub(own.impulse, one->push);
-    sbf_vec3 arm = sbri_sub(one->place, g->centre);
+    sbf_vec3 arm = sbri_sub(one->position, g->centre);
     own.moment = sbri_sub(own.moment, sbri_add(one->moment, sbri_cross(arm, one->push)));
   }
   return own;
@@ -75,7 +75,8 @@ static void take_others(sbri_external_body *g, const sbri_external_body_maker *m
   float each = 1 / ((float)sharers * m->tick_s);
   sbf_vec3 push = sbri_add_scaled(sbri_scale(b->push, mass), own->impulse, -(float)sharers);
   sbf_vec3 turn = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
-  g->acceleration = sbri_add(g->acceleration, sbri_external_body_times(g->ease, sbri_scale(push, each)));
+  g->acceleration =
+      sbri_add(g->acceleration, sbri_external_body_times(g->inverse_mass, sbri_scale(push, each)));
   g->turning = sbri_external_body_times(g->inverse_inertia, sbri_scale(turn, each));
 }
 
@@ -86,18 +87,19 @@ sbri_external_body sbri_external_body_make(
       frame->collider == leader ? *frame : sbri_collider_frame_of(leader, m->origin, m->scale);
   const sbri_host_body *b = &leader->body;
   sbri_external_body g = {.leader = number, .lever = 1};
-  sbf_quat turn = sbri_quat_multiply(leader->turn_to, sbri_quat_conjugate(leader->turn_from));
-  float rate = (turn.w < 0 ? -2 : 2) / m->tick_s;
+  sbf_quat rotation = sbri_quat_multiply(leader->turn_to, sbri_quat_conjugate(leader->turn_from));
+  float rate = (rotation.w < 0 ? -2 : 2) / m->tick_s;
   g.centre = sbri_out_of_shape(&of, b->centre);
-  g.begin_velocity = sbri_scale(sbri_shape_way(&of, b->centre), 1 / m->tick_s);
-  g.begin_spin = sbri_vec3(turn.x * rate, turn.y * rate, turn.z * rate);
+  g.begin_velocity = sbri_scale(sbri_shape_displacement(&of, b->centre), 1 / m->tick_s);
+  g.begin_angular_velocity = sbri_vec3(rotation.x * rate, rotation.y * rate, rotation.z * rate);
   own_push own = push_before(m, &g);
   uint32_t sharers = b->sharers + (own.any ? 0 : 1);
   sharers = sharers > 0 ? sharers : 1;
   take_mass(&g, leader, sharers, m->scale);
   g.acceleration = sbri_host_body_free(b, b->acceleration);
   if (sharers > 1) take_others(&g, m, b, sharers, &own);
-  g.velocity = g.seen_velocity = g.begin_velocity, g.spin = g.seen_spin = g.begin_spin;
+  g.velocity = g.seen_velocity = g.begin_velocity,
+  g.angular_velocity = g.seen_angular_velocity = g.begin_angular_velocity;
   return g;
 }
 
@@ -116,7 +118,7 @@ uint8_t sbri_external_body_of(sbri_external_bodies *external_bodies, const sbri_
 void sbri_external_body_begin(sbri_external_body *g, float step_s) {
   g->lever = 1 + g->elapsed_s / step_s;
   g->velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, step_s);
-  g->spin = sbri_add_scaled(g->begin_spin, g->turning, step_s);
+  g->angular_velocity = sbri_add_scaled(g->begin_angular_velocity, g->turning, step_s);
   g->seen_velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, g->lever * step_s);
-  g->seen_spin = sbri_add_scaled(g->begin_spin, g->turning, g->lever * step_s);
+  g->seen_angular_velocity = sbri_add_scaled(g->begin_angular_velocity, g->turning, g->lever * step_s);
 }

@@ -17,7 +17,7 @@
 
 #include "collide/colliders.h"
 
-/* What makes copies: a character's tick, and what the body pushed in the one before. */
+/* Input for copies of external bodies: a character's tick and the contacts of the previous one. */
 typedef struct sbri_external_body_maker {
   const sbri_collider_set *colliders;
   sbr_double3 origin; /* m, world */
@@ -26,20 +26,19 @@ typedef struct sbri_external_body_maker {
   uint32_t before_count;
 } sbri_external_body_maker;
 
-/* A copy of what the collider is part of, which has a mass. */
+/* Makes a copy of the body that the collider belongs to, which has a mass. */
 sbri_external_body sbri_external_body_make(
     const sbri_external_body_maker *maker, const sbri_collider_frame *frame, uint32_t leader);
 
-/* Which of the body's external bodies, from 1 on, the collider is of; 0: nothing moves it, or there is no
- * room. */
+/* 1-based index of the external body that the collider belongs to; 0: immovable, or no free entry. */
 uint8_t sbri_external_body_of(sbri_external_bodies *external_bodies, const sbri_external_body_maker *maker,
     const sbri_collider_frame *frame, uint32_t collider);
 
-/* At a substep's beginning, of `step_s`: what moves it besides. */
+/* Begins a substep of `step_s`: applies motion other than by contacts. */
 void sbri_external_body_begin(sbri_external_body *external_body, float step_s);
-/* And at its end. */
-static inline void sbri_external_body_go_on(sbri_external_body *g, float step_s) {
-  g->begin_velocity = g->velocity, g->begin_spin = g->spin;
+/* Ends the substep. */
+static inline void sbri_external_body_end_step(sbri_external_body *g, float step_s) {
+  g->begin_velocity = g->velocity, g->begin_angular_velocity = g->angular_velocity;
   g->elapsed_s += step_s;
 }
 
@@ -47,38 +46,39 @@ static inline void sbri_external_bodies_begin(sbri_external_bodies *external_bod
   for (uint32_t i = 0; i < external_bodies->count; i++)
     sbri_external_body_begin(&external_bodies->at[i], step_s);
 }
-static inline void sbri_external_bodies_go_on(sbri_external_bodies *external_bodies, float step_s) {
+static inline void sbri_external_bodies_end_step(sbri_external_bodies *external_bodies, float step_s) {
   for (uint32_t i = 0; i < external_bodies->count; i++)
-    sbri_external_body_go_on(&external_bodies->at[i], step_s);
+    sbri_external_body_end_step(&external_bodies->at[i], step_s);
 }
 
-/* The square roots of its `ease` and `inverse_inertia`. */
-void sbri_external_body_roots(const sbri_external_body *external_body, const sbri_collider *leader,
-    float ease[6], float inverse_inertia[6]);
+/* Square roots of its `inverse_mass` and `inverse_inertia`. */
+void sbri_external_body_compute_roots(const sbri_external_body *external_body, const sbri_collider *leader,
+    float inverse_mass[6], float inverse_inertia[6]);
 
 static inline sbf_vec3 sbri_external_body_times(const float m[6], sbf_vec3 v) {
   return (sbf_vec3){m[0] * v.x + m[3] * v.y + m[4] * v.z, m[3] * v.x + m[1] * v.y + m[5] * v.z,
       m[4] * v.x + m[5] * v.y + m[2] * v.z};
 }
 
-/* By which it goes at a place `arm` from its centre. */
+/* Velocity at lever arm `arm` from its centre. */
 static inline sbf_vec3 sbri_external_body_velocity(const sbri_external_body *g, sbf_vec3 arm) {
-  return sbri_add(g->seen_velocity, sbri_cross(g->seen_spin, arm));
+  return sbri_add(g->seen_velocity, sbri_cross(g->seen_angular_velocity, arm));
 }
 
-/* By how much an impulse there changes that. */
+/* Change of that velocity by an impulse there. */
 static inline sbf_vec3 sbri_external_body_answer(
     const sbri_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
   sbf_vec3 turn = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
-  return sbri_scale(sbri_add(sbri_external_body_times(g->ease, impulse), sbri_cross(turn, arm)), g->lever);
+  return sbri_scale(
+      sbri_add(sbri_external_body_times(g->inverse_mass, impulse), sbri_cross(turn, arm)), g->lever);
 }
 
 static inline void sbri_external_body_push(sbri_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
-  sbf_vec3 faster = sbri_external_body_times(g->ease, impulse),
+  sbf_vec3 faster = sbri_external_body_times(g->inverse_mass, impulse),
            turn = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
-  g->velocity = sbri_add(g->velocity, faster), g->spin = sbri_add(g->spin, turn);
+  g->velocity = sbri_add(g->velocity, faster), g->angular_velocity = sbri_add(g->angular_velocity, turn);
   g->seen_velocity = sbri_add_scaled(g->seen_velocity, faster, g->lever);
-  g->seen_spin = sbri_add_scaled(g->seen_spin, turn, g->lever);
+  g->seen_angular_velocity = sbri_add_scaled(g->seen_angular_velocity, turn, g->lever);
 }
 
 #endif

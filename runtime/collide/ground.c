@@ -89,11 +89,11 @@ static double noise(const sbr_ground *ground, double x, double z, sbf_vec3 *norm
   double y = noise_at(x, z, (uint32_t)parameters[1], &slope_x, &slope_z);
   double r = sqrt(x * x + z * z);
   if (r < flat_radius) {
-    double rate, share = blend(r / flat_radius, &rate);
+    double rate, fraction = blend(r / flat_radius, &rate);
     double towards = r > 0 ? rate / (flat_radius * r) * y : 0;
-    slope_x = slope_x * share + towards * x;
-    slope_z = slope_z * share + towards * z;
-    y *= share;
+    slope_x = slope_x * fraction + towards * x;
+    slope_z = slope_z * fraction + towards * z;
+    y *= fraction;
   }
   *normal = normal_of(half * slope_x, half * slope_z);
   return half * y;

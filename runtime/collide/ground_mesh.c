@@ -164,7 +164,7 @@ static double mesh_height(const sbr_ground *ground, double x, double z, sbf_vec3
   return highest > -INFINITY ? highest : m->otherwise_m;
 }
 
-sbr_ground sbr_ground_of_mesh(const sbr_ground_mesh *mesh) {
+sbr_ground sbr_ground_from_mesh(const sbr_ground_mesh *mesh) {
   if (!mesh) return sbr_ground_flat(0);
   return (sbr_ground){mesh_height, mesh, {0, 0, 0, 0}};
 }

@@ -31,13 +31,13 @@ sbr_ground sbr_ground_plane(double height_m, sbf_vec3 normal) {
 /* ---- Height field ---- */
 
 /* The square that holds a coordinate, and where in it, 0 to 1; beyond the edge, the last square's edge. */
-static uint32_t square_of(double at, uint32_t corners, double *share, bool *inside) {
+static uint32_t square_of(double at, uint32_t corners, double *fraction, bool *inside) {
   double last = corners - 1;
   *inside = at >= 0 && at <= last;
   at = at < 0 ? 0 : at > last ? last : at;
   uint32_t square = (uint32_t)at;
   if (square > corners - 2) square = corners - 2;
-  *share = at - square;
+  *fraction = at - square;
   return square;
 }
 
@@ -94,7 +94,7 @@ static double obstacles(const sbr_ground *ground, double x, double z, sbf_vec3 *
   return highest;
 }
 
-sbr_ground sbr_ground_obstacles(const sbr_obstacle_set *set) {
+sbr_ground sbr_ground_with_obstacles(const sbr_obstacle_set *set) {
   if (!set || !set->base || !set->base->height) return sbr_ground_flat(0);
   return (sbr_ground){obstacles, set, {0, 0, 0, 0}};
 }
@@ -110,7 +110,7 @@ static double rays(const sbr_ground *ground, double x, double z, sbf_vec3 *norma
   return caster->otherwise_m;
 }
 
-sbr_ground sbr_ground_rays(const sbr_ray_caster *caster) {
+sbr_ground sbr_ground_from_rays(const sbr_ray_caster *caster) {
   if (!caster || !caster->cast) return sbr_ground_flat(0);
   return (sbr_ground){rays, caster, {0, 0, 0, 0}};
 }

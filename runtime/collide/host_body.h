@@ -6,19 +6,20 @@
 #include "collide/touching.h"
 
 typedef struct sbri_host_body {
-  float ease;                /* 1/kg; 0: nothing moves it */
+  float inverse_mass;        /* 1/kg; 0: nothing moves it */
   sbf_vec3 inverse_inertias; /* 1/(kg m^2), about its principal axes */
   sbf_quat axes;             /* from these to the shape's */
   sbf_vec3 centre;           /* of its mass, in the shape's frame */
   bool goes;                 /* the host has told its motion: it goes on by that */
-  bool told;                 /* since the last tick */
-  sbf_vec3 velocity, spin;   /* m/s of the collider's place, and rad/s: as told, or gone on from that */
-  sbf_vec3 told_velocity, acceleration; /* m/s and m/s^2 */
-  sbf_vec3 held_along;                  /* unit, along which something else holds it; or zeros */
-  sbf_vec3 handed;                      /* N s that the host has taken since it told */
-  uint32_t sharers;                     /* bodies that pushed it in the last tick, by so much in all: */
-  sbf_vec3 push, moment;                /* N s, and N m s about its centre */
-  uint32_t sharing;                     /* the same of this tick */
+  bool is_reported;          /* since the last tick */
+  sbf_vec3 velocity,
+      angular_velocity; /* m/s of the collider's place, and rad/s: as told, or gone on from that */
+  sbf_vec3 reported_velocity, acceleration; /* m/s and m/s^2 */
+  sbf_vec3 blocked_normal;                  /* unit, along which something else holds it; or zeros */
+  sbf_vec3 handed;                          /* N s that the host has taken since it told */
+  uint32_t sharers;                         /* bodies that pushed it in the last tick, by so much in all: */
+  sbf_vec3 push, moment;                    /* N s, and N m s about its centre */
+  uint32_t sharing;                         /* the same of this tick */
   double pushing[3], turning[3];
 } sbri_host_body;
 
@@ -28,14 +29,14 @@ enum { SBRI_EXTERNAL_BODIES = SBRI_TOUCHING };
 /* As a body that touches it sees it through a tick (collide/external_body.h), in the character's own lengths
  * and times. */
 typedef struct sbri_external_body {
-  uint32_t leader;                     /* number of the collider with the mass */
-  sbf_vec3 centre;                     /* of its mass, at the tick's beginning */
-  sbf_vec3 begin_velocity, begin_spin; /* m/s and rad/s as of the present substep's beginning */
-  sbf_vec3 velocity, spin;             /* and as of its end */
-  sbf_vec3 seen_velocity, seen_spin;   /* by which it goes in the substep */
-  float elapsed_s, lever;              /* of the tick; how much more a push moves it than its velocity */
-  sbf_vec3 acceleration, turning;      /* m/s^2 and rad/s^2, of all but this body's pushes */
-  float ease[6], inverse_inertia[6];   /* 1/kg and 1/(kg m^2): xx, yy, zz, xy, xz, yz */
+  uint32_t leader;                                 /* number of the collider with the mass */
+  sbf_vec3 centre;                                 /* of its mass, at the tick's beginning */
+  sbf_vec3 begin_velocity, begin_angular_velocity; /* m/s and rad/s as of the present substep's beginning */
+  sbf_vec3 velocity, angular_velocity;             /* and as of its end */
+  sbf_vec3 seen_velocity, seen_angular_velocity;   /* by which it goes in the substep */
+  float elapsed_s, lever;         /* of the tick; how much more a push moves it than its velocity */
+  sbf_vec3 acceleration, turning; /* m/s^2 and rad/s^2, of all but this body's pushes */
+  float inverse_mass[6], inverse_inertia[6];   /* 1/kg and 1/(kg m^2): xx, yy, zz, xy, xz, yz */
   float max_inverse_mass, max_inverse_inertia; /* along and about any axis */
 } sbri_external_body;
 

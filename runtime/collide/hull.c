@@ -7,7 +7,7 @@
 
 /* Nearer than this share of the distance from the middle, what leads from the nearest place is rounding and
  * no direction. */
-static const float ON_IT_SHARE = 1e-5f;
+static const float ON_IT_FRACTION = 1e-5f;
 
 /* ---- Making ---- */
 
@@ -127,20 +127,20 @@ static sbf_vec3 nearest_on_face(const sbri_hull *hull, const sbri_hull_face *fac
   for (uint32_t i = 2; i < face->count; i++) {
     sbf_vec3 a = hull->vertices[c[0]], b = hull->vertices[c[i - 1]], d = hull->vertices[c[i]];
     float weights[3];
-    sbri_triangle_nearest(x, a, b, d, weights);
-    sbf_vec3 place = sbri_triangle_place(weights, a, b, d), off = sbri_sub(x, place);
-    if (sbri_dot(off, off) < min) min = sbri_dot(off, off), best = place;
+    sbri_triangle_find_nearest(x, a, b, d, weights);
+    sbf_vec3 position = sbri_triangle_point(weights, a, b, d), off = sbri_sub(x, position);
+    if (sbri_dot(off, off) < min) min = sbri_dot(off, off), best = position;
   }
   return best;
 }
 
-float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_vec3 *normal) {
+float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *position, sbf_vec3 *normal) {
   uint32_t deepest;
   float depth = sbri_hull_depth(hull, x, &deepest);
   *normal = hull->faces[deepest].normal;
-  *place = sbri_add_scaled(x, *normal, -depth);
+  *position = sbri_add_scaled(x, *normal, -depth);
   if (depth <= 0) return depth;
-  float min = INFINITY, on_it = ON_IT_SHARE * sbri_length(sbri_sub(x, hull->middle));
+  float min = INFINITY, on_it = ON_IT_FRACTION * sbri_length(sbri_sub(x, hull->middle));
   for (uint32_t f = 0; f < hull->face_count; f++) {
     const sbri_hull_face *face = &hull->faces[f];
     float height = sbri_dot(face->normal, x) - face->offset;
@@ -148,7 +148,7 @@ float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_
     sbf_vec3 on = nearest_on_face(hull, face, x), off = sbri_sub(x, on);
     float square = sbri_dot(off, off);
     if (square >= min) continue;
-    min = square, *place = on;
+    min = square, *position = on;
     *normal = square > on_it * on_it ? sbri_normalize(off, face->normal) : face->normal;
   }
   return sqrtf(min);

@@ -35,7 +35,7 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
 /* The face that x is the least inside of, or the most outside; returns the distance from its plane. */
 float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face);
 /* Nearest place on the surface; returns the distance, negative inside. */
-float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_vec3 *normal);
+float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *position, sbf_vec3 *normal);
 /* The vertex that lies furthest along a direction. */
 uint32_t sbri_hull_support(const sbri_hull *hull, sbf_vec3 along);
 

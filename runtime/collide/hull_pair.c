@@ -5,7 +5,7 @@
 
 /* An edge's axis is taken where it is better than every face's by this share of the reach and by this in m:
  * faces meet in more places. */
-static const float EDGE_SHARE = 0.05f, EDGE_M = 1e-5f;
+static const float EDGE_FRACTION = 0.05f, EDGE_M = 1e-5f;
 
 enum { MAX_CORNERS = 32 };
 
@@ -19,10 +19,10 @@ typedef struct axis {
 } axis;
 
 static sbf_vec3 into(const sbri_placed_hull *h, sbf_vec3 direction) {
-  return sbri_rotate(sbri_quat_conjugate(h->turn), direction);
+  return sbri_rotate(sbri_quat_conjugate(h->rotation), direction);
 }
 static sbf_vec3 out_of(const sbri_placed_hull *h, sbf_vec3 x) {
-  return sbri_add(h->at, sbri_rotate(h->turn, sbri_scale(x, h->scale)));
+  return sbri_add(h->at, sbri_rotate(h->rotation, sbri_scale(x, h->scale)));
 }
 static sbf_vec3 furthest(const sbri_placed_hull *h, sbf_vec3 along) {
   return out_of(h, h->hull->vertices[sbri_hull_support(h->hull, into(h, along))]);
@@ -33,7 +33,7 @@ static bool try_faces(
     const sbri_placed_hull *of, const sbri_placed_hull *other, bool of_a, float reach, axis *best) {
   for (uint32_t f = 0; f < of->hull->face_count; f++) {
     const sbri_hull_face *face = &of->hull->faces[f];
-    sbf_vec3 n = sbri_rotate(of->turn, face->normal);
+    sbf_vec3 n = sbri_rotate(of->rotation, face->normal);
     sbf_vec3 nearest = furthest(other, sbri_scale(n, -1));
     float gap = sbri_dot(n, sbri_sub(nearest, of->at)) - of->scale * face->offset;
     if (gap > reach) return false;
@@ -87,13 +87,13 @@ static axis axis_of_edges(const sbri_placed_hull *a, const sbri_hull_edge *e, co
 }
 
 static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, axis *best) {
-  float min = best->gap + EDGE_SHARE * (reach > 0 ? reach : 0) + EDGE_M;
+  float min = best->gap + EDGE_FRACTION * (reach > 0 ? reach : 0) + EDGE_M;
   sbf_vec3 middle = out_of(a, a->hull->middle);
-  sbf_quat turn = sbri_quat_multiply(sbri_quat_conjugate(b->turn), a->turn);
+  sbf_quat rotation = sbri_quat_multiply(sbri_quat_conjugate(b->rotation), a->rotation);
   for (uint32_t i = 0; i < a->hull->edge_count; i++) {
     const sbri_hull_edge *e = &a->hull->edges[i]; /* in b's frame, where its edges stand: */
-    sbf_vec3 c0 = sbri_rotate(turn, e->normals[0]), c1 = sbri_rotate(turn, e->normals[1]);
-    sbf_vec3 across = sbri_cross(c1, c0), along = sbri_rotate(turn, along_of(a->hull, e));
+    sbf_vec3 c0 = sbri_rotate(rotation, e->normals[0]), c1 = sbri_rotate(rotation, e->normals[1]);
+    sbf_vec3 across = sbri_cross(c1, c0), along = sbri_rotate(rotation, along_of(a->hull, e));
     for (uint32_t k = 0; k < b->hull->edge_count; k++) {
       const sbri_hull_edge *g = &b->hull->edges[k];
       if (!arcs_cross(c0, c1, across, g->normals[0], g->normals[1]) ||
@@ -268,7 +268,7 @@ static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull 
   }
 }
 
-bool sbri_hulls_meet(
+bool sbri_collide_hulls(
     const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, sbri_hull_pair *pair) {
   axis best = {.gap = -INFINITY};
   pair->count = 0;

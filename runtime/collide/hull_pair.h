@@ -9,7 +9,7 @@
 typedef struct sbri_placed_hull {
   const sbri_hull *hull;
   sbf_vec3 at;
-  sbf_quat turn;
+  sbf_quat rotation;
   float scale; /* of its lengths */
 } sbri_placed_hull;
 
@@ -24,7 +24,8 @@ typedef struct sbri_hull_pair {
 
 /* The direction along which they are furthest apart, or overlap least, and up to four places that are no
  * further apart along it than `reach`. False where there are none. */
-bool sbri_hulls_meet(const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, sbri_hull_pair *pair);
+bool sbri_collide_hulls(
+    const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, sbri_hull_pair *pair);
 
 /* Of places on a plane square to the normal the four that span most of what they span: the deepest first. */
 void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, float gap);

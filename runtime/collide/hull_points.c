@@ -12,20 +12,20 @@ static const double STEPS = 1 << 20; /* products of three of them, summed, are b
 
 /* ---- Whole numbers ---- */
 
-typedef struct place {
+typedef struct location {
   int64_t x, y, z;
-} place;
+} location;
 
-static place less(place a, place b) {
-  return (place){a.x - b.x, a.y - b.y, a.z - b.z};
+static location less(location a, location b) {
+  return (location){a.x - b.x, a.y - b.y, a.z - b.z};
 }
-static place cross(place a, place b) {
-  return (place){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+static location cross(location a, location b) {
+  return (location){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-static int64_t dot(place a, place b) {
+static int64_t dot(location a, location b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-static double length(place a) {
+static double length(location a) {
   double x = (double)a.x, y = (double)a.y, z = (double)a.z;
   return sqrt(x * x + y * y + z * z);
 }
@@ -37,57 +37,58 @@ static int64_t rounded(double x) {
 
 typedef struct side {
   uint32_t corners[3];
-  place normal; /* twice its area, outwards */
+  location normal; /* twice its area, outwards */
   double size;
 } side;
 
 typedef struct growing {
-  place *places;
+  location *positions;
   double *height_of; /* of each place over its side, in steps */
   uint32_t *side_of; /* one that each lies outside of; NONE: it is inside, or on the hull */
   uint32_t count, side_count;
   side sides[MAX_SIDES], seen[MAX_SIDES]; /* of the hull; and from the point that comes next */
 } growing;
 
-static side make_side(const place *places, uint32_t a, uint32_t b, uint32_t c) {
-  side made = {.corners = {a, b, c}, .normal = cross(less(places[b], places[a]), less(places[c], places[a]))};
+static side make_side(const location *positions, uint32_t a, uint32_t b, uint32_t c) {
+  side made = {.corners = {a, b, c},
+      .normal = cross(less(positions[b], positions[a]), less(positions[c], positions[a]))};
   made.size = length(made.normal);
   return made;
 }
 
 /* Above 0 outside; how far, times the side's size. */
-static int64_t over(const place *places, const side *s, uint32_t point) {
-  return dot(s->normal, less(places[point], places[s->corners[0]]));
+static int64_t over(const location *positions, const side *s, uint32_t point) {
+  return dot(s->normal, less(positions[point], positions[s->corners[0]]));
 }
 
 /* Of the sides from `first` on, the one that a point is the furthest outside of. */
-static void look(growing *g, uint32_t point, uint32_t first) {
+static void check(growing *g, uint32_t point, uint32_t first) {
   g->side_of[point] = NONE;
   g->height_of[point] = 0;
   for (uint32_t i = first; i < g->side_count; i++) {
-    double height = (double)over(g->places, &g->sides[i], point) / g->sides[i].size;
+    double height = (double)over(g->positions, &g->sides[i], point) / g->sides[i].size;
     if (height > g->height_of[point]) g->height_of[point] = height, g->side_of[point] = i;
   }
 }
 
 /* The place that `measure` is the greatest of; NONE where it is 0 of all. */
 static uint32_t furthest(
-    const growing *g, double (*measure)(const place *, const uint32_t *, uint32_t), const uint32_t *from) {
+    const growing *g, double (*measure)(const location *, const uint32_t *, uint32_t), const uint32_t *from) {
   uint32_t best = NONE;
   double max = 0;
   for (uint32_t i = 0; i < g->count; i++) {
-    double now = measure(g->places, from, i);
+    double now = measure(g->positions, from, i);
     if (now > max) max = now, best = i;
   }
   return best;
 }
-static double from_point(const place *p, const uint32_t *from, uint32_t i) {
+static double from_point(const location *p, const uint32_t *from, uint32_t i) {
   return length(less(p[i], p[from[0]]));
 }
-static double from_line(const place *p, const uint32_t *from, uint32_t i) {
+static double from_line(const location *p, const uint32_t *from, uint32_t i) {
   return length(cross(less(p[from[1]], p[from[0]]), less(p[i], p[from[0]])));
 }
-static double from_plane(const place *p, const uint32_t *from, uint32_t i) {
+static double from_plane(const location *p, const uint32_t *from, uint32_t i) {
   side s = make_side(p, from[0], from[1], from[2]);
   return fabs((double)over(p, &s, i));
 }
@@ -95,7 +96,7 @@ static double from_plane(const place *p, const uint32_t *from, uint32_t i) {
 /* False where all lie in a plane. */
 static bool begin(growing *g) {
   uint32_t c[4] = {0};
-  double (*const measures[3])(const place *, const uint32_t *, uint32_t) = {
+  double (*const measures[3])(const location *, const uint32_t *, uint32_t) = {
       from_point, from_line, from_plane};
   if (!g->count) return false;
   for (uint32_t i = 0; i < 3; i++) {
@@ -103,17 +104,17 @@ static bool begin(growing *g) {
     if (c[i + 1] == NONE) return false;
     if (i == 0) c[0] = furthest(g, from_point, &c[1]);
   }
-  side s = make_side(g->places, c[0], c[1], c[2]);
-  if (over(g->places, &s, c[3]) > 0) {
+  side s = make_side(g->positions, c[0], c[1], c[2]);
+  if (over(g->positions, &s, c[3]) > 0) {
     uint32_t b = c[1];
     c[1] = c[2], c[2] = b;
   }
   const uint32_t corners[4][3] = {
       {c[0], c[1], c[2]}, {c[0], c[3], c[1]}, {c[1], c[3], c[2]}, {c[2], c[3], c[0]}};
   for (uint32_t i = 0; i < 4; i++)
-    g->sides[i] = make_side(g->places, corners[i][0], corners[i][1], corners[i][2]);
+    g->sides[i] = make_side(g->positions, corners[i][0], corners[i][1], corners[i][2]);
   g->side_count = 4;
-  for (uint32_t i = 0; i < g->count; i++) look(g, i, 0);
+  for (uint32_t i = 0; i < g->count; i++) check(g, i, 0);
   return true;
 }
 
@@ -128,7 +129,7 @@ static void join(growing *g, uint32_t point, uint32_t seen_count) {
   for (uint32_t i = 0; i < 3 * seen_count; i++) {
     uint32_t a = g->seen[i / 3].corners[i % 3], b = g->seen[i / 3].corners[(i % 3 + 1) % 3], k = 0;
     while (k < seen_count && !has_edge(&g->seen[k], b, a)) k++;
-    if (k == seen_count) g->sides[g->side_count++] = make_side(g->places, a, b, point);
+    if (k == seen_count) g->sides[g->side_count++] = make_side(g->positions, a, b, point);
   }
 }
 
@@ -136,7 +137,7 @@ static void add(growing *g, uint32_t point) {
   uint32_t new_of[MAX_SIDES], seen_count = 0, kept = 0;
   for (uint32_t i = 0; i < g->side_count; i++) {
     side s = g->sides[i];
-    bool seen = over(g->places, &s, point) > 0;
+    bool seen = over(g->positions, &s, point) > 0;
     new_of[i] = seen ? NONE : kept;
     *(seen ? &g->seen[seen_count++] : &g->sides[kept++]) = s;
   }
@@ -145,7 +146,7 @@ static void add(growing *g, uint32_t point) {
   for (uint32_t i = 0; i < g->count; i++) {
     if (g->side_of[i] == NONE) continue;
     g->side_of[i] = new_of[g->side_of[i]];
-    if (g->side_of[i] == NONE) look(g, i, kept);
+    if (g->side_of[i] == NONE) check(g, i, kept);
   }
 }
 
@@ -163,7 +164,7 @@ static void grow(growing *g) {
 /* ---- From and to metres ---- */
 
 /* A step is a power of two, so that what is rounded to one is a float again. */
-static double count_steps(growing *g, const sbf_vec3 *points, place *low) {
+static double count_steps(growing *g, const sbf_vec3 *points, location *low) {
   double min[3] = {INFINITY, INFINITY, INFINITY}, extent = 0, step = 1;
   for (int k = 0; k < 3; k++) {
     double max = -INFINITY;
@@ -176,16 +177,16 @@ static double count_steps(growing *g, const sbf_vec3 *points, place *low) {
   if (!(extent > 0)) return 0;
   while (extent > (STEPS - 1) * step) step *= 2;
   while (extent <= (STEPS - 1) * step / 2) step /= 2;
-  *low = (place){rounded(min[0] / step), rounded(min[1] / step), rounded(min[2] / step)};
+  *low = (location){rounded(min[0] / step), rounded(min[1] / step), rounded(min[2] / step)};
   for (uint32_t i = 0; i < g->count; i++) {
-    place at = {rounded((double)points[i].x / step), rounded((double)points[i].y / step),
+    location at = {rounded((double)points[i].x / step), rounded((double)points[i].y / step),
         rounded((double)points[i].z / step)};
-    g->places[i] = less(at, *low);
+    g->positions[i] = less(at, *low);
   }
   return step;
 }
 
-static bool write(const growing *g, double step, place low, sbri_point_hull *hull, sbfi_arena *arena) {
+static bool write(const growing *g, double step, location low, sbri_point_hull *hull, sbfi_arena *arena) {
   uint32_t written[SBRI_HULL_VERTICES];
   hull->vertices = sbfi_arena_allocate(arena, SBRI_HULL_VERTICES, sizeof *hull->vertices);
   hull->corners = sbfi_arena_allocate(arena, 3 * (size_t)g->side_count, sizeof *hull->corners);
@@ -195,7 +196,7 @@ static bool write(const growing *g, double step, place low, sbri_point_hull *hul
     while (v < hull->vertex_count && written[v] != point) v++;
     hull->corners[i] = v;
     if (v < hull->vertex_count) continue;
-    place p = g->places[point];
+    location p = g->positions[point];
     written[hull->vertex_count++] = point;
     hull->vertices[v] = (sbf_vec3){(float)((double)(p.x + low.x) * step),
         (float)((double)(p.y + low.y) * step), (float)((double)(p.z + low.z) * step)};
@@ -209,11 +210,11 @@ bool sbri_hull_of_points(sbri_point_hull *hull, const sbf_vec3 *points, uint32_t
   growing *g = sbfi_arena_allocate(arena, 1, sizeof *g);
   if (!g) return false;
   *g = (growing){.count = count};
-  g->places = sbfi_arena_allocate(arena, count, sizeof *g->places);
+  g->positions = sbfi_arena_allocate(arena, count, sizeof *g->positions);
   g->height_of = sbfi_arena_allocate(arena, count, sizeof *g->height_of);
   g->side_of = sbfi_arena_allocate(arena, count, sizeof *g->side_of);
-  if (!g->places || !g->height_of || !g->side_of) return false;
-  place low = {0};
+  if (!g->positions || !g->height_of || !g->side_of) return false;
+  location low = {0};
   double step = count_steps(g, points, &low);
   if (!(step > 0) || !begin(g)) return true;
   grow(g);

@@ -9,41 +9,43 @@
 
 enum { MAX_STEPS = 256 };
 
-sbri_placed_hull sbri_hull_on_way(const sbri_placed_hull *from, const sbri_placed_hull *to, float share) {
+sbri_placed_hull sbri_hull_interpolate(
+    const sbri_placed_hull *from, const sbri_placed_hull *to, float fraction) {
   sbri_placed_hull at = *from;
-  at.at = sbri_lerp(from->at, to->at, share);
-  at.turn = sbri_quat_blend(from->turn, to->turn, share);
+  at.at = sbri_lerp(from->at, to->at, fraction);
+  at.rotation = sbri_quat_blend(from->rotation, to->rotation, fraction);
   return at;
 }
 
 /* As far as turning takes a corner of it at most, m: of half a turn's quaternion the chord is at most 2, and
  * its arc no more than pi/2 times as long. */
 static float turning(const sbri_placed_hull *from, const sbri_placed_hull *to) {
-  float along = from->turn.x * to->turn.x + from->turn.y * to->turn.y + from->turn.z * to->turn.z +
-                from->turn.w * to->turn.w;
-  float share = 1 - along * along, radius = 0;
+  float along = from->rotation.x * to->rotation.x + from->rotation.y * to->rotation.y +
+                from->rotation.z * to->rotation.z + from->rotation.w * to->rotation.w;
+  float fraction = 1 - along * along, radius = 0;
   for (uint32_t i = 0; i < from->hull->vertex_count; i++) {
     float square = sbri_dot(from->hull->vertices[i], from->hull->vertices[i]);
     radius = square > radius ? square : radius;
   }
-  return share > 0 ? 3.15f * from->scale * sqrtf(radius * share) : 0;
+  return fraction > 0 ? 3.15f * from->scale * sqrtf(radius * fraction) : 0;
 }
 
 float sbri_hulls_sweep(const sbri_placed_hull from[2], const sbri_placed_hull to[2], float near) {
-  sbf_vec3 ways[2] = {sbri_sub(to[0].at, from[0].at), sbri_sub(to[1].at, from[1].at)};
-  float way = sbri_length(sbri_sub(ways[0], ways[1])) + turning(&from[0], &to[0]) + turning(&from[1], &to[1]);
-  float share = 0;
-  for (int step = 0; step < MAX_STEPS && share <= 1; step++) {
-    sbri_placed_hull a = sbri_hull_on_way(&from[0], &to[0], share),
-                     b = sbri_hull_on_way(&from[1], &to[1], share);
+  sbf_vec3 directions[2] = {sbri_sub(to[0].at, from[0].at), sbri_sub(to[1].at, from[1].at)};
+  float travel = sbri_length(sbri_sub(directions[0], directions[1])) + turning(&from[0], &to[0]) +
+                 turning(&from[1], &to[1]);
+  float fraction = 0;
+  for (int step = 0; step < MAX_STEPS && fraction <= 1; step++) {
+    sbri_placed_hull a = sbri_hull_interpolate(&from[0], &to[0], fraction),
+                     b = sbri_hull_interpolate(&from[1], &to[1], fraction);
     sbri_hull_pair pair = {.gap = INFINITY};
-    bool over = sbri_hulls_meet(&a, &b, near + (1 - share) * way, &pair);
+    bool over = sbri_collide_hulls(&a, &b, near + (1 - fraction) * travel, &pair);
     if (pair.gap == INFINITY) return 2; /* further apart than they go */
     if (pair.gap <= near && over) {
       for (uint32_t i = 0; i < pair.count; i++)
-        if (pair.gaps[i] <= near) return share;
+        if (pair.gaps[i] <= near) return fraction;
     }
-    share += (pair.gap > near ? pair.gap : near) / way;
+    fraction += (pair.gap > near ? pair.gap : near) / travel;
   }
-  return share;
+  return fraction;
 }

@@ -5,7 +5,8 @@
 #include "collide/hull_pair.h"
 
 /* Where it is at that share of its way, straight and turning evenly by less than half a turn. */
-sbri_placed_hull sbri_hull_on_way(const sbri_placed_hull *from, const sbri_placed_hull *to, float share);
+sbri_placed_hull sbri_hull_interpolate(
+    const sbri_placed_hull *from, const sbri_placed_hull *to, float fraction);
 
 /* The share of their ways, 0 to 1, at which they are first no further apart than `near`, to within that;
  * above 1 where they never are. */

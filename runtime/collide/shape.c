@@ -21,20 +21,20 @@ static sbf_vec3 on_axis(const sbr_shape *s, sbf_vec3 x) {
 
 static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
   const float at[3] = {x.x, x.y, x.z}, to[3] = {half.x, half.y, half.z};
-  float place[3], best = -INFINITY;
+  float position[3], best = -INFINITY;
   int axis = 0;
   for (int k = 0; k < 3; k++) {
-    place[k] = sbri_clamp(at[k], -to[k], to[k]);
+    position[k] = sbri_clamp(at[k], -to[k], to[k]);
     float out = fabsf(at[k]) - to[k];
     if (out > best) best = out, axis = k;
   }
   float n[3] = {0, 0, 0};
   n[axis] = at[axis] < 0 ? -1.0f : 1.0f;
   if (best <= 0) {
-    place[axis] = n[axis] * to[axis];
-    return (sbri_nearest){best, {place[0], place[1], place[2]}, {n[0], n[1], n[2]}};
+    position[axis] = n[axis] * to[axis];
+    return (sbri_nearest){best, {position[0], position[1], position[2]}, {n[0], n[1], n[2]}};
   }
-  sbf_vec3 on = {place[0], place[1], place[2]}, off = sbri_sub(x, on);
+  sbf_vec3 on = {position[0], position[1], position[2]}, off = sbri_sub(x, on);
   return (sbri_nearest){sbri_length(off), on, sbri_normalize(off, sbri_vec3(n[0], n[1], n[2]))};
 }
 
@@ -51,8 +51,8 @@ static bool near_triangles(
     const uint32_t *c = t->corners + 3 * (size_t)i;
     sbf_vec3 a = t->points[c[0]], b = t->points[c[1]], d = t->points[c[2]];
     float weights[3];
-    sbri_triangle_nearest(x, a, b, d, weights);
-    sbf_vec3 on = sbri_triangle_place(weights, a, b, d), off = sbri_sub(x, on),
+    sbri_triangle_find_nearest(x, a, b, d, weights);
+    sbf_vec3 on = sbri_triangle_point(weights, a, b, d), off = sbri_sub(x, on),
              n = sbri_triangle_normal(a, b, d);
     float square = sbri_dot(off, off), height = sbri_dot(off, n);
     if (square > min * (1 + 1e-5f) || sbri_dot(n, n) == 0) continue;
@@ -82,7 +82,7 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
     *found = near_box(s->half_sizes, x);
     break;
   case SBR_SHAPE_HULL:
-    found->gap = sbri_hull_nearest(&s->hull, x, &found->place, &found->normal);
+    found->gap = sbri_hull_nearest(&s->hull, x, &found->position, &found->normal);
     break;
   case SBR_SHAPE_MESH:
   case SBR_SHAPE_HEIGHT_FIELD:
@@ -90,7 +90,7 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
   case SBR_SHAPE_HOST:
     found->normal = up;
     found->gap = s->host.distance(s->host.user, x, reach, &found->normal);
-    found->place = sbri_add_scaled(x, found->normal, -found->gap);
+    found->position = sbri_add_scaled(x, found->normal, -found->gap);
     break;
   }
   return found->gap <= reach;
@@ -100,38 +100,41 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
 
 /* The least share in 0..1 at which a place at x + t way is at `radius` from the origin, of the two axes or
  * three that `flat` leaves. */
-static float enter_round(sbf_vec3 x, sbf_vec3 way, float radius) {
-  float a = sbri_dot(way, way), b = sbri_dot(x, way), c = sbri_dot(x, x) - radius * radius;
+static float enter_round(sbf_vec3 x, sbf_vec3 displacement, float radius) {
+  float a = sbri_dot(displacement, displacement), b = sbri_dot(x, displacement),
+        c = sbri_dot(x, x) - radius * radius;
   float root = b * b - a * c;
   if (c < 0 || b >= 0 || root < 0 || !(a > 0)) return -1;
   float t = (-b - sqrtf(root)) / a;
   return t >= 0 && t <= 1 ? t : -1;
 }
 
-static bool enter_capsule(const sbr_shape *s, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+static bool enter_capsule(
+    const sbr_shape *s, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal) {
   float best = 2;
-  sbf_vec3 axis_place = {0, 0, 0};
+  sbf_vec3 axis_position = {0, 0, 0};
   for (int end = -1; end <= 1; end++) {
     sbf_vec3 middle = {0, (float)end * s->half_sizes.y, 0};
-    sbf_vec3 from = sbri_sub(x, middle), along = way;
+    sbf_vec3 from = sbri_sub(x, middle), along = displacement;
     if (end == 0) from.y = along.y = 0; /* the cylinder */
     float t = enter_round(from, along, s->radius);
     if (t < 0 || t >= best) continue;
-    sbf_vec3 at = sbri_add_scaled(x, way, t);
+    sbf_vec3 at = sbri_add_scaled(x, displacement, t);
     if (end == 0 && fabsf(at.y) > s->half_sizes.y) continue;
-    best = t, axis_place = on_axis(s, at);
+    best = t, axis_position = on_axis(s, at);
   }
   if (best > 1) return false;
-  *share = best;
-  *normal = sbri_normalize(sbri_sub(sbri_add_scaled(x, way, best), axis_place), up);
+  *fraction = best;
+  *normal = sbri_normalize(sbri_sub(sbri_add_scaled(x, displacement, best), axis_position), up);
   return true;
 }
 
-bool sbri_hull_enter(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+bool sbri_hull_enter(
+    const sbri_hull *hull, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal) {
   float in = -1, out = 1;
   for (uint32_t f = 0; f < hull->face_count; f++) {
     const sbri_hull_face *face = &hull->faces[f];
-    float height = sbri_dot(face->normal, x) - face->offset, rate = sbri_dot(face->normal, way);
+    float height = sbri_dot(face->normal, x) - face->offset, rate = sbri_dot(face->normal, displacement);
     if (rate == 0 && height > 0) return false;
     if (rate == 0) continue;
     float t = -height / rate;
@@ -141,48 +144,49 @@ bool sbri_hull_enter(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 way, float *sha
       in = t, *normal = face->normal;
     }
   }
-  *share = in;
+  *fraction = in;
   return in >= 0 && in <= out;
 }
 
 static bool enter_triangles(
-    const sbri_triangles *t, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+    const sbri_triangles *t, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal) {
   sbri_bounds_walk walk;
   float best = 2;
   uint32_t i;
-  sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_with(sbri_box_of_point(x), sbri_add(x, way)));
+  sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_with(sbri_box_of_point(x), sbri_add(x, displacement)));
   while (sbri_bounds_walk_next(&walk, &i)) {
     const uint32_t *c = t->corners + 3 * (size_t)i;
     sbf_vec3 a = t->points[c[0]], b = t->points[c[1]], d = t->points[c[2]];
     sbf_vec3 n = sbri_triangle_normal(a, b, d);
-    float at = sbri_dot(n, way) < 0 ? sbri_triangle_cross(x, way, a, b, d) : -1;
+    float at = sbri_dot(n, displacement) < 0 ? sbri_triangle_cross(x, displacement, a, b, d) : -1;
     if (at >= 0 && at < best) best = at, *normal = n;
   }
-  *share = best;
+  *fraction = best;
   return best <= 1;
 }
 
-bool sbri_shape_enter(const sbr_shape *s, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+bool sbri_shape_enter(
+    const sbr_shape *s, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal) {
   switch (s->kind) {
   case SBR_SHAPE_PLANE:
-    if (!(x.y >= 0) || !(x.y + way.y < 0)) return false;
-    *share = x.y / -way.y, *normal = up;
+    if (!(x.y >= 0) || !(x.y + displacement.y < 0)) return false;
+    *fraction = x.y / -displacement.y, *normal = up;
     return true;
   case SBR_SHAPE_SPHERE:
-    *share = enter_round(x, way, s->radius);
-    *normal = sbri_normalize(sbri_add_scaled(x, way, *share), up);
-    return *share >= 0;
+    *fraction = enter_round(x, displacement, s->radius);
+    *normal = sbri_normalize(sbri_add_scaled(x, displacement, *fraction), up);
+    return *fraction >= 0;
   case SBR_SHAPE_CAPSULE:
-    return enter_capsule(s, x, way, share, normal);
+    return enter_capsule(s, x, displacement, fraction, normal);
   case SBR_SHAPE_BOX:
   case SBR_SHAPE_HULL:
-    return sbri_hull_enter(&s->hull, x, way, share, normal);
+    return sbri_hull_enter(&s->hull, x, displacement, fraction, normal);
   case SBR_SHAPE_MESH:
   case SBR_SHAPE_HEIGHT_FIELD:
-    return enter_triangles(&s->triangles, x, way, share, normal);
+    return enter_triangles(&s->triangles, x, displacement, fraction, normal);
   case SBR_SHAPE_HOST:
-    *share = s->host.cast ? s->host.cast(s->host.user, x, way, normal) : -1;
-    return *share >= 0 && *share <= 1;
+    *fraction = s->host.cast ? s->host.cast(s->host.user, x, displacement, normal) : -1;
+    return *fraction >= 0 && *fraction <= 1;
   }
   return false;
 }

@@ -42,17 +42,19 @@ struct sbr_shape {
 /* A place against a surface. */
 typedef struct sbri_nearest {
   float gap; /* distance, negative inside */
-  sbf_vec3 place, normal;
+  sbf_vec3 position, normal;
 } sbri_nearest;
 
 /* False where nothing is within `reach`, or the place is deeper inside of triangles than `depth`: they have
  * no other side to be pushed out of. */
 bool sbri_shape_nearest(const sbr_shape *shape, sbf_vec3 x, float reach, float depth, sbri_nearest *found);
-/* Where the way from x first enters; `share` of it, 0 to 1. From inside it enters nothing. */
-bool sbri_shape_enter(const sbr_shape *shape, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal);
+/* Where the way from x first enters; `fraction` of it, 0 to 1. From inside it enters nothing. */
+bool sbri_shape_enter(
+    const sbr_shape *shape, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 
 /* The same of triangles that are not a shape's: where a way crosses them from the front. */
-bool sbri_hull_enter(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal);
+bool sbri_hull_enter(
+    const sbri_hull *hull, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c);
 
 #endif

@@ -7,7 +7,7 @@
 #include "math/vec3.h"
 
 /* Of a hull's thickness, how far something may be past a ridge and still go back over it. */
-static const float PAST_SHARE = 0.5f;
+static const float PAST_FRACTION = 0.5f;
 
 static bool is_flat(sbf_vec3 a, sbf_vec3 b) {
   float both = sbri_dot(a, b);
@@ -81,7 +81,7 @@ static bool make(sbr_shape *s, sbfi_arena *scratch) {
     s->ridges.count = ridges_of_mesh(t, sides, all);
   } else {
     s->ridges.count = ridges_of_hull(&s->hull, all);
-    s->ridges.past_m = PAST_SHARE * thickness_of(&s->hull);
+    s->ridges.past_m = PAST_FRACTION * thickness_of(&s->hull);
   }
   if (!s->ridges.count) return true;
   sbri_shape_ridge *kept = sbfi_arena_allocate(&s->arena, s->ridges.count, sizeof *kept);

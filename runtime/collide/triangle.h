@@ -6,7 +6,8 @@
 
 /* Weights of the corners, summing to 1, of the place on a triangle that is nearest to x (by the regions of
  * its sides and corners; C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). */
-static inline void sbri_triangle_nearest(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, float weights[3]) {
+static inline void sbri_triangle_find_nearest(
+    sbf_vec3 x, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, float weights[3]) {
   sbf_vec3 ab = sbri_sub(b, a), ac = sbri_sub(c, a), from_a = sbri_sub(x, a), from_b = sbri_sub(x, b),
            from_c = sbri_sub(x, c);
   float a1 = sbri_dot(ab, from_a), a2 = sbri_dot(ac, from_a), b1 = sbri_dot(ab, from_b),
@@ -35,19 +36,21 @@ static inline void sbri_triangle_nearest(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b, sbf
   }
 }
 
-static inline sbf_vec3 sbri_triangle_place(const float weights[3], sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
+static inline sbf_vec3 sbri_triangle_point(const float weights[3], sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return sbri_add_scaled(sbri_add_scaled(sbri_scale(a, weights[0]), b, weights[1]), c, weights[2]);
 }
 
 /* Share of the way at which from + t way goes through, from either side; negative: it does not within 0 to 1
  * (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997). */
-static inline float sbri_triangle_cross(sbf_vec3 from, sbf_vec3 way, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
-  sbf_vec3 ab = sbri_sub(b, a), ac = sbri_sub(c, a), p = sbri_cross(way, ac), off = sbri_sub(from, a);
+static inline float sbri_triangle_cross(
+    sbf_vec3 from, sbf_vec3 displacement, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
+  sbf_vec3 ab = sbri_sub(b, a), ac = sbri_sub(c, a), p = sbri_cross(displacement, ac),
+           off = sbri_sub(from, a);
   float area = sbri_dot(ab, p);
   if (area == 0) return -1;
   float s = 1 / area, u = sbri_dot(off, p) * s;
   sbf_vec3 q = sbri_cross(off, ab);
-  float v = sbri_dot(way, q) * s, t = sbri_dot(ac, q) * s;
+  float v = sbri_dot(displacement, q) * s, t = sbri_dot(ac, q) * s;
   const float edge = -1e-5f; /* nothing slips through between two triangles */
   return u < edge || v < edge || u + v > 1 - edge || t < 0 || t > 1 ? -1 : t;
 }

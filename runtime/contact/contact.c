@@ -7,11 +7,11 @@
 #include "collide/external_body.h"
 #include "collide/ground.h"
 #include "contact/carried.h"
-#include "contact/self_touch.h"
-#include "contact/shape_touch.h"
+#include "contact/self_contacts.h"
+#include "contact/soft_shape_contacts.h"
 
 /* Of a body's size. */
-static const float MIN_MARGIN_SHARE = 5e-4f;
+static const float MIN_MARGIN_FRACTION = 5e-4f;
 
 /* Range of a body's points and their greatest speed. */
 typedef struct extent {
@@ -45,7 +45,7 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
  * lies further out than as many times the range. */
 static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
   extent e = extent_of(t, body);
-  for (uint32_t slot = t->island->free_count; body->held && slot < t->island->slot_count; slot++) {
+  for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
     e.speed = fmaxf(e.speed, sbri_length(sbri_carried_velocity(t, slot)));
     extend(&e, &t->positions[slot]);
   }
@@ -82,7 +82,7 @@ static float reach_of(const sbri_island_tick *t, const extent *e, float motion) 
 
 static void prepare_points(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   extent e = extent_of(t, body);
-  float motion = 2 * e.speed * t->tick_s + SBRI_MOTION_SHARE * body->rest_size_m;
+  float motion = 2 * e.speed * t->tick_s + SBRI_MOTION_FRACTION * body->rest_size_m;
   float reach = reach_of(t, &e, motion);
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
     const sbri_point *points = t->positions + block * SBRI_BLOCK;
@@ -104,21 +104,21 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
  * by springs and bones that make it as fast as the fastest of the body, and more. */
 static float margin_of(const sbri_island_tick *t, const sbri_body *body, float fastest) {
   float faster = 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
-  return t->tick_s * faster + MIN_MARGIN_SHARE * body->rest_size_m;
+  return t->tick_s * faster + MIN_MARGIN_FRACTION * body->rest_size_m;
 }
 
 static void prepare_sample(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s,
     float margin, const sbri_contact_tables *to) {
-  uint32_t *count = &to->touch_counts[body - t->model->bodies];
+  uint32_t *count = &to->contact_counts[body - t->model->bodies];
   if (!(s->mass_kg > 0)) return;
-  sbf_vec3 x = sbri_sample_place(t, s), n;
+  sbf_vec3 x = sbri_sample_position(t, s), n;
   float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
   float approach = -sbri_dot(n, sbri_sample_velocity(t, s));
   if (sbri_dot(n, x) - offset > (approach > 0 ? approach : 0) * 2 * t->tick_s + margin) return;
-  to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = *s,
+  to->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = *s,
       .normal = n,
       .offset = offset,
-      .friction_share = 1,
+      .friction_scale = 1,
       .restitution = body->restitution,
       .collider = SBRI_NO_COLLIDER};
 }
@@ -135,7 +135,7 @@ static float lowest_of(const sbri_island_tick *t, const sbri_sample_group *group
 
 /* Those whose way within the tick may end on the ground. */
 static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
-  uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->touch_counts[body - t->model->bodies];
+  uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->contact_counts[body - t->model->bodies];
   memset(to->near_ground + first, 0, body->slot_end / SBRI_BLOCK - first);
   *count = 0;
   extent e = extent_of_samples(t, body);
@@ -154,20 +154,20 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
 
 /* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along
  * with those of shapes. */
-static void turn_planes_into_touches(
+static void convert_planes_to_contacts(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  uint32_t *count = &tables->touch_counts[body - t->model->bodies];
+  uint32_t *count = &tables->contact_counts[body - t->model->bodies];
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
     if (!tables->near_ground[block]) continue;
     tables->near_ground[block] = 0;
     const float *plane = tables->planes + (size_t)block * 4 * SBRI_BLOCK;
-    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->touch_capacity; lane++) {
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->max_contacts; lane++) {
       sbri_sample s = sbri_point_sample(t, block * SBRI_BLOCK + lane);
       if (s.slots[0] >= body->slot_real_end || !(s.mass_kg > 0)) continue;
-      tables->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
+      tables->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = s,
           .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
           .offset = plane[3 * SBRI_BLOCK + lane],
-          .friction_share = 1,
+          .friction_scale = 1,
           .restitution = body->restitution,
           .collider = SBRI_NO_COLLIDER};
     }
@@ -177,41 +177,41 @@ static void turn_planes_into_touches(
 /* Marks touches of points that nothing else pushes. A body with samples has points that several of them are
  * carried by. */
 static void find_alone(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  sbri_touch *touches = tables->touches + body->first_touch;
-  uint32_t count = tables->touch_counts[body - t->model->bodies];
-  memset(tables->slot_touches + body->slot_begin, 0, body->slot_end - body->slot_begin);
+  sbri_soft_contact *contacts = tables->contacts + body->first_soft_contact;
+  uint32_t count = tables->contact_counts[body - t->model->bodies];
+  memset(tables->slot_contacts + body->slot_begin, 0, body->slot_end - body->slot_begin);
   for (uint32_t i = 0; i < count; i++)
     for (int k = 0; k < 4; k++) {
-      uint32_t slot = touches[i].sample.slots[k];
-      bool moves = touches[i].sample.weights[k] != 0 && slot < t->island->free_count;
-      if (moves && tables->slot_touches[slot] < 2) tables->slot_touches[slot]++;
+      uint32_t slot = contacts[i].sample.slots[k];
+      bool moves = contacts[i].sample.weights[k] != 0 && slot < t->island->free_count;
+      if (moves && tables->slot_contacts[slot] < 2) tables->slot_contacts[slot]++;
     }
   for (uint32_t i = 0; i < count; i++) {
-    const sbri_sample *s = &touches[i].sample;
-    touches[i].alone = !touches[i].external_body && s->weights[0] == 1 && s->weights[1] == 0 &&
-                       s->weights[2] == 0 && s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
-                       tables->slot_touches[s->slots[0]] == 1;
+    const sbri_sample *s = &contacts[i].sample;
+    contacts[i].alone = !contacts[i].external_body && s->weights[0] == 1 && s->weights[1] == 0 &&
+                        s->weights[2] == 0 && s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
+                        tables->slot_contacts[s->slots[0]] == 1;
   }
 }
 
 void sbri_contact_prepare(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  tables->touch_counts[body - t->model->bodies] = 0;
+  tables->contact_counts[body - t->model->bodies] = 0;
   if (body->slot_begin == body->slot_end) return;
   if (body->samples)
     prepare_samples(t, body, tables);
   else
     prepare_points(t, body, tables);
-  uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
+  uint32_t *count = &tables->contact_counts[body - t->model->bodies], before = *count;
   tables->external_bodies->count = 0;
-  sbri_shape_touches_add(t, body, tables);
+  sbri_soft_shape_contacts_add(t, body, tables);
   if (body->self_face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
-    sbri_self_touches_add(t, body, tables, &tree);
+    sbri_self_contacts_add(t, body, tables, &tree);
   }
   if (*count > before && !body->samples) {
-    turn_planes_into_touches(t, body, tables);
+    convert_planes_to_contacts(t, body, tables);
     find_alone(t, body, tables);
   }
-  SBF_ASSERT(*count <= body->touch_capacity);
+  SBF_ASSERT(*count <= body->max_contacts);
 }

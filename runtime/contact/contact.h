@@ -1,54 +1,53 @@
-/* Surfaces against the ground.
+/* Contact of soft bodies with the ground.
  *
- * What meets the ground are the points of a body, or, where they only carry its surface, the samples of that
- * (prepare/contact_samples.c, solvers/touches.h). Once a tick the ground is asked under each that may reach
- * it, and stands for that tick as the plane that touches it there. In each substep one that would end below
- * its plane has its normal speed cut so that it just arrives (or thrown back by the restitution where it is
- * fast), and Coulomb friction takes no more from its sideways speed than the friction coefficient times what
- * the normal lost. What lies below already is moved up, at a limited rate and without gaining speed; nothing
- * is ever pulled down or held. */
+ * The contact points are the body's points, or surface samples where points only embed the surface
+ * (prepare/contact_samples.c, solvers/soft_contacts.h). Once per tick the ground below each candidate becomes
+ * a plane. In each substep, a point that would pass its plane loses normal velocity so that it just arrives,
+ * or bounces if it is fast. Coulomb friction removes tangential velocity of at most the friction coefficient
+ * times the normal change. Points below the plane are moved up at a limited speed that does not become
+ * velocity. Contacts never pull. */
 #ifndef SBRI_CONTACT_H
 #define SBRI_CONTACT_H
 
 #include "model/island_tick.h"
 
-/* As far as something may fall in a tick: twice its present way, and this share of the body for what springs
- * and weight may add. */
-#define SBRI_MOTION_SHARE 0.02f
+/* Distance at which contacts are found: twice the displacement of the tick, plus this fraction of the body's
+ * size for what forces may add. */
+#define SBRI_MOTION_FRACTION 0.02f
 
-/* Where a tick's contacts go; of the island and of the character, as in sbri_island_tick. */
+/* Output tables of contact detection, of the island and the character as in sbri_island_tick. */
 typedef struct sbri_contact_tables {
   uint8_t *near_ground;
   float *planes;
-  sbri_touch *touches;
-  uint32_t *touch_counts;
+  sbri_soft_contact *contacts;
+  uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
-  const struct sbri_touching *touched;          /* by the body in the tick before */
-  uint8_t *slot_touches;       /* (slots) scratch: how many touches move each point, as two where more */
-  const sbri_skin *surface;    /* of the body, as it is carried now */
-  struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */
+  const struct sbri_touching *touched;          /* contacts of the body in the previous tick */
+  uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
+  const sbri_skin *surface;    /* of the body, at its present positions */
+  struct sbri_box *self_boxes; /* scratch of the body for self contact */
   struct sbri_moving_ball *self_balls;
   struct sbri_bounds_node *self_nodes;
   uint32_t *self_items;
   uint8_t *self_edges;
 } sbri_contact_tables;
 
-/* Marks the body's blocks of points that may touch the ground within the tick, and gives each of their points
- * its plane: blocks of four by eight, the unit normal and n.x of the plane. Of a body with samples instead,
- * lists those that may. */
+/* Finds ground contacts of the body within the tick. Marks blocks of points near the ground and stores a
+ * plane for each point: blocks of four by eight values, the unit normal and n.x of the plane. A body with
+ * samples gets a list of contacts instead. */
 void sbri_contact_prepare(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
 
 typedef struct sbri_contact_rule {
   float friction, restitution;
-  const float *frictions; /* (free slots of the island) of each point instead; NULL: all are alike */
+  const float *frictions; /* (free slots of the island) coefficient per point; NULL: uniform */
   float step_s;
-  float push_m;          /* most that a point is moved up in a substep */
-  float slack_m;         /* as deep as a point may lie without being moved up */
-  float bounce_from_m_s; /* slower contacts do not bounce */
+  float push_m;          /* maximum correction of penetration in a substep, m */
+  float slack_m;         /* penetration that is not corrected, m */
+  float bounce_from_m_s; /* minimum approach speed of a bounce, m/s */
 } sbri_contact_rule;
 
-/* A plane for each of a group of lanes. */
+/* One plane per lane. */
 typedef struct sbri_contact_planes {
   sbri_wide3 normal;
   sbri_wide offset;
@@ -66,53 +65,55 @@ static inline sbri_wide sbri_planes_gap(const sbri_contact_planes *p, sbri_wide3
   return sbri_planes_along(p, x) - p->offset;
 }
 
-/* Of the group of lanes from `slot` on. */
+/* Friction coefficients of the group of lanes that begins at `slot`. */
 static inline sbri_wide sbri_contact_friction(const sbri_contact_rule *rule, uint32_t slot) {
   return rule->frictions ? sbri_wide_load(rule->frictions + slot) : sbri_wide_all(rule->friction);
 }
 
-/* A velocity that has gained `gain` along the normal, less what friction takes for it. */
-static inline sbri_wide3 sbri_contact_gain(
-    const sbri_contact_planes *p, sbri_wide3 v, sbri_wide gain, sbri_wide friction) {
+/* Adds a normal velocity change to v and applies the friction that belongs to it. */
+static inline sbri_wide3 sbri_contact_apply_normal_change(
+    const sbri_contact_planes *p, sbri_wide3 v, sbri_wide normal_velocity_change, sbri_wide friction) {
   sbri_wide speed = sbri_planes_along(p, v), one = sbri_wide_all(1);
   sbri_wide3 n = p->normal, s = {v.x - n.x * speed, v.y - n.y * speed, v.z - n.z * speed};
   sbri_wide sideways = sbri_wide_sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-  sbri_wide max = friction * gain;
-  sbri_wide share = sbri_wide_min(max / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
-  return (sbri_wide3){
-      v.x + n.x * gain - s.x * share, v.y + n.y * gain - s.y * share, v.z + n.z * gain - s.z * share};
+  sbri_wide max = friction * normal_velocity_change;
+  sbri_wide fraction = sbri_wide_min(max / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
+  return (sbri_wide3){v.x + n.x * normal_velocity_change - s.x * fraction,
+      v.y + n.y * normal_velocity_change - s.y * fraction,
+      v.z + n.z * normal_velocity_change - s.z * fraction};
 }
 
-/* What the ground makes of a velocity, and by how much it moves the place up at once; `x` as at the beginning
- * of the substep. */
+/* Result of a ground contact: the new velocity and the immediate correction of the position. `x` is the
+ * position at the beginning of the substep. */
 typedef struct sbri_contact_answer {
   sbri_wide3 velocity;
   sbri_wide up;
 } sbri_contact_answer;
 
-static inline sbri_contact_answer sbri_contact_ask(
+static inline sbri_contact_answer sbri_contact_evaluate(
     const sbri_contact_planes *p, sbri_wide3 x, sbri_wide3 v, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
   sbri_wide gap = sbri_planes_gap(p, x), speed = sbri_planes_along(p, v);
-  sbri_mask touches = gap + h * speed < zero;
-  /* To where it just arrives; nowhere, where it lies below already. */
+  sbri_mask hits = gap + h * speed < zero;
+  /* Velocity that just reaches the plane; 0 for a point that is already below. */
   sbri_wide wanted = zero - sbri_wide_max(gap, zero) / h;
   sbri_mask bounces = speed < sbri_wide_all(-rule->bounce_from_m_s);
   wanted = sbri_wide_select(
       bounces, sbri_wide_max(wanted, zero - sbri_wide_all(rule->restitution) * speed), wanted);
-  sbri_wide gain = sbri_wide_select(touches, sbri_wide_max(wanted - speed, zero), zero);
+  sbri_wide normal_velocity_change = sbri_wide_select(hits, sbri_wide_max(wanted - speed, zero), zero);
   sbri_wide deep = sbri_wide_max(zero - gap - sbri_wide_all(rule->slack_m), zero);
   sbri_wide up = sbri_wide_min(deep, sbri_wide_all(rule->push_m));
   return (sbri_contact_answer){
-      sbri_contact_gain(p, v, gain, sbri_contact_friction(rule, slot)), sbri_wide_select(touches, up, zero)};
+      sbri_contact_apply_normal_change(p, v, normal_velocity_change, sbri_contact_friction(rule, slot)),
+      sbri_wide_select(hits, up, zero)};
 }
 
-/* One group of lanes in a substep: corrects velocity and place; `x` comes in as at the beginning of the
- * substep and goes out as at its end. */
+/* Moves a group of lanes through a substep in contact. `x` is the position at the beginning on entry and at
+ * the end on return. */
 static inline void sbri_contact_move(
     sbri_wide3 *x, sbri_wide3 *v, const float *plane, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_contact_planes p = sbri_planes_load(plane);
-  sbri_contact_answer a = sbri_contact_ask(&p, *x, *v, rule, slot);
+  sbri_contact_answer a = sbri_contact_evaluate(&p, *x, *v, rule, slot);
   sbri_wide h = sbri_wide_all(rule->step_s);
   *v = a.velocity;
   x->x = x->x + h * v->x + p.normal.x * a.up;
@@ -120,14 +121,15 @@ static inline void sbri_contact_move(
   x->z = x->z + h * v->z + p.normal.z * a.up;
 }
 
-/* A correction of places from `from` to `to` after the substep's own motion, which changed velocities by as
- * much per second: it does not go into the ground, or deeper into it, and what that takes of it rubs. */
+/* Bounds a position correction from `from` to `to`, which changes velocity by the correction per second, so
+ * that it does not move a point into the ground or deeper. The normal part that is removed causes friction.
+ */
 static inline void sbri_contact_bound(const sbri_contact_planes *p, sbri_wide3 from, sbri_wide3 *to,
     sbri_wide3 *v, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
   sbri_wide min = sbri_wide_min(sbri_planes_gap(p, from), zero);
   sbri_wide lift = sbri_wide_max(min - sbri_planes_gap(p, *to), zero);
-  sbri_wide3 bounded = sbri_contact_gain(p, *v, lift / h, sbri_contact_friction(rule, slot));
+  sbri_wide3 bounded = sbri_contact_apply_normal_change(p, *v, lift / h, sbri_contact_friction(rule, slot));
   to->x = to->x + h * (bounded.x - v->x);
   to->y = to->y + h * (bounded.y - v->y);
   to->z = to->z + h * (bounded.z - v->z);

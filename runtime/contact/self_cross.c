@@ -8,7 +8,7 @@
  * idea of P. Volino and N. Magnenat-Thalmann, Resolving Surface Collisions through Intersection Contour
  * Minimization, 2006). Points meet the surface meanwhile as ever, on the side that they are on. */
 #include "collide/sides.h"
-#include "contact/self_looking.h"
+#include "contact/self_query.h"
 
 /* So fast sides go out of triangles, m/s, where the line is as crooked as this, and else by a share of it. */
 static const float OUT_M_S = 0.2f, CROOKED = 0.5f;
@@ -18,11 +18,11 @@ static const float STEEP = 0.1f;
 typedef struct side {
   const sbri_self_looking *looking;
   uint32_t ends[2], beside[2]; /* slots; of the third corners of its triangles, or SBRI_RIM */
-  sbf_vec3 from, way;
+  sbf_vec3 from, displacement;
 } side;
 
-static sbf_vec3 place(const side *s, uint32_t slot) {
-  return sbri_self_place(s->looking->tick->positions, slot);
+static sbf_vec3 position(const side *s, uint32_t slot) {
+  return sbri_self_position(s->looking->tick->positions, slot);
 }
 
 static side side_of(const sbri_self_looking *l, uint32_t number) {
@@ -30,15 +30,15 @@ static side side_of(const sbri_self_looking *l, uint32_t number) {
   side s = {.looking = l,
       .ends = {c[number % 3], c[(number + 1) % 3]},
       .beside = {c[(number + 2) % 3], l->body->self_sides[number]}};
-  s.from = place(&s, s.ends[0]);
-  s.way = sbri_sub(place(&s, s.ends[1]), s.from);
+  s.from = position(&s, s.ends[0]);
+  s.displacement = sbri_sub(position(&s, s.ends[1]), s.from);
   return s;
 }
 
 /* Adds the way by which the line leads along n's triangle into that beside the side. */
 static sbf_vec3 with_line(const side *s, sbf_vec3 e, sbf_vec3 n, uint32_t beside, sbf_vec3 sum) {
   if (beside == SBRI_RIM) return sum;
-  sbf_vec3 across = sbri_sub(place(s, beside), s->from);
+  sbf_vec3 across = sbri_sub(position(s, beside), s->from);
   across = sbri_add_scaled(across, e, -sbri_dot(across, e));
   sbf_vec3 line = sbri_cross(n, sbri_cross(e, across));
   float length = sbri_length(line);
@@ -47,8 +47,8 @@ static sbf_vec3 with_line(const side *s, sbf_vec3 e, sbf_vec3 n, uint32_t beside
 }
 
 /* Where the side is to go against the triangle whose corners are p; not of unit length. */
-static sbf_vec3 way_out(const side *s, const sbf_vec3 p[3]) {
-  sbf_vec3 none = {0, 0, 0}, e = sbri_normalize(s->way, none),
+static sbf_vec3 exit_displacement(const side *s, const sbf_vec3 p[3]) {
+  sbf_vec3 none = {0, 0, 0}, e = sbri_normalize(s->displacement, none),
            n = sbri_normalize(sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])), none);
   sbf_vec3 out = with_line(s, e, n, s->beside[1], with_line(s, e, n, s->beside[0], none));
   float steep = sbri_dot(e, n);
@@ -61,7 +61,7 @@ static bool are_one(const side *s, const uint32_t *c) {
   const sbri_point *rest = s->looking->tick->island->rest;
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 3; k++) {
-      sbf_vec3 off = sbri_sub(sbri_self_place(rest, s->ends[i]), sbri_self_place(rest, c[k]));
+      sbf_vec3 off = sbri_sub(sbri_self_position(rest, s->ends[i]), sbri_self_position(rest, c[k]));
       if (sbri_dot(off, off) < SBRI_SELF_TOGETHER_M * SBRI_SELF_TOGETHER_M) return true;
     }
   return false;
@@ -69,11 +69,12 @@ static bool are_one(const side *s, const uint32_t *c) {
 
 /* A touch has four points: of the triangle's corners that which has the least share gives it to the others.
  */
-static sbri_sample sample_of(const side *s, float share, const uint32_t *c, const float weights[3]) {
+static sbri_sample sample_of(const side *s, float fraction, const uint32_t *c, const float weights[3]) {
   int min = weights[1] < weights[0] ? 1 : 0;
   if (weights[2] < weights[min]) min = 2;
   int i = (min + 1) % 3, k = (min + 2) % 3;
-  const float half = 0.5f * weights[min], on[4] = {1 - share, share, -weights[i] - half, -weights[k] - half};
+  const float half = 0.5f * weights[min],
+              on[4] = {1 - fraction, fraction, -weights[i] - half, -weights[k] - half};
   const uint32_t slots[4] = {s->ends[0], s->ends[1], c[i], c[k]};
   return sbri_self_sample(s->looking->tick->island, slots, on);
 }
@@ -81,23 +82,23 @@ static sbri_sample sample_of(const side *s, float share, const uint32_t *c, cons
 static void cross(const side *s, uint32_t number) {
   const sbri_self_looking *l = s->looking;
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
-  uint32_t *count = &l->tables->touch_counts[l->body - l->tick->model->bodies];
+  uint32_t *count = &l->tables->contact_counts[l->body - l->tick->model->bodies];
   sbf_vec3 p[3];
   for (int k = 0; k < 3; k++) {
     if (c[k] == s->ends[0] || c[k] == s->ends[1]) return;
-    p[k] = place(s, c[k]);
+    p[k] = position(s, c[k]);
   }
-  float share = sbri_triangle_cross(s->from, s->way, p[0], p[1], p[2]), weights[3];
-  if (share < 0 || *count >= l->body->touch_capacity || are_one(s, c)) return;
-  sbri_triangle_nearest(sbri_add_scaled(s->from, s->way, share), p[0], p[1], p[2], weights);
-  sbri_sample sample = sample_of(s, share, c, weights);
-  sbf_vec3 out = way_out(s, p);
+  float fraction = sbri_triangle_cross(s->from, s->displacement, p[0], p[1], p[2]), weights[3];
+  if (fraction < 0 || *count >= l->body->max_contacts || are_one(s, c)) return;
+  sbri_triangle_find_nearest(sbri_add_scaled(s->from, s->displacement, fraction), p[0], p[1], p[2], weights);
+  sbri_sample sample = sample_of(s, fraction, c, weights);
+  sbf_vec3 out = exit_displacement(s, p);
   float crooked = sbri_length(out);
   if (!(crooked > 1e-3f) || !(sample.mass_kg > 0)) return;
   sbf_vec3 n = sbri_scale(out, 1 / crooked);
-  l->tables->touches[l->body->first_touch + (*count)++] = (sbri_touch){.sample = sample,
+  l->tables->contacts[l->body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = sample,
       .normal = n,
-      .offset = sbri_dot(n, sbri_sample_place(l->tick, &sample)),
+      .offset = sbri_dot(n, sbri_sample_position(l->tick, &sample)),
       .velocity = sbri_scale(n, OUT_M_S * sbri_min(crooked / CROOKED, 1)),
       .collider = SBRI_ITSELF,
       .crosses = true};
@@ -115,7 +116,7 @@ static flat flat_of(const sbri_self_looking *l, uint32_t number) {
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   const sbri_point *at = l->tick->positions;
   sbf_vec3 p[3];
-  for (int k = 0; k < 3; k++) p[k] = sbri_self_place(at, c[k]);
+  for (int k = 0; k < 3; k++) p[k] = sbri_self_position(at, c[k]);
   return (flat){number, c, p[0], sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])),
       sbri_box_with(sbri_box_with(sbri_box_of_point(p[0]), p[1]), p[2])};
 }
@@ -128,7 +129,7 @@ static bool is_clear(const sbri_self_looking *l, const flat *f, const uint32_t *
       shared++;
       continue;
     }
-    float height = sbri_dot(f->normal, sbri_sub(sbri_self_place(l->tick->positions, c[k]), f->at));
+    float height = sbri_dot(f->normal, sbri_sub(sbri_self_position(l->tick->positions, c[k]), f->at));
     over += height >= 0, below += height <= 0;
   }
   return shared > 1 || !over || !below;
@@ -150,7 +151,7 @@ void sbri_self_crossings_add(const sbri_self_looking *l) {
     uint32_t other;
     sbri_bounds_walk_begin(&walk, l->tree, f.box);
     while (sbri_bounds_walk_next(&walk, &other)) {
-      if (other <= number || !sbri_box_meets(&f.box, &l->boxes[other])) continue;
+      if (other <= number || !sbri_boxes_overlap(&f.box, &l->boxes[other])) continue;
       if (is_clear(l, &f, l->body->self_faces + 3 * (size_t)other)) continue;
       cross_sides(l, number, other);
       cross_sides(l, other, number);

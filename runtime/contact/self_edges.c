@@ -1,13 +1,13 @@
 /* A sheet's rims, and the ridges that it is folded to, against each other: where edges cross and no corner
  * comes near a face, points meet nothing. A touch is a sample whose weights are above 0 for the one edge and
  * below for the other. */
-#include "collide/edge_look.h"
+#include "collide/edge_query.h"
 #include "collide/sides.h"
-#include "contact/self_looking.h"
+#include "contact/self_query.h"
 
 /* Edges that are nearer than the thickness, as rims are that lie beside each other, come to it by this share
  * of what is missing a tick: they are there to stay on their sides, and points to keep the distance. */
-static const float COMES_OUT_SHARE = 0.05f;
+static const float COMES_OUT_FRACTION = 0.05f;
 
 typedef struct edge {
   uint32_t ends[2];
@@ -18,8 +18,8 @@ static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side
   const uint32_t *c = l->body->self_faces + 3 * (size_t)triangle;
   edge e = {.ends = {c[side], c[(side + 1) % 3]}};
   for (int k = 0; k < 2; k++) {
-    e.is.at[k] = sbri_self_place(l->tick->positions, e.ends[k]);
-    e.is.ways[k] = sbri_self_way(l->tick, e.ends[k]);
+    e.is.at[k] = sbri_self_position(l->tick->positions, e.ends[k]);
+    e.is.directions[k] = sbri_self_displacement(l->tick, e.ends[k]);
   }
   return e;
 }
@@ -30,12 +30,12 @@ static void find_edges(const sbri_self_looking *l) {
   for (uint32_t f = 0; f < l->body->self_face_count; f++) {
     const uint32_t *c = l->body->self_faces + 3 * (size_t)f, *beside = l->body->self_sides + 3 * (size_t)f;
     sbf_vec3 p[3];
-    for (int k = 0; k < 3; k++) p[k] = sbri_self_place(at, c[k]);
+    for (int k = 0; k < 3; k++) p[k] = sbri_self_position(at, c[k]);
     l->tables->self_edges[f] = 0;
     for (int k = 0; k < 3; k++) {
       if (beside[k] == SBRI_SAME_SIDE) continue;
       if (beside[k] == SBRI_RIM ||
-          sbri_side_is_bent(p[k], p[(k + 1) % 3], p[(k + 2) % 3], sbri_self_place(at, beside[k])))
+          sbri_side_is_bent(p[k], p[(k + 1) % 3], p[(k + 2) % 3], sbri_self_position(at, beside[k])))
         l->tables->self_edges[f] |= (uint8_t)(1u << k);
     }
   }
@@ -51,27 +51,27 @@ static bool hang_together(const sbri_body *body, const edge *p, const edge *q) {
 /* How far apart they are at rest, where they cross each other there. */
 static float rest_distance(const sbri_self_looking *l, const edge *p, const edge *q) {
   sbri_soft_edge edges[2] = {0};
-  sbri_edge_finding found;
+  sbri_edge_hit found;
   for (int k = 0; k < 2; k++) {
-    edges[0].at[k] = sbri_self_place(l->tick->island->rest, p->ends[k]);
-    edges[1].at[k] = sbri_self_place(l->tick->island->rest, q->ends[k]);
+    edges[0].at[k] = sbri_self_position(l->tick->island->rest, p->ends[k]);
+    edges[1].at[k] = sbri_self_position(l->tick->island->rest, q->ends[k]);
   }
-  return sbri_edges_look(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
+  return sbri_edges_query(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
 }
 
-static void meet(const sbri_self_looking *l, const edge *p, const edge *q) {
-  sbri_edge_finding found;
-  if (hang_together(l->body, p, q) || !sbri_edges_look(&p->is, &q->is, l->rule.outer, &found)) return;
+static void collide(const sbri_self_looking *l, const edge *p, const edge *q) {
+  sbri_edge_hit found;
+  if (hang_together(l->body, p, q) || !sbri_edges_query(&p->is, &q->is, l->rule.outer, &found)) return;
   const uint32_t slots[4] = {p->ends[0], p->ends[1], q->ends[0], q->ends[1]};
-  const float *to = found.shares, weights[4] = {1 - to[0], to[0], to[1] - 1, -to[1]};
+  const float *to = found.fractions, weights[4] = {1 - to[0], to[0], to[1] - 1, -to[1]};
   sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
   float max = l->body->source->collision.outer_thickness, now = found.distance;
   sbri_self_add(l, &s, found.normal, rest_distance(l, p, q),
-      now < max ? now + COMES_OUT_SHARE * (max - now) : max, true);
+      now < max ? now + COMES_OUT_FRACTION * (max - now) : max, true);
 }
 
 /* With those that come after it. */
-static void meet_others(const sbri_self_looking *l, uint32_t number) {
+static void collide_with_others(const sbri_self_looking *l, uint32_t number) {
   edge p = edge_of(l, number / 3, number % 3);
   sbri_box box = sbri_box_join(
       sbri_self_swept(l->tick, p.ends[0], l->rule.outer), sbri_self_swept(l->tick, p.ends[1], l->rule.outer));
@@ -79,11 +79,11 @@ static void meet_others(const sbri_self_looking *l, uint32_t number) {
   uint32_t triangle;
   sbri_bounds_walk_begin(&walk, l->tree, box);
   while (sbri_bounds_walk_next(&walk, &triangle)) {
-    if (!l->tables->self_edges[triangle] || !sbri_box_meets(&box, &l->boxes[triangle])) continue;
+    if (!l->tables->self_edges[triangle] || !sbri_boxes_overlap(&box, &l->boxes[triangle])) continue;
     for (uint32_t side = 0; side < 3; side++) {
       if (!(l->tables->self_edges[triangle] >> side & 1) || 3 * triangle + side <= number) continue;
       edge q = edge_of(l, triangle, side);
-      meet(l, &p, &q);
+      collide(l, &p, &q);
     }
   }
 }
@@ -91,5 +91,5 @@ static void meet_others(const sbri_self_looking *l, uint32_t number) {
 void sbri_self_edges_add(const sbri_self_looking *l) {
   find_edges(l);
   for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++)
-    if (l->tables->self_edges[i / 3] >> i % 3 & 1) meet_others(l, i);
+    if (l->tables->self_edges[i / 3] >> i % 3 & 1) collide_with_others(l, i);
 }

@@ -1,9 +1,9 @@
 /* A body's touches with itself go along with both sides of it from substep to substep. What stood for a whole
  * tick would let a row of points that swings about a fold come nearer on its way, and be lifted in the next:
  * that puts in energy, and the row swings on for ever. */
-#include "collide/edge_look.h"
-#include "contact/self_looking.h"
-#include "contact/self_touch.h"
+#include "collide/edge_query.h"
+#include "contact/self_contacts.h"
+#include "contact/self_query.h"
 
 /* A place so far beside its triangle, as a share of that, stays what it was found as. */
 static const float BESIDE = 0.5f;
@@ -42,29 +42,30 @@ static bool follow_point(const sbf_vec3 p[4], float weights[4]) {
 }
 
 static bool follow_edges(const sbf_vec3 p[4], float weights[4]) {
-  float shares[2];
-  if (!sbri_lines_cross(p, p + 2, shares)) return false;
+  float fractions[2];
+  if (!sbri_lines_cross(p, p + 2, fractions)) return false;
   for (int k = 0; k < 2; k++)
-    if (!(shares[k] >= 0 && shares[k] <= 1)) return false;
-  weights[0] = 1 - shares[0], weights[1] = shares[0], weights[2] = shares[1] - 1, weights[3] = -shares[1];
+    if (!(fractions[k] >= 0 && fractions[k] <= 1)) return false;
+  weights[0] = 1 - fractions[0], weights[1] = fractions[0], weights[2] = fractions[1] - 1,
+  weights[3] = -fractions[1];
   return true;
 }
 
-void sbri_self_touch_follow(const sbri_island_tick *t, sbri_touch *touch) {
+void sbri_self_contact_update(const sbri_island_tick *t, sbri_soft_contact *contact) {
   float weights[4];
   sbf_vec3 p[4], off = {0, 0, 0};
   for (int k = 0; k < 4; k++) {
-    weights[k] = touch->sample.weights[k];
-    p[k] = sbri_self_place(t->positions, touch->sample.slots[k]);
+    weights[k] = contact->sample.weights[k];
+    p[k] = sbri_self_position(t->positions, contact->sample.slots[k]);
   }
-  if (!(touch->edges ? follow_edges : follow_point)(p, weights)) return;
+  if (!(contact->edges ? follow_edges : follow_point)(p, weights)) return;
   for (int k = 0; k < 4; k++) off = sbri_add_scaled(off, p[k], weights[k]);
-  float distance = sbri_length(off), along = sbri_dot(off, touch->normal);
+  float distance = sbri_length(off), along = sbri_dot(off, contact->normal);
   if (!(fabsf(along) > 0.5f * distance) || distance < 1e-6f) return; /* it does not say which side is which */
-  sbri_sample s = sbri_self_sample(t->island, touch->sample.slots, weights);
+  sbri_sample s = sbri_self_sample(t->island, contact->sample.slots, weights);
   if (!(s.mass_kg > 0)) return;
-  touch->sample = s;
-  touch->normal = sbri_scale(off, (along < 0 ? -1 : 1) / distance);
-  touch->friction_impulse = sbri_add_scaled(
-      touch->friction_impulse, touch->normal, -sbri_dot(touch->friction_impulse, touch->normal));
+  contact->sample = s;
+  contact->normal = sbri_scale(off, (along < 0 ? -1 : 1) / distance);
+  contact->friction_impulse = sbri_add_scaled(
+      contact->friction_impulse, contact->normal, -sbri_dot(contact->friction_impulse, contact->normal));
 }

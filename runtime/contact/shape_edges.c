@@ -5,7 +5,7 @@
 #include "contact/shape_edges.h"
 
 #include "collide/colliders.h"
-#include "collide/ridge_look.h"
+#include "collide/ridge_query.h"
 #include "contact/carried.h"
 #include "model/reach.h"
 
@@ -49,8 +49,8 @@ static bool carry_by(const sbri_island_tick *t, const sbri_sample *near, sbf_vec
 }
 
 static bool sample_between(
-    const sbri_island_tick *t, const sbri_sample ends[2], float share, sbri_sample *to) {
-  const float parts[2] = {1 - share, share};
+    const sbri_island_tick *t, const sbri_sample ends[2], float fraction, sbri_sample *to) {
+  const float parts[2] = {1 - fraction, fraction};
   uint32_t count = 0, slots[8];
   float weights[8];
   for (int i = 0; i < 8; i++) {
@@ -63,8 +63,8 @@ static bool sample_between(
     weights[k] += weight;
   }
   if (count > 4) {
-    sbf_vec3 x = sbri_lerp(sbri_sample_place(t, &ends[0]), sbri_sample_place(t, &ends[1]), share);
-    return carry_by(t, &ends[share > 0.5f], x, to) || carry_by(t, &ends[share <= 0.5f], x, to);
+    sbf_vec3 x = sbri_lerp(sbri_sample_position(t, &ends[0]), sbri_sample_position(t, &ends[1]), fraction);
+    return carry_by(t, &ends[fraction > 0.5f], x, to) || carry_by(t, &ends[fraction <= 0.5f], x, to);
   }
   *to = (sbri_sample){.vertex = UINT32_MAX};
   float sum = 0;
@@ -79,7 +79,7 @@ static bool sample_between(
 /* ---- Edges ---- */
 
 typedef struct looking {
-  const sbri_shape_meeting *is;
+  const sbri_shape_pair *is;
   sbri_sample ends[2];
   sbri_soft_edge edge; /* in the shape's frame */
   float outer, past;
@@ -103,27 +103,27 @@ static bool leads_out(const sbri_shape_ridge *r, sbf_vec3 n) {
          sbri_dot(sbri_cross(n, r->normals[1]), along) >= min;
 }
 
-static void look(const looking *l, const sbri_shape_ridge *r) {
+static void check(const looking *l, const sbri_shape_ridge *r) {
   const sbri_soft_edge ridge = {{r->at[0], r->at[1]}, {{0, 0, 0}, {0, 0, 0}}};
-  sbri_edge_finding found;
+  sbri_edge_hit found;
   if (!sbri_edges_cross(&l->edge, &ridge, &found)) return;
   if (sbri_dot(found.normal, sbri_add(r->normals[0], r->normals[1])) < 0)
     found.normal = sbri_scale(found.normal, -1), found.distance = -found.distance;
   if (found.distance < -l->past || !leads_out(r, found.normal)) return;
-  if (!sbri_edges_touch(&l->edge, &ridge, l->outer, &found)) return;
+  if (!sbri_edges_contact(&l->edge, &ridge, l->outer, &found)) return;
   if (found.distance < -SBRI_RIDGE_ON_IT_M &&
       -found.distance > SBRI_RIDGE_NEARER * depth_by_faces(&l->edge, r))
     return;
   sbri_sample s;
-  if (!sample_between(l->is->tick, l->ends, found.shares[0], &s)) return;
-  sbri_shape_touch_add(l->is, &s, sbri_lerp(r->at[0], r->at[1], found.shares[1]), found.normal);
+  if (!sample_between(l->is->tick, l->ends, found.fractions[0], &s)) return;
+  sbri_shape_contact_add(l->is, &s, sbri_lerp(r->at[0], r->at[1], found.fractions[1]), found.normal);
 }
 
-static sbri_sample end_of(const sbri_shape_meeting *m, uint32_t number) {
+static sbri_sample end_of(const sbri_shape_pair *m, uint32_t number) {
   return m->body->samples ? m->body->samples[number] : sbri_point_sample(m->tick, number);
 }
 
-void sbri_shape_edges_add(const sbri_shape_meeting *m) {
+void sbri_shape_edges_add(const sbri_shape_pair *m) {
   const sbri_island_tick *t = m->tick;
   const sbr_shape *shape = m->frame.collider->shape;
   const sbri_shape_ridges *ridges = &shape->ridges;
@@ -136,17 +136,17 @@ void sbri_shape_edges_add(const sbri_shape_meeting *m) {
     sbri_box box;
     for (int k = 0; k < 2; k++) {
       l.ends[k] = end_of(m, m->body->coarse_edges[2 * i + (uint32_t)k]);
-      sbf_vec3 x = sbri_sample_place(t, &l.ends[k]), v = sbri_sample_velocity(t, &l.ends[k]);
+      sbf_vec3 x = sbri_sample_position(t, &l.ends[k]), v = sbri_sample_velocity(t, &l.ends[k]);
       sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
       l.edge.at[k] = sbri_into_shape(&m->frame, x, false);
-      l.edge.ways[k] = sbri_sub(end, l.edge.at[k]);
+      l.edge.directions[k] = sbri_sub(end, l.edge.at[k]);
       box = sbri_box_with(k ? sbri_box_with(box, l.edge.at[k]) : sbri_box_of_point(l.edge.at[k]), end);
     }
     box = sbri_box_grown(box, l.outer);
-    if (!sbri_box_meets(&box, &shape->bounds)) continue;
+    if (!sbri_boxes_overlap(&box, &shape->bounds)) continue;
     sbri_bounds_walk walk;
     uint32_t item;
     sbri_bounds_walk_begin(&walk, &ridges->tree, box);
-    while (sbri_bounds_walk_next(&walk, &item)) look(&l, &ridges->at[item]);
+    while (sbri_bounds_walk_next(&walk, &item)) check(&l, &ridges->at[item]);
   }
 }

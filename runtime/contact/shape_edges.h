@@ -2,9 +2,9 @@
 #ifndef SBRI_SHAPE_EDGES_H
 #define SBRI_SHAPE_EDGES_H
 
-#include "contact/shape_touch.h"
+#include "contact/soft_shape_contacts.h"
 
 /* Adds to the touches of the body with that shape. */
-void sbri_shape_edges_add(const sbri_shape_meeting *meeting);
+void sbri_shape_edges_add(const sbri_shape_pair *shape_pair);
 
 #endif

@@ -34,7 +34,7 @@ static uint32_t strain_color(float strain) {
 static uint32_t island_color(const sbri_character *c, uint32_t island) {
   static const uint32_t colors[8] = {
       0xe6804d, 0x4da6e6, 0x73c973, 0xcc80cc, 0xd9c04d, 0x4dbfb3, 0xe67399, 0x9999e6};
-  bool asleep = sbri_head(c)->asleep || sbri_island_states(c)[island].asleep;
+  bool asleep = sbri_header(c)->asleep || sbri_island_states(c)[island].asleep;
   return asleep ? SBRI_DRAW_GREY : colors[island % 8];
 }
 
@@ -44,14 +44,14 @@ static uint32_t island_color(const sbri_character *c, uint32_t island) {
 static void draw_soft_contacts(const sbri_character *c, uint32_t number, const sbri_debug_lines *to) {
   const sbri_body *body = &c->model->bodies[number];
   const sbri_point *positions = sbri_positions(c) + c->model->islands[body->island].first_slot;
-  if (sbri_head(c)->asleep || sbri_island_states(c)[body->island].asleep) return;
-  for (uint32_t i = 0; i < sbri_touch_counts(c)[number]; i++) {
-    const sbri_touch *touch = &sbri_touches(c)[body->first_touch + i];
+  if (sbri_header(c)->asleep || sbri_island_states(c)[body->island].asleep) return;
+  for (uint32_t i = 0; i < sbri_contact_counts(c)[number]; i++) {
+    const sbri_soft_contact *contact = &sbri_contacts(c)[body->first_soft_contact + i];
     sbf_vec3 at = {0, 0, 0};
     for (int k = 0; k < 4; k++)
-      at = sbri_add_scaled(at, position_of(&positions[touch->sample.slots[k]]), touch->sample.weights[k]);
-    float impulse = sbri_dot(touch->given, touch->normal) * touch->sample.mass_kg / sbri_own_impulse(c);
-    sbri_draw_contact(to, at, touch->normal, impulse);
+      at = sbri_add_scaled(at, position_of(&positions[contact->sample.slots[k]]), contact->sample.weights[k]);
+    float impulse = sbri_dot(contact->given, contact->normal) * contact->sample.mass_kg / sbri_own_impulse(c);
+    sbri_draw_contact(to, at, contact->normal, impulse);
   }
 }
 
@@ -76,7 +76,7 @@ static void draw_surface(
   const sbri_body *body = &c->model->bodies[number];
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
   const sbri_skin surface = sbri_skin_now(c, &body->surface);
-  sbri_skin_vertices(c->model, &surface, sbri_positions(c), sbri_deltas(c), vertices);
+  sbri_skin_compute_vertices(c->model, &surface, sbri_positions(c), sbri_deltas(c), vertices);
   for (uint32_t i = 0; i < surface.face_block_count * SBRI_BLOCK; i++) {
     const sbri_face_block *block = &surface.faces[i / SBRI_BLOCK];
     for (int k = 0; k < 4; k++) {
@@ -178,8 +178,8 @@ static float axis_length(const sbri_character *c) {
 }
 
 static void draw_character(const sbr_world *world, const sbri_character *c, const sbr_debug_draw *draw) {
-  const sbri_debug_lines metres = {draw, sbri_head(c)->origin, 1};
-  const sbri_debug_lines asset = {draw, sbri_head(c)->origin, c->scale};
+  const sbri_debug_lines metres = {draw, sbri_header(c)->origin, 1};
+  const sbri_debug_lines asset = {draw, sbri_header(c)->origin, c->scale};
   draw_soft_bodies(c, draw->parts, &asset);
   if (draw->parts & SBR_DRAW_BOUNDS) draw_bounds(c, &asset);
   if (draw->parts & SBR_DRAW_BONES) draw_bones(c, &metres);

@@ -3,7 +3,7 @@
 
 #include "math/trig.h"
 #include "ragdoll/ragdoll.h"
-#include "rigid/joint_place.h"
+#include "rigid/joint_frames.h"
 
 /* Pose of the body's own frame, asset metres; of the anchor frame where `body` is negative. */
 static sbr_transform body_pose(const sbri_character *c, int32_t body) {
@@ -78,16 +78,17 @@ void sbri_draw_joints(const sbri_character *c, float size, const sbri_debug_line
     sbr_transform poses[SBRI_SIDES], anchor = body_pose(c, -1);
     const sbr_transform *at[SBRI_SIDES] = {&poses[SBRI_A], &poses[SBRI_B]};
     for (int side = 0; side < SBRI_SIDES; side++) poses[side] = body_pose(c, joint->bodies[side]);
-    sbri_joint_place place = sbri_joint_place_of(joint, at, &anchor, sbri_vec3(0, 0, 0));
-    sbf_vec3 a = sbri_add(poses[SBRI_A].position, place.arms[SBRI_A]), b = sbri_add(a, place.apart);
+    sbri_joint_frames joint_frames = sbri_joint_frames_of(joint, at, &anchor, sbri_vec3(0, 0, 0));
+    sbf_vec3 a = sbri_add(poses[SBRI_A].position, joint_frames.arms[SBRI_A]),
+             b = sbri_add(a, joint_frames.separation);
     sbf_quat turn_b = sbri_quat_multiply(poses[SBRI_B].rotation, joint->frames[SBRI_B].axes);
     const sbf_vec3 axes_b[3] = {sbri_quat_x(turn_b), sbri_quat_y(turn_b), sbri_quat_z(turn_b)};
     bool broken = sbri_rigid_joints(c)[j].broken != 0;
-    draw_axes(to, a, place.axes, size);
+    draw_axes(to, a, joint_frames.axes, size);
     if (!broken) draw_axes(to, b, axes_b, 0.6f * size);
     if (!broken) sbri_draw_line(to, a, b, SBRI_DRAW_WHITE);
     for (uint32_t l = 0; !broken && l < joint->source->limits.count; l++)
-      draw_limit(to, &joint->source->limits.at[l], a, place.axes, size);
+      draw_limit(to, &joint->source->limits.at[l], a, joint_frames.axes, size);
   }
 }
 
@@ -95,8 +96,8 @@ void sbri_draw_rigid_contacts(const sbri_character *c, double tick_s, const sbri
   const sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   /* Forces of the last tick as its impulses, from the character's units to the world's. */
   float impulse_per_n = (float)tick_s * c->scale * c->scale * c->scale;
-  for (uint32_t i = 0; c->model->rigid.body_count && i < drive->kept_touches; i++) {
-    const sbri_kept_touch *kept = &sbri_rigid_kept(c)[i];
+  for (uint32_t i = 0; c->model->rigid.body_count && i < drive->stored_contacts; i++) {
+    const sbri_stored_contact *kept = &sbri_rigid_kept(c)[i];
     if (!(kept->normal_n > 0)) continue;
     sbr_transform pose = body_pose(c, (int32_t)kept->body);
     sbf_vec3 at = sbri_add(pose.position, sbri_rotate(pose.rotation, kept->at));

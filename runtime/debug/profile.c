@@ -3,7 +3,7 @@
 
 #include "body_contact/body_contacts.h"
 
-const char *sbr_stage_name(sbr_stage stage) {
+const char *sbr_stage_get_name(sbr_stage stage) {
   static const char *const names[SBR_STAGE_COUNT] = {
       "colliders", "detail", "broad_phase", "animation", "contact_groups", "islands", "events"};
   return (unsigned)stage < SBR_STAGE_COUNT ? names[stage] : "";
@@ -22,17 +22,17 @@ sbr_profile sbr_world_get_profile(const sbr_world *world) {
 static void add_island(const sbri_character *c, uint32_t index, sbr_counters *to) {
   const sbri_island *island = &c->model->islands[index];
   const sbri_island_state *state = &sbri_island_states(c)[index];
-  bool awake = !state->asleep && !sbri_head(c)->asleep && !sbri_head(c)->paused;
+  bool awake = !state->asleep && !sbri_header(c)->asleep && !sbri_header(c)->paused;
   to->island_count++;
   for (uint32_t slot = 0; slot < island->free_count; slot++) to->point_count += island->masses[slot] > 0;
   to->spring_count += island->spring_count;
-  to->element_visit_count += state->passes;
+  to->element_visit_count += state->element_visits;
   for (uint32_t b = 0; b < island->body_count; b++) {
     uint32_t body = island->bodies[b];
     to->soft_body_count++;
     to->soft_body_awake_count += awake;
     to->tetrahedron_count += c->model->bodies[body].tetrahedron_count;
-    if (awake) to->contact_count += sbri_touch_counts(c)[body];
+    if (awake) to->contact_count += sbri_contact_counts(c)[body];
   }
 }
 
@@ -45,7 +45,7 @@ sbr_counters sbr_world_get_counters(const sbr_world *world) {
     to.character_count++;
     to.rigid_body_count += c->model->asset->rigid_bodies.count;
     to.state_bytes += c->model->layout.state_size;
-    to.memory_bytes += sbri_room_size(c->model);
+    to.memory_bytes += sbri_character_storage_size(c->model);
     for (uint32_t k = 0; k < c->model->island_count; k++) add_island(c, k, &to);
   }
   for (uint32_t i = 0; i < world->colliders.capacity; i++)

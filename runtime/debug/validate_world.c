@@ -10,7 +10,7 @@
 typedef struct checking {
   const sbr_world *world;
   const sbri_character *c; /* NULL: the world's own */
-  char place[48];
+  char position[48];
   const char *fault; /* NULL: none yet */
 } checking;
 
@@ -21,7 +21,7 @@ static bool expect(checking *k, bool holds, const char *rule) {
 }
 
 static void enter(checking *k, const char *what, uint32_t index) {
-  if (!k->fault) snprintf(k->place, sizeof k->place, "%s %u", what, (unsigned)index);
+  if (!k->fault) snprintf(k->position, sizeof k->position, "%s %u", what, (unsigned)index);
 }
 
 static bool is_finite(sbf_vec3 v) {
@@ -54,27 +54,27 @@ static void check_points(checking *k, uint32_t number) {
   for (size_t i = 0; i < 3 * (size_t)island->free_count; i++) finite = finite && isfinite(velocities[i]);
   expect(k, finite, "a velocity of its points is not finite");
   const sbri_island_state *state = &sbri_island_states(k->c)[number];
-  expect(k, state->asleep <= 1 && state->told_asleep <= 1, "its sleep is neither on nor off");
+  expect(k, state->asleep <= 1 && state->reported_asleep <= 1, "its sleep is neither on nor off");
   expect(k, isfinite(state->stretch) && isfinite(state->min_ratio), "its measured strain is not finite");
 }
 
 /* Contacts of the last tick; scratch, which only stepped bodies have. */
-static void check_touches(checking *k, uint32_t number) {
+static void check_contacts(checking *k, uint32_t number) {
   const sbri_body *body = &k->c->model->bodies[number];
-  if (!body->level || sbri_head(k->c)->asleep || sbri_island_states(k->c)[body->island].asleep) return;
-  uint32_t count = sbri_touch_counts(k->c)[number];
+  if (!body->level || sbri_header(k->c)->asleep || sbri_island_states(k->c)[body->island].asleep) return;
+  uint32_t count = sbri_contact_counts(k->c)[number];
   enter(k, "soft body", number);
-  if (!expect(k, count <= body->touch_capacity, "it has more contacts than room for them")) return;
+  if (!expect(k, count <= body->max_contacts, "it has more contacts than room for them")) return;
   for (uint32_t i = 0; i < count; i++) {
-    const sbri_touch *touch = &sbri_touches(k->c)[body->first_touch + i];
+    const sbri_soft_contact *contact = &sbri_contacts(k->c)[body->first_soft_contact + i];
     uint32_t slots = k->c->model->islands[body->island].slot_count;
     for (int p = 0; p < 4; p++)
-      expect(k, touch->sample.slots[p] < slots, "a contact lies on a point that is not its island's");
-    float square = sbri_dot(touch->normal, touch->normal);
+      expect(k, contact->sample.slots[p] < slots, "a contact lies on a point that is not its island's");
+    float square = sbri_dot(contact->normal, contact->normal);
     expect(k, square > 0.99f && square < 1.01f, "a contact's normal has no unit length");
     expect(k,
-        touch->collider == SBRI_NO_COLLIDER || touch->collider == SBRI_ITSELF ||
-            touch->collider < k->world->colliders.capacity,
+        contact->collider == SBRI_NO_COLLIDER || contact->collider == SBRI_ITSELF ||
+            contact->collider < k->world->colliders.capacity,
         "a contact is with a collider that is not there");
   }
 }
@@ -87,31 +87,32 @@ static void check_rigid_bodies(checking *k) {
   for (uint32_t b = 0; drive->any && b < model->body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(k->c)[b];
     check_pose(k, &body->pose, "rigid body", b);
-    expect(k, is_finite(body->velocity) && is_finite(body->spin), "its velocity is not finite");
+    expect(k, is_finite(body->velocity) && is_finite(body->angular_momentum), "its velocity is not finite");
     expect(k, body->mode <= SBR_RIGID_DRIVEN, "its mode is none of sbr_rigid_mode");
   }
   if (model->body_count == 0) return;
   enter(k, "rigid contacts of the character", 0);
-  if (!expect(
-          k, drive->kept_touches <= sbri_rigid_touch_capacity(model), "there are more than room for them"))
+  if (!expect(k, drive->stored_contacts <= sbri_rigid_contact_capacity(model),
+          "there are more than room for them"))
     return;
-  for (uint32_t i = 0; i < drive->kept_touches; i++)
+  for (uint32_t i = 0; i < drive->stored_contacts; i++)
     expect(k, sbri_rigid_kept(k->c)[i].body < model->body_count, "one is of a body that is not there");
 }
 
 static void check_character(checking *k) {
   const sbri_character *c = k->c;
-  const sbri_character_state *head = sbri_head(c);
+  const sbri_character_state *head = sbri_header(c);
   const double numbers[] = {head->origin.x, head->origin.y, head->origin.z};
   enter(k, "state", 0);
   expect(k, sbri_usable(numbers, 3), "its origin is not finite");
   expect(k, c->scale > 0 && isfinite(c->scale), "its scale is not positive");
-  expect(k, head->rung < c->model->base->rung_count || c->model->base->rung_count == 0,
+  expect(k,
+      head->detail_level < c->model->base->detail_level_count || c->model->base->detail_level_count == 0,
       "its level of detail is not there");
   expect(k, head->paused <= 1 && head->asleep <= 1, "its sleep is neither on nor off");
   for (uint32_t f = 0; f < c->model->frame_count; f++) check_pose(k, &sbri_pose(c)[f], "frame", f);
   for (uint32_t i = 0; i < c->model->island_count; i++) check_points(k, i);
-  for (uint32_t b = 0; b < c->model->asset->soft_bodies.count; b++) check_touches(k, b);
+  for (uint32_t b = 0; b < c->model->asset->soft_bodies.count; b++) check_contacts(k, b);
   check_rigid_bodies(k);
 }
 
@@ -159,14 +160,14 @@ sbf_status sbr_world_validate(const sbr_world *world, sbf_diagnostic *error) {
   expect(&k, world->event_tail <= world->event_head, "more were read than were written");
   check_colliders(&k);
   check_body_contacts(&k);
-  if (k.fault) return sbfi_diagnose(error, SBF_CODE_WORLD_INVALID, "world, %s: %s", k.place, k.fault);
+  if (k.fault) return sbfi_diagnose(error, SBF_CODE_WORLD_INVALID, "world, %s: %s", k.position, k.fault);
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     k.c = &world->characters[i];
     if (!k.c->model) continue;
     check_character(&k);
     if (k.fault)
       return sbfi_diagnose(
-          error, SBF_CODE_WORLD_INVALID, "character %u, %s: %s", (unsigned)i, k.place, k.fault);
+          error, SBF_CODE_WORLD_INVALID, "character %u, %s: %s", (unsigned)i, k.position, k.fault);
   }
   return SBF_OK;
 }

@@ -1,15 +1,16 @@
 /* Characters that are away: gait without a body. The place goes where it is driven, over the ground; the pose
  * goes along as it last was; nothing steps. */
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/quat.h"
 #include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 
-static void carry(sbr_transform *frame, const sbr_transform *from, const sbr_transform *to, sbf_quat turn) {
+static void carry(
+    sbr_transform *frame, const sbr_transform *from, const sbr_transform *to, sbf_quat rotation) {
   sbf_vec3 arm = sbri_sub(frame->position, from->position);
-  frame->position = sbri_add(to->position, sbri_rotate(turn, arm));
-  frame->rotation = sbri_quat_normalize(sbri_quat_multiply(turn, frame->rotation));
+  frame->position = sbri_add(to->position, sbri_rotate(rotation, arm));
+  frame->rotation = sbri_quat_normalize(sbri_quat_multiply(rotation, frame->rotation));
 }
 
 void sbri_away_tick(const sbr_world *world, sbri_character *c) {
@@ -20,14 +21,15 @@ void sbri_away_tick(const sbr_world *world, sbri_character *c) {
   sbri_surroundings around;
   sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbri_gait_travel(&model->rig, sbri_gait(c), &input);
-  sbr_transform to = sbri_root_place(c, input.ground);
+  sbr_transform to = sbri_current_root_frame(c, input.ground);
   if (from.position.x == to.position.x && from.position.y == to.position.y &&
       from.position.z == to.position.z && from.rotation.y == to.rotation.y &&
       from.rotation.w == to.rotation.w)
     return;
-  sbf_quat turn = sbri_quat_normalize(sbri_quat_multiply(to.rotation, sbri_quat_conjugate(from.rotation)));
+  sbf_quat rotation =
+      sbri_quat_normalize(sbri_quat_multiply(to.rotation, sbri_quat_conjugate(from.rotation)));
   for (uint32_t f = 0; f < model->frame_count; f++)
-    if (f != root && f != anchor) carry(&pose[f], &from, &to, turn);
+    if (f != root && f != anchor) carry(&pose[f], &from, &to, rotation);
   pose[root] = to;
 }
 
@@ -37,8 +39,8 @@ void sbri_away_arrive(const sbr_world *world, sbri_character *c) {
   sbr_transform *pose = sbri_pose(c);
   sbri_gait_arrive(&c->model->rig, sbri_gait(c), &input);
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, pose);
-  pose[sbri_root_frame(c->model)] = sbri_root_place(c, input.ground);
+  pose[sbri_root_frame(c->model)] = sbri_current_root_frame(c, input.ground);
   sbri_rigid_frames_follow(c, pose);
   sbri_rigid_carry(c);
-  sbri_settle(c);
+  sbri_character_stop(c);
 }

@@ -1,6 +1,6 @@
 /* Saving: the change for the worse that costs the fewest pixels a visit saved comes first, then the next one,
- * until it is enough. Of one character they become dearer one after the other (the rungs on its lower hull),
- * so the order is that of all of them together. Ties go to the character that was made first. */
+ * until it is enough. Of one character they become dearer one after the other (the detail levels on its lower
+ * hull), so the order is that of all of them together. Ties go to the character that was made first. */
 #include "detail/choose.h"
 
 static bool is_before(const sbri_saving *a, const sbri_saving *b) {
@@ -26,22 +26,23 @@ static sbri_saving pop(sbri_detail *detail) {
   return first;
 }
 
-static const sbr_rung *ladder_of(const sbr_world *world, const sbri_choice *choice) {
-  return world->characters[choice->character].model->base->ladder;
+static const sbr_detail_level *detail_levels_of(const sbr_world *world, const sbri_choice *choice) {
+  return world->characters[choice->character].model->base->detail_levels;
 }
 
 /* Offers the next change of a choice, if there is one. */
 static void offer(const sbr_world *world, uint32_t index) {
   const sbri_choice *choice = &world->detail->choices[index];
-  const sbr_rung *ladder = ladder_of(world, choice), *now = &ladder[choice->rung];
-  sbri_saving best = {INFINITY, index, choice->rung};
-  for (uint32_t r = choice->rung + 1; r <= choice->last; r++) {
-    float saved = now->visits - ladder[r].visits;
+  const sbr_detail_level *detail_levels = detail_levels_of(world, choice),
+                         *now = &detail_levels[choice->detail_level];
+  sbri_saving best = {INFINITY, index, choice->detail_level};
+  for (uint32_t r = choice->detail_level + 1; r <= choice->last; r++) {
+    float saved = now->visits - detail_levels[r].visits;
     if (!(saved > 0)) continue;
-    float price = choice->pixels * (ladder[r].error_m - now->error_m) / saved;
+    float price = choice->pixels * (detail_levels[r].error_m - now->error_m) / saved;
     if (price <= best.price) best.price = price, best.to = r;
   }
-  if (best.to != choice->rung) push(world->detail, best);
+  if (best.to != choice->detail_level) push(world->detail, best);
 }
 
 double sbri_budget_keep(const sbr_world *world, double visits, double max) {
@@ -51,9 +52,9 @@ double sbri_budget_keep(const sbr_world *world, double visits, double max) {
   while (visits > max && detail->saving_count > 0) {
     sbri_saving saving = pop(detail);
     sbri_choice *choice = &detail->choices[saving.choice];
-    const sbr_rung *ladder = ladder_of(world, choice);
-    visits += (double)ladder[saving.to].visits - (double)ladder[choice->rung].visits;
-    choice->rung = saving.to;
+    const sbr_detail_level *detail_levels = detail_levels_of(world, choice);
+    visits += (double)detail_levels[saving.to].visits - (double)detail_levels[choice->detail_level].visits;
+    choice->detail_level = saving.to;
     offer(world, saving.choice);
   }
   return visits;

@@ -1,30 +1,32 @@
-/* Choosing rungs: for each character the coarsest that is near enough on the screen, then coarser ones until
- * the budget lasts. A change for the better comes at once; one for the worse waits until it is well below
- * what is allowed, and a while. Done by one thread, in the order of the characters. */
+/* Choosing detail levels: for each character the coarsest that is near enough on the screen, then coarser
+ * ones until the budget lasts. A change for the better comes at once; one for the worse waits until it is
+ * well below what is allowed, and a while. Done by one thread, in the order of the characters. */
 #include "detail/choose.h"
 
 /* The coarsest that has a pose; of one that others may meet, that has bodies. */
 static uint32_t last_posed(const sbri_character *c) {
   const sbr_model *base = c->model->base;
-  uint32_t last = base->rung_count - 1;
-  if (c->near) return sbri_last_that_meets(base);
-  return base->ladder[last].kind == SBR_RUNG_AWAY ? last - 1 : last;
+  uint32_t last = base->detail_level_count - 1;
+  if (c->near) return sbri_coarsest_colliding_level(base);
+  return base->detail_levels[last].kind == SBR_DETAIL_OFFSCREEN ? last - 1 : last;
 }
 
-static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float pixels) {
+static uint32_t detail_level_for(const sbr_world *world, const sbri_character *c, float pixels) {
   const sbri_detail *detail = world->detail;
-  const sbri_character_state *head = sbri_head(c);
+  const sbri_character_state *head = sbri_header(c);
   const sbr_model *base = c->model->base;
-  uint32_t last = last_posed(c), now = head->next_rung < last ? head->next_rung : last, found = 0;
+  uint32_t last = last_posed(c), now = head->next_detail_level < last ? head->next_detail_level : last,
+           found = 0;
   if (!(pixels > 0)) {
     float after = detail->is.away_after_s;
-    return !c->near && after >= 0 && head->unseen_ticks >= sbri_ticks_of(world, after) ? base->rung_count - 1
-                                                                                       : last;
+    return !c->near && after >= 0 && head->unseen_ticks >= sbri_ticks_of(world, after)
+               ? base->detail_level_count - 1
+               : last;
   }
-  bool may_coarsen = head->rung_ticks >= sbri_ticks_of(world, detail->is.stay_s);
+  bool may_coarsen = head->detail_level_ticks >= sbri_ticks_of(world, detail->is.stay_s);
   for (uint32_t r = 1; r <= last; r++) {
-    float error = pixels * base->ladder[r].error_m;
-    float max = r > now ? detail->is.settle * detail->is.error_px : detail->is.error_px;
+    float error = pixels * base->detail_levels[r].error_m;
+    float max = r > now ? detail->is.coarsen_fraction * detail->is.error_px : detail->is.error_px;
     if (error <= max && (r <= now || may_coarsen)) found = r;
   }
   return found;
@@ -33,23 +35,24 @@ static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float 
 /* False: nothing is chosen for it. */
 static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choice, double *visits) {
   sbri_character *c = &world->characters[index];
-  if (!c->model || sbri_head(c)->paused) return false;
-  sbri_character_state *head = sbri_head(c);
+  if (!c->model || sbri_header(c)->paused) return false;
+  sbri_character_state *head = sbri_header(c);
   const sbr_model *base = c->model->base;
   float pixels = sbri_pixels_of(world, c);
-  if (pixels > 0 && head->unseen_ticks > 0) head->rung_ticks = UINT32_MAX; /* as a new one: nobody saw it */
+  if (pixels > 0 && head->unseen_ticks > 0)
+    head->detail_level_ticks = UINT32_MAX; /* as a new one: nobody saw it */
   head->unseen_ticks = pixels > 0 ? 0 : head->unseen_ticks < UINT32_MAX ? head->unseen_ticks + 1 : UINT32_MAX;
-  double now = head->asleep ? 0 : base->ladder[head->rung].visits;
-  if (base->rung_count == 1 || head->set_rung_plus_1) {
+  double now = head->asleep ? 0 : base->detail_levels[head->detail_level].visits;
+  if (base->detail_level_count == 1 || head->set_detail_level_plus_1) {
     *visits += now;
     return false;
   }
   pixels *= sbri_speed_factor(c) * c->scale;
-  uint32_t rung = rung_for(world, c, pixels);
-  if (head->asleep && rung >= head->rung) return false; /* it costs nothing as it is */
-  *choice = (sbri_choice){index, rung, last_posed(c), pixels};
-  if (rung > choice->last) choice->last = rung;
-  *visits += base->ladder[rung].visits;
+  uint32_t detail_level = detail_level_for(world, c, pixels);
+  if (head->asleep && detail_level >= head->detail_level) return false; /* it costs nothing as it is */
+  *choice = (sbri_choice){index, detail_level, last_posed(c), pixels};
+  if (detail_level > choice->last) choice->last = detail_level;
+  *visits += base->detail_levels[detail_level].visits;
   return true;
 }
 
@@ -64,17 +67,18 @@ void sbri_detail_choose(sbr_world *world) {
   if (is_short) visits = sbri_budget_keep(world, visits, max);
   for (uint32_t i = 0; i < detail->choice_count; i++) {
     sbri_character *c = &world->characters[detail->choices[i].character];
-    sbri_character_state *head = sbri_head(c);
-    const sbr_rung *ladder = c->model->base->ladder;
-    uint32_t rung = detail->choices[i].rung;
+    sbri_character_state *head = sbri_header(c);
+    const sbr_detail_level *detail_levels = c->model->base->detail_levels;
+    uint32_t detail_level = detail->choices[i].detail_level;
     /* Where the budget is short two characters would take turns. */
-    if (is_short && rung < head->rung && ladder[head->rung].kind != SBR_RUNG_AWAY &&
-        head->rung_ticks < sbri_ticks_of(world, detail->is.stay_s)) {
-      visits += (double)ladder[head->rung].visits - (double)ladder[rung].visits;
-      rung = head->rung;
+    if (is_short && detail_level < head->detail_level &&
+        detail_levels[head->detail_level].kind != SBR_DETAIL_OFFSCREEN &&
+        head->detail_level_ticks < sbri_ticks_of(world, detail->is.stay_s)) {
+      visits += (double)detail_levels[head->detail_level].visits - (double)detail_levels[detail_level].visits;
+      detail_level = head->detail_level;
     }
-    if (rung != head->rung) sbri_character_wake(c);
-    head->next_rung = rung;
+    if (detail_level != head->detail_level) sbri_character_wake(c);
+    head->next_detail_level = detail_level;
   }
   detail->visits = visits;
 }

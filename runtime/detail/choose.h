@@ -1,8 +1,8 @@
-/* Which rung each character of a world is on: by what is seen of it, and by a budget. */
+/* Which detail level each character of a world is on: by what is seen of it, and by a budget. */
 #ifndef SBRI_CHOOSE_H
 #define SBRI_CHOOSE_H
 
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 
 typedef struct sbri_eye {
   sbr_view view;
@@ -13,8 +13,8 @@ typedef struct sbri_eye {
 
 /* A character that is chosen for. */
 typedef struct sbri_choice {
-  uint32_t character, rung, last; /* what it is to be on, and the coarsest that it may */
-  float pixels;                   /* that a metre of error shows as; 0: it is not seen */
+  uint32_t character, detail_level, last; /* what it is to be on, and the coarsest that it may */
+  float pixels;                           /* that a metre of error shows as; 0: it is not seen */
 } sbri_choice;
 
 /* A change for the worse that would save something. */
@@ -25,7 +25,7 @@ typedef struct sbri_saving {
 
 typedef struct sbri_detail {
   sbr_detail_definition is;
-  sbri_eye eyes[SBR_MOST_VIEWS];
+  sbri_eye eyes[SBR_MAX_VIEWS];
   uint32_t eye_count;
   sbri_choice *choices; /* (character_capacity) */
   sbri_saving *savings; /* likewise: a heap, the cheapest first */

@@ -1,14 +1,15 @@
-/* From what one rung shows to what the next does, over a while, and nothing is seen to jump: neither the skin
- * nor how fast it goes, nor how that changes.
+/* From what one detail level shows to what the next does, over a while, and nothing is seen to jump: neither
+ * the skin nor how fast it goes, nor how that changes.
  *
  * For a tick before the change the skin is looked at, so that it is known by three moments how each vertex
  * moves, seen from where the bones alone would have it: as a weight on a spring, as fast as its body swings
- * (its jiggle says so). On that it goes on, along with the bones, while it fades and the new rung's skin
- * comes up: what a soft rung does at first, before it has found where it rests, hardly shows. Of bodies that
- * nothing holds, which have no rung of bones, the difference of both skins fades from the new one. */
+ * (its jiggle says so). On that it goes on, along with the bones, while it fades and the new detail level's
+ * skin comes up: what a soft detail level does at first, before it has found where it rests, hardly shows. Of
+ * bodies that nothing holds, which have no detail level of bones, the difference of both skins fades from the
+ * new one. */
 #include <string.h>
 
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/trig.h"
 #include "math/vec3.h"
 #include "pose/frames.h"
@@ -28,10 +29,10 @@ static const float MAX_REACHES = 2;
 /* How far it turns in a tick, at most: what swings faster than three moments can tell. */
 static const float MAX_TURN_RAD = 1.5f;
 
-/* The bones' rung; NULL: there is none. */
+/* The bones' detail level; NULL: there is none. */
 static const sbr_model *bones_of(const sbri_character *c) {
-  const sbr_model *base = c->model->base, *last = base->rungs[base->rung_count - 1];
-  return last->kind == SBR_RUNG_BONES ? last : NULL;
+  const sbr_model *base = c->model->base, *last = base->levels[base->detail_level_count - 1];
+  return last->kind == SBR_DETAIL_BONES ? last : NULL;
 }
 
 static uint32_t first_vertex(const sbri_character *c, uint32_t mesh) {
@@ -61,33 +62,33 @@ static float pull_of(float turn) {
 /* ---- What is seen ---- */
 
 static void skin_of(sbri_character *c, const sbr_model *model, uint32_t mesh, bool now, sbri_point *to) {
-  sbri_skin_vertices(model, sbri_skin_of(model, mesh, 0),
+  sbri_skin_compute_vertices(model, sbri_skin_of(model, mesh, 0),
       now ? sbri_positions(c) : sbri_previous_positions(c), now ? sbri_deltas(c) : sbri_previous_deltas(c),
       to);
 }
 
 /* What fades, over a skin and, where there are, bones'. */
 static void mix(const sbri_character *c, uint32_t mesh, const sbri_skin *skin, const sbri_point *bones,
-    float share, sbri_point *to) {
-  const sbri_character_state *head = sbri_head(c);
-  const sbri_going *all = sbri_faded(c) + first_vertex(c, mesh);
-  float left = head->fade_before + (head->fade - head->fade_before) * share;
+    float fraction, sbri_point *to) {
+  const sbri_character_state *head = sbri_header(c);
+  const sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, mesh);
+  float left = head->fade_before + (head->fade - head->fade_before) * fraction;
   for (uint32_t v = 0; v < skin->vertex_count; v++) {
-    const sbri_going *g = &all[skin->vertices ? skin->vertices[v] : v];
-    sbf_vec3 off = sbri_add_scaled(g->was, sbri_sub(g->place, g->was), share);
+    const sbri_fading_vertex *g = &all[skin->vertices ? skin->vertices[v] : v];
+    sbf_vec3 off = sbri_add_scaled(g->was, sbri_sub(g->position, g->was), fraction);
     if (bones) off = sbri_add(off, sbri_sub(of_point(&bones[v]), of_point(&to[v])));
     to[v].x += left * off.x, to[v].y += left * off.y, to[v].z += left * off.z;
   }
 }
 
 void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t render_level,
-    const sbri_skin *skin, float share, sbri_point *vertices) {
+    const sbri_skin *skin, float fraction, sbri_point *vertices) {
   const sbr_model *bones = bones_of(c);
-  if (!(sbri_head(c)->fade_before > 0)) return;
+  if (!(sbri_header(c)->fade_before > 0)) return;
   if (bones)
-    sbri_skin_vertices(bones, sbri_skin_of(bones, render_mesh, render_level), sbri_sampled(c),
+    sbri_skin_compute_vertices(bones, sbri_skin_of(bones, render_mesh, render_level), sbri_sampled(c),
         sbri_sampled_deltas(c), sbri_fading(c));
-  mix(c, render_mesh, skin, bones ? sbri_fading(c) : NULL, share, vertices);
+  mix(c, render_mesh, skin, bones ? sbri_fading(c) : NULL, fraction, vertices);
 }
 
 /* As it is shown when this tick is over, or when it began, from the bones. */
@@ -96,7 +97,7 @@ static void shown(sbri_character *c, uint32_t mesh, bool now, sbri_point *to) {
   sbri_point *from = sbri_fading(c);
   skin_of(c, c->model, mesh, now, to);
   if (bones) skin_of(c, bones, mesh, now, from);
-  if (sbri_head(c)->fade_before > 0)
+  if (sbri_header(c)->fade_before > 0)
     mix(c, mesh, sbri_skin_of(c->model, mesh, 0), bones ? from : NULL, now ? 1.0f : 0.0f, to);
   for (uint32_t v = 0; bones && v < vertex_count(c, mesh); v++)
     to[v] = (sbri_point){to[v].x - from[v].x, to[v].y - from[v].y, to[v].z - from[v].z, 0};
@@ -107,53 +108,53 @@ static void make_deltas(sbri_character *c) {
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
 }
 
-void sbri_fade_look(sbri_character *c) {
+void sbri_fade_record(sbri_character *c) {
   sbri_point *was = sbri_sums(c);
   make_deltas(c);
   for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
-    sbri_going *to = sbri_faded(c) + first_vertex(c, m);
+    sbri_fading_vertex *to = sbri_faded(c) + first_vertex(c, m);
     shown(c, m, false, was);
     for (uint32_t v = 0; v < vertex_count(c, m); v++) to[v].kept = of_point(&was[v]);
   }
-  sbri_head(c)->fade_kept = 1;
+  sbri_header(c)->fade_kept = 1;
 }
 
 /* ---- How it goes on ---- */
 
 /* As three places, a tick after each other, on a spring that turns by so much in each; no farther than it has
  * been seen. Returns how far it swings. */
-static float attach(sbri_going *g, float turn) {
-  sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->place), sbri_scale(g->was, 2));
+static float attach(sbri_fading_vertex *g, float turn) {
+  sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->position), sbri_scale(g->was, 2));
   g->still = sbri_add_scaled(g->was, bend, 1 / pull_of(turn));
-  sbf_vec3 off = sbri_sub(g->place, g->still), went = sbri_sub(g->place, g->was);
-  float reach = MAX_REACHES * fmaxf(sbri_length(g->place), sbri_length(g->was));
+  sbf_vec3 off = sbri_sub(g->position, g->still), went = sbri_sub(g->position, g->was);
+  float reach = MAX_REACHES * fmaxf(sbri_length(g->position), sbri_length(g->was));
   float swings = sqrtf(sbri_dot(off, off) + sbri_dot(went, went) / (turn * turn));
   if (swings <= reach) return swings;
-  float share = swings < 1e6f ? reach / swings : 0;
-  g->still = sbri_sub(g->place, sbri_scale(off, share));
-  g->was = sbri_sub(g->place, sbri_scale(went, share));
+  float fraction = swings < 1e6f ? reach / swings : 0;
+  g->still = sbri_sub(g->position, sbri_scale(off, fraction));
+  g->was = sbri_sub(g->position, sbri_scale(went, fraction));
   return reach;
 }
 
 /* A spring's next tick. */
-static void go_on(sbri_going *g, float pull) {
-  sbf_vec3 to = sbri_add(g->place, sbri_sub(g->place, g->was));
-  g->was = g->place;
-  g->place = sbri_add_scaled(to, sbri_sub(g->place, g->still), -pull);
+static void advance(sbri_fading_vertex *g, float pull) {
+  sbf_vec3 to = sbri_add(g->position, sbri_sub(g->position, g->was));
+  g->was = g->position;
+  g->position = sbri_add_scaled(to, sbri_sub(g->position, g->still), -pull);
 }
 
 float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
-  bool swings = sbri_head(c)->fade_kept && bones_of(c);
+  bool swings = sbri_header(c)->fade_kept && bones_of(c);
   float max = 0;
   make_deltas(c);
   for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
-    sbri_going *all = sbri_faded(c) + first_vertex(c, m);
+    sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, m);
     const uint32_t *with = c->model->base->swings_with + first_vertex(c, m);
     sbri_point *was = sbri_sums(c), *is = sbri_vertices(c);
     shown(c, m, false, was);
     shown(c, m, true, is);
     for (uint32_t v = 0; v < vertex_count(c, m); v++) {
-      all[v].place = all[v].was = all[v].still = of_point(&is[v]);
+      all[v].position = all[v].was = all[v].still = of_point(&is[v]);
       if (!swings) continue;
       all[v].was = of_point(&was[v]);
       max = fmaxf(max, attach(&all[v], turn_of(world, c, with[v])));
@@ -163,7 +164,7 @@ float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
 }
 
 void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
+  sbri_character_state *head = sbri_header(c);
   head->fade_before = head->fade;
   if (head->fade_ticks == 0) return;
   float left = (float)--head->fade_ticks / (float)head->fades_ticks;
@@ -172,35 +173,35 @@ void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
   uint32_t vertices = first_vertex(c, c->model->asset->render_meshes.count);
   float *pulls = sbri_pulls(c);
   for (uint32_t b = 0; b <= bodies; b++) pulls[b] = pull_of(turn_of(world, c, b));
-  for (uint32_t v = 0; v < vertices; v++) go_on(&sbri_faded(c)[v], pulls[c->model->base->swings_with[v]]);
+  for (uint32_t v = 0; v < vertices; v++) advance(&sbri_faded(c)[v], pulls[c->model->base->swings_with[v]]);
 }
 
 /* ---- A change ---- */
 
 void sbri_fade_end(sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
+  sbri_character_state *head = sbri_header(c);
   head->fade = head->fade_before = 0;
   head->fade_ticks = head->fades_ticks = head->fade_kept = 0;
 }
 
 /* Of bodies that nothing holds: what fades is the difference to the new skin. */
 static void take_off(sbri_character *c, uint32_t mesh) {
-  sbri_going *all = sbri_faded(c) + first_vertex(c, mesh);
+  sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, mesh);
   sbri_point *is = sbri_fading(c);
   skin_of(c, c->model, mesh, true, is);
   for (uint32_t v = 0; v < vertex_count(c, mesh); v++)
-    all[v].place = all[v].was = all[v].still = sbri_sub(all[v].place, of_point(&is[v]));
+    all[v].position = all[v].was = all[v].still = sbri_sub(all[v].position, of_point(&is[v]));
 }
 
 void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
+  sbri_character_state *head = sbri_header(c);
   const sbr_model *base = c->model->base;
   uint32_t meshes = base->asset->render_meshes.count;
   float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->tick_s;
   for (uint32_t m = 0; m < meshes && !bones_of(c); m++) take_off(c, m);
   for (uint32_t v = 0; v < first_vertex(c, meshes); v++) {
-    const sbri_going *g = &sbri_faded(c)[v];
-    sbf_vec3 swing = sbri_sub(g->place, g->still);
+    const sbri_fading_vertex *g = &sbri_faded(c)[v];
+    sbf_vec3 swing = sbri_sub(g->position, g->still);
     off = fmaxf(off, sbri_dot(g->still, g->still)), swings = fmaxf(swings, sbri_dot(swing, swing));
   }
   for (uint32_t b = 0; b <= base->asset->soft_bodies.count; b++)

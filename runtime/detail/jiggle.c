@@ -1,7 +1,7 @@
 /* Jiggle (spec 10.4): bodies that go with their bones as one piece, shifted by how far a second-order
  * follower of their middle lags behind it. Each has a frame of its own behind the others in the pose: where
  * its bone has carried the asset's axes, and the shift. */
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/quat.h"
 #include "pose/frames.h"
 
@@ -17,11 +17,11 @@ static void put(sbri_character *c, uint32_t index, const sbr_transform *carrier,
   *frame = (sbr_transform){sbri_scale(sbri_add(carrier->position, shift), c->scale), carrier->rotation};
 }
 
-void sbri_jiggles_place(sbri_character *c) {
+void sbri_jiggles_reset(sbri_character *c) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
     sbr_transform carrier = sbri_delta_of(c, sbri_pose(c), jiggle->carrier);
-    sbri_place_follower_reset(&sbri_jiggles(c)[j], middle_of(jiggle, &carrier));
+    sbri_position_follower_reset(&sbri_jiggles(c)[j], middle_of(jiggle, &carrier));
     put(c, j, &carrier, sbri_vec3(0, 0, 0));
   }
 }
@@ -30,15 +30,15 @@ void sbri_jiggles_tick(sbri_character *c, float tick_s) {
   float max = MAX_SIZES * c->model->rest_size_m;
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
-    sbri_place_follower *follower = &sbri_jiggles(c)[j];
+    sbri_position_follower *follower = &sbri_jiggles(c)[j];
     sbr_transform carrier = sbri_delta_of(c, sbri_pose(c), jiggle->carrier);
     sbf_vec3 middle = middle_of(jiggle, &carrier);
     sbri_follower_step step =
         sbri_follower_step_of(jiggle->frequency_hz, jiggle->damping_ratio, jiggle->response, tick_s);
-    sbri_place_follower_tick(follower, middle, &step);
+    sbri_position_follower_tick(follower, middle, &step);
     sbf_vec3 shift = sbri_sub(follower->value, middle);
     if (!(sbri_dot(shift, shift) <= max * max)) {
-      sbri_place_follower_reset(follower, middle);
+      sbri_position_follower_reset(follower, middle);
       shift = sbri_vec3(0, 0, 0);
     }
     put(c, j, &carrier, shift);
@@ -47,7 +47,7 @@ void sbri_jiggles_tick(sbri_character *c, float tick_s) {
 
 void sbri_jiggles_rebase(sbri_character *c, sbf_vec3 shift) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
-    sbri_place_follower *follower = &sbri_jiggles(c)[j];
+    sbri_position_follower *follower = &sbri_jiggles(c)[j];
     follower->value = sbri_sub(follower->value, shift);
     follower->followed = sbri_sub(follower->followed, shift);
   }

@@ -3,7 +3,7 @@
 #include "gait/motion_kinds.h"
 #include "math/trig.h"
 
-static const float EASE_S = 0.3f;   /* over which a drive takes effect */
+static const float SMOOTHING_S = 0.3f; /* over which a drive takes effect */
 static const float REST_S = 1.2f;   /* over which the last of the speed dies away without drive, with drag */
 static const float LEANS_HZ = 0.9f; /* of critically damped followers of bank and pitch */
 static const float STILL = 0.004f;  /* m/s for each metre: slower, it hangs where it is */
@@ -21,13 +21,13 @@ static float gravity_of(const sbri_rig *rig) {
   return g > 0 ? g : 9.81f;
 }
 
-float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat turn) {
+float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat rotation) {
   sbf_vec3 middle = sbri_lerp(rig->low, rig->high, 0.5f);
   float min = 1e30f;
   for (int corner = 0; corner < 8; corner++) {
     sbf_vec3 at = {corner & 1 ? rig->high.x : rig->low.x, corner & 2 ? rig->high.y : rig->low.y,
         corner & 4 ? rig->high.z : rig->low.z};
-    float y = middle.y + sbri_rotate(turn, sbri_sub(at, middle)).y;
+    float y = middle.y + sbri_rotate(rotation, sbri_sub(at, middle)).y;
     if (y < min) min = y;
   }
   return -min * input->scale;
@@ -96,11 +96,11 @@ static void glide(sbri_motion_state *m, const sbri_gait_input *input, const sbf_
 }
 
 float sbri_afloat_move(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 *way) {
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 *direction) {
   sbf_medium defaults;
   const sbf_medium *medium = medium_of(rig, &defaults);
   sbri_motion_state *m = sbri_motion(rig, state);
-  float h = input->tick_s, ease = 1 - sbri_exp(-h / EASE_S);
+  float h = input->tick_s, smoothing = 1 - sbri_exp(-h / SMOOTHING_S);
   float length = medium->drag_length > 0 ? medium->drag_length : rig->wave_length;
   sbf_vec3 size = sbri_sub(rig->high, rig->low);
   if (!(length > 0)) length = size.x > size.z ? size.x : size.z;
@@ -109,9 +109,9 @@ float sbri_afloat_move(
   bool goes = input->forward != 0 || input->sideways != 0 || input->up != 0,
        wanted = goes || input->turn != 0;
   if (goes) {
-    state->forward += (input->forward - state->forward) * ease;
-    state->sideways += (input->sideways - state->sideways) * ease;
-    m->up += (input->up - m->up) * ease;
+    state->forward += (input->forward - state->forward) * smoothing;
+    state->sideways += (input->sideways - state->sideways) * smoothing;
+    m->up += (input->up - m->up) * smoothing;
   } else {
     float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
     float left = sbri_exp(-h * (speed / length + 1 / REST_S));
@@ -119,7 +119,7 @@ float sbri_afloat_move(
     state->sideways *= left;
     m->up = drifted(m->up, medium->buoyancy, gravity_of(rig), length, h);
   }
-  state->turn += (input->turn - state->turn) * ease;
+  state->turn += (input->turn - state->turn) * smoothing;
   bool drifts = medium->buoyancy != 1;
   if (!wanted && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;
@@ -141,7 +141,7 @@ float sbri_afloat_move(
   state->heading = sbri_wrap_angle(state->heading + turned);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->distance_m += (double)sbri_length(step);
-  *way = step;
+  *direction = step;
   return turned;
 }
 

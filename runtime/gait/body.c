@@ -7,19 +7,20 @@
 
 static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers; the
                                                                      crouch's also of the belly's room */
-static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
-static const float MAX_YAW = 0.8f;   /* rad: hips and chest turn less than so */
-static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if no nearer */
-static const float DEEPEST = 0.3f;   /* of a leg's reach: the body comes down by no more for a foot */
-static const float LOWEST = 0.3f;    /* of a leg's reach: no hip comes nearer to the ground than so */
-static const float EASY = 0.93f;     /* share of it that it comes down for in a stride */
-static const float UPRIGHT_HZ = 1;   /* of a critically damped follower */
-static const float ROOM_S = 0.25f;   /* by which the belly looks ahead */
-static const float CLEAR = 0.03f;    /* of the reach: what is kept between the belly and the ground */
-static const float RAISED = 0.1f;    /* of the reach: the body rises by no more for its belly */
+static const float CROUCH_S = 0.08f;    /* by which the crouch lags, and looks ahead */
+static const float MAX_YAW = 0.8f;      /* rad: hips and chest turn less than so */
+static const float NARROWEST = 0.5f;    /* of the reach: feet turn the hips as if no nearer */
+static const float DEEPEST = 0.3f;      /* of a leg's reach: the body comes down by no more for a foot */
+static const float LOWEST = 0.3f;       /* of a leg's reach: no hip comes nearer to the ground than so */
+static const float EASY = 0.93f;        /* share of it that it comes down for in a stride */
+static const float UPRIGHT_HZ = 1;      /* of a critically damped follower */
+static const float CLEARANCE_S = 0.25f; /* by which the belly looks ahead */
+static const float CLEAR = 0.03f;       /* of the reach: what is kept between the belly and the ground */
+static const float RAISED = 0.1f;       /* of the reach: the body rises by no more for its belly */
 static const float UPRIGHT = 0.7f; /* cosine: legs that stand no flatter are eased by how high the body is */
-static const float MEETS = 0.06f; /* of the reach: as near as what it needs to come down is to what it does */
-static const float ABRUPT = 43;   /* of the reach, a second squared: 1.2 % a frame of 1/60 s in a frame */
+static const float CROUCH_TOLERANCE =
+    0.06f;                      /* of the reach: as near as what it needs to come down is to what it does */
+static const float ABRUPT = 43; /* of the reach, a second squared: 1.2 % a frame of 1/60 s in a frame */
 static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -99,18 +100,19 @@ static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const 
 
 /* The same with a share of its reach. */
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float share) {
+    uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
-  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
-  if (share < l->rest_stretch) share = l->rest_stretch + bent * bent * (share - l->rest_stretch);
-  return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), share * full_reach(l, input->scale));
+  float bent =
+      state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
+  if (fraction < l->rest_stretch) fraction = l->rest_stretch + bent * bent * (fraction - l->rest_stretch);
+  return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
 }
 
 /* How far the body may come down, as it will stand in a moment, before its belly is on the ground. */
-static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static float clearance_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root) {
   float max = rig->reach * input->scale, clear = CLEAR * max;
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * ROOM_S), fore, hind;
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CLEARANCE_S), fore, hind;
   float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
   if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     rise = (fore.y - hind.y) / (run * input->scale);
@@ -118,8 +120,8 @@ static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const
   for (uint32_t k = 0; k < rig->belly_count; k++) {
     sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->belly[k], input->scale));
     at = sbri_add(sbri_add(root->position, at), ahead);
-    float room = at.y - sbri_ground_below(input, at, NULL).y - state->position.y - clear;
-    max = room < max ? room : max;
+    float clearance = at.y - sbri_ground_below(input, at, NULL).y - state->position.y - clear;
+    max = clearance < max ? clearance : max;
   }
   float min = -RAISED * rig->reach * input->scale;
   return max > min ? max : min;
@@ -129,7 +131,7 @@ static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const
  */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *spare) {
-  float min = state->room.value < 0 ? state->room.value : 0, max = min; /* it rises for its belly */
+  float min = state->clearance.value < 0 ? state->clearance.value : 0, max = min; /* it rises for its belly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CROUCH_S);
   *spare = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -150,7 +152,7 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
 
 /* From how far it would come down to where no planted knee straightens, or bends, more abruptly than it can:
  * legs that stand upright alone, whose knees turn as the body goes up and down. */
-static float ease_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static float soften_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float down) {
   float min = -1e6f, max = 1e6f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -184,15 +186,16 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     const sbri_home *now = &stride->homes[i];
     sbri_roam roam = foot->planted ? now->roam : sbri_roam_of(rig, state, input, i, now->arm);
     float half = stride->half_m * now->speed / stride->speed;
-    sbf_vec3 way = sbri_normalize(now->velocity, sbri_vec3(0, 0, 0));
+    sbf_vec3 direction = sbri_normalize(now->velocity, sbri_vec3(0, 0, 0));
     sbf_vec3 home = sbri_add(state->position, now->arm);
     home.y = foot->ground.y + state->position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
-    float ahead = sbri_ahead(&roam, way, half);
+    float ahead = sbri_ahead(&roam, direction, half);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
-    float touch = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, way, ahead), EASY);
-    float leave = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
-    float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = touch > leave ? touch : leave;
+    float contact = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead), EASY);
+    float leave =
+        drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead - 2 * half), EASY);
+    float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = contact > leave ? contact : leave;
     drop = drop < bound ? drop : bound;
     max = drop > max ? drop : max;
   }
@@ -210,11 +213,11 @@ static sbri_stance stance_over(
   if (!on_feet) stance.root = sbri_motion_root(rig, state, input, stance.root);
   if (!on_feet) return stance;
   stance.root.position.x += state->sway_x.value, stance.root.position.z += state->sway_z.value;
-  float pitch = 0, roll = 0, share = rig->gait->body_tilt;
+  float pitch = 0, roll = 0, fraction = rig->gait->body_tilt;
   if (feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
-    pitch = share * slope(hind, fore, (rig->fore_z - rig->hind_z) * input->scale);
+    pitch = fraction * slope(hind, fore, (rig->fore_z - rig->hind_z) * input->scale);
   if (feet_center(rig, state, LEFT, &left) && feet_center(rig, state, RIGHT, &right))
-    roll = share * slope(right, left, 2 * rig->half_width * input->scale);
+    roll = fraction * slope(right, left, 2 * rig->half_width * input->scale);
   float sp, cp, sr, cr;
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
@@ -247,8 +250,8 @@ static void come_down(const sbri_rig *rig, const sbri_gait_state *state, const s
     float needed, sbri_stance *stance) {
   float size = rig->reach * input->scale, tick = input->tick_s;
   float down = state->crouch.value > needed ? state->crouch.value : needed, eased = down;
-  if (state->eased || needed > state->crouch.value - MEETS * size)
-    eased = ease_for_knees(rig, state, input, &stance->root, down);
+  if (state->eased || needed > state->crouch.value - CROUCH_TOLERANCE * size)
+    eased = soften_for_knees(rig, state, input, &stance->root, down);
   if (eased != down || state->eased) {
     float even = stance->root.position.y - state->root.position.y - state->rise * tick; /* as it has come */
     float change = ABRUPT * size * tick * tick, low = even - change, high = even + change;
@@ -287,25 +290,25 @@ static void sway_to(
   sbri_lag_tick(&x, lean.x, &state->steps.lean);
   sbri_lag_tick(&z, lean.z, &state->steps.lean);
   sbf_vec3 by = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
-  float size = sbri_length(by), share = 1;
-  sbf_vec3 way = sbri_normalize(by, sbri_vec3(0, 0, 0));
+  float size = sbri_length(by), fraction = 1;
+  sbf_vec3 direction = sbri_normalize(by, sbri_vec3(0, 0, 0));
   for (uint32_t i = 0; size > 0 && i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    float left = sbri_way_left(rig, state, input, i, way) / size;
-    if (left < share) share = left > 0 ? left : 0;
+    float left = sbri_remaining_reach(rig, state, input, i, direction) / size;
+    if (left < fraction) fraction = left > 0 ? left : 0;
   }
-  state->sway_x = (sbri_lag){state->sway_x.value + share * by.x, share * x.rate};
-  state->sway_z = (sbri_lag){state->sway_z.value + share * by.z, share * z.rate};
+  state->sway_x = (sbri_lag){state->sway_x.value + fraction * by.x, fraction * x.rate};
+  state->sway_z = (sbri_lag){state->sway_z.value + fraction * by.z, fraction * z.rate};
 }
 
 sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    const sbri_stride *stride, uint32_t lifting, sbf_vec3 way) {
+    const sbri_stride *stride, uint32_t lifting, sbf_vec3 direction) {
   if (!rig->leg_count) return stance_over(rig, state, input);
   sbri_body_steps_keep(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
   sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
   if (!state->together || state->standing_s > 0) lean = stands;
-  if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
+  if (lifting) lean = sbri_support_sway(rig, state, input, lifting, direction);
   sway_to(rig, state, input, lean);
   if (!stride) state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
   bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
@@ -316,10 +319,10 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
-  float room = room_below(rig, state, input, &stance.root);
-  sbri_lag_tick(&state->room, room, &steps->crouch);
-  if (!stride) state->room = (sbri_lag){room, 0};
-  if (wanted > state->room.value) wanted = state->room.value;
+  float clearance = clearance_below(rig, state, input, &stance.root);
+  sbri_lag_tick(&state->clearance, clearance, &steps->crouch);
+  if (!stride) state->clearance = (sbri_lag){clearance, 0};
+  if (wanted > state->clearance.value) wanted = state->clearance.value;
   sbri_lag_tick(&state->crouch, wanted, &steps->crouch);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};
   come_down(rig, state, input, needed, &stance);

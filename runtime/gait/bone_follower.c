@@ -10,9 +10,9 @@ void sbri_followers_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3
   sbri_bone_follower *followers = sbri_bone_followers(rig, state);
   for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
     if (!in_world(&rig->asset->followers.at[i])) continue;
-    sbri_place_follower *place = &followers[i].place;
-    place->value = sbri_sub(place->value, shift);
-    place->followed = sbri_sub(place->followed, shift);
+    sbri_position_follower *follower = &followers[i].position;
+    follower->value = sbri_sub(follower->value, shift);
+    follower->followed = sbri_sub(follower->followed, shift);
   }
 }
 
@@ -25,24 +25,24 @@ void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri
     if (in_world(source)) continue;
     const sbr_transform *parent = rig->parents[b] >= 0 ? &pose[rig->parents[b]] : root;
     sbf_quat back = sbri_quat_conjugate(parent->rotation);
-    sbf_vec3 place = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));
-    place = sbri_scale(place, 1 / input->scale);
-    sbf_quat turn = sbri_quat_normalize(sbri_quat_multiply(back, pose[b].rotation));
+    sbf_vec3 position = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));
+    position = sbri_scale(position, 1 / input->scale);
+    sbf_quat rotation = sbri_quat_normalize(sbri_quat_multiply(back, pose[b].rotation));
     if (advance == SBRI_ADVANCE_RESET) {
-      sbri_place_follower_reset(&followers[i].place, place);
-      sbri_turn_follower_reset(&followers[i].turn, turn);
+      sbri_position_follower_reset(&followers[i].position, position);
+      sbri_turn_follower_reset(&followers[i].turn, rotation);
     } else if (advance == SBRI_ADVANCE_TICK) {
       sbri_follower_step step =
           sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
-      sbri_place_follower_tick(&followers[i].place, place, &step);
-      sbri_turn_follower_tick(&followers[i].turn, turn, &step);
+      sbri_position_follower_tick(&followers[i].position, position, &step);
+      sbri_turn_follower_tick(&followers[i].turn, rotation, &step);
     }
     if (source->channel != SBF_FOLLOWER_CHANNEL_POSITION) {
       sbf_quat to = sbri_quat_multiply(parent->rotation, followers[i].turn.value);
       sbri_rig_turn(rig, b, sbri_quat_multiply(to, sbri_quat_conjugate(pose[b].rotation)), pose);
     }
     if (source->channel != SBF_FOLLOWER_CHANNEL_ROTATION) {
-      sbf_vec3 at = sbri_scale(followers[i].place.value, input->scale);
+      sbf_vec3 at = sbri_scale(followers[i].position.value, input->scale);
       at = sbri_add(parent->position, sbri_rotate(parent->rotation, at));
       sbri_rig_shift(rig, b, sbri_sub(at, pose[b].position), pose);
     }

@@ -8,36 +8,37 @@ static const float NEAR = 0.1f; /* of a step's height: how far a sole may be fro
 
 /* How a tick moves what stands on a collider. */
 typedef struct ride {
-  sbf_vec3 way; /* m */
-  float turn;   /* rad, about +Y */
+  sbf_vec3 direction; /* m */
+  float turn;         /* rad, about +Y */
 } ride;
 
-static ride ride_on(const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 place) {
+static ride ride_on(const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 position) {
   sbri_collider_frame frame = sbri_collider_frame_of(c, input->origin, 1);
   sbf_vec3 ahead =
       sbri_rotate(c->turn_to, sbri_rotate(sbri_quat_conjugate(c->turn_from), sbri_vec3(0, 0, 1)));
-  return (ride){sbri_shape_way(&frame, sbri_into_shape(&frame, place, false)), sbri_atan2(ahead.x, ahead.z)};
+  return (ride){sbri_shape_displacement(&frame, sbri_into_shape(&frame, position, false)),
+      sbri_atan2(ahead.x, ahead.z)};
 }
 
-/* How what is below `place` moves it, and moves the body that stands at `body`. */
-static void find_ride(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 body,
-    ride *of_place, ride *of_body) {
+/* How what is below `position` moves it, and moves the body that stands at `body`. */
+static void find_ride(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 position, sbf_vec3 body,
+    ride *ride_of_position, ride *of_body) {
   uint32_t number;
   double off = (double)(NEAR * rig->girth.step_up * input->scale);
-  sbr_double3 world = {input->origin.x + (double)place.x, input->origin.y + (double)place.y,
-      input->origin.z + (double)place.z};
-  *of_place = *of_body = (ride){{0, 0, 0}, 0};
+  sbr_double3 world = {input->origin.x + (double)position.x, input->origin.y + (double)position.y,
+      input->origin.z + (double)position.z};
+  *ride_of_position = *of_body = (ride){{0, 0, 0}, 0};
   if (!sbri_surroundings_bearer(input->around, world, off, &number)) return;
-  *of_place = ride_on(&input->around->colliders->at[number], input, place);
+  *ride_of_position = ride_on(&input->around->colliders->at[number], input, position);
   *of_body = ride_on(&input->around->colliders->at[number], input, body);
 }
 
-static void shift_step(sbri_foot *foot, sbf_vec3 way) {
-  foot->ground = sbri_add(foot->ground, way);
-  foot->from = sbri_add(foot->from, way);
-  foot->to = sbri_add(foot->to, way), foot->planned = sbri_add(foot->planned, way);
-  foot->x.at += way.x, foot->z.at += way.z, foot->base.at += way.y;
-  foot->pole = sbri_add(foot->pole, way);
+static void shift_step(sbri_foot *foot, sbf_vec3 direction) {
+  foot->ground = sbri_add(foot->ground, direction);
+  foot->from = sbri_add(foot->from, direction);
+  foot->to = sbri_add(foot->to, direction), foot->planned = sbri_add(foot->planned, direction);
+  foot->x.at += direction.x, foot->z.at += direction.z, foot->base.at += direction.y;
+  foot->pole = sbri_add(foot->pole, direction);
 }
 
 void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
@@ -49,19 +50,21 @@ void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     find_ride(rig, input, state->feet[i].ground, body, &rides[i], &of_body);
-    mean.way = sbri_add(mean.way, of_body.way), mean.turn += of_body.turn;
+    mean.direction = sbri_add(mean.direction, of_body.direction), mean.turn += of_body.turn;
     count += 1;
   }
-  if (count > 0) mean.way = sbri_scale(mean.way, 1 / count), mean.turn /= count;
+  if (count > 0) mean.direction = sbri_scale(mean.direction, 1 / count), mean.turn /= count;
   if (!rig->leg_count) find_ride(rig, input, body, body, &of_body, &mean);
-  if (mean.turn == 0 && !(sbri_dot(mean.way, mean.way) > 0)) return;
+  if (mean.turn == 0 && !(sbri_dot(mean.direction, mean.direction) > 0)) return;
   for (uint32_t i = 0; i < rig->leg_count; i++)
-    shift_step(&state->feet[i], state->feet[i].planted ? rides[i].way : mean.way);
-  state->position.x += mean.way.x, state->position.z += mean.way.z; /* its y counts from the ground */
-  state->root.position = sbri_add(state->root.position, mean.way);
-  state->level += mean.way.y;
+    shift_step(&state->feet[i], state->feet[i].planted ? rides[i].direction : mean.direction);
+  state->position.x += mean.direction.x,
+      state->position.z += mean.direction.z; /* its y counts from the ground */
+  state->root.position = sbri_add(state->root.position, mean.direction);
+  state->level += mean.direction.y;
   state->heading = sbri_wrap_angle(state->heading + mean.turn);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  sbri_motion_rebase(rig, state, sbri_scale(mean.way, -1));
-  for (uint32_t i = 0; mean.turn != 0 && i < rig->leg_count; i++) sbri_foot_faces(rig, state, input, i);
+  sbri_motion_rebase(rig, state, sbri_scale(mean.direction, -1));
+  for (uint32_t i = 0; mean.turn != 0 && i < rig->leg_count; i++)
+    sbri_foot_update_orientation(rig, state, input, i);
 }

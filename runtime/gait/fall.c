@@ -16,13 +16,13 @@ static float level_below(const sbri_rig *rig, const sbri_gait_state *state, cons
 }
 
 /* Whether a foot that stands has ground: under its middle, or, as across the edge of a stair, elsewhere. */
-static bool is_borne(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float gone) {
-  sbf_vec3 place = state->feet[leg].ground, normal;
-  float min = place.y - gone;
-  if (sbri_ground_below(input, place, NULL).y >= min) return true;
-  sbri_lay_sole(rig, state, input, leg, &place, &normal);
-  return place.y >= min;
+  sbf_vec3 position = state->feet[leg].ground, normal;
+  float min = position.y - gone;
+  if (sbri_ground_below(input, position, NULL).y >= min) return true;
+  sbri_lay_sole(rig, state, input, leg, &position, &normal);
+  return position.y >= min;
 }
 
 /* Whether nothing bears it: neither any foot that stands nor, without legs, the body's place. */
@@ -32,7 +32,7 @@ static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, con
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (is_borne(rig, state, input, i, gone)) return false;
+    if (is_supported(rig, state, input, i, gone)) return false;
     stands = true;
   }
   return stands;
@@ -42,13 +42,13 @@ static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, con
 static void hang_feet(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float highest = -1e30f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    sbri_foot_place(rig, state, input, i);
+    sbri_foot_put_down(rig, state, input, i);
     highest = state->feet[i].ground.y > highest ? state->feet[i].ground.y : highest;
   }
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     state->feet[i].ground.y = highest;
     state->feet[i].normal = sbri_vec3(0, 1, 0);
-    sbri_foot_faces(rig, state, input, i);
+    sbri_foot_update_orientation(rig, state, input, i);
   }
 }
 
@@ -65,7 +65,7 @@ bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   state->falls = state->position.y > LOW;
   if (state->falls) return true;
   state->position.y = 0;
-  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
+  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   state->level = level_below(rig, state, input);
   return true;
 }

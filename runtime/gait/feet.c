@@ -1,36 +1,36 @@
-/* Feet: who steps.
+/* Selects the feet that step.
  *
- * A planted foot stays where it is. The body moves on, so the foot falls behind its home; the foot that is
- * worst placed steps first, and only while no foot of another group is in the air, so that opposite feet stay
- * down. Slow enough, a foot lifts off only once the others bear the body, which leans over them. There is no
- * clock: stride and rhythm follow from speed, reach and trigger. */
+ * A planted foot stays in place. As the body moves on, the foot falls behind its home. The foot with the
+ * greatest displacement steps first, and only while no foot of another group swings, so that opposite feet
+ * stay down. At low speed a foot lifts off only when the others support the body, which leans over them.
+ * There is no clock: stride and rhythm follow from speed, reach and trigger distance. */
 #include "gait/gait_state.h"
 
-static const float SETTLE_AFTER_S = 0.15f; /* of standing; then feet go home */
-static const float SETTLED = 0.15f;        /* share of the trigger within which a foot is at home */
-static const float DUE = 0.9f;             /* of the half stride behind home: the foot steps */
-static const float EARLY = 0.25f;          /* the same, once its turn has come */
-static const float COMPANION = -0.3f;      /* the same of a foot that goes with one of its group */
-static const float TWISTED = 0.6f;         /* rad that a planted foot may be turned against the body */
-static const float MISSED = 0.002f;        /* of the reach: a sole so far from its place has to step */
-static const float NOTED = 0.4f;           /* sideways and twisted: less than this does not count */
-static const float STRAINED = 0.7f;        /* share of its roam that a foot may be from home */
-static const float KEPT = 0.15f; /* half strides: a foot worse by less than so does not take another's turn */
-static const float JOINS = 0.4f; /* phase of a step up to which others of its group join it */
+static const float REST_AFTER_S = 0.15f; /* time of standing after which feet return home */
+static const float SETTLED = 0.15f;      /* fraction of the trigger distance within which a foot is at home */
+static const float DUE = 0.9f;           /* in half strides behind home: the foot steps */
+static const float EARLY = 0.25f;        /* the same for the foot whose turn it is */
+static const float COMPANION = -0.3f;    /* the same for a foot that joins another of its group */
+static const float TWISTED = 0.6f;       /* maximum angle of a planted foot to the body, rad */
+static const float MISSED = 0.002f; /* fraction of the reach: a sole this far from its target must step */
+static const float NOTED = 0.4f;    /* sideways displacement and twist below this are ignored */
+static const float STRAINED = 0.7f; /* fraction of its circle that a foot may be from home */
+static const float KEPT = 0.15f;    /* half strides: a foot must be worse by this to take another's turn */
+static const float JOINS = 0.4f;    /* phase of a step until which others of its group may join it */
 static const float WAIT_S =
-    0.7f; /* for balance; then, sooner where the body waits too, a foot steps all the same */
+    0.7f; /* longest wait for balance, s; then a foot steps anyway, sooner if the body waits too */
 
-void sbri_foot_place(
+void sbri_foot_put_down(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
   foot->ground = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
   sbri_lay_sole(rig, state, input, leg, &foot->ground, &foot->normal);
-  sbri_foot_faces(rig, state, input, leg);
+  sbri_foot_update_orientation(rig, state, input, leg);
 }
 
-/* Feet in the air, and their groups, as bits; the groups get one more where a step is too far on for others
- * to join it. */
+/* Swinging feet and their groups, as bits. The groups get an extra bit if a step is too far on for others to
+ * join it. */
 static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, uint32_t *groups) {
   uint32_t feet = 0;
   *groups = 0;
@@ -43,8 +43,8 @@ static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, u
   return feet;
 }
 
-/* How badly a planted foot stands, in half strides behind its home; what it is off to the side counts too,
- * and how far it is twisted. When standing, in triggers from home. */
+/* Displacement of a planted foot in half strides behind its home; sideways displacement and twist add to it.
+ * While standing: in trigger distances from home. */
 static float displacement(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   const sbri_foot *foot = &state->feet[leg];
@@ -53,12 +53,12 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
   away.y = 0;
   float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
   if (state->standing_s > 0) return sbri_length(away) / trigger + 0.15f * twist;
-  sbf_vec3 way = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
-  float behind = sbri_dot(away, way), beside = sbri_length(sbri_add_scaled(away, way, -behind));
+  sbf_vec3 direction = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
+  float behind = sbri_dot(away, direction), beside = sbri_length(sbri_add_scaled(away, direction, -behind));
   float half = stride->speed > 0 ? stride->half_m * home->speed / stride->speed : 0;
   float min = 0.4f * stride->half_m;
   if (half < min) half = min;
-  float late = half - sbri_ahead(&home->roam, way, half); /* it comes down so much short */
+  float late = half - sbri_ahead(&home->roam, direction, half); /* it lands this much short */
   float off = (behind - late) / half, wide = 0.7f * beside / stride->half_m;
   if (behind > 0 && off < DUE) {
     float strain = sbri_strain(state, home, leg) / STRAINED;
@@ -70,19 +70,19 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
   return twist > NOTED && twist > off ? twist : off;
 }
 
-/* What is known of this tick when feet are chosen. */
+/* Input of the selection of feet. */
 typedef struct choice {
   sbri_stride stride;
-  float off[SBRI_MAX_LEGS]; /* of planted feet */
-  uint32_t next;            /* bit of the foot to go next, lifted or not; 0: none */
+  float off[SBRI_MAX_LEGS]; /* displacement of planted feet */
+  uint32_t next;            /* bit of the next foot, lifted or not; 0: none */
 } choice;
 
-/* How far the body goes in a time. */
-static sbf_vec3 way_in(const sbri_gait_state *state, float time_s) {
+/* Displacement of the body in a time. */
+static sbf_vec3 displacement_in(const sbri_gait_state *state, float time_s) {
   return sbri_scale(sbri_body_velocity(state), state->pace * time_s);
 }
 
-/* Time until the feet in the air are down; that of a step, where none is. */
+/* Time until the swinging feet land; the duration of a step if none swings. */
 static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, float step_s) {
   float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -93,7 +93,8 @@ static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, floa
   return max > 0 ? max : step_s;
 }
 
-/* The foot that should step now, or -1: the worst placed of those that want to and may. */
+/* Index of the foot that should step now, or -1: the one with the greatest displacement that is due and
+ * allowed. */
 static int32_t choose(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, choice *c, bool *unbalanced) {
   uint32_t groups, in_air = feet_in_air(rig, state, &groups);
@@ -101,12 +102,12 @@ static int32_t choose(
   float max = 0;
   float wanted = state->since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
   if (state->standing_s > 0) wanted = SETTLED;
-  if (state->standing_s > 0 && state->standing_s < SETTLE_AFTER_S) return -1;
+  if (state->standing_s > 0 && state->standing_s < REST_AFTER_S) return -1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted || state->pivot == i + 1) continue;
     uint32_t own = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own;
-    float off = state->next == i + 1 ? c->off[i] + KEPT : c->off[i]; /* it has begun to lean for that one */
+    float off = state->next == i + 1 ? c->off[i] + KEPT : c->off[i]; /* the body leans for that one already */
     if (worst < 0 || off > max) worst = (int32_t)i, max = off;
     if (in_air && !companion) continue;
     float min = companion ? COMPANION : wanted;
@@ -115,7 +116,7 @@ static int32_t choose(
     uint32_t lifted = in_air | 1u << i;
     bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
-      bears = sbri_support_bears(rig, state, input, lifted, way_in(state, c->stride.duration_s));
+      bears = sbri_support_bears(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
       if (!bears && !in_air && state->waiting_s > WAIT_S) bears = true;
       if (!bears) {
         *unbalanced = *unbalanced || !in_air;
@@ -130,19 +131,19 @@ static int32_t choose(
 }
 
 static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacity, sbr_event_kind kind,
-    uint32_t leg, sbf_vec3 place) {
-  if (count < capacity) events[count] = (sbri_gait_event){kind, leg, place};
+    uint32_t leg, sbf_vec3 position) {
+  if (count < capacity) events[count] = (sbri_gait_event){kind, leg, position};
   return count < capacity ? count + 1 : count;
 }
 
-/* A foot left far behind, as by a teleport, is put down anew. */
+/* Puts a foot that is far behind, as after a teleport, at its home. */
 static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbf_vec3 home = sbri_add(state->position, stride->homes[leg].arm);
   const sbri_leg *l = &rig->legs[leg];
   float lost = (rig->gait->legs.at[leg].jump_margin + l->upper_length + l->lower_length) * input->scale;
   if (sbri_flat_distance(home, state->feet[leg].ground) <= lost) return false;
-  sbri_foot_place(rig, state, input, leg);
+  sbri_foot_put_down(rig, state, input, leg);
   return true;
 }
 
@@ -175,7 +176,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     state->waiting_s = 0;
   }
   state->waiting_s = unbalanced ? state->waiting_s + input->tick_s : 0;
-  if (state->standing_s > 0) { /* the next one to go home, if any is not */
+  if (state->standing_s > 0) { /* next foot to return home, if any is away */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)
       if (state->feet[i].planted && c.off[i] >= SETTLED && (worst < 0 || c.off[i] > c.off[worst]))
@@ -186,7 +187,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   bool leans = !rig->has_pegs && (!c.stride.together || state->standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->standing_s == 0 && !c.next) lifting = 0;
-  sbf_vec3 way = way_in(state, time_in_air(rig, state, c.stride.duration_s));
-  *stance = sbri_body_tick(rig, state, input, &c.stride, lifting, way);
+  sbf_vec3 direction = displacement_in(state, time_in_air(rig, state, c.stride.duration_s));
+  *stance = sbri_body_tick(rig, state, input, &c.stride, lifting, direction);
   return count;
 }

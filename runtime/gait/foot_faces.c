@@ -2,7 +2,7 @@
 #include "gait/gait_state.h"
 #include "math/trig.h"
 
-void sbri_foot_home_faces(
+void sbri_foot_update_heading(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   const sbf_vec3 *ankle = &rig->legs[leg].ankle;
   sbri_foot *foot = &state->feet[leg];
@@ -11,7 +11,7 @@ void sbri_foot_home_faces(
   foot->beside_at_home = level ? beside : sbri_rotate(foot->tilt, beside);
 }
 
-void sbri_foot_faces(
+void sbri_foot_update_orientation(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   const sbf_vec3 up = {0, 1, 0};
   sbri_foot *foot = &state->feet[leg];
@@ -23,5 +23,5 @@ void sbri_foot_faces(
   foot->turned = sbri_quat_multiply(foot->tilt, sbri_quat_about(up, heading));
   foot->beside = sbri_vec3(foot->cosine * x + foot->sine * z, 0, foot->cosine * z - foot->sine * x);
   if (!level) foot->beside = sbri_rotate(foot->tilt, foot->beside);
-  sbri_foot_home_faces(rig, state, input, leg);
+  sbri_foot_update_heading(rig, state, input, leg);
 }

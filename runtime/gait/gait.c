@@ -9,15 +9,16 @@
 #include "math/trig.h"
 #include "skeleton/rig_mass.h"
 
-static const float EASE_S = 0.18f;     /* time over which wanted motion takes effect */
-static const float DISPLACED_S = 0.1f; /* the same of the speed that its host moves it at */
-static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */
-static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
-static const float LONG_S = 1;         /* of standing; longer is no longer counted */
-static const float SLOWS_S = 0.05f;    /* over which it gives way to feet that have to last */
-static const float WAITS_S = 0.1f;     /* for balance: longer waits slow the body down */
-static const float BALANCE_S = 0.2f;   /* more: it stands by then */
-static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
+static const float SMOOTHING_S = 0.18f; /* smoothing time of commands, s */
+static const float DISPLACED_S = 0.1f;  /* smoothing time of the speed of host displacements, s */
+static const float ACCELERATES = 0.2f;  /* maximum acceleration, in reaches per squared duration of a step */
+static const float STILL =
+    0.004f;                    /* speed below which the character stands, m/s and rad/s per metre of leg */
+static const float LONG_S = 1; /* maximum counted time of standing, s */
+static const float SLOWS_S = 0.05f;  /* time over which it slows down for feet at their reach, s */
+static const float WAITS_S = 0.1f;   /* wait for balance after which the body slows down, s */
+static const float BALANCE_S = 0.2f; /* further wait after which it stands, s */
+static const float HURRY_S = 0.12f;  /* time over which it regains speed after a wait, s */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
@@ -36,7 +37,7 @@ static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->eased = stance->eased;
 }
 
-void sbri_gait_place(
+void sbri_gait_reset(
     const sbri_rig *rig, void *memory, const sbri_gait_input *input, sbf_vec3 position, float heading) {
   sbri_gait_state *state = memory;
   memset(memory, 0, sbri_gait_state_size(rig));
@@ -48,24 +49,24 @@ void sbri_gait_place(
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
   state->pace = state->limit = 1;
-  state->since_lift_m = 1e6f; /* the first step waits for nothing */
-  sbri_motion_place(rig, state, input);
+  state->since_lift_m = 1e6f; /* the first step does not wait */
+  sbri_motion_reset(rig, state, input);
   sbri_body_stand(rig, state, input);
 }
 
 void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   sbf_vec3 position = state->position;
   float heading = state->heading;
-  if (sbri_is_kind(rig, SBF_GAIT_KIND_SLITHER)) sbri_slither_place(rig, state, input);
+  if (sbri_is_kind(rig, SBF_GAIT_KIND_SLITHER)) sbri_slither_reset(rig, state, input);
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
     for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++) {
       const sbr_transform *rest = &rig->rest[rig->chains[c].source->bones.at[k]];
       sbr_transform *frame = &chain_bones[rig->chains[c].first_state + k].frame;
-      sbf_quat turn = {0, 0, 0, 1};
-      sbri_sincos(0.5f * heading, &turn.y, &turn.w);
-      frame->position = sbri_add(position, sbri_rotate(turn, sbri_scale(rest->position, input->scale)));
-      frame->rotation = sbri_quat_multiply(turn, rest->rotation);
+      sbf_quat rotation = {0, 0, 0, 1};
+      sbri_sincos(0.5f * heading, &rotation.y, &rotation.w);
+      frame->position = sbri_add(position, sbri_rotate(rotation, sbri_scale(rest->position, input->scale)));
+      frame->rotation = sbri_quat_multiply(rotation, rest->rotation);
     }
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_scale(rig->rest[rig->legs[i].upper].position, input->scale);
@@ -73,31 +74,31 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   sbf_vec3 stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
   state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
   state->root = sbri_body_stance(rig, state, input).root;
-  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
+  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   keep_stance(state, &stance);
   state->rise = 0;
   sbri_fall_note_level(rig, state, input);
-  sbri_tails_place(rig, state, &stance);
+  sbri_tails_reset(rig, state, &stance);
 }
 
-/* By how much it goes and turns faster in a tick. */
+/* Change of speed and turn rate in a tick. */
 typedef struct gain {
   float ahead, aside, turn;
 } gain;
 
 static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  float ease = 1 - sbri_exp(-input->tick_s / EASE_S), share = 1;
-  float ahead = (state->limit * input->forward - state->forward) * ease;
-  float aside = (state->limit * input->sideways - state->sideways) * ease;
-  float turn = (state->limit * input->turn - state->turn) * ease;
-  if (rig->leg_count) { /* of what changes fastest: a foot's home */
+  float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
+  float ahead = (state->limit * input->forward - state->forward) * inverse_mass;
+  float aside = (state->limit * input->sideways - state->sideways) * inverse_mass;
+  float turn = (state->limit * input->turn - state->turn) * inverse_mass;
+  if (rig->leg_count) { /* limited by the fastest home */
     float step_s = rig->gait->step_duration, round = turn * rig->spread * input->scale;
     float max = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * step_s);
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
-    share = change > max ? max / change : 1;
+    fraction = change > max ? max / change : 1;
   }
-  return (gain){share * ahead, share * aside, share * turn};
+  return (gain){fraction * ahead, fraction * aside, fraction * turn};
 }
 
 float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
@@ -110,7 +111,7 @@ static bool is_displaced(const sbri_gait_input *input) {
   return input->turned != 0 || sbri_dot(input->moved, input->moved) > 0;
 }
 
-/* A step over the ground and a turn, as far as walls allow. */
+/* Moves and turns the body as far as walls allow. */
 static void go(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step, float turned) {
   sbf_vec3 from = state->position;
@@ -123,7 +124,7 @@ static void go(
   sbri_motion_tick(rig, state, input, step);
 }
 
-/* Goes where the host moves it; its speed, by which feet step and tails swing, becomes that of this motion.
+/* Applies displacement by the host. Its speed becomes the motion's speed, so that feet step and tails swing.
  */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
@@ -147,10 +148,10 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   if (state->displaced && !wanted) state->forward = state->sideways = state->turn = 0;
   state->displaced = 0;
   if (sbri_is_afloat(rig)) {
-    sbf_vec3 way, from = state->position;
-    float round = sbri_afloat_move(rig, state, input, &way);
+    sbf_vec3 direction, from = state->position;
+    float round = sbri_afloat_move(rig, state, input, &direction);
     sbri_walls_keep_out(rig, state, input, from, round);
-    sbri_motion_tick(rig, state, input, way);
+    sbri_motion_tick(rig, state, input, direction);
     return round;
   }
   gain by = gain_of(rig, state, input);
@@ -160,13 +161,13 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;
-    if (state->standing_s < LONG_S) state->standing_s += input->tick_s; /* and then all of it stands still */
+    if (state->standing_s < LONG_S) state->standing_s += input->tick_s; /* everything is at rest then */
   } else {
     state->standing_s = 0;
   }
   float lasting = 1, max = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
   float balanced =
-      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* room to lean is left to the foot that is to lift off */
+      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* leaves the foot that lifts next room to lean */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
   float pace = lasting < max ? lasting : max, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
   state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
@@ -177,7 +178,7 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   return turned;
 }
 
-/* The head looks where the turn will lead, and steadily while the body sways under it. */
+/* Turns the head into the coming turn and stabilises it against the body's sway. */
 static void lead_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   const sbf_head_turn *head = rig->gait ? rig->gait->head : NULL;
   if (!head) return;
@@ -186,8 +187,7 @@ static void lead_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   sbri_lag_tick(&state->head_yaw, target, &state->steps.head);
 }
 
-/* Where the centre of mass is when the body does not lean: over the middle of the homes, where nothing is
- * known of masses. */
+/* Centre of mass without lean: the middle of the homes if masses are unknown. */
 static void find_center(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbr_transform *pose) {
   sbf_vec3 center = {0, 0, 0};
@@ -209,9 +209,9 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   float turned = sbri_body_move(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
-    sbri_foot *foot = &state->feet[i]; /* one that is planted does not turn with the body */
+    sbri_foot *foot = &state->feet[i]; /* a planted foot does not turn with the body */
     if (foot->planted) foot->heading = sbri_wrap_angle(foot->heading - turned);
-    sbri_foot_home_faces(rig, state, input, i);
+    sbri_foot_update_heading(rig, state, input, i);
   }
   sbri_stance stance;
   bool fell = state->falls, in_air = sbri_fall_tick(rig, state, input);
@@ -241,7 +241,7 @@ void sbri_gait_pose(
 void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   sbri_gait_state *state = memory;
   state->position.x -= shift.x;
-  state->position.z -= shift.z; /* its y counts from the ground */
+  state->position.z -= shift.z; /* y is relative to the ground */
   state->root.position = sbri_sub(state->root.position, shift);
   state->level -= shift.y;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -266,11 +266,11 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
 }
 
 uint32_t sbri_gait_legs(
-    const sbri_rig *rig, const void *memory, float share, sbr_leg_state *legs, uint32_t capacity) {
+    const sbri_rig *rig, const void *memory, float fraction, sbr_leg_state *legs, uint32_t capacity) {
   const sbri_gait_state *state = memory;
   for (uint32_t i = 0; i < rig->leg_count && i < capacity; i++) {
     const sbri_foot *foot = &state->feet[i];
-    legs[i] = (sbr_leg_state){.planted = share > 0.999f ? foot->planted : foot->was_planted,
+    legs[i] = (sbr_leg_state){.planted = fraction > 0.999f ? foot->planted : foot->was_planted,
         .steps_taken = foot->steps_taken,
         .foot = sbri_add(foot->ground, sbri_vec3(0, foot->lift, 0)),
         .target = foot->planted ? foot->ground : foot->to,
@@ -288,7 +288,7 @@ float sbri_gait_level(const void *state) {
   return ((const sbri_gait_state *)state)->level;
 }
 
-void sbri_gait_placement(const void *memory, sbf_vec3 *position, float *heading) {
+void sbri_gait_get_placement(const void *memory, sbf_vec3 *position, float *heading) {
   const sbri_gait_state *state = memory;
   *position = state->position;
   *heading = state->heading;

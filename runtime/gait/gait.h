@@ -31,7 +31,7 @@ typedef struct sbri_gait_event {
 size_t sbri_gait_state_size(const sbri_rig *rig);
 
 /* Standing at `position` (relative to the origin; y counts from the ground) with `heading`. */
-void sbri_gait_place(
+void sbri_gait_reset(
     const sbri_rig *rig, void *state, const sbri_gait_input *input, sbf_vec3 position, float heading);
 
 /* One control tick: advances the state and writes the pose (bone_count transforms). Returns how many events
@@ -57,20 +57,20 @@ void sbri_gait_pose(
 /* The origin moved by `shift`: subtract it from every place. */
 void sbri_gait_rebase(const sbri_rig *rig, void *state, sbf_vec3 shift);
 
-/* The axis of a follower that squashes, in its bone's frame; and how much that bone is stretched along it, at
- * a share of the tick between the last `settle` and now; 1 for other followers. */
+/* Axis of a squash follower in its bone's frame; and the stretch along it at a fraction of the last tick, 1
+ * for other followers. */
 sbf_vec3 sbri_squash_axis(const sbf_follower *source);
-float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float share);
-/* A tick begins. */
-void sbri_gait_settle(const sbri_rig *rig, void *state);
+float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float fraction);
+/* Begins a tick: the present state becomes the previous one. */
+void sbri_gait_begin_tick(const sbri_rig *rig, void *state);
 
 /* At a share of the last tick: what came down or lifted off at its end had not done so before. */
 uint32_t sbri_gait_legs(
-    const sbri_rig *rig, const void *state, float share, sbr_leg_state *legs, uint32_t capacity);
+    const sbri_rig *rig, const void *state, float fraction, sbr_leg_state *legs, uint32_t capacity);
 double sbri_gait_distance(const void *state);
 /* Height of the ground that it stands on, or from which its own counts in the air, from the origin; m. */
 float sbri_gait_level(const void *state);
 /* Where the character is and where it faces, relative to the origin. */
-void sbri_gait_placement(const void *state, sbf_vec3 *position, float *heading);
+void sbri_gait_get_placement(const void *state, sbf_vec3 *position, float *heading);
 
 #endif

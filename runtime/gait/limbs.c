@@ -34,7 +34,7 @@ static uint32_t take_joints(const sbri_rig *rig, int32_t root_bone, int32_t end,
 static void give_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const uint32_t *bones, float weight,
     sbr_transform *pose) {
   sbr_transform frames[SBRI_IK_MAX_JOINTS];
-  sbri_ik_frames(chain, frames);
+  sbri_ik_compute_frames(chain, frames);
   for (uint32_t i = 0; i < chain->count; i++) {
     uint32_t b = bones[i];
     sbf_quat to =
@@ -74,7 +74,7 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
     return;
   }
   sbr_transform frames[SBRI_IK_MAX_JOINTS]; /* of three bones; the others are posed after them */
-  sbri_ik_frames(&chain, frames);
+  sbri_ik_compute_frames(&chain, frames);
   for (uint32_t i = 0; i < chain.count; i++) pose[bones[i]] = frames[i];
 }
 
@@ -137,7 +137,7 @@ static bool joins_tree(const sbri_rig *rig, const sbri_limb_target *targets, uin
   return targets[index].weight > 0 && chain->solver == SBF_IK_SOLVER_FABRIK && chain->root == root;
 }
 
-static uint32_t place_in_tree(const limb_tree *tree, uint32_t bone) {
+static uint32_t find_in_tree(const limb_tree *tree, uint32_t bone) {
   uint32_t i = 0;
   while (i < tree->count && tree->bones[i] != bone) i++;
   return i;
@@ -146,13 +146,13 @@ static uint32_t place_in_tree(const limb_tree *tree, uint32_t bone) {
 static bool add_to_tree(
     limb_tree *tree, const sbri_ik_joint *joints, const uint32_t *bones, uint32_t count, sbf_vec3 target) {
   for (uint32_t i = 0; i < count; i++) {
-    if (place_in_tree(tree, bones[i]) < tree->count) continue;
+    if (find_in_tree(tree, bones[i]) < tree->count) continue;
     if (tree->count == SBRI_IK_MAX_JOINTS) return false;
-    tree->parents[tree->count] = i ? place_in_tree(tree, bones[i - 1]) : 0;
+    tree->parents[tree->count] = i ? find_in_tree(tree, bones[i - 1]) : 0;
     tree->joints[tree->count] = joints[i];
     tree->bones[tree->count++] = bones[i];
   }
-  tree->goals[tree->goal_count++] = (sbri_ik_goal){place_in_tree(tree, bones[count - 1]), target};
+  tree->goals[tree->goal_count++] = (sbri_ik_goal){find_in_tree(tree, bones[count - 1]), target};
   return true;
 }
 

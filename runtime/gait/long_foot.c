@@ -15,21 +15,21 @@ static sbf_quat undone(const sbri_rig *rig, int32_t bone, const sbr_transform *p
  * knee can turn: the foot leans by what is left. */
 static float span_for(const sbri_leg *leg, sbri_foot *foot, float upright, float min,
     const sbri_gait_input *input, sbri_advance advance) {
-  float scale = input->scale, full = sbri_ease_reach(upright, leg->reach * scale, leg->soft_reach);
+  float scale = input->scale, full = sbri_soften_reach(upright, leg->reach * scale, leg->soft_reach);
   float span = sbri_leg_span(leg, scale, full);
   if (span < min) span = min;
   if (advance == SBRI_ADVANCE_TICK) {
     float wanted = sbri_knee_angle(leg, scale, span), angle = sbri_knee_follow(foot, wanted, input->tick_s);
-    foot->knee_held = angle != wanted ? angle : 0;
+    foot->knee_locked = angle != wanted ? angle : 0;
     sbri_knee_keep(foot, angle, wanted, input->tick_s);
   }
-  return foot->knee_held > 0 ? sbri_knee_distance(leg, scale, foot->knee_held) : span;
+  return foot->knee_locked > 0 ? sbri_knee_distance(leg, scale, foot->knee_locked) : span;
 }
 
 sbf_vec3 sbri_long_foot_lean(const sbri_leg *leg, sbri_foot *foot, sbf_vec3 hip, sbf_vec3 sole,
     sbf_vec3 ankle, const sbri_gait_input *input, sbri_advance advance, sbf_quat *leans) {
   float scale = input->scale;
-  sbf_vec3 toe = sbri_add(sole, sbri_rotate(foot->turned, sbri_scale(leg->toe_place, scale)));
+  sbf_vec3 toe = sbri_add(sole, sbri_rotate(foot->turned, sbri_scale(leg->toe_position, scale)));
   sbf_vec3 is = sbri_sub(ankle, toe), to_hip = sbri_sub(hip, toe), away = sbri_sub(ankle, hip);
   float length = sbri_length(is), far = sbri_length(to_hip);
   float min = sqrtf(far * far + length * length - 2 * ALIGNED * far * length);
@@ -46,17 +46,17 @@ sbf_vec3 sbri_long_foot_lean(const sbri_leg *leg, sbri_foot *foot, sbf_vec3 hip,
 
 sbf_vec3 sbri_long_foot_over(
     const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float scale, const sbr_transform *pose) {
-  sbf_vec3 over_toe = sbri_rotate(undone(rig, leg->foot, pose), sbri_sub(leg->ankle, leg->toe_place));
-  return sbri_scale(sbri_add(over_toe, sbri_rotate(foot->turned, leg->toe_place)), scale);
+  sbf_vec3 over_toe = sbri_rotate(undone(rig, leg->foot, pose), sbri_sub(leg->ankle, leg->toe_position));
+  return sbri_scale(sbri_add(over_toe, sbri_rotate(foot->turned, leg->toe_position)), scale);
 }
 
 sbr_transform sbri_long_foot_toe(
     const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float scale, const sbr_transform *pose) {
   sbf_quat stands = sbri_quat_multiply(foot->turned, rig->rest[leg->toe].rotation);
   sbf_quat own = sbri_quat_multiply(undone(rig, leg->foot, pose), rig->rest[leg->toe].rotation);
-  sbf_vec3 ahead = sbri_scale(sbri_sub(leg->toe_place, leg->ankle), scale);
-  sbf_vec3 place = sbri_add(pose[leg->foot].position, sbri_rotate(undone(rig, leg->foot, pose), ahead));
-  sbr_transform toe = {place, sbri_quat_blend(own, stands, leg->toe_copies)};
+  sbf_vec3 ahead = sbri_scale(sbri_sub(leg->toe_position, leg->ankle), scale);
+  sbf_vec3 position = sbri_add(pose[leg->foot].position, sbri_rotate(undone(rig, leg->foot, pose), ahead));
+  sbr_transform toe = {position, sbri_quat_blend(own, stands, leg->toe_copies)};
   const sbri_joint_limit *limit = &rig->limits[leg->toe];
   if (!limit->active) return toe;
   sbf_quat above = pose[leg->foot].rotation;

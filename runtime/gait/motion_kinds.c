@@ -12,7 +12,7 @@ size_t sbri_motion_size(const sbri_rig *rig) {
          (rig->gait->wheels.count + rig->gait->treads.count) * sizeof(float);
 }
 
-void sbri_motion_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+void sbri_motion_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (!sbri_is_afloat(rig)) return;
   float altitude = rig->gait->medium ? rig->gait->medium->altitude * input->scale : 0;
   float lowest = sbri_afloat_lowest(rig, input, sbri_quat_identity()) + altitude;

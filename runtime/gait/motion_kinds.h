@@ -66,7 +66,7 @@ float sbri_motion_speed(const sbri_rig *rig, const sbri_gait_state *state);
 
 size_t sbri_motion_size(const sbri_rig *rig);
 /* Begins the state where the body has been placed. */
-void sbri_motion_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+void sbri_motion_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 /* The drive as the kind can follow it. */
 sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *input);
 /* Factor of the speed in this tick, of what hops; advances the hop. */
@@ -84,10 +84,10 @@ void sbri_motion_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
 /* ---- gait/afloat.c: through water and air ---- */
 
 /* Lowest height of the origin above the ground at which nothing of it touches that; of how it is turned. */
-float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat turn);
-/* Eases the velocity, and moves the body in three dimensions by `way`. Returns the turn made. */
+float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat rotation);
+/* Eases the velocity, and moves the body in three dimensions by `direction`. Returns the turn made. */
 float sbri_afloat_move(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 *way);
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 *direction);
 sbr_transform sbri_afloat_root(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform level);
 
@@ -112,7 +112,7 @@ void sbri_fins_pose(
 /* Deviation of the serpenoid curve from its mean line at a phase (cycles), to the left and ahead, for a path
  * of wavelength 1; `mean` receives how far the line goes for each metre of the path. */
 sbf_vec3 sbri_serpenoid(float amplitude, float phase, float *mean);
-void sbri_slither_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+void sbri_slither_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 void sbri_slither_tick(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step);
 void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

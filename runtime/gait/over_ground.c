@@ -16,12 +16,12 @@ sbf_vec3 sbri_turned(sbf_vec3 v, float yaw) {
   return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
 }
 
-sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 *normal) {
+sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 position, sbf_vec3 *normal) {
   sbf_vec3 unit;
   double y = input->ground->height(
-      input->ground, input->origin.x + (double)place.x, input->origin.z + (double)place.z, &unit);
+      input->ground, input->origin.x + (double)position.x, input->origin.z + (double)position.z, &unit);
   if (normal) *normal = unit;
-  return sbri_vec3(place.x, (float)(y - input->origin.y), place.z);
+  return sbri_vec3(position.x, (float)(y - input->origin.y), position.z);
 }
 
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b) {

@@ -8,8 +8,8 @@
 #include "math/trig.h"
 
 static const sbf_vec3 UP = {0, 1, 0};
-static const float SOLE_HELD = 5e-4f; /* of a leg's length: so near its place a sole is held */
-static const float HANGS = 0.25f;     /* phase of a step from which a foot hangs, and the same at its end */
+static const float SOLE_LOCKED = 5e-4f; /* of a leg's length: so near its place a sole is held */
+static const float HANGS = 0.25f;       /* phase of a step from which a foot hangs, and the same at its end */
 enum { SOLE_PASSES = 4 };
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -18,8 +18,8 @@ static sbf_quat yaw_rotation(float yaw) {
 
 /* Yaw against the heading that a bone of the spine has, or that its parent hands on. */
 static float spine_yaw(const sbri_rig *rig, const sbri_stance *stance, int32_t bone) {
-  if (bone < 0 || rig->spine_share[bone] < 0) return 0;
-  return stance->hips_yaw + rig->spine_share[bone] * (stance->chest_yaw - stance->hips_yaw);
+  if (bone < 0 || rig->spine_fraction[bone] < 0) return 0;
+  return stance->hips_yaw + rig->spine_fraction[bone] * (stance->chest_yaw - stance->hips_yaw);
 }
 
 /* Turns of a tail's bone in world axes, beyond what the bones before it have turned. */
@@ -47,9 +47,9 @@ static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, con
 static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *parent, sbr_transform *pose) {
   if (!rig->limits[bone].active) return;
   sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(parent->rotation), pose[bone].rotation);
-  sbf_quat held = sbri_joint_limit_clamp(&rig->limits[bone], local);
-  if (held.x == local.x && held.y == local.y && held.z == local.z && held.w == local.w) return;
-  pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, held));
+  sbf_quat limited = sbri_joint_limit_clamp(&rig->limits[bone], local);
+  if (limited.x == local.x && limited.y == local.y && limited.z == local.z && limited.w == local.w) return;
+  pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, limited));
 }
 
 /* By more than the gait, which keeps limits itself. */
@@ -69,25 +69,25 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
     if (rig->roles[i] == SBRI_ROLE_LEG) continue; /* against its parent until its leg is solved */
     const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
     sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* against its parent so far */
-    sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), turn;
+    sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), rotation;
     pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
     switch (rig->roles[i]) {
     case SBRI_ROLE_SPINE:
-      turn =
+      rotation =
           sbri_quat_about(up, spine_yaw(rig, stance, (int32_t)i) - spine_yaw(rig, stance, rig->parents[i]));
       break;
     case SBRI_ROLE_HEAD:
-      turn = sbri_quat_about(up, state->head_yaw.value - stance->chest_yaw);
+      rotation = sbri_quat_about(up, state->head_yaw.value - stance->chest_yaw);
       break;
     case SBRI_ROLE_TAIL:
-      turn = tail_turn(rig, state, stance, i, up);
+      rotation = tail_turn(rig, state, stance, i, up);
       break;
     default:
       pose[i].rotation = sbri_quat_normalize(is);
       if (animated) limit_bone(rig, i, parent, pose);
       continue;
     }
-    pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, is));
+    pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(rotation, is));
     limit_bone(rig, i, parent, pose);
   }
 }
@@ -96,15 +96,15 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
 static sbf_vec3 pole_of(
     const sbri_leg *leg, const sbr_transform *root, float scale, const sbr_transform *pose) {
   const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
-  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole_place, scale)));
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole_position, scale)));
 }
 
 /* Puts a bone of a leg somewhere; what else hangs on it goes along, or is posed later. */
 static void put_bone(
     const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
   if (!leg->last && (leg->has_others || bone == leg->foot)) {
-    sbf_quat turn = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
-    sbri_rig_turn(rig, (uint32_t)bone, turn, pose);
+    sbf_quat rotation = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
+    sbri_rig_turn(rig, (uint32_t)bone, rotation, pose);
     sbri_rig_shift(rig, (uint32_t)bone, sbri_sub(to.position, pose[bone].position), pose);
   }
   pose[bone] = to;
@@ -123,8 +123,8 @@ static void pose_peg(
     const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position, spare = sbri_vec3(0, -1, 0);
   sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
-  sbf_quat turn = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
-  sbri_rig_turn(rig, (uint32_t)leg->upper, turn, pose);
+  sbf_quat rotation = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
+  sbri_rig_turn(rig, (uint32_t)leg->upper, rotation, pose);
   /* What its one length leaves over or lacks is the foot's: it stands where it stands. */
   pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
@@ -132,7 +132,8 @@ static void pose_peg(
 /* An ankle as near as the leg's soft reach lets it be stretched. */
 static sbf_vec3 eased_ankle(const sbri_leg *leg, sbf_vec3 hip, sbf_vec3 ankle, float scale) {
   sbf_vec3 away = sbri_sub(ankle, hip);
-  float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
+  float distance = sbri_length(away),
+        eased = sbri_soften_reach(distance, leg->reach * scale, leg->soft_reach);
   return eased < distance ? sbri_add_scaled(hip, away, eased / distance) : ankle;
 }
 
@@ -186,32 +187,32 @@ static float span_of(const sbri_leg *leg, const sbr_transform *pose) {
 }
 
 /* Holds a leg's knee to what it can do in a tick, if it is in the air, and notes where it has come to. */
-static void ease_knee(const sbri_rig *rig, const sbri_gait_input *input, const sbri_leg *leg, sbri_foot *foot,
-    sbf_vec3 pole, sbf_vec3 fallback, sbri_advance advance, sbr_transform *pose) {
+static void soften_knee(const sbri_rig *rig, const sbri_gait_input *input, const sbri_leg *leg,
+    sbri_foot *foot, sbf_vec3 pole, sbf_vec3 fallback, sbri_advance advance, sbr_transform *pose) {
   float wanted = 0, span = span_of(leg, pose);
   if (advance == SBRI_ADVANCE_TICK) {
     wanted = sbri_knee_angle(leg, input->scale, span);
     bool swings = !foot->planted && leg->carrier < 0; /* what hangs on a chain goes as that is dragged */
     float angle = swings ? sbri_knee_follow(foot, wanted, input->tick_s) : wanted;
-    foot->knee_held = angle != wanted ? angle : 0;
+    foot->knee_locked = angle != wanted ? angle : 0;
   }
-  if (foot->knee_held > 0 && span > 0) {
-    float share = sbri_knee_distance(leg, input->scale, foot->knee_held) / span;
+  if (foot->knee_locked > 0 && span > 0) {
+    float fraction = sbri_knee_distance(leg, input->scale, foot->knee_locked) / span;
     sbf_vec3 hip = pose[leg->upper].position;
-    sbf_vec3 ankle = sbri_add_scaled(hip, sbri_sub(pose[leg->foot].position, hip), share);
+    sbf_vec3 ankle = sbri_add_scaled(hip, sbri_sub(pose[leg->foot].position, hip), fraction);
     solve_leg(rig, leg, foot, ankle, pole, fallback, input->scale, pose);
     span = span_of(leg, pose);
   }
   if (advance == SBRI_ADVANCE_TICK)
-    sbri_knee_keep(
-        foot, foot->knee_held > 0 ? sbri_knee_angle(leg, input->scale, span) : wanted, wanted, input->tick_s);
+    sbri_knee_keep(foot, foot->knee_locked > 0 ? sbri_knee_angle(leg, input->scale, span) : wanted, wanted,
+        input->tick_s);
 }
 
 /* A leg whose long foot leans over its toe: its ankle goes where that takes it, and its sole stays. */
 static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *foot,
     const sbri_gait_input *input, sbf_vec3 sole, sbf_vec3 fallback, sbri_advance advance,
     sbr_transform *pose) {
-  float scale = input->scale, held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
+  float scale = input->scale, limited = SOLE_LOCKED * (leg->upper_length + leg->lower_length) * scale;
   sbri_foot leaning = *foot;
   sbf_vec3 upright = sbri_ankle_over(leg, foot, sole, scale);
   sbf_vec3 ankle = sbri_long_foot_lean(
@@ -221,7 +222,7 @@ static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *
     if (!rig->limits[leg->foot].active) break;
     ankle = sbri_add(sole, sbri_long_foot_over(rig, leg, foot, scale, pose));
     foot->missed = sbri_length(sbri_sub(ankle, pose[leg->foot].position));
-    if (foot->missed <= held) break;
+    if (foot->missed <= limited) break;
   }
   sbr_transform toe = sbri_long_foot_toe(rig, leg, foot, scale, pose), *is = &pose[leg->toe];
   if (!leg->last) {
@@ -248,7 +249,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
   float near = foot->phase < 0.5f ? foot->phase : 1 - foot->phase; /* to lifting off or coming down */
   float stands = foot->planted ? 1 : 1 - sbri_smooth(near / HANGS);
-  float held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
+  float limited = SOLE_LOCKED * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
   if (leg->has_toe) {
     pose_long_foot(rig, leg, foot, input, sole, fallback, advance, pose);
@@ -261,10 +262,10 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     /* A foot that its ankle lets turn no farther stands where it stands all the same; in the air it hangs. */
     sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
     foot->missed = sbri_length(sbri_sub(sbri_add(sole, over), pose[leg->foot].position));
-    if (foot->missed <= held || stands <= 0) break;
+    if (foot->missed <= limited || stands <= 0) break;
     ankle = sbri_lerp(flat, sbri_add(sole, over), stands);
   }
-  ease_knee(rig, input, leg, foot, pole, fallback, advance, pose);
+  soften_knee(rig, input, leg, foot, pole, fallback, advance, pose);
   if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }
 
@@ -311,8 +312,8 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
     stance.root.rotation = yaw_rotation(state->heading);
   }
   for (uint32_t i = 0; input->hold && i < rig->bone_count; i++) {
-    sbf_vec3 place = sbri_scale(rig->rest[i].position, input->scale);
-    pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, place));
+    sbf_vec3 position = sbri_scale(rig->rest[i].position, input->scale);
+    pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, position));
     pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->rest[i].rotation);
   }
   if (input->hold) {

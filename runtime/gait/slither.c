@@ -55,7 +55,7 @@ static float spacing_of(const sbri_rig *rig, const sbri_gait_input *input) {
   return rig->wave_length * input->scale / (float)SBRI_PATH_PER_BODY;
 }
 
-void sbri_slither_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+void sbri_slither_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   const sbf_undulation *wave = rig->gait->undulation;
   sbri_motion_state *m = sbri_motion(rig, state);
   m->path_count = 0;
@@ -83,11 +83,11 @@ void sbri_slither_tick(
   m->nose = nose_at(rig, state, input, m->path_phase, 0);
   float spacing = spacing_of(rig, input);
   for (uint32_t i = 0; i < SBRI_PATH_POINTS; i++) { /* no tick goes so far as to need more */
-    sbf_vec3 way = sbri_sub(m->nose, m->path[0]);
-    float far = sbri_length(way);
+    sbf_vec3 displacement = sbri_sub(m->nose, m->path[0]);
+    float far = sbri_length(displacement);
     if (!(far >= spacing)) break;
     memmove(m->path + 1, m->path, (SBRI_PATH_POINTS - 1) * sizeof *m->path);
-    m->path[0] = sbri_add_scaled(m->path[1], way, spacing / far);
+    m->path[0] = sbri_add_scaled(m->path[1], displacement, spacing / far);
   }
   m->path_ahead = sbri_flat_distance(m->nose, m->path[0]);
 }
@@ -108,9 +108,9 @@ static sbf_vec3 behind(const sbri_motion_state *m, sbf_vec3 from, float distance
   }
   sbf_vec3 last = m->path[m->path_count - 1];
   *segment = m->path_count;
-  sbf_vec3 way = sbri_sub(last, m->path[m->path_count - 2]);
-  if (sbri_flat_distance(from, last) > 0 && *segment == m->path_count) way = sbri_sub(last, from);
-  return sbri_add_scaled(from, sbri_normalize(way, sbri_vec3(0, 0, -1)), distance);
+  sbf_vec3 displacement = sbri_sub(last, m->path[m->path_count - 2]);
+  if (sbri_flat_distance(from, last) > 0 && *segment == m->path_count) displacement = sbri_sub(last, from);
+  return sbri_add_scaled(from, sbri_normalize(displacement, sbri_vec3(0, 0, -1)), distance);
 }
 
 /* A joint of the body on the ground, at its rest height above it. */
@@ -123,14 +123,14 @@ static sbf_vec3 grounded(
 /* A bone on the path: its ends and how it is turned from its rest against the root frame. */
 typedef struct placed_bone {
   sbf_vec3 front, back;
-  sbf_quat turn;
+  sbf_quat rotation;
 } placed_bone;
 
-static sbf_quat yaw_to(sbf_vec3 way, sbf_vec3 rest) {
-  sbf_quat turn = {0, 0, 0, 1};
-  float yaw = sbri_atan2(way.x, way.z) - sbri_atan2(rest.x, rest.z);
-  sbri_sincos(0.5f * yaw, &turn.y, &turn.w);
-  return turn;
+static sbf_quat yaw_to(sbf_vec3 direction, sbf_vec3 rest) {
+  sbf_quat rotation = {0, 0, 0, 1};
+  float yaw = sbri_atan2(direction.x, direction.z) - sbri_atan2(rest.x, rest.z);
+  sbri_sincos(0.5f * yaw, &rotation.y, &rotation.w);
+  return rotation;
 }
 
 /* What turns the direction of a bone at rest to `now`: about +Y, then up, so that its back stays up. */
@@ -145,18 +145,18 @@ static sbf_quat turn_between(sbf_vec3 rest, sbf_vec3 now) {
 }
 
 /* The next joint behind `from`, whose rest is `rest` further: along the path where the body lies; where it
- * stands up, as the neck of a cobra, straight up or back along the path's direction `way`. */
-static sbf_vec3 next_joint(
-    const sbri_motion_state *m, sbf_vec3 from, sbf_vec3 rest, sbf_vec3 way, float scale, uint32_t *segment) {
+ * stands up, as the neck of a cobra, straight up or back along the path's direction `direction`. */
+static sbf_vec3 next_joint(const sbri_motion_state *m, sbf_vec3 from, sbf_vec3 rest, sbf_vec3 direction,
+    float scale, uint32_t *segment) {
   float flat = sqrtf(rest.x * rest.x + rest.z * rest.z) * scale;
   if (!(flat > 0)) return from;
   bool stands = fabsf(rest.y) * scale > flat;
-  if (stands && rest.z > 0) return sbri_add_scaled(from, way, flat);
+  if (stands && rest.z > 0) return sbri_add_scaled(from, direction, flat);
   return behind(m, from, flat, segment);
 }
 
 /* Places the chain's bones from the nose to the `last`; returns that one. */
-static placed_bone place_bone(
+static placed_bone set_bone(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t last) {
   const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
   const sbf_vec3 *joints = rig->wave_joints;
@@ -166,19 +166,19 @@ static placed_bone place_bone(
   for (uint32_t k = 0;; k++) {
     sbf_vec3 rest = sbri_sub(joints[2 * k + 1], joints[2 * k]);
     uint32_t ahead = segment;
-    sbf_vec3 way = sbri_sub(front, behind(m, front, 0.02f * rig->wave_length * scale, &ahead));
-    way = sbri_normalize(way, sbri_vec3(0, 0, 1));
-    sbf_vec3 back = next_joint(m, front, rest, way, scale, &segment);
+    sbf_vec3 direction = sbri_sub(front, behind(m, front, 0.02f * rig->wave_length * scale, &ahead));
+    direction = sbri_normalize(direction, sbri_vec3(0, 0, 1));
+    sbf_vec3 back = next_joint(m, front, rest, direction, scale, &segment);
     if (k == last) {
       sbf_vec3 a = grounded(state, input, front, joints[2 * k].y);
       sbf_vec3 b = grounded(state, input, back, joints[2 * k + 1].y);
       float flat = rest.x * rest.x + rest.z * rest.z;
       bool lies = flat > rest.y * rest.y;
-      sbf_quat turn =
-          lies ? turn_between(sbri_scale(rest, -1), sbri_sub(a, b)) : yaw_to(way, sbri_vec3(0, 0, 1));
-      return (placed_bone){a, b, turn};
+      sbf_quat rotation =
+          lies ? turn_between(sbri_scale(rest, -1), sbri_sub(a, b)) : yaw_to(direction, sbri_vec3(0, 0, 1));
+      return (placed_bone){a, b, rotation};
     }
-    front = next_joint(m, back, sbri_sub(joints[2 * k + 2], joints[2 * k + 1]), way, scale, &segment);
+    front = next_joint(m, back, sbri_sub(joints[2 * k + 2], joints[2 * k + 1]), direction, scale, &segment);
   }
 }
 
@@ -191,8 +191,8 @@ void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   for (uint32_t bone = 0; bone < rig->bone_count; bone++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != bone) continue;
-      placed_bone at = place_bone(rig, state, input, k);
-      sbf_quat to = sbri_quat_normalize(sbri_quat_multiply(at.turn, rig->rest[bone].rotation));
+      placed_bone at = set_bone(rig, state, input, k);
+      sbf_quat to = sbri_quat_normalize(sbri_quat_multiply(at.rotation, rig->rest[bone].rotation));
       sbri_rig_turn(rig, bone, sbri_quat_multiply(to, sbri_quat_conjugate(pose[bone].rotation)), pose);
       pose[bone].rotation = to;
       sbf_vec3 head = rig->rest[bone].position;

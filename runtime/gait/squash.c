@@ -19,8 +19,8 @@ static float stretch_of(float lag, float limit) {
 }
 
 /* Where a squashed bone carries a place, world axes. */
-static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, sbf_vec3 place) {
-  sbf_vec3 off = sbri_sub(place, bone->position);
+static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, sbf_vec3 position) {
+  sbf_vec3 off = sbri_sub(position, bone->position);
   float across = 1 / sqrtf(along);
   sbf_vec3 at = sbri_add_scaled(bone->position, off, across);
   return sbri_add_scaled(at, axis, (along - across) * sbri_dot(axis, off));
@@ -50,13 +50,13 @@ void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     if (!squashes(source)) continue;
     sbf_vec3 axis = sbri_rotate(pose[b].rotation, sbri_squash_axis(source));
     if (advance == SBRI_ADVANCE_RESET) {
-      sbri_place_follower_reset(&follower->place, pose[b].position);
+      sbri_position_follower_reset(&follower->position, pose[b].position);
       follower->stretch = follower->stretch_before = 1;
     } else if (advance == SBRI_ADVANCE_TICK) {
       sbri_follower_step step =
           sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
-      sbri_place_follower_tick(&follower->place, pose[b].position, &step);
-      float lag = sbri_dot(axis, sbri_sub(follower->place.value, pose[b].position));
+      sbri_position_follower_tick(&follower->position, pose[b].position, &step);
+      float lag = sbri_dot(axis, sbri_sub(follower->position.value, pose[b].position));
       follower->stretch =
           length > 0 ? stretch_of(source->strength * lag / (length * input->scale), source->limit) : 1;
     }
@@ -64,15 +64,15 @@ void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   }
 }
 
-void sbri_gait_settle(const sbri_rig *rig, void *state) {
+void sbri_gait_begin_tick(const sbri_rig *rig, void *state) {
   sbri_bone_follower *followers = sbri_bone_followers(rig, state);
   for (uint32_t i = 0; i < rig->asset->followers.count; i++)
     followers[i].stretch_before = followers[i].stretch;
 }
 
-float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float share) {
+float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float fraction) {
   const sbf_follower *source = &rig->asset->followers.at[follower];
   if (!squashes(source)) return 1;
   const sbri_bone_follower *f = sbri_bone_followers(rig, (sbri_gait_state *)(uintptr_t)state) + follower;
-  return share >= 1 ? f->stretch : f->stretch_before + (f->stretch - f->stretch_before) * share;
+  return fraction >= 1 ? f->stretch : f->stretch_before + (f->stretch - f->stretch_before) * fraction;
 }

@@ -9,18 +9,19 @@
 #include "gait/gait_state.h"
 #include "math/trig.h"
 
-static const float CLEAR = 0.35f;       /* of the usual lift: kept above what lies between */
-static const float MAX_OVER = 2.5f;     /* usual lifts over the highest thing on its way */
-static const float LATEST = 0.3f;       /* of a step's time, in which a foot beside an obstacle only rises */
-static const float SOONEST = 0.6f;      /* the same, in which it makes the height between its places */
-static const float KNEE_STEP = 3.925f;  /* degrees by which a knee's turn in a frame may change in the next */
-static const float FRAME_S = 1.0f / 60; /* such a frame */
-static const float LONGEST_STEP = 2.4f; /* of the time asked for */
+static const float CLEAR = 0.35f;   /* clearance above obstacles as a fraction of the usual lift */
+static const float MAX_OVER = 2.5f; /* maximum lift over the highest obstacle, in usual lifts */
+static const float LATEST =
+    0.3f; /* maximum fraction of the step in which a foot beside an obstacle only rises */
+static const float SOONEST = 0.6f;      /* minimum fraction of the step in which the height changes */
+static const float KNEE_STEP = 3.925f;  /* maximum change of the knee's rate per frame, degrees */
+static const float FRAME_S = 1.0f / 60; /* that frame */
+static const float LONGEST_STEP = 2.4f; /* maximum duration as a multiple of the requested one */
 static const float SHORTEST = 0.5f;     /* the same: what is told of a step that needs less */
 static const float DEGREES = 57.2957795f;
-enum { LOOKS = 12, TRIES = 6, SAMPLES = 16 };
+enum { PROFILE_SAMPLES = 12, TRIES = 6, SAMPLES = 16 };
 
-/* Shares of the way over the ground and of the heights at phase t of a step. */
+/* Fractions of horizontal and vertical travel at phase t of a step. */
 static float travel(const sbri_foot *foot, float t) {
   return sbri_smooth((t - foot->leaves) / (foot->arrives - foot->leaves));
 }
@@ -31,44 +32,45 @@ static float height_at(const sbri_foot *foot, float t) {
   return foot->from.y + (foot->to.y - foot->from.y) * climb + foot->clearance * sbri_smooth(up);
 }
 
-/* Slope of the ground along a level way, from its normal. */
-static float slope_along(sbf_vec3 normal, sbf_vec3 way) {
-  return normal.y > 0.1f ? -(normal.x * way.x + normal.z * way.z) / normal.y : 0;
+/* Slope of the ground along a horizontal direction, from its normal. */
+static float slope_along(sbf_vec3 normal, sbf_vec3 direction) {
+  return normal.y > 0.1f ? -(normal.x * direction.x + normal.z * direction.z) / normal.y : 0;
 }
 
-/* What lies below a foot on its way, looked at before it goes: how high over the line between its two places
- * the sole's middle has to be so that nothing of it is in the ground, however the foot is turned on its way.
- */
+/* Height profile of the ground below a step, sampled in advance: minimum height of the sole's middle above
+ * the line between both ends at which no part of the foot penetrates, whatever its rotation. */
 typedef struct profile {
-  float over[LOOKS + 1];
-  float highest; /* over the higher one of both places */
+  float over[PROFILE_SAMPLES + 1];
+  float highest; /* above the higher end */
 } profile;
 
-static profile look(const sbri_gait_state *state, const sbri_gait_input *input, const sbri_foot *foot,
+static profile check(const sbri_gait_state *state, const sbri_gait_input *input, const sbri_foot *foot,
     const sbri_sole *sole) {
   profile p = {.highest = 0};
-  sbf_vec3 way = sbri_sub(foot->to, foot->from);
-  way.y = 0;
-  way = sbri_normalize(way, sbri_vec3(0, 0, 0));
+  sbf_vec3 direction = sbri_sub(foot->to, foot->from);
+  direction.y = 0;
+  direction = sbri_normalize(direction, sbri_vec3(0, 0, 0));
   float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
-  float from_slope = slope_along(foot->from_normal, way), to_slope = slope_along(foot->to_normal, way);
+  float from_slope = slope_along(foot->from_normal, direction),
+        to_slope = slope_along(foot->to_normal, direction);
   float turned = state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
   float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y;
-  for (int k = 0; k <= LOOKS; k++) {
-    float share = (float)k / LOOKS, tilt = half * (from_slope + share * (to_slope - from_slope));
-    sbf_vec3 at = sbri_lerp(foot->from, foot->to, share);
-    float fore = sbri_ground_below(input, sbri_add_scaled(at, way, half), NULL).y - tilt;
-    float hind = sbri_ground_below(input, sbri_add_scaled(at, way, -half), NULL).y + tilt;
+  for (int k = 0; k <= PROFILE_SAMPLES; k++) {
+    float fraction = (float)k / PROFILE_SAMPLES,
+          tilt = half * (from_slope + fraction * (to_slope - from_slope));
+    sbf_vec3 at = sbri_lerp(foot->from, foot->to, fraction);
+    float fore = sbri_ground_below(input, sbri_add_scaled(at, direction, half), NULL).y - tilt;
+    float hind = sbri_ground_below(input, sbri_add_scaled(at, direction, -half), NULL).y + tilt;
     float max = sbri_ground_below(input, at, NULL).y;
     max = fore > max ? fore : max;
     max = hind > max ? hind : max;
     for (int c = 0; c < 4; c++) {
       sbf_vec3 corner = {c & 1 ? sole->left : sole->right, 0, c & 2 ? sole->toe : sole->heel};
       corner =
-          sbri_turned(sbri_scale(corner, input->scale), foot->heading + share * (turned - foot->heading));
+          sbri_turned(sbri_scale(corner, input->scale), foot->heading + fraction * (turned - foot->heading));
       corner = sbri_headed(state, corner);
       float from = slope_along(foot->from_normal, corner), to = slope_along(foot->to_normal, corner);
-      float under = sbri_ground_below(input, sbri_add(at, corner), NULL).y - from - share * (to - from);
+      float under = sbri_ground_below(input, sbri_add(at, corner), NULL).y - from - fraction * (to - from);
       max = under > max ? under : max;
     }
     p.over[k] = max - at.y;
@@ -77,25 +79,26 @@ static profile look(const sbri_gait_state *state, const sbri_gait_input *input, 
   return p;
 }
 
-/* By how much the path lacks clearance at most, and at which phase. */
+/* Maximum lack of clearance of the path and the phase of it. */
 static float lack(const sbri_foot *foot, const profile *p, float margin, float *when) {
   float worst = 0;
-  for (int k = 1; k < 2 * LOOKS; k++) {
-    float t = (float)k / (2 * LOOKS), share = travel(foot, t), place = share * LOOKS;
-    int i = (int)place < LOOKS ? (int)place : LOOKS - 1;
+  for (int k = 1; k < 2 * PROFILE_SAMPLES; k++) {
+    float t = (float)k / (2 * PROFILE_SAMPLES), fraction = travel(foot, t),
+          coordinate = fraction * PROFILE_SAMPLES;
+    int i = (int)coordinate < PROFILE_SAMPLES ? (int)coordinate : PROFILE_SAMPLES - 1;
     float near = p->over[i] > p->over[i + 1] ? p->over[i] : p->over[i + 1]; /* an edge may lie between */
-    float rises = 4 * t * (1 - t), line = foot->from.y + share * (foot->to.y - foot->from.y);
+    float rises = 4 * t * (1 - t), line = foot->from.y + fraction * (foot->to.y - foot->from.y);
     float low = line + near + margin * rises * rises - height_at(foot, t);
-    bool leaves = place < 1 && p->over[1] <= margin,
-         comes = place > LOOKS - 1 && p->over[LOOKS - 1] <= margin;
+    bool leaves = coordinate < 1 && p->over[1] <= margin,
+         comes = coordinate > PROFILE_SAMPLES - 1 && p->over[PROFILE_SAMPLES - 1] <= margin;
     if (!leaves && !comes && low > worst) worst = low, *when = t;
   }
   return worst;
 }
 
-/* Makes the step's times such that more of it is clear, but for what it has begun; false where they are as
- * they can be. */
-static bool make_room(sbri_foot *foot, float when) {
+/* Changes the step's timing to increase clearance, except for motion that has begun. Returns false if the
+ * timing is at its limits. */
+static bool add_clearance(sbri_foot *foot, float when) {
   float rise = foot->to.y - foot->from.y;
   bool fresh = foot->phase <= 0;
   if (rise > 0 && foot->climbed > SOONEST) {
@@ -120,20 +123,20 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   foot->clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
-  profile p = look(state, input, foot, &rig->legs[leg].sole);
+  profile p = check(state, input, foot, &rig->legs[leg].sole);
   float max = MAX_OVER * (usual + p.highest);
   for (int tries = 0; tries < TRIES; tries++) {
     float missing = lack(foot, &p, CLEAR * usual, &when);
     if (missing <= 0) return;
-    if (make_room(foot, when)) continue;
+    if (add_clearance(foot, when)) continue;
     float up = sbri_smooth(when < 0.5f ? 2 * when : 2 - 2 * when);
     foot->clearance += missing / (up > 0.5f ? up : 0.5f);
     if (foot->clearance > max) foot->clearance = max;
   }
 }
 
-/* Greatest change of the knee's turn from one frame to the next on the planned step, in degrees, were it to
- * take `duration_s` while the hip goes on as it does. */
+/* Maximum change of the knee's rate between frames of the planned step, degrees, for a duration of
+ * `duration_s` and constant hip velocity. */
 static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float duration_s) {
   const sbri_leg *l = &rig->legs[leg];

@@ -125,8 +125,8 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
   if (min > lowered * upright) min = lowered * upright;
   if (height < min) height = min;
-  if (height < upright - state->room.value)
-    height = upright - state->room.value; /* and no farther than its belly */
+  if (height < upright - state->clearance.value)
+    height = upright - state->clearance.value; /* and no farther than its belly */
   if (from.y > 0) height = from.y;
   *off = sbri_vec3(from.x, 0, from.z);
   float over = reach * reach - height * height;
@@ -134,8 +134,8 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
 }
 
 /* How far a place in a circle is from its edge along a way (of unit length). */
-static float to_edge(sbf_vec3 off, float radius, sbf_vec3 way) {
-  float along = sbri_dot(off, way), square = along * along - sbri_dot(off, off) + radius * radius;
+static float to_edge(sbf_vec3 off, float radius, sbf_vec3 direction) {
+  float along = sbri_dot(off, direction), square = along * along - sbri_dot(off, off) + radius * radius;
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
@@ -156,13 +156,13 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
 typedef struct span {
   float ahead, behind;
 } span;
-static span span_of(const sbri_roam *roam, sbf_vec3 way) {
-  return (span){USED * to_edge(roam->off, roam->radius, way),
-      USED * to_edge(roam->off, roam->radius, sbri_scale(way, -1))};
+static span span_of(const sbri_roam *roam, sbf_vec3 direction) {
+  return (span){USED * to_edge(roam->off, roam->radius, direction),
+      USED * to_edge(roam->off, roam->radius, sbri_scale(direction, -1))};
 }
 
-float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half) {
-  span max = span_of(roam, way);
+float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
+  span max = span_of(roam, direction);
   float middle = 0.5f * (max.ahead - max.behind), widest = 0.5f * (max.ahead + max.behind);
   if (half >= widest) return max.ahead;
   float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide ones are about its hip */
@@ -172,7 +172,7 @@ float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half) {
 
 /* Where each leg's home moves and how far about it the foot may be; half of the widest stride that all of
  * them can take, m. */
-static float look_at_homes(
+static float check_homes(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
   float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -182,8 +182,8 @@ static float look_at_homes(
     home->speed = sbri_length(home->velocity);
     home->roam = sbri_roam_of(rig, state, input, i, home->arm);
     s->speed = home->speed > s->speed ? home->speed : s->speed;
-    sbf_vec3 way = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
-    span own = span_of(&home->roam, way);
+    sbf_vec3 direction = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
+    span own = span_of(&home->roam, direction);
     float half = 0.5f * (own.ahead + own.behind);
     max = i == 0 || half < max ? half : max;
   }
@@ -192,7 +192,7 @@ static float look_at_homes(
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
-  float max = look_at_homes(rig, state, input, &s);
+  float max = check_homes(rig, state, input, &s);
   if (state->widest_m > 0) max = state->widest_m + (max - state->widest_m) * input->tick_s / STRIDE_S;
   s.widest_m = max;
   max *= SURE;
@@ -256,11 +256,11 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
   return stance;
 }
 
-float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 way) {
+float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 direction) {
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, LEANING);
-  return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
+  return to_edge(stance.off, stance.radius, sbri_scale(direction, -1));
 }
 
 /* What a planted leg has left before the end of its reach, as its home goes on at `speed`; m. */
@@ -269,11 +269,12 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), v = sbri_home_velocity(rig, state, leg, arm);
   *speed = sbri_length(v);
   if (*speed <= 0) return 0;
-  sbf_vec3 way = sbri_scale(v, 1 / *speed);
+  sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
-  float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
+  float left = to_edge(stance.off, stance.radius, sbri_scale(displacement, -1));
   float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
-  if (turned != 0) left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
+  if (turned != 0)
+    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * turned), -1));
   return left > 0 ? left : 0;
 }
 

@@ -71,10 +71,10 @@ static float margin_of(const polygon *hull, sbf_vec3 p, sbf_vec3 *inwards) {
 }
 
 /* How far a place is from within `low` to `high`, less a margin at both ends. */
-static float into(float place, float low, float high, float margin) {
+static float into(float coordinate, float low, float high, float margin) {
   float middle = 0.5f * (low + high);
   low = low + margin < middle ? low + margin : middle, high = high - margin > middle ? high - margin : middle;
-  return sbri_clamp(place, low, high) - place;
+  return sbri_clamp(coordinate, low, high) - coordinate;
 }
 
 sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
@@ -98,35 +98,36 @@ static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
 }
 
-/* The worse of the margins where the centre is and where it will be, `way` further; with it the way to more.
+/* The worse of the margins where the centre is and where it will be, `direction` further; with it the way to
+ * more.
  */
-static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_vec3 *inwards) {
+static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 direction, sbf_vec3 *inwards) {
   sbf_vec3 then;
-  float now = margin_of(hull, at, inwards), later = margin_of(hull, sbri_add(at, way), &then);
+  float now = margin_of(hull, at, inwards), later = margin_of(hull, sbri_add(at, direction), &then);
   if (later < now) *inwards = then;
   return later < now ? later : now;
 }
 
 bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t lifted, sbf_vec3 way) {
+    uint32_t lifted, sbf_vec3 direction) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 unused, at = center_at(state, state->sway_x.value, state->sway_z.value);
   return margin_of(&hull, at, &unused) >= NEEDED * rig->reach * input->scale &&
-         margin_of(&hull, sbri_add(at, way), &unused) >= 0;
+         margin_of(&hull, sbri_add(at, direction), &unused) >= 0;
 }
 
 sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t lifted, sbf_vec3 way) {
+    uint32_t lifted, sbf_vec3 direction) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 sway = {0, 0, 0}, middle = {0, 0, 0};
   if (hull.count == 0) return sway;
   for (uint32_t i = 0; i < hull.count; i++)
     middle = sbri_add_scaled(middle, hull.at[i], 1 / (float)hull.count);
-  middle = sbri_add_scaled(middle, way, -0.5f);
+  middle = sbri_add_scaled(middle, direction, -0.5f);
   float size = rig->reach * input->scale, sought = SOUGHT * size;
   for (int pass = 0; pass < 6; pass++) {
     sbf_vec3 inwards, at = center_at(state, sway.x, sway.z);
-    float missing = sought - min_margin(&hull, at, way, &inwards);
+    float missing = sought - min_margin(&hull, at, direction, &inwards);
     if (missing <= 1e-5f * size) break;
     sbf_vec3 to_middle = sbri_vec3(middle.x - at.x, 0, middle.z - at.z);
     float away = sbri_length(to_middle); /* a small polygon has no place so far inside */

@@ -13,38 +13,39 @@ static bool is_convex(const sbr_shape *shape) {
 
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider) {
   const sbri_collider *c = &around->colliders->at[collider];
-  if (!sbri_layers_meet(c->layer, c->mask, around->girth->layer, around->girth->mask)) return false;
+  if (!sbri_layers_collide(c->layer, c->mask, around->girth->layer, around->girth->mask)) return false;
   const sbri_collider *leader = sbri_collider_leader(around->colliders, collider);
   float cube = around->scale * around->scale * around->scale;
-  return !leader || leader->body.ease * around->girth->mass * cube < 1;
+  return !leader || leader->body.inverse_mass * around->girth->mass * cube < 1;
 }
 
 /* A collider as it stands when the tick begins or ends. */
 typedef struct stand {
   const sbr_shape *shape;
   const sbr_double3 *at;
-  sbf_quat turn;
+  sbf_quat rotation;
 } stand;
 
 static stand stand_of(const sbri_collider *c, bool begin) {
   return (stand){c->shape, begin ? &c->from : &c->to, begin ? c->turn_from : c->turn_to};
 }
 
-/* Where a vertical ray from (x, from, z) over `way` enters the shape. */
-static bool enter(const stand *s, double x, double z, double from, double way, double *y, sbf_vec3 *normal) {
-  sbf_quat into = sbri_quat_conjugate(s->turn);
+/* Where a vertical ray from (x, from, z) over `travel` enters the shape. */
+static bool enter(
+    const stand *s, double x, double z, double from, double travel, double *y, sbf_vec3 *normal) {
+  sbf_quat into = sbri_quat_conjugate(s->rotation);
   sbf_vec3 off = {(float)(x - s->at->x), (float)(from - s->at->y), (float)(z - s->at->z)}, n;
-  float share;
+  float fraction;
   if (!sbri_shape_enter(
-          s->shape, sbri_rotate(into, off), sbri_rotate(into, sbri_vec3(0, (float)way, 0)), &share, &n))
+          s->shape, sbri_rotate(into, off), sbri_rotate(into, sbri_vec3(0, (float)travel, 0)), &fraction, &n))
     return false;
-  *y = from + (double)share * way;
-  *normal = sbri_rotate(s->turn, n);
+  *y = from + (double)fraction * travel;
+  *normal = sbri_rotate(s->rotation, n);
   return true;
 }
 
 static bool plane_top(const stand *s, double x, double z, double *y, sbf_vec3 *normal) {
-  sbf_vec3 n = sbri_rotate(s->turn, sbri_vec3(0, 1, 0));
+  sbf_vec3 n = sbri_rotate(s->rotation, sbri_vec3(0, 1, 0));
   if (n.y < UPRIGHT) return false;
   *y = s->at->y - ((double)n.x * (x - s->at->x) + (double)n.z * (z - s->at->z)) / (double)n.y;
   *normal = n;
@@ -95,32 +96,34 @@ static double height(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
 }
 
 bool sbri_surroundings_bearer(
-    const sbri_surroundings *around, sbr_double3 place, double off, uint32_t *collider) {
+    const sbri_surroundings *around, sbr_double3 position, double off, uint32_t *collider) {
   sbri_bounds_walk walk;
   sbf_vec3 normal;
   double best = off, y;
   uint32_t i;
   bool any = false;
-  walk_column(&walk, around, place.x, place.z, place.y - off);
+  walk_column(&walk, around, position.x, position.z, position.y - off);
   while (next_below(&walk, around, &i)) {
-    if (!top_of(around, &around->colliders->at[i], true, place.x, place.z, &y, &normal)) continue;
-    double away = y > place.y ? y - place.y : place.y - y;
+    if (!top_of(around, &around->colliders->at[i], true, position.x, position.z, &y, &normal)) continue;
+    double away = y > position.y ? y - position.y : position.y - y;
     if (away < best || (any && away == best && i < *collider)) best = away, *collider = i, any = true;
   }
   return any;
 }
 
 void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
-    const sbr_ground *base, sbr_double3 place, sbri_surroundings *out) {
+    const sbr_ground *base, sbr_double3 position, sbri_surroundings *out) {
   const sbri_girth *girth = &rig->girth;
-  *out = (sbri_surroundings){
-      .base = base, .girth = girth, .scale = scale, .overhead = place.y + (double)(girth->step_up * scale)};
+  *out = (sbri_surroundings){.base = base,
+      .girth = girth,
+      .scale = scale,
+      .overhead = position.y + (double)(girth->step_up * scale)};
   out->ground = (sbr_ground){.height = height, .user = out};
   if (!girth->bumper_count || !colliders->tree.node_count) return;
   float reach = girth->radius * (1 + MARGIN) * scale,
-        low = (float)sbri_ground_height(base, place.x, place.z, NULL);
-  sbri_box box =
-      sbri_box_grown(sbri_box_of_point(sbri_vec3((float)place.x, (float)place.y, (float)place.z)), reach);
+        low = (float)sbri_ground_height(base, position.x, position.z, NULL);
+  sbri_box box = sbri_box_grown(
+      sbri_box_of_point(sbri_vec3((float)position.x, (float)position.y, (float)position.z)), reach);
   if (low < box.low.y) box.low.y = low; /* what it would fall on */
   sbri_bounds_walk walk;
   uint32_t i;

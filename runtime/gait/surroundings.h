@@ -18,10 +18,10 @@ typedef struct sbri_surroundings {
   double overhead; /* m, world: what is above is not to be stood on */
 } sbri_surroundings;
 
-/* The surroundings of a body of that rig at `place` (world; its y is that of the ground which it stands on).
- * `out` is used in place: it must not be copied. */
+/* The surroundings of a body of that rig at `position` (world; its y is that of the ground which it stands
+ * on). `out` is used in place: it must not be copied. */
 void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
-    const sbr_ground *base, sbr_double3 place, sbri_surroundings *out);
+    const sbr_ground *base, sbr_double3 position, sbri_surroundings *out);
 
 /* Whether a collider of the set stands in the way of the body and bears it. */
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
@@ -29,6 +29,6 @@ bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
 /* The collider whose top at (x, z) is within `off` of the height y, as colliders stood when the tick began;
  * false if there is none. */
 bool sbri_surroundings_bearer(
-    const sbri_surroundings *around, sbr_double3 place, double off, uint32_t *collider);
+    const sbri_surroundings *around, sbr_double3 position, double off, uint32_t *collider);
 
 #endif

@@ -1,19 +1,20 @@
-/* The way of a foot through the air: to a place ahead of its home. */
+/* Swing of a foot to a foothold ahead of its home. */
 #include "gait/gait_state.h"
 
-static const float SETTLED_PHASE = 0.75f; /* from here on the target stands */
-static const float SET_PHASE = 0.25f;     /* from here on its height does */
-static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick, at first */
-static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it should have */
-static const float LEVEL = 0.08f;         /* of the reach: what is higher or lower is another level */
-static const float AS_PLANNED = 1.02f;    /* of a step's time: what it may need more than it has */
-static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
-static const float WIDEST = 1.7f;         /* reaches: a step that begins far behind goes no farther ahead */
+static const float RESTING_PHASE = 0.75f; /* phase from which the target is fixed */
+static const float SET_PHASE = 0.25f;     /* phase from which the target's height is fixed */
+static const float FOLLOW = 0.3f; /* fraction by which the target follows the wanted one per tick, at first */
+static const float SPARE_TIME = 1.15f; /* available time as a multiple of the needed time */
+static const float LEVEL = 0.08f; /* fraction of the reach: a larger difference of height is another level */
+static const float AS_PLANNED = 1.02f; /* needed time as a multiple of the available time that is tolerated */
+static const float REPLANNED =
+    0.02f;                        /* fraction of the reach: a target that moves further is planned again */
+static const float WIDEST = 1.7f; /* in reaches: maximum length of a step that begins far behind */
 enum { PASSES = 4 };
 
-/* Ahead of where its home will be when it comes down. */
-static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbri_stride *stride, uint32_t leg, float left_s) {
+/* Landing position: ahead of the foot's home at the time of landing. */
+static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, const sbri_stride *stride, uint32_t leg, float left_s) {
   float lasting = state->feet[leg].lasting;
   left_s *= state->pace < lasting ? state->pace : lasting;
   const sbri_home *at = &stride->homes[leg];
@@ -27,38 +28,38 @@ static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, 
     velocity = sbri_turned(velocity, turned);
   }
   if (state->standing_s > 0 || stride->speed <= 0) return home;
-  sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
+  sbf_vec3 direction = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
-  float ahead = sbri_ahead(&at->roam, way, half), max = WIDEST * rig->reach * input->scale;
-  float before = sbri_dot(sbri_sub(home, state->feet[leg].from), way); /* of the step */
+  float ahead = sbri_ahead(&at->roam, direction, half), max = WIDEST * rig->reach * input->scale;
+  float before = sbri_dot(sbri_sub(home, state->feet[leg].from), direction); /* of the step */
   if (before + ahead > max) ahead = max > before ? max - before : 0;
-  return sbri_add_scaled(home, way, ahead);
+  return sbri_add_scaled(home, direction, ahead);
 }
 
 static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    const sbri_stride *stride, uint32_t leg, float share) {
+    const sbri_stride *stride, uint32_t leg, float fraction) {
   sbri_foot *foot = &state->feet[leg];
   float left = (1 - sbri_clamp(foot->phase, 0, 1)) * foot->duration_s;
-  sbf_vec3 place, normal, wanted = wanted_place(rig, state, input, stride, leg, left);
-  if (!sbri_footing(rig, state, input, leg, wanted, &place, &normal))
-    place = foot->from, normal = foot->from_normal;
-  if (sbri_flat_distance(place, wanted) > 0) { /* not where it was going: nothing in between will do */
+  sbf_vec3 position, normal, wanted = target_position(rig, state, input, stride, leg, left);
+  if (!sbri_footing(rig, state, input, leg, wanted, &position, &normal))
+    position = foot->from, normal = foot->from_normal;
+  if (sbri_flat_distance(position, wanted) > 0) { /* another foothold: positions in between are not checked */
     if (foot->phase > 0 && sbri_stands(rig, state, input, leg, foot->to, foot->phase < SET_PHASE)) return;
-    share = 1;
+    fraction = 1;
   }
-  bool other = fabsf(place.y - foot->to.y) > LEVEL * rig->reach * input->scale;
-  if (foot->phase > SET_PHASE && other) return; /* too late for another step of a stair */
-  if (other) share = 1;                         /* between the two there is none */
-  foot->to = sbri_lerp(foot->to, place, share);
-  foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, share), normal);
+  bool other = fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale;
+  if (foot->phase > SET_PHASE && other) return; /* too late for another level */
+  if (other) fraction = 1;                      /* there is no foothold between two levels */
+  foot->to = sbri_lerp(foot->to, position, fraction);
+  foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, fraction), normal);
 }
 
-/* How little time a step leaves to the legs for what they do. */
+/* Needed time over available time of a step. */
 static float haste_of(const sbri_foot *foot) {
   return foot->leaves - foot->arrives + foot->climbs - foot->climbed;
 }
 
-/* True where it is lifted higher than by the plan before, or faster. */
+/* Plans the step. Returns true if it is higher or faster than the previous plan. */
 static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   float clearance = foot->clearance, haste = haste_of(foot);
@@ -67,12 +68,12 @@ static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
   return foot->clearance > clearance || haste_of(foot) > haste;
 }
 
-/* Steps that take longer than wanted make the next ones slower, and the body where its legs have no more time
- * to give: up stairs it walks slower than on level ground. */
+/* Adapts the speed to the duration of steps: long steps make the next ones slower, and the body too if the
+ * legs have no spare time, as on stairs. */
 static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
-  float share = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
-  state->needed_s += share * (needed_s - state->needed_s);
+  float fraction = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
+  state->needed_s += fraction * (needed_s - state->needed_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
         max = stride->available_s * stride->speed;
   float at_max = max / (SPARE_TIME * state->needed_s); /* m/s */
@@ -88,10 +89,10 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->from = foot->ground;
   foot->from_normal = foot->normal;
   float needed = 0;
-  for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
+  for (int pass = 0; pass < PASSES; pass++) { /* a longer step lands further ahead */
     foot->lasting = sbri_lasting(rig, state, input, leg, foot->duration_s);
     aim(rig, state, input, stride, leg, 1);
-    if (!plan(rig, state, input, leg) && pass > 0) break; /* nothing else lies there */
+    if (!plan(rig, state, input, leg) && pass > 0) break; /* the plan has converged */
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
     if (needed <= AS_PLANNED * foot->duration_s) break;
     foot->duration_s = needed;
@@ -113,20 +114,20 @@ static void put_down(sbri_foot *foot) {
   foot->steps_taken++;
 }
 
-/* Of a tick that ends at phase `now`, the part after `begins`: moves `g` so that it arrives at phase `ends`.
- */
+/* Moves `g` by the part of the tick after phase `begins`, so that it arrives at phase `ends`. The tick ends
+ * at phase `now`. */
 static void glide(
     sbri_glide *g, float target, const sbri_foot *foot, float tick_s, float begins, float ends) {
   float since = (foot->phase - begins) * foot->duration_s, step = since < tick_s ? since : tick_s;
   if (step > 0) sbri_glide_tick(g, target, (ends - foot->phase) * foot->duration_s + step, step);
 }
 
-/* Moves the foot along the plan to its phase. */
+/* Moves the foot along its plan to its phase. */
 static void move(sbri_foot *foot, float tick_s) {
   glide(&foot->x, foot->to.x, foot, tick_s, foot->leaves, foot->arrives);
   glide(&foot->z, foot->to.z, foot, tick_s, foot->leaves, foot->arrives);
   glide(&foot->base, foot->to.y, foot, tick_s, foot->climbs, foot->climbed);
-  float past = (foot->phase - 0.5f) * foot->duration_s; /* up to the middle, then down */
+  float past = (foot->phase - 0.5f) * foot->duration_s; /* rises until the middle, then falls */
   if (past < tick_s) glide(&foot->rise, foot->clearance, foot, tick_s, 0, 0.5f);
   if (past > 0) glide(&foot->rise, 0, foot, tick_s, 0.5f, 1);
   glide(&foot->tilt_x, foot->to_normal.x, foot, tick_s, 0, 1);
@@ -143,27 +144,27 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     const sbri_stride *stride, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   foot->phase += input->tick_s / foot->duration_s;
-  if (foot->phase < SETTLED_PHASE) {
-    float left = 1 - foot->phase / SETTLED_PHASE;
+  if (foot->phase < RESTING_PHASE) {
+    float left = 1 - foot->phase / RESTING_PHASE;
     aim(rig, state, input, stride, leg, FOLLOW * left);
     float off = sbri_length(sbri_sub(foot->to, foot->planned));
     bool off_plan = foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale;
     if (off_plan) (void)plan(rig, state, input, leg);
-    if (off_plan && foot->clearance > rig->gait->step_height * input->scale) { /* over something */
+    if (off_plan && foot->clearance > rig->gait->step_height * input->scale) { /* over an obstacle */
       float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
       if (needed > foot->duration_s) foot->duration_s = needed;
     }
   } else if (foot->to_normal.y != 0) {
-    sbf_vec3 place = foot->to, normal = foot->to_normal;
-    sbri_lay_sole(rig, state, input, leg, &place, &normal);
-    bool other = fabsf(place.y - foot->to.y) > LEVEL * rig->reach * input->scale; /* too late for that */
-    if (!other) foot->to = place, foot->to_normal = normal;
+    sbf_vec3 position = foot->to, normal = foot->to_normal;
+    sbri_lay_sole(rig, state, input, leg, &position, &normal);
+    bool other = fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale; /* too late for that */
+    if (!other) foot->to = position, foot->to_normal = normal;
   }
   bool down = foot->phase >= 1;
   if (down)
     put_down(foot);
   else
     move(foot, input->tick_s);
-  sbri_foot_faces(rig, state, input, leg);
+  sbri_foot_update_orientation(rig, state, input, leg);
   return down;
 }

@@ -3,7 +3,7 @@
 #include "gait/gait_state.h"
 #include "math/vec3.h"
 
-void sbri_tails_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance) {
+void sbri_tails_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance) {
   sbri_lag *lags = sbri_tail_lags(state);
   for (uint32_t k = 0; k < rig->tail_bone_count; k++) {
     lags[2 * k] = (sbri_lag){0, 0};
@@ -14,9 +14,9 @@ void sbri_tails_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_st
 /* Follows `leader` and bends no farther than `limit` from it; returns where it has come to. */
 static float lag_behind(sbri_lag *lag, float leader, float limit, const sbri_follower_step *step) {
   sbri_lag_tick(lag, leader, step);
-  float held = sbri_clamp(lag->value, leader - limit, leader + limit);
-  if (held != lag->value) *lag = (sbri_lag){held, 0};
-  return held;
+  float limited = sbri_clamp(lag->value, leader - limit, leader + limit);
+  if (limited != lag->value) *lag = (sbri_lag){limited, 0};
+  return limited;
 }
 
 void sbri_tails_tick(

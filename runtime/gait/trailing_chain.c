@@ -7,8 +7,8 @@
 #include "math/trig.h"
 
 /* What turns a bone from how it would continue the one before it, cut and decayed. */
-static sbf_quat bend_of(sbf_quat turn, const sbf_chain *chain, float decay) {
-  sbf_vec3 v = sbri_scale(sbri_quat_log(turn), decay);
+static sbf_quat bend_of(sbf_quat rotation, const sbf_chain *chain, float decay) {
+  sbf_vec3 v = sbri_scale(sbri_quat_log(rotation), decay);
   float angle = sbri_length(v);
   if (angle > chain->angle_limit) v = sbri_scale(v, chain->angle_limit / angle);
   return sbri_quat_exp(v);
@@ -30,11 +30,11 @@ static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t 
 
 /* Keeps a place over the ground at the height it has over it at rest. */
 static float height_at(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbf_chain *chain, uint32_t k, sbf_vec3 place) {
+    const sbf_chain *chain, uint32_t k, sbf_vec3 position) {
   uint32_t bone = chain->bones.at[k];
   sbf_vec3 step = sbri_rotate(rig->rest[bone].rotation, rest_step(rig, chain, k, 1));
   float rest = rig->rest[bone].position.y + step.y;
-  return sbri_ground_below(input, place, NULL).y + rest * input->scale + state->position.y;
+  return sbri_ground_below(input, position, NULL).y + rest * input->scale + state->position.y;
 }
 
 /* The bone's turn in this tick, world axes, from `straight`, how it would continue the one before it. */
@@ -43,8 +43,8 @@ static sbf_quat turn_of(const sbri_rig *rig, const sbri_gait_state *state, const
   const sbf_chain *chain = c->source;
   float decay = sbri_exp(-chain->damping * input->tick_s);
   if (chain->kind == SBF_CHAIN_KIND_LAG) {
-    sbf_quat turn = sbri_quat_multiply(was->frame.rotation, sbri_quat_conjugate(straight));
-    return bend_of(turn, chain, decay);
+    sbf_quat rotation = sbri_quat_multiply(was->frame.rotation, sbri_quat_conjugate(straight));
+    return bend_of(rotation, chain, decay);
   }
   sbf_vec3 ideal = sbri_rotate(straight, rest_step(rig, chain, k, input->scale)), tip = was->tip;
   if (sbri_dot(ideal, ideal) == 0) return sbri_quat_identity(); /* an empty link has no way of its own */

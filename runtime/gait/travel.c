@@ -21,7 +21,7 @@ void sbri_gait_arrive(const sbri_rig *rig, void *memory, const sbri_gait_input *
   memset(state->feet, 0, sizeof state->feet);
   for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];
   state->sway_x = state->sway_z = state->crouch = state->upright = (sbri_lag){0, 0};
-  state->room = state->bent = (sbri_lag){0, 0};
+  state->clearance = state->bent = (sbri_lag){0, 0};
   state->waiting_s = 0;
   state->since_lift_m = 1e6f;
   sbri_body_stand(rig, state, input);

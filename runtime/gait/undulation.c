@@ -92,13 +92,13 @@ void sbri_undulation_pose(const sbri_rig *rig, sbri_gait_state *state, const sbr
         sbri_rig_shift(rig, b, sbri_rotate(root->rotation, aside), pose);
       }
       /* s grows backward: where the wave goes to +x with s, the chain's line turns from -z to +x. */
-      sbf_quat turn = {0, 0, 0, 1};
+      sbf_quat rotation = {0, 0, 0, 1};
       if (vertical)
-        sbri_sincos(0.5f * angle, &turn.x, &turn.w);
+        sbri_sincos(0.5f * angle, &rotation.x, &rotation.w);
       else
-        sbri_sincos(0.5f * (m->bend.value * (0.5f - s) - angle), &turn.y, &turn.w);
-      turn = sbri_quat_multiply(sbri_quat_multiply(root->rotation, turn), rig->rest[b].rotation);
-      sbri_motion_turn_bone(rig, b, turn, root, pose);
+        sbri_sincos(0.5f * (m->bend.value * (0.5f - s) - angle), &rotation.y, &rotation.w);
+      rotation = sbri_quat_multiply(sbri_quat_multiply(root->rotation, rotation), rig->rest[b].rotation);
+      sbri_motion_turn_bone(rig, b, rotation, root, pose);
       break;
     }
   }

@@ -23,9 +23,9 @@ static float speed_of(const sbri_gait_state *state, float scale) {
 }
 
 /* Into 0 to below 1. */
-static float wrapped(float share) {
-  share -= (float)(int32_t)share;
-  return share < 0 ? share + 1 : share;
+static float wrapped(float fraction) {
+  fraction -= (float)(int32_t)fraction;
+  return fraction < 0 ? fraction + 1 : fraction;
 }
 
 /* A foot that has just come down says where in its cycle the walk ought to be, and how long half a cycle is.
@@ -55,13 +55,13 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   state->walk_since_m += walked_m;
   if (low->mirrored) keep_step(walks, state, 0.5f * cycle);
   if (state->standing_s > 0) state->walk_half_m = 0, state->walk_landed = 0;
-  float share = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
+  float fraction = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
   if (low->mirrored && !backwards) {
-    float max = MAX_CATCH * share, back = sbri_clamp(CATCH_UP * state->walk_ahead * share, -max, max);
-    share -= back;
+    float max = MAX_CATCH * fraction, back = sbri_clamp(CATCH_UP * state->walk_ahead * fraction, -max, max);
+    fraction -= back;
     state->walk_ahead -= back;
   }
-  state->walk_phase = wrapped(state->walk_phase + (backwards ? -share : share));
+  state->walk_phase = wrapped(state->walk_phase + (backwards ? -fraction : fraction));
 }
 
 /* Four frames about a phase, and what each counts there. */
@@ -78,10 +78,10 @@ static sbri_between frames_at(const sbri_walk *walk, float phase) {
   int32_t count = (int32_t)walk->frame_count, k = 0;
   while (k + 1 < count && walk->frames[k].at <= phase) k++;
   for (int32_t i = 0; i < 4; i++) {
-    int32_t place = k - 2 + i, turns = 0;
-    while (place < 0) place += count, turns--;
-    while (place >= count) place -= count, turns++;
-    b.frames[i] = &walk->frames[place];
+    int32_t index = k - 2 + i, turns = 0;
+    while (index < 0) index += count, turns--;
+    while (index >= count) index -= count, turns++;
+    b.frames[i] = &walk->frames[index];
     times[i] = b.frames[i]->at + (float)turns;
   }
   float span = times[2] - times[1], t = sbri_clamp((phase - times[1]) / span, 0, 1), u = 1 - t;
@@ -120,11 +120,11 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
     sbri_posed_bone at[2];
     for (int i = 0; i < 2; i++) at[i] = posed_at(&frames[i], j);
     uint32_t bone = walks->bones[j];
-    sbf_quat turn = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
-    sbf_vec3 way = sbri_lerp(at[0].translation, at[1].translation, faster);
+    sbf_quat rotation = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
+    sbf_vec3 direction = sbri_lerp(at[0].translation, at[1].translation, faster);
     const sbr_transform *rest = &rig->base_local[bone];
     sbr_transform *local = &locals[bone];
-    local->position = sbri_lerp(local->position, sbri_add(rest->position, way), weight);
-    local->rotation = sbri_quat_blend(local->rotation, sbri_quat_multiply(rest->rotation, turn), weight);
+    local->position = sbri_lerp(local->position, sbri_add(rest->position, direction), weight);
+    local->rotation = sbri_quat_blend(local->rotation, sbri_quat_multiply(rest->rotation, rotation), weight);
   }
 }

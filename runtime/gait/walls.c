@@ -18,7 +18,7 @@ typedef struct body_move {
   const sbri_rig *rig;
   sbri_gait_state *state;
   const sbri_gait_input *input;
-  sbf_quat turn; /* of the balls about the body's place */
+  sbf_quat rotation; /* of the balls about the body's place */
   bool afloat, any;
 } body_move;
 
@@ -33,11 +33,12 @@ static void slow_down(body_move *m, sbf_vec3 normal) {
 }
 
 /* Pushes a ball out of one collider. */
-static bool push_out(body_move *m, sbf_vec3 place, float radius, const sbri_collider *c) {
+static bool push_out(body_move *m, sbf_vec3 position, float radius, const sbri_collider *c) {
   sbri_gait_state *state = m->state;
   sbri_collider_frame frame = sbri_collider_frame_of(c, m->input->origin, 1);
   sbri_nearest found;
-  if (!sbri_shape_nearest(c->shape, sbri_into_shape(&frame, place, true), radius, DEEPEST * radius, &found))
+  if (!sbri_shape_nearest(
+          c->shape, sbri_into_shape(&frame, position, true), radius, DEEPEST * radius, &found))
     return false;
   sbf_vec3 n = sbri_rotate(c->turn_to, found.normal);
   float deep = radius - found.gap;
@@ -67,7 +68,7 @@ static void push_out_all(body_move *m) {
     pushed = false;
     for (uint32_t b = 0; b < girth->bumper_count; b++) {
       float radius = girth->bumpers[b].radius * m->input->scale;
-      sbf_vec3 arm = sbri_rotate(m->turn, sbri_scale(girth->bumpers[b].place, m->input->scale));
+      sbf_vec3 arm = sbri_rotate(m->rotation, sbri_scale(girth->bumpers[b].position, m->input->scale));
       sbf_vec3 middle = middle_of(m->state);
       sbri_box box = sbri_box_grown(sbri_box_of_point(sbri_add(middle, arm)), radius);
       sbri_bounds_walk walk;
@@ -99,12 +100,12 @@ bool sbri_walls_keep_out(
   body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->root.rotation),
       sbri_is_afloat(rig), false};
   /* No part of the way is longer than a ball: none jumps over a wall. */
-  sbf_vec3 way = sbri_sub(state->position, from);
-  float parts = sbri_length(way) / (smallest(&rig->girth) * input->scale) + 1;
+  sbf_vec3 displacement = sbri_sub(state->position, from);
+  float parts = sbri_length(displacement) / (smallest(&rig->girth) * input->scale) + 1;
   int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;
   state->position = from;
   for (int k = 0; k < count; k++) {
-    state->position = sbri_add_scaled(state->position, way, 1 / (float)count);
+    state->position = sbri_add_scaled(state->position, displacement, 1 / (float)count);
     push_out_all(&m);
   }
   return m.any;

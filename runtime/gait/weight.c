@@ -8,15 +8,15 @@ static bool weighs(const sbri_rig *rig, const sbf_follower *source) {
 }
 
 /* How it lags, in its lengths, eased towards the limit whichever way that is. */
-static sbf_vec3 eased_lag(const sbf_follower *source, const sbri_place_follower *place, float length) {
-  sbf_vec3 lag = sbri_scale(sbri_sub(place->value, place->followed), source->strength / length);
+static sbf_vec3 eased_lag(const sbf_follower *source, const sbri_position_follower *follower, float length) {
+  sbf_vec3 lag = sbri_scale(sbri_sub(follower->value, follower->followed), source->strength / length);
   return sbri_scale(lag, source->limit / (source->limit + sbri_length(lag)));
 }
 
 /* How far up it moves: down no farther than a walking body's belly has room for. */
 static float heave(const sbri_rig *rig, const sbri_gait_state *state, float lag) {
-  float room = rig->leg_count ? state->room.value - state->lowered : -lag;
-  return lag < -room ? -(room > 0 ? room : 0) : lag;
+  float clearance = rig->leg_count ? state->clearance.value - state->lowered : -lag;
+  return lag < -clearance ? -(clearance > 0 ? clearance : 0) : lag;
 }
 
 /* The rotation by the length of `aside`, level, in rad, that takes what is above the head that way. */
@@ -44,17 +44,17 @@ bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     const sbf_follower *source = &rig->asset->followers.at[i];
     uint32_t b = (uint32_t)source->bone;
     float length = rig->asset->bones.at[b].length * input->scale;
-    sbri_place_follower *place = &followers[i].place;
+    sbri_position_follower *follower = &followers[i].position;
     if (!weighs(rig, source)) continue;
     if (advance == SBRI_ADVANCE_RESET) {
-      sbri_place_follower_reset(place, pose[b].position);
+      sbri_position_follower_reset(follower, pose[b].position);
     } else if (advance == SBRI_ADVANCE_TICK) {
       sbri_follower_step step =
           sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
-      sbri_place_follower_tick(place, pose[b].position, &step);
+      sbri_position_follower_tick(follower, pose[b].position, &step);
     }
     if (input->hold || !(length > 0)) continue;
-    sbf_vec3 lag = eased_lag(source, place, length);
+    sbf_vec3 lag = eased_lag(source, follower, length);
     if (lag.x == 0 && lag.y == 0 && lag.z == 0) continue;
     move(rig, b, lean_towards(lag), heave(rig, state, lag.y * length), pose);
     moved = true;

@@ -38,9 +38,9 @@ static float wrapped(float value, float period) {
 }
 
 /* Velocity of a wheel's head over the ground, along the body's axes. */
-static sbf_vec3 velocity_at(const sbri_gait_state *state, sbf_vec3 place, float scale) {
-  return sbri_vec3(
-      state->sideways + state->turn * place.z * scale, 0, state->forward - state->turn * place.x * scale);
+static sbf_vec3 velocity_at(const sbri_gait_state *state, sbf_vec3 position, float scale) {
+  return sbri_vec3(state->sideways + state->turn * position.z * scale, 0,
+      state->forward - state->turn * position.x * scale);
 }
 
 static float steer_of(const sbf_wheel *wheel, sbf_vec3 velocity) {
@@ -109,11 +109,11 @@ static void pose_tread(const sbri_rig *rig, const sbf_tread *tread, float distan
     const sbr_transform *a = &rig->rest[tread->bones.at[from]], *b = &rig->rest[tread->bones.at[to]];
     const sbr_transform *rest = &rig->rest[bone];
     sbf_vec3 moved = sbri_sub(sbri_lerp(a->position, b->position, t), rest->position);
-    sbf_quat turn =
+    sbf_quat rotation =
         sbri_quat_multiply(sbri_quat_blend(a->rotation, b->rotation, t), sbri_quat_conjugate(rest->rotation));
     sbf_quat parent = sbri_motion_parent_turn(rig, bone, root, pose);
-    sbri_rig_turn(
-        rig, bone, sbri_quat_multiply(sbri_quat_multiply(parent, turn), sbri_quat_conjugate(parent)), pose);
+    sbri_rig_turn(rig, bone,
+        sbri_quat_multiply(sbri_quat_multiply(parent, rotation), sbri_quat_conjugate(parent)), pose);
     sbri_rig_shift(rig, bone, sbri_scale(sbri_rotate(parent, moved), scale), pose);
   }
 }
@@ -126,13 +126,13 @@ void sbri_wheels_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     uint32_t bone = (uint32_t)wheel->bone;
     sbf_quat parent = sbri_motion_parent_turn(rig, bone, root, pose);
     sbf_vec3 axis = sbri_normalize(wheel->axis, sbri_vec3(1, 0, 0));
-    sbf_quat turn = about(axis, angles[i]);
+    sbf_quat rotation = about(axis, angles[i]);
     if (wheel->steer_limit > 0) {
       sbf_vec3 v = velocity_at(state, rig->rest[bone].position, input->scale);
-      turn = sbri_quat_multiply(about(sbri_vec3(0, 1, 0), steer_of(wheel, v)), turn);
+      rotation = sbri_quat_multiply(about(sbri_vec3(0, 1, 0), steer_of(wheel, v)), rotation);
     }
-    sbri_rig_turn(
-        rig, bone, sbri_quat_multiply(sbri_quat_multiply(parent, turn), sbri_quat_conjugate(parent)), pose);
+    sbri_rig_turn(rig, bone,
+        sbri_quat_multiply(sbri_quat_multiply(parent, rotation), sbri_quat_conjugate(parent)), pose);
   }
   for (uint32_t i = 0; i < rig->gait->treads.count; i++)
     pose_tread(rig, &rig->gait->treads.at[i], distances[i], input->scale, root, pose);

@@ -25,7 +25,7 @@ sbri_ik_result sbri_ccd(sbri_ik_chain *chain) {
       passes < chain->iterations && sbri_length(sbri_sub(frames[last].position, target)) > chain->tolerance) {
     sbf_vec3 before = frames[last].position;
     pass(chain, target, frames);
-    sbri_ik_frames(chain, frames);
+    sbri_ik_compute_frames(chain, frames);
     passes++;
     if (sbri_length(sbri_sub(frames[last].position, before)) < 0.001f * chain->tolerance) break;
   }

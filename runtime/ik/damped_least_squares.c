@@ -64,11 +64,11 @@ static sbf_vec3 comfort_of(const sbri_ik_chain *chain, uint32_t i, const sbr_tra
   if (joint->comfort_weight <= 0) return sbri_vec3(0, 0, 0);
   sbf_quat before = i ? frames[i - 1].rotation : chain->base.rotation;
   sbf_quat wanted = sbri_quat_multiply(before, joint->comfort);
-  sbf_quat turn = sbri_quat_multiply(wanted, sbri_quat_conjugate(frames[i].rotation));
-  sbf_vec3 asked = sbri_quat_log(turn);
+  sbf_quat rotation = sbri_quat_multiply(wanted, sbri_quat_conjugate(frames[i].rotation));
+  sbf_vec3 asked = sbri_quat_log(rotation);
   if (!sbri_ik_comfort_is_even(joint)) {
     sbf_quat own = frames[i].rotation;
-    asked = sbri_rotate(own, sbri_ik_comfort_share(joint, sbri_rotate(sbri_quat_conjugate(own), asked)));
+    asked = sbri_rotate(own, sbri_ik_comfort_fraction(joint, sbri_rotate(sbri_quat_conjugate(own), asked)));
   }
   return sbri_scale(asked, 0.5f * joint->comfort_weight);
 }
@@ -79,7 +79,7 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
   bool turns = chain->copy_rotation > 0;
   float unit = 0.5f * reach;
   sbf_vec3 end = frames[n - 1].position, off = cut(sbri_sub(target, end), MAX_STEP * reach);
-  sbf_vec3 asks[SBRI_IK_MAX_JOINTS], drift = {0, 0, 0}, spin = {0, 0, 0}, turn_off = {0, 0, 0};
+  sbf_vec3 asks[SBRI_IK_MAX_JOINTS], drift = {0, 0, 0}, angular_velocity = {0, 0, 0}, turn_off = {0, 0, 0};
   system s;
   memset(&s, 0, sizeof s);
   s.size = turns ? 6 : 3;
@@ -88,12 +88,13 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
     add_joint(&s, r, (double)unit);
     asks[i] = comfort_of(chain, i, frames);
     drift = sbri_add(drift, sbri_cross(asks[i], r));
-    spin = sbri_add(spin, asks[i]);
+    angular_velocity = sbri_add(angular_velocity, asks[i]);
   }
   if (turns) {
-    sbf_quat turn = sbri_quat_multiply(chain->target_rotation, sbri_quat_conjugate(frames[n - 1].rotation));
-    turn_off = sbri_scale(sbri_quat_log(turn), chain->copy_rotation);
-    turn_off = sbri_scale(cut(sbri_sub(turn_off, spin), 1), unit);
+    sbf_quat rotation =
+        sbri_quat_multiply(chain->target_rotation, sbri_quat_conjugate(frames[n - 1].rotation));
+    turn_off = sbri_scale(sbri_quat_log(rotation), chain->copy_rotation);
+    turn_off = sbri_scale(cut(sbri_sub(turn_off, angular_velocity), 1), unit);
   }
   sbf_vec3 move = sbri_sub(off, drift);
   const float b[6] = {move.x, move.y, move.z, turn_off.x, turn_off.y, turn_off.z};
@@ -133,7 +134,7 @@ sbri_ik_result sbri_damped_least_squares(sbri_ik_chain *chain) {
     bool there = sbri_length(sbri_sub(before, target)) <= chain->tolerance;
     if (there && rotation_reached(chain, frames)) break;
     pass(chain, target, reach, frames);
-    sbri_ik_frames(chain, frames);
+    sbri_ik_compute_frames(chain, frames);
     passes++;
     if (there || sbri_length(sbri_sub(frames[last].position, before)) >= 0.001f * chain->tolerance) continue;
     break;

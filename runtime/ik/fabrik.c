@@ -6,15 +6,15 @@
 
 enum { PATIENCE = 16 }; /* passes */
 
-typedef struct places {
+typedef struct point_set {
   sbf_vec3 at[SBRI_IK_MAX_JOINTS];   /* where the backward pass puts the joints */
   sbf_vec3 sums[SBRI_IK_MAX_JOINTS]; /* of what the children ask for */
   float counts[SBRI_IK_MAX_JOINTS];  /* how many ask; 0: nothing below has a goal */
   float lengths[SBRI_IK_MAX_JOINTS]; /* from the parent */
   sbr_transform frames[SBRI_IK_MAX_JOINTS];
-} places;
+} point_set;
 
-static void find_frames(const sbri_ik_tree *tree, places *p) {
+static void find_frames(const sbri_ik_tree *tree, point_set *p) {
   for (uint32_t i = 0; i < tree->count; i++) {
     const sbr_transform *before = i ? &p->frames[tree->parents[i]] : &tree->base;
     const sbri_ik_joint *joint = &tree->joints[i];
@@ -23,7 +23,7 @@ static void find_frames(const sbri_ik_tree *tree, places *p) {
   }
 }
 
-static void backward(const sbri_ik_tree *tree, places *p) {
+static void backward(const sbri_ik_tree *tree, point_set *p) {
   for (uint32_t i = 0; i < tree->count; i++) p->sums[i] = sbri_vec3(0, 0, 0), p->counts[i] = 0;
   for (uint32_t g = 0; g < tree->goal_count; g++) {
     uint32_t joint = tree->goals[g].joint;
@@ -45,7 +45,7 @@ static void backward(const sbri_ik_tree *tree, places *p) {
 
 /* Turn that brings a joint's children nearest to where they should be: the sum of their arms into the sum of
  * those wanted, then about that line for the arm farthest off it. */
-static sbf_quat turn_of(const sbri_ik_tree *tree, const places *p, uint32_t joint) {
+static sbf_quat turn_of(const sbri_ik_tree *tree, const point_set *p, uint32_t joint) {
   sbf_vec3 is = {0, 0, 0}, wanted = {0, 0, 0}, side_is = {0, 0, 0}, side_wanted = {0, 0, 0};
   const sbr_transform *frame = &p->frames[joint];
   uint32_t children = 0;
@@ -58,12 +58,12 @@ static sbf_quat turn_of(const sbri_ik_tree *tree, const places *p, uint32_t join
   }
   if (children == 0) return sbri_quat_identity();
   sbf_vec3 from_unit = sbri_normalize(is, sbri_vec3(0, 1, 0)), to_unit = sbri_normalize(wanted, from_unit);
-  sbf_quat turn = sbri_quat_between(from_unit, to_unit);
-  if (children == 1) return turn;
+  sbf_quat rotation = sbri_quat_between(from_unit, to_unit);
+  if (children == 1) return rotation;
   float farthest = 0;
   for (uint32_t i = joint + 1; i < tree->count; i++) {
     if (tree->parents[i] != joint || p->counts[i] == 0) continue;
-    sbf_vec3 arm = sbri_rotate(turn, sbri_rotate(frame->rotation, tree->joints[i].offset));
+    sbf_vec3 arm = sbri_rotate(rotation, sbri_rotate(frame->rotation, tree->joints[i].offset));
     sbf_vec3 off = sbri_add_scaled(arm, to_unit, -sbri_dot(arm, to_unit));
     if (sbri_length(off) <= farthest) continue;
     farthest = sbri_length(off);
@@ -72,11 +72,11 @@ static sbf_quat turn_of(const sbri_ik_tree *tree, const places *p, uint32_t join
   }
   float angle =
       sbri_atan2(sbri_dot(to_unit, sbri_cross(side_is, side_wanted)), sbri_dot(side_is, side_wanted));
-  return sbri_quat_multiply(sbri_quat_about(to_unit, angle), turn);
+  return sbri_quat_multiply(sbri_quat_about(to_unit, angle), rotation);
 }
 
 /* Whether the limits let every joint go where the backward pass put it. */
-static bool forward(sbri_ik_tree *tree, places *p) {
+static bool forward(sbri_ik_tree *tree, point_set *p) {
   bool free = true;
   for (uint32_t i = 0; i < tree->count; i++) {
     const sbr_transform *before = i ? &p->frames[tree->parents[i]] : &tree->base;
@@ -93,7 +93,7 @@ static bool forward(sbri_ik_tree *tree, places *p) {
   return free;
 }
 
-static float worst_error(const sbri_ik_tree *tree, const places *p) {
+static float worst_error(const sbri_ik_tree *tree, const point_set *p) {
   float worst = 0;
   for (uint32_t g = 0; g < tree->goal_count; g++) {
     sbf_vec3 off = sbri_sub(p->frames[tree->goals[g].joint].position, tree->goals[g].position);
@@ -104,7 +104,7 @@ static float worst_error(const sbri_ik_tree *tree, const places *p) {
 }
 
 /* One goal beyond the chain's whole length: all joints on the line to it, in one pass. */
-static bool stretch_out(sbri_ik_tree *tree, places *p, bool *free) {
+static bool stretch_out(sbri_ik_tree *tree, point_set *p, bool *free) {
   if (tree->goal_count != 1) return false;
   uint32_t end = tree->goals[0].joint;
   sbf_vec3 root = p->frames[0].position, to = sbri_sub(tree->goals[0].position, root);
@@ -133,11 +133,11 @@ static bool is_free_chain(const sbri_ik_tree *tree) {
 }
 
 static sbf_vec3 at_length(sbf_vec3 from, sbf_vec3 towards, float length) {
-  sbf_vec3 way = sbri_sub(towards, from);
-  return sbri_add_scaled(from, sbri_normalize(way, sbri_vec3(0, 1, 0)), length);
+  sbf_vec3 displacement = sbri_sub(towards, from);
+  return sbri_add_scaled(from, sbri_normalize(displacement, sbri_vec3(0, 1, 0)), length);
 }
 
-static uint32_t solve_places(sbri_ik_tree *tree, places *p) {
+static uint32_t solve_positions(sbri_ik_tree *tree, point_set *p) {
   uint32_t passes = 0, last = tree->count - 1;
   sbf_vec3 target = tree->goals[0].position, root = p->frames[0].position;
   for (uint32_t i = 0; i <= last; i++) p->at[i] = p->frames[i].position, p->counts[i] = 1;
@@ -157,7 +157,7 @@ static uint32_t solve_places(sbri_ik_tree *tree, places *p) {
 }
 
 /* With `patience` above 0 it gives up where so many passes do not take a fifth off the error. */
-static uint32_t solve(sbri_ik_tree *tree, places *p, uint32_t patience) {
+static uint32_t solve(sbri_ik_tree *tree, point_set *p, uint32_t patience) {
   uint32_t passes = 0;
   bool free = true;
   for (uint32_t i = 0; i < tree->count; i++) p->lengths[i] = sbri_length(tree->joints[i].offset);
@@ -168,7 +168,7 @@ static uint32_t solve(sbri_ik_tree *tree, places *p, uint32_t patience) {
     if (free) return passes;
     error = worst_error(tree, p);
   } else if (is_free_chain(tree)) {
-    return solve_places(tree, p);
+    return solve_positions(tree, p);
   }
   float mark = error;
   while (passes < tree->iterations && error > tree->tolerance) {
@@ -187,7 +187,7 @@ static uint32_t solve(sbri_ik_tree *tree, places *p, uint32_t patience) {
 }
 
 sbri_ik_result sbri_fabrik_tree(sbri_ik_tree *tree) {
-  places p;
+  point_set p;
   for (uint32_t i = 0; i < tree->count; i++)
     tree->joints[i].rotation = sbri_joint_limit_clamp(tree->joints[i].limit, tree->joints[i].rotation);
   uint32_t passes = solve(tree, &p, 0);
@@ -228,7 +228,7 @@ static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_
 }
 
 sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
-  places p;
+  point_set p;
   uint32_t parents[SBRI_IK_MAX_JOINTS];
   sbf_quat began_with[SBRI_IK_MAX_JOINTS];
   take_rotations(chain, began_with);

@@ -82,21 +82,22 @@ sbri_ik_result sbri_fabrik_tree(sbri_ik_tree *tree);
 
 /* Distance eased towards the full reach: the identity up to (1 - soft) * reach, then a quadratic of the same
  * slope there that meets the full reach, with no slope, twice the range further out. */
-float sbri_ease_reach(float distance, float reach, float soft);
+float sbri_soften_reach(float distance, float reach, float soft);
 
 /* World frames of the joints. */
-void sbri_ik_frames(const sbri_ik_chain *chain, sbr_transform *frames);
+void sbri_ik_compute_frames(const sbri_ik_chain *chain, sbr_transform *frames);
 float sbri_ik_reach(const sbri_ik_chain *chain);
 /* Takes the comforts, bends a chain that is straight towards its target, turns it to its pole. Fills `frames`
  * and returns the eased target. */
 sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames);
 /* What a comfort asks for of a turn towards it, a rotation vector in the joint's own axes. */
-sbf_vec3 sbri_ik_comfort_share(const sbri_ik_joint *joint, sbf_vec3 turn);
+sbf_vec3 sbri_ik_comfort_fraction(const sbri_ik_joint *joint, sbf_vec3 turn);
 bool sbri_ik_comfort_is_even(const sbri_ik_joint *joint);
 /* Turns joint `index` by a rotation in world axes, as far as its limit allows. */
-void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat turn, const sbr_transform *frames);
-/* Brings the joints as near to `places` (count of them, from the second on) as lengths and limits allow. */
-void sbri_ik_through(sbri_ik_chain *chain, const sbf_vec3 *places, sbr_transform *frames);
+void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat rotation, const sbr_transform *frames);
+/* Brings the joints as near to `positions` (count of them, from the second on) as lengths and limits allow.
+ */
+void sbri_ik_through(sbri_ik_chain *chain, const sbf_vec3 *positions, sbr_transform *frames);
 /* Pole and rotation of the end; then the result, `iterations` taken over. */
 sbri_ik_result sbri_ik_finish(
     sbri_ik_chain *chain, sbf_vec3 target, sbr_transform *frames, uint32_t iterations);

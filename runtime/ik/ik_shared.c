@@ -4,7 +4,7 @@
 static const float STRAIGHT = 1e-3f; /* sine of the angle below which a chain counts as straight */
 static const float UNFOLD = 0.25f;   /* rad, by which such a chain is bent so that it can fold */
 
-float sbri_ease_reach(float distance, float reach, float soft) {
+float sbri_soften_reach(float distance, float reach, float soft) {
   float range = soft * reach, start = reach - range;
   if (range <= 0 || distance <= start) return distance;
   float t = sbri_clamp((distance - start) / (2 * range), 0, 1);
@@ -15,7 +15,7 @@ static sbf_quat rotation_before(const sbri_ik_chain *chain, uint32_t index, cons
   return index ? frames[index - 1].rotation : chain->base.rotation;
 }
 
-void sbri_ik_frames(const sbri_ik_chain *chain, sbr_transform *frames) {
+void sbri_ik_compute_frames(const sbri_ik_chain *chain, sbr_transform *frames) {
   const sbr_transform *before = &chain->base;
   for (uint32_t i = 0; i < chain->count; i++) {
     const sbri_ik_joint *joint = &chain->joints[i];
@@ -31,8 +31,8 @@ float sbri_ik_reach(const sbri_ik_chain *chain) {
   return sum;
 }
 
-void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat turn, const sbr_transform *frames) {
-  sbf_quat world = sbri_quat_multiply(turn, frames[index].rotation);
+void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat rotation, const sbr_transform *frames) {
+  sbf_quat world = sbri_quat_multiply(rotation, frames[index].rotation);
   sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(rotation_before(chain, index, frames)), world);
   chain->joints[index].rotation =
       sbri_joint_limit_clamp(chain->joints[index].limit, sbri_quat_normalize(local));
@@ -66,7 +66,7 @@ static void unfold(sbri_ik_chain *chain, sbf_vec3 target, sbr_transform *frames)
   for (uint32_t i = 0; i + 1 < n; i++) {
     float angle = i == 0 ? UNFOLD : -2 * UNFOLD / (float)(n - 2);
     sbri_ik_turn(chain, i, sbri_quat_about(axis, angle), frames);
-    sbri_ik_frames(chain, frames);
+    sbri_ik_compute_frames(chain, frames);
   }
 }
 
@@ -84,14 +84,14 @@ static void turn_to_pole(sbri_ik_chain *chain, sbr_transform *frames) {
   bow = sbri_normalize(bow, along), wanted = sbri_normalize(wanted, along);
   float angle = sbri_atan2(sbri_dot(along, sbri_cross(bow, wanted)), sbri_dot(bow, wanted));
   sbri_ik_turn(chain, 0, sbri_quat_about(along, angle), frames);
-  sbri_ik_frames(chain, frames);
+  sbri_ik_compute_frames(chain, frames);
 }
 
 bool sbri_ik_comfort_is_even(const sbri_ik_joint *joint) {
   return sbri_dot(joint->comfort_slack, joint->comfort_slack) <= 0;
 }
 
-sbf_vec3 sbri_ik_comfort_share(const sbri_ik_joint *joint, sbf_vec3 turn) {
+sbf_vec3 sbri_ik_comfort_fraction(const sbri_ik_joint *joint, sbf_vec3 turn) {
   sbf_vec3 slack = joint->comfort_slack;
   return sbri_vec3(turn.x * (1 - slack.x), turn.y * (1 - slack.y), turn.z * (1 - slack.z));
 }
@@ -103,8 +103,9 @@ static void take_comfort(sbri_ik_joint *joint) {
     joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);
     return;
   }
-  sbf_quat way = sbri_quat_multiply(sbri_quat_conjugate(joint->rotation), joint->comfort);
-  sbf_vec3 turn = sbri_scale(sbri_ik_comfort_share(joint, sbri_quat_log(way)), joint->comfort_weight);
+  sbf_quat direction = sbri_quat_multiply(sbri_quat_conjugate(joint->rotation), joint->comfort);
+  sbf_vec3 turn =
+      sbri_scale(sbri_ik_comfort_fraction(joint, sbri_quat_log(direction)), joint->comfort_weight);
   joint->rotation = sbri_quat_normalize(sbri_quat_multiply(joint->rotation, sbri_quat_exp(turn)));
 }
 
@@ -114,10 +115,10 @@ sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames) {
     if (joint->comfort_weight > 0) take_comfort(joint);
     joint->rotation = sbri_joint_limit_clamp(joint->limit, joint->rotation);
   }
-  sbri_ik_frames(chain, frames);
+  sbri_ik_compute_frames(chain, frames);
   sbf_vec3 root = frames[0].position, to = sbri_sub(chain->target, root);
   float distance = sbri_length(to),
-        eased = sbri_ease_reach(distance, sbri_ik_reach(chain), chain->soft_reach);
+        eased = sbri_soften_reach(distance, sbri_ik_reach(chain), chain->soft_reach);
   sbf_vec3 target = distance > 0 ? sbri_add_scaled(root, to, eased / distance) : chain->target;
   if (eased == distance) target = chain->target;
   unfold(chain, target, frames);
@@ -125,7 +126,7 @@ sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames) {
   return target;
 }
 
-void sbri_ik_through(sbri_ik_chain *chain, const sbf_vec3 *places, sbr_transform *frames) {
+void sbri_ik_through(sbri_ik_chain *chain, const sbf_vec3 *positions, sbr_transform *frames) {
   const sbr_transform *before = &chain->base;
   for (uint32_t i = 0; i < chain->count; i++) {
     sbri_ik_joint *joint = &chain->joints[i];
@@ -135,7 +136,7 @@ void sbri_ik_through(sbri_ik_chain *chain, const sbf_vec3 *places, sbr_transform
     if (i + 1 == chain->count) break;
     sbf_vec3 is = sbri_rotate(frames[i].rotation, chain->joints[i + 1].offset);
     is = sbri_normalize(is, sbri_vec3(0, 1, 0));
-    sbf_vec3 wanted = sbri_normalize(sbri_sub(places[i + 1], frames[i].position), is);
+    sbf_vec3 wanted = sbri_normalize(sbri_sub(positions[i + 1], frames[i].position), is);
     sbri_ik_turn(chain, i, sbri_quat_between(is, wanted), frames);
     frames[i].rotation =
         sbri_quat_normalize(sbri_quat_multiply(rotation_before(chain, i, frames), joint->rotation));
@@ -152,14 +153,14 @@ sbri_ik_result sbri_ik_finish(
     float turned = sbri_length(sbri_sub(frames[last].position, target));
     if (turned > error + chain->tolerance) { /* the root's limit forbids it: the target goes first */
       chain->joints[0].rotation = kept;
-      sbri_ik_frames(chain, frames);
+      sbri_ik_compute_frames(chain, frames);
     }
   }
   if (chain->copy_rotation > 0) {
     sbf_quat to = sbri_quat_blend(frames[last].rotation, chain->target_rotation, chain->copy_rotation);
     sbri_ik_turn(chain, last, sbri_quat_multiply(to, sbri_quat_conjugate(frames[last].rotation)), frames);
   }
-  sbri_ik_frames(chain, frames);
+  sbri_ik_compute_frames(chain, frames);
   error = sbri_length(sbri_sub(frames[last].position, target));
   return (sbri_ik_result){iterations, error, error <= chain->tolerance};
 }

@@ -37,28 +37,28 @@ static float leave(const curve *q, sbf_vec3 from, float t, float length) {
 /* Puts the joints on the curve, one length after the other; what the curve is too short for goes straight on.
  * Returns how much of the chain lies beyond the curve's end (or, negative, how much of the curve beyond the
  * chain's). */
-static float lay(const sbri_ik_chain *chain, const curve *q, sbf_vec3 *places) {
+static float lay(const sbri_ik_chain *chain, const curve *q, sbf_vec3 *positions) {
   float t = 0;
-  places[0] = q->a;
+  positions[0] = q->a;
   for (uint32_t i = 1; i < chain->count; i++) {
     float length = sbri_length(chain->joints[i].offset);
-    float next = t > 1 ? 2 : leave(q, places[i - 1], t, length);
+    float next = t > 1 ? 2 : leave(q, positions[i - 1], t, length);
     if (next <= 1) {
-      places[i] = curve_at(q, next);
+      positions[i] = curve_at(q, next);
     } else {
       sbf_vec3 out = sbri_normalize(sbri_sub(q->c, q->b), sbri_sub(q->c, q->a));
-      sbf_vec3 spare = sbri_normalize(sbri_sub(q->c, places[i - 1]), out);
-      places[i] = sbri_add_scaled(places[i - 1], t > 1 ? out : spare, length);
+      sbf_vec3 spare = sbri_normalize(sbri_sub(q->c, positions[i - 1]), out);
+      positions[i] = sbri_add_scaled(positions[i - 1], t > 1 ? out : spare, length);
     }
     t = next;
   }
-  float beyond = sbri_length(sbri_sub(places[chain->count - 1], q->c));
+  float beyond = sbri_length(sbri_sub(positions[chain->count - 1], q->c));
   return t > 1 ? beyond : -beyond;
 }
 
 sbri_ik_result sbri_ik_spline(sbri_ik_chain *chain) {
   sbr_transform frames[SBRI_IK_MAX_JOINTS];
-  sbf_vec3 places[SBRI_IK_MAX_JOINTS], target = sbri_ik_begin(chain, frames);
+  sbf_vec3 positions[SBRI_IK_MAX_JOINTS], target = sbri_ik_begin(chain, frames);
   sbf_vec3 root = frames[0].position, middle = sbri_lerp(root, target, 0.5f), bow = {0, 0, 0};
   float reach = sbri_ik_reach(chain);
   for (uint32_t i = 1; i + 1 < chain->count; i++) bow = sbri_add(bow, sbri_sub(frames[i].position, middle));
@@ -74,14 +74,14 @@ sbri_ik_result sbri_ik_spline(sbri_ik_chain *chain) {
   for (; passes < max; passes++) {
     float height = 0.5f * (low + high);
     q.b = sbri_add_scaled(middle, bow, height);
-    float beyond = lay(chain, &q, places);
+    float beyond = lay(chain, &q, positions);
     if (fabsf(beyond) <= 0.1f * chain->tolerance) break;
     if (beyond > 0)
       low = height;
     else
       high = height;
   }
-  sbri_ik_through(chain, places, frames);
-  sbri_ik_frames(chain, frames);
+  sbri_ik_through(chain, positions, frames);
+  sbri_ik_compute_frames(chain, frames);
   return sbri_ik_finish(chain, target, frames, passes);
 }

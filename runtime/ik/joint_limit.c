@@ -107,9 +107,9 @@ sbf_quat sbri_joint_limit_clamp(const sbri_joint_limit *limit, sbf_quat local) {
   p.swing_z = sbri_clamp(p.swing_z, limit->swing_z[0], limit->swing_z[1]);
   float swing = sqrtf(p.swing_y * p.swing_y + p.swing_z * p.swing_z);
   if (swing > limit->cone) { /* a box without 0 wins over the cone */
-    float share = limit->cone / swing;
-    p.swing_y = sbri_clamp(p.swing_y * share, limit->swing_y[0], limit->swing_y[1]);
-    p.swing_z = sbri_clamp(p.swing_z * share, limit->swing_z[0], limit->swing_z[1]);
+    float fraction = limit->cone / swing;
+    p.swing_y = sbri_clamp(p.swing_y * fraction, limit->swing_y[0], limit->swing_y[1]);
+    p.swing_z = sbri_clamp(p.swing_z * fraction, limit->swing_z[0], limit->swing_z[1]);
   }
   sbf_quat q = sbri_quat_multiply(sbri_quat_conjugate(limit->before), sbri_swing_twist_join(p));
   return sbri_quat_normalize(sbri_quat_multiply(q, sbri_quat_conjugate(limit->after)));

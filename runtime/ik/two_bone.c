@@ -15,7 +15,7 @@ sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole,
   sbf_vec3 to_target = sbri_sub(target, hip);
   float wanted = sbri_length(to_target);
   sbf_vec3 along = sbri_normalize(to_target, sbri_vec3(0, -1, 0));
-  float distance = sbri_clamp(sbri_ease_reach(wanted, reach, soft_reach), nearest, reach);
+  float distance = sbri_clamp(sbri_soften_reach(wanted, reach, soft_reach), nearest, reach);
 
   sbf_vec3 out = across(sbri_sub(pole, hip), along);
   if (sbri_dot(out, out) < 1e-10f * reach * reach) out = across(sbri_sub(fallback, hip), along);
@@ -39,8 +39,8 @@ sbri_ik_result sbri_ik_two_bone(sbri_ik_chain *chain) {
   sbf_vec3 middle = sbri_lerp(hip, frames[2].position, 0.5f), out = sbri_sub(knee, middle);
   sbf_vec3 pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
   sbri_two_bone_result solved = sbri_two_bone(hip, target, pole, knee, upper, lower, 0);
-  const sbf_vec3 places[3] = {hip, solved.knee, solved.ankle};
-  sbri_ik_through(chain, places, frames);
+  const sbf_vec3 positions[3] = {hip, solved.knee, solved.ankle};
+  sbri_ik_through(chain, positions, frames);
   sbri_ik_result result = sbri_ik_finish(chain, target, frames, 1);
   float away = sbri_length(sbri_sub(solved.ankle, target));
   if (result.error <= away + chain->tolerance) return result;

@@ -9,19 +9,19 @@
 #include "solvers/symplectic.h"
 
 static void vertices(const sbri_skin *skin, const sbri_point *points, sbri_point *to) {
-  sbri_lanes_vertices(skin, points, to);
+  sbri_lanes_compute_vertices(skin, points, to);
 }
 static void faces(const sbri_skin *skin, const sbri_point *from, sbri_point *to) {
-  sbri_lanes_faces(skin, from, to);
+  sbri_lanes_compute_faces(skin, from, to);
 }
 static void tangents(const sbri_skin *skin, const sbri_point *from, sbri_point *to) {
-  sbri_lanes_tangents(skin, from, to);
+  sbri_lanes_compute_tangents(skin, from, to);
 }
 static void sums(const sbri_sum_table *table, const sbri_point *from, sbri_point *to) {
-  sbri_lanes_sums(table, from, to);
+  sbri_lanes_compute_sums(table, from, to);
 }
 static void normals(const sbri_sum_table *table, const sbri_point *from, sbri_point *to) {
-  sbri_lanes_normals(table, from, to);
+  sbri_lanes_compute_normals(table, from, to);
 }
 static void run_symplectic(const sbri_island_tick *tick) {
   sbri_lanes_symplectic_tick(tick);

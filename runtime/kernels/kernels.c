@@ -26,17 +26,17 @@ const sbri_kernels *sbri_kernels_of(sbr_instructions instructions) {
   return NULL;
 }
 
-bool sbr_instructions_available(sbr_instructions instructions) {
+bool sbr_instructions_are_available(sbr_instructions instructions) {
   return sbri_kernels_of(instructions) != NULL;
 }
 
-const char *sbr_instructions_name(sbr_instructions instructions) {
+const char *sbr_instructions_get_name(sbr_instructions instructions) {
   static const char *const names[] = {
       "automatic", "scalar", "sse2", "avx2", "avx512", "neon", "wasm_simd128"};
-  size_t place = (size_t)instructions;
-  return place < sizeof names / sizeof *names ? names[place] : NULL;
+  size_t index = (size_t)instructions;
+  return index < sizeof names / sizeof *names ? names[index] : NULL;
 }
 
-uint32_t sbr_lanes(void) {
+uint32_t sbr_get_lane_count(void) {
   return sbri_kernels_of(SBR_INSTRUCTIONS_AUTOMATIC)->lanes;
 }

@@ -30,11 +30,11 @@ void sbri_lag_tick(sbri_lag *lag, float target, const sbri_follower_step *step) 
   lag->rate = step->c * e + step->d * rate;
 }
 
-void sbri_place_follower_reset(sbri_place_follower *f, sbf_vec3 at) {
-  *f = (sbri_place_follower){at, {0, 0, 0}, at};
+void sbri_position_follower_reset(sbri_position_follower *f, sbf_vec3 at) {
+  *f = (sbri_position_follower){at, {0, 0, 0}, at};
 }
 
-void sbri_place_follower_tick(sbri_place_follower *f, sbf_vec3 target, const sbri_follower_step *s) {
+void sbri_position_follower_tick(sbri_position_follower *f, sbf_vec3 target, const sbri_follower_step *s) {
   if (s->h <= 0) return;
   sbf_vec3 speed = sbri_scale(sbri_sub(target, f->followed), 1 / s->h), ahead = sbri_scale(speed, s->ahead_s);
   sbf_vec3 e = sbri_sub(sbri_sub(f->value, f->followed), ahead), de = sbri_sub(f->rate, speed);

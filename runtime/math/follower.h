@@ -22,11 +22,11 @@ typedef struct sbri_lag {
 void sbri_lag_tick(sbri_lag *lag, float target, const sbri_follower_step *step);
 
 /* Followers of places and rotations that run evenly over the step from what was followed last. */
-typedef struct sbri_place_follower {
+typedef struct sbri_position_follower {
   sbf_vec3 value, rate, followed;
-} sbri_place_follower;
-void sbri_place_follower_reset(sbri_place_follower *f, sbf_vec3 at);
-void sbri_place_follower_tick(sbri_place_follower *f, sbf_vec3 target, const sbri_follower_step *step);
+} sbri_position_follower;
+void sbri_position_follower_reset(sbri_position_follower *f, sbf_vec3 at);
+void sbri_position_follower_tick(sbri_position_follower *f, sbf_vec3 target, const sbri_follower_step *step);
 
 typedef struct sbri_turn_follower {
   sbf_quat value;

@@ -141,12 +141,12 @@ typedef struct sbri_wide4 {
   sbri_wide x, y, z, w;
 } sbri_wide4;
 
-SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *places) {
+SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *indices) {
   sbri_wide4 r;
 #if SBRI_LANES == 8
 #define SBRI_PAIR(i)                                                                                         \
-  _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&points[places[i]].x)),                           \
-      _mm_loadu_ps(&points[places[(i) + 4]].x), 1)
+  _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&points[indices[i]].x)),                          \
+      _mm_loadu_ps(&points[indices[(i) + 4]].x), 1)
   __m256 a = SBRI_PAIR(0), b = SBRI_PAIR(1), c = SBRI_PAIR(2), d = SBRI_PAIR(3);
 #undef SBRI_PAIR
   __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
@@ -157,10 +157,10 @@ SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_
   r.w = (sbri_wide)_mm256_shuffle_ps(ab_high, cd_high, 0xee);
 #elif SBRI_LANES == 4
   sbri_quad a, b, c, d;
-  memcpy(&a, &points[places[0]], sizeof a);
-  memcpy(&b, &points[places[1]], sizeof b);
-  memcpy(&c, &points[places[2]], sizeof c);
-  memcpy(&d, &points[places[3]], sizeof d);
+  memcpy(&a, &points[indices[0]], sizeof a);
+  memcpy(&b, &points[indices[1]], sizeof b);
+  memcpy(&c, &points[indices[2]], sizeof c);
+  memcpy(&d, &points[indices[3]], sizeof d);
   sbri_quad ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
   sbri_quad ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   sbri_quad cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
@@ -169,20 +169,20 @@ SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_
   r.z = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   r.w = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 #else
-  const sbri_point *p = points + places[0];
+  const sbri_point *p = points + indices[0];
   r.x = p->x, r.y = p->y, r.z = p->z, r.w = p->w;
 #endif
   return r;
 }
 
 /* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
-SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
-  sbri_wide4 r = sbri_wide_gather4(points, places);
+SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *indices) {
+  sbri_wide4 r = sbri_wide_gather4(points, indices);
   return (sbri_wide3){r.x, r.y, r.z};
 }
 
 /* Each lane to its own place; where two lanes name one place the last one stays. */
-SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, sbri_wide4 v) {
+SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *indices, sbri_wide4 v) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
          xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
@@ -191,8 +191,8 @@ SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, 
   __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
       _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
 #define SBRI_PUT(i) /* written out: a loop would keep the rows in memory */                                  \
-  _mm_storeu_ps(&points[places[i]].x, _mm256_castps256_ps128(rows[i]));                                      \
-  _mm_storeu_ps(&points[places[(i) + 4]].x, _mm256_extractf128_ps(rows[i], 1))
+  _mm_storeu_ps(&points[indices[i]].x, _mm256_castps256_ps128(rows[i]));                                     \
+  _mm_storeu_ps(&points[indices[(i) + 4]].x, _mm256_extractf128_ps(rows[i], 1))
   SBRI_PUT(0);
   SBRI_PUT(1);
   SBRI_PUT(2);
@@ -206,16 +206,16 @@ SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, 
   sbri_quad rows[4] = {__builtin_shufflevector(xy, zw, 0, 1, 4, 5),
       __builtin_shufflevector(xy, zw, 2, 3, 6, 7), __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5),
       __builtin_shufflevector(xy_high, zw_high, 2, 3, 6, 7)};
-  for (int i = 0; i < 4; i++) memcpy(&points[places[i]], &rows[i], sizeof rows[i]);
+  for (int i = 0; i < 4; i++) memcpy(&points[indices[i]], &rows[i], sizeof rows[i]);
 #else
-  points[places[0]] = (sbri_point){v.x, v.y, v.z, v.w};
+  points[indices[0]] = (sbri_point){v.x, v.y, v.z, v.w};
 #endif
 }
 
 /* The numbers at those places. */
-static inline sbri_wide sbri_wide_gather_floats(const float *numbers, const uint32_t *places) {
+static inline sbri_wide sbri_wide_gather_floats(const float *numbers, const uint32_t *indices) {
   float lanes[SBRI_LANES];
-  for (int i = 0; i < SBRI_LANES; i++) lanes[i] = numbers[places[i]];
+  for (int i = 0; i < SBRI_LANES; i++) lanes[i] = numbers[indices[i]];
   return sbri_wide_load(lanes);
 }
 
@@ -259,7 +259,7 @@ SBRI_INLINE void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 
 /* points[places[i]] += lane i of v, or -= it, one after the other; their fourth number becomes anything. */
 SBRI_INLINE void sbri_wide_scatter_sum(
-    sbri_point *points, const uint32_t *places, sbri_wide3 v, bool subtract) {
+    sbri_point *points, const uint32_t *indices, sbri_wide3 v, bool subtract) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y), z = (__m256)v.z;
   __m256 xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
@@ -267,7 +267,7 @@ SBRI_INLINE void sbri_wide_scatter_sum(
   __m256 c = _mm256_shuffle_ps(xy_high, z, 0xa4), d = _mm256_shuffle_ps(xy_high, z, 0xfe);
 #define SBRI_SUM(i, row)                                                                                     \
   do {                                                                                                       \
-    float *to = &points[places[i]].x;                                                                        \
+    float *to = &points[indices[i]].x;                                                                       \
     __m128 before = _mm_loadu_ps(to);                                                                        \
     _mm_storeu_ps(to, subtract ? _mm_sub_ps(before, row) : _mm_add_ps(before, row));                         \
   } while (0)
@@ -287,7 +287,7 @@ SBRI_INLINE void sbri_wide_scatter_sum(
       __builtin_shufflevector(xy_high, z, 0, 1, 6, 6), __builtin_shufflevector(xy_high, z, 2, 3, 7, 7)};
 #define SBRI_SUM(i)                                                                                          \
   do {                                                                                                       \
-    sbri_point *to = &points[places[i]];                                                                     \
+    sbri_point *to = &points[indices[i]];                                                                    \
     sbri_quad sum;                                                                                           \
     memcpy(&sum, to, sizeof sum);                                                                            \
     sum = subtract ? sum - rows[i] : sum + rows[i];                                                          \
@@ -299,15 +299,15 @@ SBRI_INLINE void sbri_wide_scatter_sum(
   SBRI_SUM(3);
 #undef SBRI_SUM
 #else
-  sbri_point *to = &points[places[0]];
+  sbri_point *to = &points[indices[0]];
   if (subtract)
     to->x -= v.x, to->y -= v.y, to->z -= v.z;
   else
     to->x += v.x, to->y += v.y, to->z += v.z;
 #endif
 }
-SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {
-  sbri_wide_scatter_sum(points, places, v, false);
+SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *indices, sbri_wide3 v) {
+  sbri_wide_scatter_sum(points, indices, v, false);
 }
 
 #endif

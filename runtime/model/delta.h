@@ -19,13 +19,13 @@ typedef struct sbri_delta {
 } sbri_delta;
 
 /* By how much a squash moves a place. */
-static inline sbf_vec3 sbri_squash_shift(const sbri_squash *squash, sbf_vec3 place) {
-  sbf_vec3 off = sbri_sub(place, squash->head);
+static inline sbf_vec3 sbri_squash_shift(const sbri_squash *squash, sbf_vec3 position) {
+  sbf_vec3 off = sbri_sub(position, squash->head);
   float along = (squash->along - squash->across) * sbri_dot(squash->axis, off);
   return sbri_add_scaled(sbri_scale(squash->axis, along), off, squash->across - 1);
 }
 
-static inline sbf_vec3 sbri_delta_place(const sbri_delta *delta, sbf_vec3 rest) {
+static inline sbf_vec3 sbri_delta_position(const sbri_delta *delta, sbf_vec3 rest) {
   if (delta->squash) rest = sbri_add(rest, sbri_squash_shift(delta->squash, rest));
   return sbri_add(delta->position, sbri_rotate(delta->rotation, rest));
 }

@@ -1,91 +1,92 @@
-/* One control tick of one island: what a scheme is given, and the schemes.
+/* Input and state of one control tick of one island, for the time integrators.
  *
- * Places in asset metres relative to the character's origin, times in the character's own seconds (a
- * character of scale 1 counts as the world does). All arrays are the island's own, in its slots. */
+ * Positions are in asset metres relative to the character's origin. Times are in the character's own seconds,
+ * so that a character of scale 1 uses world time. Arrays belong to the island and are indexed by its slots.
+ */
 #ifndef SBRI_ISLAND_TICK_H
 #define SBRI_ISLAND_TICK_H
 
 #include "model/load.h"
 #include "model/runtime_model.h"
 
-/* Elements that tore in a tick: how many, and the first of them. */
+/* Elements that tore in a tick: their number and the first SBRI_TEARS of them. */
 enum { SBRI_TEARS = 16 };
 typedef struct sbri_tear {
-  uint32_t link;  /* block x 8 + lane; of a tetrahedron its number */
-  bool solid;     /* a tetrahedron */
-  sbf_vec3 place; /* its middle, asset metres */
+  uint32_t link;     /* spring: block x 8 + lane; tetrahedron: its index */
+  bool solid;        /* a tetrahedron, not a spring */
+  sbf_vec3 position; /* its centre, asset metres */
 } sbri_tear;
 typedef struct sbri_tears {
-  uint32_t unsplit; /* points for which there was no room */
-  uint32_t count;   /* more than SBRI_TEARS: the others are counted only */
+  uint32_t unsplit; /* points that could not split for lack of spare slots */
+  uint32_t count;   /* may exceed SBRI_TEARS; the rest are only counted */
   sbri_tear at[SBRI_TEARS];
 } sbri_tears;
 
-/* What a tetrahedron that may tear is. */
+/* State of a tetrahedron that may tear. */
 enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 
 #define SBRI_NO_COLLIDER UINT32_MAX
 #define SBRI_ITSELF (UINT32_MAX - 1)
 
-/* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
- * be in several. */
-typedef struct sbri_touch {
-  sbri_sample sample; /* as it is carried in this tick */
+/* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
+ * several. */
+typedef struct sbri_soft_contact {
+  sbri_sample sample; /* weights in this tick */
   sbf_vec3 normal;    /* unit */
-  float offset;       /* normal . x of the plane, as of the present substep's beginning */
+  float offset;       /* n . x of the plane at the beginning of the present substep */
   union {
-    sbf_vec3 velocity; /* m/s, of what it stands for */
-    sbf_vec3 arm;      /* of an external body, which has its own: from its centre of mass */
+    sbf_vec3 velocity; /* velocity of the other surface, m/s */
+    sbf_vec3 arm;      /* lever arm from the external body's centre of mass */
   };
-  float friction_share, restitution; /* of the body's coefficient of friction; its own */
-  uint32_t collider;     /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
-            body, against the points whose weights are below 0 */
-  bool edges;            /* of itself: the first two points against the last two */
-  bool crosses;          /* of itself: they have gone through each other */
-  bool alone;            /* the sample is one free point that no other touch moves */
-  uint8_t external_body; /* from 1 on: which of the body's external bodies it pushes (collide/external
-                            body.h); 0: none */
-  /* Of solvers/touches.c, from substep to substep: */
-  float gap, wanted;         /* m and m/s, at the beginning of one */
-  float share;               /* of its own response that a pass answers it with; 1: it is answered in turn */
-  bool pushes;               /* or is about to, in this substep */
-  float gain;                /* m/s that the push gives the sample along the normal */
-  sbf_vec3 friction_impulse; /* and friction across it */
-  float pushed;              /* most of the gains in the tick */
-  sbf_vec3 given;            /* m/s that all pushes of the tick have given the sample */
-  float
-      fast_m_s; /* it nears its plane no faster in the tick, but for what springs and weight add; 0: it may */
-  float idle_s; /* for how long it cannot touch */
-} sbri_touch;
+  float friction_scale, restitution; /* factor on the body's friction coefficient; restitution */
+  uint32_t collider;     /* index of the collider, SBRI_NO_COLLIDER for the ground, or SBRI_ITSELF for self
+                            contact (the other side's points have negative weights) */
+  bool edges;            /* self contact of two edges: the first two points against the last two */
+  bool crosses;          /* self contact: the edges have passed through each other */
+  bool alone;            /* the sample is a single free point that no other contact moves */
+  uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
+                            (collide/external_body.h); 0: none */
+  /* Solver state (solvers/soft_contacts.c): */
+  float gap, wanted;     /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
+  float fraction;        /* relaxation factor of an iteration; 1: solved in sequence */
+  bool pushes;           /* active in this substep */
+  float velocity_change; /* normal velocity change by the contact, m/s */
+  sbf_vec3 friction_impulse; /* friction, tangential */
+  float pushed;              /* maximum velocity_change in the tick */
+  sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
+  float fast_m_s;            /* bound of its approach speed in the tick, without forces, m/s; 0: unbounded */
+  float idle_s;              /* time until it may touch, s */
+} sbri_soft_contact;
 
-/* What has been pulled with on a rigid body, N s and N m s about a place; and by how much that changes its
- * speeds, 1/kg and 1/(kg m^2) about the axis about which it turns most easily: 0 where it does not give way.
+/* Impulse and angular impulse of soft bodies on a rigid body about `about`, N s and N m s. The inverse mass
+ * and the largest inverse moment of inertia are 0 for a body that does not move.
  *
- * Where points have been moved at once against what holds them, its part of that: kg m and kg m^2 likewise,
- * and the angular momentum that these have at the held places' speeds. */
+ * shift and shift_turn (kg m, kg m^2) accumulate immediate position corrections of pinned points;
+ * shift_moment is their angular momentum at the speeds of these points. */
 typedef struct sbri_reaction {
   sbf_vec3 about, impulse, moment;
   sbf_vec3 shift, shift_turn, shift_moment;
-  float ease, inverse_inertia;
+  float inverse_mass, inverse_inertia;
 } sbri_reaction;
 
-/* How an island recovers, in ticks. */
+/* Recovery of an island from failure; times in ticks. */
 typedef struct sbri_recovery {
-  uint32_t ticks;         /* for which the router still keeps to the scheme that recovers */
-  uint32_t rigid_ticks;   /* for which its bodies still move as rigid ones */
-  uint32_t row;           /* how often it was put back into its rest shape, each soon after the last */
-  uint32_t relapse_ticks; /* within which the next time counts as one more of those */
-  uint32_t unsound_ticks; /* since the motion of its loose bodies was last kept */
-  uint32_t jumped_ticks;  /* within which a jump of what holds it may have left it crushed */
-  uint32_t crushed_ticks; /* for which it has been crushed since */
+  uint32_t ticks;         /* left in which the router keeps the recovery integrator */
+  uint32_t rigid_ticks;   /* left in which its bodies move rigidly */
+  uint32_t row;           /* number of resets to the rest shape in quick succession */
+  uint32_t relapse_ticks; /* window in which another reset counts as in succession */
+  uint32_t unsound_ticks; /* since the motion of bodies without pins was last stored */
+  uint32_t jumped_ticks;  /* left after a jump of its pins, which may have crushed it */
+  uint32_t crushed_ticks; /* since then in which it has been crushed */
 } sbri_recovery;
 
 typedef struct sbri_island_tick {
   const sbr_model *model;
   const sbri_island *island;
-  float tick_s;     /* a share of the control tick where the island steps along with rigid bodies: */
-  float share;      /* of it; 1: all */
-  bool meets;       /* in contact with bodies of characters */
+  float
+      tick_s; /* length of the tick, s; a fraction of a control tick if the island steps with rigid bodies: */
+  float fraction;   /* that fraction; 1: a whole tick */
+  bool collides;    /* has contacts with bodies of other characters */
   sbf_vec3 gravity; /* m/s^2 */
   sbf_vec3 wind;    /* m/s */
   sbr_double3 origin;
@@ -95,30 +96,32 @@ typedef struct sbri_island_tick {
   uint32_t load_count;
   const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
 
-  sbri_point *positions;         /* (slot_count) */
-  float *velocities;             /* (free_count x 3) blocks of three by eight; of the relaxation scheme the
-                                    positions of the tick before */
-  const sbri_point *targets;     /* (slot_count) where held points shall be at the end of the tick */
-  const float *guide_velocities; /* (free_count x 3) of the guides, where a body is held */
-  bool undamped;                 /* what damping against the guides does is done by the caller */
-  sbri_reaction *reactions;      /* (rigid bodies) is added to; NULL: nobody asks */
-  sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
-  sbri_point *velocity_points;   /* (slot_count) scratch */
-  sbri_point *element_forces;    /* (slot_count) scratch: of tetrahedra and regions */
-  double *outer_rad_s;           /* the island's, as the gases are now: sbri_outer_look */
+  sbri_point *positions;          /* (slot_count) */
+  float *velocities;              /* (free_count x 3) blocks of three by eight; of the relaxation scheme the
+                                     positions of the tick before */
+  const sbri_point *targets;      /* (slot_count) where held points shall be at the end of the tick */
+  const float *driver_velocities; /* (free_count x 3) velocities of the drivers, for pinned bodies */
+  bool undamped;                  /* the caller applies damping relative to the drivers */
+  sbri_reaction *reactions;       /* (rigid bodies) accumulated; NULL: not needed */
+  sbri_point *begins; /* (slot_count) scratch: positions of pinned points at the beginning of the tick */
+  sbri_point *velocity_points; /* (slot_count) scratch */
+  sbri_point *element_forces;  /* (slot_count) scratch: of tetrahedra and regions */
+  double *external_rad_s;      /* highest angular frequency of external forces, 1/s, updated by
+                                  sbri_update_gas_stiffness */
   sbr_transform anchor; /* motion of the anchor frame since the rest pose, asset metres: fields stand in it */
   sbri_point *surface_forces, *surface_velocities; /* scratch likewise */
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
-  sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
+  sbri_soft_contact *contacts;                     /* of the character; see sbri_body.first_soft_contact */
   struct sbri_external_bodies
-      *external_bodies;         /* (bodies of the model) collide/external_body.h; NULL: none */
-  float *touch_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
-  const uint32_t *touch_counts; /* (bodies of the model) NULL: none */
-  float *rests, *strengths;     /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
-  float *rotations;             /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
-  sbri_point *outer; /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
+      *external_bodies;           /* (bodies of the model) collide/external_body.h; NULL: none */
+  float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
+  const uint32_t *contact_counts; /* (bodies of the model) NULL: none */
+  float *rests, *strengths;       /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
+  float *rotations; /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
+  sbri_point
+      *external_forces; /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
   float *accelerations, *older_velocities;  /* (free_count x 3) scratch, blocks as `velocities` */
   sbri_point *moves;                        /* (slot_count) scratch */
   float *edges;                             /* (links x 8 x 3) scratch */
@@ -128,19 +131,19 @@ typedef struct sbri_island_tick {
   const sbri_tetrahedron_block *tetrahedra; /* the island's blocks as they are now */
   sbri_tetrahedron_block *flowing;          /* the same where they yield or tear, else NULL */
   uint32_t *torn;                           /* (tetrahedron_count) sbri_torn_state, likewise */
-  float *thinning;                          /* see sbri_island_state */
+  float *max_flow_stretch;                  /* see sbri_island_state */
   float *stiffening; /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
-  float *min_ratio;  /* out: least J of the tetrahedra when last looked at, 1 without them */
-  float *stretch;    /* greatest share of a spring beyond its rest length: in of the last tick, out
-                        of this one's last substep */
-  uint32_t *passes;  /* over all elements are added to; NULL: nobody counts */
+  float *min_ratio;  /* out: minimum J = det F of the tetrahedra at the last check; 1 without tetrahedra */
+  float *
+      stretch; /* maximum stretch of a spring: of the previous tick on entry, of the last substep on return */
+  uint32_t *element_visits; /* element visits, accumulated; NULL: not counted */
 } sbri_island_tick;
 
-static inline void sbri_count_passes(const sbri_island_tick *t, uint32_t passes) {
-  if (t->passes) *t->passes += passes;
+static inline void sbri_count_element_visits(const sbri_island_tick *t, uint32_t element_visits) {
+  if (t->element_visits) *t->element_visits += element_visits;
 }
 
-/* Velocity of a slot; of held ones that of their way through the tick. */
+/* Velocity of a slot; of a pinned slot its mean velocity over the tick. */
 static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float *velocities, uint32_t slot) {
   if (slot < t->island->free_count) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -151,7 +154,7 @@ static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float
   return (sbf_vec3){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate};
 }
 
-static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_sample *s) {
+static inline sbf_vec3 sbri_sample_position(const sbri_island_tick *t, const sbri_sample *s) {
   sbf_vec3 x = {0, 0, 0};
   for (int k = 0; k < 4; k++) {
     if (s->weights[k] == 0) continue;
@@ -161,14 +164,14 @@ static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_s
   return x;
 }
 
-/* How many of the body's touches there are in this tick. */
-static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_body *body) {
-  return t->touch_counts ? t->touch_counts[body - t->model->bodies] : 0;
+/* Number of contacts of the body in this tick. */
+static inline uint32_t sbri_soft_contact_count(const sbri_island_tick *t, const sbri_body *body) {
+  return t->contact_counts ? t->contact_counts[body - t->model->bodies] : 0;
 }
 
-/* Whether something of the body may touch anything in this tick. */
-static inline bool sbri_may_touch(const sbri_island_tick *t, const sbri_body *body) {
-  bool any = sbri_touch_count(t, body) > 0;
+/* Whether the body may touch anything in this tick. */
+static inline bool sbri_may_collide(const sbri_island_tick *t, const sbri_body *body) {
+  bool any = sbri_soft_contact_count(t, body) > 0;
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
     any = any || t->near_ground[block];
   return any;

@@ -8,7 +8,7 @@
 
 /* Speeds may grow within a tick, by weight and springs: by as much as takes a place this share of the body
  * further. */
-#define SBRI_REACH_SHARE 0.02f
+#define SBRI_REACH_FRACTION 0.02f
 
 /* The fastest of the body's free points, m/s; velocities of its island. */
 static inline float sbri_fastest_of(const sbri_body *body, const float *velocities) {
@@ -25,7 +25,7 @@ static inline float sbri_fastest_of(const sbri_body *body, const float *velociti
 /* Metres of the world, for a place that goes `own` in the tick, of a character of that scale, on a body whose
  * fastest point goes `fastest`. */
 static inline float sbri_reach_of(const sbri_body *body, float scale, float own, float fastest) {
-  return (body->margin_m + SBRI_REACH_SHARE * body->rest_size_m) * scale + (own > fastest ? own : fastest);
+  return (body->margin_m + SBRI_REACH_FRACTION * body->rest_size_m) * scale + (own > fastest ? own : fastest);
 }
 
 #endif

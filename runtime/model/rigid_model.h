@@ -36,7 +36,7 @@ typedef struct sbri_rigid_joint {
   const sbf_joint *source;
   int32_t bodies[SBRI_SIDES]; /* -1: the world */
   sbri_rigid_frame frames[SBRI_SIDES];
-  unsigned held;         /* bits of the coordinates that the kind holds at 0 */
+  unsigned locked;       /* bits of the coordinates that the kind holds at 0 */
   float rest_distance;   /* of the kinds distance and pulley, m */
   uint32_t row_capacity; /* that it may need */
   uint32_t first_row;    /* among those of all joints */
@@ -46,10 +46,10 @@ typedef struct sbri_rigid_joint {
 } sbri_rigid_joint;
 
 /* Flesh that hangs on one body and on nothing else. */
-typedef struct sbri_flesh {
-  bool bearable;     /* all that hangs on it has answers (sbri_answers) */
+typedef struct sbri_attached_mass {
+  bool bearable;     /* all that hangs on it has answers (sbri_attached_responses) */
   double mass[6][6]; /* what these add to the body's masses and moments, about its centre, axes of rest */
-} sbri_flesh;
+} sbri_attached_mass;
 
 typedef struct sbri_rigid_model {
   const sbri_rigid_body *bodies;
@@ -67,8 +67,8 @@ typedef struct sbri_rigid_model {
   float *pinned_squares;
   /* (body_count) how much more than the body the flesh weighs that is damped against it, or has moment. */
   float *pinned_weights;
-  float *carried_masses; /* (body_count) kg of flesh that hangs on each */
-  sbri_flesh *flesh;     /* (body_count) */
+  float *carried_masses;        /* (body_count) kg of flesh that hangs on each */
+  sbri_attached_mass *attached; /* (body_count) */
   uint32_t bone_count, vertex_count, row_count;
   size_t square_count;
   uint32_t loop_row_capacity; /* rows of joints that close loops; see loop_solve.h */

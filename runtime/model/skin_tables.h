@@ -14,10 +14,10 @@ typedef struct sbri_carry_cell {
 } sbri_carry_cell;
 
 /* A slot's share of a face. */
-typedef struct sbri_face_share {
+typedef struct sbri_face_weight {
   uint32_t slot, face; /* slot of the island */
   float weight;
-} sbri_face_share;
+} sbri_face_weight;
 
 /* A vertex that follows frames (bones, or the character's root). */
 typedef struct sbri_frame_vertex {
@@ -48,7 +48,7 @@ typedef struct sbri_sum_table {
 
 /* Shares of a face's two diagonals in its tangent, times its area in the texture. */
 typedef struct sbri_tangent_block {
-  float shares[2][SBRI_BLOCK];
+  float fractions[2][SBRI_BLOCK];
 } sbri_tangent_block;
 
 typedef struct sbri_skin {

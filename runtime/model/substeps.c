@@ -22,7 +22,7 @@ uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float st
   double across = stretch > 0 ? stretch : 0;
   double w = sqrt(rest * rest + across * max * max);
   if (w > max) w = max;
-  w = sqrt(w * w + MARGIN * MARGIN * island->outer_rad_s * island->outer_rad_s);
+  w = sqrt(w * w + MARGIN * MARGIN * island->external_rad_s * island->external_rad_s);
   double z = 0.5 * island->stiffness_damping_s * w;
   double needed = tick_s * w / (2 * (sqrt(1 + z * z) - z));
   if (!(needed < MAX_COUNTED)) return MAX_COUNTED;

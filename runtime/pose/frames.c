@@ -10,19 +10,19 @@ static bool same_bits(const sbf_quat *a, const sbf_quat *b) {
 
 static sbri_delta delta_of(const sbr_model *model, uint32_t frame, sbr_transform now, float scale) {
   sbr_transform rest = sbri_frame_rest(model, frame);
-  sbf_quat turn = sbri_quat_identity(); /* exactly, for a frame that has not turned */
+  sbf_quat rotation = sbri_quat_identity(); /* exactly, for a frame that has not turned */
   if (!same_bits(&now.rotation, &rest.rotation))
-    turn = sbri_quat_normalize(sbri_quat_multiply(now.rotation, sbri_quat_conjugate(rest.rotation)));
-  sbf_vec3 at = sbri_sub(sbri_scale(now.position, 1 / scale), sbri_rotate(turn, rest.position));
-  return (sbri_delta){.position = at, .rotation = turn};
+    rotation = sbri_quat_normalize(sbri_quat_multiply(now.rotation, sbri_quat_conjugate(rest.rotation)));
+  sbf_vec3 at = sbri_sub(sbri_scale(now.position, 1 / scale), sbri_rotate(rotation, rest.position));
+  return (sbri_delta){.position = at, .rotation = rotation};
 }
 
 /* Squashes lie behind the deltas, one for each follower that may be one. */
-static void squash(const sbri_character *c, float share, sbri_delta *deltas) {
+static void squash(const sbri_character *c, float fraction, sbri_delta *deltas) {
   const sbf_follower_list *followers = &c->model->asset->followers;
   sbri_squash *squashes = (sbri_squash *)(void *)(deltas + c->model->frame_count);
   for (uint32_t i = 0; i < followers->count; i++) {
-    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, share);
+    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, fraction);
     if (along == 1) continue;
     uint32_t frame = (uint32_t)followers->at[i].bone;
     sbr_transform rest = sbri_frame_rest(c->model, frame);
@@ -39,17 +39,18 @@ sbr_transform sbri_delta_of(const sbri_character *c, const sbr_transform *pose, 
   return (sbr_transform){delta.position, delta.rotation};
 }
 
-void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, float share, sbri_delta *deltas) {
+void sbri_deltas_make(
+    const sbri_character *c, const sbr_transform *pose, float fraction, sbri_delta *deltas) {
   for (uint32_t f = 0; f < c->model->frame_count; f++) deltas[f] = delta_of(c->model, f, pose[f], c->scale);
-  squash(c, share, deltas);
+  squash(c, fraction, deltas);
 }
 
-void sbri_deltas_between(const sbri_character *c, float share, sbri_delta *deltas) {
+void sbri_deltas_interpolate(const sbri_character *c, float fraction, sbri_delta *deltas) {
   for (uint32_t f = 0; f < c->model->frame_count; f++) {
     const sbr_transform *p = &sbri_previous_pose(c)[f], *q = &sbri_pose(c)[f];
     sbr_transform now = {
-        sbri_lerp(p->position, q->position, share), sbri_quat_blend(p->rotation, q->rotation, share)};
+        sbri_lerp(p->position, q->position, fraction), sbri_quat_blend(p->rotation, q->rotation, fraction)};
     deltas[f] = delta_of(c->model, f, now, c->scale);
   }
-  squash(c, share, deltas);
+  squash(c, fraction, deltas);
 }

@@ -42,7 +42,7 @@ static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
 
 /* A point this share of an edge of the tetrahedra outside of the surface would bear it too high; one that
  * much inside, no better than not. */
-static const float OUTSIDE_SHARE = 0.02f, INSIDE_SHARE = 0.25f;
+static const float OUTSIDE_FRACTION = 0.02f, INSIDE_FRACTION = 0.25f;
 
 /* Between a triangle and a point: the square, and whether the point is behind. */
 typedef struct distance {
@@ -77,7 +77,7 @@ typedef struct surface_points {
   float reach;       /* m: points further off are not looked at any closer */
 } surface_points;
 
-static void look_from(const surface_points *p, const sbf_vec3 corners[3]) {
+static void find_from(const surface_points *p, const sbf_vec3 corners[3]) {
   const sbf_vec3_list *points = &p->body->level->positions;
   sbf_vec3 low = corners[0], high = corners[0];
   for (int k = 1; k < 3; k++) {
@@ -126,14 +126,14 @@ static void find_surface_points(const surface_points *p) {
   for (uint32_t i = 0; i < p->body->level->positions.count; i++) p->nearest[i].square = -1;
   for (uint32_t n = 0; n < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[n++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[n]; k++)
-      look_from(p, (const sbf_vec3[]){mesh->positions.at[corners[0]], mesh->positions.at[corners[k - 1]],
+      find_from(p, (const sbf_vec3[]){mesh->positions.at[corners[0]], mesh->positions.at[corners[k - 1]],
                        mesh->positions.at[corners[k]]});
 }
 
 static void add_surface_points(
     const sbri_island *island, sbri_body *body, const surface_points *p, float edge, sbri_sample *samples) {
   for (uint32_t i = 0; i < body->level->positions.count; i++) {
-    float share = p->nearest[i].behind ? INSIDE_SHARE : OUTSIDE_SHARE, max = share * edge;
+    float fraction = p->nearest[i].behind ? INSIDE_FRACTION : OUTSIDE_FRACTION, max = fraction * edge;
     uint32_t slot = body->slot_from_point[i];
     if (p->nearest[i].square < 0 || p->nearest[i].square > max * max || slot >= island->free_count) continue;
     add_sample(body, samples,
@@ -214,7 +214,7 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   if (!samples || !mark_used(mesh, scratch, &used)) return false;
   body->samples = samples;
   if (sparse) {
-    surface_points p = {.body = body, .reach = INSIDE_SHARE * edge};
+    surface_points p = {.body = body, .reach = INSIDE_FRACTION * edge};
     p.nearest = sbfi_arena_allocate(scratch, body->level->positions.count, sizeof *p.nearest);
     if (!p.nearest) return false;
     find_surface_points(&p);

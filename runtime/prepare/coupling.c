@@ -29,23 +29,24 @@ bool sbri_carriers_list(sbr_model *model) {
   return true;
 }
 
-static bool list_held(sbr_model *model, sbri_island *island) {
-  uint32_t held_count = island->slot_count - island->free_count, body_count = model->rigid.body_count;
-  int32_t *of_held = sbfi_arena_allocate(&model->arena, (size_t)held_count + 1, sizeof *of_held);
+static bool list_pinned(sbr_model *model, sbri_island *island) {
+  uint32_t pinned_count = island->slot_count - island->free_count, body_count = model->rigid.body_count;
+  int32_t *of_pinned = sbfi_arena_allocate(&model->arena, (size_t)pinned_count + 1, sizeof *of_pinned);
   uint32_t *springs = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof *springs);
   uint32_t *carriers = sbfi_arena_allocate(&model->arena, (size_t)body_count + 1, sizeof *carriers);
-  if (!of_held || !springs || !carriers) return false;
-  for (uint32_t i = 0; i < held_count; i++) of_held[i] = model->carrier_of_frame[island->frame_of_held[i]];
-  island->carrier_of_held = of_held, island->carriers = carriers, island->held_springs = springs;
+  if (!of_pinned || !springs || !carriers) return false;
+  for (uint32_t i = 0; i < pinned_count; i++)
+    of_pinned[i] = model->carrier_of_frame[island->frame_of_pinned[i]];
+  island->rigid_body_of_pinned = of_pinned, island->carriers = carriers, island->pinned_springs = springs;
   for (uint32_t b = 0; b < body_count; b++) {
     bool carries = false;
-    for (uint32_t i = 0; i < held_count && !carries; i++) carries = of_held[i] == (int32_t)b;
+    for (uint32_t i = 0; i < pinned_count && !carries; i++) carries = of_pinned[i] == (int32_t)b;
     if (carries) carriers[island->carrier_count++] = b;
   }
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring *s = &island->springs[i];
     if ((s->a >= island->free_count) != (s->b >= island->free_count))
-      springs[island->held_spring_count++] = i;
+      springs[island->pinned_spring_count++] = i;
   }
   return true;
 }
@@ -58,7 +59,7 @@ typedef struct stiffness {
 } stiffness;
 
 static int32_t carrier_of(const sbri_island *island, uint32_t slot) {
-  return slot >= island->free_count ? island->carrier_of_held[slot - island->free_count] : -1;
+  return slot >= island->free_count ? island->rigid_body_of_pinned[slot - island->free_count] : -1;
 }
 
 static sbf_vec3 own_arm(const sbri_rigid_body *body, const sbri_point *at) {
@@ -135,21 +136,21 @@ static void add_regions(
 
 static void add_island(const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
   const sbri_rigid_body *body = &model->rigid.bodies[carrier];
-  for (uint32_t i = 0; i < island->held_spring_count; i++) {
-    const sbfi_spring *s = &island->springs[island->held_springs[i]];
-    uint32_t held = s->a >= island->free_count ? s->a : s->b;
-    if (carrier_of(island, held) == (int32_t)carrier)
-      add_point(island, body, held, (double)s->stiffness_n_m, sum);
+  for (uint32_t i = 0; i < island->pinned_spring_count; i++) {
+    const sbfi_spring *s = &island->springs[island->pinned_springs[i]];
+    uint32_t pinned = s->a >= island->free_count ? s->a : s->b;
+    if (carrier_of(island, pinned) == (int32_t)carrier)
+      add_point(island, body, pinned, (double)s->stiffness_n_m, sum);
   }
   add_tetrahedra(model, island, carrier, sum);
   add_regions(island, body, carrier, sum);
 }
 
 static float square_of(const sbri_rigid_body *body, const stiffness *s) {
-  const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
+  const float inverse_mass[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
   double turning = 0;
   for (int axis = 0; axis < 3; axis++) {
-    double square = s->about[axis] * (double)ease[axis];
+    double square = s->about[axis] * (double)inverse_mass[axis];
     turning = square > turning ? square : turning;
   }
   return (float)(s->along * (double)body->inverse_mass + turning);
@@ -161,33 +162,34 @@ static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point 
   int32_t carrier = model->carrier_of_frame[frame];
   if (carrier < 0) return;
   const sbri_rigid_body *body = &model->rigid.bodies[carrier];
-  sbf_vec3 r = own_arm(body, at), ease = body->inverse_inertia;
-  float turning = ease.x > ease.y ? ease.x : ease.y;
-  turning = turning > ease.z ? turning : ease.z;
+  sbf_vec3 r = own_arm(body, at), inverse_mass = body->inverse_inertia;
+  float turning = inverse_mass.x > inverse_mass.y ? inverse_mass.x : inverse_mass.y;
+  turning = turning > inverse_mass.z ? turning : inverse_mass.z;
   model->rigid.carried_masses[carrier] += mass;
   model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * turning);
 }
 
 static void add_weights(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
-  for (uint32_t slot = body->slot_begin; body->held && slot < body->slot_real_end; slot++) {
-    if (!body->guides) add_weight(model, body->guide_frame, &island->rest[slot], island->masses[slot]);
-    for (int k = 0; body->guides && k < SBRI_GUIDES; k++) {
-      const sbri_guide *guide = &body->guides[slot - body->slot_begin];
-      add_weight(model, guide->frames[k], &island->rest[slot], guide->weights[k] * island->masses[slot]);
+  for (uint32_t slot = body->slot_begin; body->is_pinned && slot < body->slot_real_end; slot++) {
+    if (!body->drivers) add_weight(model, body->driver_frame, &island->rest[slot], island->masses[slot]);
+    for (int k = 0; body->drivers && k < SBRI_DRIVERS; k++) {
+      const sbri_driver *driver = &body->drivers[slot - body->slot_begin];
+      add_weight(model, driver->frames[k], &island->rest[slot], driver->weights[k] * island->masses[slot]);
     }
   }
 }
 
 bool sbri_coupling_make(sbr_model *model) {
-  sbri_rigid_model *rigid = &model->rigid; /* on each rung its own */
+  sbri_rigid_model *rigid = &model->rigid; /* on each detail level its own */
   rigid->pinned_weights = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->pinned_squares = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->carried_masses = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
-  rigid->flesh = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof *rigid->flesh);
-  if (!rigid->pinned_weights || !rigid->pinned_squares || !rigid->carried_masses || !rigid->flesh)
+  rigid->attached =
+      sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof *rigid->attached);
+  if (!rigid->pinned_weights || !rigid->pinned_squares || !rigid->carried_masses || !rigid->attached)
     return false;
   for (uint32_t i = 0; i < model->island_count; i++)
-    if (!list_held(model, &model->islands[i])) return false;
+    if (!list_pinned(model, &model->islands[i])) return false;
   for (uint32_t i = 0; i < model->island_count; i++)
     for (uint32_t b = 0; b < model->islands[i].body_count; b++)
       add_weights(model, &model->islands[i], &model->bodies[model->islands[i].bodies[b]]);

@@ -134,7 +134,7 @@ bool sbri_hinges_add(
       x[k] = sbri_vec3(at->x, at->y, at->z);
     }
     sbri_hinge_shape shape = sbri_hinge_shape_of(x);
-    sbri_hinge_gradients(&shape, x, gradients + 4 * (size_t)i);
+    sbri_compute_hinge_gradients(&shape, x, gradients + 4 * (size_t)i);
     stiffness[i] = hinges[i].stiffness;
   }
   network->hinge_count = count;

@@ -8,7 +8,7 @@
 #include "solvers/scheme.h"
 
 /* A free point without mass would answer any force at once: it gets this share of the mean. */
-static const float MIN_MASS_SHARE = 1e-3f;
+static const float MIN_MASS_FRACTION = 1e-3f;
 
 static uint32_t padded(uint32_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
@@ -16,20 +16,20 @@ static uint32_t padded(uint32_t count) {
 
 /* ---- What holds each point, and what it weighs ---- */
 
-static bool read_goals(sbri_island_maker *m, uint32_t place) {
-  const sbri_body *body = sbri_maker_body(m, place);
+static bool read_goals(sbri_island_maker *m, uint32_t index) {
+  const sbri_body *body = sbri_maker_body(m, index);
   for (uint32_t s = 0; s < body->level->pins.count; s++) {
     const sbf_pin_set *set = &body->level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       uint32_t point = set->points.at[i];
       float weight = sbri_pin_weight(set, i);
-      if (m->frames[place][point] != SBRI_FREE || !(weight > 0) || weight >= 1) continue;
+      if (m->frames[index][point] != SBRI_FREE || !(weight > 0) || weight >= 1) continue;
       sbri_goal *g = sbfi_array_push(&m->goals, 1);
       if (!g) return false;
       float full =
-          set->stiffness > 0 ? set->stiffness : sbri_natural_stiffness(body->source, m->masses[place][point]);
-      *g = (sbri_goal){place, point, s, sbri_pin_frame(m->model, set), weight * full, weight * set->damping,
-          sbri_pin_place(m->model, body->level, set, i)};
+          set->stiffness > 0 ? set->stiffness : sbri_natural_stiffness(body->source, m->masses[index][point]);
+      *g = (sbri_goal){index, point, s, sbri_pin_frame(m->model, set), weight * full, weight * set->damping,
+          sbri_pin_position(m->model, body->level, set, i)};
     }
   }
   return true;
@@ -39,7 +39,7 @@ static bool read_goals(sbri_island_maker *m, uint32_t place) {
  * they are let go, they share what they have as stiffly as their springs hold them: else the one in the
  * middle, on which a spring of each point of the surface pulls, would swing twice as fast as all the others
  * and ask for twice the substeps. */
-static bool share_inside(sbri_island_maker *m, const sbri_body *body, float *masses) {
+static bool inside_fraction(sbri_island_maker *m, const sbri_body *body, float *masses) {
   const sbf_level *level = body->level;
   const sbf_polygon_mesh *mesh = &body->source->surface;
   uint32_t count = level->positions.count, total = 0;
@@ -66,36 +66,36 @@ static bool share_inside(sbri_island_maker *m, const sbri_body *body, float *mas
   return true;
 }
 
-static bool read_body(sbri_island_maker *m, uint32_t place) {
-  const sbri_body *body = sbri_maker_body(m, place);
+static bool read_body(sbri_island_maker *m, uint32_t index) {
+  const sbri_body *body = sbri_maker_body(m, index);
   uint32_t count = body->level->positions.count;
-  uint32_t *frames = m->frames[place] = sbri_scratch(m, count, sizeof *frames);
-  m->places[place] = sbri_scratch(m, count, sizeof **m->places);
-  float *masses = m->masses[place] = sbri_scratch(m, count, sizeof *masses);
-  uint8_t *held = sbri_scratch(m, count, 1);
-  if (!frames || !m->places[place] || !masses || !held) return false;
-  sbri_pins_read(m->model, body->level, frames, m->places[place]);
+  uint32_t *frames = m->frames[index] = sbri_scratch(m, count, sizeof *frames);
+  m->positions[index] = sbri_scratch(m, count, sizeof **m->positions);
+  float *masses = m->masses[index] = sbri_scratch(m, count, sizeof *masses);
+  uint8_t *pinned = sbri_scratch(m, count, 1);
+  if (!frames || !m->positions[index] || !masses || !pinned) return false;
+  sbri_pins_read(m->model, body->level, frames, m->positions[index]);
   for (uint32_t i = 0; i < count && m->options->free; i++) {
     frames[i] = SBRI_FREE;
-    m->places[place][i] = body->level->positions.at[i];
+    m->positions[index][i] = body->level->positions.at[i];
   }
   uint32_t free_count = 0;
   for (uint32_t i = 0; i < count; i++) {
-    held[i] = frames[i] != SBRI_FREE;
-    free_count += !held[i];
+    pinned[i] = frames[i] != SBRI_FREE;
+    free_count += !pinned[i];
   }
-  double sum = sbf_level_masses(body->source, body->level, held, masses);
-  if (m->options->free && !share_inside(m, body, masses)) return false;
-  float min = free_count ? (float)(sum / free_count) * MIN_MASS_SHARE : 0;
+  double sum = sbf_level_masses(body->source, body->level, pinned, masses);
+  if (m->options->free && !inside_fraction(m, body, masses)) return false;
+  float min = free_count ? (float)(sum / free_count) * MIN_MASS_FRACTION : 0;
   for (uint32_t i = 0; i < count; i++)
-    if (!held[i] && masses[i] < min) masses[i] = min;
-  return m->options->free || read_goals(m, place);
+    if (!pinned[i] && masses[i] < min) masses[i] = min;
+  return m->options->free || read_goals(m, index);
 }
 
 /* ---- Slots ---- */
 
-static void count_valences(const sbri_island_maker *m, uint32_t place, uint32_t *valences) {
-  const sbf_level *level = sbri_maker_body(m, place)->level;
+static void count_valences(const sbri_island_maker *m, uint32_t index, uint32_t *valences) {
+  const sbf_level *level = sbri_maker_body(m, index)->level;
   memset(valences, 0, level->positions.count * sizeof *valences);
   for (uint32_t s = 0; s < level->springs.count; s++)
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++) {
@@ -112,20 +112,20 @@ static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
 }
 
 /* Free points by falling valence, equal ones in the level's order, from slot `next` on. */
-static bool place_free(sbri_island_maker *m, uint32_t place, uint32_t next, uint32_t *slot_from_point) {
-  sbri_body *body = sbri_maker_body(m, place);
+static bool append_unpinned(sbri_island_maker *m, uint32_t index, uint32_t next, uint32_t *slot_from_point) {
+  sbri_body *body = sbri_maker_body(m, index);
   uint32_t count = body->level->positions.count, max = 0;
   uint32_t *valences = sbri_scratch(m, count, sizeof *valences);
   if (!valences) return false;
-  count_valences(m, place, valences);
+  count_valences(m, index, valences);
   for (uint32_t i = 0; i < count; i++) max = valences[i] > max ? valences[i] : max;
   uint32_t *begins = sbri_scratch(m, (size_t)max + 2, sizeof *begins);
   if (!begins) return false;
   for (uint32_t i = 0; i < count; i++)
-    if (m->frames[place][i] == SBRI_FREE) begins[max - valences[i] + 1]++;
+    if (m->frames[index][i] == SBRI_FREE) begins[max - valences[i] + 1]++;
   for (uint32_t v = 0; v <= max; v++) begins[v + 1] += begins[v];
   for (uint32_t i = 0; i < count; i++)
-    if (m->frames[place][i] == SBRI_FREE) slot_from_point[i] = next + begins[max - valences[i]]++;
+    if (m->frames[index][i] == SBRI_FREE) slot_from_point[i] = next + begins[max - valences[i]]++;
   body->slot_begin = next;
   body->first_spare = next + begins[max];
   body->slot_real_end = body->first_spare + reserve_of(m, body);
@@ -139,7 +139,7 @@ static bool make_slots(sbri_island_maker *m) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
     uint32_t *slots = sbri_keep(m, body->level->positions.count, sizeof *slots);
-    if (!slots || !place_free(m, b, next, slots)) return false;
+    if (!slots || !append_unpinned(m, b, next, slots)) return false;
     body->slot_from_point = slots;
     next = body->slot_end;
   }
@@ -160,15 +160,15 @@ static bool fill_slots(sbri_island_maker *m) {
   float *masses = sbri_keep(m, island->free_count, sizeof *masses);
   float *inverse_masses = sbri_keep(m, island->free_count, sizeof *inverse_masses);
   float *gravity_scales = sbri_keep(m, island->free_count, sizeof *gravity_scales);
-  uint32_t held_count = island->slot_count - island->free_count;
-  uint32_t *frames = sbri_keep(m, held_count, sizeof *frames);
+  uint32_t pinned_count = island->slot_count - island->free_count;
+  uint32_t *frames = sbri_keep(m, pinned_count, sizeof *frames);
   if (!rest || !masses || !inverse_masses || !gravity_scales || !frames) return false;
-  for (uint32_t i = 0; i < held_count; i++) frames[i] = sbri_root_frame(m->model);
+  for (uint32_t i = 0; i < pinned_count; i++) frames[i] = sbri_root_frame(m->model);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
       uint32_t slot = body->slot_from_point[i];
-      sbf_vec3 p = m->places[b][i];
+      sbf_vec3 p = m->positions[b][i];
       rest[slot] = (sbri_point){p.x, p.y, p.z, 0};
       if (slot >= island->free_count) {
         frames[slot - island->free_count] = m->frames[b][i];
@@ -184,21 +184,21 @@ static bool fill_slots(sbri_island_maker *m) {
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++) {
     uint32_t slot = m->first_goal + g;
-    rest[slot] = (sbri_point){goals[g].place.x, goals[g].place.y, goals[g].place.z, 0};
+    rest[slot] = (sbri_point){goals[g].position.x, goals[g].position.y, goals[g].position.z, 0};
     frames[slot - island->free_count] = goals[g].frame;
   }
   island->rest = m->rest = rest, island->masses = masses, island->inverse_masses = inverse_masses;
-  island->gravity_scales = gravity_scales, island->frame_of_held = frames;
+  island->gravity_scales = gravity_scales, island->frame_of_pinned = frames;
   return true;
 }
 
 /* Which pin set holds each slot: the first of those that hold its point. */
 static bool list_pins(sbri_island_maker *m) {
   sbri_island *island = m->island;
-  uint32_t held_count = island->slot_count - island->free_count;
-  sbri_pin_of *pins = sbri_keep(m, held_count, sizeof *pins);
+  uint32_t pinned_count = island->slot_count - island->free_count;
+  sbri_pin_of *pins = sbri_keep(m, pinned_count, sizeof *pins);
   if (!pins) return false;
-  for (uint32_t i = 0; i < held_count; i++) pins[i] = (sbri_pin_of){UINT32_MAX, UINT32_MAX};
+  for (uint32_t i = 0; i < pinned_count; i++) pins[i] = (sbri_pin_of){UINT32_MAX, UINT32_MAX};
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t s = 0; s < body->level->pins.count; s++) {
@@ -214,7 +214,7 @@ static bool list_pins(sbri_island_maker *m) {
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++)
     pins[m->first_goal + g - island->free_count] = (sbri_pin_of){island->bodies[goals[g].body], goals[g].set};
-  island->pin_of_held = pins;
+  island->pin_of_pinned = pins;
   return true;
 }
 
@@ -223,14 +223,14 @@ static bool list_pins(sbri_island_maker *m) {
 static bool make(sbri_island_maker *m) {
   uint32_t count = m->island->body_count;
   m->frames = sbri_scratch(m, count, sizeof *m->frames);
-  m->places = sbri_scratch(m, count, sizeof *m->places);
+  m->positions = sbri_scratch(m, count, sizeof *m->positions);
   m->masses = sbri_scratch(m, count, sizeof *m->masses);
-  if (!m->frames || !m->places || !m->masses) return false;
+  if (!m->frames || !m->positions || !m->masses) return false;
   for (uint32_t b = 0; b < count; b++)
     if (!read_body(m, b)) return false;
   if (!make_slots(m) || !fill_slots(m) || !list_pins(m) || !sbri_island_springs(m)) return false;
   for (uint32_t b = 0; b < count; b++)
-    if (!sbri_guides_make(m->model, m->island, sbri_maker_body(m, b))) return false;
+    if (!sbri_drivers_make(m->model, m->island, sbri_maker_body(m, b))) return false;
   return true;
 }
 

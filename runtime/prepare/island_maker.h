@@ -8,21 +8,21 @@
 typedef struct sbri_goal {
   uint32_t body, point, set, frame; /* body: place in the island */
   float stiffness, damping;
-  sbf_vec3 place;
+  sbf_vec3 position;
 } sbri_goal;
 
 typedef struct sbri_island_maker {
   sbr_model *model;
   sbri_island *island;
   const sbr_model_options *options;
-  sbfi_arena scratch;  /* until the island is made */
-  uint32_t **frames;   /* of each body, (points): what holds each point */
-  sbf_vec3 **places;   /* and where */
-  float **masses;      /* (points) kg */
-  sbfi_array goals;    /* sbri_goal */
-  uint32_t first_goal; /* slot of the first goal's far end */
-  sbfi_array springs;  /* sbfi_spring, while they are listed */
-  sbfi_array bounds;   /* sbfi_spring_bounds of each */
+  sbfi_arena scratch;   /* until the island is made */
+  uint32_t **frames;    /* of each body, (points): what holds each point */
+  sbf_vec3 **positions; /* and where */
+  float **masses;       /* (points) kg */
+  sbfi_array goals;     /* sbri_goal */
+  uint32_t first_goal;  /* slot of the first goal's far end */
+  sbfi_array springs;   /* sbfi_spring, while they are listed */
+  sbfi_array bounds;    /* sbfi_spring_bounds of each */
   bool states_rest_lengths;
   sbri_point *rest; /* the island's own tables, while they are filled */
   sbfi_spring *listed;
@@ -34,8 +34,8 @@ static inline void *sbri_scratch(sbri_island_maker *m, size_t count, size_t size
 static inline void *sbri_keep(sbri_island_maker *m, size_t count, size_t size) {
   return sbfi_arena_allocate(&m->model->arena, count ? count : 1, size);
 }
-static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t place) {
-  return &m->model->bodies[m->island->bodies[place]];
+static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t index) {
+  return &m->model->bodies[m->island->bodies[index]];
 }
 
 /* Young's modulus times the edge of the cube of matter that a point stands for: the stiffness of springs that
@@ -44,7 +44,7 @@ float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */
 /* How the island answers the rigid body that it hangs on, where that is one alone. */
-bool sbri_flesh_answers_make(sbri_island_maker *m, const sbf_spring_network *network);
+bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network *network);
 /* What weight maps of the body make of a property, as factors at its level's points; NULL: 1 everywhere. */
 bool sbri_factors_find(
     sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors);

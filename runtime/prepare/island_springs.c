@@ -94,11 +94,11 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   return true;
 }
 
-static bool add_goals(sbri_island_maker *m, uint32_t place) {
+static bool add_goals(sbri_island_maker *m, uint32_t index) {
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++) {
-    if (goals[g].body != place) continue;
-    uint32_t slot = sbri_maker_body(m, place)->slot_from_point[goals[g].point];
+    if (goals[g].body != index) continue;
+    uint32_t slot = sbri_maker_body(m, index)->slot_from_point[goals[g].point];
     if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping, 0},
             &unbounded))
       return false;
@@ -178,13 +178,13 @@ static void put(const sbri_island *island, const cell_tables *t, uint32_t *used,
     uint32_t slot, uint32_t other) {
   const sbfi_spring *s = &island->springs[spring];
   if (slot >= island->cell_slot_count) return;
-  uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
-  t->cells[place].others[lane] = other;
-  t->cells[place].stiffness[lane] = s->stiffness_n_m;
-  t->cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
-  if (t->damping) t->damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
-  if (t->slack) t->slack[place * SBRI_BLOCK + lane] = s->slack;
-  if (t->links) t->links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
+  uint32_t lane = slot % SBRI_BLOCK, index = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
+  t->cells[index].others[lane] = other;
+  t->cells[index].stiffness[lane] = s->stiffness_n_m;
+  t->cells[index].pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  if (t->damping) t->damping[index * SBRI_BLOCK + lane] = s->damping_ns_m;
+  if (t->slack) t->slack[index * SBRI_BLOCK + lane] = s->slack;
+  if (t->links) t->links[index * SBRI_BLOCK + lane] = island->link_of_spring[spring];
 }
 
 /* Springs that go along with a point which splits: not more than half of what any has, since the greater
@@ -325,7 +325,7 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
     body->lowest_rad_s = (float)lowest;
     body->stretching_rad_s = (float)stretching;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
-    body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;
+    body->rolling_fraction = lowest > 0 ? sbri_rolling_fraction(0.5f * body->alpha_1_s / (float)lowest) : 0;
     body->media_friction_1_s = is->media_friction + environment->media_friction;
     body->friction = is->friction;
     body->restitution = is->restitution;
@@ -333,7 +333,7 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
     sbf_body_measure(body->source, &measures);
     bool bare = body->source->surface.polygon_sizes.count == 0;
     bool solid = bare ? body->tetrahedron_count > 0 : !measures.sheet;
-    body->sliding_rad_s = solid && !body->held ? body->lowest_rad_s : 0;
+    body->sliding_rad_s = solid && !body->is_pinned ? body->lowest_rad_s : 0;
     const sbf_collision *collision = &body->source->collision;
     body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
   }
@@ -424,7 +424,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   if (!find_damping(m, network, masses, scratch) || !find_alphas(m) || !find_frictions(m) ||
-      !sbri_flesh_answers_make(m, &network))
+      !sbri_attached_responses_make(m, &network))
     return false;
   *found = network;
   return true;

@@ -63,13 +63,13 @@ typedef struct packing {
   uint32_t block_count;
 } packing;
 
-static void shut(packing *p, uint32_t place) {
-  const uint32_t *lanes = p->elements + (size_t)p->at[place] * SBRI_BLOCK;
-  p->open &= ~(UINT64_C(1) << place);
-  for (uint32_t lane = 0; lane < p->filled[place]; lane++)
+static void shut(packing *p, uint32_t index) {
+  const uint32_t *lanes = p->elements + (size_t)p->at[index] * SBRI_BLOCK;
+  p->open &= ~(UINT64_C(1) << index);
+  for (uint32_t lane = 0; lane < p->filled[index]; lane++)
     for (int k = 0; k < 4; k++) {
       uint32_t slot = p->corners[lanes[lane]].at[k];
-      if (slot < p->island->free_count) p->users[slot] &= ~(UINT64_C(1) << place);
+      if (slot < p->island->free_count) p->users[slot] &= ~(UINT64_C(1) << index);
     }
 }
 
@@ -81,39 +81,39 @@ static uint32_t min_bit(uint64_t mask) {
 
 /* Where the next block may be opened; the oldest gives way where there is no room. */
 static uint32_t open_block(packing *p) {
-  uint32_t place = 0;
+  uint32_t index = 0;
   if (p->open == UINT64_MAX) {
     for (uint32_t i = 1; i < OPEN_BLOCKS; i++)
-      if (p->at[i] < p->at[place]) place = i;
-    shut(p, place);
+      if (p->at[i] < p->at[index]) index = i;
+    shut(p, index);
   } else {
-    place = min_bit(~p->open);
+    index = min_bit(~p->open);
   }
-  p->open |= UINT64_C(1) << place;
-  p->at[place] = p->block_count++, p->filled[place] = 0;
+  p->open |= UINT64_C(1) << index;
+  p->at[index] = p->block_count++, p->filled[index] = 0;
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-    p->elements[(size_t)p->at[place] * SBRI_BLOCK + lane] = NO_ELEMENT;
-  return place;
+    p->elements[(size_t)p->at[index] * SBRI_BLOCK + lane] = NO_ELEMENT;
+  return index;
 }
 
 static void put(packing *p, uint32_t t) {
   uint64_t fitting = p->open;
-  uint32_t place = OPEN_BLOCKS;
+  uint32_t index = OPEN_BLOCKS;
   for (int k = 0; k < 4; k++) {
     uint32_t slot = p->corners[t].at[k];
     if (slot < p->island->free_count) fitting &= ~p->users[slot];
   }
   for (; fitting; fitting &= fitting - 1) {
     uint32_t other = min_bit(fitting);
-    if (place == OPEN_BLOCKS || p->at[other] < p->at[place]) place = other;
+    if (index == OPEN_BLOCKS || p->at[other] < p->at[index]) index = other;
   }
-  if (place == OPEN_BLOCKS) place = open_block(p);
-  p->elements[(size_t)p->at[place] * SBRI_BLOCK + p->filled[place]++] = t;
+  if (index == OPEN_BLOCKS) index = open_block(p);
+  p->elements[(size_t)p->at[index] * SBRI_BLOCK + p->filled[index]++] = t;
   for (int k = 0; k < 4; k++) {
     uint32_t slot = p->corners[t].at[k];
-    if (slot < p->island->free_count) p->users[slot] |= UINT64_C(1) << place;
+    if (slot < p->island->free_count) p->users[slot] |= UINT64_C(1) << index;
   }
-  if (p->filled[place] == SBRI_BLOCK) shut(p, place);
+  if (p->filled[index] == SBRI_BLOCK) shut(p, index);
 }
 static bool is_corner(const packing *p, const uint32_t *lanes, uint32_t slot) {
   for (uint32_t lane = 0; lane < SBRI_BLOCK && lanes[lane] != NO_ELEMENT; lane++)

@@ -23,7 +23,8 @@ static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level,
       body->id, sbf_elastic_model_name(level->model));
 }
 
-/* Of a coarser rung: the wanted number or the next finer one that is near enough, else the first rung's. */
+/* Of a coarser detail level: the wanted number or the next finer one that is near enough, else the first
+ * detail level's. */
 static const sbf_level *coarser_of(const sbr_model *model, uint32_t body, uint32_t wanted) {
   const sbri_body *first = &model->base->bodies[body];
   const sbf_level_list *levels = &first->source->levels;
@@ -97,9 +98,9 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
   for (uint32_t i = 0; i < count; i++) {
     const sbf_soft_body *source = &asset->soft_bodies.at[i];
-    const sbf_level *level = model->kind != SBR_RUNG_SOFT ? NULL
-                             : model->base == model       ? level_of(source, options->level)
-                                                          : coarser_of(model, i, options->level);
+    const sbf_level *level = model->kind != SBR_DETAIL_SOFT ? NULL
+                             : model->base == model         ? level_of(source, options->level)
+                                                            : coarser_of(model, i, options->level);
     if (level) {
       sbf_status status = check_level(source, level, error);
       if (status != SBF_OK) return status;

@@ -3,7 +3,7 @@
 #include "prepare/prepare.h"
 
 typedef struct listing {
-  void (*report)(void *user, const sbf_diagnostic *finding);
+  void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user;
   uint32_t count;
 } listing;
@@ -12,10 +12,10 @@ static void list(listing *l, uint32_t how_many, const char *what, const char *in
   if (how_many == 0) return;
   l->count++;
   if (!l->report) return;
-  sbf_diagnostic finding;
+  sbf_diagnostic diagnostic;
   sbfi_diagnose(
-      &finding, SBF_CODE_PART_LEFT_OUT, "%s are left out, %s (%u)", what, instead, (unsigned)how_many);
-  l->report(l->user, &finding);
+      &diagnostic, SBF_CODE_PART_LEFT_OUT, "%s are left out, %s (%u)", what, instead, (unsigned)how_many);
+  l->report(l->user, &diagnostic);
 }
 
 typedef struct body_counts {
@@ -57,8 +57,8 @@ static body_counts count_bodies(const sbr_model *model) {
   return n;
 }
 
-uint32_t sbr_model_left_out(
-    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user) {
+uint32_t sbr_model_report_unsupported(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user) {
   if (!model) return 0;
   listing l = {report, user, 0};
   const sbf_asset *asset = model->asset;
@@ -68,7 +68,7 @@ uint32_t sbr_model_left_out(
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
   list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's",
-      "they pass through, unless the world's bodies meet (sbr_world_bodies_meet)");
+      "they pass through, unless the world's bodies meet (sbr_world_enable_body_contacts)");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");

@@ -3,7 +3,7 @@
 
 /* A level that is off by more than this share of the body has gone wrong: it is of no use, whatever it costs.
  */
-static const float USELESS_SHARE = 0.25f;
+static const float USELESS_FRACTION = 0.25f;
 
 bool sbri_level_has_stepped_model(const sbf_level *level) {
   return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
@@ -16,15 +16,15 @@ bool sbri_level_is_stepped(const sbf_level *level) {
 
 bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m) {
   bool measured = level->simulation.motion_error > 0;
-  return !measured && level->simulation.error > USELESS_SHARE * size_m;
+  return !measured && level->simulation.error > USELESS_FRACTION * size_m;
 }
 
 bool sbri_level_is_useful(const sbf_level *level, float size_m) {
   return sbri_level_is_stepped(level) && !sbri_level_has_gone_wrong(level, size_m);
 }
 
-static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {
-  return level && place < body->levels.count && level == &body->levels.at[place];
+static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t index) {
+  return level && index < body->levels.count && level == &body->levels.at[index];
 }
 
 bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross) {

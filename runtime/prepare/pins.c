@@ -16,7 +16,8 @@ uint32_t sbri_pin_frame(const sbr_model *model, const sbf_pin_set *set) {
   return sbri_body_frame(model, (uint32_t)set->rigid_body);
 }
 
-sbf_vec3 sbri_pin_place(const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i) {
+sbf_vec3 sbri_pin_position(
+    const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i) {
   if (set->offsets.count == 0) return level->positions.at[set->points.at[i]];
   sbf_vec3 offset = set->offsets.at[i];
   if (set->bone >= 0) {
@@ -27,10 +28,10 @@ sbf_vec3 sbri_pin_place(const sbr_model *model, const sbf_level *level, const sb
   return offset;
 }
 
-void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *frames, sbf_vec3 *places) {
+void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *frames, sbf_vec3 *positions) {
   for (uint32_t i = 0; i < level->positions.count; i++) {
     frames[i] = SBRI_FREE;
-    places[i] = level->positions.at[i];
+    positions[i] = level->positions.at[i];
   }
   for (uint32_t s = 0; s < level->pins.count; s++) {
     const sbf_pin_set *set = &level->pins.at[s];
@@ -38,7 +39,7 @@ void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *fr
       uint32_t point = set->points.at[i];
       if (sbri_pin_weight(set, i) < 1 || frames[point] != SBRI_FREE) continue; /* the first set holds it */
       frames[point] = sbri_pin_frame(model, set);
-      places[point] = sbri_pin_place(model, level, set, i);
+      positions[point] = sbri_pin_position(model, level, set, i);
     }
   }
 }
@@ -52,23 +53,23 @@ typedef struct spread {
   uint32_t first, count; /* free slots of the body */
   uint32_t *frames;      /* (frame_count) the frames that hold the body */
   uint32_t frame_count;
-  float *shares; /* (count x frame_count) */
+  float *fractions; /* (count x frame_count) */
   uint32_t *link_begins,
       *links; /* corners that share a tetrahedron with each point, once for each; NULL: none */
 } spread;
 
-static uint32_t frame_place(const spread *s, uint32_t frame) {
-  uint32_t place = 0;
-  while (place < s->frame_count && s->frames[place] != frame) place++;
-  return place;
+static uint32_t frame_position(const spread *s, uint32_t frame) {
+  uint32_t index = 0;
+  while (index < s->frame_count && s->frames[index] != frame) index++;
+  return index;
 }
 
 /* What the other end of a spring adds to a point's shares. */
-static void add_shares(const spread *s, float *to, uint32_t other, float weight) {
+static void add_contributions(const spread *s, float *to, uint32_t other, float weight) {
   if (other >= s->island->free_count) {
-    to[frame_place(s, s->island->frame_of_held[other - s->island->free_count])] += weight;
+    to[frame_position(s, s->island->frame_of_pinned[other - s->island->free_count])] += weight;
   } else if (other >= s->first && other < s->first + s->count) {
-    const float *from = s->shares + (size_t)(other - s->first) * s->frame_count;
+    const float *from = s->fractions + (size_t)(other - s->first) * s->frame_count;
     for (uint32_t k = 0; k < s->frame_count; k++) to[k] += weight * from[k];
   }
 }
@@ -83,12 +84,12 @@ static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scra
     for (uint32_t r = 0; r < regions->sizes.count; points += regions->sizes.at[r++]) {
       uint32_t size = regions->sizes.at[r];
       for (uint32_t i = 0; i < size; i++)
-        for (uint32_t far = 1, place = body->slot_from_point[points[i]] - s->first;
-             far < size && place < s->count; far *= 2) {
+        for (uint32_t far = 1, index = body->slot_from_point[points[i]] - s->first;
+             far < size && index < s->count; far *= 2) {
           if (pass)
-            links[begins[place + 1]++] = body->slot_from_point[points[(i + far) % size]];
+            links[begins[index + 1]++] = body->slot_from_point[points[(i + far) % size]];
           else
-            begins[place + 2]++;
+            begins[index + 2]++;
         }
     }
     for (uint32_t i = 0; pass == 0 && i < s->count; i++) begins[i + 2] += begins[i + 1];
@@ -109,15 +110,15 @@ static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
   if (!begins || !links) return false;
   for (uint32_t t = 0; t < body->tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) {
-      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
-      if (place < s->count) begins[place + 2] += 3;
+      uint32_t index = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      if (index < s->count) begins[index + 2] += 3;
     }
   for (uint32_t i = 0; i < s->count; i++) begins[i + 2] += begins[i + 1];
   for (uint32_t t = 0; t < body->tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) {
-      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
-      for (int j = 1; j < 4 && place < s->count; j++)
-        links[begins[place + 1]++] = body->slot_from_point[tetrahedra[t].at[(k + j) % 4]];
+      uint32_t index = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      for (int j = 1; j < 4 && index < s->count; j++)
+        links[begins[index + 1]++] = body->slot_from_point[tetrahedra[t].at[(k + j) % 4]];
     }
   s->link_begins = begins, s->links = links;
   return true;
@@ -135,43 +136,43 @@ static void sweep(const spread *s, float *scratch) {
       uint32_t other = cell->others[lane];
       bool within = other >= s->island->free_count || (other >= s->first && other < s->first + s->count);
       if (!(k > 0) || !within) continue;
-      add_shares(s, scratch, other, k);
+      add_contributions(s, scratch, other, k);
       sum += k;
     }
     for (uint32_t l = s->link_begins ? s->link_begins[i] : 0; s->link_begins && l < s->link_begins[i + 1];
          l++) {
-      add_shares(s, scratch, s->links[l], 1);
+      add_contributions(s, scratch, s->links[l], 1);
       sum += 1;
     }
-    float *to = s->shares + (size_t)i * s->frame_count;
+    float *to = s->fractions + (size_t)i * s->frame_count;
     for (uint32_t k = 0; k < s->frame_count && sum > 0; k++) to[k] = scratch[k] / sum;
   }
 }
 
 /* The greatest shares, summing to one; all of it to `otherwise` where nothing reaches the point. */
-static sbri_guide guide_of(const spread *s, const float *shares, uint32_t otherwise) {
-  sbri_guide guide = {{otherwise, otherwise, otherwise, otherwise}, {1, 0, 0, 0}};
-  float sum = 0, taken[SBRI_GUIDES] = {0};
-  uint32_t places[SBRI_GUIDES] = {0};
-  for (int n = 0; n < SBRI_GUIDES; n++)
+static sbri_driver driver_of(const spread *s, const float *fractions, uint32_t otherwise) {
+  sbri_driver driver = {{otherwise, otherwise, otherwise, otherwise}, {1, 0, 0, 0}};
+  float sum = 0, taken[SBRI_DRIVERS] = {0};
+  uint32_t indices[SBRI_DRIVERS] = {0};
+  for (int n = 0; n < SBRI_DRIVERS; n++)
     for (uint32_t k = 0; k < s->frame_count; k++) {
       bool used = false;
-      for (int m = 0; m < n; m++) used = used || (taken[m] > 0 && places[m] == k);
-      if (!used && shares[k] > taken[n]) taken[n] = shares[k], places[n] = k;
+      for (int m = 0; m < n; m++) used = used || (taken[m] > 0 && indices[m] == k);
+      if (!used && fractions[k] > taken[n]) taken[n] = fractions[k], indices[n] = k;
     }
-  for (int n = 0; n < SBRI_GUIDES; n++) sum += taken[n];
-  for (int n = 0; n < SBRI_GUIDES && sum > 1e-6f; n++) {
-    guide.weights[n] = taken[n] / sum;
-    if (taken[n] > 0) guide.frames[n] = s->frames[places[n]];
+  for (int n = 0; n < SBRI_DRIVERS; n++) sum += taken[n];
+  for (int n = 0; n < SBRI_DRIVERS && sum > 1e-6f; n++) {
+    driver.weights[n] = taken[n] / sum;
+    if (taken[n] > 0) driver.frames[n] = s->frames[indices[n]];
   }
-  return guide;
+  return driver;
 }
 
-bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body) {
+bool sbri_drivers_make(sbr_model *model, const sbri_island *island, sbri_body *body) {
   uint32_t count = body->slot_end - body->slot_begin, otherwise = sbri_root_frame(model);
   if (body->source->bone >= 0) otherwise = (uint32_t)body->source->bone;
-  body->guide_frame = otherwise;
-  body->held = false;
+  body->driver_frame = otherwise;
+  body->is_pinned = false;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   spread s = {.island = island, .first = body->slot_begin, .count = body->slot_real_end - body->slot_begin};
@@ -182,26 +183,27 @@ bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *bo
     for (int lane = 0; lane < SBRI_BLOCK; lane++) {
       uint32_t other = island->cells[c].others[lane];
       if (other < island->free_count || !(island->cells[c].stiffness[lane] > 0)) continue;
-      uint32_t frame = island->frame_of_held[other - island->free_count];
-      if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
+      uint32_t frame = island->frame_of_pinned[other - island->free_count];
+      if (frame_position(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
     }
   good = good && list_links(&s, body, &scratch);
   for (uint32_t l = 0; good && s.links && l < s.link_begins[s.count]; l++) {
     if (s.links[l] < island->free_count) continue;
-    uint32_t frame = island->frame_of_held[s.links[l] - island->free_count];
-    if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
+    uint32_t frame = island->frame_of_pinned[s.links[l] - island->free_count];
+    if (frame_position(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
   }
-  body->held = good && s.frame_count > 0;
-  if (good && s.frame_count == 1) body->guide_frame = s.frames[0];
+  body->is_pinned = good && s.frame_count > 0;
+  if (good && s.frame_count == 1) body->driver_frame = s.frames[0];
   if (good && s.frame_count > 1) {
-    s.shares = sbfi_arena_allocate(&scratch, (size_t)s.count * s.frame_count, sizeof *s.shares);
+    s.fractions = sbfi_arena_allocate(&scratch, (size_t)s.count * s.frame_count, sizeof *s.fractions);
     float *mean = sbfi_arena_allocate(&scratch, s.frame_count, sizeof *mean);
-    sbri_guide *guides = sbfi_arena_allocate(&model->arena, count, sizeof *guides);
-    good = s.shares && mean && guides;
+    sbri_driver *drivers = sbfi_arena_allocate(&model->arena, count, sizeof *drivers);
+    good = s.fractions && mean && drivers;
     for (int i = 0; good && i < SWEEPS; i++) sweep(&s, mean);
     for (uint32_t i = 0; good && i < count; i++)
-      guides[i] = i < s.count ? guide_of(&s, s.shares + (size_t)i * s.frame_count, otherwise) : guides[0];
-    body->guides = guides;
+      drivers[i] =
+          i < s.count ? driver_of(&s, s.fractions + (size_t)i * s.frame_count, otherwise) : drivers[0];
+    body->drivers = drivers;
   }
   sbfi_arena_free(&scratch);
   return good;

@@ -8,11 +8,12 @@
 float sbri_pin_weight(const sbf_pin_set *set, uint32_t i);
 /* The frame that holds, and the pin's place in the rest pose, asset space. */
 uint32_t sbri_pin_frame(const sbr_model *model, const sbf_pin_set *set);
-sbf_vec3 sbri_pin_place(const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i);
+sbf_vec3 sbri_pin_position(
+    const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i);
 
 /* The frame of each point of the level, SBRI_FREE where no pin holds it fast, and its place in the rest pose;
  * both (level->positions.count). */
 #define SBRI_FREE UINT32_MAX
-void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *frames, sbf_vec3 *places);
+void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *frames, sbf_vec3 *positions);
 
 #endif

@@ -10,7 +10,7 @@
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 
 /* Never shorter than this share of its distance at rest, however heavy the body. */
-static const float MIN_SHARE = 0.05f;
+static const float MIN_FRACTION = 0.05f;
 
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network) {
   sbri_island *island = m->island;
@@ -41,7 +41,7 @@ bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network
       if (!(length > 0)) continue;
       double change = (x * (ub[0] - ua[0]) + y * (ub[1] - ua[1]) + z * (ub[2] - ua[2])) / length;
       if (change < 0 && s->slack < 1) change /= 1 - (double)s->slack; /* it pushes, as its slack lets it */
-      float loaded = (float)(s->rest_length_m - change), min = MIN_SHARE * s->rest_length_m;
+      float loaded = (float)(s->rest_length_m - change), min = MIN_FRACTION * s->rest_length_m;
       s->rest_length_m = loaded > min ? loaded : min;
     } else if (s->b >= island->free_count) { /* a goal: its far end moves instead */
       q->x -= (float)ua[0], q->y -= (float)ua[1], q->z -= (float)ua[2];

@@ -18,7 +18,7 @@ bool sbri_level_is_stepped(const sbf_level *level);
 /* Whether the error a level states under its weight is too large a share of its body, whose size that is;
  * one measured in motion is taken as it is. */
 bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m);
-/* Whether a level that is stepped is near enough to its body to be a rung. */
+/* Whether a level that is stepped is near enough to its body to be a detail level. */
 bool sbri_level_is_useful(const sbf_level *level, float size_m);
 /* Whether the springs join the levels that are simulated. */
 bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
@@ -26,11 +26,11 @@ bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cro
 sbf_status sbri_island_make(
     sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error);
 /* Spreads the frames of held points over the free ones along the springs. */
-bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
+bool sbri_drivers_make(sbr_model *model, const sbri_island *island, sbri_body *body);
 /* The springs as links; false where memory runs out. */
 bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds);
 /* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
-bool sbri_outer_make(sbr_model *model);
+bool sbri_external_forces_make(sbr_model *model);
 /* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points);
@@ -38,7 +38,7 @@ bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *fu
  * that hangs on each alone, after all that acts on it. The first two false where memory runs out. */
 bool sbri_carriers_list(sbr_model *model);
 bool sbri_coupling_make(sbr_model *model);
-void sbri_flesh_join(sbr_model *model);
+void sbri_attached_mass_join(sbr_model *model);
 /* Neighbours and what lies around each point; false where memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */
@@ -65,12 +65,12 @@ bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *
 /* Fills in rest_volume_m3 of all bodies; false where memory runs out. */
 bool sbri_rest_volumes_find(sbr_model *model);
 
-/* ---- Rungs ---- */
+/* ---- Detail levels ---- */
 
-/* The other rungs of a model that is made but for its layout, each a model likewise; SBF_OK and none where a
- * body yields or tears. */
-sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
-void sbri_rungs_free(sbr_model *model);
+/* The other detail levels of a model that is made but for its layout, each a model likewise; SBF_OK and none
+ * where a body yields or tears. */
+sbf_status sbri_detail_levels_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+void sbri_detail_levels_free(sbr_model *model);
 /* The level by which a body jiggles; NULL: it has none, or what holds it is not one frame. */
 const sbf_level *sbri_jiggle_of(const sbr_model *model, uint32_t soft_body);
 /* The followers of a model of jiggle. */

@@ -46,7 +46,7 @@ static sbf_status choose_scheme(
   if (!scheme || sbri_scheme_refuses(scheme, model, island)) scheme = &sbri_symplectic;
   island->scheme = scheme;
   bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
-  bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
+  bool stated_for_this = stated->scheme == scheme->kind || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
   island->substeps_least = stated->substeps_least, island->substeps_most = stated->substeps_most;
   island->step_error_m = options->step_error_m > 0 ? options->step_error_m : min_step_error(model, island);
@@ -140,7 +140,7 @@ static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) 
     if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MAX_SUBSTEPS) continue;
     const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
     double w =
-        sqrt(island->fastest_rad_s * island->fastest_rad_s + island->outer_rad_s * island->outer_rad_s);
+        sqrt(island->fastest_rad_s * island->fastest_rad_s + island->external_rad_s * island->external_rad_s);
     return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
         "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
         "mass, less stiffness or fewer points, or step it by position_based",
@@ -171,7 +171,7 @@ static bool make_skins(sbr_model *model) {
   return true;
 }
 
-/* Bones and rigid parts: those of the first rung. */
+/* Bones and rigid parts: those of the first detail level. */
 static bool make_bones(sbr_model *model) {
   if (model->base != model) {
     model->rig = model->base->rig;
@@ -195,13 +195,13 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);
-  if (!sbri_rest_volumes_find(model) || !sbri_outer_make(model)) return no_memory(error);
+  if (!sbri_rest_volumes_find(model) || !sbri_external_forces_make(model)) return no_memory(error);
   for (uint32_t i = 0; i < model->island_count; i++) {
     sbri_island *island = &model->islands[i];
     if (!island->routed || sbri_router_begins_explicit(island)) continue;
     island->scheme = &sbri_position_based;
     island->routed = false;
   }
-  sbri_flesh_join(model);
+  sbri_attached_mass_join(model);
   return check_substeps(model, error);
 }

@@ -92,7 +92,7 @@ static sbfi_d3 first_guess(sbfi_d3 r, uint32_t slot) {
   return (sbfi_d3){r.z * r.z - r.y * r.y + jitter, r.x * r.x + r.z * r.y - jitter, r.x * r.y - r.z + jitter};
 }
 
-static bool is_held(const sbri_island *island, const sbri_body *body) {
+static bool is_point_pinned(const sbri_island *island, const sbri_body *body) {
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     const sbri_region_block *block = &island->region_blocks[b];
     for (uint32_t i = 0; i < block->member_count; i++)
@@ -106,12 +106,12 @@ double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, dou
   if (body->first_region_block == body->region_block_end) return 0;
   sbfi_d3 *moves = (sbfi_d3 *)(void *)scratch, *forces = moves + island->slot_count;
   double top = island->region_rad_s * island->region_rad_s, low = top;
-  bool held = is_held(island, body);
+  bool pinned = is_point_pinned(island, body);
   memset(moves, 0, island->slot_count * sizeof *moves);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     moves[slot] = first_guess(rest_of(island, slot), slot);
   for (int step = 0; step < STEPS; step++) {
-    if (!held) take_rigid(island, body, moves);
+    if (!pinned) take_rigid(island, body, moves);
     memset(forces, 0, island->slot_count * sizeof *forces);
     for (uint32_t b = body->first_region_block; b < body->region_block_end; b++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)

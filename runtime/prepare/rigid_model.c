@@ -14,8 +14,8 @@ static float inverse(float value) {
 }
 
 /* From asset space at rest to the body's own frame. */
-static sbf_vec3 own_place(const sbri_rigid_body *body, sbf_vec3 place) {
-  return sbri_rotate(sbri_quat_conjugate(body->axes), sbri_sub(place, body->center));
+static sbf_vec3 own_position(const sbri_rigid_body *body, sbf_vec3 position) {
+  return sbri_rotate(sbri_quat_conjugate(body->axes), sbri_sub(position, body->center));
 }
 
 /* A flat or thin body has a moment of next to nothing about some axis, about which it would spin at any
@@ -42,7 +42,7 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
   sbf_vec3 *vertices = sbfi_arena_allocate(arena, count, sizeof *vertices);
   if (!vertices) return false;
   for (uint32_t i = 0; i < count; i++) {
-    vertices[i] = own_place(body, source->hull->positions.at[i]);
+    vertices[i] = own_position(body, source->hull->positions.at[i]);
     float length = sbri_length(vertices[i]);
     body->radius = length > body->radius ? length : body->radius;
   }
@@ -55,13 +55,13 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
 
 /* From local to the file's frame of the body, whose axes at rest are those of asset space, to its own. */
 static sbri_rigid_frame frame_of(const sbri_rigid_body *body, const sbf_frame *local) {
-  sbf_quat turn = sbri_quat_normalize(local->rotation);
-  if (!body) return (sbri_rigid_frame){local->position, turn};
-  return (sbri_rigid_frame){own_place(body, sbri_add(body->source->center, local->position)),
-      sbri_quat_multiply(sbri_quat_conjugate(body->axes), turn)};
+  sbf_quat rotation = sbri_quat_normalize(local->rotation);
+  if (!body) return (sbri_rigid_frame){local->position, rotation};
+  return (sbri_rigid_frame){own_position(body, sbri_add(body->source->center, local->position)),
+      sbri_quat_multiply(sbri_quat_conjugate(body->axes), rotation)};
 }
 
-static sbf_vec3 rest_place(const sbri_rigid_model *model, const sbri_rigid_joint *joint, int side) {
+static sbf_vec3 rest_position(const sbri_rigid_model *model, const sbri_rigid_joint *joint, int side) {
   if (joint->bodies[side] < 0) return joint->frames[side].at;
   const sbri_rigid_body *body = &model->bodies[joint->bodies[side]];
   return sbri_add(body->center, sbri_rotate(body->axes, joint->frames[side].at));
@@ -74,13 +74,14 @@ static uint32_t count_bits(unsigned bits) {
 }
 
 static void make_joint(const sbri_rigid_model *model, const sbf_joint *source, sbri_rigid_joint *joint) {
-  *joint = (sbri_rigid_joint){
-      .source = source, .bodies = {source->body_a, source->body_b}, .held = sbfi_joint_held(source->kind)};
+  *joint = (sbri_rigid_joint){.source = source,
+      .bodies = {source->body_a, source->body_b},
+      .locked = sbfi_joint_is_locked(source->kind)};
   const sbf_frame *frames[SBRI_SIDES] = {&source->frame_a, &source->frame_b};
   for (int side = 0; side < SBRI_SIDES; side++)
     joint->frames[side] =
         frame_of(joint->bodies[side] < 0 ? NULL : &model->bodies[joint->bodies[side]], frames[side]);
-  sbf_vec3 a = rest_place(model, joint, SBRI_A), b = rest_place(model, joint, SBRI_B);
+  sbf_vec3 a = rest_position(model, joint, SBRI_A), b = rest_position(model, joint, SBRI_B);
   if (source->kind == SBF_JOINT_KIND_DISTANCE) joint->rest_distance = sbri_length(sbri_sub(b, a));
   if (source->kind == SBF_JOINT_KIND_PULLEY)
     joint->rest_distance = sbri_length(sbri_sub(a, source->pulley_a)) +
@@ -88,7 +89,7 @@ static void make_joint(const sbri_rigid_model *model, const sbf_joint *source, s
   bool has_length = source->kind == SBF_JOINT_KIND_DISTANCE || source->kind == SBF_JOINT_KIND_PULLEY;
   /* Three more for drives that track a pose. */
   joint->row_capacity =
-      count_bits(joint->held) + has_length + source->limits.count + source->drives.count + 3;
+      count_bits(joint->locked) + has_length + source->limits.count + source->drives.count + 3;
 }
 
 /* ---- Graph ---- */
@@ -114,9 +115,9 @@ static bool list_joints(sbri_rigid_model *model, sbri_rigid_body *bodies, sbfi_a
 static bool sort_joints(sbri_rigid_model *model, sbfi_arena *arena) {
   uint32_t *order = sbfi_arena_allocate(arena, (size_t)model->joint_count + 1, sizeof *order), count = 0;
   if (!order) return false;
-  for (int held = 6; held >= 0; held--)
+  for (int pinned = 6; pinned >= 0; pinned--)
     for (uint32_t j = 0; j < model->joint_count; j++)
-      if (count_bits(model->joints[j].held) == (uint32_t)held) order[count++] = j;
+      if (count_bits(model->joints[j].locked) == (uint32_t)pinned) order[count++] = j;
   model->by_strength = order;
   return true;
 }
@@ -131,7 +132,7 @@ typedef struct load {
 /* All that is joined to a body without passing `joint` or what is marked as seen, as one piece. */
 static load find_load(
     const sbri_rigid_model *model, uint32_t joint, uint32_t body, uint32_t *seen, uint32_t *queue) {
-  sbf_vec3 about = rest_place(model, &model->joints[joint], SBRI_B);
+  sbf_vec3 about = rest_position(model, &model->joints[joint], SBRI_B);
   load all = {0, 0, {0, 0, 0}};
   uint32_t count = 0;
   queue[count++] = body, seen[body] = joint + 1;

@@ -14,20 +14,20 @@ typedef struct surface {
   sbri_box *boxes;
 } surface;
 
-static sbf_vec3 place(const surface *s, uint32_t slot) {
+static sbf_vec3 position(const surface *s, uint32_t slot) {
   return sbri_vec3(s->rest[slot].x, s->rest[slot].y, s->rest[slot].z);
 }
 
 static bool goes_through(const surface *s, const uint32_t ends[2], const uint32_t *c) {
-  sbf_vec3 p[3], from = place(s, ends[0]), way = sbri_sub(place(s, ends[1]), from);
+  sbf_vec3 p[3], from = position(s, ends[0]), displacement = sbri_sub(position(s, ends[1]), from);
   float weights[3];
   for (int k = 0; k < 3; k++) {
     if (c[k] == ends[0] || c[k] == ends[1]) return false;
-    p[k] = place(s, c[k]);
+    p[k] = position(s, c[k]);
   }
-  float share = sbri_triangle_cross(from, way, p[0], p[1], p[2]);
-  if (!(share > WITHIN && share < 1 - WITHIN)) return false;
-  sbri_triangle_nearest(sbri_add_scaled(from, way, share), p[0], p[1], p[2], weights);
+  float fraction = sbri_triangle_cross(from, displacement, p[0], p[1], p[2]);
+  if (!(fraction > WITHIN && fraction < 1 - WITHIN)) return false;
+  sbri_triangle_find_nearest(sbri_add_scaled(from, displacement, fraction), p[0], p[1], p[2], weights);
   return weights[0] > WITHIN && weights[1] > WITHIN && weights[2] > WITHIN;
 }
 
@@ -36,7 +36,7 @@ static bool side_goes_through(const surface *s, uint32_t number) {
   sbri_bounds_walk walk;
   uint32_t triangle;
   sbri_bounds_walk_begin(
-      &walk, &s->tree, sbri_box_with(sbri_box_of_point(place(s, ends[0])), place(s, ends[1])));
+      &walk, &s->tree, sbri_box_with(sbri_box_of_point(position(s, ends[0])), position(s, ends[1])));
   while (sbri_bounds_walk_next(&walk, &triangle))
     if (goes_through(s, ends, s->body->self_faces + 3 * (size_t)triangle)) return true;
   return false;
@@ -50,8 +50,8 @@ static bool find(surface *s, sbri_body *body, sbfi_arena *scratch) {
   if (!s->boxes || !s->tree.nodes || !s->tree.items) return false;
   for (uint32_t f = 0; f < count; f++) {
     const uint32_t *c = body->self_faces + 3 * (size_t)f;
-    s->boxes[f] = sbri_box_of_point(place(s, c[0]));
-    for (int k = 1; k < 3; k++) s->boxes[f] = sbri_box_with(s->boxes[f], place(s, c[k]));
+    s->boxes[f] = sbri_box_of_point(position(s, c[0]));
+    for (int k = 1; k < 3; k++) s->boxes[f] = sbri_box_with(s->boxes[f], position(s, c[k]));
   }
   sbri_bounds_tree_make(&s->tree, s->boxes, count);
   for (uint32_t i = 0; i < 3 * count && !body->is_tangled; i++)

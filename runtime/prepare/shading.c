@@ -28,17 +28,17 @@ static void face_corners(uint32_t size, uint32_t k, uint32_t corners[4]) {
 }
 
 bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
-  uint32_t face_count = count_faces(mesh), place = 0, first = 0;
+  uint32_t face_count = count_faces(mesh), index = 0, first = 0;
   skin->face_block_count = face_count / SBRI_BLOCK + 1;
   sbri_face_block *faces = sbfi_arena_allocate(arena, skin->face_block_count, sizeof *faces);
   if (!faces) return false;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) {
     uint32_t size = mesh->polygon_sizes.at[p];
-    for (uint32_t k = 0; k < faces_of_polygon(size); k++, place++) {
+    for (uint32_t k = 0; k < faces_of_polygon(size); k++, index++) {
       uint32_t corners[4];
       face_corners(size, k, corners);
       for (int c = 0; c < 4; c++)
-        faces[place / SBRI_BLOCK].corners[c][place % SBRI_BLOCK] =
+        faces[index / SBRI_BLOCK].corners[c][index % SBRI_BLOCK] =
             mesh->polygon_points.at[first + corners[c]];
     }
     first += size;
@@ -91,7 +91,7 @@ typedef struct placed {
   uint32_t bits[3], vertex;
 } placed;
 
-static int compare_places(const void *a, const void *b) {
+static int compare_positions(const void *a, const void *b) {
   const placed *p = a, *q = b;
   for (int k = 0; k < 3; k++)
     if (p->bits[k] != q->bits[k]) return p->bits[k] < q->bits[k] ? -1 : 1;
@@ -99,20 +99,20 @@ static int compare_places(const void *a, const void *b) {
 }
 
 /* The first vertex at the place of each. */
-static bool find_places(uint32_t *first_at_place, const sbf_polygon_mesh *mesh, sbfi_arena *scratch) {
+static bool find_positions(uint32_t *first_at_position, const sbf_polygon_mesh *mesh, sbfi_arena *scratch) {
   uint32_t count = mesh->positions.count;
   placed *sorted = sbfi_arena_allocate(scratch, count, sizeof *sorted);
   if (!sorted) return false;
   for (uint32_t v = 0; v < count; v++) {
     const sbf_vec3 *p = &mesh->positions.at[v];
-    float place[3] = {p->x + 0.0f, p->y + 0.0f, p->z + 0.0f}; /* -0 becomes 0 */
-    memcpy(sorted[v].bits, place, sizeof place);
+    float position[3] = {p->x + 0.0f, p->y + 0.0f, p->z + 0.0f}; /* -0 becomes 0 */
+    memcpy(sorted[v].bits, position, sizeof position);
     sorted[v].vertex = v;
   }
-  qsort(sorted, count, sizeof *sorted, compare_places);
+  qsort(sorted, count, sizeof *sorted, compare_positions);
   for (uint32_t i = 0; i < count; i++) {
     bool same = i > 0 && memcmp(sorted[i].bits, sorted[i - 1].bits, sizeof sorted[i].bits) == 0;
-    first_at_place[sorted[i].vertex] = same ? first_at_place[sorted[i - 1].vertex] : sorted[i].vertex;
+    first_at_position[sorted[i].vertex] = same ? first_at_position[sorted[i - 1].vertex] : sorted[i].vertex;
   }
   return true;
 }
@@ -137,8 +137,8 @@ static bool begin_grouping(grouping *g, uint32_t max, uint32_t vertex_count, sbf
   return g->groups && g->first_group;
 }
 
-static uint32_t group_for(grouping *g, uint32_t place, const sbf_vec3 *normal) {
-  uint32_t *link = &g->first_group[place];
+static uint32_t group_for(grouping *g, uint32_t index, const sbf_vec3 *normal) {
+  uint32_t *link = &g->first_group[index];
   for (; *link != UINT32_MAX; link = &g->groups[*link].next) {
     const sbf_vec3 *n = &g->groups[*link].normal;
     if (!normal || n->x * normal->x + n->y * normal->y + n->z * normal->z >= SAME_SIDE) return *link;
@@ -172,8 +172,8 @@ static bool make_tangents(sbri_skin *skin, const sbf_polygon_mesh *mesh, const s
       for (int c = 0; c < 4; c++) uv[c] = corner_uv(set, mesh, first + corners[c]);
       float u1 = uv[2].x - uv[0].x, v1 = uv[2].y - uv[0].y, u2 = uv[3].x - uv[1].x, v2 = uv[3].y - uv[1].y;
       float determinant = u1 * v2 - u2 * v1, sign = determinant < 0 ? -1.0f : 1.0f;
-      blocks[face / SBRI_BLOCK].shares[0][face % SBRI_BLOCK] = sign * v2;
-      blocks[face / SBRI_BLOCK].shares[1][face % SBRI_BLOCK] = -sign * v1;
+      blocks[face / SBRI_BLOCK].fractions[0][face % SBRI_BLOCK] = sign * v2;
+      blocks[face / SBRI_BLOCK].fractions[1][face % SBRI_BLOCK] = -sign * v1;
       for (int c = 0; c < 4; c++) handedness[mesh->polygon_points.at[first + corners[c]]] += determinant;
     }
     first += size;
@@ -188,18 +188,18 @@ static bool make_tangents(sbri_skin *skin, const sbf_polygon_mesh *mesh, const s
 static bool make_shading(sbri_skin *skin, const sbf_polygon_mesh *mesh, const sbf_render_mesh *authored,
     sbfi_arena *arena, sbfi_arena *scratch) {
   uint32_t vertex_count = skin->vertex_count, corner_count = mesh->polygon_points.count;
-  uint32_t *places = sbfi_arena_allocate(scratch, vertex_count, sizeof *places);
+  uint32_t *indices = sbfi_arena_allocate(scratch, vertex_count, sizeof *indices);
   uint32_t *of_vertex = sbfi_arena_allocate(arena, vertex_count, sizeof *of_vertex);
   uint32_t *of_corner = sbfi_arena_allocate(scratch, (size_t)corner_count + 1, sizeof *of_corner);
   uint32_t *split_of = sbfi_arena_allocate(arena, (size_t)corner_count + 1, sizeof *split_of);
   grouping g;
-  if (!places || !of_vertex || !of_corner || !split_of || !find_places(places, mesh, scratch) ||
+  if (!indices || !of_vertex || !of_corner || !split_of || !find_positions(indices, mesh, scratch) ||
       !begin_grouping(&g, vertex_count, vertex_count, scratch))
     return false;
   bool by_corner = authored->normal_corners.count == corner_count && corner_count > 0;
   bool by_vertex = !by_corner && authored->normals.count == vertex_count;
   for (uint32_t v = 0; v < vertex_count; v++)
-    of_vertex[v] = group_for(&g, places[v], by_vertex ? &authored->normals.at[v] : NULL);
+    of_vertex[v] = group_for(&g, indices[v], by_vertex ? &authored->normals.at[v] : NULL);
   for (uint32_t c = 0; c < corner_count; c++) of_corner[c] = of_vertex[mesh->polygon_points.at[c]];
   uint32_t inert = skin->face_block_count * SBRI_BLOCK - 1;
   if (!make_sums(&skin->smooth, g.group_count, of_corner, mesh, inert, arena, scratch)) return false;
@@ -211,7 +211,7 @@ static bool make_shading(sbri_skin *skin, const sbf_polygon_mesh *mesh, const sb
   if (!begin_grouping(&g, corner_count, vertex_count, scratch)) return false;
   for (uint32_t c = 0; c < corner_count; c++)
     split_of[c] = group_for(
-        &g, places[mesh->polygon_points.at[c]], &authored->normals.at[authored->normal_corners.at[c]]);
+        &g, indices[mesh->polygon_points.at[c]], &authored->normals.at[authored->normal_corners.at[c]]);
   return make_sums(&skin->split, g.group_count, split_of, mesh, inert, arena, scratch);
 }
 

@@ -12,8 +12,8 @@ typedef struct carrier {
 typedef struct carry {
   sbr_model *model;
   sbri_skin *skin;
-  uint32_t source_count;    /* vertices of the mesh */
-  const uint32_t *place_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
+  uint32_t source_count;       /* vertices of the mesh */
+  const uint32_t *position_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
   sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
@@ -21,8 +21,8 @@ typedef struct carry {
   bool shared;         /* the embedding at hand has vertices that several points carry */
 } carry;
 
-static uint32_t place_of(const carry *c, uint32_t vertex) {
-  return c->place_of ? c->place_of[vertex] : vertex;
+static uint32_t position_of(const carry *c, uint32_t vertex) {
+  return c->position_of ? c->position_of[vertex] : vertex;
 }
 
 static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
@@ -100,21 +100,23 @@ static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *
   }
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
-    if (vertex >= c->source_count || place_of(c, vertex) == UINT32_MAX) continue;
+    if (vertex >= c->source_count || position_of(c, vertex) == UINT32_MAX) continue;
     const sbf_vec4 *w = &embedding->weights.at[i];
     float weights[4] = {w->x, w->y, w->z, w->w};
     float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
     bool bound;
     for (int k = 0; k < 4; k++) weights[k] *= blend;
-    if (!bind_vertex(c, body, place_of(c, vertex), embedding->points.at[i].at, weights, &bound)) return false;
+    if (!bind_vertex(c, body, position_of(c, vertex), embedding->points.at[i].at, weights, &bound))
+      return false;
     for (int k = 0; k < 4 && !bound; k++)
-      if (!add_carrier(c, body, place_of(c, vertex), embedding->points.at[i].at[k], weights[k])) return false;
+      if (!add_carrier(c, body, position_of(c, vertex), embedding->points.at[i].at[k], weights[k]))
+        return false;
   }
   return true;
 }
 
-/* `places` has the cell of each carrier. */
-static bool keep_bindings(carry *c, const uint32_t *places) {
+/* `indices` has the cell of each carrier. */
+static bool keep_bindings(carry *c, const uint32_t *indices) {
   sbri_skin *skin = c->skin;
   uint32_t count = (uint32_t)c->bindings.count;
   if (count == 0) return true;
@@ -124,7 +126,7 @@ static bool keep_bindings(carry *c, const uint32_t *places) {
   memcpy(bindings, c->bindings.at, count * sizeof *bindings);
   memset(binding_of, 0xff, skin->vertex_count * sizeof *binding_of);
   for (uint32_t i = count; i-- > 0;) {
-    bindings[i].cell = places[bindings[i].cell];
+    bindings[i].cell = indices[bindings[i].cell];
     binding_of[bindings[i].vertex] = i;
   }
   skin->bindings = bindings, skin->binding_of = binding_of, skin->binding_count = count;
@@ -154,12 +156,12 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   size_t cell_count = begins[block_count];
   sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
   uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
-  uint32_t *places = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *places);
-  if (!cells || !used || !places) return false;
+  uint32_t *indices = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *indices);
+  if (!cells || !used || !indices) return false;
   for (size_t i = 0; i < c->carriers.count; i++) {
     uint32_t vertex = carriers[i].vertex;
-    places[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
-    sbri_carry_cell *cell = &cells[places[i]];
+    indices[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
+    sbri_carry_cell *cell = &cells[indices[i]];
     float sum = sums[vertex];
     cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
     cell->weights[vertex % SBRI_BLOCK] =
@@ -168,10 +170,10 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   skin->cell_begins = begins;
   skin->cells = cells;
   skin->cell_count = (uint32_t)cell_count;
-  return keep_bindings(c, places);
+  return keep_bindings(c, indices);
 }
 
-/* What carries a vertex as one piece with a body, in rungs that are not soft. */
+/* What carries a vertex as one piece with a body, in detail levels that are not soft. */
 typedef struct piece {
   uint32_t vertex, frame;
   float weight;
@@ -181,20 +183,20 @@ static bool add_piece(carry *c, uint32_t vertex, uint32_t frame, float weight) {
   return weight == 0 || sbfi_array_append(&c->pieces, &(piece){vertex, frame, weight}, 1);
 }
 
-/* What the guides of a point of the first rung carry. */
-static bool add_guides(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+/* What the guides of a point of the first detail level carry. */
+static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   const sbri_island *island = &c->model->base->islands[body->island];
   uint32_t slot = body->slot_from_point[point];
   if (slot >= island->free_count)
-    return add_piece(c, vertex, island->frame_of_held[slot - island->free_count], weight);
-  if (!body->guides) return add_piece(c, vertex, body->guide_frame, weight);
-  const sbri_guide *guide = &body->guides[slot - body->slot_begin];
-  for (int k = 0; k < SBRI_GUIDES; k++)
-    if (!add_piece(c, vertex, guide->frames[k], weight * guide->weights[k])) return false;
+    return add_piece(c, vertex, island->frame_of_pinned[slot - island->free_count], weight);
+  if (!body->drivers) return add_piece(c, vertex, body->driver_frame, weight);
+  const sbri_driver *driver = &body->drivers[slot - body->slot_begin];
+  for (int k = 0; k < SBRI_DRIVERS; k++)
+    if (!add_piece(c, vertex, driver->frames[k], weight * driver->weights[k])) return false;
   return true;
 }
 
-/* Frames that carry the vertices as bodies of the first rung would without inertia, or jiggles. */
+/* Frames that carry the vertices as bodies of the first detail level would without inertia, or jiggles. */
 static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sbf_embedding *embedding) {
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
@@ -204,14 +206,14 @@ static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sb
     if (vertex >= c->source_count) continue;
     if (frame != UINT32_MAX && !add_piece(c, vertex, frame, blend)) return false;
     for (int k = 0; k < 4 && frame == UINT32_MAX; k++)
-      if (!add_guides(c, body, vertex, embedding->points.at[i].at[k], weights[k] * blend)) return false;
+      if (!add_drivers(c, body, vertex, embedding->points.at[i].at[k], weights[k] * blend)) return false;
   }
   return true;
 }
 
 static bool add_all_pieces(carry *c, uint32_t render_mesh) {
   const sbr_model *model = c->model;
-  for (uint32_t b = 0; model->kind != SBR_RUNG_SOFT && b < model->asset->soft_bodies.count; b++) {
+  for (uint32_t b = 0; model->kind != SBR_DETAIL_SOFT && b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &model->base->bodies[b];
     uint32_t frame = UINT32_MAX;
     for (uint32_t j = 0; j < model->jiggle_count; j++)
@@ -262,7 +264,7 @@ static bool fill_frames(
   uint32_t vertex_count = 0, influence_count = (uint32_t)c->pieces.count, first = 0;
   if (!sort_pieces(c, &begins, &pieces)) return false;
   for (uint32_t v = 0; v < c->source_count; v++) {
-    if (place_of(c, v) == UINT32_MAX || counts[place_of(c, v)]) continue;
+    if (position_of(c, v) == UINT32_MAX || counts[position_of(c, v)]) continue;
     vertex_count++;
     influence_count += weights && weights->influence_counts.at[v] ? weights->influence_counts.at[v] : 1;
   }
@@ -271,10 +273,10 @@ static bool fill_frames(
   sbri_influence *influences = sbfi_arena_allocate(&c->model->arena, influence_count, sizeof *influences);
   if (!vertices || !influences) return false;
   uint32_t next = 0;
-  for (uint32_t v = 0, place = 0; v < c->source_count; v++) {
-    uint32_t count = weights ? weights->influence_counts.at[v] : 0, to_place = place_of(c, v);
-    if (to_place != UINT32_MAX && !counts[to_place]) {
-      sbri_frame_vertex *to = &vertices[place++];
+  for (uint32_t v = 0, index = 0; v < c->source_count; v++) {
+    uint32_t count = weights ? weights->influence_counts.at[v] : 0, to_slot = position_of(c, v);
+    if (to_slot != UINT32_MAX && !counts[to_slot]) {
+      sbri_frame_vertex *to = &vertices[index++];
       uint32_t from = next;
       next = join_pieces(pieces + begins[v], begins[v + 1] - begins[v], influences, next);
       bool has_pieces = next > from;
@@ -284,7 +286,7 @@ static bool fill_frames(
         influences[next++] = (sbri_influence){weights->bones.at[first + i],
             sum > 1e-6f ? weights->weights.at[first + i] / sum : 1 / (float)count};
       if (next == from) influences[next++] = (sbri_influence){frame, 1};
-      *to = (sbri_frame_vertex){to_place, from, next - from, rest[v]};
+      *to = (sbri_frame_vertex){to_slot, from, next - from, rest[v]};
     }
     first += count;
   }
@@ -330,7 +332,7 @@ static bool add_embeddings(carry *c, uint32_t render_mesh) {
   return good;
 }
 
-/* Faces and normals, which all rungs share. */
+/* Faces and normals, which all detail levels share. */
 static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *shown, uint32_t render_mesh,
     uint32_t render_level) {
   if (model->base == model) return sbri_shading_make(skin, &shown->mesh, shown, &model->arena);
@@ -358,7 +360,7 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
     good = good && skin->vertices;
     shown = level.mesh;
     skin->vertex_count = level.vertex_count;
-    c.place_of = level.place_of;
+    c.position_of = level.position_of;
   }
   skin->first_polygon = model->torn_polygon_count;
   good = good && add_embeddings(&c, render_mesh) && add_all_pieces(&c, render_mesh) &&

@@ -64,16 +64,16 @@ static double find_square_per_pa(
 static void soften_element(sbri_island *island, float *young, float *poisson, double max) {
   double e = (double)*young, nu = (double)*poisson;
   double mu = e / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu), bulk = lambda + 2 * mu / 3;
-  double min = mu * 2 * MIN_POISSON / (1 - 2 * MIN_POISSON), wanted = (max - 2 * mu) / 3, share = 1;
+  double min = mu * 2 * MIN_POISSON / (1 - 2 * MIN_POISSON), wanted = (max - 2 * mu) / 3, fraction = 1;
   if (!(3 * lambda + 2 * mu > max)) return;
   if (wanted < min) {
     wanted = lambda < min ? lambda : min;
-    share = max / (3 * wanted + 2 * mu);
+    fraction = max / (3 * wanted + 2 * mu);
   }
-  double ratio = 0.5 * wanted / (wanted + mu), bulk_share = share * (wanted + 2 * mu / 3) / bulk;
-  *poisson = (float)ratio, *young = (float)(2 * share * mu * (1 + ratio));
-  if ((float)share < island->softened_shear) island->softened_shear = (float)share;
-  if ((float)bulk_share < island->softened_bulk) island->softened_bulk = (float)bulk_share;
+  double ratio = 0.5 * wanted / (wanted + mu), bulk_fraction = fraction * (wanted + 2 * mu / 3) / bulk;
+  *poisson = (float)ratio, *young = (float)(2 * fraction * mu * (1 + ratio));
+  if ((float)fraction < island->softened_shear) island->softened_shear = (float)fraction;
+  if ((float)bulk_fraction < island->softened_bulk) island->softened_bulk = (float)bulk_fraction;
 }
 
 /* What an element is made of as stated, and what 3 lambda + 2 mu is bounded by. */

@@ -53,8 +53,8 @@ static sbri_sources weigh(const nearest *n, const sbri_point *rest, const sbri_p
   double reach = 1.1 * (n->beyond < 1e300 ? n->beyond : n->squares[n->count - 1]) + 1e-30;
   for (uint32_t i = 0; i < n->count; i++) {
     const sbri_point *p = &rest[n->slots[i]];
-    double share = 1 - n->squares[i] / reach;
-    theta[i] = share > 0 ? share * share + 1e-6 : 1e-6;
+    double fraction = 1 - n->squares[i] / reach;
+    theta[i] = fraction > 0 ? fraction * fraction + 1e-6 : 1e-6;
     away[i][0] = 1, away[i][1] = (double)p->x - at->x, away[i][2] = (double)p->y - at->y,
     away[i][3] = (double)p->z - at->z;
     for (int j = 0; j < 4; j++)

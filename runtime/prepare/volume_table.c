@@ -3,13 +3,13 @@
 
 #include "prepare/prepare.h"
 
-static bool add_share(sbfi_array *shares, uint32_t slot, uint32_t face, float weight) {
-  return sbfi_array_append(shares, &(sbri_face_share){slot, face, weight}, 1);
+static bool add_contribution(sbfi_array *contributions, uint32_t slot, uint32_t face, float weight) {
+  return sbfi_array_append(contributions, &(sbri_face_weight){slot, face, weight}, 1);
 }
 
 /* What carries a vertex receives its part of each of the vertex's faces: an eighth of the product of the
  * diagonals of a quad, that is a quarter of its area; a sixth of a triangle's, that is a third. */
-static bool list_shares(const sbri_skin *skin, uint32_t first_slot, sbfi_array *shares) {
+static bool list_fractions(const sbri_skin *skin, uint32_t first_slot, sbfi_array *contributions) {
   for (uint32_t face = 0; face < skin->face_block_count * SBRI_BLOCK; face++) {
     const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];
     uint32_t lane = face % SBRI_BLOCK, corners[4];
@@ -21,7 +21,7 @@ static bool list_shares(const sbri_skin *skin, uint32_t first_slot, sbfi_array *
       for (uint32_t c = skin->cell_begins[in_block]; c < skin->cell_begins[in_block + 1]; c++) {
         float weight = skin->cells[c].weights[vertex_lane] * (count == 3 ? 1.0f / 6 : 0.125f);
         uint32_t slot = skin->cells[c].slots[vertex_lane] - first_slot;
-        if (weight != 0 && !add_share(shares, slot, face, weight)) return false;
+        if (weight != 0 && !add_contribution(contributions, slot, face, weight)) return false;
       }
     }
   }
@@ -29,12 +29,13 @@ static bool list_shares(const sbri_skin *skin, uint32_t first_slot, sbfi_array *
 }
 
 static bool fill_table(
-    sbr_model *model, sbri_body *body, const sbri_face_share *shares, size_t count, uint32_t *used) {
+    sbr_model *model, sbri_body *body, const sbri_face_weight *face_weights, size_t count, uint32_t *used) {
   uint32_t block_count = (body->slot_end - body->slot_begin) / SBRI_BLOCK, begin = body->slot_begin;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)block_count + 1, sizeof *begins);
   if (!begins) return false;
   for (size_t i = 0; i < count; i++)
-    if (shares[i].slot >= begin && shares[i].slot < body->slot_end) used[shares[i].slot - begin]++;
+    if (face_weights[i].slot >= begin && face_weights[i].slot < body->slot_end)
+      used[face_weights[i].slot - begin]++;
   for (uint32_t block = 0; block < block_count; block++) {
     uint32_t max = 0;
     for (uint32_t i = block * SBRI_BLOCK; i < (block + 1) * SBRI_BLOCK; i++)
@@ -46,11 +47,11 @@ static bool fill_table(
   if (!cells) return false;
   memset(used, 0, (size_t)block_count * SBRI_BLOCK * sizeof *used);
   for (size_t i = 0; i < count; i++) {
-    if (shares[i].slot < begin || shares[i].slot >= body->slot_end) continue;
-    uint32_t slot = shares[i].slot - begin, lane = slot % SBRI_BLOCK;
+    if (face_weights[i].slot < begin || face_weights[i].slot >= body->slot_end) continue;
+    uint32_t slot = face_weights[i].slot - begin, lane = slot % SBRI_BLOCK;
     sbri_carry_cell *cell = &cells[begins[slot / SBRI_BLOCK] + used[slot]++];
-    cell->slots[lane] = shares[i].face;
-    cell->weights[lane] = shares[i].weight;
+    cell->slots[lane] = face_weights[i].face;
+    cell->weights[lane] = face_weights[i].weight;
   }
   body->volume_begins = begins;
   body->volume_cells = cells;
@@ -60,8 +61,8 @@ static bool fill_table(
 /* The rigid body that holds all that is held, or all on which it hangs; -1: several, or something else. */
 static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
   int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
-  for (uint32_t i = 0; i < body->volume_held_count; i++) {
-    int32_t by = island->carrier_of_held[body->volume_held[i].slot - island->free_count];
+  for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
+    int32_t by = island->rigid_body_of_pinned[body->pinned_face_weights[i].slot - island->free_count];
     if (by < 0 || (i > 0 && by != carrier)) return -1;
     carrier = by;
   }
@@ -69,15 +70,16 @@ static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
 }
 
 /* Of what is held: a free point's pull is another's push on the bone. */
-static bool list_held(sbr_model *model, sbri_body *body, const sbri_face_share *shares, size_t count) {
+static bool list_pinned(
+    sbr_model *model, sbri_body *body, const sbri_face_weight *face_weights, size_t count) {
   const sbri_island *island = &model->islands[body->island];
-  uint32_t free_count = island->free_count, held = 0;
-  for (size_t i = 0; i < count; i++) held += shares[i].slot >= free_count;
-  sbri_face_share *to = sbfi_arena_allocate(&model->arena, (size_t)held + 1, sizeof *to);
+  uint32_t free_count = island->free_count, pinned = 0;
+  for (size_t i = 0; i < count; i++) pinned += face_weights[i].slot >= free_count;
+  sbri_face_weight *to = sbfi_arena_allocate(&model->arena, (size_t)pinned + 1, sizeof *to);
   if (!to) return false;
   for (size_t i = 0; i < count; i++)
-    if (shares[i].slot >= free_count) to[body->volume_held_count++] = shares[i];
-  body->volume_held = to;
+    if (face_weights[i].slot >= free_count) to[body->pinned_face_weight_count++] = face_weights[i];
+  body->pinned_face_weights = to;
   body->volume_carrier = find_carrier(island, body);
   return true;
 }
@@ -107,16 +109,16 @@ static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena)
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
   uint32_t count = body->slot_end - body->slot_begin;
   if (count == 0) return true;
-  sbfi_array shares;
-  sbfi_array_init(&shares, &model->arena.allocator, sizeof(sbri_face_share));
+  sbfi_array contributions;
+  sbfi_array_init(&contributions, &model->arena.allocator, sizeof(sbri_face_weight));
   uint32_t *used = sbfi_allocate(&model->arena.allocator, count * sizeof *used);
-  bool good = used && list_shares(&body->surface, model->islands[body->island].first_slot, &shares);
+  bool good = used && list_fractions(&body->surface, model->islands[body->island].first_slot, &contributions);
   if (good) {
     memset(used, 0, count * sizeof *used);
-    good = fill_table(model, body, shares.at, shares.count, used) &&
-           list_held(model, body, shares.at, shares.count);
+    good = fill_table(model, body, contributions.at, contributions.count, used) &&
+           list_pinned(model, body, contributions.at, contributions.count);
   }
   sbfi_free(&model->arena.allocator, used, count * sizeof *used);
-  sbfi_array_free(&shares);
+  sbfi_array_free(&contributions);
   return good && name_points(body, model->islands[body->island].first_slot, &model->arena);
 }

@@ -14,13 +14,13 @@ typedef struct ray {
 } ray;
 
 /* Of a place on the way above the ground, m. */
-static double clearance(const ray *r, double share, sbf_vec3 *normal) {
-  return r->from.y + share * r->y -
-         sbri_ground_height(r->ground, r->from.x + share * r->x, r->from.z + share * r->z, normal);
+static double clearance(const ray *r, double fraction, sbf_vec3 *normal) {
+  return r->from.y + fraction * r->y -
+         sbri_ground_height(r->ground, r->from.x + fraction * r->x, r->from.z + fraction * r->z, normal);
 }
 
 bool sbri_ground_ray(
-    const sbr_ground *ground, sbr_double3 from, sbf_vec3 along, double *share, sbf_vec3 *normal) {
+    const sbr_ground *ground, sbr_double3 from, sbf_vec3 along, double *fraction, sbf_vec3 *normal) {
   ray r = {ground, from, (double)along.x, (double)along.y, (double)along.z};
   double length = sqrt(r.x * r.x + r.z * r.z), wanted = length / SPACING + 1;
   int parts = wanted < MAX_PARTS ? (int)wanted : MAX_PARTS;
@@ -43,6 +43,6 @@ bool sbri_ground_ray(
       above = at;
   }
   (void)clearance(&r, above, normal);
-  *share = above;
+  *fraction = above;
   return true;
 }

@@ -8,6 +8,6 @@
  * and the normal there. A way that begins below finds nothing. Between two heights, about 5 cm apart (a
  * 4096th of a longer way), the ground is taken for straight; a narrower ridge may be missed. */
 bool sbri_ground_ray(
-    const sbr_ground *ground, sbr_double3 from, sbf_vec3 along, double *share, sbf_vec3 *normal);
+    const sbr_ground *ground, sbr_double3 from, sbf_vec3 along, double *fraction, sbf_vec3 *normal);
 
 #endif

@@ -2,9 +2,9 @@
 #include "math/quat.h"
 #include "mechanics/joint_freedom.h"
 #include "ragdoll/ragdoll.h"
-#include "rigid/joint_place.h"
+#include "rigid/joint_frames.h"
 
-sbr_rigid_state sbr_character_rigid_state(
+sbr_rigid_state sbr_character_get_rigid_state(
     const sbr_world *world, sbr_character_id character, uint32_t rigid_body) {
   const sbri_character *c = sbri_character_of(world, character);
   sbr_rigid_state state = {.frame = {.rotation = {0, 0, 0, 1}}};
@@ -13,19 +13,20 @@ sbr_rigid_state sbr_character_rigid_state(
   sbri_rigid_body_state now = sbri_rigid_bodies(c)[rigid_body];
   if (!sbri_rigid_drive(c)->any) now.pose = sbri_rigid_target(c, sbri_pose(c), rigid_body);
   float s = c->scale, mass = is->mass * s * s * s, speed = s * c->time_scale;
-  sbf_quat turn = sbri_quat_multiply(now.pose.rotation, sbri_quat_conjugate(is->axes));
-  sbf_vec3 off = sbri_rotate(turn, sbri_sub(is->source->center, is->center));
-  sbf_vec3 w = sbri_spin_velocity(is, now.pose.rotation, now.spin);
+  sbf_quat rotation = sbri_quat_multiply(now.pose.rotation, sbri_quat_conjugate(is->axes));
+  sbf_vec3 off = sbri_rotate(rotation, sbri_sub(is->source->center, is->center));
+  sbf_vec3 w = sbri_angular_velocity_from_momentum(is, now.pose.rotation, now.angular_momentum);
   state.mode = (sbr_rigid_mode)now.mode;
   state.center = sbri_scale(now.pose.position, s);
-  state.frame = (sbr_transform){sbri_scale(sbri_add(now.pose.position, off), s), sbri_quat_normalize(turn)};
+  state.frame =
+      (sbr_transform){sbri_scale(sbri_add(now.pose.position, off), s), sbri_quat_normalize(rotation)};
   state.velocity = sbri_scale(now.velocity, speed);
   state.angular_velocity = sbri_scale(w, c->time_scale);
   state.mass = mass;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   state.kinetic_j = 0.5f * (mass * sbri_dot(state.velocity, state.velocity) +
-                               s * s * s * speed * speed * sbri_dot(now.spin, w));
-  sbr_double3 o = sbri_head(c)->origin;
+                               s * s * s * speed * speed * sbri_dot(now.angular_momentum, w));
+  sbr_double3 o = sbri_header(c)->origin;
   state.potential_j =
       -mass * is->source->gravity_scale *
       (float)((double)g.x * (o.x + (double)state.center.x) + (double)g.y * (o.y + (double)state.center.y) +
@@ -37,15 +38,15 @@ sbr_rigid_state sbr_character_rigid_state(
 static float beyond(const sbf_limit *limit, float value) {
   const float turn = 6.28318530718f;
   float best = INFINITY;
-  int ways = limit->target == SBF_JOINT_AXIS_TWIST ? 1 : 0;
-  for (int way = -ways; way <= ways; way++) {
-    float v = value + (float)way * turn, off = v < limit->min ? limit->min - v : v - limit->max;
+  int directions = limit->target == SBF_JOINT_AXIS_TWIST ? 1 : 0;
+  for (int direction = -directions; direction <= directions; direction++) {
+    float v = value + (float)direction * turn, off = v < limit->min ? limit->min - v : v - limit->max;
     best = off < best ? off : best;
   }
   return best > 0 ? best : 0;
 }
 
-sbr_joint_state sbr_character_joint_state(
+sbr_joint_state sbr_character_get_joint_state(
     const sbr_world *world, sbr_character_id character, uint32_t number) {
   const sbri_character *c = sbri_character_of(world, character);
   sbr_joint_state state = {.broken = false};
@@ -63,12 +64,12 @@ sbr_joint_state sbr_character_joint_state(
                                              : sbri_rigid_target(c, sbri_pose(c), (uint32_t)body);
     at[side] = &poses[side];
   }
-  sbri_joint_place place = sbri_joint_place_of(joint, at, &anchor, sbri_vec3(0, 0, 0));
+  sbri_joint_frames joint_frames = sbri_joint_frames_of(joint, at, &anchor, sbri_vec3(0, 0, 0));
   for (int axis = 0; axis < SBF_JOINT_AXIS_COUNT; axis++) {
     bool turns = sbri_axis_turns((sbf_joint_axis)axis);
-    float value = sbri_joint_coordinate(joint, &place, (sbf_joint_axis)axis), off = fabsf(value);
-    if (axis <= SBF_JOINT_AXIS_SWING_Z && joint->held >> axis & 1) {
-      float *worst = turns ? &state.bent : &state.apart;
+    float value = sbri_joint_coordinate(joint, &joint_frames, (sbf_joint_axis)axis), off = fabsf(value);
+    if (axis <= SBF_JOINT_AXIS_SWING_Z && joint->locked >> axis & 1) {
+      float *worst = turns ? &state.angular_error : &state.separation;
       *worst = off * (turns ? 1 : c->scale) > *worst ? off * (turns ? 1 : c->scale) : *worst;
     }
     state.coordinates[axis] = turns ? value : value * c->scale;
@@ -77,7 +78,7 @@ sbr_joint_state sbr_character_joint_state(
       if (limit->target != (sbf_joint_axis)axis || limit->stiffness > 0 ||
           !sbfi_joint_is_free(joint->source->kind, limit->target))
         continue;
-      float broken = beyond(limit, value), *worst = turns ? &state.beyond_angle : &state.beyond_length;
+      float broken = beyond(limit, value), *worst = turns ? &state.angle_violation : &state.length_violation;
       if (!turns) broken *= c->scale;
       *worst = broken > *worst ? broken : *worst;
     }
@@ -86,8 +87,8 @@ sbr_joint_state sbr_character_joint_state(
   for (uint32_t l = 0; l < joint->source->limits.count; l++)
     bounded = bounded || joint->source->limits.at[l].target == SBF_JOINT_AXIS_DISTANCE;
   float length = state.coordinates[SBF_JOINT_AXIS_DISTANCE] - joint->rest_distance * c->scale;
-  if (!bounded && joint->source->kind == SBF_JOINT_KIND_DISTANCE) state.apart = fabsf(length);
-  if (!bounded && joint->source->kind == SBF_JOINT_KIND_PULLEY) state.apart = length > 0 ? length : 0;
+  if (!bounded && joint->source->kind == SBF_JOINT_KIND_DISTANCE) state.separation = fabsf(length);
+  if (!bounded && joint->source->kind == SBF_JOINT_KIND_PULLEY) state.separation = length > 0 ? length : 0;
   float s = c->scale;
   state.force = sbri_scale(now->force, s * s * s); /* mass times length over the square of time */
   state.torque = sbri_scale(now->torque, s * s * s * s);

@@ -1,13 +1,13 @@
 /* What the host reads: the moment between the last two ticks. */
 #include <string.h>
 
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/quat.h"
 #include "model/kernels.h"
 #include "pose/frames.h"
 #include "skin/skin.h"
 
-static float share_of_tick(const sbr_world *world) {
+static float tick_fraction(const sbr_world *world) {
   if (world->ahead_units <= 0) return 1;
   return (float)(1.0 - (double)world->ahead_units / (double)world->tick_units);
 }
@@ -18,7 +18,7 @@ static void sample(const sbr_world *world, sbri_character *c) {
   if (c->sampled_at == world->stamp) return;
   c->sampled_at = world->stamp;
   const sbr_model *model = c->model;
-  float t = share_of_tick(world);
+  float t = tick_fraction(world);
   const sbri_point *from = sbri_previous_positions(c), *to = sbri_positions(c);
   if (t >= 1) {
     memcpy(sbri_sampled(c), to, model->slot_count * sizeof *to);
@@ -28,22 +28,22 @@ static void sample(const sbr_world *world, sbri_character *c) {
   const float *a = &from->x, *b = &to->x;
   float *mixed = &sbri_sampled(c)->x;
   for (size_t i = 0; i < 4 * (size_t)model->slot_count; i++) mixed[i] = a[i] + (b[i] - a[i]) * t;
-  sbri_deltas_between(c, t, sbri_sampled_deltas(c));
+  sbri_deltas_interpolate(c, t, sbri_sampled_deltas(c));
 }
 
-sbr_double3 sbr_character_origin(const sbr_world *world, sbr_character_id character) {
+sbr_double3 sbr_character_get_origin(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
-  return c ? sbri_head(c)->origin : (sbr_double3){0, 0, 0};
+  return c ? sbri_header(c)->origin : (sbr_double3){0, 0, 0};
 }
 
-void sbr_character_bones(
+void sbr_character_get_bones(
     const sbr_world *world, sbr_character_id character, sbr_transform *bones, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
   if (!c || !bones) {
     if (bones) memset(bones, 0, capacity * sizeof *bones);
     return;
   }
-  float t = share_of_tick(world);
+  float t = tick_fraction(world);
   for (uint32_t f = 0; f < c->model->rig.bone_count && f < capacity; f++) {
     const sbr_transform *p = &sbri_previous_pose(c)[f], *q = &sbri_pose(c)[f];
     bones[f].position = t >= 1 ? q->position : sbri_lerp(p->position, q->position, t);
@@ -51,14 +51,14 @@ void sbr_character_bones(
   }
 }
 
-uint32_t sbr_character_bone_scales(
+uint32_t sbr_character_get_bone_scales(
     const sbr_world *world, sbr_character_id character, sbf_vec3 *scales, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
   uint32_t count = c ? c->model->rig.bone_count : 0;
   for (uint32_t b = 0; scales && b < count && b < capacity; b++) scales[b] = (sbf_vec3){1, 1, 1};
   for (uint32_t i = 0; c && scales && i < c->model->asset->followers.count; i++) {
     const sbf_follower *source = &c->model->asset->followers.at[i];
-    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, share_of_tick(world));
+    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, tick_fraction(world));
     if (along == 1 || (uint32_t)source->bone >= capacity) continue;
     sbf_vec3 axis = sbri_squash_axis(source);
     float across = 1 / sqrtf(along), more = along - across;
@@ -91,7 +91,7 @@ static void write_tangents(const sbri_character *c, const sbri_skin *skin, const
   }
 }
 
-uint32_t sbr_model_level_vertices(const sbr_model *model, uint32_t render_mesh, uint32_t render_level,
+uint32_t sbr_model_get_level_vertices(const sbr_model *model, uint32_t render_mesh, uint32_t render_level,
     uint32_t *vertices, uint32_t capacity) {
   const sbri_skin *skin = sbri_skin_of(model, render_mesh, render_level);
   if (!skin) return 0;
@@ -100,13 +100,15 @@ uint32_t sbr_model_level_vertices(const sbr_model *model, uint32_t render_mesh, 
   return skin->vertex_count;
 }
 
-uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
+uint32_t sbr_character_get_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
     sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
-  return sbr_character_level_skin(world, character, render_mesh, 0, positions, normals, tangents, capacity);
+  return sbr_character_get_level_skin(
+      world, character, render_mesh, 0, positions, normals, tangents, capacity);
 }
 
-uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
-    uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
+uint32_t sbr_character_get_level_skin(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents,
+    uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
   const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
   if (!made) return 0;
@@ -114,8 +116,8 @@ uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id chara
   uint32_t count = min(capacity, skin->vertex_count);
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
-  sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
-  sbri_fade_apply(c, render_mesh, render_level, skin, share_of_tick(world), vertices);
+  sbri_skin_compute_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  sbri_fade_apply(c, render_mesh, render_level, skin, tick_fraction(world), vertices);
   if (positions) write_points(c, vertices, count, positions);
   if (!normals && !tangents) return skin->vertex_count;
   c->model->kernels->faces(skin, vertices, sbri_faces(c));
@@ -132,12 +134,12 @@ uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id chara
   return skin->vertex_count;
 }
 
-uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id character,
+uint32_t sbr_character_get_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, sbf_vec3 *normals, uint32_t capacity) {
-  return sbr_character_level_corner_normals(world, character, render_mesh, 0, normals, capacity);
+  return sbr_character_get_level_corner_normals(world, character, render_mesh, 0, normals, capacity);
 }
 
-uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
+uint32_t sbr_character_get_level_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
   const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
@@ -145,8 +147,8 @@ uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_characte
   const sbri_skin now = sbri_skin_now(c, made), *skin = &now;
   if (!normals || skin->vertex_count == 0) return skin->corner_count;
   sample(world, c);
-  sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
-  sbri_fade_apply(c, render_mesh, render_level, skin, share_of_tick(world), sbri_vertices(c));
+  sbri_skin_compute_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
+  sbri_fade_apply(c, render_mesh, render_level, skin, tick_fraction(world), sbri_vertices(c));
   c->model->kernels->faces(skin, sbri_vertices(c), sbri_faces(c));
   c->model->kernels->normals(&skin->split, sbri_faces(c), sbri_sums(c));
   for (uint32_t k = 0; k < skin->corner_count && k < capacity; k++) {
@@ -156,7 +158,7 @@ uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_characte
   return skin->corner_count;
 }
 
-uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+uint32_t sbr_character_get_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || soft_body >= c->model->asset->soft_bodies.count) return 0;
@@ -164,12 +166,12 @@ uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id characte
   sample(world, c);
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
   const sbri_skin surface = sbri_skin_now(c, &body->surface);
-  sbri_skin_vertices(c->model, &surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  sbri_skin_compute_vertices(c->model, &surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
   if (positions) write_points(c, vertices, min(capacity, body->surface.vertex_count), positions);
   return body->surface.vertex_count;
 }
 
-uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+uint32_t sbr_character_get_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || soft_body >= c->model->asset->soft_bodies.count) return 0;
@@ -185,14 +187,14 @@ uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character
   return count;
 }
 
-uint32_t sbr_character_legs(
+uint32_t sbr_character_get_legs(
     const sbr_world *world, sbr_character_id character, sbr_leg_state *legs, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
   if (!c) return 0;
-  return sbri_gait_legs(&c->model->rig, sbri_gait(c), share_of_tick(world), legs, legs ? capacity : 0);
+  return sbri_gait_legs(&c->model->rig, sbri_gait(c), tick_fraction(world), legs, legs ? capacity : 0);
 }
 
-double sbr_character_distance(const sbr_world *world, sbr_character_id character) {
+double sbr_character_get_distance(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
   return c ? sbri_gait_distance(sbri_gait(c)) : 0;
 }

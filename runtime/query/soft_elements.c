@@ -15,7 +15,7 @@ static const sbri_body *body_of(const sbri_character *c, uint32_t soft_body) {
   return c->model->bodies[soft_body].level ? &c->model->bodies[soft_body] : NULL;
 }
 
-static sbfi_d3 place_of(const sbri_point *p) {
+static sbfi_d3 position_of(const sbri_point *p) {
   return (sbfi_d3){p->x, p->y, p->z};
 }
 
@@ -27,8 +27,8 @@ static sbr_tetrahedron_state state_of(
   if (!(shear > 0) || !(inverse > 0)) return (sbr_tetrahedron_state){.torn = true};
   sbfi_d3 d[3], n[3], pull[3];
   for (int k = 0; k < 3; k++)
-    d[k] = sbfi_d3_sub(
-        place_of(&positions[block->corners[k + 1][lane]]), place_of(&positions[block->corners[0][lane]]));
+    d[k] = sbfi_d3_sub(position_of(&positions[block->corners[k + 1][lane]]),
+        position_of(&positions[block->corners[0][lane]]));
   for (int k = 0; k < 3; k++) n[k] = sbfi_d3_cross(d[(k + 1) % 3], d[(k + 2) % 3]);
   double ratio = sbfi_d3_dot(d[0], n[0]) * inverse, p = bulk * (ratio - 1) - shear, squares = 0;
   for (int i = 0; i < 3; i++) {
@@ -52,7 +52,7 @@ static sbr_tetrahedron_state state_of(
   return s;
 }
 
-uint32_t sbr_character_tetrahedra(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbr_tetrahedron_state *tetrahedra, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
   const sbri_body *body = body_of(c, soft_body);
@@ -79,7 +79,7 @@ static sbr_spring_state spring_state_of(
     const sbri_character *c, const sbri_island *island, uint32_t number, const uint32_t ends[2]) {
   sbfi_spring s = sbri_spring_now(c, island, number);
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
-  sbfi_d3 d = sbfi_d3_sub(place_of(&positions[s.b]), place_of(&positions[s.a]));
+  sbfi_d3 d = sbfi_d3_sub(position_of(&positions[s.b]), position_of(&positions[s.a]));
   double length = sqrt(sbfi_d3_dot(d, d)), scale = c->scale;
   sbr_spring_state is = {.ends = {ends[0], ends[1]}};
   is.torn = s.stiffness_n_m < island->springs[number].stiffness_n_m;
@@ -91,7 +91,7 @@ static sbr_spring_state spring_state_of(
 
 /* Springs that bear nothing, between pinned points, are not among the island's; the others stand there in the
  * same order. */
-uint32_t sbr_character_springs(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+uint32_t sbr_character_get_springs(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbr_spring_state *springs, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
   const sbri_body *body = body_of(c, soft_body);

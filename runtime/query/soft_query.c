@@ -7,7 +7,7 @@ static const sbri_body *body_of(const sbri_character *c, uint32_t soft_body) {
   return sbri_body_feels_forces(c, &c->model->bodies[soft_body]) ? &c->model->bodies[soft_body] : NULL;
 }
 
-sbr_soft_motion sbr_character_soft_motion(
+sbr_soft_motion sbr_character_get_soft_motion(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
   const sbri_character *c = sbri_character_of(world, character);
   const sbri_body *body = body_of(c, soft_body);
@@ -20,26 +20,26 @@ sbr_soft_motion sbr_character_soft_motion(
       .angular_velocity = sbri_scale(own.angular_velocity, c->time_scale)};
 }
 
-sbf_vec3 sbr_character_hold_force(
+sbf_vec3 sbr_character_get_hold_force(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex) {
   const sbri_character *c = sbri_character_of(world, character);
   for (uint32_t i = 0; c && i < SBR_LOAD_CAPACITY; i++) {
     const sbri_load *load = &sbri_loads(c)[i];
     if (load->kind != SBRI_LOAD_HOLD || load->body != soft_body || load->vertex != vertex) continue;
-    float share = 1 / (sbri_own_impulse(c) * (float)world->tick_s);
-    return sbri_scale((sbf_vec3){load->impulse[0], load->impulse[1], load->impulse[2]}, share);
+    float fraction = 1 / (sbri_own_impulse(c) * (float)world->tick_s);
+    return sbri_scale((sbf_vec3){load->impulse[0], load->impulse[1], load->impulse[2]}, fraction);
   }
   return (sbf_vec3){0, 0, 0};
 }
 
-uint32_t sbr_character_nearest_vertex(
+uint32_t sbr_character_find_nearest_vertex(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, sbr_double3 position) {
   const sbri_character *c = sbri_character_of(world, character);
-  uint32_t nearest = SBR_WHOLE_BODY, count = sbr_character_surface(world, character, soft_body, NULL, 0);
+  uint32_t nearest = SBR_WHOLE_BODY, count = sbr_character_get_surface(world, character, soft_body, NULL, 0);
   if (!c || count == 0 || soft_body >= c->model->asset->soft_bodies.count) return nearest;
   /* Which that call has found, in the character's own units. */
   const sbri_point *vertices = sbri_surface_vertices(c) + c->model->bodies[soft_body].first_vertex;
-  sbr_double3 o = sbri_head(c)->origin;
+  sbr_double3 o = sbri_header(c)->origin;
   double min = 0, s = (double)c->scale;
   for (uint32_t i = 0; i < count; i++) {
     double x = o.x + s * (double)vertices[i].x - position.x, y = o.y + s * (double)vertices[i].y - position.y,
@@ -52,7 +52,7 @@ uint32_t sbr_character_nearest_vertex(
 
 /* ---- Pins ---- */
 
-static sbf_vec3 place_of(const sbri_character *c, const sbri_island *island, uint32_t slot) {
+static sbf_vec3 position_of(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   const sbri_point *x = &sbri_positions(c)[island->first_slot + slot];
   return sbri_vec3(x->x, x->y, x->z);
 }
@@ -64,9 +64,9 @@ static sbr_pin_reaction begin_set(const sbri_character *c, uint32_t soft_body, u
   const sbf_pin_set *set = &body->level->pins.at[number];
   sbr_pin_reaction r = {.pin_set = number, .bone = set->bone, .rigid_body = set->rigid_body};
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_pin_of *pin = &island->pin_of_held[slot - island->free_count];
+    const sbri_pin_of *pin = &island->pin_of_pinned[slot - island->free_count];
     if (pin->body != soft_body || pin->set != number) continue;
-    r.about = sbri_add(r.about, place_of(c, island, slot));
+    r.about = sbri_add(r.about, position_of(c, island, slot));
     r.points++;
   }
   if (r.points > 0) r.about = sbri_scale(r.about, 1 / (float)r.points);
@@ -78,11 +78,11 @@ static void add_forces(const sbri_character *c, uint32_t soft_body, uint32_t num
   const sbri_island *island = &c->model->islands[c->model->bodies[soft_body].island];
   const sbri_point *forces = sbri_element_forces(c) + island->first_slot;
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_pin_of *pin = &island->pin_of_held[slot - island->free_count];
+    const sbri_pin_of *pin = &island->pin_of_pinned[slot - island->free_count];
     if (pin->body != soft_body || pin->set != number) continue;
     sbf_vec3 f = {-forces[slot].x, -forces[slot].y, -forces[slot].z};
     r->force = sbri_add(r->force, f);
-    r->torque = sbri_add(r->torque, sbri_cross(sbri_sub(place_of(c, island, slot), r->about), f));
+    r->torque = sbri_add(r->torque, sbri_cross(sbri_sub(position_of(c, island, slot), r->about), f));
   }
   float s = c->scale;
   r->force = sbri_scale(r->force, s * s * s);
@@ -90,8 +90,8 @@ static void add_forces(const sbri_character *c, uint32_t soft_body, uint32_t num
   r->about = sbri_scale(r->about, s);
 }
 
-uint32_t sbr_character_pin_reactions(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
-    sbr_pin_reaction *reactions, uint32_t capacity) {
+uint32_t sbr_character_get_pin_reactions(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbr_pin_reaction *reactions, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
   const sbri_body *body = body_of(c, soft_body);
   if (!body) return 0;

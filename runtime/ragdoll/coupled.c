@@ -9,7 +9,7 @@
  * may be follows from how fast the softness would swing each body alone (prepare/coupling.c): so a heavy
  * belly on light bones is as stable as the other way round.
  *
- * Flesh that hangs on one bone alone is borne by it, in fewer steps (borne_flesh.c).
+ * Flesh that hangs on one bone alone is borne by it, in fewer steps (attached_bodies.c).
  *
  * Damping against what holds a soft body is done here, once a step, so that those who hold it feel it too. */
 #include <string.h>
@@ -19,19 +19,20 @@
 #include "math/trig.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/router.h"
 #include "solvers/spring_forces.h"
 #include "tear/tear.h"
 
-/* -log(SBRI_CALM_KEPT) */
+/* -log(SBRI_DAMPING_KEPT) */
 static const float CALMING_OF_TICK = 0.35667494f;
 
 /* ---- Before ---- */
 
-static bool may_touch(const sbri_island_tick *t) {
+static bool may_collide(const sbri_island_tick *t) {
   bool any = false;
-  for (uint32_t b = 0; b < t->island->body_count; b++) any = any || t->touch_counts[t->island->bodies[b]] > 0;
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    any = any || t->contact_counts[t->island->bodies[b]] > 0;
   for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
     any = any || t->near_ground[block];
   return any;
@@ -39,7 +40,7 @@ static bool may_touch(const sbri_island_tick *t) {
 
 void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
-  group->any = group->touches = false;
+  group->any = group->is_touching = false;
   group->steps = 1;
   memset(sbri_burdens(c), 0, c->model->rigid.body_count * sizeof(sbri_rigid_burden));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -47,17 +48,17 @@ void sbri_coupled_begin(sbri_coupled *group) {
     group->any = true;
     if (sbri_island_states(c)[i].asleep) sbri_island_wake(c, i);
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
-    sbri_guides_stop(c, &now);
-    sbri_island_tuck(c, &now);
+    sbri_drivers_stop(c, &now);
+    sbri_island_fill_unused_slots(c, &now);
     sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
-    tick.outer_rad_s = &now.outer_rad_s;
-    sbri_outer_look(&tick);
+    tick.external_rad_s = &now.external_rad_s;
+    sbri_update_gas_stiffness(&tick);
     sbri_island_prepare_contacts(&tick, c);
     (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovery); /* for the whole tick */
-    group->touches = group->touches || may_touch(&tick);
-    sbri_coupled_need(group, &tick);
+    group->is_touching = group->is_touching || may_collide(&tick);
+    sbri_coupled_request_steps(group, &tick);
   }
-  if (group->any) sbri_coupled_need_of_bones(group);
+  if (group->any) sbri_coupled_request_steps_of_bones(group);
 }
 
 /* ---- Meanwhile ---- */
@@ -70,55 +71,56 @@ static void pull_on(const sbri_character *c, int32_t carrier, sbf_vec3 at, sbf_v
 }
 
 /* What the damping of a point against its guides has given it, back to those who carry these. */
-static void pull_on_guides(
-    const sbri_character *c, const sbri_body *body, uint32_t place, sbf_vec3 at, sbf_vec3 impulse) {
+static void pull_on_drivers(
+    const sbri_character *c, const sbri_body *body, uint32_t index, sbf_vec3 at, sbf_vec3 impulse) {
   const int32_t *carriers = c->model->carrier_of_frame;
-  if (!body->guides) {
-    pull_on(c, carriers[body->guide_frame], at, impulse);
+  if (!body->drivers) {
+    pull_on(c, carriers[body->driver_frame], at, impulse);
     return;
   }
-  const sbri_guide *guide = &body->guides[place];
-  for (int k = 0; k < SBRI_GUIDES; k++)
-    if (guide->weights[k] > 0)
-      pull_on(c, carriers[guide->frames[k]], at, sbri_scale(impulse, guide->weights[k]));
+  const sbri_driver *driver = &body->drivers[index];
+  for (int k = 0; k < SBRI_DRIVERS; k++)
+    if (driver->weights[k] > 0)
+      pull_on(c, carriers[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
 }
 
 /* The share of a decay that is left to it where a frame's body is lighter than the flesh that it would draw
  * along, so that it ends as fast as that and no faster: as an implicit step does. */
-static float ease_of(const sbri_character *c, uint32_t frame, float lost) {
+static float inverse_mass_along(const sbri_character *c, uint32_t frame, float lost) {
   int32_t carrier = c->model->carrier_of_frame[frame];
   if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return 1;
   return 1 / (1 + lost * c->model->rigid.pinned_weights[carrier]);
 }
 
-static float ease_of_guides(const sbri_character *c, const sbri_body *body, uint32_t place, float lost) {
-  if (!body->guides) return ease_of(c, body->guide_frame, lost);
-  const sbri_guide *guide = &body->guides[place];
+static float inverse_mass_of_drivers(
+    const sbri_character *c, const sbri_body *body, uint32_t index, float lost) {
+  if (!body->drivers) return inverse_mass_along(c, body->driver_frame, lost);
+  const sbri_driver *driver = &body->drivers[index];
   float min = 1;
-  for (int k = 0; k < SBRI_GUIDES; k++) {
-    float ease = guide->weights[k] > 0 ? ease_of(c, guide->frames[k], lost) : 1;
-    min = ease < min ? ease : min;
+  for (int k = 0; k < SBRI_DRIVERS; k++) {
+    float inverse_mass = driver->weights[k] > 0 ? inverse_mass_along(c, driver->frames[k], lost) : 1;
+    min = inverse_mass < min ? inverse_mass : min;
   }
   return min;
 }
 
 /* Of a body that one frame guides, and every point of which loses the same share: by lanes of eight, summed
  * alike for any number of them at once. */
-static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri_body *body, float share) {
-  const sbri_point *places = sbri_positions(c) + island->first_slot;
+static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri_body *body, float fraction) {
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  const float *along = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
-  int32_t carrier = c->model->carrier_of_frame[body->guide_frame];
+  const float *along = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
+  int32_t carrier = c->model->carrier_of_frame[body->driver_frame];
   sbf_vec3 about = carrier >= 0 ? sbri_reactions(c)[carrier].about : sbri_vec3(0, 0, 0);
   sbri_lane_sums taken = {{{0}}, {{0}}};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *at = sbri_triple(velocities, slot);
     sbri_wide3 v = sbri_load3(at), u = sbri_load3(sbri_const_triple(along, slot));
     sbri_wide m = sbri_wide_load(island->masses + slot);
-    sbri_wide part = sbri_wide_select(m > sbri_wide_all(0), sbri_wide_all(share), sbri_wide_all(0));
+    sbri_wide part = sbri_wide_select(m > sbri_wide_all(0), sbri_wide_all(fraction), sbri_wide_all(0));
     sbri_wide3 change = {(u.x - v.x) * part, (u.y - v.y) * part, (u.z - v.z) * part};
     sbri_store3(at, (sbri_wide3){v.x + change.x, v.y + change.y, v.z + change.z});
-    sbri_wide3 x = sbri_wide_load_points(places + slot);
+    sbri_wide3 x = sbri_wide_load_points(positions + slot);
     x.x = x.x - sbri_wide_all(about.x), x.y = x.y - sbri_wide_all(about.y),
     x.z = x.z - sbri_wide_all(about.z);
     sbri_lane_sums_add(&taken, slot % SBRI_BLOCK, x, (sbri_wide3){m * change.x, m * change.y, m * change.z});
@@ -132,65 +134,68 @@ static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri
 /* The decay of what points move by against their guides, over h, at a further `calming` 1/s. */
 static void damp(
     sbri_character *c, const sbri_island *island, const sbri_body *body, float calming, float h) {
-  if (!body->held || !(body->alpha_1_s + calming > 0)) return;
+  if (!body->is_pinned || !(body->alpha_1_s + calming > 0)) return;
   float lost = 1 - sbri_exp(-(body->alpha_1_s + calming) * h); /* at most */
-  float share = body->guides ? 0 : lost * ease_of(c, body->guide_frame, lost);
-  if (!body->guides && !body->alphas) {
-    damp_evenly(c, island, body, share);
+  float fraction = body->drivers ? 0 : lost * inverse_mass_along(c, body->driver_frame, lost);
+  if (!body->drivers && !body->alphas) {
+    damp_evenly(c, island, body, fraction);
     return;
   }
   size_t first = island->first_slot;
-  const sbri_point *places = sbri_positions(c) + first;
+  const sbri_point *positions = sbri_positions(c) + first;
   float *velocities = sbri_velocities(c) + 3 * first;
-  const float *along = sbri_guide_velocities(c) + 3 * first;
+  const float *along = sbri_driver_velocities(c) + 3 * first;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     float *v = velocities + at, m = island->masses[slot];
     const float *u = along + at;
     if (!(m > 0)) continue;
     if (body->alphas) lost = 1 - sbri_exp(-(body->alphas[slot] + calming) * h);
-    if (body->alphas || body->guides) share = lost * ease_of_guides(c, body, slot - body->slot_begin, lost);
-    sbf_vec3 change = {(u[0] - v[0]) * share, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * share,
-        (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * share};
+    if (body->alphas || body->drivers)
+      fraction = lost * inverse_mass_of_drivers(c, body, slot - body->slot_begin, lost);
+    sbf_vec3 change = {(u[0] - v[0]) * fraction, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * fraction,
+        (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * fraction};
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
-    const sbri_point *x = &places[slot];
-    pull_on_guides(c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
+    const sbri_point *x = &positions[slot];
+    pull_on_drivers(c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
   }
 }
 
 /* In flight weight acts on flesh and bones at the same time and for as long: so they fall as one, whatever
  * their steps, and the flesh keeps its shape. */
-static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 gain) {
+static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 velocity_change) {
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     float scale = island->gravity_scales[slot];
-    v[0] += scale * gain.x, v[SBRI_BLOCK] += scale * gain.y, v[2 * SBRI_BLOCK] += scale * gain.z;
+    v[0] += scale * velocity_change.x, v[SBRI_BLOCK] += scale * velocity_change.y,
+        v[2 * SBRI_BLOCK] += scale * velocity_change.z;
   }
 }
 
-static void act_on_island(sbri_coupled *group, uint32_t index, float step_s, float share, sbf_vec3 gain) {
+static void act_on_island(
+    sbri_coupled *group, uint32_t index, float step_s, float fraction, sbf_vec3 velocity_change) {
   sbri_character *c = group->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   size_t first = now.first_slot;
-  if (now.substeps) now.substeps = (uint32_t)ceilf(share * (float)now.substeps);
-  sbri_held_places(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
-  sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + first);
-  (void)sbri_guide_velocities_find(c, &now, step_s);
-  if (group->falls) gain_speed(c, &now, gain);
-  bool calms = sbri_island_states(c)[index].calm_ticks > 0; /* soft/recovery.c */
-  float calming = calms ? CALMING_OF_TICK * share / step_s : 0;
+  if (now.substeps) now.substeps = (uint32_t)ceilf(fraction * (float)now.substeps);
+  sbri_compute_pin_targets(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
+  sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + first);
+  (void)sbri_driver_velocities_find(c, &now, step_s);
+  if (group->falls) gain_speed(c, &now, velocity_change);
+  bool calms = sbri_island_states(c)[index].damping_ticks > 0; /* soft/recovery.c */
+  float calming = calms ? CALMING_OF_TICK * fraction / step_s : 0;
   for (uint32_t b = 0; b < now.body_count; b++)
     damp(c, &now, &c->model->bodies[now.bodies[b]], calming, step_s);
   sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
-  tick.tick_s = step_s, tick.share = share;
-  tick.outer_rad_s = &now.outer_rad_s;
-  sbri_outer_look(&tick);
+  tick.tick_s = step_s, tick.fraction = fraction;
+  tick.external_rad_s = &now.external_rad_s;
+  sbri_update_gas_stiffness(&tick);
   if (group->falls) tick.gravity = sbri_vec3(0, 0, 0);
   tick.undamped = true;
   tick.reactions = sbri_reactions(c);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
-  sbri_coupled_need_now(group, &tick);
+  sbri_coupled_request_steps_now(group, &tick);
 }
 
 static sbri_reaction no_reaction(
@@ -198,10 +203,10 @@ static sbri_reaction no_reaction(
   const sbri_rigid_body *is = &t->model->bodies[b];
   const sbf_vec3 *turns = &is->inverse_inertia;
   float max = turns->x > turns->y ? turns->x : turns->y;
-  float share = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_swell(&t->pull, b, step_s) : 0;
+  float fraction = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_swell(&t->pull, b, step_s) : 0;
   return (sbri_reaction){.about = t->bodies[b].pose.position,
-      .ease = share * is->inverse_mass,
-      .inverse_inertia = share * (max > turns->z ? max : turns->z)};
+      .inverse_mass = fraction * is->inverse_mass,
+      .inverse_inertia = fraction * (max > turns->z ? max : turns->z)};
 }
 
 /* What has been moved at once against the bodies that hold it moves these by their part of it, in the step
@@ -209,27 +214,28 @@ static sbri_reaction no_reaction(
 static void shift(sbri_character *c, const sbri_rigid_tick *t, float rate) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     const sbri_reaction *r = &sbri_reactions(c)[b];
-    if (!(r->ease > 0)) continue;
-    float share = rate * r->ease * t->model->bodies[b].mass; /* by sbri_rigid_swell */
-    t->bodies[b].velocity = sbri_add_scaled(t->bodies[b].velocity, r->shift, rate * r->ease);
-    t->bodies[b].spin = sbri_add_scaled(t->bodies[b].spin, r->shift_turn, share);
+    if (!(r->inverse_mass > 0)) continue;
+    float fraction = rate * r->inverse_mass * t->model->bodies[b].mass; /* by sbri_rigid_swell */
+    t->bodies[b].velocity = sbri_add_scaled(t->bodies[b].velocity, r->shift, rate * r->inverse_mass);
+    t->bodies[b].angular_momentum = sbri_add_scaled(t->bodies[b].angular_momentum, r->shift_turn, fraction);
   }
 }
 
-void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from, float to, float weight_s) {
+void sbri_coupled_before_step(
+    sbri_coupled *group, const sbri_rigid_tick *t, float from, float to, float weight_s) {
   sbri_character *c = group->character;
-  group->falls = t->drive->flies && !group->touches;
+  group->falls = t->drive->flies && !group->is_touching;
   group->weight_s = weight_s;
-  sbf_vec3 gain = sbri_scale(t->gravity, group->falls ? weight_s : 0);
+  sbf_vec3 velocity_change = sbri_scale(t->gravity, group->falls ? weight_s : 0);
   float step_s = t->tick_s * (to - from);
   sbri_burdens_begin(c, t, step_s);
   for (uint32_t b = 0; b < t->model->body_count; b++) sbri_reactions(c)[b] = no_reaction(c, t, b, step_s);
   sbri_rigid_pose(c, group->animated, from, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
-  sbri_rigid_pose(c, group->animated, to, step_s, gain, sbri_stepped_pose(c));
+  sbri_rigid_pose(c, group->animated, to, step_s, velocity_change, sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), to, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from, gain);
+    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from, velocity_change);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
@@ -238,9 +244,9 @@ void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from,
       sbri_burden_push(t, b, r);
       continue;
     }
-    float share = 1 / sbri_rigid_swell(&t->pull, b, step_s);
-    body->velocity = sbri_add_scaled(body->velocity, r->impulse, share * t->model->bodies[b].inverse_mass);
-    body->spin = sbri_add_scaled(body->spin, r->moment, share);
+    float fraction = 1 / sbri_rigid_swell(&t->pull, b, step_s);
+    body->velocity = sbri_add_scaled(body->velocity, r->impulse, fraction * t->model->bodies[b].inverse_mass);
+    body->angular_momentum = sbri_add_scaled(body->angular_momentum, r->moment, fraction);
   }
   shift(c, t, 1 / step_s);
 }
@@ -248,16 +254,18 @@ void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from,
 /* ---- After ---- */
 
 /* A step that has been taken in halves has had its weight for less. */
-void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *t, float step_s, float weight_s) {
+void sbri_coupled_after_step(
+    const sbri_coupled *group, const sbri_rigid_tick *t, float step_s, float weight_s) {
   sbri_character *c = group->character;
   shift(c, t, -1 / step_s);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     /* The body went at its centre's speed, where the points did at that of the places which hold them. */
     const sbri_reaction *r = &sbri_reactions(c)[b];
-    if (!(r->ease > 0)) continue;
+    if (!(r->inverse_mass > 0)) continue;
     sbf_vec3 more = sbri_sub(r->shift_moment, sbri_cross(r->shift, t->bodies[b].velocity));
-    t->bodies[b].spin = sbri_add(t->bodies[b].spin, more);
-    sbri_burdens(c)[b].spin = sbri_add(sbri_burdens(c)[b].spin, more); /* none that it shares */
+    t->bodies[b].angular_momentum = sbri_add(t->bodies[b].angular_momentum, more);
+    sbri_burdens(c)[b].angular_momentum =
+        sbri_add(sbri_burdens(c)[b].angular_momentum, more); /* none that it shares */
   }
   if (!group->falls || weight_s == group->weight_s) return;
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -278,11 +286,11 @@ void sbri_coupled_end(sbri_coupled *group) {
     sbri_tears *tears = &sbri_tears_of(c)[i];
     sbri_island now = sbri_island_now(c, island);
     sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
-    sbri_island_tell(&tick, c);
-    sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
+    sbri_island_report_contacts(&tick, c);
+    sbri_compute_pin_targets(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
     if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
     sbri_whole_momentum lost;
-    if (sbri_island_recover(group->world, c, i, &lost)) sbri_flesh_goes_on(c, i, &lost);
+    if (sbri_island_recover(group->world, c, i, &lost)) sbri_attached_body_take_momentum(c, i, &lost);
   }
 }
 
@@ -298,9 +306,9 @@ bool sbri_coupled_sleep(sbri_coupled *group) {
   return all;
 }
 
-bool sbri_coupled_are_quiet(const sbri_character *c) {
+bool sbri_coupled_are_idle(const sbri_character *c) {
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (sbri_island_is_coupled(c, i) && !sbri_island_is_quiet(c, i)) return false;
+    if (sbri_island_is_coupled(c, i) && !sbri_island_is_idle(c, i)) return false;
   return true;
 }
 

@@ -1,11 +1,11 @@
 /* How many steps a tick of soft bodies and of the rigid bodies that hold them takes.
  *
- * Flesh that its bone bears asks for few (borne_flesh.c). All other goes in step with the bones: each step is
- * no longer than the flesh's own substeps may be, and than what its softness swings each bone by alone
- * allows. Both are asked for again after each step, since what is crushed stiffens: a step that has become
- * too long is where undamped flesh and its bones swing each other up, so the rest of the tick is then divided
- * anew. And no point goes farther against the bones about it in a step than a share of a cell, so that what
- * is struck is seen to stiffen. */
+ * Flesh that its bone bears asks for few (attached_bodies.c). All other goes in step with the bones: each
+ * step is no longer than the flesh's own substeps may be, and than what its softness swings each bone by
+ * alone allows. Both are asked for again after each step, since what is crushed stiffens: a step that has
+ * become too long is where undamped flesh and its bones swing each other up, so the rest of the tick is then
+ * divided anew. And no point goes farther against the bones about it in a step than a share of a cell, so
+ * that what is struck is seen to stiffen. */
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "solvers/router.h"
@@ -15,7 +15,7 @@
 enum { MAX_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
 
 /* Way of a point against its guides in a step, as a share of its body's cells. */
-static const float MAX_WAY = 0.25f;
+static const float MAX_TRAVEL = 0.25f;
 
 /* Greatest angular frequency times step of a bone on flesh that is stiffer than at rest, where that at rest
  * is no more than SBRI_RIGID_MAX_SWING. */
@@ -58,7 +58,7 @@ static void take_steps(sbri_coupled *group, float steps) {
   if (steps > (float)group->steps) group->steps = steps < MAX_STEPS ? (uint32_t)ceilf(steps) : MAX_STEPS;
 }
 
-static bool may_be_borne(const sbri_character *c, const sbri_island *island) {
+static bool may_be_attached(const sbri_character *c, const sbri_island *island) {
   return island->carrier_count == 1 && sbri_may_bear(c, island->carriers[0]);
 }
 
@@ -76,15 +76,15 @@ static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
 /* ---- By way ---- */
 
 /* Of the fastest point against its guides, m/s. */
-static float speed_against_guides(const sbri_character *c, const sbri_island *island) {
+static float speed_against_drivers(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot,
-              *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+              *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
   float max = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    for (uint32_t slot = body->slot_begin; body->held && slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slot_begin; body->is_pinned && slot < body->slot_real_end; slot++) {
       size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-      const float *v = velocities + at, *u = guides + at;
+      const float *v = velocities + at, *u = drivers + at;
       float x = v[0] - u[0], y = v[SBRI_BLOCK] - u[SBRI_BLOCK], z = v[2 * SBRI_BLOCK] - u[2 * SBRI_BLOCK];
       float square = x * x + y * y + z * z;
       max = island->masses[slot] > 0 && square > max ? square : max;
@@ -94,31 +94,31 @@ static float speed_against_guides(const sbri_character *c, const sbri_island *is
 }
 
 /* Looks a step of the present length ahead. */
-static void look_at_ways(sbri_coupled *group) {
+static void check_directions(sbri_coupled *group) {
   sbri_character *c = group->character;
-  float share = 1 / (float)group->steps, step_s = tick_of(group) * share;
+  float fraction = 1 / (float)group->steps, step_s = tick_of(group) * fraction;
   bool any = false;
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
-    if (!sbri_island_is_coupled(c, i) || may_be_borne(c, island) || island->scheme->sweeps ||
+    if (!sbri_island_is_coupled(c, i) || may_be_attached(c, island) || island->scheme->sweeps ||
         !(island->cell_m > 0))
       continue;
     if (!any) {
       sbri_rigid_pose(c, group->animated, 0, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
       sbri_deltas_make(c, sbri_stepped_pose(c), 0, sbri_previous_deltas(c));
-      sbri_rigid_pose(c, group->animated, share, step_s, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
-      sbri_deltas_make(c, sbri_stepped_pose(c), share, sbri_deltas(c));
+      sbri_rigid_pose(c, group->animated, fraction, step_s, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
+      sbri_deltas_make(c, sbri_stepped_pose(c), fraction, sbri_deltas(c));
       any = true;
     }
-    (void)sbri_guide_velocities_find(c, island, step_s);
-    take_steps(group, tick_of(group) * speed_against_guides(c, island) / (MAX_WAY * island->cell_m));
+    (void)sbri_driver_velocities_find(c, island, step_s);
+    take_steps(group, tick_of(group) * speed_against_drivers(c, island) / (MAX_TRAVEL * island->cell_m));
   }
   if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
 }
 
 /* ---- For a tick, and for what is left of it ---- */
 
-void sbri_coupled_need(sbri_coupled *group, const sbri_island_tick *tick) {
+void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_island *island = tick->island;
   int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
   need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
@@ -134,7 +134,7 @@ static bool is_lightly_damped(const sbri_character *c) {
 
 /* What nothing damps gains whenever steps near those that are just stable change: so it takes as many as
  * before, unless half as many would do. */
-void sbri_coupled_need_of_bones(sbri_coupled *group) {
+void sbri_coupled_request_steps_of_bones(sbri_coupled *group) {
   const sbri_character *c = group->character;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     float steps = swung_steps(c, b, tick_of(group));
@@ -145,15 +145,15 @@ void sbri_coupled_need_of_bones(sbri_coupled *group) {
     float bearing = sbri_bearing_steps(c, b, tick_of(group));
     take_steps(group, needed < bearing ? needed : bearing);
   }
-  look_at_ways(group);
+  check_directions(group);
   if (is_lightly_damped(c) && 2 * group->steps > sbri_rigid_drive(c)->soft_steps)
     take_steps(group, (float)sbri_rigid_drive(c)->soft_steps);
 }
 
-void sbri_coupled_need_now(sbri_coupled *group, const sbri_island_tick *tick) {
+void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_character *c = group->character;
   const sbri_island *island = tick->island;
-  if (island->scheme->sweeps || may_be_borne(c, island)) return;
+  if (island->scheme->sweeps || may_be_attached(c, island)) return;
   take_steps(group, (float)steps_of(tick, tick_of(group)));
   double stiffened_s = sbri_stiffened_time(tick, tick_of(group));
   for (uint32_t i = 0; i < island->carrier_count; i++) {

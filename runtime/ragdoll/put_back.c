@@ -15,19 +15,21 @@ static bool add_velocity(const sbri_character *c, uint32_t frame, float weight, 
   int32_t carrier = c->model->carrier_of_frame[frame];
   if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return false;
   const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[carrier];
-  sbf_vec3 turn = sbri_spin_velocity(&c->model->rigid.bodies[carrier], body->pose.rotation, body->spin);
+  sbf_vec3 turn = sbri_angular_velocity_from_momentum(
+      &c->model->rigid.bodies[carrier], body->pose.rotation, body->angular_momentum);
   sbf_vec3 v = sbri_add(body->velocity, sbri_cross(turn, sbri_sub(at, body->pose.position)));
   *sum = sbri_add_scaled(*sum, v, weight);
   return true;
 }
 
 static bool find_velocity(
-    const sbri_character *c, const sbri_body *body, uint32_t place, sbf_vec3 at, sbf_vec3 *v) {
+    const sbri_character *c, const sbri_body *body, uint32_t index, sbf_vec3 at, sbf_vec3 *v) {
   *v = sbri_vec3(0, 0, 0);
-  if (!body->guides) return add_velocity(c, body->guide_frame, 1, at, v);
-  const sbri_guide *guide = &body->guides[place];
-  for (int k = 0; k < SBRI_GUIDES; k++)
-    if (guide->weights[k] > 0 && !add_velocity(c, guide->frames[k], guide->weights[k], at, v)) return false;
+  if (!body->drivers) return add_velocity(c, body->driver_frame, 1, at, v);
+  const sbri_driver *driver = &body->drivers[index];
+  for (int k = 0; k < SBRI_DRIVERS; k++)
+    if (driver->weights[k] > 0 && !add_velocity(c, driver->frames[k], driver->weights[k], at, v))
+      return false;
   return true;
 }
 
@@ -37,7 +39,7 @@ static bool go_with_bones(sbri_character *c, const sbri_island *island) {
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) return false;
+    if (!body->is_pinned) return false;
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
       float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       sbf_vec3 at = {points[slot].x, points[slot].y, points[slot].z}, with;
@@ -53,9 +55,10 @@ static void add_bones(const sbri_character *c, const sbri_island *island, sbri_w
     uint32_t b = island->carriers[k];
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
-    const float spin[3] = {body->spin.x, body->spin.y, body->spin.z};
+    const float angular_velocity[3] = {
+        body->angular_momentum.x, body->angular_momentum.y, body->angular_momentum.z};
     sbri_momentum_add(to, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
-    for (int i = 0; i < 3; i++) to->angular[i] += (double)spin[i];
+    for (int i = 0; i < 3; i++) to->angular[i] += (double)angular_velocity[i];
   }
 }
 
@@ -87,7 +90,7 @@ static void weigh(
     float moments[3][3];
     if (!sbri_rigid_is_simulated(c, b)) continue;
     add_moments(d, (double)c->model->rigid.bodies[b].mass, center, pose->position);
-    sbri_rigid_moments(c->model->rigid.bodies[b].inertia, pose->rotation, moments);
+    sbri_rigid_compute_moments(c->model->rigid.bodies[b].inertia, pose->rotation, moments);
     for (int i = 0; i < 3; i++)
       for (int j = 0; j <= i; j++) d[3 + i][3 + j] += (double)moments[i][j];
   }
@@ -110,11 +113,12 @@ static void change(
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbf_vec3 more = sbri_add(by, sbri_cross(turn, sbri_sub(body->pose.position, center)));
     body->velocity = sbri_add(body->velocity, more);
-    body->spin = sbri_add(body->spin, sbri_spin_from(&c->model->rigid.bodies[b], body->pose.rotation, turn));
+    body->angular_momentum = sbri_add(body->angular_momentum,
+        sbri_angular_momentum_from_velocity(&c->model->rigid.bodies[b], body->pose.rotation, turn));
   }
 }
 
-void sbri_flesh_goes_on(sbri_character *c, uint32_t index, const sbri_whole_momentum *had) {
+void sbri_attached_body_take_momentum(sbri_character *c, uint32_t index, const sbri_whole_momentum *had) {
   const sbri_island *island = &c->model->islands[index];
   if (island->scheme->forceless || !go_with_bones(c, island) || !(had->mass > 0)) return;
   sbri_whole_momentum before = *had, now = sbri_island_momentum(c, index);
@@ -129,8 +133,8 @@ void sbri_flesh_goes_on(sbri_character *c, uint32_t index, const sbri_whole_mome
   }
   weigh(c, island, center, d);
   sbri_sym6_factor(d);
-  sbri_sym6_forward(d, x);
-  sbri_sym6_back(d, x);
+  sbri_sym6_solve_forward(d, x);
+  sbri_sym6_solve_back(d, x);
   change(c, island, sbri_vec3((float)center[0], (float)center[1], (float)center[2]),
       sbri_vec3((float)x[0], (float)x[1], (float)x[2]), sbri_vec3((float)x[3], (float)x[4], (float)x[5]));
 }

@@ -29,28 +29,28 @@ static bool is_taken(const sbri_character *c, uint32_t body) {
   return is->mass > 0 && is->source->motion != SBF_BODY_MOTION_DYNAMIC;
 }
 
-static void set_all(sbri_character *c, sbr_rigid_mode mode, float share) {
+static void set_all(sbri_character *c, sbr_rigid_mode mode, float fraction) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     if (!is_taken(c, b)) continue;
     sbri_rigid_bodies(c)[b].mode = (uint32_t)mode;
-    sbri_rigid_bodies(c)[b].share = share;
+    sbri_rigid_bodies(c)[b].fraction = fraction;
   }
 }
 
-void sbri_reflex_begin(sbri_character *c, const sbr_rigid_fall *fall) {
+void sbri_reflex_begin(sbri_character *c, const sbr_fall_definition *fall) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  drive->posture = SBR_RIGID_FALLING;
+  drive->posture = SBR_POSTURE_FALLING;
   drive->posture_s = drive->still_s = 0;
-  drive->limp_share = sbri_clamp(fall->share, 0, 1);
+  drive->limp_fraction = sbri_clamp(fall->drive_fraction, 0, 1);
   drive->rest_s = sbri_clamp(fall->rest_s, 0, 1e6f);
   drive->rise_s = sbri_clamp(fall->rise_s, 0.1f, 1e6f);
-  set_all(c, SBR_RIGID_DRIVEN, drive->limp_share);
+  set_all(c, SBR_RIGID_DRIVEN, drive->limp_fraction);
 }
 
 void sbri_reflex_end(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  if (drive->posture == SBR_RIGID_UP) return;
-  drive->posture = SBR_RIGID_UP;
+  if (drive->posture == SBR_POSTURE_UPRIGHT) return;
+  drive->posture = SBR_POSTURE_UPRIGHT;
   set_all(c, SBR_RIGID_KINEMATIC, 1);
   sbri_rigid_wake(c);
 }
@@ -68,8 +68,8 @@ static int32_t hips_of(const sbri_character *c) {
 
 /* The way that somebody lying so faces when up: where the head is, of one who lies on the belly; the other
  * way on the back. */
-static float heading_of(sbf_quat turn) {
-  sbf_vec3 front = sbri_rotate(turn, sbri_vec3(0, 0, 1)), up = sbri_rotate(turn, sbri_vec3(0, 1, 0));
+static float heading_of(sbf_quat rotation) {
+  sbf_vec3 front = sbri_rotate(rotation, sbri_vec3(0, 0, 1)), up = sbri_rotate(rotation, sbri_vec3(0, 1, 0));
   return sbri_atan2(front.x - front.y * up.x, front.z - front.y * up.z);
 }
 
@@ -79,14 +79,14 @@ static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
   const sbr_transform *now = &sbri_rigid_bodies(c)[body].pose;
   float heading = heading_of(sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes))), s, k, old;
-  sbf_vec3 place;
+  sbf_vec3 position;
   sbri_sincos(0.5f * heading, &s, &k);
   sbf_vec3 off = sbri_rotate((sbf_quat){0, s, 0, k}, is->center);
-  sbri_gait_placement(sbri_gait(c), &place, &old);
-  place.x = c->scale * (now->position.x - off.x), place.z = c->scale * (now->position.z - off.z);
+  sbri_gait_get_placement(sbri_gait(c), &position, &old);
+  position.x = c->scale * (now->position.x - off.x), position.z = c->scale * (now->position.z - off.z);
   sbri_surroundings around;
   sbri_gait_input input = sbri_gait_input_of(world, c, &around);
-  sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
+  sbri_gait_reset(&c->model->rig, sbri_gait(c), &input, position, heading);
 }
 
 /* ---- From tick to tick ---- */
@@ -96,7 +96,8 @@ static float fastest_of(const sbri_character *c) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!is_taken(c, b)) continue;
-    sbf_vec3 turn = sbri_spin_velocity(&c->model->rigid.bodies[b], body->pose.rotation, body->spin);
+    sbf_vec3 turn = sbri_angular_velocity_from_momentum(
+        &c->model->rigid.bodies[b], body->pose.rotation, body->angular_momentum);
     float speed = sbri_length(body->velocity) + c->model->rigid.bodies[b].radius * sbri_length(turn);
     max = speed > max ? speed : max;
   }
@@ -126,12 +127,12 @@ static float strength_of(const sbri_rigid_drive_state *drive) {
 bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
   float tick_s = (float)world->tick_s * c->time_scale;
-  if (!drive || drive->posture == SBR_RIGID_UP) return false;
+  if (!drive || drive->posture == SBR_POSTURE_UPRIGHT) return false;
   drive->posture_s += tick_s;
-  if (drive->posture == SBR_RIGID_FALLING) {
+  if (drive->posture == SBR_POSTURE_FALLING) {
     drive->still_s = fastest_of(c) <= STILL_M_S ? drive->still_s + tick_s : 0;
     if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return false;
-    drive->posture = SBR_RIGID_RISING;
+    drive->posture = SBR_POSTURE_RISING;
     drive->posture_s = 0;
     stand_where_it_lies(world, c);
     return true;
@@ -141,7 +142,7 @@ bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   if (up)
     sbri_reflex_end(c);
   else
-    set_all(c, SBR_RIGID_DRIVEN, drive->limp_share + (1 - drive->limp_share) * w);
+    set_all(c, SBR_RIGID_DRIVEN, drive->limp_fraction + (1 - drive->limp_fraction) * w);
   return false;
 }
 
@@ -152,20 +153,21 @@ static sbf_vec3 bounded(sbf_vec3 v, float max) {
 
 void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float step_s) {
   const sbri_rigid_drive_state *drive = t->drive;
-  if (drive->posture != SBR_RIGID_RISING) return;
-  float share = strength_of(drive), w = TWO_PI * (FIRST_HZ + (LAST_HZ - FIRST_HZ) * share);
+  if (drive->posture != SBR_POSTURE_RISING) return;
+  float fraction = strength_of(drive), w = TWO_PI * (FIRST_HZ + (LAST_HZ - FIRST_HZ) * fraction);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (!is_taken(c, b) || !sbri_rigid_is_simulated(c, b)) continue;
     const sbri_rigid_body *is = &t->model->bodies[b];
     sbri_rigid_body_state *body = &t->bodies[b];
-    sbf_vec3 turn = sbri_spin_velocity(is, body->pose.rotation, body->spin);
+    sbf_vec3 turn = sbri_angular_velocity_from_momentum(is, body->pose.rotation, body->angular_momentum);
     sbf_vec3 pull = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
     sbf_vec3 twist = sbri_scale(turn_to(&t->targets[b], &body->pose), w * w);
-    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), share * MAX_M_S2);
-    twist = bounded(sbri_add_scaled(twist, turn, -2 * w), share * MAX_RAD_S2);
+    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), fraction * MAX_M_S2);
+    twist = bounded(sbri_add_scaled(twist, turn, -2 * w), fraction * MAX_RAD_S2);
     float carried = 1 + t->model->carried_masses[b] * is->inverse_mass;
-    pull = sbri_add_scaled(pull, t->gravity, -share * is->source->gravity_scale * carried);
+    pull = sbri_add_scaled(pull, t->gravity, -fraction * is->source->gravity_scale * carried);
     body->velocity = sbri_add_scaled(body->velocity, pull, step_s);
-    body->spin = sbri_spin_from(is, body->pose.rotation, sbri_add_scaled(turn, twist, step_s));
+    body->angular_momentum =
+        sbri_angular_momentum_from_velocity(is, body->pose.rotation, sbri_add_scaled(turn, twist, step_s));
   }
 }

@@ -15,23 +15,23 @@ bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
   return false;
 }
 
-void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform place) {
-  body->pose = place;
-  body->velocity = body->spin = body->fine = sbri_vec3(0, 0, 0);
+void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform transform) {
+  body->pose = transform;
+  body->velocity = body->angular_momentum = body->fine = sbri_vec3(0, 0, 0);
 }
 
 void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse) {
   sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[rigid_body];
   sbf_vec3 arm = sbri_sub(at, body->pose.position);
   body->velocity = sbri_add_scaled(body->velocity, impulse, c->model->rigid.bodies[rigid_body].inverse_mass);
-  body->spin = sbri_add(body->spin, sbri_cross(arm, impulse));
+  body->angular_momentum = sbri_add(body->angular_momentum, sbri_cross(arm, impulse));
   sbri_rigid_wake(c);
 }
 
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  drive->asleep = drive->quiet_ticks = drive->slow_ticks = drive->any = 0;
-  drive->calm_ticks = 0, drive->calm_max = drive->calm_before = 0;
+  drive->asleep = drive->idle_ticks = drive->slow_ticks = drive->any = 0;
+  drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
   sbri_character_wake(c);
 }
@@ -61,10 +61,10 @@ sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *po
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
   uint32_t frame = is->source->bone >= 0 ? (uint32_t)is->source->bone : sbri_root_frame(c->model);
   sbr_transform rest = sbri_frame_rest(c->model, frame);
-  sbf_quat turn = sbri_quat_multiply(pose[frame].rotation, sbri_quat_conjugate(rest.rotation));
-  sbf_vec3 arm = sbri_rotate(turn, sbri_sub(is->center, rest.position));
+  sbf_quat rotation = sbri_quat_multiply(pose[frame].rotation, sbri_quat_conjugate(rest.rotation));
+  sbf_vec3 arm = sbri_rotate(rotation, sbri_sub(is->center, rest.position));
   return (sbr_transform){sbri_add(sbri_scale(pose[frame].position, 1 / c->scale), arm),
-      sbri_quat_normalize(sbri_quat_multiply(turn, is->axes))};
+      sbri_quat_normalize(sbri_quat_multiply(rotation, is->axes))};
 }
 
 /* ---- From bodies to bones ---- */
@@ -73,58 +73,60 @@ sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *po
 static sbr_transform carried(
     const sbri_character *c, uint32_t body, const sbr_transform *now, const sbr_transform *rest) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
-  sbf_quat turn = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
-  sbf_vec3 at = sbri_add(now->position, sbri_rotate(turn, sbri_sub(rest->position, is->center)));
+  sbf_quat rotation = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
+  sbf_vec3 at = sbri_add(now->position, sbri_rotate(rotation, sbri_sub(rest->position, is->center)));
   return (sbr_transform){
-      sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
+      sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(rotation, rest->rotation))};
 }
 
-sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds, sbf_vec3 gain) {
+sbr_transform sbri_rigid_ahead(
+    const sbri_character *c, uint32_t body, float seconds, sbf_vec3 velocity_change) {
   const sbri_rigid_body_state *now = &sbri_rigid_bodies(c)[body];
   sbr_transform to = now->pose;
   if (!(seconds > 0)) return to;
   float scale = c->model->rigid.bodies[body].source->gravity_scale;
-  to.position = sbri_add_scaled(to.position, sbri_add_scaled(now->velocity, gain, scale), seconds);
-  (void)sbri_free_turn(&c->model->rigid.bodies[body], now->pose.rotation, now->spin, seconds, &to.rotation);
+  to.position = sbri_add_scaled(to.position, sbri_add_scaled(now->velocity, velocity_change, scale), seconds);
+  (void)sbri_free_turn(
+      &c->model->rigid.bodies[body], now->pose.rotation, now->angular_momentum, seconds, &to.rotation);
   return to;
 }
 
 /* A bone as the pose `by` has it against its parent, where that is at `parent_now`. */
 static sbr_transform against(
     const sbr_transform *by, uint32_t bone, uint32_t parent, const sbr_transform *parent_now) {
-  sbf_quat turn = sbri_quat_multiply(parent_now->rotation, sbri_quat_conjugate(by[parent].rotation));
+  sbf_quat rotation = sbri_quat_multiply(parent_now->rotation, sbri_quat_conjugate(by[parent].rotation));
   sbf_vec3 away = sbri_sub(by[bone].position, by[parent].position);
-  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(turn, away)),
-      sbri_quat_normalize(sbri_quat_multiply(turn, by[bone].rotation))};
+  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(rotation, away)),
+      sbri_quat_normalize(sbri_quat_multiply(rotation, by[bone].rotation))};
 }
 
-static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float share) {
+static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float fraction) {
   return (sbr_transform){
-      sbri_lerp(a->position, b->position, share), sbri_quat_blend(a->rotation, b->rotation, share)};
+      sbri_lerp(a->position, b->position, fraction), sbri_quat_blend(a->rotation, b->rotation, fraction)};
 }
 
-void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, float share, float ahead_s,
-    sbf_vec3 gain, sbr_transform *pose) {
+void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, float fraction, float ahead_s,
+    sbf_vec3 velocity_change, sbr_transform *pose) {
   const sbr_model *model = c->model;
   const sbr_transform *before = sbri_previous_pose(c);
   for (uint32_t i = 0; i < model->frame_count; i++) {
     uint32_t frame = i < model->rig.bone_count ? model->rig.subtree[i] : i;
     int32_t body = model->carrier_of_frame[frame];
     if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
-      pose[frame] = share < 1 ? between(&before[frame], &animated[frame], share) : animated[frame];
+      pose[frame] = fraction < 1 ? between(&before[frame], &animated[frame], fraction) : animated[frame];
       continue;
     }
     if (sbri_body_frame(model, (uint32_t)body) == frame) {
-      sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s, gain),
+      sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s, velocity_change),
                     rest = sbri_frame_rest(model, frame);
       pose[frame] = carried(c, (uint32_t)body, &now, &rest);
       continue;
     }
     uint32_t parent = (uint32_t)model->rig.parents[frame];
     pose[frame] = against(animated, frame, parent, &pose[parent]);
-    if (share >= 1) continue;
+    if (fraction >= 1) continue;
     sbr_transform was = against(before, frame, parent, &pose[parent]);
-    pose[frame] = between(&was, &pose[frame], share);
+    pose[frame] = between(&was, &pose[frame], fraction);
   }
 }
 

@@ -5,10 +5,10 @@
 #include "ragdoll/ragdoll.h"
 
 /* Slower than this share of its size a second, with nothing that draws it, a body comes to rest. */
-static const float QUIET_1_S = 0.01f;
+static const float IDLE_1_S = 0.01f;
 /* And slower than this one that calms down: the fastest has but this share of its speed left after so long,
  * in which a hand swings there and back. */
-static const float CALM_1_S = 0.2f, CALMING = 0.8f, CALM_S = 0.5f;
+static const float DAMPING_1_S = 0.2f, CALMING = 0.8f, DAMPING_S = 0.5f;
 
 /* ---- Stepping ---- */
 
@@ -22,32 +22,34 @@ static bool is_lost(const sbri_rigid_body_state *body) {
 /* Speed of the fastest over its size, 1/s; infinite where something may not rest. */
 static float restlessness(const sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
-  float max = sbri_coupled_are_quiet(c) ? 0 : INFINITY;
+  float max = sbri_coupled_are_idle(c) ? 0 : INFINITY;
   for (uint32_t b = 0; b < model->body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
-    sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
-    float share = sbri_length(body->velocity) / size + 0.5f * sbri_length(turn);
-    if (body->mode == SBR_RIGID_DRIVEN || !(share <= CALM_1_S)) return INFINITY;
-    max = share > max ? share : max;
+    sbf_vec3 turn =
+        sbri_angular_velocity_from_momentum(&model->bodies[b], body->pose.rotation, body->angular_momentum);
+    float fraction = sbri_length(body->velocity) / size + 0.5f * sbri_length(turn);
+    if (body->mode == SBR_RIGID_DRIVEN || !(fraction <= DAMPING_1_S)) return INFINITY;
+    max = fraction > max ? fraction : max;
   }
   return max;
 }
 
 /* Whether all has moved slowly for some time, and more slowly than in as much time before: what swings out
  * comes to rest, what slumps or tips grows faster and does not. */
-static bool is_calming(const sbr_world *world, const sbri_character *c, float share) {
+static bool is_calming(const sbr_world *world, const sbri_character *c, float fraction) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   float tick_s = (float)world->tick_s * c->time_scale;
-  if (!(share <= CALM_1_S)) {
-    drive->calm_ticks = 0, drive->calm_max = drive->calm_before = 0;
+  if (!(fraction <= DAMPING_1_S)) {
+    drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
     return false;
   }
-  drive->calm_max = share > drive->calm_max ? share : drive->calm_max;
-  if (++drive->calm_ticks < world->sleep_ticks || (float)drive->calm_ticks * tick_s < CALM_S) return false;
-  bool calms = drive->calm_max <= CALMING * drive->calm_before;
-  drive->calm_before = drive->calm_max;
-  drive->calm_ticks = 0, drive->calm_max = 0;
+  drive->damped_max = fraction > drive->damped_max ? fraction : drive->damped_max;
+  if (++drive->damping_ticks < world->sleep_ticks || (float)drive->damping_ticks * tick_s < DAMPING_S)
+    return false;
+  bool calms = drive->damped_max <= CALMING * drive->damped_before;
+  drive->damped_before = drive->damped_max;
+  drive->damping_ticks = 0, drive->damped_max = 0;
   return calms;
 }
 
@@ -55,14 +57,14 @@ static void may_sleep(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   if (!world->sleep_ticks) return;
-  float share = restlessness(c);
-  bool quiet = share <= QUIET_1_S, calms = is_calming(world, c, share);
-  drive->quiet_ticks = quiet ? drive->quiet_ticks + 1 : 0;
-  if (!calms && drive->quiet_ticks < world->sleep_ticks) return;
+  float fraction = restlessness(c);
+  bool is_idle = fraction <= IDLE_1_S, calms = is_calming(world, c, fraction);
+  drive->idle_ticks = is_idle ? drive->idle_ticks + 1 : 0;
+  if (!calms && drive->idle_ticks < world->sleep_ticks) return;
   drive->asleep = 1;
   drive->last_step_s = 0;
   for (uint32_t b = 0; b < model->body_count; b++)
-    sbri_rigid_bodies(c)[b].velocity = sbri_rigid_bodies(c)[b].spin = sbri_vec3(0, 0, 0);
+    sbri_rigid_bodies(c)[b].velocity = sbri_rigid_bodies(c)[b].angular_momentum = sbri_vec3(0, 0, 0);
   sbri_coupled_put_to_sleep(world, c);
 }
 
@@ -77,13 +79,13 @@ static bool is_moved(const sbri_character *c) {
 
 static void act(void *user, const sbri_rigid_tick *tick, float from, float to, float weight_s) {
   sbri_coupled *group = user;
-  if (group->any) sbri_coupled_act(group, tick, from, to, weight_s);
+  if (group->any) sbri_coupled_before_step(group, tick, from, to, weight_s);
   sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
 }
 
 static void acted(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
   const sbri_coupled *group = user;
-  if (group->any) sbri_coupled_acted(group, tick, step_s, weight_s);
+  if (group->any) sbri_coupled_after_step(group, tick, step_s, weight_s);
   if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
 }
 
@@ -98,7 +100,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
       .ground = &c->ground,
       .colliders = &world->colliders,
-      .origin = sbri_head(c)->origin,
+      .origin = sbri_header(c)->origin,
       .scale = c->scale,
       .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
       .tick_s = (float)world->tick_s * c->time_scale,
@@ -120,7 +122,7 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
   if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
-    drive->asleep = drive->quiet_ticks = 0, drive->calm_before = 0;
+    drive->asleep = drive->idle_ticks = 0, drive->damped_before = 0;
   if (drive->asleep || !c->rigid_work) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
     return false;

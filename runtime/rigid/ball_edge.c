@@ -12,12 +12,12 @@ static void cross(const sbri_twin a[3], const sbri_twin b[3], sbri_twin to[3]) {
 }
 
 /* A, symmetric, of which the lower half counts; E, rows of turns; C, lower half. */
-typedef struct place_inertia {
+typedef struct contact_inertia {
   sbri_twin a[3][3], e[3][3], c[3][3];
-} place_inertia;
+} contact_inertia;
 
 /* To another place, from which the one before is `r` away: E + r^ A, and C + r^ E'^T - E r^. */
-static inline void move_place(place_inertia *i, const sbri_twin r[3]) {
+static inline void move_position(contact_inertia *i, const sbri_twin r[3]) {
   sbri_twin before[3][3], turned[3];
   memcpy(before, i->e, sizeof before);
   i->a[0][1] = i->a[1][0], i->a[0][2] = i->a[2][0], i->a[1][2] = i->a[2][1];
@@ -47,16 +47,16 @@ static void add_give(const sbri_edge *edge, double k[3][3]) {
 /* What gives way, lower half, and flesh alone. */
 static void find_give(const sbri_ball_pair *p, sbri_twin k[3][3]) {
   const sbri_edge *const *edges = (const sbri_edge *const *)p->edges;
-  sbri_twin flesh = sbri_twin_of(edges[0]->ball->flesh, edges[SECOND]->ball->flesh);
+  sbri_twin attached = sbri_twin_of(edges[0]->ball->attached_inertia, edges[SECOND]->ball->attached_inertia);
   double of[2][3][3];
   if (!(edges[0]->active_count || edges[SECOND]->active_count)) {
     for (int i = 0; i < 3; i++)
-      for (int j = 0; j <= i; j++) k[i][j] = i == j ? flesh : sbri_twin_of(0, 0);
+      for (int j = 0; j <= i; j++) k[i][j] = i == j ? attached : sbri_twin_of(0, 0);
     return;
   }
   for (int lane = 0; lane < SBRI_TWINS; lane++) {
     for (int i = 0; i < 3; i++)
-      for (int j = 0; j <= i; j++) of[lane][i][j] = i == j ? edges[lane]->ball->flesh : 0;
+      for (int j = 0; j <= i; j++) of[lane][i][j] = i == j ? edges[lane]->ball->attached_inertia : 0;
     add_give(edges[lane], of[lane]);
   }
   for (int i = 0; i < 3; i++)
@@ -114,7 +114,7 @@ static inline sbri_twin dot_columns(sbri_twin a[3][3], int i, sbri_twin b[3][3],
 
 /* ---- Factor ---- */
 
-static void gather(const sbri_ball_pair *p, place_inertia *i) {
+static void gather(const sbri_ball_pair *p, contact_inertia *i) {
   const sbri_node *a = p->children[0], *b = p->children[SECOND];
   for (int j = 0; j < 3; j++) {
     for (int k = 0; k <= j; k++) {
@@ -135,12 +135,12 @@ static void take_levers(sbri_ball_pair *p) {
 }
 
 void sbri_balls_eliminate(sbri_ball_pair *p) {
-  place_inertia i;
+  contact_inertia i;
   sbri_twin back[3];
   take_levers(p);
   gather(p, &i);
   for (int j = 0; j < 3; j++) back[j] = -p->own[j];
-  move_place(&i, back);
+  move_position(&i, back);
   memcpy(p->a, i.a, sizeof p->a);
   memcpy(p->e, i.e, sizeof p->e);
   find_give(p, p->k);
@@ -158,7 +158,7 @@ void sbri_balls_eliminate(sbri_ball_pair *p) {
     }
     for (int k = 0; k < 3; k++) i.e[j][k] = dot_columns(p->z, j, p->y, k);
   }
-  move_place(&i, p->other);
+  move_position(&i, p->other);
   for (uint32_t lane = 0; lane < p->count; lane++) {
     sbri_node *parent = p->parents[lane];
     int at = (int)lane;
@@ -194,8 +194,8 @@ static void add_wanted(const sbri_edge *edge, double turn[3]) {
 
 static void find_wanted(sbri_ball_pair *p) {
   const sbri_ball *a = p->edges[0]->ball, *b = p->edges[SECOND]->ball;
-  sbri_twin flesh = p->sign * sbri_twin_of(a->flesh, b->flesh);
-  for (int k = 0; k < 3; k++) p->wanted[k] = flesh * sbri_twin_of(a->flesh_rhs[k], b->flesh_rhs[k]);
+  sbri_twin attached = p->sign * sbri_twin_of(a->attached_inertia, b->attached_inertia);
+  for (int k = 0; k < 3; k++) p->wanted[k] = attached * sbri_twin_of(a->attached_rhs[k], b->attached_rhs[k]);
   if (!(p->edges[0]->active_count || p->edges[SECOND]->active_count)) return;
   double of[2][3];
   for (int lane = 0; lane < SBRI_TWINS; lane++) {
@@ -205,7 +205,7 @@ static void find_wanted(sbri_ball_pair *p) {
   for (int k = 0; k < 3; k++) p->wanted[k] = sbri_twin_of(of[0][k], of[SECOND][k]);
 }
 
-void sbri_balls_forward(sbri_ball_pair *p, bool with_rhs) {
+void sbri_balls_solve_forward(sbri_ball_pair *p, bool with_rhs) {
   const sbri_ball *first = p->edges[0]->ball, *second = p->edges[SECOND]->ball;
   const double *a = p->children[0]->b, *b = p->children[SECOND]->b;
   sbri_twin moment[3], turned[3];
@@ -260,7 +260,7 @@ static void note_rows(const sbri_edge *edge, const double off[3]) {
   }
 }
 
-void sbri_balls_back(sbri_ball_pair *p, bool keep) {
+void sbri_balls_solve_back(sbri_ball_pair *p, bool keep) {
   sbri_twin speed[3], parent_turn[3], turned[3], w[3];
   find_parents(p, speed, parent_turn);
   for (int k = 0; k < 3; k++) w[k] = p->p[k] + dot3(p->z[k], parent_turn) - dot3(p->y[k], speed);

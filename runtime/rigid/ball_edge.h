@@ -14,9 +14,9 @@
 /* Takes the children out, whose d stay as they are, and adds what their parents feel of it. */
 void sbri_balls_eliminate(sbri_ball_pair *pair);
 /* Likewise of the children's b; `with_rhs`: what the edges want, else as if that were 0. */
-void sbri_balls_forward(sbri_ball_pair *pair, bool with_rhs);
+void sbri_balls_solve_forward(sbri_ball_pair *pair, bool with_rhs);
 /* The children's x from their parents'; `keep`: adds to the active rows' impulses. */
-void sbri_balls_back(sbri_ball_pair *pair, bool keep);
+void sbri_balls_solve_back(sbri_ball_pair *pair, bool keep);
 /* Adds what the last solution has done to the edges' own impulses. */
 void sbri_balls_note(sbri_ball_pair *pair);
 

@@ -14,11 +14,11 @@ static sbf_vec3 times(sbf_vec3 a, sbf_vec3 b) {
 
 /* p turned backwards by what cay turns forwards, a being half the turn: (1 + a^)^-1 (1 - a^) p. */
 static sbf_vec3 turned_back(sbf_vec3 a, sbf_vec3 p) {
-  float square = sbri_dot(a, a), share = 1 / (1 + square), along = 2 * sbri_dot(a, p);
+  float square = sbri_dot(a, a), fraction = 1 / (1 + square), along = 2 * sbri_dot(a, p);
   sbf_vec3 across = sbri_cross(a, p);
-  return (sbf_vec3){((1 - square) * p.x + along * a.x - 2 * across.x) * share,
-      ((1 - square) * p.y + along * a.y - 2 * across.y) * share,
-      ((1 - square) * p.z + along * a.z - 2 * across.z) * share};
+  return (sbf_vec3){((1 - square) * p.x + along * a.x - 2 * across.x) * fraction,
+      ((1 - square) * p.y + along * a.y - 2 * across.y) * fraction,
+      ((1 - square) * p.z + along * a.z - 2 * across.z) * fraction};
 }
 
 /* Each pass leaves of the error about as much as the body turns in half a step. */
@@ -27,15 +27,16 @@ static int passes_for(float square) {
 }
 
 sbf_vec3 sbri_free_turn(
-    const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin, float step_s, sbf_quat *to) {
-  sbf_vec3 p = sbri_rotate(sbri_quat_conjugate(turn), spin), w = times(body->inverse_inertia, p);
+    const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 angular_momentum, float step_s, sbf_quat *to) {
+  sbf_vec3 p = sbri_rotate(sbri_quat_conjugate(rotation), angular_momentum),
+           w = times(body->inverse_inertia, p);
   sbf_vec3 half = sbri_scale(w, 0.5f * step_s);
   for (int pass = passes_for(sbri_dot(half, half)); pass > 0; pass--) {
     w = times(body->inverse_inertia, sbri_scale(sbri_add(p, turned_back(half, p)), 0.5f));
     half = sbri_scale(w, 0.5f * step_s);
   }
-  *to = sbri_quat_normalize(sbri_quat_multiply(turn, (sbf_quat){half.x, half.y, half.z, 1}));
-  return sbri_rotate(turn, w);
+  *to = sbri_quat_normalize(sbri_quat_multiply(rotation, (sbf_quat){half.x, half.y, half.z, 1}));
+  return sbri_rotate(rotation, w);
 }
 
 /* ---- The same, of as many bodies at once as there are lanes: each operation as above ---- */
@@ -63,11 +64,11 @@ static sbri_wide3 turn_by(sbri_wide3 u, sbri_wide w, sbri_wide3 v) {
 
 static sbri_wide3 all_turned_back(sbri_wide3 a, sbri_wide3 p) {
   const sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2);
-  sbri_wide square = dot(a, a), share = one / (one + square), along = two * dot(a, p);
+  sbri_wide square = dot(a, a), fraction = one / (one + square), along = two * dot(a, p);
   sbri_wide3 across = cross(a, p);
-  return (sbri_wide3){((one - square) * p.x + along * a.x - two * across.x) * share,
-      ((one - square) * p.y + along * a.y - two * across.y) * share,
-      ((one - square) * p.z + along * a.z - two * across.z) * share};
+  return (sbri_wide3){((one - square) * p.x + along * a.x - two * across.x) * fraction,
+      ((one - square) * p.y + along * a.y - two * across.y) * fraction,
+      ((one - square) * p.z + along * a.z - two * across.z) * fraction};
 }
 
 static sbri_wide3 all_times(sbri_wide3 a, sbri_wide3 b) {
@@ -82,9 +83,12 @@ static sbri_wide3 chosen(sbri_mask mask, sbri_wide3 a, sbri_wide3 b) {
 void sbri_free_turns(sbri_free_turning *t, float step_s) {
   sbri_wide3 u = {sbri_wide_load(t->x), sbri_wide_load(t->y), sbri_wide_load(t->z)};
   sbri_wide w_of = sbri_wide_load(t->w), half_s = sbri_wide_all(0.5f * step_s);
-  sbri_wide3 ease = {sbri_wide_load(t->ease[0]), sbri_wide_load(t->ease[1]), sbri_wide_load(t->ease[2])};
-  sbri_wide3 spin = {sbri_wide_load(t->spin[0]), sbri_wide_load(t->spin[1]), sbri_wide_load(t->spin[2])};
-  sbri_wide3 p = turn_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, spin), w = all_times(ease, p);
+  sbri_wide3 inverse_mass = {sbri_wide_load(t->inverse_inertia[0]), sbri_wide_load(t->inverse_inertia[1]),
+      sbri_wide_load(t->inverse_inertia[2])};
+  sbri_wide3 angular_momentum = {sbri_wide_load(t->angular_momentum[0]),
+      sbri_wide_load(t->angular_momentum[1]), sbri_wide_load(t->angular_momentum[2])};
+  sbri_wide3 p = turn_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, angular_momentum),
+             w = all_times(inverse_mass, p);
   sbri_wide3 half = scale(w, half_s);
   float squares[SBRI_LANES], passes[SBRI_LANES];
   int max = 0;
@@ -95,9 +99,9 @@ void sbri_free_turns(sbri_free_turning *t, float step_s) {
     passes[k] = (float)count;
   }
   for (int pass = 0; pass < max; pass++) {
-    sbri_mask goes_on = sbri_wide_load(passes) > sbri_wide_all((float)pass);
+    sbri_mask continues = sbri_wide_load(passes) > sbri_wide_all((float)pass);
     sbri_wide3 mean = scale(add(p, all_turned_back(half, p)), sbri_wide_all(0.5f));
-    w = chosen(goes_on, all_times(ease, mean), w);
+    w = chosen(continues, all_times(inverse_mass, mean), w);
     half = scale(w, half_s);
   }
   /* turn (half, 1) */
@@ -105,28 +109,32 @@ void sbri_free_turns(sbri_free_turning *t, float step_s) {
   sbri_wide y = w_of * half.y - u.x * half.z + u.y + u.z * half.x;
   sbri_wide z = w_of * half.z + u.x * half.y - u.y * half.x + u.z;
   sbri_wide r = w_of - u.x * half.x - u.y * half.y - u.z * half.z;
-  sbri_wide share = sbri_wide_all(1) / sbri_wide_sqrt(x * x + y * y + z * z + r * r);
+  sbri_wide fraction = sbri_wide_all(1) / sbri_wide_sqrt(x * x + y * y + z * z + r * r);
   sbri_wide3 velocity = turn_by(u, w_of, w);
-  sbri_wide_store(t->x, x * share), sbri_wide_store(t->y, y * share);
-  sbri_wide_store(t->z, z * share), sbri_wide_store(t->w, r * share);
-  sbri_wide_store(t->spin[0], velocity.x), sbri_wide_store(t->spin[1], velocity.y);
-  sbri_wide_store(t->spin[2], velocity.z);
+  sbri_wide_store(t->x, x * fraction), sbri_wide_store(t->y, y * fraction);
+  sbri_wide_store(t->z, z * fraction), sbri_wide_store(t->w, r * fraction);
+  sbri_wide_store(t->angular_momentum[0], velocity.x), sbri_wide_store(t->angular_momentum[1], velocity.y);
+  sbri_wide_store(t->angular_momentum[2], velocity.z);
 }
 
-void sbri_free_turning_put(
-    sbri_free_turning *t, int lane, const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin) {
-  t->x[lane] = turn.x, t->y[lane] = turn.y, t->z[lane] = turn.z, t->w[lane] = turn.w;
-  t->spin[0][lane] = spin.x, t->spin[1][lane] = spin.y, t->spin[2][lane] = spin.z;
-  t->ease[0][lane] = body->inverse_inertia.x, t->ease[1][lane] = body->inverse_inertia.y;
-  t->ease[2][lane] = body->inverse_inertia.z;
+void sbri_free_turning_put(sbri_free_turning *t, int lane, const sbri_rigid_body *body, sbf_quat rotation,
+    sbf_vec3 angular_momentum) {
+  t->x[lane] = rotation.x, t->y[lane] = rotation.y, t->z[lane] = rotation.z, t->w[lane] = rotation.w;
+  t->angular_momentum[0][lane] = angular_momentum.x, t->angular_momentum[1][lane] = angular_momentum.y,
+  t->angular_momentum[2][lane] = angular_momentum.z;
+  t->inverse_inertia[0][lane] = body->inverse_inertia.x,
+  t->inverse_inertia[1][lane] = body->inverse_inertia.y;
+  t->inverse_inertia[2][lane] = body->inverse_inertia.z;
 }
 
-sbf_vec3 sbri_spin_velocity(const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin) {
-  sbf_vec3 p = sbri_rotate(sbri_quat_conjugate(turn), spin);
-  return sbri_rotate(turn, times(body->inverse_inertia, p));
+sbf_vec3 sbri_angular_velocity_from_momentum(
+    const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 angular_momentum) {
+  sbf_vec3 p = sbri_rotate(sbri_quat_conjugate(rotation), angular_momentum);
+  return sbri_rotate(rotation, times(body->inverse_inertia, p));
 }
 
-sbf_vec3 sbri_spin_from(const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 velocity) {
-  sbf_vec3 w = sbri_rotate(sbri_quat_conjugate(turn), velocity);
-  return sbri_rotate(turn, times(body->inertia, w));
+sbf_vec3 sbri_angular_momentum_from_velocity(
+    const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 velocity) {
+  sbf_vec3 w = sbri_rotate(sbri_quat_conjugate(rotation), velocity);
+  return sbri_rotate(rotation, times(body->inertia, w));
 }

@@ -9,12 +9,12 @@
  * turn to, and the mean angular velocities in place of the momenta. */
 typedef struct sbri_free_turning {
   float x[SBRI_LANES], y[SBRI_LANES], z[SBRI_LANES], w[SBRI_LANES];
-  float spin[3][SBRI_LANES];
-  float ease[3][SBRI_LANES]; /* inverse principal moments */
+  float angular_momentum[3][SBRI_LANES];
+  float inverse_inertia[3][SBRI_LANES]; /* inverse principal moments */
 } sbri_free_turning;
 
-void sbri_free_turning_put(
-    sbri_free_turning *turning, int lane, const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin);
+void sbri_free_turning_put(sbri_free_turning *turning, int lane, const sbri_rigid_body *body,
+    sbf_quat rotation, sbf_vec3 angular_momentum);
 void sbri_free_turns(sbri_free_turning *turning, float step_s);
 
 #endif

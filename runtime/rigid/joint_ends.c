@@ -4,22 +4,22 @@
 #include <string.h>
 
 /* What is off is put right no faster than this, in m/s and rad/s. */
-static const float MAX_MEND_M_S = 20, MAX_MEND_RAD_S = 60;
+static const float MAX_CORRECTION_M_S = 20, MAX_CORRECTION_RAD_S = 60;
 /* A limit that is broken by more, having been found to be free, makes a step one to be taken again. */
 static const float MISSED = 2e-3f;
 
-static sbf_vec3 along_axes(const sbri_joint_place *place, sbf_vec3 v) {
-  return sbri_add_scaled(
-      sbri_add_scaled(sbri_scale(place->axes[0], v.x), place->axes[1], v.y), place->axes[2], v.z);
+static sbf_vec3 along_axes(const sbri_joint_frames *joint_frames, sbf_vec3 v) {
+  return sbri_add_scaled(sbri_add_scaled(sbri_scale(joint_frames->axes[0], v.x), joint_frames->axes[1], v.y),
+      joint_frames->axes[2], v.z);
 }
 
 /* What of a ball's place is off. */
-static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 apart, float step_s) {
-  sbf_vec3 off = sbri_sub(wanted, apart);
+static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 separation, float step_s) {
+  sbf_vec3 off = sbri_sub(wanted, separation);
   float rates[3] = {off.x / step_s, off.y / step_s, off.z / step_s}, worst = 0;
   for (int k = 0; k < 3; k++) {
-    ball->rhs[k] = (double)sbri_clamp(rates[k], -MAX_MEND_M_S, MAX_MEND_M_S);
-    ball->flesh_rhs[k] = 0;
+    ball->rhs[k] = (double)sbri_clamp(rates[k], -MAX_CORRECTION_M_S, MAX_CORRECTION_M_S);
+    ball->attached_rhs[k] = 0;
   }
   const float parts[3] = {fabsf(off.x), fabsf(off.y), fabsf(off.z)};
   for (int k = 0; k < 3; k++) worst = parts[k] > worst ? parts[k] : worst;
@@ -27,31 +27,33 @@ static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 apart, floa
 }
 
 static float correct_rows(
-    sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_place *place, float step_s) {
+    sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames, float step_s) {
   float worst = 0;
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];
     sbf_joint_axis axis = (sbf_joint_axis)row->axis;
     e->rhs[r] = 0;
     if (row->kind > SBRI_ROW_LIMIT) continue;
-    bool at_zero = row->kind == SBRI_ROW_HELD && joint->held >> axis & 1;
-    float now = at_zero ? sbri_joint_held_coordinate(place, axis) : sbri_joint_coordinate(joint, place, axis);
+    bool at_zero = row->kind == SBRI_ROW_LOCKED && joint->locked >> axis & 1;
+    float now = at_zero ? sbri_joint_locked_coordinate(joint_frames, axis)
+                        : sbri_joint_coordinate(joint, joint_frames, axis);
     if (axis == SBF_JOINT_AXIS_TWIST && !at_zero) now = sbri_nearest_turn(now, row->end, row->end);
     float off = row->end - now;
     if (row->kind == SBRI_ROW_LIMIT && !((float)row->sign * off > 0)) continue;
-    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MAX_MEND_M_S, MAX_MEND_RAD_S);
+    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MAX_CORRECTION_M_S, MAX_CORRECTION_RAD_S);
     worst = fabsf(off) > worst ? fabsf(off) : worst;
   }
   return worst;
 }
 
 /* By how much limits that were found to be free are broken, but for those that are out of reach. */
-static float missed(const sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_place *place, float reach) {
+static float missed(
+    const sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames, float reach) {
   float worst = 0;
   for (uint32_t r = 0; r < e->row_count; r++) {
     const sbri_row *row = &e->rows[r];
     if (row->kind != SBRI_ROW_LIMIT || row->active || row->clear > reach) continue;
-    float now = sbri_joint_coordinate(joint, place, (sbf_joint_axis)row->axis);
+    float now = sbri_joint_coordinate(joint, joint_frames, (sbf_joint_axis)row->axis);
     if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, row->low, row->high);
     float beyond = now < row->low ? row->low - now : now - row->high;
     float begun = row->now < row->low ? row->low - row->now : row->now - row->high;
@@ -97,21 +99,23 @@ float sbri_joint_rows_correct(
   float reach = reach_in_step(work, t->model, e, step_s);
   if (is_bare_ball(e, reach)) {
     for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = 0;
-    return correct_ball(e->ball, sbri_vec3(0, 0, 0), sbri_joint_apart(joint, poses, fine), step_s);
+    return correct_ball(e->ball, sbri_vec3(0, 0, 0), sbri_joint_separation(joint, poses, fine), step_s);
   }
-  sbri_joint_place place = sbri_joint_place_of(joint, poses, &t->anchor, fine);
-  float place_off = 0;
-  if (e->ball) place_off = correct_ball(e->ball, along_axes(&place, e->ball->end), place.apart, step_s);
-  float off = correct_rows(e, joint, &place, step_s), beyond = missed(e, joint, &place, reach);
+  sbri_joint_frames joint_frames = sbri_joint_frames_of(joint, poses, &t->anchor, fine);
+  float position_error = 0;
+  if (e->ball)
+    position_error =
+        correct_ball(e->ball, along_axes(&joint_frames, e->ball->end), joint_frames.separation, step_s);
+  float off = correct_rows(e, joint, &joint_frames, step_s), beyond = missed(e, joint, &joint_frames, reach);
   float worst = off > beyond ? off : beyond;
-  return worst > place_off ? worst : place_off;
+  return worst > position_error ? worst : position_error;
 }
 
 bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model) {
   bool any = false;
   if (e->ball) {
     memset(e->ball->rhs, 0, sizeof e->ball->rhs);
-    memset(e->ball->flesh_rhs, 0, sizeof e->ball->flesh_rhs);
+    memset(e->ball->attached_rhs, 0, sizeof e->ball->attached_rhs);
   }
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];

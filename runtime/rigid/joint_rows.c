@@ -20,7 +20,7 @@ typedef struct row_maker {
   const sbri_rigid_tick *tick;
   sbri_rigid_solving *work;
   const sbri_rigid_joint *joint;
-  sbri_joint_place *place;
+  sbri_joint_frames *frames;
   sbri_edge *edge;
   float step_s;
   float turn_rad_s; /* of a ball: how fast its bodies turn against each other */
@@ -29,7 +29,7 @@ typedef struct row_maker {
 /* A row whose rates are not yet known. */
 static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
-  row->target = row->give = row->max = row->bound = row->bounce = row->impulse = row->flesh = 0;
+  row->target = row->give = row->max = row->bound = row->bounce = row->impulse = row->attached_mass = 0;
   row->dry = row->max_dry = 0;
   row->wanted = row->was = row->moved = row->clear = row->speed = 0;
   row->sign = 0;
@@ -40,27 +40,28 @@ static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis a
 
 static sbri_row *add_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = add_bare_row(m, kind, axis);
-  sbri_joint_gradient(m->joint, m->place, axis, row->rates);
+  sbri_joint_compute_gradient(m->joint, m->frames, axis, row->rates);
   row->speed = sbri_row_speed(m->work, m->tick->model, m->joint, row);
   return row;
 }
 
 static void aim(sbri_row *row, float off, float step_s) {
-  row->target = sbri_clamped_rate((sbf_joint_axis)row->axis, off / step_s, SBRI_MEND_M_S, SBRI_MEND_RAD_S);
+  row->target =
+      sbri_clamped_rate((sbf_joint_axis)row->axis, off / step_s, SBRI_CORRECTION_M_S, SBRI_CORRECTION_RAD_S);
 }
 
-static void add_held(row_maker *m, sbf_joint_axis axis) {
-  float now = sbri_joint_held_coordinate(m->place, axis);
-  sbri_row *row = add_row(m, SBRI_ROW_HELD, axis);
+static void add_pinned(row_maker *m, sbf_joint_axis axis) {
+  float now = sbri_joint_locked_coordinate(m->frames, axis);
+  sbri_row *row = add_row(m, SBRI_ROW_LOCKED, axis);
   aim(row, -now, m->step_s);
   row->end = now + m->step_s * row->target;
 }
 
 /* A coordinate kept at a value that need not be 0. */
 static void add_kept(row_maker *m, sbf_joint_axis axis, float value) {
-  float now = sbri_joint_coordinate(m->joint, m->place, axis);
+  float now = sbri_joint_coordinate(m->joint, m->frames, axis);
   if (axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, value, value);
-  sbri_row *row = add_row(m, SBRI_ROW_HELD, axis);
+  sbri_row *row = add_row(m, SBRI_ROW_LOCKED, axis);
   row->bound = value;
   aim(row, value - now, m->step_s);
   row->end = now + m->step_s * row->target;
@@ -74,21 +75,21 @@ static void soften(
 }
 
 /* By how much the coordinate is off its bounds, without an arctangent: at least that. Below 0: not known. */
-static float clear_of(const sbri_row *row, const sbri_joint_place *place) {
-  float swing = 2 * sqrtf(place->half_tangent[0] * place->half_tangent[0] +
-                          place->half_tangent[1] * place->half_tangent[1]);
-  float w = fabsf(place->turn.w);
+static float clear_of(const sbri_row *row, const sbri_joint_frames *joint_frames) {
+  float swing = 2 * sqrtf(joint_frames->half_tangent[0] * joint_frames->half_tangent[0] +
+                          joint_frames->half_tangent[1] * joint_frames->half_tangent[1]);
+  float w = fabsf(joint_frames->rotation.w);
   if (!(swing < CLEAR_SWING && w > CLEAR_TURN)) return -1;
   if (row->axis == SBF_JOINT_AXIS_SWING) return row->low > 0 ? -1 : row->high - swing;
   if (row->axis != SBF_JOINT_AXIS_TWIST) return -1;
-  float twist = 2 * fabsf(place->turn.x) / w, min = row->high < -row->low ? row->high : -row->low;
+  float twist = 2 * fabsf(joint_frames->rotation.x) / w, min = row->high < -row->low ? row->high : -row->low;
   return min - twist;
 }
 
 /* Whether it is far from its bounds, so that there may be nothing to do for it. */
 static bool is_clear(const row_maker *m, sbri_row *row) {
   if (!m->edge->ball) return false;
-  float clear = clear_of(row, m->place);
+  float clear = clear_of(row, m->frames);
   if (!(clear > sbri_turn_reach(m->turn_rad_s, m->step_s))) return false;
   row->clear = clear, row->now = row->high - clear;
   row->active = false;
@@ -112,10 +113,10 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   bool pressed = m->tick->joints[m->edge->joint].pressed >> ((m->edge->row_count - 1) & 31) & 1;
   row->low = min_of(limit), row->high = limit->max;
   if (!soft && !pressed && is_clear(m, row)) return;
-  float now = sbri_joint_coordinate(m->joint, m->place, axis);
+  float now = sbri_joint_coordinate(m->joint, m->frames, axis);
   if (axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, limit->min, limit->max);
   row->now = now;
-  sbri_limit_ready(m->work, m->tick->model, m->edge, m->place, row, m->step_s);
+  sbri_limit_ready(m->work, m->tick->model, m->edge, m->frames, row, m->step_s);
   if (soft) soften(m, row, limit->stiffness, limit->damping, row->bound - now, 0);
   row->active = pressed || sbri_limit_acts(row, row->speed, m->step_s);
   float into = -(float)row->sign * row->speed;
@@ -124,7 +125,7 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
 
 static void add_drive(row_maker *m, const sbf_drive *drive) {
   if (!(drive->stiffness > 0 || drive->damping > 0)) return;
-  float now = sbri_joint_coordinate(m->joint, m->place, drive->target), off = drive->position - now;
+  float now = sbri_joint_coordinate(m->joint, m->frames, drive->target), off = drive->position - now;
   if (drive->target == SBF_JOINT_AXIS_TWIST) off = sbri_angle_between(drive->position, now);
   sbri_row *row = add_row(m, SBRI_ROW_DRIVE, drive->target);
   soften(m, row, drive->stiffness, drive->damping, off, drive->velocity);
@@ -149,16 +150,17 @@ static void add_track(row_maker *m) {
   int32_t a = joint->bodies[SBRI_A], b = joint->bodies[SBRI_B], owner = m->edge->nodes[SBRI_B] < 0 ? a : b;
   if (a < 0 || b < 0 || t->model->bodies[a].source->bone < 0 || t->model->bodies[b].source->bone < 0) return;
   bool driven = t->bodies[owner].mode == SBR_RIGID_DRIVEN;
-  float share = driven ? t->bodies[owner].share : 0, w = 6.28318530718f * t->drive->frequency_hz;
-  float inertia = joint->reach_inertia, stiffness = share * inertia * w * w;
+  float fraction = driven ? t->bodies[owner].fraction : 0, w = 6.28318530718f * t->drive->frequency_hz;
+  float inertia = joint->reach_inertia, stiffness = fraction * inertia * w * w;
   float turns = turning_of(m), loose = (turns / STICKS - 1) / (LOOSE - 1);
   float torque =
       t->drive->joint_friction * joint->hold_torque * (1 + HOLDS_MORE * sbri_clamp(1 - loose, 0, 1));
-  float dry = torque / (turns > STICKS ? turns : STICKS), flesh = t->drive->joint_damping_1_s * inertia + dry;
-  float damping = 2 * t->drive->damping_ratio * share * inertia * w + flesh;
+  float dry = torque / (turns > STICKS ? turns : STICKS),
+        attached = t->drive->joint_damping_1_s * inertia + dry;
+  float damping = 2 * t->drive->damping_ratio * fraction * inertia * w + attached;
   if (!(stiffness > 0 || damping > 0)) return;
   if (m->edge->ball && !(stiffness > 0)) {
-    m->edge->ball->flesh = (double)(damping * m->work->kick_s);
+    m->edge->ball->attached_inertia = (double)(damping * m->work->kick_s);
     m->edge->ball->dry = (double)(dry * m->work->kick_s);
     m->edge->ball->max_dry = (double)(torque * m->work->kick_s);
     return;
@@ -170,15 +172,15 @@ static void add_track(row_maker *m) {
     off = sbri_quat_log(sbri_quat_multiply(wanted, sbri_quat_conjugate(m->work->motions[b].from.rotation)));
   }
   for (int k = 0; k < 3; k++) {
-    if (joint->held >> (SBF_JOINT_AXIS_TWIST + k) & 1) continue;
+    if (joint->locked >> (SBF_JOINT_AXIS_TWIST + k) & 1) continue;
     sbri_row *row = add_bare_row(m, SBRI_ROW_TRACK, SBF_JOINT_AXIS_TWIST);
-    const sbf_vec3 *u = &m->place->axes[k];
+    const sbf_vec3 *u = &m->frames->axes[k];
     const float along[6] = {0, 0, 0, u->x, u->y, u->z};
     for (int i = 0; i < 6; i++) row->rates[SBRI_B][i] = along[i], row->rates[SBRI_A][i] = -along[i];
     row->speed = sbri_row_speed(m->work, t->model, joint, row);
     soften(m, row, stiffness, damping, sbri_dot(off, *u), 0);
-    row->max = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
-    row->flesh = flesh * m->work->kick_s;
+    row->max = fraction * t->drive->strength * joint->hold_torque * m->work->kick_s;
+    row->attached_mass = attached * m->work->kick_s;
     row->dry = dry * m->work->kick_s, row->max_dry = torque * m->work->kick_s;
   }
 }
@@ -193,10 +195,10 @@ static sbf_vec3 slip_of(
   const sbri_rigid_joint *joint = &model->joints[e->joint];
   const sbri_part_motion *a = sbri_side_motion(work, model, joint, SBRI_A),
                          *b = sbri_side_motion(work, model, joint, SBRI_B);
-  const sbri_joint_place *place = &work->places[e - work->system.edges];
-  sbf_vec3 lever = sbri_add(place->arms[SBRI_A], place->apart);
+  const sbri_joint_frames *joint_frames = &work->joint_frames[e - work->system.edges];
+  sbf_vec3 lever = sbri_add(joint_frames->arms[SBRI_A], joint_frames->separation);
   *turn = sbri_sub(b->turn, a->turn);
-  return sbri_sub(sbri_add(b->velocity, sbri_cross(b->turn, place->arms[SBRI_B])),
+  return sbri_sub(sbri_add(b->velocity, sbri_cross(b->turn, joint_frames->arms[SBRI_B])),
       sbri_add(a->velocity, sbri_cross(a->turn, lever)));
 }
 
@@ -205,31 +207,31 @@ static sbf_vec3 bend_of(const row_maker *m, sbf_vec3 slip) {
   const sbri_part_motion *a = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_A),
                          *b = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_B);
   const sbr_transform *poses[SBRI_SIDES] = {&a->to, &b->to};
-  sbf_vec3 apart = sbri_joint_apart(m->joint, poses, sbri_sub(b->fine_to, a->fine_to));
-  sbf_vec3 mean = sbri_scale(sbri_sub(apart, m->place->apart), 1 / m->step_s);
+  sbf_vec3 separation = sbri_joint_separation(m->joint, poses, sbri_sub(b->fine_to, a->fine_to));
+  sbf_vec3 mean = sbri_scale(sbri_sub(separation, m->frames->separation), 1 / m->step_s);
   return sbri_sub(mean, slip);
 }
 
 /* What a ball asks of its place; its turns are wanted to be as its flesh has them, at rest. */
 static void make_ball(row_maker *m) {
   sbri_ball *ball = m->edge->ball;
-  const sbri_joint_place *place = m->place;
+  const sbri_joint_frames *joint_frames = m->frames;
   sbf_vec3 turn, slip = slip_of(m->work, m->tick->model, m->edge, &turn);
   float off[3], left[3];
   sbf_vec3 target = {0, 0, 0};
   for (int k = 0; k < 3; k++) {
-    off[k] = sbri_dot(place->apart, place->axes[k]);
-    float rate = sbri_clamp(-off[k] / m->step_s, -SBRI_MEND_M_S, SBRI_MEND_M_S);
+    off[k] = sbri_dot(joint_frames->separation, joint_frames->axes[k]);
+    float rate = sbri_clamp(-off[k] / m->step_s, -SBRI_CORRECTION_M_S, SBRI_CORRECTION_M_S);
     left[k] = off[k] + m->step_s * rate;
-    target = sbri_add_scaled(target, place->axes[k], rate);
+    target = sbri_add_scaled(target, joint_frames->axes[k], rate);
   }
   ball->end = sbri_vec3(left[0], left[1], left[2]);
   if (sbri_rigid_foresees(m->tick, m->work)) slip = sbri_add(slip, bend_of(m, slip));
-  put(ball->levers[SBRI_A], sbri_add(place->arms[SBRI_A], place->apart));
-  put(ball->levers[SBRI_B], place->arms[SBRI_B]);
+  put(ball->levers[SBRI_A], sbri_add(joint_frames->arms[SBRI_A], joint_frames->separation));
+  put(ball->levers[SBRI_B], joint_frames->arms[SBRI_B]);
   put(ball->rhs, sbri_sub(target, slip));
-  put(ball->flesh_rhs, sbri_scale(turn, -1));
-  ball->flesh = ball->dry = ball->max_dry = 0;
+  put(ball->attached_rhs, sbri_scale(turn, -1));
+  ball->attached_inertia = ball->dry = ball->max_dry = 0;
   m->turn_rad_s = sbri_length(turn);
 }
 
@@ -237,16 +239,16 @@ void sbri_joint_rows_make(const sbri_rigid_tick *t, sbri_rigid_solving *work, ui
   sbri_edge *e = &work->system.edges[edge];
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   const sbf_joint *source = joint->source;
-  row_maker m = {t, work, joint, &work->places[edge], e, step_s, 0};
+  row_maker m = {t, work, joint, &work->joint_frames[edge], e, step_s, 0};
   const sbr_transform *poses[SBRI_SIDES] = {&sbri_side_motion(work, t->model, joint, SBRI_A)->from,
       &sbri_side_motion(work, t->model, joint, SBRI_B)->from};
   sbf_vec3 fine = sbri_sub(sbri_side_motion(work, t->model, joint, SBRI_B)->fine_from,
       sbri_side_motion(work, t->model, joint, SBRI_A)->fine_from);
-  *m.place = sbri_joint_place_of(joint, poses, &t->anchor, fine);
+  *m.frames = sbri_joint_frames_of(joint, poses, &t->anchor, fine);
   e->row_count = 0;
   if (e->ball) make_ball(&m);
   for (int axis = SBF_JOINT_AXIS_LINEAR_X; axis <= SBF_JOINT_AXIS_SWING_Z && !e->ball; axis++)
-    if (joint->held >> axis & 1) add_held(&m, (sbf_joint_axis)axis);
+    if (joint->locked >> axis & 1) add_pinned(&m, (sbf_joint_axis)axis);
   bool bounded = false;
   for (uint32_t i = 0; i < source->limits.count; i++) {
     const sbf_limit *limit = &source->limits.at[i];

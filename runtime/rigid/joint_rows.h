@@ -6,8 +6,8 @@
 
 /* What is off when a step begins, as of a character that is placed so, is put right no faster than this, in
  * m/s and rad/s. */
-#define SBRI_MEND_M_S 1.0f
-#define SBRI_MEND_RAD_S 4.0f
+#define SBRI_CORRECTION_M_S 1.0f
+#define SBRI_CORRECTION_RAD_S 4.0f
 
 /* Within that either way: of lengths, and of angles. */
 static inline float sbri_clamped_rate(sbf_joint_axis axis, float rate, float max_m_s, float max_rad_s) {
@@ -29,6 +29,6 @@ bool sbri_limit_acts(const sbri_row *row, float speed, float step_s);
 float sbri_turn_reach(float turn_rad_s, float step_s);
 /* Rates of a limit's row, the side on which it is, and what it gives way by. */
 void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *edge,
-    sbri_joint_place *place, sbri_row *row, float step_s);
+    sbri_joint_frames *joint_frames, sbri_row *row, float step_s);
 
 #endif

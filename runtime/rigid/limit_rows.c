@@ -24,8 +24,8 @@ float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *mod
 
 float sbri_nearest_turn(float value, float low, float high) {
   float outside = value < low ? low - value : value > high ? value - high : 0, best = value;
-  for (int way = -1; way <= 1; way += 2) {
-    float other = value + (float)way * TURN;
+  for (int direction = -1; direction <= 1; direction += 2) {
+    float other = value + (float)direction * TURN;
     float beyond = other < low ? low - other : other > high ? other - high : 0;
     if (beyond < outside) outside = beyond, best = other;
   }
@@ -38,7 +38,7 @@ void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
   row->sign = low ? 1 : -1;
   row->bound = low ? row->low : row->high;
   if (row->kind != SBRI_ROW_LIMIT) return;
-  float max = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_MEND_RAD_S : SBRI_MEND_M_S;
+  float max = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_CORRECTION_RAD_S : SBRI_CORRECTION_M_S;
   float back = (row->bound - row->now) / step_s;
   row->target = low ? (back > max ? max : back) : (back < -max ? -max : back);
   row->end = row->now + step_s * row->target;
@@ -55,9 +55,9 @@ float sbri_turn_reach(float turn_rad_s, float step_s) {
 }
 
 void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e,
-    sbri_joint_place *place, sbri_row *row, float step_s) {
+    sbri_joint_frames *joint_frames, sbri_row *row, float step_s) {
   const sbri_rigid_joint *joint = &model->joints[e->joint];
-  sbri_joint_gradient(joint, place, (sbf_joint_axis)row->axis, row->rates);
+  sbri_joint_compute_gradient(joint, joint_frames, (sbf_joint_axis)row->axis, row->rates);
   row->speed = sbri_row_speed(work, model, joint, row);
   sbri_limit_choose_side(row, row->speed, step_s);
   row->give = (float)(sbri_row_alone(&work->system, e, row) / FIRM);

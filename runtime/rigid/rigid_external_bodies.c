@@ -14,9 +14,9 @@
 #include "rigid/sym6.h"
 
 static void spread(const float from[6], float to[3][3]) {
-  const int places[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  const int indices[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) to[i][j] = from[places[i][j]];
+    for (int j = 0; j < 3; j++) to[i][j] = from[indices[i][j]];
 }
 
 uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t body,
@@ -34,12 +34,12 @@ uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *t, sbri_rigid_solvin
   sbri_rigid_external_body *g = &work->external_bodies[work->external_body_count++];
   *g = (sbri_rigid_external_body){.is = sbri_external_body_make(&maker, frame, number), .node = node};
   float roots[2][6];
-  sbri_external_body_roots(&g->is, leader, roots[0], roots[1]);
+  sbri_external_body_compute_roots(&g->is, leader, roots[0], roots[1]);
   for (int k = 0; k < 2; k++) spread(roots[k], g->roots[k]);
   return work->external_body_count;
 }
 
-float sbri_rigid_external_body_ease(const sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 n) {
+float sbri_rigid_external_body_inverse_mass(const sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 n) {
   return sbri_dot(n, sbri_external_body_answer(&g->is, arm, n)) / g->is.lever;
 }
 
@@ -48,9 +48,9 @@ void sbri_rigid_external_bodies_begin(sbri_rigid_solving *work, float step_s) {
     sbri_external_body_begin(&work->external_bodies[i].is, step_s);
 }
 
-void sbri_rigid_external_bodies_go_on(sbri_rigid_solving *work, float step_s) {
+void sbri_rigid_external_bodies_end_step(sbri_rigid_solving *work, float step_s) {
   for (uint32_t i = 0; i < work->external_body_count; i++)
-    sbri_external_body_go_on(&work->external_bodies[i].is, step_s);
+    sbri_external_body_end_step(&work->external_bodies[i].is, step_s);
 }
 
 /* ---- The system ---- */
@@ -59,10 +59,11 @@ void sbri_rigid_external_bodies_go_on(sbri_rigid_solving *work, float step_s) {
 static void rates_of(const sbri_rigid_external_body *g, sbf_vec3 arm, double rates[3][6]) {
   float root = sqrtf(g->is.lever);
   for (int k = 0; k < 3; k++) {
-    sbf_vec3 turn = {g->roots[1][0][k], g->roots[1][1][k], g->roots[1][2][k]}, way = sbri_cross(turn, arm);
+    sbf_vec3 turn = {g->roots[1][0][k], g->roots[1][1][k], g->roots[1][2][k]},
+             direction = sbri_cross(turn, arm);
     for (int i = 0; i < 3; i++) rates[i][k] = (double)(root * g->roots[0][i][k]);
-    rates[0][3 + k] = (double)(root * way.x), rates[1][3 + k] = (double)(root * way.y);
-    rates[2][3 + k] = (double)(root * way.z);
+    rates[0][3 + k] = (double)(root * direction.x), rates[1][3 + k] = (double)(root * direction.y);
+    rates[2][3 + k] = (double)(root * direction.z);
   }
 }
 
@@ -83,19 +84,19 @@ void sbri_rigid_external_body_push(sbri_rigid_external_body *g, sbf_vec3 arm, sb
 void sbri_rigid_external_body_couple(
     sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 own_arm, double w[3][3]) {
   const double r[3] = {(double)own_arm.x, (double)own_arm.y, (double)own_arm.z};
-  double rates[3][6], held[3][6];
+  double rates[3][6], pinned[3][6];
   rates_of(g, arm, rates);
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 6; k++)
-      held[i][k] = w[i][0] * rates[0][k] + w[i][1] * rates[1][k] + w[i][2] * rates[2][k];
+      pinned[i][k] = w[i][0] * rates[0][k] + w[i][1] * rates[1][k] + w[i][2] * rates[2][k];
   for (int k = 0; k < 6; k++)
     for (int j = 0; j <= k; j++)
-      g->d[k][j] += rates[0][k] * held[0][j] + rates[1][k] * held[1][j] + rates[2][k] * held[2][j];
+      g->d[k][j] += rates[0][k] * pinned[0][j] + rates[1][k] * pinned[1][j] + rates[2][k] * pinned[2][j];
   for (int i = 0; i < 3; i++) {
     int a = (i + 1) % 3, b = (i + 2) % 3;
     for (int k = 0; k < 6; k++) {
-      g->c[i][k] -= held[i][k];
-      g->c[3 + i][k] -= r[a] * held[b][k] - r[b] * held[a][k];
+      g->c[i][k] -= pinned[i][k];
+      g->c[3 + i][k] -= r[a] * pinned[b][k] - r[b] * pinned[a][k];
     }
   }
 }
@@ -114,7 +115,7 @@ void sbri_rigid_external_bodies_factor(sbri_rigid_solving *work) {
     sbri_node *node = &work->system.nodes[g->node];
     sbri_sym6_factor(g->d);
     for (int k = 0; k < 6; k++) {
-      sbri_sym6_forward(g->d, g->c[k]);
+      sbri_sym6_solve_forward(g->d, g->c[k]);
       for (int j = 0; j <= k; j++) node->d[k][j] -= sbri_dot6(g->c[k], g->c[j]);
     }
   }
@@ -123,7 +124,7 @@ void sbri_rigid_external_bodies_factor(sbri_rigid_solving *work) {
 void sbri_rigid_solve(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
-    sbri_sym6_forward(g->d, g->b);
+    sbri_sym6_solve_forward(g->d, g->b);
     for (int k = 0; k < 6; k++) work->system.nodes[g->node].b[k] -= sbri_dot6(g->c[k], g->b);
   }
   sbri_system_solve(&work->system);
@@ -131,7 +132,7 @@ void sbri_rigid_solve(sbri_rigid_solving *work) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
     memcpy(g->y, g->b, sizeof g->y);
     for (int k = 0; k < 6; k++) sbri_add6(g->y, g->c[k], -work->system.nodes[g->node].x[k]);
-    sbri_sym6_back(g->d, g->y);
+    sbri_sym6_solve_back(g->d, g->y);
   }
 }
 
@@ -142,28 +143,28 @@ void sbri_rigid_external_bodies_note(sbri_rigid_solving *work) {
     memcpy(work->external_bodies[i].was, work->external_bodies[i].y, sizeof work->external_bodies[i].was);
 }
 
-void sbri_rigid_external_bodies_hold_back(sbri_rigid_solving *work, float share) {
+void sbri_rigid_external_bodies_hold_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
-    for (int k = 0; k < 6; k++) g->y[k] = g->was[k] + (double)share * (g->y[k] - g->was[k]);
+    for (int k = 0; k < 6; k++) g->y[k] = g->was[k] + (double)fraction * (g->y[k] - g->was[k]);
   }
 }
 
-void sbri_rigid_external_bodies_slope(const sbri_rigid_solving *work, double *slope, double *rise) {
+void sbri_rigid_external_bodies_compute_slope(const sbri_rigid_solving *work, double *slope, double *rise) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     const sbri_rigid_external_body *g = &work->external_bodies[i];
     for (int k = 0; k < 6; k++) {
-      double way = g->y[k] - g->was[k];
-      *slope += g->was[k] * way, *rise += way * way;
+      double travel = g->y[k] - g->was[k];
+      *slope += g->was[k] * travel, *rise += travel * travel;
     }
   }
 }
 
-static sbf_vec3 moved_by(float roots[3][3], const double y[3], float share) {
+static sbf_vec3 moved_by(float roots[3][3], const double y[3], float fraction) {
   float v[3];
   for (int i = 0; i < 3; i++)
-    v[i] =
-        share * (float)((double)roots[i][0] * y[0] + (double)roots[i][1] * y[1] + (double)roots[i][2] * y[2]);
+    v[i] = fraction *
+           (float)((double)roots[i][0] * y[0] + (double)roots[i][1] * y[1] + (double)roots[i][2] * y[2]);
   return sbri_vec3(v[0], v[1], v[2]);
 }
 
@@ -171,16 +172,18 @@ void sbri_rigid_external_bodies_take(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
     float root = sqrtf(g->is.lever);
-    sbf_vec3 way = moved_by(g->roots[0], g->y, 1 / root), turn = moved_by(g->roots[1], g->y + 3, 1 / root);
-    g->is.velocity = sbri_add(g->is.velocity, way), g->is.spin = sbri_add(g->is.spin, turn);
-    g->is.seen_velocity = sbri_add_scaled(g->is.seen_velocity, way, g->is.lever);
-    g->is.seen_spin = sbri_add_scaled(g->is.seen_spin, turn, g->is.lever);
+    sbf_vec3 direction = moved_by(g->roots[0], g->y, 1 / root),
+             turn = moved_by(g->roots[1], g->y + 3, 1 / root);
+    g->is.velocity = sbri_add(g->is.velocity, direction),
+    g->is.angular_velocity = sbri_add(g->is.angular_velocity, turn);
+    g->is.seen_velocity = sbri_add_scaled(g->is.seen_velocity, direction, g->is.lever);
+    g->is.seen_angular_velocity = sbri_add_scaled(g->is.seen_angular_velocity, turn, g->is.lever);
   }
 }
 
-void sbri_rigid_external_bodies_be_seen(sbri_rigid_solving *work) {
+void sbri_rigid_external_bodies_update_seen(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_external_body *g = &work->external_bodies[i].is;
-    g->seen_velocity = g->velocity, g->seen_spin = g->spin, g->lever = 1;
+    g->seen_velocity = g->velocity, g->seen_angular_velocity = g->angular_velocity, g->lever = 1;
   }
 }

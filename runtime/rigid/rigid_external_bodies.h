@@ -24,16 +24,17 @@ uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *tick, struct sbri_ri
     uint32_t body, int32_t node, const sbri_collider_frame *frame, uint32_t collider);
 
 /* 1/kg by which a push along n at its arm changes its velocity. */
-float sbri_rigid_external_body_ease(const sbri_rigid_external_body *external_body, sbf_vec3 arm, sbf_vec3 n);
+float sbri_rigid_external_body_inverse_mass(
+    const sbri_rigid_external_body *external_body, sbf_vec3 arm, sbf_vec3 n);
 
 /* Whether it is moved along n by more than half as easily as if nothing held it. */
 static inline bool sbri_rigid_external_body_gives(const sbri_rigid_external_body *g, sbf_vec3 n) {
-  return sbri_dot(n, sbri_external_body_times(g->is.ease, n)) > 0.5f * g->is.max_inverse_mass;
+  return sbri_dot(n, sbri_external_body_times(g->is.inverse_mass, n)) > 0.5f * g->is.max_inverse_mass;
 }
 
 /* At a step's beginning and, if it is good, its end. */
 void sbri_rigid_external_bodies_begin(struct sbri_rigid_solving *work, float step_s);
-void sbri_rigid_external_bodies_go_on(struct sbri_rigid_solving *work, float step_s);
+void sbri_rigid_external_bodies_end_step(struct sbri_rigid_solving *work, float step_s);
 
 /* The system: begun; a touch that answers relative motion by `w`, kg, at their two arms; an impulse; folded
  * into the nodes' d; and solved along with all. */
@@ -49,12 +50,13 @@ sbf_vec3 sbri_rigid_external_body_moved(const sbri_rigid_external_body *external
 
 /* Along with the nodes' x: kept for the next pass, held back, and its kinetic energy along the way. */
 void sbri_rigid_external_bodies_note(struct sbri_rigid_solving *work);
-void sbri_rigid_external_bodies_hold_back(struct sbri_rigid_solving *work, float share);
-void sbri_rigid_external_bodies_slope(const struct sbri_rigid_solving *work, double *slope, double *rise);
+void sbri_rigid_external_bodies_hold_back(struct sbri_rigid_solving *work, float fraction);
+void sbri_rigid_external_bodies_compute_slope(
+    const struct sbri_rigid_solving *work, double *slope, double *rise);
 
 /* Gives them the changes that were solved for. */
 void sbri_rigid_external_bodies_take(struct sbri_rigid_solving *work);
 /* From here on a push in the step changes their velocities, not where they are. */
-void sbri_rigid_external_bodies_be_seen(struct sbri_rigid_solving *work);
+void sbri_rigid_external_bodies_update_seen(struct sbri_rigid_solving *work);
 
 #endif

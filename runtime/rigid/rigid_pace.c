@@ -32,8 +32,8 @@ float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s)
 /* Torque on a body per turn about each of its own axes, by pulls at its joints: the force at an arm r answers
  * a turn with (r.F - r_i F_i) about the axis i. */
 static void add_pull(
-    const sbri_rigid_joint *joint, int side, sbf_quat turn, sbf_vec3 force, float stiffness[3]) {
-  sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(turn), force);
+    const sbri_rigid_joint *joint, int side, sbf_quat rotation, sbf_vec3 force, float stiffness[3]) {
+  sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(rotation), force);
   if (side == SBRI_A) f = sbri_scale(f, -1);
   float along = sbri_dot(r, f);
   stiffness[0] += along - r.x * f.x;
@@ -55,13 +55,13 @@ static void find_pulls(
 
 /* Nothing is near, nothing holds it, and nothing draws it: weight pulls at no joint. */
 static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  if (work->touch_count || work->system.loop_count) return false;
+  if (work->rigid_contact_count || work->system.loop_count) return false;
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (t->model->joints[work->system.edges[e].joint].source->kind == SBF_JOINT_KIND_PULLEY) return false;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
     const sbri_rigid_body_state *body = &t->bodies[node->body];
-    if ((body->mode == SBR_RIGID_DRIVEN && body->share > 0) || (node->parent < 0 && node->edge >= 0))
+    if ((body->mode == SBR_RIGID_DRIVEN && body->fraction > 0) || (node->parent < 0 && node->edge >= 0))
       return false;
   }
   return true;
@@ -80,9 +80,10 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
   float fastest = 0;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     float stiffness[3];
-    const sbf_vec3 *ease = &t->model->bodies[work->system.nodes[i].body].inverse_inertia;
+    const sbf_vec3 *inverse_mass = &t->model->bodies[work->system.nodes[i].body].inverse_inertia;
     find_pulls(t, work, work->system.nodes[i].body, stiffness);
-    const float squares[3] = {stiffness[0] * ease->x, stiffness[1] * ease->y, stiffness[2] * ease->z};
+    const float squares[3] = {
+        stiffness[0] * inverse_mass->x, stiffness[1] * inverse_mass->y, stiffness[2] * inverse_mass->z};
     for (int a = 0; a < 3; a++) fastest = squares[a] > fastest ? squares[a] : fastest;
   }
   return fastest;
@@ -96,9 +97,9 @@ static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const 
   for (int side = 0; side < SBRI_SIDES; side++) {
     if (e->nodes[side] < 0) continue;
     const sbf_vec3 *i = &t->model->bodies[joint->bodies[side]].inverse_inertia, at = joint->frames[side].at;
-    float ease = i->x > i->y ? i->x : i->y;
-    ease = i->z > ease ? i->z : ease;
-    work->system.nodes[e->nodes[side]].pulled += ROUNDED * ease * sqrtf(square * sbri_dot(at, at));
+    float inverse_mass = i->x > i->y ? i->x : i->y;
+    inverse_mass = i->z > inverse_mass ? i->z : inverse_mass;
+    work->system.nodes[e->nodes[side]].pulled += ROUNDED * inverse_mass * sqrtf(square * sbri_dot(at, at));
   }
 }
 
@@ -122,7 +123,8 @@ static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *wo
     if (work->system.nodes[i].edge < 0) continue;
     const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
     const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
-    float turn = sbri_length(sbri_spin_velocity(body, state->pose.rotation, state->spin));
+    float turn =
+        sbri_length(sbri_angular_velocity_from_momentum(body, state->pose.rotation, state->angular_momentum));
     fastest = turn > fastest ? turn : fastest;
   }
   return fastest;
@@ -141,7 +143,7 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
            max = t->substeps > SBRI_RIGID_MAX_SUBSTEPS ? t->substeps : SBRI_RIGID_MAX_SUBSTEPS;
   while ((float)count < steps && 2 * count <= max) count *= 2;
   uint32_t before = t->drive->substeps;
-  bool nearly = flies || work->touch_count ? steps > NEARLY * (float)count : before < 4 * count;
+  bool nearly = flies || work->rigid_contact_count ? steps > NEARLY * (float)count : before < 4 * count;
   if (!lies && flies == flew && before > count && before <= max && nearly) count = before;
   t->drive->substeps = count;
   t->drive->flies = flies;
@@ -153,7 +155,8 @@ bool sbri_rigid_is_slow(const sbri_rigid_tick *t, const sbri_rigid_solving *work
     uint32_t b = work->system.nodes[i].body;
     const sbri_rigid_body_state *s = &t->bodies[b];
     float size = 2 * t->model->bodies[b].radius;
-    sbf_vec3 turn = sbri_spin_velocity(&t->model->bodies[b], s->pose.rotation, s->spin);
+    sbf_vec3 turn =
+        sbri_angular_velocity_from_momentum(&t->model->bodies[b], s->pose.rotation, s->angular_momentum);
     if (s->mode == SBR_RIGID_DRIVEN ||
         !(sbri_length(s->velocity) + 0.5f * size * sbri_length(turn) < SLOW_1_S * size))
       return false;

@@ -28,23 +28,23 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     memcpy(node->b, node->push, sizeof node->b);
   }
   sbri_rigid_external_bodies_clear(work);
-  sbri_ground_touches_add(work);
+  sbri_rigid_contacts_add(work);
   sbri_rigid_external_bodies_factor(work);
   sbri_system_factor(&work->system);
 }
 
 /* Back by that share of the way from the pass before. */
-static void hold_back(sbri_rigid_solving *work, float share) {
+static void hold_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
-    for (int k = 0; k < 6; k++) node->x[k] = node->was[k] + (double)share * (node->x[k] - node->was[k]);
+    for (int k = 0; k < 6; k++) node->x[k] = node->was[k] + (double)fraction * (node->x[k] - node->was[k]);
   }
-  for (uint32_t i = 0; i < work->touch_count; i++) {
-    sbri_ground_touch *touch = &work->touches[i];
-    touch->moved = sbri_lerp(touch->was, touch->moved, share);
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    contact->moved = sbri_lerp(contact->was, contact->moved, fraction);
   }
-  sbri_rigid_external_bodies_hold_back(work, share);
-  sbri_joint_rows_hold_back(work, share);
+  sbri_rigid_external_bodies_hold_back(work, fraction);
+  sbri_joint_rows_hold_back(work, fraction);
 }
 
 /* Of the changes of velocity, J twice. */
@@ -63,34 +63,34 @@ static double energy_of(const sbri_rigid_tick *t, const sbri_rigid_system *s) {
 }
 
 /* Whether touches do what the last pass had them do, or nearly where that is enough. */
-static bool touches_agree(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  double off = (double)sbri_ground_touches_off(work);
+static bool contacts_agree(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  double off = (double)sbri_rigid_contacts_error(work);
   return off == 0 || (t->coarse && off < LEFT * energy_of(t, &work->system));
 }
 
-void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   sbri_rigid_system *s = &work->system;
   int bounds = t->coarse ? 0 : MAX_BOUNDS;
   for (int pass = 0; pass < MAX_PASSES; pass++) {
     for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
     sbri_rigid_external_bodies_note(work);
-    for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_aim(&s->edges[e]);
+    for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_set_targets(&s->edges[e]);
     sbri_rigid_factor(t, work);
     sbri_rigid_solve(work);
-    sbri_ground_touches_move(work);
+    sbri_rigid_contacts_update_velocities(work);
     sbri_joint_rows_move(work, t->model, step_s);
-    bool agree = touches_agree(t, work), all = agree && sbri_joint_rows_agree(work);
+    bool agree = contacts_agree(t, work), all = agree && sbri_joint_rows_agree(work);
     if (work->external_body_count && pass + 1 == MAX_PASSES && !all) {
-      sbri_ground_touches_as_solved(work); /* else the host's bodies got what the hulls did not give */
+      sbri_rigid_contacts_take_solution(work); /* else the host's bodies got what the hulls did not give */
       return;
     }
-    float share = pass > 0 && !all ? sbri_rigid_search(t, work, step_s) : 1;
-    if (share < 1) hold_back(work, share);
-    bool changed = !agree || share < 1;
-    if (changed) sbri_ground_touches_judge(work);
+    float fraction = pass > 0 && !all ? sbri_rigid_search(t, work, step_s) : 1;
+    if (fraction < 1) hold_back(work, fraction);
+    bool changed = !agree || fraction < 1;
+    if (changed) sbri_rigid_contacts_check(work);
     for (uint32_t e = 0; e < s->edge_count; e++)
-      changed = sbri_joint_rows_judge(t, work, &s->edges[e], step_s) || changed;
+      changed = sbri_joint_rows_check(t, work, &s->edges[e], step_s) || changed;
     if (changed) continue;
-    if (!bounds-- || !sbri_ground_touches_bound(work)) return;
+    if (!bounds-- || !sbri_rigid_contacts_bound(work)) return;
   }
 }

@@ -20,7 +20,7 @@ static const float FAR = 0.3f;
 /* And of the energy that weight gives all bodies in a step from rest. */
 static const double TRIFLE = 1e-5;
 
-static void add_flesh(const sbri_rigid_solving *work, const sbri_edge *e, double *slope, double *rise) {
+static void add_attached(const sbri_rigid_solving *work, const sbri_edge *e, double *slope, double *rise) {
   double was[3] = {0, 0, 0}, now[3] = {0, 0, 0};
   for (int side = 0; side < SBRI_SIDES; side++) {
     if (e->nodes[side] < 0) continue;
@@ -29,9 +29,9 @@ static void add_flesh(const sbri_rigid_solving *work, const sbri_edge *e, double
     for (int k = 0; k < 3; k++) was[k] += sign * node->was[3 + k], now[k] += sign * node->x[3 + k];
   }
   for (int k = 0; k < 3; k++) {
-    double way = now[k] - was[k];
-    *slope -= e->ball->flesh * (e->ball->flesh_rhs[k] - was[k]) * way;
-    *rise += e->ball->flesh * way * way;
+    double travel = now[k] - was[k];
+    *slope -= e->ball->attached_inertia * (e->ball->attached_rhs[k] - was[k]) * travel;
+    *rise += e->ball->attached_inertia * travel * travel;
   }
 }
 
@@ -42,24 +42,25 @@ static void find_slope(
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
     double mass = (double)(node->swell * t->model->bodies[node->body].mass), swell = (double)node->swell,
-           way[6];
-    for (int k = 0; k < 6; k++) way[k] = node->x[k] - node->was[k], a -= node->push[k] * way[k];
+           direction[6];
+    for (int k = 0; k < 6; k++) direction[k] = node->x[k] - node->was[k], a -= node->push[k] * direction[k];
     for (int k = 0; k < 3; k++) {
       const float *row = node->inertia[k];
-      double linear = mass * way[k];
-      double angular = swell * ((double)row[0] * way[3] + (double)row[1] * way[4] + (double)row[2] * way[5]);
+      double linear = mass * direction[k];
+      double angular = swell * ((double)row[0] * direction[3] + (double)row[1] * direction[4] +
+                                   (double)row[2] * direction[5]);
       a += node->was[k] * linear + node->was[3 + k] * angular;
-      q += way[k] * linear + way[3 + k] * angular;
+      q += direction[k] * linear + direction[3 + k] * angular;
     }
     for (int k = 0; node->burden && k < 6; k++)
       for (int j = 0; j < 6; j++) {
         double mass_of = node->burden[k][j];
-        a += mass_of * node->was[k] * way[j], q += mass_of * way[k] * way[j];
+        a += mass_of * node->was[k] * direction[j], q += mass_of * direction[k] * direction[j];
       }
   }
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
-    if (e->ball) add_flesh(work, e, &a, &q);
+    if (e->ball) add_attached(work, e, &a, &q);
     for (uint32_t r = 0; r < e->active_count; r++) {
       const sbri_row *row = &e->rows[e->actives[r]];
       double was = 0, now = 0;
@@ -75,38 +76,38 @@ static void find_slope(
     }
   }
   *slope = a, *rise = q;
-  sbri_rigid_external_bodies_slope(work, slope, rise);
+  sbri_rigid_external_bodies_compute_slope(work, slope, rise);
 }
 
 /* What pushes one way only and the friction with it, along the way: `into` goes from that at its begin by
- * -`way`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are
+ * -`travel`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are
  * known and by how much it grips, up to its bound. */
 static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
-      float way = row->moved - row->was, sign = (float)row->sign;
-      if (row->kind != SBRI_ROW_LIMIT || way == 0) continue;
-      work->pushes[work->push_count++] = (sbri_push_way){.stiff = 1 / (double)row->give,
+      float travel = row->moved - row->was, sign = (float)row->sign;
+      if (row->kind != SBRI_ROW_LIMIT || travel == 0) continue;
+      work->pushes[work->push_count++] = (sbri_contact_search){.stiff = 1 / (double)row->give,
           .into = (double)(sign * (row->wanted - row->was)),
-          .way = (double)(sign * way)};
+          .distance = (double)(sign * travel)};
     }
   }
 }
 
 /* What touches and limits do at that share of the way. */
-static double pushed(const sbri_rigid_solving *work, double share) {
+static double pushed(const sbri_rigid_solving *work, double fraction) {
   double sum = 0;
   for (uint32_t i = 0; i < work->push_count; i++) {
-    const sbri_push_way *p = &work->pushes[i];
-    double into = p->into - share * p->way;
-    if (into > 0) sum += p->stiff * into * p->way;
+    const sbri_contact_search *p = &work->pushes[i];
+    double into = p->into - fraction * p->distance;
+    if (into > 0) sum += p->stiff * into * p->distance;
     if (!(p->bound > 0)) continue;
-    double square = p->pull_pull - share * (2 * p->pull_grip - share * p->grip_grip);
-    double along = p->pull_grip - share * p->grip_grip;
+    double square = p->pull_pull - fraction * (2 * p->pull_grip - fraction * p->grip_grip);
+    double along = p->pull_grip - fraction * p->grip_grip;
     if (square > p->bound * p->bound) along *= p->bound / sqrt(square);
-    sum += along * p->ease;
+    sum += along * p->inverse_mass;
   }
   return sum;
 }
@@ -126,7 +127,7 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   double slope, rise;
   find_slope(t, work, &slope, &rise);
   work->push_count = 0;
-  sbri_ground_touches_on_the_way(work);
+  sbri_rigid_contacts_find_changes(work);
   add_limits(work);
   double first = slope - pushed(work, 0);
   double last = slope + rise - pushed(work, 1), level = -(double)LEVEL * first;
@@ -135,15 +136,15 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   if (!(first < 0) || last <= level || last <= -(double)FAR * first) return 1;
   float low = 0, high = 1;
   for (int i = 0; i < SEARCHES; i++) {
-    float share = low + (high - low) * (float)(first / (first - last));
+    float fraction = low + (high - low) * (float)(first / (first - last));
     float min = low + 0.02f * (high - low), max = high - 0.02f * (high - low);
-    share = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(share, min, max);
-    double here = slope + (double)share * rise - pushed(work, (double)share);
-    if (here >= 0 && here <= level) return share;
+    fraction = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(fraction, min, max);
+    double here = slope + (double)fraction * rise - pushed(work, (double)fraction);
+    if (here >= 0 && here <= level) return fraction;
     if (here < 0)
-      low = share, first = here;
+      low = fraction, first = here;
     else
-      high = share, last = here;
+      high = fraction, last = here;
   }
   return high; /* beyond what stopped it there, so that the next pass sees that */
 }

@@ -17,7 +17,7 @@
 
 enum { MAX_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
 /* With shapes, beside its vertices with the ground. */
-enum { TOUCHES_OF_BODY = 24 };
+enum { CONTACTS_OF_BODY = 24 };
 /* Copies of the host's bodies that have a mass; those beyond them are taken for what nothing moves. */
 enum { EXTERNAL_BODIES = 6, EXTERNAL_BODIES_OF_BODY = 2 };
 
@@ -61,12 +61,12 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
   work->balls = carve(&at, joints + 1, sizeof *work->balls);
   work->pairs = carve(&at, joints + 1, sizeof *work->pairs);
-  work->places = carve(&at, joints + 1, sizeof *work->places);
-  work->touch_capacity = sbri_rigid_touch_capacity(m);
-  work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
+  work->joint_frames = carve(&at, joints + 1, sizeof *work->joint_frames);
+  work->max_contacts = sbri_rigid_contact_capacity(m);
+  work->contacts = carve(&at, work->max_contacts, sizeof *work->contacts);
   work->external_body_capacity = (uint32_t)(EXTERNAL_BODIES + EXTERNAL_BODIES_OF_BODY * bodies);
   work->external_bodies = carve(&at, work->external_body_capacity, sizeof *work->external_bodies);
-  work->pushes = carve(&at, work->touch_capacity + rows, sizeof *work->pushes);
+  work->pushes = carve(&at, work->max_contacts + rows, sizeof *work->pushes);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
   work->rows = carve(&at, rows, sizeof *work->rows);
@@ -79,8 +79,8 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   return (size_t)(at - memory);
 }
 
-uint32_t sbri_rigid_touch_capacity(const sbri_rigid_model *model) {
-  return model->body_count ? model->vertex_count + TOUCHES_OF_BODY * model->body_count : 0;
+uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model) {
+  return model->body_count ? model->vertex_count + CONTACTS_OF_BODY * model->body_count : 0;
 }
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
@@ -114,43 +114,45 @@ static void follow(sbri_part_motion *m, const sbr_transform *begin, const sbr_tr
   m->from = between(begin, end, from), m->to = between(begin, end, to);
   m->fine_from = m->fine_to = sbri_vec3(0, 0, 0);
   m->velocity = sbri_scale(sbri_sub(m->to.position, m->from.position), 1 / step_s);
-  sbf_quat turn = sbri_quat_multiply(m->to.rotation, sbri_quat_conjugate(m->from.rotation));
-  m->turn = sbri_scale(sbri_quat_log(turn), 1 / step_s);
+  sbf_quat rotation = sbri_quat_multiply(m->to.rotation, sbri_quat_conjugate(m->from.rotation));
+  m->turn = sbri_scale(sbri_quat_log(rotation), 1 / step_s);
 }
 
 /* Where a body goes with the velocity that it has. */
 static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float step_s) {
   sbri_rigid_body_state *s = &t->bodies[b];
   m->velocity = s->velocity;
-  sbf_vec3 way = sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
-  m->to.position = sbri_add(m->from.position, way);
-  m->fine_to = sbri_sub(way, sbri_sub(m->to.position, m->from.position));
+  sbf_vec3 displacement =
+      sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
+  m->to.position = sbri_add(m->from.position, displacement);
+  m->fine_to = sbri_sub(displacement, sbri_sub(m->to.position, m->from.position));
 }
 
 /* And all that give way: their turns by lanes. */
-static void go_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+static void advance_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   const sbri_node *nodes = work->system.nodes;
   uint32_t count = work->system.node_count;
   for (uint32_t i = 0; i < count; i += SBRI_LANES) {
     sbri_free_turning turning;
     for (uint32_t k = 0; k < SBRI_LANES; k++) { /* the last fills what lanes are left */
       uint32_t b = nodes[i + k < count ? i + k : count - 1].body;
-      sbri_free_turning_put(
-          &turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation, t->bodies[b].spin);
+      sbri_free_turning_put(&turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation,
+          t->bodies[b].angular_momentum);
     }
     sbri_free_turns(&turning, step_s);
     for (uint32_t k = 0; k < SBRI_LANES && i + k < count; k++) {
       uint32_t b = nodes[i + k].body;
       sbri_part_motion *m = &work->motions[b];
       go(t, b, m, step_s);
-      m->turn = sbri_vec3(turning.spin[0][k], turning.spin[1][k], turning.spin[2][k]);
+      m->turn = sbri_vec3(
+          turning.angular_momentum[0][k], turning.angular_momentum[1][k], turning.angular_momentum[2][k]);
       m->to.rotation = (sbf_quat){turning.x[k], turning.y[k], turning.z[k], turning.w[k]};
     }
   }
 }
 
-void sbri_rigid_moments(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
-  const sbf_vec3 axes[3] = {sbri_quat_x(turn), sbri_quat_y(turn), sbri_quat_z(turn)};
+void sbri_rigid_compute_moments(sbf_vec3 own, sbf_quat rotation, float to[3][3]) {
+  const sbf_vec3 axes[3] = {sbri_quat_x(rotation), sbri_quat_y(rotation), sbri_quat_z(rotation)};
   const float moments[3] = {own.x, own.y, own.z};
   float a[3][3], m[3][3];
   for (int k = 0; k < 3; k++) {
@@ -179,16 +181,16 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     s->velocity =
         sbri_add_scaled(s->velocity, t->gravity, work->kick_s * model->bodies[b].source->gravity_scale);
     sbri_node *node = &work->system.nodes[m->node];
-    sbri_rigid_moments(model->bodies[b].inertia, m->from.rotation, node->inertia);
-    const sbf_vec3 *ease = &model->bodies[b].inverse_inertia;
-    node->ease[0] = model->bodies[b].inverse_mass;
-    node->ease[1] = (ease->x + ease->y + ease->z) / 3;
+    sbri_rigid_compute_moments(model->bodies[b].inertia, m->from.rotation, node->inertia);
+    const sbf_vec3 *inverse_mass = &model->bodies[b].inverse_inertia;
+    node->inverse_mass[0] = model->bodies[b].inverse_mass;
+    node->inverse_mass[1] = (inverse_mass->x + inverse_mass->y + inverse_mass->z) / 3;
     node->swell = sbri_rigid_swell(&t->pull, b, step_s);
     node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
   sbri_rigid_external_bodies_begin(work, step_s);
-  go_all(t, work, step_s);
+  advance_all(t, work, step_s);
 }
 
 /* ---- A step ---- */
@@ -200,17 +202,19 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     sbri_rigid_body_state *s = &t->bodies[node->body];
     const double *x = node->x;
     s->velocity = sbri_add(s->velocity, sbri_vec3((float)x[0], (float)x[1], (float)x[2]));
-    float spin[3];
+    float angular_momentum[3];
     for (int k = 0; k < 3; k++)
-      spin[k] = (float)(node->inertia[k][0] * x[3] + node->inertia[k][1] * x[4] + node->inertia[k][2] * x[5]);
-    s->spin = sbri_add(s->spin, sbri_vec3(spin[0], spin[1], spin[2]));
+      angular_momentum[k] =
+          (float)(node->inertia[k][0] * x[3] + node->inertia[k][1] * x[4] + node->inertia[k][2] * x[5]);
+    s->angular_momentum = sbri_add(
+        s->angular_momentum, sbri_vec3(angular_momentum[0], angular_momentum[1], angular_momentum[2]));
   }
   sbri_rigid_external_bodies_take(work);
 }
 
 static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   take(t, work);
-  go_all(t, work, step_s);
+  advance_all(t, work, step_s);
 }
 
 static void clear_b(sbri_rigid_solving *work) {
@@ -222,7 +226,8 @@ static void clear_b(sbri_rigid_solving *work) {
 
 /* What an edge has done to body b in the step: an impulse, and a moment about the joint's place on b. */
 static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, sbf_vec3 *moment) {
-  sbf_vec3 impulse = {0, 0, 0}, about = {0, 0, 0}, arm = work->places[e - work->system.edges].arms[SBRI_B];
+  sbf_vec3 impulse = {0, 0, 0}, about = {0, 0, 0},
+           arm = work->joint_frames[e - work->system.edges].arms[SBRI_B];
   for (uint32_t r = 0; r < e->row_count; r++) {
     const sbri_row *row = &e->rows[r];
     const float *b = row->rates[SBRI_B];
@@ -239,7 +244,7 @@ static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, s
 
 /* Notes what pulls in the step; whether that lets some body swing too fast for it. */
 static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
-  if (work->touch_count) return false; /* what strikes pulls for a step alone */
+  if (work->rigid_contact_count) return false; /* what strikes pulls for a step alone */
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
@@ -264,17 +269,17 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work
 
 static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   if (work->external_body_count) {
-    sbri_rigid_external_bodies_be_seen(work);
+    sbri_rigid_external_bodies_update_seen(work);
     sbri_rigid_factor(t, work);
   }
   clear_b(work);
-  bool any = sbri_ground_touches_bounce(work);
+  bool any = sbri_rigid_contacts_bounce(work);
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
   if (!any) return;
   sbri_rigid_solve(work);
   sbri_system_note(&work->system);
-  sbri_ground_touches_give(work);
+  sbri_rigid_contacts_apply_impulse(work);
   take(t, work);
 }
 
@@ -283,9 +288,9 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
   sbri_rigid_system *s = &work->system;
   begin_step(t, work, from, to);
-  sbri_ground_touches_make(t, work, t->tick_s * from, step_s);
+  sbri_rigid_contacts_linearise(t, work, t->tick_s * from, step_s);
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
-  sbri_rigid_passes(t, work, step_s);
+  sbri_rigid_iterate(t, work, step_s);
   sbri_system_note(s);
   take_and_go(t, work, step_s);
   bool foresees = sbri_rigid_foresees(t, work);
@@ -301,7 +306,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
     clear_b(work);
     sbri_rigid_solve(work);
     sbri_system_note(s);
-    sbri_ground_touches_give(work);
+    sbri_rigid_contacts_apply_impulse(work);
     take_and_go(t, work, step_s);
   }
   return worst < COARSE && curved < (foresees ? max->curved_foreseen : CURVED) &&
@@ -318,7 +323,7 @@ static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int 
 
 /* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
-  int max = work->touch_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
+  int max = work->rigid_contact_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
   keep_bodies(t, work, depth, false);
   if (!step(t, work, from, to) && depth + 1 < max) {
     keep_bodies(t, work, depth, true);
@@ -329,8 +334,8 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
   }
   work->last_step_s = t->tick_s * (to - from);
   throw_back(t, work);
-  sbri_ground_touches_tell(t, work);
-  sbri_rigid_external_bodies_go_on(work, work->last_step_s);
+  sbri_rigid_contacts_report(t, work);
+  sbri_rigid_external_bodies_end_step(work, work->last_step_s);
   note_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
@@ -341,10 +346,10 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
 /* The joints' pulls on bodies that have just begun to move, by short steps that are then taken back: the
  * first passes on a push that one of them was given, which is no pull, and the second has what is left. */
 static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  const float share = 1 / (float)SBRI_RIGID_MAX_SUBSTEPS;
-  work->last_step_s = share * t->tick_s;
+  const float fraction = 1 / (float)SBRI_RIGID_MAX_SUBSTEPS;
+  work->last_step_s = fraction * t->tick_s;
   keep_bodies(t, work, 0, false);
-  for (int k = 0; k < 2; k++) (void)step(t, work, 0, share);
+  for (int k = 0; k < 2; k++) (void)step(t, work, 0, fraction);
   keep_bodies(t, work, 0, true);
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -373,9 +378,9 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t b = 0; b < t->model->body_count; b++) work->begins[b] = t->bodies[b].pose;
   for (uint32_t j = 0; j < t->model->joint_count; j++)
     work->pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
-  sbri_ground_touches_find(t, work);
-  sbri_shape_touches_find(t, work);
-  sbri_touch_memory_recall(t, work);
+  sbri_rigid_contacts_find(t, work);
+  sbri_rigid_shape_contacts_find(t, work);
+  sbri_stored_contacts_apply(t, work);
   work->last_step_s = t->drive->last_step_s;
   if (work->last_step_s == 0 && work->system.node_count) probe_pulls(t, work);
   t->substeps = sbri_rigid_pace(t, work);
@@ -398,9 +403,10 @@ void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     follow(&all, &work->begins[b], &t->targets[b], 0, 1, t->tick_s);
     t->bodies[b].pose = t->targets[b], t->bodies[b].fine = sbri_vec3(0, 0, 0);
     t->bodies[b].velocity = all.velocity;
-    t->bodies[b].spin = sbri_spin_from(&t->model->bodies[b], t->targets[b].rotation, all.turn);
+    t->bodies[b].angular_momentum =
+        sbri_angular_momentum_from_velocity(&t->model->bodies[b], t->targets[b].rotation, all.turn);
   }
-  sbri_touch_memory_keep(t, work);
+  sbri_stored_contacts_save(t, work);
   t->drive->last_step_s = work->last_step_s;
   t->drive->slow_ticks = sbri_rigid_is_slow(t, work) ? t->drive->slow_ticks + 1 : 0;
   break_joints(t);

@@ -69,7 +69,7 @@ static void eliminate_edge(sbri_rigid_system *s, sbri_node *node, sbri_edge *e) 
     const sbri_row *row = &e->rows[e->actives[r]];
     double *y = e->y + 6 * (size_t)r;
     for (int i = 0; i < 6; i++) y[i] = row->rates[child][i];
-    sbri_sym6_forward(node->d, y);
+    sbri_sym6_solve_forward(node->d, y);
     for (uint32_t k = 0; k <= r; k++) e->g[r * count + k] = sbri_dot6(y, e->y + 6 * (size_t)k);
     e->g[r * count + r] += row->give;
   }
@@ -99,7 +99,7 @@ static void factor_tree(sbri_rigid_system *s) {
 }
 
 static void forward_node(sbri_rigid_system *s, sbri_node *node, bool with_rhs) {
-  sbri_sym6_forward(node->d, node->b);
+  sbri_sym6_solve_forward(node->d, node->b);
   if (node->edge < 0) return;
   sbri_edge *e = &s->edges[node->edge];
   for (uint32_t r = 0; r < e->active_count; r++)
@@ -121,7 +121,7 @@ static void back_node(sbri_rigid_system *s, sbri_node *node, bool keep) {
       if (keep) e->rows[e->actives[r]].impulse += (float)e->t[r];
     }
   }
-  sbri_sym6_back(node->d, node->x);
+  sbri_sym6_solve_back(node->d, node->x);
 }
 
 /* Of the nodes' b, to their x; `with_rhs` of the edges, else as if that were 0; rows of the tree may keep
@@ -129,12 +129,12 @@ static void back_node(sbri_rigid_system *s, sbri_node *node, bool keep) {
 static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
   for (uint32_t i = 0; i < s->step_count; i++)
     if (s->steps[i].pair)
-      sbri_balls_forward(s->steps[i].pair, with_rhs);
+      sbri_balls_solve_forward(s->steps[i].pair, with_rhs);
     else
       forward_node(s, s->steps[i].node, with_rhs);
   for (uint32_t i = s->step_count; i-- > 0;)
     if (s->steps[i].pair)
-      sbri_balls_back(s->steps[i].pair, keep);
+      sbri_balls_solve_back(s->steps[i].pair, keep);
     else
       back_node(s, s->steps[i].node, keep);
 }
@@ -169,9 +169,9 @@ double sbri_row_alone(const sbri_rigid_system *s, const sbri_edge *e, const sbri
   for (int side = 0; side < SBRI_SIDES; side++) {
     const float *j = row->rates[side];
     if (e->nodes[side] < 0) continue;
-    const float *ease = s->nodes[e->nodes[side]].ease;
-    sum += (j[0] * j[0] + j[1] * j[1] + j[2] * j[2]) * ease[0] +
-           (j[3] * j[3] + j[4] * j[4] + j[5] * j[5]) * ease[1];
+    const float *inverse_mass = s->nodes[e->nodes[side]].inverse_mass;
+    sum += (j[0] * j[0] + j[1] * j[1] + j[2] * j[2]) * inverse_mass[0] +
+           (j[3] * j[3] + j[4] * j[4] + j[5] * j[5]) * inverse_mass[1];
   }
   return sum;
 }
@@ -180,8 +180,8 @@ static void factor_loops(sbri_rigid_system *s) {
   uint32_t count = 0;
   for (uint32_t l = 0; l < s->loop_count; l++) {
     sbri_edge *e = &s->edges[s->loops[l]];
-    uint32_t room = s->loop_row_capacity - count;
-    if (e->active_count > room) e->active_count = room;
+    uint32_t capacity = s->loop_row_capacity - count;
+    if (e->active_count > capacity) e->active_count = capacity;
     count += e->active_count;
   }
   s->loop_row_count = count;

@@ -20,7 +20,7 @@
 #include "rigid/sym6.h"
 
 typedef enum sbri_row_kind {
-  SBRI_ROW_HELD,   /* a coordinate at one value */
+  SBRI_ROW_LOCKED, /* a coordinate at one value */
   SBRI_ROW_LIMIT,  /* pushes one way only */
   SBRI_ROW_SPRING, /* a limit with stiffness, likewise */
   SBRI_ROW_DRIVE,  /* a coordinate's motor, cut to a maximum */
@@ -32,7 +32,7 @@ typedef struct sbri_row {
   float target;               /* c, of the velocities at the substep's end */
   float give;                 /* G */
   float max;                  /* N s or N m s: of drives; 0: no bound */
-  float flesh;                /* N s or N m s per speed: of what it gives way by, no part of the drive */
+  float attached_mass;        /* N s or N m s per speed: of what it gives way by, no part of the drive */
   float dry;                  /* of the flesh, what stands for dry friction, */
   float max_dry;              /* N m s, and what that may come to */
   float bound;                /* of the coordinate, where it is held or limited */
@@ -55,9 +55,9 @@ typedef struct sbri_ball {
   int child;                    /* side of the body farther from the root */
   double levers[SBRI_SIDES][3]; /* m, from the bodies' centres of mass to the place */
   double rhs[3];                /* m/s: by how much the place of b is to change its speed against that of a */
-  double flesh;                 /* N m s per rad/s, about all axes, */
+  double attached_inertia;      /* N m s per rad/s, about all axes, */
   double dry, max_dry;          /* as sbri_row has them, */
-  double flesh_rhs[3];          /* rad/s, and what it wants b's turn against a's to change by */
+  double attached_rhs[3];       /* rad/s, and what it wants b's turn against a's to change by */
   double impulse[3], moment[3]; /* N s and N m s, on body b, about the place */
   sbf_vec3 end;                 /* m, along a's axes: how far apart the places are to be at the step's end */
 } sbri_ball;
@@ -90,7 +90,7 @@ typedef struct sbri_node {
   float swell;               /* sbri_rigid_swell */
   const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
   float pulled;              /* (rad/s)^2 that its joints' pulls swing it by, at most */
-  float ease[2];             /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
+  float inverse_mass[2];     /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
 } sbri_node;
 
 /* Two of the tree's balls that are eliminated at once, neither being above the other; or one. */

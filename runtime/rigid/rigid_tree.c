@@ -4,7 +4,7 @@
 #include "base/union_find.h"
 #include "rigid/rigid_work.h"
 
-static bool gives_way(const sbri_rigid_tick *t, int32_t body) {
+static bool is_movable(const sbri_rigid_tick *t, int32_t body) {
   return body >= 0 && t->bodies[body].mode != SBR_RIGID_KINEMATIC && t->model->bodies[body].mass > 0;
 }
 
@@ -20,7 +20,7 @@ static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_solving *work, uin
     const sbri_rigid_joint *joint = &m->joints[j];
     bool moves[SBRI_SIDES];
     for (int side = 0; side < SBRI_SIDES; side++) {
-      moves[side] = gives_way(t, joint->bodies[side]);
+      moves[side] = is_movable(t, joint->bodies[side]);
       ends[side] = sbfi_set_root(parts, moves[side] ? (uint32_t)joint->bodies[side] : world);
     }
     if (!(moves[SBRI_A] || moves[SBRI_B]) || t->joints[j].broken ||
@@ -115,7 +115,7 @@ static void grow(const sbri_rigid_tick *t, sbri_rigid_solving *work, const int32
       int32_t edge = edge_of_joint[j];
       const sbri_rigid_joint *joint = &m->joints[j];
       int32_t other = joint->bodies[joint->bodies[SBRI_A] == (int32_t)s->nodes[i].body ? SBRI_B : SBRI_A];
-      if (edge < 0 || !in_tree[edge] || !gives_way(t, other) || work->motions[other].node >= 0) continue;
+      if (edge < 0 || !in_tree[edge] || !is_movable(t, other) || work->motions[other].node >= 0) continue;
       add_node(work, (uint32_t)other, (int32_t)i, edge);
     }
   }
@@ -133,14 +133,14 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t b = 0; b <= m->body_count; b++) work->motions[b].node = -1;
   for (uint32_t e = 0; e < s->edge_count; e++) { /* what hangs on the world first */
     const sbri_rigid_joint *joint = &m->joints[s->edges[e].joint];
-    bool a = gives_way(t, joint->bodies[SBRI_A]), b = gives_way(t, joint->bodies[SBRI_B]);
+    bool a = is_movable(t, joint->bodies[SBRI_A]), b = is_movable(t, joint->bodies[SBRI_B]);
     if (!in_tree[e] || (a && b)) continue;
     uint32_t from = s->node_count;
     add_node(work, (uint32_t)joint->bodies[a ? SBRI_A : SBRI_B], -1, (int32_t)e);
     grow(t, work, edge_of_joint, in_tree, from);
   }
   for (uint32_t b = 0; b < m->body_count; b++) { /* and what nothing holds */
-    if (!gives_way(t, (int32_t)b) || work->motions[b].node >= 0) continue;
+    if (!is_movable(t, (int32_t)b) || work->motions[b].node >= 0) continue;
     uint32_t from = s->node_count;
     add_node(work, b, -1, -1);
     grow(t, work, edge_of_joint, in_tree, from);

@@ -2,7 +2,7 @@
 #ifndef SBRI_RIGID_WORK_H
 #define SBRI_RIGID_WORK_H
 
-#include "rigid/joint_place.h"
+#include "rigid/joint_frames.h"
 #include "rigid/rigid_external_bodies.h"
 #include "rigid/rigid_state.h"
 
@@ -22,12 +22,12 @@ typedef struct sbri_part_motion {
 /* What pushes one way only, and the friction with it, along the way from a pass to the next: at a share s of
  * it the force is stiff (into - s way) where that is above 0, and friction's pull P - s G, cut to its bound.
  */
-typedef struct sbri_push_way {
-  double stiff, into, way;
+typedef struct sbri_contact_search {
+  double stiff, into, distance;
   double bound;                           /* N s; 0: there is no friction */
   double pull_pull, pull_grip, grip_grip; /* P.P, P.G, G.G */
-  double ease;                            /* 1 / kg: the way over G */
-} sbri_push_way;
+  double inverse_mass;                    /* 1 / kg: the way over G */
+} sbri_contact_search;
 
 typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
@@ -37,12 +37,12 @@ typedef struct sbri_rigid_solving {
   sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
   sbri_ball *balls;            /* (joint_count) likewise: of the edges */
   sbri_ball_pair *pairs;       /* (joint_count) of those of the tree */
-  sbri_joint_place *places;    /* (joint_count) of the edges */
-  sbri_ground_touch *touches;  /* (touch_count) */
-  uint32_t touch_count, touch_capacity;
+  sbri_joint_frames *joint_frames; /* (joint_count) of the edges */
+  sbri_rigid_contact *contacts;    /* (rigid_contact_count) */
+  uint32_t rigid_contact_count, max_contacts;
   sbri_rigid_external_body *external_bodies; /* (external_body_count) of the host's bodies that have a mass */
   uint32_t external_body_count, external_body_capacity;
-  sbri_push_way *pushes; /* (touch_capacity + row_count) of the way that is searched */
+  sbri_contact_search *pushes; /* (max_contacts + row_count) of the way that is searched */
   uint32_t push_count;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
   float last_step_s; /* length of the step before; 0: there is none */
@@ -77,32 +77,32 @@ bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *w
  * near which stops them within a step. What swings by what pulls at it, as a whip, goes by the tangents, by
  * which its steps are judged. */
 static inline bool sbri_rigid_foresees(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
-  return tick->drive->flies || work->touch_count > 0;
+  return tick->drive->flies || work->rigid_contact_count > 0;
 }
 
 /* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
-void sbri_rigid_passes(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
+void sbri_rigid_iterate(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 /* The system with what acts, factored; its right-hand sides so far are pushes and touches. */
 void sbri_rigid_factor(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- rigid_tree.c: the system's graph, of the bodies that give way and the joints that are whole. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- joint_rows.c, joint_judge.c, joint_ends.c ---- */
+/* ---- joint_rows.c, joint_check.c, joint_ends.c ---- */
 
 /* The rows of an edge for a substep, from the bodies' motions so far. */
 void sbri_joint_rows_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
 /* Lists the active rows, with their right-hand sides. */
-void sbri_joint_rows_aim(sbri_edge *edge);
+void sbri_joint_rows_set_targets(sbri_edge *edge);
 /* Takes from the nodes' x how the limits' rates change. */
 void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s);
 /* Whether limits push in the last pass's system just where they would at what it came to. */
 bool sbri_joint_rows_agree(const sbri_rigid_solving *work);
 /* And back by that share of it. */
-void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
+void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float fraction);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
  * maximum; whether anything has changed, which where it is coarse dry friction does not count for. */
-bool sbri_joint_rows_judge(
+bool sbri_joint_rows_check(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, sbri_edge *edge, float step_s);
 /* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
 float sbri_joint_rows_correct(
@@ -110,52 +110,52 @@ float sbri_joint_rows_correct(
 /* And for being thrown back by limits that were run into; whether any is. */
 bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model);
 
-/* ---- shape_touches.c ---- */
+/* ---- rigid_shape_contacts.c ---- */
 
 /* Adds places that may touch shapes of the host within the tick. */
-void sbri_shape_touches_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+void sbri_rigid_shape_contacts_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- stair_touches.c ---- */
+/* ---- rigid_stair_contacts.c ---- */
 
 /* Adds places of a body that may touch stairs of the ground; false where its vertices are to be looked at. */
-bool sbri_stair_touches_find(
+bool sbri_rigid_stair_contacts_find(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t body, int32_t node);
 
-/* ---- touch_memory.c ---- */
+/* ---- stored_contacts.c ---- */
 
 /* Gives the touches that were there in the tick before what they did then; and keeps that. */
-void sbri_touch_memory_recall(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
-void sbri_touch_memory_keep(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+void sbri_stored_contacts_apply(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+void sbri_stored_contacts_save(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 
-/* ---- ground_touch.c ---- */
+/* ---- rigid_contacts.c ---- */
 
 /* Lists the vertices that may touch the ground within the tick, with the ground's planes. */
-void sbri_ground_touches_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+void sbri_rigid_contacts_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 /* Their places, and what they want, for a substep that begins so long after the tick. */
-void sbri_ground_touches_make(
+void sbri_rigid_contacts_linearise(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, float since_s, float step_s);
 /* Adds what acts to the nodes' d and b. */
-void sbri_ground_touches_add(sbri_rigid_solving *work);
+void sbri_rigid_contacts_add(sbri_rigid_solving *work);
 /* Adds to what each has given what a solve beyond the passes, by the nodes' x, makes it give. */
-void sbri_ground_touches_give(sbri_rigid_solving *work);
+void sbri_rigid_contacts_apply_impulse(sbri_rigid_solving *work);
 /* Notes what the bodies touch, when a substep is over, and what the next one begins with. */
-void sbri_ground_touches_tell(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+void sbri_rigid_contacts_report(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 /* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.
  */
-bool sbri_ground_touches_bounce(sbri_rigid_solving *work);
+bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work);
 /* Takes from the nodes' x how the places' velocities change. */
-void sbri_ground_touches_move(sbri_rigid_solving *work);
+void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work);
 /* Lists what may press, or rub, somewhere on the way from the pass before to the last. */
-void sbri_ground_touches_on_the_way(sbri_rigid_solving *work);
+void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work);
 /* By how much what they do at the velocities that the last pass came to is not what they did in its system:
  * the energy, J, by which that would move each body alone; 0 where it makes no difference. */
-float sbri_ground_touches_off(const sbri_rigid_solving *work);
+float sbri_rigid_contacts_error(const sbri_rigid_solving *work);
 /* What they give is what the last pass had them give, where passes have ended before both are the same. */
-void sbri_ground_touches_as_solved(sbri_rigid_solving *work);
+void sbri_rigid_contacts_take_solution(sbri_rigid_solving *work);
 /* Who presses, and who slides, by the last pass. */
-void sbri_ground_touches_judge(sbri_rigid_solving *work);
+void sbri_rigid_contacts_check(sbri_rigid_solving *work);
 /* Bounds of friction from what presses by the last pass; whether that makes a difference. */
-bool sbri_ground_touches_bound(sbri_rigid_solving *work);
+bool sbri_rigid_contacts_bound(sbri_rigid_solving *work);
 
 /* ---- rigid_search.c ---- */
 

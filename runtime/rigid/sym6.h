@@ -23,7 +23,7 @@ static inline void sbri_sym6_factor(double a[6][6]) {
 }
 
 /* L y = b, in place. */
-static inline void sbri_sym6_forward(double l[6][6], double b[6]) {
+static inline void sbri_sym6_solve_forward(double l[6][6], double b[6]) {
   for (int i = 0; i < 6; i++) {
     double sum = b[i];
     for (int j = 0; j < i; j++) sum -= l[i][j] * b[j];
@@ -32,7 +32,7 @@ static inline void sbri_sym6_forward(double l[6][6], double b[6]) {
 }
 
 /* L^T x = y, in place. */
-static inline void sbri_sym6_back(double l[6][6], double y[6]) {
+static inline void sbri_sym6_solve_back(double l[6][6], double y[6]) {
   for (int i = 5; i >= 0; i--) {
     double sum = y[i];
     for (int j = i + 1; j < 6; j++) sum -= l[j][i] * y[j];

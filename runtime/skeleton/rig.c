@@ -8,12 +8,12 @@ sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side) {
   return sbri_quat_from_axes(x, y, sbri_cross(x, y));
 }
 
-void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose) {
+void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat rotation, sbr_transform *pose) {
   sbf_vec3 pivot = pose[bone].position;
   for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
     sbr_transform *b = &pose[rig->subtree[k]];
-    b->position = sbri_add(pivot, sbri_rotate(turn, sbri_sub(b->position, pivot)));
-    b->rotation = sbri_quat_normalize(sbri_quat_multiply(turn, b->rotation));
+    b->position = sbri_add(pivot, sbri_rotate(rotation, sbri_sub(b->position, pivot)));
+    b->rotation = sbri_quat_normalize(sbri_quat_multiply(rotation, b->rotation));
   }
 }
 

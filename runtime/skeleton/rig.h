@@ -25,7 +25,7 @@ typedef struct sbri_leg {
   int32_t toe;                /* the one that stands, where that is not the foot itself; else 0 */
   sbf_vec3 pole;              /* asset space, rest pose */
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
-  sbf_vec3 pole_place;        /* in that bone's frame, m */
+  sbf_vec3 pole_position;     /* in that bone's frame, m */
   sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
   float upper_length, lower_length;
   float reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m;
@@ -42,7 +42,7 @@ typedef struct sbri_leg {
   int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
   sbf_vec3 carried_home;           /* in that bone's frame, m */
   sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
-  sbf_vec3 toe_place;              /* the same of the toe's head */
+  sbf_vec3 toe_position;           /* the same of the toe's head */
   sbri_sole sole;
   bool has_toe;    /* its foot is long */
   bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
@@ -66,7 +66,7 @@ enum { SBRI_MAX_LEGS = 16, SBRI_BELLY = 4, SBRI_BUMPERS = 48 };
 
 /* A ball in the body, in the gait's rest pose; asset space. */
 typedef struct sbri_bumper {
-  sbf_vec3 place;
+  sbf_vec3 position;
   float radius;
 } sbri_bumper;
 
@@ -91,8 +91,8 @@ typedef enum sbri_bone_role {
 
 /* Share of the body's mass that a bone carries, and its middle in the bone's frame. */
 typedef struct sbri_bone_mass {
-  float share;
-  sbf_vec3 place;
+  float fraction;
+  sbf_vec3 position;
 } sbri_bone_mass;
 
 typedef struct sbri_rig {
@@ -102,8 +102,8 @@ typedef struct sbri_rig {
   const sbr_transform *rest;       /* bone_count, asset space */
   const sbr_transform *rest_local; /* bone_count, in the parent's rest frame; a root's as it is */
   const sbr_transform *base_local; /* the same in the gait's rest pose */
-  const float *spine_share; /* bone_count: 0 turns with the hips, 1 with the chest, -1 with its parent */
-  const uint8_t *roles;     /* bone_count, of sbri_bone_role */
+  const float *spine_fraction; /* bone_count: 0 turns with the hips, 1 with the chest, -1 with its parent */
+  const uint8_t *roles;        /* bone_count, of sbri_bone_role */
   const sbri_joint_limit *limits; /* bone_count, against the parent */
   const uint32_t *subtree;        /* bone_count: the bones so ordered that what hangs on one follows it */
   const uint32_t *subtree_begin, *subtree_end; /* bone_count: a bone's own stretch of them */
@@ -155,7 +155,7 @@ static inline bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t 
 }
 
 /* Turns a bone, and all that hangs on it, about the bone's head. */
-void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose);
+void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat rotation, sbr_transform *pose);
 
 /* Moves a bone, and all that hangs on it. */
 void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose);

@@ -29,7 +29,7 @@ static void take(belly_points *f, sbf_vec3 p) {
   f->at[k] = p;
 }
 
-static bool look_at_bodies(const sbri_rig *rig, belly_points *f) {
+static bool visit_bodies(const sbri_rig *rig, belly_points *f) {
   bool bodies = false;
   for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
@@ -40,15 +40,15 @@ static bool look_at_bodies(const sbri_rig *rig, belly_points *f) {
   return bodies;
 }
 
-static void look_at_skins(const sbri_rig *rig, belly_points *f) {
+static void visit_skins(const sbri_rig *rig, belly_points *f) {
   for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
     uint32_t at = 0;
     for (uint32_t i = 0; mesh->skin && i < mesh->skin->influence_counts.count; i++) {
-      float held = 0;
+      float limited = 0;
       for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++)
-        if (is_trunk(rig, (int32_t)mesh->skin->bones.at[at])) held += mesh->skin->weights.at[at];
-      if (held > 0.5f) take(f, mesh->mesh.positions.at[i]);
+        if (is_trunk(rig, (int32_t)mesh->skin->bones.at[at])) limited += mesh->skin->weights.at[at];
+      if (limited > 0.5f) take(f, mesh->mesh.positions.at[i]);
     }
   }
 }
@@ -56,7 +56,7 @@ static void look_at_skins(const sbri_rig *rig, belly_points *f) {
 void sbri_rig_find_belly(sbri_rig *rig) {
   belly_points f = {.middle = 0.5f * (rig->hind_z + rig->fore_z)};
   if (rig->leg_count == 0 || rig->chain_count) return; /* what a chain bends lies where it lies */
-  if (!look_at_bodies(rig, &f)) look_at_skins(rig, &f);
+  if (!visit_bodies(rig, &f)) visit_skins(rig, &f);
   for (uint32_t k = 0; k < SBRI_BELLY; k++)
     if (f.any[k] && f.at[k].y > DRAGS * rig->reach) rig->belly[rig->belly_count++] = f.at[k];
 }

@@ -20,12 +20,12 @@ static bool is_stiff(const sbri_rig *rig, int32_t bone) {
   return bone >= 0;
 }
 
-typedef void take_point(void *user, sbf_vec3 place);
+typedef void take_point(void *user, sbf_vec3 position);
 
 /* From the rest pose into that of the gait, by the bones' chain up to the root. */
-static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 place) {
+static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
   const sbr_transform *rest = &rig->rest[bone];
-  sbf_vec3 x = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(place, rest->position));
+  sbf_vec3 x = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(position, rest->position));
   for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
     const sbr_transform *local = rig->base_local ? &rig->base_local[b] : &rig->rest_local[b];
     x = sbri_add(local->position, sbri_rotate(local->rotation, x));
@@ -49,10 +49,10 @@ static void each_skin_point(const sbri_rig *rig, take_point *take, void *user) {
     uint32_t at = 0;
     for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
       int32_t bone = -1;
-      float held = 0;
+      float limited = 0;
       for (uint32_t k = 0; mesh->skin && k < mesh->skin->influence_counts.at[i]; k++, at++)
-        if (mesh->skin->weights.at[at] > held)
-          held = mesh->skin->weights.at[at], bone = (int32_t)mesh->skin->bones.at[at];
+        if (mesh->skin->weights.at[at] > limited)
+          limited = mesh->skin->weights.at[at], bone = (int32_t)mesh->skin->bones.at[at];
       if (mesh->skin && is_stiff(rig, bone)) take(user, posed(rig, bone, mesh->mesh.positions.at[i]));
     }
   }
@@ -122,11 +122,11 @@ static void set_balls(const cubes *c, sbri_girth *girth) {
   if (low.y < c->lowest) low.y = c->lowest;
   for (uint32_t i = 0; i < c->count; i++) {
     const int32_t *cell = c->cells[i];
-    sbf_vec3 place = {
+    sbf_vec3 position = {
         middle(low.x, high.x, c->edge, radius, cell[0]), 0, middle(low.z, high.z, c->edge, radius, cell[2])};
     float y = c->body.low.y + c->edge * ((float)cell[1] + 0.5f);
-    place.y = sbri_clamp(y, low.y + radius, fmaxf(low.y + radius, high.y - radius));
-    girth->bumpers[girth->bumper_count++] = (sbri_bumper){place, radius};
+    position.y = sbri_clamp(y, low.y + radius, fmaxf(low.y + radius, high.y - radius));
+    girth->bumpers[girth->bumper_count++] = (sbri_bumper){position, radius};
   }
 }
 
@@ -162,6 +162,6 @@ void sbri_rig_find_girth(sbri_rig *rig) {
   }
   if (all.edge > 0) set_balls(&all, girth);
   for (uint32_t i = 0; i < girth->bumper_count; i++)
-    girth->radius = fmaxf(girth->radius, sbri_length(girth->bumpers[i].place) + girth->bumpers[i].radius);
+    girth->radius = fmaxf(girth->radius, sbri_length(girth->bumpers[i].position) + girth->bumpers[i].radius);
   girth->radius = fmaxf(girth->radius, rig->spread + rig->reach);
 }

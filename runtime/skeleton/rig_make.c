@@ -36,15 +36,15 @@ static void *carve(char **memory, size_t size) {
 }
 
 /* Bones from hips to chest share the turn between the two evenly; all others follow their parent. */
-static void share_spine(const sbri_rig *rig, float *share) {
-  for (uint32_t i = 0; i < rig->bone_count; i++) share[i] = -1;
+static void distribute_spine(const sbri_rig *rig, float *fraction) {
+  for (uint32_t i = 0; i < rig->bone_count; i++) fraction[i] = -1;
   if (!rig->gait || rig->gait->hips < 0) return;
   int32_t hips = rig->gait->hips, chest = rig->gait->chest;
-  share[hips] = 0;
+  fraction[hips] = 0;
   if (chest < 0 || chest == hips || !sbri_rig_is_below(rig, chest, hips)) return;
-  uint32_t steps = 0, place = 0;
+  uint32_t steps = 0, index = 0;
   for (int32_t b = chest; b != hips; b = rig->parents[b]) steps++;
-  for (int32_t b = chest; b != hips; b = rig->parents[b]) share[b] = 1 - (float)place++ / (float)steps;
+  for (int32_t b = chest; b != hips; b = rig->parents[b]) fraction[b] = 1 - (float)index++ / (float)steps;
 }
 
 static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
@@ -75,10 +75,11 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   /* Without a pole the leg goes on bending the way it is bent at rest. */
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
-  leg->pole_place = leg->pole;
+  leg->pole_position = leg->pole;
   if (leg->pole_bone >= 0) {
     const sbr_transform *rest = &rig->rest[leg->pole_bone];
-    leg->pole_place = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
+    leg->pole_position =
+        sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
   }
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
   leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
@@ -193,7 +194,7 @@ static void order_bones(const sbri_rig *rig, uint32_t *subtree, uint32_t *begin,
 
 static void find_roles(const sbri_rig *rig, uint8_t *roles) {
   for (uint32_t i = 0; i < rig->bone_count; i++)
-    roles[i] = rig->spine_share[i] >= 0 ? SBRI_ROLE_SPINE : SBRI_ROLE_NONE;
+    roles[i] = rig->spine_fraction[i] >= 0 ? SBRI_ROLE_SPINE : SBRI_ROLE_NONE;
   if (rig->gait && rig->gait->head) roles[rig->gait->head->bone] = SBRI_ROLE_HEAD;
   for (uint32_t t = 0; t < rig->tail_count; t++)
     for (uint32_t k = 0; k < rig->tails[t].bone_count; k++) roles[rig->tails[t].bones[k]] = SBRI_ROLE_TAIL;
@@ -246,7 +247,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   int32_t *parents = carve(&free_memory, n * sizeof *parents);
   sbr_transform *rest = carve(&free_memory, n * sizeof *rest),
                 *local = carve(&free_memory, n * sizeof *local);
-  float *share = carve(&free_memory, n * sizeof *share);
+  float *fraction = carve(&free_memory, n * sizeof *fraction);
   sbri_tail *tails = carve(&free_memory, tail_count(asset) * sizeof *tails);
   uint8_t *roles = carve(&free_memory, n);
   sbri_joint_limit *limits = carve(&free_memory, n * sizeof *limits);
@@ -259,7 +260,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .parents = parents,
       .rest = rest,
       .rest_local = local,
-      .spine_share = share,
+      .spine_fraction = fraction,
       .tails = tails,
       .roles = roles,
       .limits = limits,
@@ -272,7 +273,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
   init_bones(asset, parents, rest, local);
   order_bones(rig, subtree, begin, end);
-  share_spine(rig, share);
+  distribute_spine(rig, fraction);
   sbri_rig_find_limits(rig, limits);
   sbri_rig_find_masses(rig, masses);
   if (rig->gait) {

@@ -15,8 +15,8 @@ static void add_triangle(
   sbf_vec3 from = rig->rest[bone].position;
   sbf_vec3 p = sbri_sub(a, from), q = sbri_sub(b, from), r = sbri_sub(c, from);
   float volume = sbri_dot(p, sbri_cross(q, r)) / 6;
-  masses[bone].share += volume;
-  masses[bone].place = sbri_add_scaled(masses[bone].place, sbri_add(from, third_of(p, q, r)), volume);
+  masses[bone].fraction += volume;
+  masses[bone].position = sbri_add_scaled(masses[bone].position, sbri_add(from, third_of(p, q, r)), volume);
 }
 
 static void add_points(const sbf_render_mesh *mesh, sbri_bone_mass *masses) {
@@ -25,8 +25,8 @@ static void add_points(const sbf_render_mesh *mesh, sbri_bone_mass *masses) {
     for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++) {
       sbri_bone_mass *mass = &masses[mesh->skin->bones.at[at]];
       float weight = mesh->skin->weights.at[at];
-      mass->share += weight;
-      mass->place = sbri_add_scaled(mass->place, mesh->mesh.positions.at[i], weight);
+      mass->fraction += weight;
+      mass->position = sbri_add_scaled(mass->position, mesh->mesh.positions.at[i], weight);
     }
 }
 
@@ -42,8 +42,8 @@ static void add_surface(
 
 static void add_solid(const sbf_rigid_body *rigid, sbri_bone_mass *mass) {
   float volume = rigid->mass / rigid->density;
-  mass->share += volume;
-  mass->place = sbri_add_scaled(mass->place, rigid->center, volume);
+  mass->fraction += volume;
+  mass->position = sbri_add_scaled(mass->position, rigid->center, volume);
 }
 
 static bool has_section(const sbf_asset *asset, int32_t bone) {
@@ -75,15 +75,15 @@ void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
     add_points(&asset->render_meshes.at[i], masses);
   float total = 0;
   for (uint32_t i = 0; i < rig->bone_count; i++) {
-    if (!(masses[i].share > 0)) masses[i] = (sbri_bone_mass){0};
-    total += masses[i].share;
+    if (!(masses[i].fraction > 0)) masses[i] = (sbri_bone_mass){0};
+    total += masses[i].fraction;
   }
   for (uint32_t i = 0; total > 0 && i < rig->bone_count; i++) {
     const sbr_transform *rest = &rig->rest[i];
-    if (masses[i].share > 0) masses[i].place = sbri_scale(masses[i].place, 1 / masses[i].share);
-    masses[i].place =
-        sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(masses[i].place, rest->position));
-    masses[i].share /= total;
+    if (masses[i].fraction > 0) masses[i].position = sbri_scale(masses[i].position, 1 / masses[i].fraction);
+    masses[i].position =
+        sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(masses[i].position, rest->position));
+    masses[i].fraction /= total;
   }
 }
 
@@ -92,10 +92,11 @@ bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale
   float total = 0;
   for (uint32_t i = 0; i < rig->bone_count; i++) {
     const sbri_bone_mass *mass = &rig->masses[i];
-    if (mass->share <= 0) continue;
-    sbf_vec3 at = sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(mass->place, scale)));
-    sum = sbri_add_scaled(sum, at, mass->share);
-    total += mass->share;
+    if (mass->fraction <= 0) continue;
+    sbf_vec3 at =
+        sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(mass->position, scale)));
+    sum = sbri_add_scaled(sum, at, mass->fraction);
+    total += mass->fraction;
   }
   *center = sum;
   return total > 0;

@@ -4,7 +4,7 @@
 /* Of a foot's height: what has to have ground under it; and what stands on it, for a round foot is wider
  * above. */
 static const float LARGEST = 0.6f; /* of a leg's length: half a sole */
-static const float BAND = 0.12f, TOUCHES = 0.06f;
+static const float BAND = 0.12f, CONTACT_BAND = 0.06f;
 
 /* What is measured one after the other: how high it is, what is near the ground, what touches it. */
 enum { HEIGHT, POINTS, CUT };
@@ -12,20 +12,21 @@ enum { HEIGHT, POINTS, CUT };
 typedef struct foot_points {
   float low, high;
   sbri_sole sole;
-  bool any, begun, touches;
+  bool any, begun, is_touching;
 } foot_points;
 
 static float touching_height(const foot_points *f) {
-  return f->low + TOUCHES * (f->high - f->low);
+  return f->low + CONTACT_BAND * (f->high - f->low);
 }
 
 static void take_corner(foot_points *f, float x, float z) {
   for (int k = 0; k < 4; k++) {
     float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
-    if (!f->touches || across * x + along * z > across * f->sole.corners[k].x + along * f->sole.corners[k].z)
+    if (!f->is_touching ||
+        across * x + along * z > across * f->sole.corners[k].x + along * f->sole.corners[k].z)
       f->sole.corners[k] = sbri_vec3(x, 0, z);
   }
-  f->touches = true;
+  f->is_touching = true;
 }
 
 static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
@@ -73,7 +74,7 @@ static void take_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home
     }
 }
 
-static void look_at_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
+static void visit_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
   for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
     if (body->bone < 0 || !sbri_rig_is_below(rig, body->bone, foot)) continue;
@@ -83,17 +84,17 @@ static void look_at_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3
   }
 }
 
-static void look_at_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
+static void visit_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
   for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
     uint32_t at = 0;
     if (mesh->skin && pass == CUT) take_cut(f, &mesh->mesh, home);
     for (uint32_t i = 0; mesh->skin && pass < CUT && i < mesh->skin->influence_counts.count; i++) {
-      float held = 0;
+      float limited = 0;
       for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++)
         if (sbri_rig_is_below(rig, (int32_t)mesh->skin->bones.at[at], foot))
-          held += mesh->skin->weights.at[at];
-      if (held > 0.5f) take(f, mesh->mesh.positions.at[i], pass, home);
+          limited += mesh->skin->weights.at[at];
+      if (limited > 0.5f) take(f, mesh->mesh.positions.at[i], pass, home);
     }
   }
 }
@@ -106,9 +107,9 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
     for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
       bodies = bodies || sbri_rig_is_below(rig, rig->asset->soft_bodies.at[b].bone, foot);
     if (bodies)
-      look_at_bodies(rig, foot, pass, leg->home, &f);
+      visit_bodies(rig, foot, pass, leg->home, &f);
     else
-      look_at_skins(rig, foot, pass, leg->home, &f);
+      visit_skins(rig, foot, pass, leg->home, &f);
   }
   /* Its middle is what stands on the ground. Nothing is seen of the foot, or something far from it hangs on
    * it: a small sole below the ankle will do. */
@@ -126,8 +127,8 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
         sbri_vec3(sbri_clamp(corner.x, -wide, wide), 0, sbri_clamp(corner.z, -along, along));
   }
   leg->home.x += x, leg->home.z += z;
-  leg->toe_place = leg->ankle = sbri_vec3(-x, leg->home.y, -z);
+  leg->toe_position = leg->ankle = sbri_vec3(-x, leg->home.y, -z);
   if (!leg->has_toe) return;
   sbf_vec3 over = sbri_sub(rig->rest[leg->foot].position, rig->rest[leg->toe].position);
-  leg->ankle = sbri_add(leg->toe_place, over);
+  leg->ankle = sbri_add(leg->toe_position, over);
 }

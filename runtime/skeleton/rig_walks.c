@@ -2,7 +2,7 @@
 
 #include "math/quat.h"
 
-static const float SAME_PLACE = 0.02f; /* of the distance from the plane: so near are mirror images */
+static const float SAME_POSITION = 0.02f; /* of the distance from the plane: so near are mirror images */
 
 static bool is_of_walk(const sbf_pose *pose) {
   return pose->distance > 0;
@@ -29,7 +29,7 @@ size_t sbri_walks_size(const sbf_asset *asset) {
   return size + frames * n * sizeof(sbri_posed_bone);
 }
 
-static sbf_vec3 mirrored_place(sbf_vec3 p) {
+static sbf_vec3 mirrored_position(sbf_vec3 p) {
   return sbri_vec3(-p.x, p.y, p.z);
 }
 
@@ -40,8 +40,8 @@ static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
 }
 
 uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
-  sbf_vec3 head = mirrored_place(rig->rest[bone].position), tail = mirrored_place(tail_of(rig, bone));
-  float near = SAME_PLACE * (fabsf(head.x) + fabsf(tail.x) + rig->asset->bones.at[bone].length);
+  sbf_vec3 head = mirrored_position(rig->rest[bone].position), tail = mirrored_position(tail_of(rig, bone));
+  float near = SAME_POSITION * (fabsf(head.x) + fabsf(tail.x) + rig->asset->bones.at[bone].length);
   uint32_t best = bone;
   for (uint32_t k = 0; k <= rig->bone_count; k++) {
     uint32_t i = k ? k - 1 : bone; /* itself first: in the middle another may lie just so */
@@ -57,41 +57,41 @@ uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
  * axes; so with the way. */
 static sbri_posed_bone mirrored_key(const sbri_rig *rig, uint32_t from, uint32_t to, sbri_posed_bone key) {
   sbf_quat own = rig->rest[from].rotation, other = rig->rest[to].rotation;
-  sbf_quat turn = sbri_quat_multiply(sbri_quat_multiply(own, key.rotation), sbri_quat_conjugate(own));
-  turn = (sbf_quat){turn.x, -turn.y, -turn.z, turn.w};
-  turn = sbri_quat_multiply(sbri_quat_multiply(sbri_quat_conjugate(other), turn), other);
-  sbf_vec3 way = key.translation;
-  if (rig->parents[from] >= 0) way = sbri_rotate(rig->rest[rig->parents[from]].rotation, way);
-  way = mirrored_place(way);
+  sbf_quat rotation = sbri_quat_multiply(sbri_quat_multiply(own, key.rotation), sbri_quat_conjugate(own));
+  rotation = (sbf_quat){rotation.x, -rotation.y, -rotation.z, rotation.w};
+  rotation = sbri_quat_multiply(sbri_quat_multiply(sbri_quat_conjugate(other), rotation), other);
+  sbf_vec3 direction = key.translation;
+  if (rig->parents[from] >= 0) direction = sbri_rotate(rig->rest[rig->parents[from]].rotation, direction);
+  direction = mirrored_position(direction);
   if (rig->parents[to] >= 0)
-    way = sbri_rotate(sbri_quat_conjugate(rig->rest[rig->parents[to]].rotation), way);
-  return (sbri_posed_bone){way, sbri_quat_normalize(turn)};
+    direction = sbri_rotate(sbri_quat_conjugate(rig->rest[rig->parents[to]].rotation), direction);
+  return (sbri_posed_bone){direction, sbri_quat_normalize(rotation)};
 }
 
-static void fill_frame(const sbri_rig *rig, const sbf_pose *pose, bool mirrored, const uint32_t *place_of,
+static void fill_frame(const sbri_rig *rig, const sbf_pose *pose, bool mirrored, const uint32_t *position_of,
     sbri_posed_bone *bones, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) bones[i] = (sbri_posed_bone){.rotation = {0, 0, 0, 1}};
   for (uint32_t k = 0; k < pose->keys.count; k++) {
     const sbf_pose_key *key = &pose->keys.at[k];
     uint32_t from = (uint32_t)key->bone, to = mirrored ? sbri_mirror_bone(rig, from) : from;
     sbri_posed_bone posed = {key->translation, sbri_quat_normalize(key->rotation)};
-    bones[place_of[to] - 1] = mirrored ? mirrored_key(rig, from, to, posed) : posed;
+    bones[position_of[to] - 1] = mirrored ? mirrored_key(rig, from, to, posed) : posed;
   }
 }
 
-/* Lists the bones that walks move; `place_of` gets each one's place from 1, 0 for others. */
-static uint32_t list_bones(const sbri_rig *rig, uint32_t *place_of, uint32_t *bones) {
+/* Lists the bones that walks move; `position_of` gets each one's place from 1, 0 for others. */
+static uint32_t list_bones(const sbri_rig *rig, uint32_t *position_of, uint32_t *bones) {
   const sbf_pose_list *poses = &rig->asset->poses;
   uint32_t count = 0;
-  for (uint32_t b = 0; b < rig->bone_count; b++) place_of[b] = 0;
+  for (uint32_t b = 0; b < rig->bone_count; b++) position_of[b] = 0;
   for (uint32_t i = 0; i < poses->count; i++)
     for (uint32_t k = 0; is_of_walk(&poses->at[i]) && k < poses->at[i].keys.count; k++) {
       uint32_t bone = (uint32_t)poses->at[i].keys.at[k].bone;
-      place_of[bone] = 1;
-      if (is_mirrored(rig->asset, poses->at[i].speed)) place_of[sbri_mirror_bone(rig, bone)] = 1;
+      position_of[bone] = 1;
+      if (is_mirrored(rig->asset, poses->at[i].speed)) position_of[sbri_mirror_bone(rig, bone)] = 1;
     }
   for (uint32_t b = 0; b < rig->bone_count; b++)
-    if (place_of[b]) bones[count] = b, place_of[b] = ++count;
+    if (position_of[b]) bones[count] = b, position_of[b] = ++count;
   return count;
 }
 
@@ -123,11 +123,11 @@ void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
   sbri_walk *walk = memory; /* what needs the widest steps first */
   sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + max);
   sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + max);
-  uint32_t *place_of = (uint32_t *)(void *)(posed + max * rig->bone_count),
-           *bones = place_of + rig->bone_count;
+  uint32_t *position_of = (uint32_t *)(void *)(posed + max * rig->bone_count),
+           *bones = position_of + rig->bone_count;
   walks->walks = walk;
   walks->bones = bones;
-  walks->bone_count = list_bones(rig, place_of, bones);
+  walks->bone_count = list_bones(rig, position_of, bones);
   for (float speed = -1;;) {
     float next = -1;
     for (uint32_t i = 0; i < asset->poses.count; i++) {
@@ -144,7 +144,7 @@ void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
         .speed = speed, .cycle_m = mirrored ? 2 * length : length, .mirrored = mirrored, .frames = frame};
     for (uint32_t half = 0; half < (mirrored ? 2u : 1u); half++)
       for (const sbf_pose *p = next_pose(asset, speed, 0); p; p = next_pose(asset, speed, p->distance)) {
-        fill_frame(rig, p, half == 1, place_of, posed, walks->bone_count);
+        fill_frame(rig, p, half == 1, position_of, posed, walks->bone_count);
         *frame++ = (sbri_walk_frame){(p->distance + (float)half * length) / walk->cycle_m, posed};
         posed += walks->bone_count;
         walk->frame_count++;

@@ -2,14 +2,14 @@
 
 #include "model/kernels.h"
 
-void sbri_skin_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,
+void sbri_skin_compute_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,
     const sbri_delta *deltas, sbri_point *vertices) {
   model->kernels->vertices(skin, points, vertices);
   for (uint32_t i = 0; i < skin->frame_vertex_count; i++) {
     const sbri_frame_vertex *v = &skin->frame_vertices[i];
     sbf_vec3 sum = {0, 0, 0};
     for (uint32_t k = v->first; k < v->first + v->count; k++) {
-      sbf_vec3 at = sbri_delta_place(&deltas[skin->influences[k].frame], v->rest);
+      sbf_vec3 at = sbri_delta_position(&deltas[skin->influences[k].frame], v->rest);
       sum = sbri_add_scaled(sum, at, skin->influences[k].weight);
     }
     vertices[v->vertex] = (sbri_point){sum.x, sum.y, sum.z, 0};

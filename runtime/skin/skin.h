@@ -1,16 +1,16 @@
-/* Evaluating skins: vertices from points and frames, normals from vertices. */
+/* Skinning: vertices from points and frames, normals from vertices. */
 #ifndef SBRI_SKIN_H
 #define SBRI_SKIN_H
 
 #include "model/delta.h"
 #include "model/runtime_model.h"
 
-/* Vertices of a skin, in asset metres: `points` are those of the whole character. `vertices` holds
+/* Computes vertices of a skin, asset metres. `points` are all points of the character. `vertices` holds
  * vertex_count, padded to a multiple of eight. */
-void sbri_skin_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,
+void sbri_skin_compute_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,
     const sbri_delta *deltas, sbri_point *vertices);
 
-/* Volume that the faces enclose, m^3. */
+/* Volume enclosed by the faces, m^3. */
 double sbri_skin_volume(const sbri_skin *skin, const sbri_point *vertices);
 
 #endif

@@ -7,7 +7,7 @@
 #include "model/skin_tables.h"
 
 /* Vertices that points carry; 0 for the others. */
-static inline void sbri_lanes_vertices(
+static inline void sbri_lanes_compute_vertices(
     const sbri_skin *skin, const sbri_point *points, sbri_point *vertices) {
   uint32_t block_count = (skin->vertex_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
   for (uint32_t block = 0; block < block_count; block++)
@@ -39,7 +39,8 @@ static inline sbri_diagonals sbri_face_diagonals(
 }
 
 /* Twice the area vector of every face. */
-static inline void sbri_lanes_faces(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces) {
+static inline void sbri_lanes_compute_faces(
+    const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces) {
   for (uint32_t block = 0; block < skin->face_block_count; block++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_diagonals d = sbri_face_diagonals(&skin->faces[block], vertices, lane);
@@ -50,19 +51,21 @@ static inline void sbri_lanes_faces(const sbri_skin *skin, const sbri_point *ver
 }
 
 /* The tangent of every face, times its area in the texture. */
-static inline void sbri_lanes_tangents(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces) {
+static inline void sbri_lanes_compute_tangents(
+    const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces) {
   for (uint32_t block = 0; block < skin->face_block_count; block++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_diagonals d = sbri_face_diagonals(&skin->faces[block], vertices, lane);
-      sbri_wide a = sbri_wide_load(skin->tangent_blocks[block].shares[0] + lane);
-      sbri_wide b = sbri_wide_load(skin->tangent_blocks[block].shares[1] + lane);
+      sbri_wide a = sbri_wide_load(skin->tangent_blocks[block].fractions[0] + lane);
+      sbri_wide b = sbri_wide_load(skin->tangent_blocks[block].fractions[1] + lane);
       sbri_wide3 t = {a * d.a.x + b * d.b.x, a * d.a.y + b * d.b.y, a * d.a.z + b * d.b.z};
       sbri_wide_store_points(faces + block * SBRI_BLOCK + lane, t);
     }
 }
 
 /* Sums of faces, one a group. */
-static inline void sbri_lanes_sums(const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums) {
+static inline void sbri_lanes_compute_sums(
+    const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums) {
   uint32_t block_count = (table->group_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
@@ -78,9 +81,9 @@ static inline void sbri_lanes_sums(const sbri_sum_table *table, const sbri_point
 }
 
 /* Such sums as unit vectors; +Y where there is no area. */
-static inline void sbri_lanes_normals(
+static inline void sbri_lanes_compute_normals(
     const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals) {
-  sbri_lanes_sums(table, faces, normals);
+  sbri_lanes_compute_sums(table, faces, normals);
   uint32_t count = (table->group_count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
   for (uint32_t i = 0; i < count; i += SBRI_LANES) {
     sbri_wide3 n = sbri_wide_load_points(normals + i);

@@ -15,21 +15,21 @@
 #include "solvers/scheme.h"
 
 /* A body with less than this share of its volume will not come back by itself. */
-static const double FOLDED_SHARE = 0.1;
+static const double FOLDED_FRACTION = 0.1;
 
 /* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
  * is. */
-static const double MOVING_SHARE = 0.2;
+static const double MOVING_FRACTION = 0.2;
 
 /* What loses a fifth of its energy from look to look is still on its way out, however slowly it moves. */
-static const double STUCK_SHARE = 0.8;
+static const double STUCK_FRACTION = 0.8;
 
 /* Shares of what an island holds all of whose elements are strained by a tenth: what a knot holds at least
  * where the load is known, and where it is not; and what is wild, strains of 14 %. */
-static const double KNOT_SHARE = 0.02, LOOSE_KNOT_SHARE = 0.1, UNSTABLE_SHARE = 2;
+static const double KNOT_FRACTION = 0.02, LOOSE_KNOT_FRACTION = 0.1, UNSTABLE_FRACTION = 2;
 
 /* What holds a body presses it where its rest shape would lie so deep: a share of the body's size. */
-static const float PRESSED_SHARE = 0.01f;
+static const float PRESSED_FRACTION = 0.01f;
 
 /* Tetrahedra so many times as stiff as at rest may be wild. */
 static const float STIFFENED = 2;
@@ -38,9 +38,9 @@ static const float STIFFENED = 2;
  * drawn around. That is looked at only where the least of them leaves it open. */
 static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
   if (body->tetrahedron_count && !island->solid_flows)
-    return (double)min < FOLDED_SHARE && sbri_lattice_share(c, body) < FOLDED_SHARE;
+    return (double)min < FOLDED_FRACTION && sbri_lattice_fraction(c, body) < FOLDED_FRACTION;
   return body->rest_volume_m3 > 0 &&
-         sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3;
+         sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_FRACTION * body->rest_volume_m3;
 }
 
 static bool is_any_empty(const sbri_character *c, const sbri_island *island, float min) {
@@ -54,21 +54,21 @@ static bool is_any_empty(const sbri_character *c, const sbri_island *island, flo
 /* Against what holds it, or of a loose body against its rigid motion. */
 static double kinetic_of(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  const float *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   double energy = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbri_rigid_motion rigid = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0}};
-    if (!body->held) rigid = sbri_rigid_motion_find(island, body, positions, velocities);
+    if (!body->is_pinned) rigid = sbri_rigid_motion_find(island, body, positions, velocities);
     for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
       uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       const sbri_point *p = &positions[slot];
       sbf_vec3 v = {velocities[at], velocities[at + SBRI_BLOCK], velocities[at + 2 * SBRI_BLOCK]};
-      sbf_vec3 with = {guides[at], guides[at + SBRI_BLOCK], guides[at + 2 * SBRI_BLOCK]};
-      if (!body->held)
-        with = sbri_add(
-            rigid.velocity, sbri_cross(rigid.spin, sbri_sub(sbri_vec3(p->x, p->y, p->z), rigid.center)));
+      sbf_vec3 with = {drivers[at], drivers[at + SBRI_BLOCK], drivers[at + 2 * SBRI_BLOCK]};
+      if (!body->is_pinned)
+        with = sbri_add(rigid.velocity,
+            sbri_cross(rigid.angular_velocity, sbri_sub(sbri_vec3(p->x, p->y, p->z), rigid.center)));
       sbf_vec3 off = sbri_sub(v, with);
       energy += 0.5 * (double)island->masses[slot] * (double)sbri_dot(off, off);
     }
@@ -102,7 +102,7 @@ static void add_regions(
     const sbri_region_block *block = &island->region_blocks[b];
     const sbri_region_member *members = island->region_members + block->first_member;
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
-      sbri_region_look(block, members, lane, positions, &sum->now_j);
+      sbri_region_measure(block, members, lane, positions, &sum->now_j);
       for (uint32_t i = 0; i < block->member_count; i++) {
         const float *r[3] = {members[i].offsets[0], members[i].offsets[1], members[i].offsets[2]};
         double square = (double)(r[0][lane] * r[0][lane] + r[1][lane] * r[1][lane] + r[2][lane] * r[2][lane]);
@@ -138,9 +138,9 @@ static double weight_of(const sbri_island *island, const sbri_point *positions, 
 
 /* ---- Knots ---- */
 
-static bool touches_ground(const sbri_character *c, const sbri_island *island) {
+static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
-    if (c->model->bodies[island->bodies[b]].samples && sbri_touch_counts(c)[island->bodies[b]]) return true;
+    if (c->model->bodies[island->bodies[b]].samples && sbri_contact_counts(c)[island->bodies[b]]) return true;
   const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     if (near_ground[block]) return true;
@@ -151,12 +151,13 @@ static bool touches_ground(const sbri_character *c, const sbri_island *island) {
  * and its rest shape would be in the walls. */
 static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_touch *touches = sbri_touches(c) + c->model->bodies[island->bodies[b]].first_touch;
-    uint32_t count = sbri_touch_counts(c)[island->bodies[b]];
+    const sbri_soft_contact *contacts =
+        sbri_contacts(c) + c->model->bodies[island->bodies[b]].first_soft_contact;
+    uint32_t count = sbri_contact_counts(c)[island->bodies[b]];
     sbf_vec3 low = {0, 0, 0}, high = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-      sbf_vec3 n = touches[i].normal;
-      if (!(touches[i].pushed > 0) || touches[i].collider == SBRI_ITSELF) continue;
+      sbf_vec3 n = contacts[i].normal;
+      if (!(contacts[i].pushed > 0) || contacts[i].collider == SBRI_ITSELF) continue;
       low = (sbf_vec3){fminf(low.x, n.x), fminf(low.y, n.y), fminf(low.z, n.z)};
       high = (sbf_vec3){fmaxf(high.x, n.x), fmaxf(high.y, n.y), fmaxf(high.z, n.z)};
     }
@@ -172,18 +173,18 @@ static bool is_pressed_by_holders(const sbri_character *c, const sbri_island *is
   sbri_point *rest = sbri_begins(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) continue;
-    float max = PRESSED_SHARE * body->rest_size_m;
-    sbri_guide_places(c->model, body, sbri_deltas(c), rest + body->slot_begin);
-    sbri_held_places(island, sbri_deltas(c), rest);
-    const sbri_touch *touches = sbri_touches(c) + body->first_touch;
-    for (uint32_t i = 0; i < sbri_touch_counts(c)[island->bodies[b]]; i++) {
+    if (!body->is_pinned) continue;
+    float max = PRESSED_FRACTION * body->rest_size_m;
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+    sbri_compute_pin_targets(island, sbri_deltas(c), rest);
+    const sbri_soft_contact *contacts = sbri_contacts(c) + body->first_soft_contact;
+    for (uint32_t i = 0; i < sbri_contact_counts(c)[island->bodies[b]]; i++) {
       sbf_vec3 at = {0, 0, 0};
       for (int k = 0; k < 4; k++) {
-        const sbri_point *p = &rest[touches[i].sample.slots[k]];
-        at = sbri_add_scaled(at, sbri_vec3(p->x, p->y, p->z), touches[i].sample.weights[k]);
+        const sbri_point *p = &rest[contacts[i].sample.slots[k]];
+        at = sbri_add_scaled(at, sbri_vec3(p->x, p->y, p->z), contacts[i].sample.weights[k]);
       }
-      if (touches[i].collider != SBRI_ITSELF && touches[i].offset - sbri_dot(touches[i].normal, at) > max)
+      if (contacts[i].collider != SBRI_ITSELF && contacts[i].offset - sbri_dot(contacts[i].normal, at) > max)
         return true;
     }
     const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
@@ -199,9 +200,9 @@ static bool is_pressed_by_holders(const sbri_character *c, const sbri_island *is
   return false;
 }
 
-static bool is_held(const sbri_character *c, const sbri_island *island) {
+static bool is_point_pinned(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
-    if (!c->model->bodies[island->bodies[b]].held) return false;
+    if (!c->model->bodies[island->bodies[b]].is_pinned) return false;
   return true;
 }
 
@@ -211,9 +212,9 @@ static double rest_energy(const sbri_character *c, const sbri_island *island, sb
   sbri_point *rest = sbri_begins(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    sbri_guide_places(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slot_begin);
   }
-  sbri_held_places(island, sbri_deltas(c), rest);
+  sbri_compute_pin_targets(island, sbri_deltas(c), rest);
   return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
 }
 
@@ -259,21 +260,22 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
     return (sbri_shape){.folded = true, .heaped = true, .unstable = true};
   if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};
   elastic elements = elastic_of(c, island, positions);
-  double more = elements.now_j, min = KNOT_SHARE * elements.tenth_j;
-  bool told = !island->has_outer && is_held(c, island) && !touches_ground(c, island);
+  double more = elements.now_j, min = KNOT_FRACTION * elements.tenth_j;
+  bool is_reported = !island->has_external_forces && is_point_pinned(c, island) && !is_on_ground(c, island);
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
-  if (told)
+  if (is_reported)
     more += weight_of(island, positions, g) - rest_energy(c, island, g);
   else
-    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_SHARE * elements.tenth_j;
-  double load = told ? 0 : load_of(c, island, g);
-  if (!told && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
-  bool strained = more > min, stuck = more > STUCK_SHARE * (double)state->excess_j;
-  sbri_shape shape = {
-      .told = told, .excess_j = (float)more, .heaped = more > UNSTABLE_SHARE * elements.tenth_j};
-  shape.crushed = told && state->min_ratio < SBRI_CRUSHED_RATIO;
+    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_FRACTION * elements.tenth_j;
+  double load = is_reported ? 0 : load_of(c, island, g);
+  if (!is_reported && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
+  bool strained = more > min, stuck = more > STUCK_FRACTION * (double)state->excess_j;
+  sbri_shape shape = {.is_reported = is_reported,
+      .excess_j = (float)more,
+      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j};
+  shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
-  shape.folded = strained && stuck && (told || (unstable && !island->has_outer)) &&
-                 kinetic_of(c, island) < MOVING_SHARE * more;
+  shape.folded = strained && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
+                 kinetic_of(c, island) < MOVING_FRACTION * more;
   return shape;
 }

@@ -4,7 +4,7 @@
 #include "mechanics/solid_strain.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/scheme.h"
 
 sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
@@ -19,7 +19,7 @@ sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, 
   return s;
 }
 
-static void look_at_springs(const sbri_character *c, const sbri_island *island, const sbri_body *body,
+static void check_springs(const sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_point *positions, sbr_body_health *health) {
   for (uint32_t i = body->first_spring; i < body->spring_end; i++) {
     sbfi_spring s = sbri_spring_now(c, island, i);
@@ -46,7 +46,7 @@ typedef struct solid_health {
   uint32_t torn;
 } solid_health;
 
-static sbfi_d3 place_of(const sbri_point *p) {
+static sbfi_d3 position_of(const sbri_point *p) {
   return (sbfi_d3){p->x, p->y, p->z};
 }
 
@@ -56,13 +56,13 @@ static void see_ratio(solid_health *found, double ratio) {
 }
 
 /* As it was made. */
-static void look_at_tetrahedron(
+static void check_tetrahedron(
     const sbri_body *body, const sbri_point *positions, uint32_t t, solid_health *found) {
   sbfi_tetrahedron element;
   sbfi_d3 x[4];
   if (!sbri_body_tetrahedron(body, t, &element)) return;
   for (int k = 0; k < 4; k++)
-    x[k] = place_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
+    x[k] = position_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
   sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
   found->energy_j += sbfi_tetrahedron_energy(&element, x);
   see_ratio(found, sbfi_determinant(&f));
@@ -78,7 +78,7 @@ static void look_at_tetrahedron(
 }
 
 /* As it is now: yielded, its points split, or torn. */
-static void look_at_flowing(const sbri_character *c, const sbri_body *body, const sbri_point *positions,
+static void check_flowing(const sbri_character *c, const sbri_body *body, const sbri_point *positions,
     uint32_t t, solid_health *found) {
   const sbri_island *island = &c->model->islands[body->island];
   uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
@@ -94,8 +94,8 @@ static void look_at_flowing(const sbri_character *c, const sbri_body *body, cons
   double volume = 1 / (6 * (double)block->inverse_volume[lane]), ratio = 1, squares = 0;
   for (int i = 0; i < 6; i++) metric.at[i] = block->stiffness[i][lane] / (volume * mu);
   for (int k = 0; k < 3; k++)
-    edges[k] = sbfi_d3_sub(
-        place_of(&positions[block->corners[k + 1][lane]]), place_of(&positions[block->corners[0][lane]]));
+    edges[k] = sbfi_d3_sub(position_of(&positions[block->corners[k + 1][lane]]),
+        position_of(&positions[block->corners[0][lane]]));
   if (!sbfi_stretches_find(&metric, edges, &stretches)) return;
   for (int k = 0; k < 3; k++) {
     double value = stretches.values[k];
@@ -108,19 +108,19 @@ static void look_at_flowing(const sbri_character *c, const sbri_body *body, cons
   see_ratio(found, ratio);
 }
 
-static solid_health look_at_tetrahedra(
+static solid_health check_tetrahedra(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions) {
   solid_health found = {.min_ratio = 1};
   bool flows = c->model->islands[body->island].solid_flows;
   for (uint32_t t = 0; t < body->tetrahedron_count; t++)
     if (flows)
-      look_at_flowing(c, body, positions, t, &found);
+      check_flowing(c, body, positions, t, &found);
     else
-      look_at_tetrahedron(body, positions, t, &found);
+      check_tetrahedron(body, positions, t, &found);
   return found;
 }
 
-double sbri_region_look(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
+double sbri_region_measure(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
     const sbri_point *positions, double *energy_j) {
   sbfi_region_sums sums = {0};
   sbfi_region_fit fit = {.center = {0, 0, 0}};
@@ -145,13 +145,13 @@ double sbri_region_look(const sbri_region_block *block, const sbri_region_member
   return squares > 0 ? sqrt(farthest * sums.weight / squares) : 0;
 }
 
-static solid_health look_at_regions(
+static solid_health check_regions(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
   solid_health found = {.min_ratio = 1};
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     const sbri_region_block *block = &island->region_blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
-      float strain = (float)sbri_region_look(
+      float strain = (float)sbri_region_measure(
           block, island->region_members + block->first_member, lane, positions, &found.energy_j);
       found.max_strain = strain > found.max_strain ? strain : found.max_strain;
     }
@@ -173,7 +173,7 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
     const sbri_point *positions, const float *velocities, double solid_j, sbr_body_health *health) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]), *island = &now;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
-  double height = sbri_head(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
+  double height = sbri_header(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
   double s = c->scale,
          joules = s * s * s * s; /* masses s^3, speeds squared s; stiffnesses s^2, lengths squared s^2 */
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
@@ -187,26 +187,27 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   health->kinetic_j = island->scheme->forceless ? 0 : kinetic * joules;
   health->potential_j = potential * joules;
   health->elastic_j +=
-      solid_j + sbri_outer_energy(island, body, positions, sbri_surface_vertices(c) + body->first_vertex);
+      solid_j + sbri_external_energy(island, body, positions, sbri_surface_vertices(c) + body->first_vertex);
   health->elastic_j *= joules;
 }
 
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points) {
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
   const sbri_skin surface = sbri_skin_now(c, &body->surface);
-  sbri_skin_vertices(c->model, &surface, points, sbri_deltas(c), vertices);
+  sbri_skin_compute_vertices(c->model, &surface, points, sbri_deltas(c), vertices);
   return sbri_skin_volume(&body->surface, vertices);
 }
 
-double sbri_lattice_share(const sbri_character *c, const sbri_body *body) {
+double sbri_lattice_fraction(const sbri_character *c, const sbri_body *body) {
   const sbri_island *island = &c->model->islands[body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   double now = 0, rest = 0;
   for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
     uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
     const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[at / SBRI_BLOCK];
-    sbfi_d3 x0 = place_of(&positions[block->corners[0][lane]]), edges[3];
-    for (int k = 0; k < 3; k++) edges[k] = sbfi_d3_sub(place_of(&positions[block->corners[k + 1][lane]]), x0);
+    sbfi_d3 x0 = position_of(&positions[block->corners[0][lane]]), edges[3];
+    for (int k = 0; k < 3; k++)
+      edges[k] = sbfi_d3_sub(position_of(&positions[block->corners[k + 1][lane]]), x0);
     now += sbfi_d3_dot(edges[0], sbfi_d3_cross(edges[1], edges[2]));
     rest += 1 / (double)block->inverse_volume[lane];
   }
@@ -224,14 +225,14 @@ sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
   health.rigid = sbri_island_states(c)[body->island].recovery.rigid_ticks > 0;
   health.finite = is_finite(body, positions, velocities);
-  look_at_springs(c, island, body, positions, &health);
-  solid_health solid = look_at_tetrahedra(c, body, positions);
+  check_springs(c, island, body, positions, &health);
+  solid_health solid = check_tetrahedra(c, body, positions);
   health.torn += solid.torn;
   health.unsplit = sbri_island_states(c)[body->island].unsplit;
   if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
   health.inverted = solid.inverted;
   health.min_element_ratio = solid.min_ratio;
-  solid_health regions = look_at_regions(island, body, positions);
+  solid_health regions = check_regions(island, body, positions);
   if (regions.max_strain > health.max_strain) health.max_strain = regions.max_strain;
   solid.energy_j += regions.energy_j;
   if (body->rest_volume_m3 > 0) {

@@ -47,7 +47,7 @@ static float inverse_mass_of(const sbri_island *island, const sbri_carriers *at)
 }
 
 static void hold(const sbri_character *c, const sbri_load *load, float mass, sbri_load_now *to) {
-  const sbr_double3 o = sbri_head(c)->origin;
+  const sbr_double3 o = sbri_header(c)->origin;
   float s = c->scale, w = TWO_PI * load->frequency_hz / c->time_scale;
   to->target = (sbf_vec3){(float)((load->target.x - o.x) / (double)s),
       (float)((load->target.y - o.y) / (double)s), (float)((load->target.z - o.z) / (double)s)};

@@ -1,13 +1,14 @@
-/* One control tick of an island: what is made ready, what its scheme does, and what follows from it. */
+/* One control tick of an island: prepares pins, contacts and tables, runs the time integrator, then reports
+ * contacts, splits torn points, recovers from failure and updates sleep. */
 #include "base/assert.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/rolling.h"
 #include "solvers/router.h"
-#include "solvers/touches.h"
+#include "solvers/soft_contacts.h"
 #include "tear/tear.h"
 
 void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) {
@@ -18,16 +19,16 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   const sbri_island *island = &now;
   size_t first = island->first_slot;
   float tick_s = (float)world->tick_s * c->time_scale;
-  if (!sbri_island_follow(c, island, index, tick_s)) return;
-  sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
-  sbri_island_tuck(c, island);
-  sbri_island_keep_motions(c, index);
+  if (!sbri_island_update_drivers(c, island, index, tick_s)) return;
+  sbri_compute_pin_targets(island, sbri_deltas(c), sbri_targets(c) + first);
+  sbri_island_fill_unused_slots(c, island);
+  sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);
-  tick.outer_rad_s = &now.outer_rad_s;
-  if (!island->scheme->forceless) sbri_outer_look(&tick), sbri_island_prepare_contacts(&tick, c);
+  tick.external_rad_s = &now.external_rad_s;
+  if (!island->scheme->forceless) sbri_update_gas_stiffness(&tick), sbri_island_prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery)->tick(&tick);
-  sbri_island_tell(&tick, c);
+  sbri_island_report_contacts(&tick, c);
   if (island->splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   (void)sbri_island_recover(world, c, index, NULL);
-  sbri_island_may_sleep(world, c, index);
+  sbri_island_update_sleep(world, c, index);
 }

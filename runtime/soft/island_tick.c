@@ -1,5 +1,5 @@
-/* What a tick of an island is put together from: its tables, its points, what it may touch, and what it tells
- * of that. */
+/* Fills sbri_island_tick, the input of the time integrators: tables, points and contacts of one island.
+ * Reports the contacts afterwards. */
 #include "collide/external_body.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
@@ -7,9 +7,9 @@
 #include "soft/soft.h"
 #include "solvers/rolling.h"
 #include "solvers/scheme.h"
-#include "solvers/touches.h"
+#include "solvers/soft_contacts.h"
 
-void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
+void sbri_island_fill_unused_slots(sbri_character *c, const sbri_island *island) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
@@ -29,8 +29,8 @@ void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_touches(c), sbri_touch_counts(c), NULL, NULL, sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL,
-      NULL, NULL};
+      sbri_contacts(c), sbri_contact_counts(c), NULL, NULL, sbri_slot_contacts(c) + first, NULL, NULL, NULL,
+      NULL, NULL, NULL};
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
@@ -43,7 +43,7 @@ void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *
     tables.self_items = sbri_self_items(c) + body->first_self_face;
     tables.self_edges = sbri_self_edges(c) + body->first_self_face;
     sbri_contact_prepare(tick, body, &tables);
-    sbri_rolling_resist(tick, body);
+    sbri_rolling_apply_resistance(tick, body);
   }
 }
 
@@ -56,11 +56,11 @@ sbri_island_tick sbri_island_tick_of(
   return (sbri_island_tick){.model = model,
       .island = island,
       .tick_s = tick_s,
-      .share = 1,
-      .meets = world->body_contacts && sbri_contact_islands(c)[index],
+      .fraction = 1,
+      .collides = world->body_contacts && sbri_contact_islands(c)[index],
       .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
       .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
-      .origin = sbri_head(c)->origin,
+      .origin = sbri_header(c)->origin,
       .scale = c->scale,
       .ground = &c->ground,
       .loads = sbri_loads_now(c)->at,
@@ -69,21 +69,21 @@ sbri_island_tick sbri_island_tick_of(
       .positions = sbri_positions(c) + first,
       .velocities = sbri_velocities(c) + 3 * first,
       .targets = sbri_targets(c) + first,
-      .guide_velocities = sbri_guide_velocities(c) + 3 * first,
+      .driver_velocities = sbri_driver_velocities(c) + 3 * first,
       .begins = sbri_begins(c) + first,
       .velocity_points = sbri_velocity_points(c) + first,
       .surface_vertices = sbri_surface_vertices(c),
       .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
-      .touches = sbri_touches(c),
-      .touch_counts = sbri_touch_counts(c),
-      .touch_weights = sbri_touch_weights(c) + first,
+      .contacts = sbri_contacts(c),
+      .contact_counts = sbri_contact_counts(c),
+      .contact_weights = sbri_contact_weights(c) + first,
       .external_bodies = sbri_external_bodies_of(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
-      .outer = island->has_outer ? sbri_outer(c) + first : NULL,
+      .external_forces = island->has_external_forces ? sbri_external_forces(c) + first : NULL,
       .anchor = {anchor->position, anchor->rotation},
       .surface_forces = sbri_surface_forces(c),
       .surface_velocities = sbri_surface_velocities(c),
@@ -96,24 +96,24 @@ sbri_island_tick sbri_island_tick_of(
           island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks,
       .flowing = island->solid_flows ? sbri_solids(c) + island->first_solid_block : NULL,
       .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
-      .thinning = &sbri_island_states(c)[index].thinning,
+      .max_flow_stretch = &sbri_island_states(c)[index].max_flow_stretch,
       .tears = &sbri_tears_of(c)[index],
       .step_error_m = island->step_error_m,
       .element_forces = sbri_element_forces(c) + first,
       .stretch = &sbri_island_states(c)[index].stretch,
-      .passes = &sbri_island_states(c)[index].passes,
+      .element_visits = &sbri_island_states(c)[index].element_visits,
       .stiffening = &sbri_island_states(c)[index].stiffening,
       .min_ratio = &sbri_island_states(c)[index].min_ratio};
 }
 
-void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c) {
+void sbri_island_report_contacts(const sbri_island_tick *tick, sbri_character *c) {
   for (uint32_t b = 0; b < tick->island->body_count && !tick->island->scheme->forceless; b++) {
     uint32_t body = tick->island->bodies[b];
-    sbri_touches_tell(tick, &c->model->bodies[body], &sbri_soft_touching(c)[body]);
+    sbri_soft_contacts_report(tick, &c->model->bodies[body], &sbri_soft_touching(c)[body]);
   }
 }
 
-void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
+void sbri_island_find_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   sbri_island_prepare_contacts(&tick, c);

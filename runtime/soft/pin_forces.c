@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "soft/soft.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/reaction.h"
 
 /* Regions look for their rotation from where it was, which is state: here from a copy. */
@@ -12,7 +12,7 @@ static void add_regions(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < t->island->region_block_count; b++) {
     float rotations[4 * SBRI_BLOCK];
     memcpy(rotations, t->rotations + 4 * SBRI_BLOCK * (size_t)b, sizeof rotations);
-    sbri_region_block_forces(t, &t->island->region_blocks[b], rotations);
+    sbri_compute_region_block_forces(t, &t->island->region_blocks[b], rotations);
   }
 }
 
@@ -23,18 +23,19 @@ static void add(sbri_point *to, sbf_vec3 force) {
 void sbri_pin_forces_find(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick t = sbri_island_tick_of(world, c, index, &now);
-  t.outer_rad_s = &now.outer_rad_s;
+  t.external_rad_s = &now.external_rad_s;
   t.begins = sbri_previous_positions(c) + now.first_slot, t.targets = t.positions;
-  if (sbri_has_damping(&now)) sbri_spread_velocities(&t, 1 / t.tick_s);
-  if (now.tetrahedron_block_count > 0) sbri_tetrahedron_forces(&t, NULL);
+  if (sbri_has_damping(&now)) sbri_copy_velocities_to_points(&t, 1 / t.tick_s);
+  if (now.tetrahedron_block_count > 0) sbri_compute_tetrahedron_forces(&t, NULL);
   add_regions(&t);
-  for (uint32_t i = 0; i < now.held_spring_count; i++) {
+  for (uint32_t i = 0; i < now.pinned_spring_count; i++) {
     sbf_vec3 force;
-    uint32_t held = sbri_held_spring_force(&t, now.held_springs[i], &force);
-    add(&t.element_forces[held], force);
+    uint32_t pinned = sbri_pinned_spring_force(&t, now.pinned_springs[i], &force);
+    add(&t.element_forces[pinned], force);
   }
-  if (!t.outer) return;
-  sbri_outer_forces(&t, t.tick_s);
+  if (!t.external_forces) return;
+  sbri_compute_external_forces(&t, t.tick_s);
   for (uint32_t slot = now.free_count; slot < now.slot_count; slot++)
-    add(&t.element_forces[slot], (sbf_vec3){t.outer[slot].x, t.outer[slot].y, t.outer[slot].z});
+    add(&t.element_forces[slot],
+        (sbf_vec3){t.external_forces[slot].x, t.external_forces[slot].y, t.external_forces[slot].z});
 }

@@ -12,7 +12,7 @@
 static void stop(sbri_character *c, uint32_t island_index) {
   sbri_island_wake(c, island_index);
   const sbri_island *island = &c->model->islands[island_index];
-  sbri_guides_stop(c, island);
+  sbri_drivers_stop(c, island);
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);
@@ -26,33 +26,33 @@ static void stop(sbri_character *c, uint32_t island_index) {
 
 /* The frame that a body turns with: what holds it, else the root. */
 static uint32_t turning_frame(const sbri_character *c, const sbri_body *body) {
-  return body->held && !body->guides ? body->guide_frame : sbri_root_frame(c->model);
+  return body->is_pinned && !body->drivers ? body->driver_frame : sbri_root_frame(c->model);
 }
 
 /* Rotations of the body's regions: all `first`, or where that is NULL turned on by `turn`. */
-static void turn_regions(sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat turn) {
+static void turn_regions(sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat rotation) {
   const sbri_island *island = &c->model->islands[body->island];
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->first_rotation + b);
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
       sbf_quat was = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
-      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(turn, was));
+      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(rotation, was));
       q[lane] = now.x, q[SBRI_BLOCK + lane] = now.y;
       q[2 * SBRI_BLOCK + lane] = now.z, q[3 * SBRI_BLOCK + lane] = now.w;
     }
   }
 }
 
-void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
+void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
     turn_regions(c, body, &sbri_deltas(c)[turning_frame(c, body)].rotation, sbri_quat_identity());
     sbri_follow_origins(c, body, positions + body->slot_begin);
   }
-  sbri_held_places(island, sbri_deltas(c), positions);
+  sbri_compute_pin_targets(island, sbri_deltas(c), positions);
   stop(c, island_index);
   sbri_island_states(c)[island_index].stretch = island->rest_stretch;
   sbri_island_states(c)[island_index].stiffening = 1;
@@ -60,7 +60,7 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].folded_ticks = 0;
   sbri_island_states(c)[island_index].unstable = 0;
   sbri_island_states(c)[island_index].excess_j = 0;
-  sbri_island_states(c)[island_index].calm_ticks = 0;
+  sbri_island_states(c)[island_index].damping_ticks = 0;
 }
 
 static void unflow_solids(sbri_character *c, const sbri_island *island) {
@@ -107,13 +107,13 @@ static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, co
 }
 
 static void turn_body(
-    sbri_character *c, const sbri_body *body, sbri_point *positions, sbf_vec3 about, sbf_quat turn) {
+    sbri_character *c, const sbri_body *body, sbri_point *positions, sbf_vec3 about, sbf_quat rotation) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     sbri_point *p = &positions[slot];
-    sbf_vec3 at = sbri_add(about, sbri_rotate(turn, sbri_sub(sbri_vec3(p->x, p->y, p->z), about)));
+    sbf_vec3 at = sbri_add(about, sbri_rotate(rotation, sbri_sub(sbri_vec3(p->x, p->y, p->z), about)));
     *p = (sbri_point){at.x, at.y, at.z, 0};
   }
-  turn_regions(c, body, NULL, turn);
+  turn_regions(c, body, NULL, rotation);
 }
 
 static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
@@ -126,7 +126,7 @@ static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
 /* How far the body reaches into the ground, asset metres. */
 static float depth_of(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions, const sbr_ground *ground) {
-  sbr_double3 origin = sbri_head(c)->origin;
+  sbr_double3 origin = sbri_header(c)->origin;
   double deepest = 0, scale = c->scale;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *p = &positions[slot];
@@ -137,7 +137,7 @@ static float depth_of(
   return (float)deepest;
 }
 
-void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, const sbr_ground *ground) {
+void sbri_island_reset_in_place(sbri_character *c, uint32_t island_index, const sbr_ground *ground) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_point *before = sbri_previous_positions(c) + island->first_slot; /* one may be lost by now */
@@ -145,14 +145,14 @@ void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, con
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 middle = {0, 0, 0};
-    bool good = !body->held && middle_of(body, before, &middle);
+    bool good = !body->is_pinned && middle_of(body, before, &middle);
     if (body->slot_end == body->slot_begin) continue;
     middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
     if (!good) continue;
     sbf_quat lay = rotation_of(island, body, before);
     middles[body->slot_begin + 1] = (sbri_point){lay.x, lay.y, lay.z, lay.w};
   }
-  sbri_island_place_at_rest(c, island_index);
+  sbri_island_reset_to_rest(c, island_index);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 now;
@@ -169,9 +169,9 @@ void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, con
   }
 }
 
-void sbri_island_unflow(sbri_character *c, uint32_t island_index) {
+void sbri_island_reset_flow(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
-  sbri_island_states(c)[island_index].thinning = 1;
+  sbri_island_states(c)[island_index].max_flow_stretch = 1;
   if (island->solid_flows) unflow_solids(c, island);
   if (!island->link_flows) return;
   float *rests = sbri_rests(c) + island->first_flow;
@@ -179,57 +179,57 @@ void sbri_island_unflow(sbri_character *c, uint32_t island_index) {
     memcpy(rests + (size_t)block * SBRI_BLOCK, island->links[block].rest, sizeof island->links[block].rest);
 }
 
-void sbri_mend(sbri_character *c) {
+void sbri_restore_elements(sbri_character *c) {
   memset(sbri_torn(c), 0, c->model->solid_count * sizeof *sbri_torn(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
     if (island->solid_flows)
       memcpy(sbri_solids(c) + island->first_solid_block, island->tetrahedron_blocks,
           island->tetrahedron_block_count * sizeof *island->tetrahedron_blocks);
-    sbri_island_unflow(c, i);
+    sbri_island_reset_flow(c, i);
   }
-  sbri_unsplit(c);
-  sbri_skins_mend(c);
+  sbri_reset_splits(c);
+  sbri_restore_skins(c);
   for (uint32_t i = 0; i < c->model->flow_count; i++) sbri_strengths(c)[i] = 1;
 }
 
-void sbri_settle(sbri_character *c) {
+void sbri_character_stop(sbri_character *c) {
   memcpy(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
-  sbri_gait_settle(&c->model->rig, sbri_gait(c));
+  sbri_gait_begin_tick(&c->model->rig, sbri_gait(c));
   memcpy(sbri_previous_positions(c), sbri_positions(c), c->model->slot_count * sizeof(sbri_point));
 }
 
-void sbri_place_at_rest(sbri_character *c) {
+void sbri_character_reset_to_rest(sbri_character *c) {
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_place_at_rest(c, i);
-  sbri_settle(c);
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_reset_to_rest(c, i);
+  sbri_character_stop(c);
 }
 
 /* Points of a body go where their guides go, and what they are off their guides turns with it. */
 static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
   const sbri_delta *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
   uint32_t frame = turning_frame(c, body);
-  sbf_quat turn =
+  sbf_quat rotation =
       sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));
-  turn_regions(c, body, NULL, turn);
+  turn_regions(c, body, NULL, rotation);
   size_t first = c->model->islands[body->island].first_slot;
-  sbri_point *old_guides = sbri_begins(c) + first, *new_guides = sbri_velocity_points(c) + first;
+  sbri_point *old_drivers = sbri_begins(c) + first, *new_drivers = sbri_velocity_points(c) + first;
   uint32_t count = body->slot_end - body->slot_begin;
-  if (body->held) {
-    sbri_guide_places(c->model, body, from, old_guides);
-    sbri_guide_places(c->model, body, to, new_guides);
-    sbri_follow_origins(c, body, old_guides);
-    sbri_follow_origins(c, body, new_guides);
+  if (body->is_pinned) {
+    sbri_compute_driver_positions(c->model, body, from, old_drivers);
+    sbri_compute_driver_positions(c->model, body, to, new_drivers);
+    sbri_follow_origins(c, body, old_drivers);
+    sbri_follow_origins(c, body, new_drivers);
   }
   for (uint32_t i = 0; i < count; i++) {
     sbri_point *p = &positions[body->slot_begin + i];
-    sbf_vec3 old_place = from[frame].position, new_place = to[frame].position;
-    if (body->held) {
-      old_place = sbri_vec3(old_guides[i].x, old_guides[i].y, old_guides[i].z);
-      new_place = sbri_vec3(new_guides[i].x, new_guides[i].y, new_guides[i].z);
+    sbf_vec3 old_position = from[frame].position, new_position = to[frame].position;
+    if (body->is_pinned) {
+      old_position = sbri_vec3(old_drivers[i].x, old_drivers[i].y, old_drivers[i].z);
+      new_position = sbri_vec3(new_drivers[i].x, new_drivers[i].y, new_drivers[i].z);
     }
-    sbf_vec3 off = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_place);
-    sbf_vec3 at = sbri_add(new_place, sbri_rotate(turn, off));
+    sbf_vec3 off = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_position);
+    sbf_vec3 at = sbri_add(new_position, sbri_rotate(rotation, off));
     *p = (sbri_point){at.x, at.y, at.z, 0};
   }
 }
@@ -239,6 +239,6 @@ void sbri_island_carry(sbri_character *c, uint32_t island_index) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++)
     carry_body(c, &c->model->bodies[island->bodies[b]], positions);
-  sbri_held_places(island, sbri_deltas(c), positions);
+  sbri_compute_pin_targets(island, sbri_deltas(c), positions);
   stop(c, island_index);
 }

@@ -13,14 +13,14 @@
 
 /* What has been folded for so many ticks will not come back by itself; what was calmed, and rests in what no
  * load explains, for so many. */
-enum { FOLDED_TICKS = 24, CALMED_TICKS = 12, LOOK_EVERY = 4 };
+enum { FOLDED_TICKS = 24, CALMED_TICKS = 12, CHECK_INTERVAL = 4 };
 
 /* What no load explains, and calming does not calm for so many, goes round in steps that are not stable. */
 enum { UNSTABLE_TICKS = 36 };
 
 /* For so long at most, where loads that nobody knows may be what strains a body: once each time that it gets
  * wild, so that what is meant to be as strained as that is left alone then. */
-enum { CALM_TICKS = 30 };
+enum { DAMPING_TICKS = 30 };
 
 /* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
  * more, though the numbers may be finite yet. */
@@ -37,16 +37,16 @@ static bool are_velocities_sound(const sbri_character *c, const sbri_island *isl
 }
 
 /* What holds a body feels nothing of it; so where that is simulated, whoever steps both does it. */
-static void calm(sbri_character *c, uint32_t index, bool coupled) {
+static void damp_out(sbri_character *c, uint32_t index, bool coupled) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  const float *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_CALM_KEPT, 0);
-    for (uint32_t i = 3 * body->slot_begin; body->held && !coupled && i < 3 * body->slot_end; i++)
-      velocities[i] = guides[i] + (velocities[i] - guides[i]) * SBRI_CALM_KEPT;
+    if (!body->is_pinned) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_DAMPING_KEPT, 0);
+    for (uint32_t i = 3 * body->slot_begin; body->is_pinned && !coupled && i < 3 * body->slot_end; i++)
+      velocities[i] = drivers[i] + (velocities[i] - drivers[i]) * SBRI_DAMPING_KEPT;
   }
 }
 
@@ -71,33 +71,34 @@ static bool is_sound(const sbri_island_state *state) {
          state->stretch < SOUND_STRETCH && state->stiffening < SOUND_STIFFENING;
 }
 
-void sbri_island_keep_motions(sbri_character *c, uint32_t index) {
+void sbri_island_store_motions(sbri_character *c, uint32_t index) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!is_sound(state) || island->scheme->forceless || !are_velocities_sound(c, island)) return;
   state->recovery.unsound_ticks = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (body->held) continue;
+    if (body->is_pinned) continue;
     sbri_rigid_motion m = motion_of(c, island, body);
-    sbri_guide_motions(c)[island->bodies[b]] = (sbri_guide_motion){m.velocity, m.spin};
+    sbri_driver_motions(c)[island->bodies[b]] = (sbri_driver_motion){m.velocity, m.angular_velocity};
   }
 }
 
 /* Of a body with that inertia, J a kg; against its middle. */
-static float turning_energy(const sbri_rigid_motion *m, sbf_vec3 spin) {
-  float size = sbri_length(spin);
+static float turning_energy(const sbri_rigid_motion *m, sbf_vec3 angular_velocity) {
+  float size = sbri_length(angular_velocity);
   if (!(size > 0)) return 0;
-  return 0.5f * size * size * sbri_inertia_about(m->inertia, sbri_scale(spin, 1 / size)) / m->mass_kg;
+  return 0.5f * size * size * sbri_inertia_about(m->inertia, sbri_scale(angular_velocity, 1 / size)) /
+         m->mass_kg;
 }
 
 /* How the body moved when it was last sound, and, where nothing is near that may hold it up, what weight has
  * given it since. */
-static sbri_guide_motion motion_by_now(
+static sbri_driver_motion motion_by_now(
     const sbri_character *c, const sbri_island *island, uint32_t body_index, sbf_vec3 fallen) {
   const sbri_body *body = &c->model->bodies[body_index];
-  sbri_guide_motion m = sbri_guide_motions(c)[body_index];
-  if (sbri_touch_counts(c)[body_index] > 0) return m;
+  sbri_driver_motion m = sbri_driver_motions(c)[body_index];
+  if (sbri_contact_counts(c)[body_index] > 0) return m;
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
     if (sbri_near_ground(c)[island->first_slot / SBRI_BLOCK + block]) return m;
   m.velocity = sbri_add(m.velocity, fallen);
@@ -106,31 +107,31 @@ static sbri_guide_motion motion_by_now(
 
 /* What the body moves by once it is in its rest shape: as it does now, or, where that has more energy than
  * its weight can have given to what it had when it was last sound, by what it had then. */
-static sbri_guide_motion motion_to_keep(const sbr_world *world, const sbri_character *c,
+static sbri_driver_motion motion_to_keep(const sbr_world *world, const sbri_character *c,
     const sbri_island *island, uint32_t body_index, bool numbers_are_sound) {
   const sbri_body *body = &c->model->bodies[body_index];
   const sbri_recovery *recovery = &sbri_island_states(c)[body->island].recovery;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   float passed_s = (float)(recovery->unsound_ticks + 1) * (float)world->tick_s * c->time_scale;
   sbf_vec3 fallen = sbri_scale(g, body->source->attributes.gravity_scale * passed_s);
-  sbri_guide_motion was = sbri_guide_motions(c)[body_index];
-  sbri_guide_motion expected = motion_by_now(c, island, body_index, fallen);
+  sbri_driver_motion was = sbri_driver_motions(c)[body_index];
+  sbri_driver_motion expected = motion_by_now(c, island, body_index, fallen);
   if (!numbers_are_sound) return expected;
   float speed = sbri_length(was.velocity) + sbri_length(fallen);
   sbri_rigid_motion now = motion_of(c, island, body);
   if (!(now.mass_kg > 0)) return expected;
-  float max = 0.5f * speed * speed + turning_energy(&now, was.spin);
-  float has = 0.5f * sbri_dot(now.velocity, now.velocity) + turning_energy(&now, now.spin);
-  return has <= max ? (sbri_guide_motion){now.velocity, now.spin} : expected;
+  float max = 0.5f * speed * speed + turning_energy(&now, was.angular_velocity);
+  float has = 0.5f * sbri_dot(now.velocity, now.velocity) + turning_energy(&now, now.angular_velocity);
+  return has <= max ? (sbri_driver_motion){now.velocity, now.angular_velocity} : expected;
 }
 
 static void set_motion(
-    sbri_character *c, const sbri_island *island, const sbri_body *body, const sbri_guide_motion *motion) {
+    sbri_character *c, const sbri_island *island, const sbri_body *body, const sbri_driver_motion *motion) {
   sbri_rigid_motion lies = motion_of(c, island, body);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     const sbri_point *p = &sbri_positions(c)[island->first_slot + slot];
     sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), lies.center);
-    sbf_vec3 goes = sbri_add(motion->velocity, sbri_cross(motion->spin, arm));
+    sbf_vec3 goes = sbri_add(motion->velocity, sbri_cross(motion->angular_velocity, arm));
     float *v = velocity_at(c, island, slot);
     v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
   }
@@ -164,7 +165,7 @@ static void count_tick(sbri_recovery *recovery) {
  * may be reached. It is tried once: where all shapes are crushed it goes back to that. */
 static bool is_crushed_by_jump(sbri_recovery *recovery, const sbri_shape *shape) {
   bool crushed = shape->crushed && recovery->jumped_ticks > 0;
-  recovery->crushed_ticks = crushed ? recovery->crushed_ticks + LOOK_EVERY : 0;
+  recovery->crushed_ticks = crushed ? recovery->crushed_ticks + CHECK_INTERVAL : 0;
   if (recovery->crushed_ticks < FOLDED_TICKS) return false;
   recovery->jumped_ticks = recovery->crushed_ticks = 0;
   return true;
@@ -179,21 +180,22 @@ static void put_back(
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (body->slot_begin == body->slot_end) continue;
-    sbri_guide_motion m = motion_to_keep(world, c, island, island->bodies[b], numbers_are_sound);
+    sbri_driver_motion m = motion_to_keep(world, c, island, island->bodies[b], numbers_are_sound);
     kept[body->slot_begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
-    kept[body->slot_begin + 1] = (sbri_point){m.spin.x, m.spin.y, m.spin.z, 0};
+    kept[body->slot_begin + 1] =
+        (sbri_point){m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z, 0};
   }
-  sbri_island_unflow(c, index);
-  sbri_island_place_where_it_is(c, index, &c->ground);
+  sbri_island_reset_flow(c, index);
+  sbri_island_reset_in_place(c, index, &c->ground);
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (body->held || body->slot_begin == body->slot_end || island->scheme->forceless) continue;
+    if (body->is_pinned || body->slot_begin == body->slot_end || island->scheme->forceless) continue;
     const sbri_point *v = &kept[body->slot_begin], *w = v + 1;
-    sbri_guide_motion m = {{v->x, v->y, v->z}, {w->x, w->y, w->z}};
+    sbri_driver_motion m = {{v->x, v->y, v->z}, {w->x, w->y, w->z}};
     set_motion(c, island, body, &m);
-    sbri_guide_motions(c)[island->bodies[b]] = m;
+    sbri_driver_motions(c)[island->bodies[b]] = m;
   }
   state->recoveries++;
   count_put_back(&state->recovery, !coupled && !island->scheme->forceless);
@@ -210,23 +212,24 @@ bool sbri_island_recover(
     return true;
   }
   count_tick(&state->recovery);
-  if (state->calm_ticks > 0) {
-    state->calm_ticks--;
-    calm(c, index, lost != NULL);
+  if (state->damping_ticks > 0) {
+    state->damping_ticks--;
+    damp_out(c, index, lost != NULL);
   }
-  if ((world->ticks + index) % LOOK_EVERY) return false;
+  if ((world->ticks + index) % CHECK_INTERVAL) return false;
   sbri_shape shape = sbri_shape_of(world, c, index);
   if (!shape.unstable)
-    state->calm_ticks = 0;
-  else if ((shape.told || !state->unstable) && !island->scheme->forceless)
-    state->calm_ticks = CALM_TICKS;
-  state->unstable = shape.unstable ? state->unstable + LOOK_EVERY : 0;
+    state->damping_ticks = 0;
+  else if ((shape.is_reported || !state->unstable) && !island->scheme->forceless)
+    state->damping_ticks = DAMPING_TICKS;
+  state->unstable = shape.unstable ? state->unstable + CHECK_INTERVAL : 0;
   state->excess_j = shape.excess_j;
-  state->folded_ticks = shape.folded ? state->folded_ticks + LOOK_EVERY : 0;
+  state->folded_ticks = shape.folded ? state->folded_ticks + CHECK_INTERVAL : 0;
   if (shape.folded) state->recovery.ticks = SBRI_RECOVERING_TICKS;
-  bool stays = state->folded_ticks >= (shape.unstable && shape.told ? CALMED_TICKS : FOLDED_TICKS);
+  bool stays = state->folded_ticks >= (shape.unstable && shape.is_reported ? CALMED_TICKS : FOLDED_TICKS);
   bool jumped = is_crushed_by_jump(&state->recovery, &shape);
-  if (!stays && !jumped && !(shape.told && shape.heaped && state->unstable >= UNSTABLE_TICKS)) return false;
+  if (!stays && !jumped && !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
+    return false;
   if (lost) *lost = sbri_island_momentum(c, index);
   put_back(world, c, index, true, lost != NULL);
   return true;

@@ -13,19 +13,19 @@
 #include "solvers/scheme.h"
 
 /* Slower than this share of its size a second, a body comes to rest. */
-static const float QUIET_1_S = 0.01f;
+static const float IDLE_1_S = 0.01f;
 
 /* What holds a sleeper may tremble by this share of the character's size. */
 static const float TREMBLE = 1e-5f;
 
 /* Ground that the host may change is looked at in every so many ticks. */
-enum { LOOK_EVERY = 4 };
+enum { CHECK_INTERVAL = 4 };
 
-static bool is_quiet(const sbri_character *c, const sbri_island *island) {
+static bool is_idle(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    float max = QUIET_1_S * body->rest_size_m;
+    float max = IDLE_1_S * body->rest_size_m;
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
       const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
@@ -37,13 +37,13 @@ static bool is_quiet(const sbri_character *c, const sbri_island *island) {
 
 /* Whether what holds the island is farther from where it holds it than it may tremble. */
 static bool is_moved(sbri_character *c, const sbri_island *island) {
-  const sbri_point *held = sbri_positions(c) + island->first_slot;
+  const sbri_point *pinned = sbri_positions(c) + island->first_slot;
   sbri_point *targets = sbri_targets(c) + island->first_slot;
   float max = TREMBLE * c->model->rest_size_m;
-  sbri_held_places(island, sbri_deltas(c), targets);
+  sbri_compute_pin_targets(island, sbri_deltas(c), targets);
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
     sbf_vec3 off = {
-        targets[slot].x - held[slot].x, targets[slot].y - held[slot].y, targets[slot].z - held[slot].z};
+        targets[slot].x - pinned[slot].x, targets[slot].y - pinned[slot].y, targets[slot].z - pinned[slot].z};
     if (!(sbri_dot(off, off) <= max * max)) return true;
   }
   return false;
@@ -55,17 +55,18 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
   const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
-  sbfi_hash64_bytes(&hash, near_ground, island->free_count / SBRI_BLOCK);
+  sbfi_hash64_add_bytes(&hash, near_ground, island->free_count / SBRI_BLOCK);
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
-    if (near_ground[block]) sbfi_hash64_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
+    if (near_ground[block])
+      sbfi_hash64_add_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    uint32_t count = sbri_touch_counts(c)[island->bodies[b]];
+    uint32_t count = sbri_contact_counts(c)[island->bodies[b]];
     for (uint32_t i = 0; i < count; i++) {
-      const sbri_touch *touch = &sbri_touches(c)[body->first_touch + i];
-      sbfi_hash64_f32(&hash, &touch->normal.x, 3);
-      sbfi_hash64_f32(&hash, &touch->offset, 1);
-      sbfi_hash64_f32(&hash, &touch->velocity.x, 3);
+      const sbri_soft_contact *contact = &sbri_contacts(c)[body->first_soft_contact + i];
+      sbfi_hash64_add_f32(&hash, &contact->normal.x, 3);
+      sbfi_hash64_add_f32(&hash, &contact->offset, 1);
+      sbfi_hash64_add_f32(&hash, &contact->velocity.x, 3);
     }
   }
   return (uint32_t)sbfi_hash64_value(&hash);
@@ -73,7 +74,7 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
 
 /* As the island lies, without velocity. */
 static uint32_t find_ground(const sbr_world *world, sbri_character *c, uint32_t index) {
-  sbri_island_contacts(world, c, index);
+  sbri_island_find_contacts(world, c, index);
   return ground_mark(c, &c->model->islands[index]);
 }
 
@@ -81,19 +82,19 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
-  bool looks = world->colliders.moving ||
-               (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % LOOK_EVERY == 0);
-  if (!is_moved(c, island) && !(looks && find_ground(world, c, index) != state->ground_mark)) return true;
+  bool checks = world->colliders.moving ||
+                (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % CHECK_INTERVAL == 0);
+  if (!is_moved(c, island) && !(checks && find_ground(world, c, index) != state->ground_mark)) return true;
   sbri_island_wake(c, index);
   return false;
 }
 
-bool sbri_island_is_quiet(const sbri_character *c, uint32_t index) {
+bool sbri_island_is_idle(const sbri_character *c, uint32_t index) {
   const sbri_island_state *state = &sbri_island_states(c)[index];
   const sbri_island *island = &c->model->islands[index];
   return !state->recovery.ticks && !sbri_island_is_loaded(c, index) && !state->folded_ticks &&
-         !state->unstable && sbri_guides_rest(c, island) && sbri_tears_of(c)[index].count == 0 &&
-         is_quiet(c, island);
+         !state->unstable && sbri_drivers_rest(c, island) && sbri_tears_of(c)[index].count == 0 &&
+         is_idle(c, island);
 }
 
 void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
@@ -105,9 +106,9 @@ void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_
   state->ground_mark = find_ground(world, c, index);
 }
 
-void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+void sbri_island_update_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!world->sleep_ticks || c->model->islands[index].scheme->forceless) return;
-  state->quiet_ticks = sbri_island_is_quiet(c, index) ? state->quiet_ticks + 1 : 0;
-  if (state->quiet_ticks >= world->sleep_ticks) sbri_island_put_to_sleep(world, c, index);
+  state->idle_ticks = sbri_island_is_idle(c, index) ? state->idle_ticks + 1 : 0;
+  if (state->idle_ticks >= world->sleep_ticks) sbri_island_put_to_sleep(world, c, index);
 }

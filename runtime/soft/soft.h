@@ -1,5 +1,4 @@
-/* Soft bodies of one character through a tick: put somewhere, led by what holds them, stepped, mended,
- * asleep. */
+/* Soft bodies of one character: reset, drivers, tick, recovery and sleep. */
 #ifndef SBRI_SOFT_H
 #define SBRI_SOFT_H
 
@@ -7,125 +6,124 @@
 
 /* ---- soft/placing.c ---- */
 
-/* Everything in its rest shape at the present pose, all speeds zero. */
-void sbri_place_at_rest(sbri_character *c);
-/* All elements whole again, with the rest shapes they were made with. */
-void sbri_mend(sbri_character *c);
-/* Rest shapes of one island's elements as they were made; torn ones stay torn. */
-void sbri_island_unflow(sbri_character *c, uint32_t island);
-/* The same for one island, with the present `deltas`. */
-void sbri_island_place_at_rest(sbri_character *c, uint32_t island);
-/* The same, but bodies that nothing holds stay where they are: the middle of each where it was, or above the
- * ground if that reaches higher, turned as it was. */
-void sbri_island_place_where_it_is(sbri_character *c, uint32_t island, const sbr_ground *ground);
-/* An island goes where its frames have gone from `previous_deltas` to `deltas`, keeping its shape, and stops.
+/* Resets all soft bodies to their rest shape at the present pose, with zero velocities. */
+void sbri_character_reset_to_rest(sbri_character *c);
+/* Restores torn and yielded elements. */
+void sbri_restore_elements(sbri_character *c);
+/* Restores the rest shapes of an island's yielded elements; torn ones stay torn. */
+void sbri_island_reset_flow(sbri_character *c, uint32_t island);
+/* Resets one island to its rest shape with the present `deltas`. */
+void sbri_island_reset_to_rest(sbri_character *c, uint32_t island);
+/* The same, but bodies without pins keep their centre, or are raised above the ground, and their orientation.
  */
+void sbri_island_reset_in_place(sbri_character *c, uint32_t island, const sbr_ground *ground);
+/* Moves an island with its frames from `previous_deltas` to `deltas`, keeps its shape and sets its velocities
+ * to zero. */
 void sbri_island_carry(sbri_character *c, uint32_t island);
-/* The tick before becomes the same as this one. */
-void sbri_settle(sbri_character *c);
+/* Copies the present state to the previous one, so that interpolation stands still. */
+void sbri_character_stop(sbri_character *c);
 
-/* ---- soft/guiding.c ---- */
+/* ---- soft/driver_motion.c ---- */
 
-/* Finds `guide_velocities` over the tick, whose length `tick_s` is in the character's own seconds, and gives
- * the island's bodies what they need not feel of it. False where what holds them has jumped: then they have
- * been carried along, as fast as it goes, and the tick is over for them. */
-bool sbri_island_follow(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s);
-/* The velocities alone, over any part of a tick. False where what holds the bodies has jumped. */
-bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s);
-/* The island goes on as what holds it went from `previous_deltas` to `deltas`. */
-void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_s);
+/* Computes `driver_velocities` over the tick of `tick_s` character seconds and moves the bodies with the part
+ * of it that they need not feel. Returns false if the drivers have jumped: then the bodies were moved along
+ * and the tick is over for them. */
+bool sbri_island_update_drivers(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s);
+/* Computes only the velocities, over any part of a tick. False if the drivers have jumped. */
+bool sbri_driver_velocities_find(sbri_character *c, const sbri_island *island, float tick_s);
+/* Gives the island the motion of its drivers from `previous_deltas` to `deltas`. */
+void sbri_drivers_advance(sbri_character *c, const sbri_island *island, float tick_s);
 
 /* ---- soft/whole_motion.c ---- */
 
-/* What the body moves by as a rigid one becomes what it moved by as the character was on another rung: its
- * momentum is the same, and it turns as fast. */
-void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t soft_body);
+/* Gives the body the momentum and angular velocity that it had at another detail level. */
+void sbri_body_take_momentum(sbri_character *c, const sbri_character *was, uint32_t soft_body);
 
-/* How its free points move as one rigid body, in the character's own units. */
+/* Rigid motion of the body's free points, in the character's own units. */
 sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body);
 
 /* ---- soft/host_loads.c ---- */
 
-/* Whether it is simulated, by a scheme that knows forces, and some of it is free. */
+/* Whether the body is simulated by a force-based integrator and has free points. */
 bool sbri_body_feels_forces(const sbri_character *c, const sbri_body *body);
 
-/* The points that carry a vertex of the body's surface; false where none do: it follows bones alone. */
+/* Finds the points that a vertex of the surface is embedded in; false if it follows bones only. */
 bool sbri_vertex_carriers(const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to);
-/* Of its free points, in the character's own units. */
+/* Mass of the free points, in the character's own units. */
 float sbri_body_mass(const sbri_character *c, const sbri_body *body);
 bool sbri_any_loads(const sbri_character *c);
 bool sbri_island_is_loaded(const sbri_character *c, uint32_t island);
-/* When a tick begins: what acts in it. */
+/* Collects the loads of the tick, at its beginning. */
 void sbri_loads_begin(const sbr_world *world, sbri_character *c);
 
 /* ---- soft/island_tick.c ---- */
 
-/* Planes of the ground near the island's points, into the character's scratch, as of now. */
-void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t island);
+/* Computes present ground planes near the island's points, into the character's scratch. */
+void sbri_island_find_contacts(const sbr_world *world, sbri_character *c, uint32_t island);
 
-/* What such a tick is put together from; `island` as sbri_island_now has it. */
+/* Builds the input of the island's tick; `island` is from sbri_island_now. */
 sbri_island_tick sbri_island_tick_of(
     const sbr_world *world, sbri_character *c, uint32_t index, const sbri_island *island);
-/* Inert lanes lie where their block's first point does, room for points that split where the body's does. */
-void sbri_island_tuck(sbri_character *c, const sbri_island *island);
+/* Puts padding at the first point of its block and spare slots at the first point of the body. */
+void sbri_island_fill_unused_slots(sbri_character *c, const sbri_island *island);
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c);
-/* Notes for events what its bodies touch, after a tick of it. */
-void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c);
+/* Stores the contacts of its bodies for events, after its tick. */
+void sbri_island_report_contacts(const sbri_island_tick *tick, sbri_character *c);
 
 /* ---- soft/health.c ---- */
 
-/* A spring of the island as it is now: yielded, or without stiffness where it is torn. */
+/* Present state of a spring: with its yielded length, without stiffness if torn. */
 sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring);
 
-/* Volume within a body's surface as `points` of its character lie; uses scratch of the body's own island, so
- * that tasks may call it side by side. */
+/* Volume enclosed by a body's surface for `points` of its character. Uses scratch of the body's island, so
+ * tasks may call it in parallel. */
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points);
-/* Volume of a body's tetrahedra against rest, where they neither yield nor tear. */
-double sbri_lattice_share(const sbri_character *c, const sbri_body *body);
+/* Volume of a body's tetrahedra relative to rest, without those that yield or tear. */
+double sbri_lattice_fraction(const sbri_character *c, const sbri_body *body);
 
-/* One region of shape matching: adds its energy; the greatest way of a point from its place, as a share of
- * the region's size. */
-double sbri_region_look(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
+/* Adds the energy of a shape matching region; returns the maximum distance of a point from its goal, relative
+ * to the region's size. */
+double sbri_region_measure(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
     const sbri_point *positions, double *energy_j);
-/* As sbr_character_health has it. */
+/* Implements sbr_character_get_body_health for one body. */
 sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c, uint32_t soft_body);
 
 /* ---- soft/pin_forces.c ---- */
 
-/* Forces of the island's elements on its held slots, as of the last tick, into `element_forces` of its
- * character: N in its own units. */
+/* Computes the forces of elements on pinned slots as of the last tick, N in character units, into
+ * `element_forces`. */
 void sbri_pin_forces_find(const sbr_world *world, sbri_character *c, uint32_t island);
 
 /* ---- soft/folded.c ---- */
 
-/* An element with less than this share of its volume is crushed. */
+/* An element with a smaller volume ratio is crushed. */
 #define SBRI_CRUSHED_RATIO 0.2f
 
-/* How an island looks as it now is. */
+/* Assessment of an island's present shape. */
 typedef struct sbri_shape {
-  bool folded;    /* it has lost its shape, and will not find it again by itself should that last */
-  bool heaped;    /* so strained that it was thrown about or put so */
-  bool unstable;  /* the same, or not yet back from there */
-  float excess_j; /* what it holds beyond its rest shape; 0: not looked at */
-  bool told;      /* all that loads it is known, so that no load is what strains it */
-  bool crushed;   /* an element is, of a body of which all loads are known */
+  bool folded;      /* collapsed: will not regain its shape by itself */
+  bool heaped;      /* strained by a throw or by an initial position */
+  bool unstable;    /* heaped or not yet recovered from it */
+  float excess_j;   /* elastic energy above the rest shape, J; 0: not measured */
+  bool is_reported; /* all loads are known, so they do not explain the strain */
+  bool crushed;     /* some element is crushed in a body with known loads */
 } sbri_shape;
 sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t island);
 
 /* ---- soft/recovery.c ---- */
 
-/* Of many masses: kg, kg m, kg m/s and kg m^2/s, about the origin. */
+/* Mass, first moment, momentum and angular momentum about the origin: kg, kg m, kg m/s, kg m^2/s. */
 typedef struct sbri_whole_momentum {
   double mass, first[3], linear[3], angular[3];
 } sbri_whole_momentum;
 void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_vec3 velocity);
-/* Of the island's free points. */
+/* Momentum of the island's free points. */
 sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t island);
 
-/* Of its speed against what holds it, or against its own rigid motion, a calmed body keeps this in a tick. */
-#define SBRI_CALM_KEPT 0.7f
-/* Before a tick: keeps how the island's loose bodies move, unless it is in trouble. */
-void sbri_island_keep_motions(sbri_character *c, uint32_t island);
+/* Fraction of the velocity relative to drivers, or to the rigid motion, that extra damping keeps per tick. */
+#define SBRI_DAMPING_KEPT 0.7f
+/* Before a tick: stores the rigid motion of bodies without pins, unless the island is failing. */
+void sbri_island_store_motions(sbri_character *c, uint32_t island);
 /* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
  * good; whether it has done that. Loose bodies keep their momentum, or, where they have gained more than
  * weight gives, that which they had when they were last sound. What is put back three times in a row moves as
@@ -137,16 +135,17 @@ bool sbri_island_recover(
 
 /* ---- soft/sleep.c ---- */
 
-/* Whether the island sleeps through this tick, whose frames are known; it wakes where it does not. */
+/* Whether the island sleeps through this tick, whose frames are known; wakes it otherwise. */
 bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t island);
-/* After a tick of it; and the parts of that: whether it is slow enough, and that it sleeps from now on. */
-void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
-bool sbri_island_is_quiet(const sbri_character *c, uint32_t island);
+/* After its tick: puts the island to sleep when it has been slow for long enough. The next two are its parts:
+ * the speed test, and falling asleep. */
+void sbri_island_update_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
+bool sbri_island_is_idle(const sbri_character *c, uint32_t island);
 void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
 
 /* ---- soft/island_run.c ---- */
 
-/* One control tick of an island by itself. */
+/* Steps an island that is neither grouped nor coupled by one control tick. */
 void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t island);
 
 #endif

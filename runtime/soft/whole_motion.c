@@ -6,7 +6,7 @@
 
 /* Its angular momentum changes with its inertia: a coarse lattice has more mass far out, and to see it turn
  * slower would be worse than that (docs/detail.md). */
-void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t index) {
+void sbri_body_take_momentum(sbri_character *c, const sbri_character *was, uint32_t index) {
   const sbri_body *body = &c->model->bodies[index], *old_body = &was->model->bodies[index];
   const sbri_island *island = &c->model->islands[body->island], *old = &was->model->islands[old_body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot,
@@ -16,7 +16,8 @@ void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t inde
   sbri_rigid_motion went = sbri_rigid_motion_find(old, old_body, old_positions, old_velocities);
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   sbri_rigid_motion goes = sbri_rigid_motion_find(island, body, positions, velocities);
-  sbf_vec3 push = sbri_sub(went.velocity, goes.velocity), turn = sbri_sub(went.spin, goes.spin);
+  sbf_vec3 push = sbri_sub(went.velocity, goes.velocity),
+           turn = sbri_sub(went.angular_velocity, goes.angular_velocity);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *p = &positions[slot];
     sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), goes.center);
@@ -30,8 +31,10 @@ sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body)
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]);
   sbri_rigid_motion is = sbri_rigid_motion_find(
       &now, body, sbri_positions(c) + now.first_slot, sbri_velocities(c) + 3 * (size_t)now.first_slot);
-  return (sbr_soft_motion){
-      .mass = is.mass_kg, .center = is.center, .velocity = is.velocity, .angular_velocity = is.spin};
+  return (sbr_soft_motion){.mass = is.mass_kg,
+      .center = is.center,
+      .velocity = is.velocity,
+      .angular_velocity = is.angular_velocity};
 }
 
 void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_vec3 velocity) {

@@ -30,7 +30,7 @@ static void tick_block_descent(const sbri_island_tick *tick) {
   tick->model->kernels->block_descent_tick(tick);
 }
 
-const sbri_scheme sbri_block_descent = {.word = SBF_SCHEME_BLOCK_DESCENT,
+const sbri_scheme sbri_block_descent = {.kind = SBF_SCHEME_BLOCK_DESCENT,
     .refuse = refuse,
     .prepare = sbri_descent_make,
     .substeps = substeps,

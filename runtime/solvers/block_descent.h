@@ -29,7 +29,7 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-/* Sweeps over all points in a substep. */
+/* Iterations over all points per substep. */
 enum { SBRI_DESCENT_SWEEPS = 4 };
 
 /* A point's force and the six numbers of its matrix: xx, yy, zz, xy, yz, zx. */
@@ -46,13 +46,13 @@ SBRI_INLINE void sbri_descent_add(sbri_descent_sum *s, sbri_wide a, sbri_wide b,
   s->h[4] = s->h[4] + w.y * v.z, s->h[5] = s->h[5] + w.z * v.x;
 }
 
-/* To a spring's other end, and its square. */
+/* Vector to a spring's other end and its squared length. */
 typedef struct sbri_descent_edge {
   sbri_wide3 d;
   sbri_wide square;
 } sbri_descent_edge;
 
-/* `slack` (8) of the springs; NULL: none has any. */
+/* `slack`: 8 values; NULL: no spring has slack. */
 SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, const sbri_spring_cell *cell,
     const float *slack, uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
   sbri_wide3 d = sbri_wide3_sub(sbri_wide_gather(t->positions, cell->others + lane), x);
@@ -60,8 +60,8 @@ SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, con
   sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
   sbri_wide pulls = k - pull / sbri_wide_sqrt(square), zero = sbri_wide_all(0), one = sbri_wide_all(1);
   if (slack) {
-    sbri_wide share = sbri_wide_select(pulls < zero, one - sbri_wide_load(slack + lane), one);
-    k = k * share, pulls = pulls * share;
+    sbri_wide fraction = sbri_wide_select(pulls < zero, one - sbri_wide_load(slack + lane), one);
+    k = k * fraction, pulls = pulls * fraction;
   }
   sbri_wide across = sbri_wide_max(pulls, zero);
   s->force = sbri_wide3_add(s->force, sbri_wide3_scale(d, pulls));
@@ -69,12 +69,12 @@ SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, con
   return (sbri_descent_edge){d, square};
 }
 
-/* Its own damping, at the rate of the substep: by how much the other end has moved against the point. */
+/* Damping of the spring itself, by the relative displacement of its ends in the substep. */
 SBRI_INLINE void sbri_descent_damp(
     sbri_descent_edge edge, sbri_wide damping_per_step, sbri_wide3 moved, sbri_descent_sum *s) {
-  sbri_wide share = damping_per_step / edge.square;
-  s->force = sbri_wide3_add(s->force, sbri_wide3_scale(edge.d, share * sbri_wide3_dot(moved, edge.d)));
-  sbri_descent_add(s, sbri_wide_all(0), share, edge.d);
+  sbri_wide fraction = damping_per_step / edge.square;
+  s->force = sbri_wide3_add(s->force, sbri_wide3_scale(edge.d, fraction * sbri_wide3_dot(moved, edge.d)));
+  sbri_descent_add(s, sbri_wide_all(0), fraction, edge.d);
 }
 
 /* The block's corner 0 is the point. */
@@ -99,7 +99,7 @@ SBRI_INLINE void sbri_descent_corner(const sbri_island_tick *t, const sbri_tetra
   sbri_descent_add(s, a + b + c, bulk * inverse_volume, out);
 }
 
-/* One block in one sweep. `drawn` are the displacements y - x of this substep, `moved` those so far. */
+/* One block in one iteration. `drawn` are the displacements y - x of this substep, `moved` those so far. */
 static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_descent_block *block,
     float per_square, const sbri_point *drawn, sbri_point *moved) {
   const sbri_descent *table = t->island->descent;
@@ -121,14 +121,14 @@ static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_desce
     }
     for (uint32_t i = block->first_corner; i < block->corner_end; i++)
       sbri_descent_corner(t, &table->corners[i], lane, x, &s);
-    /* Cramer's rule: positive definite by m at least, but for inert lanes. */
+    /* Cramer's rule; H is positive definite because of m, except in padding lanes */
     sbri_wide3 u = {s.h[0], s.h[3], s.h[5]}, v = {s.h[3], s.h[1], s.h[4]}, w = {s.h[5], s.h[4], s.h[2]};
     sbri_wide3 vw = sbri_wide3_cross(v, w), wu = sbri_wide3_cross(w, u), uv = sbri_wide3_cross(u, v);
     sbri_wide det = sbri_wide3_dot(u, vw);
     sbri_mask good = (det > zero) & (m > zero);
-    sbri_wide share = sbri_wide_select(good, sbri_wide_all(1) / det, zero);
-    sbri_wide3 step = {sbri_wide3_dot(vw, s.force) * share, sbri_wide3_dot(wu, s.force) * share,
-        sbri_wide3_dot(uv, s.force) * share};
+    sbri_wide fraction = sbri_wide_select(good, sbri_wide_all(1) / det, zero);
+    sbri_wide3 step = {sbri_wide3_dot(vw, s.force) * fraction, sbri_wide3_dot(wu, s.force) * fraction,
+        sbri_wide3_dot(uv, s.force) * fraction};
     step.x = sbri_wide_select(good, step.x, zero), step.y = sbri_wide_select(good, step.y, zero);
     step.z = sbri_wide_select(good, step.z, zero);
     sbri_wide_scatter_add(t->positions, slots, step);
@@ -136,25 +136,24 @@ static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_desce
   }
 }
 
-/* Velocities of the body as a whole, into t->accelerations: that of what holds it, else of its own rigid
- * motion. */
+/* Writes the rigid motion of the body to t->accelerations: of its drivers, or its own without pins. */
 static inline void sbri_descent_begin(const sbri_island_tick *t, const sbri_body *body) {
   size_t first = 3 * (size_t)body->slot_begin,
          size = 3 * (size_t)(body->slot_end - body->slot_begin) * sizeof(float);
-  memcpy(t->accelerations + first, (body->held ? t->guide_velocities : t->velocities) + first, size);
-  if (!body->held) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0, 0);
+  memcpy(t->accelerations + first, (body->is_pinned ? t->driver_velocities : t->velocities) + first, size);
+  if (!body->is_pinned) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0, 0);
 }
 
-/* v += h (weight and what is no element), `drawn` = h v; points go where the body as a whole does. */
+/* v += h (gravity and external forces); `drawn` = h v. Points begin at the rigid motion of the body. */
 static inline void sbri_descent_draw(
     const sbri_island_tick *t, float h, sbri_point *drawn, sbri_point *moved) {
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
-  sbri_decay_all(t, h); /* first: what rests must feel all of its weight */
+  sbri_decay_all(t, h); /* before gravity, so that a resting body feels its full weight */
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 v = sbri_load3(velocity), f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)};
-    if (t->outer) f = sbri_wide_load_points(t->outer + slot);
+    if (t->external_forces) f = sbri_wide_load_points(t->external_forces + slot);
     sbri_wide w = sbri_wide_load(island->inverse_masses + slot),
               g = sbri_wide_load(island->gravity_scales + slot);
     v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->gravity.x));
@@ -179,7 +178,8 @@ static inline void sbri_descent_draw(
   }
 }
 
-/* Back to where the substep began, with the velocity that the sweeps have found. */
+/* Restores the positions at the beginning of the substep and sets the velocities that the iterations found.
+ */
 static inline void sbri_descent_end(const sbri_island_tick *t, float h, const sbri_point *moved) {
   sbri_wide rate = sbri_wide_all(1 / h);
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
@@ -194,24 +194,24 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
   const sbri_descent *table = island->descent;
   uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps, per_square = 1 / (h * h);
-  sbri_point *drawn = t->element_forces, *moved = t->moves;       /* scratch that nothing else uses here */
-  uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* from each of which an element is seen */
-  sbri_remember_held(t);
+  sbri_point *drawn = t->element_forces, *moved = t->moves;       /* scratch that is free here */
+  uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* number of points per element */
+  sbri_store_pinned_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
-    if (t->outer) sbri_outer_forces(t, h);
-    sbri_carry_held(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);
+    if (t->external_forces) sbri_compute_external_forces(t, h);
+    sbri_move_pinned(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);
     sbri_descent_draw(t, h, drawn, moved);
     for (int sweep = 0; sweep < SBRI_DESCENT_SWEEPS; sweep++)
       for (uint32_t b = 0; b < table->block_count; b++)
         sbri_descent_move(t, &table->blocks[b], per_square, drawn, moved);
     sbri_descent_end(t, h, moved);
     sbri_drift(t, h);
-    if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
-    sbri_count_passes(t, SBRI_DESCENT_SWEEPS * corners);
+    if (island->tetrahedron_block_count > 0) sbri_update_compression(t);
+    sbri_count_element_visits(t, SBRI_DESCENT_SWEEPS * corners);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
   }
-  if (island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, true); /* for what watches over J */
+  if (island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, true); /* updates J */
 }
 
 #endif

@@ -17,4 +17,4 @@ static void tick_explicit_euler(const sbri_island_tick *tick) {
 }
 
 const sbri_scheme sbri_explicit_euler = {
-    .word = SBF_SCHEME_EXPLICIT_EULER, .substeps = substeps, .tick = tick_explicit_euler};
+    .kind = SBF_SCHEME_EXPLICIT_EULER, .substeps = substeps, .tick = tick_explicit_euler};

@@ -23,20 +23,20 @@ static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
   uint32_t substeps = sbri_substeps_now(t, t->tick_s);
   float h = t->tick_s / (float)substeps;
   float stretches[SBRI_BLOCK] = {0};
-  sbri_remember_held(t);
+  sbri_store_pinned_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
-    if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
+    if (sbri_has_damping(island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
     sbri_accelerate(t, h, last ? stretches : NULL);
     if (t->reactions) sbri_react(t, h);
     sbri_drift(t, h);
     sbri_add_accelerations(t, h);
     sbri_decay_all(t, h);
-    sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
-    sbri_count_passes(t, 1);
+    sbri_move_pinned(t, last ? 1 : (float)(s + 1) / (float)substeps);
+    sbri_count_element_visits(t, 1);
     sbri_finish_substep(t, h);
   }
-  sbri_keep_stretch(t, stretches);
+  sbri_store_stretch(t, stretches);
 }
 
 #endif

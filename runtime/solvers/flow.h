@@ -1,7 +1,7 @@
-/* Yield and tear: a spring strained beyond its yield strain takes on a new rest length, at its rate; one
- * strained beyond its tear strain stops for good. Both are state.
+/* Yield and tear. A spring beyond its yield strain changes its rest length at its flow rate; a spring beyond
+ * its tear strain is removed. Both are state.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_FLOW_H
 #define SBRI_FLOW_H
 
@@ -30,8 +30,8 @@ static inline void sbri_flow_link(
   }
 }
 
-/* Over h seconds, at the places that all points have now. */
-static inline void sbri_flow(const sbri_island_tick *t, float h) {
+/* Applies yield and tear over h seconds at the present positions. */
+static inline void sbri_yield_and_tear(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
   for (uint32_t block = 0; block < island->link_block_count; block++) {
     const sbri_link_block *link = &island->links[block];

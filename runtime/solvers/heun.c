@@ -14,4 +14,4 @@ static void tick_heun(const sbri_island_tick *tick) {
   tick->model->kernels->heun_tick(tick);
 }
 
-const sbri_scheme sbri_heun = {.word = SBF_SCHEME_HEUN, .substeps = substeps, .tick = tick_heun};
+const sbri_scheme sbri_heun = {.kind = SBF_SCHEME_HEUN, .substeps = substeps, .tick = tick_heun};

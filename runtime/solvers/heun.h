@@ -14,7 +14,7 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-/* h^2/2 of the greatest acceleration of a point: the places' difference between corrector and predictor. */
+/* Error estimate: h^2/2 times the maximum acceleration, the distance between corrector and predictor. */
 static inline float sbri_heun_error(const sbri_island_tick *t, float h) {
   float lanes[SBRI_BLOCK] = {0}, greatest = 0;
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
@@ -27,8 +27,7 @@ static inline float sbri_heun_error(const sbri_island_tick *t, float h) {
   return 0.5f * h * h * sqrtf(greatest);
 }
 
-/* To x + h v and v + h a; what was there is kept in velocity_points' stead: `moves` and `older_velocities`.
- */
+/* Predictor: x + h v and v + h a. Old values are stored in `moves` and `older_velocities`. */
 static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
   sbri_wide step = sbri_wide_all(h);
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
@@ -44,12 +43,12 @@ static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
   }
 }
 
-/* The same for a body whose surface is carried, or that a host pushes: that wants all velocities at once. */
+/* The same for a body with surface samples or loads, which needs all velocities at once. */
 static inline void sbri_heun_correct_carried(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
-  /* `older_velocities` become the mean ones, `velocities` what is beside them. */
+  /* `older_velocities` become mean velocities, `velocities` the differences */
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 a0 = sbri_wide_load_points(first + slot);
     sbri_wide3 a1 = sbri_load3(sbri_const_triple(t->accelerations, slot));
@@ -68,7 +67,7 @@ static inline void sbri_heun_correct_carried(
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
     sbri_wide3 mean = sbri_load3(sbri_const_triple(t->older_velocities, slot));
     sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
-    if (t->near_ground[slot / SBRI_BLOCK]) /* of a body whose points themselves meet the ground */
+    if (t->near_ground[slot / SBRI_BLOCK]) /* of a body whose points are contact points */
       sbri_contact_move(
           &x, &mean, t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK, &rule, slot);
     else
@@ -79,8 +78,8 @@ static inline void sbri_heun_correct_carried(
   }
 }
 
-/* From the place before by the mean of both velocities, bounded by the ground, and then the velocity by the
- * mean of both accelerations: v + h a0 is there, h/2 (a1 - a0) is added. `first` holds a0. */
+/* Corrector: positions by the mean of both velocities, bounded by the ground; then velocities by the mean of
+ * both accelerations: v + h a0 is there, h/2 (a1 - a0) is added. `first` holds a0. */
 static inline void sbri_heun_correct_body(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
@@ -107,31 +106,31 @@ static inline void sbri_heun_correct_body(
   }
 }
 
-/* The first accelerations out of the way of the second ones. */
+/* Stores the first accelerations before the second are computed. */
 static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *first) {
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(first + slot, sbri_load3(sbri_const_triple(t->accelerations, slot)));
 }
 
 static inline void sbri_heun_evaluate(const sbri_island_tick *t, float h, float *stretches) {
-  if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
+  if (sbri_has_damping(t->island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
   sbri_accelerate(t, h, stretches);
-  sbri_count_passes(t, 1);
+  sbri_count_element_visits(t, 1);
 }
 
-/* The tick in units of its 2^-10th, and how far and how fast it has come in them. */
+/* Tick in units of 2^-10 of its length: position and step size. */
 enum { SBRI_HEUN_UNITS = SBRI_MAX_SUBSTEPS };
 
 static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
-  sbri_point *first = t->begins; /* of free points; those of held ones are in use */
+  sbri_point *first = t->begins; /* of free points; entries of pinned points are in use */
   uint32_t wanted = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS, shortest = 1;
   if (wanted < island->substeps_least && !island->substeps) wanted = island->substeps_least;
   while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
   while (island->substeps_most && shortest < longest && SBRI_HEUN_UNITS / shortest > island->substeps_most)
-    shortest *= 2; /* what is stable comes first */
-  sbri_remember_held(t);
+    shortest *= 2; /* stability bounds the step */
+  sbri_store_pinned_begin(t);
   sbri_heun_evaluate(t, unit * (float)longest, NULL);
   for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
     if (step > shortest && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {
@@ -140,21 +139,21 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     }
     float h = unit * (float)step;
     sbri_decay_all(t, 0.5f * h);
-    if (sbri_has_damping(island)) sbri_heun_evaluate(t, h, NULL); /* which goes by the velocities */
+    if (sbri_has_damping(island)) sbri_heun_evaluate(t, h, NULL); /* damping depends on velocities */
     sbri_heun_keep_first(t, first);
     sbri_heun_predict(t, h);
     done += step;
-    sbri_carry_held(t, (float)done / (float)SBRI_HEUN_UNITS);
+    sbri_move_pinned(t, (float)done / (float)SBRI_HEUN_UNITS);
     sbri_heun_evaluate(t, h, NULL);
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
-      if (sbri_is_pushed(t, body))
+      if (sbri_has_impulses(t, body))
         sbri_heun_correct_carried(t, body, h, first);
       else
         sbri_heun_correct_body(t, body, h, first);
     }
     sbri_decay_all(t, 0.5f * h);
-    if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
+    if (island->tetrahedron_block_count > 0) sbri_update_compression(t);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
     sbri_heun_evaluate(t, h, done == SBRI_HEUN_UNITS ? stretches : NULL);
@@ -162,7 +161,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
            sbri_heun_error(t, 2 * unit * (float)step) <= t->step_error_m)
       step *= 2;
   }
-  sbri_keep_stretch(t, stretches);
+  sbri_store_stretch(t, stretches);
 }
 
 #endif

@@ -1,7 +1,7 @@
 #include "solvers/loads.h"
 
 #include "math/vec3.h"
-#include "solvers/held_push.h"
+#include "solvers/pinned_impulse.h"
 
 static float *velocity_of(float *velocities, uint32_t slot) {
   return velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -19,14 +19,15 @@ static void push(const sbri_island_tick *t, const sbri_carriers *at, float *velo
     if (slot < t->island->free_count)
       add(velocity_of(velocities, slot), sbri_scale(part, t->island->inverse_masses[slot]));
     else
-      sbri_held_push(t, slot, part);
+      sbri_pinned_apply_impulse(t, slot, part);
   }
 }
 
 /* All points gain the same velocity. */
-static void push_body(const sbri_island_tick *t, const sbri_body *body, float *velocities, sbf_vec3 gain) {
+static void push_body(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities, sbf_vec3 velocity_change) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
-    if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), gain);
+    if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), velocity_change);
 }
 
 static sbf_vec3 hold_impulse(
@@ -44,7 +45,7 @@ static sbf_vec3 hold_impulse(
   return size > max ? sbri_scale(impulse, max / size) : impulse;
 }
 
-void sbri_loads_act(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h) {
+void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h) {
   for (uint32_t i = 0; i < t->load_count; i++) {
     const sbri_load_now *load = &t->loads[i];
     if (&t->model->bodies[load->body] != body) continue;

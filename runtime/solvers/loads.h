@@ -16,6 +16,6 @@ static inline bool sbri_is_loaded(const sbri_island_tick *t, const sbri_body *bo
   return false;
 }
 
-void sbri_loads_act(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h);
+void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h);
 
 #endif

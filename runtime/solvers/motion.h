@@ -1,11 +1,11 @@
-/* The steps that schemes are put together from: velocities changed by forces (a kick) and by damping (a
- * decay), places by velocities (a drift) within the bounds of the ground, and held points carried along.
+/* Building blocks of the time integrators: forces and damping change velocities (kick, decay), velocities
+ * change positions above the ground (drift), and pinned points follow their pins.
  *
- * Damping acts on what a point's velocity differs by from that of its frame: of what holds it, or of the body
- * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
- * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep.
+ * Damping acts on a point's velocity relative to its frame: the pin frame, or the mean rigid motion of a body
+ * without pins. It slows neither a fall nor a walk. It is the exact decay exp(-alpha h). Damping of springs
+ * is a force from the velocities before the substep.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_MOTION_H
 #define SBRI_MOTION_H
 
@@ -13,27 +13,27 @@
 
 #include "contact/contact.h"
 #include "math/trig.h"
+#include "solvers/external_forces.h"
 #include "solvers/loads.h"
-#include "solvers/outer_forces.h"
 #include "solvers/reaction.h"
 #include "solvers/region_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
+#include "solvers/soft_contacts.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
-#include "solvers/touches.h"
 
-/* Penetration is undone at up to this speed. Contacts slower than that do not bounce. */
+/* Maximum speed at which penetration is resolved, and the minimum speed of a contact that bounces. */
 #define SBRI_PUSH_M_S 2.0f
 #define SBRI_BOUNCE_FROM_M_S 0.05f
-/* Samples of a surface that share their points press each other in by a little: to lift them all the time
- * would shake the body. A share of the body's size. */
-#define SBRI_SLACK_SHARE 1e-4f
+/* Penetration that is tolerated at surface samples, as a fraction of the body's size. Samples that share
+ * points press each other in slightly; resolving that would shake the body. */
+#define SBRI_SLACK_FRACTION 1e-4f
 
 typedef struct sbri_decay {
-  float frame;         /* share of the velocity against the frame that a substep keeps */
-  float media;         /* and against the medium */
-  const float *alphas; /* where each point has its own; `frame` is the least then */
+  float frame;         /* fraction of the velocity relative to the frame that a substep keeps */
+  float media;         /* fraction of the velocity relative to the medium */
+  const float *alphas; /* damping per point, 1/s; NULL: uniform. `frame` is then the minimum */
   float h;
 } sbri_decay;
 
@@ -42,17 +42,17 @@ static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
       body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1, body->alphas, h};
 }
 
-/* What a group of lanes keeps of the velocity against the frame. */
+/* Fraction of the velocity relative to the frame that each lane keeps. */
 static inline sbri_wide sbri_kept(sbri_decay keep, uint32_t slot) {
-  float shares[SBRI_LANES];
+  float fractions[SBRI_LANES];
   if (!keep.alphas) return sbri_wide_all(keep.frame);
   for (uint32_t lane = 0; lane < SBRI_LANES; lane++)
-    shares[lane] = sbri_exp(-keep.alphas[slot + lane] * keep.h);
-  return sbri_wide_load(shares);
+    fractions[lane] = sbri_exp(-keep.alphas[slot + lane] * keep.h);
+  return sbri_wide_load(fractions);
 }
 
-/* Damps a body that nothing holds against itself, over `time_s` seconds; what is lost has moved it for
- * another `ahead_s`. */
+/* Damps a body without pins against its own rigid motion, over `time_s` seconds. Moves it by the removed
+ * velocity times `ahead_s`. */
 static inline void sbri_self_damp(
     const sbri_island_tick *t, const sbri_body *body, float time_s, float ahead_s) {
   float *v = t->velocities;
@@ -62,18 +62,20 @@ static inline void sbri_self_damp(
     sbri_rigid_motion_damp(t->island, body, t->positions, v, sbri_exp(-body->alpha_1_s * time_s), ahead_s);
 }
 
-/* Whether damping draws the body towards what its frames do. */
-static inline bool sbri_is_guided(const sbri_island_tick *t, const sbri_body *body, sbri_decay keep) {
-  return body->held && keep.frame < 1 && !t->undamped;
+/* Whether damping pulls the body's velocities towards those of its pin frames. */
+static inline bool sbri_is_damped_to_driver(
+    const sbri_island_tick *t, const sbri_body *body, sbri_decay keep) {
+  return body->is_pinned && keep.frame < 1 && !t->undamped;
 }
 
-/* Of a group of lanes; not of a body that nothing holds against itself, which takes all its lanes. */
+/* Damped velocities of a group of lanes. Bodies without pins are damped by sbri_self_damp, which needs all
+ * their lanes. */
 static inline sbri_wide3 sbri_decayed(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay keep, bool guided) {
   sbri_wide drifting = sbri_wide_all(keep.media);
   if (guided) {
     sbri_wide kept = sbri_kept(keep, slot);
-    sbri_wide3 u = sbri_load3(sbri_const_triple(t->guide_velocities, slot));
+    sbri_wide3 u = sbri_load3(sbri_const_triple(t->driver_velocities, slot));
     v.x = u.x + (v.x - u.x) * kept;
     v.y = u.y + (v.y - u.y) * kept;
     v.z = u.z + (v.z - u.z) * kept;
@@ -88,11 +90,11 @@ static inline sbri_wide3 sbri_decayed(
   return v;
 }
 
-/* v += h a(x), and what damping leaves of it; `pulls`: NULL, or what the springs do is added to that. */
+/* v += h a(x), then damping. `pulls`, if not NULL, receives the sums of the spring forces. */
 SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
     int kind, float *stretches, sbri_pull_sums *pulls) {
   sbri_wide step = sbri_wide_all(h);
-  bool guided = sbri_is_guided(t, body, keep);
+  bool guided = sbri_is_damped_to_driver(t, body, keep);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
@@ -105,22 +107,21 @@ SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body
   }
 }
 
-/* Over how many substeps the damping of bodies that nothing holds may be put off, in one: finding their
- * motion as a whole costs a seventh of a substep of tetrahedra, and the decay over four is the same but for
- * what forces do meanwhile, a share of alpha h. */
+/* Maximum number of substeps that share one damping of a body without pins. Finding the rigid motion costs a
+ * seventh of a substep of tetrahedra; sharing it changes the decay by a fraction of alpha h. */
 enum { SBRI_SELF_DAMP_EVERY = 4 };
 
-/* v += h a(x), and damping; of bodies that nothing holds, over the `self_s` seconds for which they were not
- * damped (0: not yet). Where that is put off it comes in the middle of the drift, where places and velocities
- * are of one time and any mode that is stable loses by it: before the drift, modes that turn by a multiple of
- * pi in so many substeps gain, and bodies in free flight begin to sway. */
+/* v += h a(x), then damping. Bodies without pins are damped for the last `self_s` seconds; 0: not in this
+ * substep. A shared damping acts in the middle of the drift, where positions and velocities belong to the
+ * same time. Before the drift, modes with a phase of a multiple of pi over the shared substeps would gain
+ * energy. */
 static inline void sbri_kick(
     const sbri_island_tick *t, float h, float self_s, bool put_off, bool last, float *stretches) {
   float ahead_s = put_off ? 0.5f * h : 0;
   int kind = sbri_force_kind(t, last);
-  if (t->outer) sbri_outer_forces(t, h);
-  if (t->island->region_block_count > 0) sbri_region_forces(t);
-  sbri_pull_sums sums = {{{0}}, {{0}}}, *pulls = t->reactions && sbri_pulls_tell_all(t) ? &sums : NULL;
+  if (t->external_forces) sbri_compute_external_forces(t, h);
+  if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
+  sbri_pull_sums sums = {{{0}}, {{0}}}, *pulls = t->reactions && sbri_pulls_are_complete(t) ? &sums : NULL;
   if (t->reactions && !pulls) sbri_react(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
@@ -128,23 +129,23 @@ static inline void sbri_kick(
 #define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches, pulls)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
-    if (!body->held && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s, ahead_s);
+    if (!body->is_pinned && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s, ahead_s);
   }
   if (pulls) sbri_react_by_pulls(t, pulls, h);
 }
 
-/* The damping alone, over h seconds. */
+/* Applies damping only, over h seconds. */
 static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
-    bool guided = sbri_is_guided(t, body, keep);
+    bool guided = sbri_is_damped_to_driver(t, body, keep);
     for (uint32_t slot = body->slot_begin; (guided || keep.media < 1) && slot < body->slot_end;
          slot += SBRI_LANES) {
       float *velocity = sbri_triple(t->velocities, slot);
       sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), keep, guided));
     }
-    if (!body->held && keep.frame < 1) sbri_self_damp(t, body, h, 0);
+    if (!body->is_pinned && keep.frame < 1) sbri_self_damp(t, body, h, 0);
   }
 }
 
@@ -156,12 +157,12 @@ SBRI_INLINE void sbri_accelerate_body(
   }
 }
 
-/* a(x) of all free points, into t->accelerations, for a substep of h. */
+/* Writes a(x) of all free points to t->accelerations, for a substep of h seconds. */
 static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *stretches) {
   int kind = sbri_force_kind(t, stretches != NULL);
-  if (t->outer) sbri_outer_forces(t, h);
+  if (t->external_forces) sbri_compute_external_forces(t, h);
   if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
-  if (t->island->region_block_count > 0) sbri_region_forces(t);
+  if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
 #define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
@@ -171,26 +172,26 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
 }
 
 static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, float h) {
-  float slack = body->samples ? SBRI_SLACK_SHARE * body->rest_size_m : 0;
+  float slack = body->samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
   return (sbri_contact_rule){
       body->friction, body->restitution, body->frictions, h, SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S};
 }
 
-/* Of a group of lanes near the ground. */
+/* Ground planes of a group of lanes. */
 static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint32_t slot) {
   return sbri_planes_load(t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
 }
 
-/* Whether something acts on the body that wants all its velocities at once. */
-static inline bool sbri_is_pushed(const sbri_island_tick *t, const sbri_body *body) {
-  return sbri_touch_count(t, body) > 0 || sbri_is_loaded(t, body);
+/* Whether loads or contacts act on the body, which need all its velocities at once. */
+static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body *body) {
+  return sbri_soft_contact_count(t, body) > 0 || sbri_is_loaded(t, body);
 }
 
-/* What a host and what it touches push the body with, into the velocities that it is about to move by. */
+/* Applies loads of the host and contact impulses to the velocities of the coming substep. */
 static inline void sbri_apply_impulses(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
-  if (t->load_count > 0) sbri_loads_act(t, body, velocities, rule->step_s);
-  sbri_touches_answer(t, body, velocities, rule);
+  if (t->load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
+  sbri_soft_contacts_solve(t, body, velocities, rule);
 }
 
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
@@ -213,35 +214,35 @@ static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *b
   }
 }
 
-/* x += h v, within the bounds of the ground. */
+/* x += h v, above the ground planes. */
 static inline void sbri_drift(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++)
     sbri_drift_body(t, &t->model->bodies[t->island->bodies[b]], h);
 }
 
-/* Held points where they were at the tick's beginning. */
-static inline void sbri_remember_held(const sbri_island_tick *t) {
-  size_t held = t->island->slot_count - t->island->free_count;
-  memcpy(t->begins + t->island->free_count, t->positions + t->island->free_count, held * sizeof *t->begins);
+/* Stores the positions of pinned points at the beginning of the tick. */
+static inline void sbri_store_pinned_begin(const sbri_island_tick *t) {
+  size_t pinned = t->island->slot_count - t->island->free_count;
+  memcpy(t->begins + t->island->free_count, t->positions + t->island->free_count, pinned * sizeof *t->begins);
 }
 
-/* Held points on the straight way from where they were to where they shall be. */
-static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
-  size_t held = t->island->slot_count - t->island->free_count;
-  if (share >= 1) { /* without rounding */
+/* Moves pinned points to the given fraction of the straight line from their old to their target positions. */
+static inline void sbri_move_pinned(const sbri_island_tick *t, float fraction) {
+  size_t pinned = t->island->slot_count - t->island->free_count;
+  if (fraction >= 1) { /* exact, without rounding */
     memcpy(t->positions + t->island->free_count, t->targets + t->island->free_count,
-        held * sizeof *t->positions);
+        pinned * sizeof *t->positions);
     return;
   }
   const float *from = &t->begins[t->island->free_count].x, *to = &t->targets[t->island->free_count].x;
   float *at = &t->positions[t->island->free_count].x;
-  for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
+  for (size_t i = 0; i < 4 * pinned; i++) at[i] = from[i] + (to[i] - from[i]) * fraction;
 }
 
-static inline bool sbri_touches_any(const sbri_island_tick *t) {
+static inline bool sbri_soft_contacts_any(const sbri_island_tick *t) {
   bool any = false;
   for (uint32_t b = 0; b < t->island->body_count; b++)
-    any = any || sbri_touch_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
+    any = any || sbri_soft_contact_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
   for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
     any = any || t->near_ground[block];
   return any;
@@ -251,7 +252,7 @@ static inline bool sbri_touches_any(const sbri_island_tick *t) {
  * most. It bounds the substep only of what strikes at about its speed of sound or faster: jelly balls of 20
  * to 100 mm dropped from 3 m have elements inside out in 8 of 20 falls without it, in 1 at 0.125, in none at
  * 0.1, where the fall costs a third to a half more. */
-static const float sbri_impact_share = 0.1f;
+static const float sbri_impact_fraction = 0.1f;
 
 /* m/s, the greatest speed of a point against the mean of its body's, and that of the mean where the body is
  * about to strike. */
@@ -279,9 +280,10 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
  * them: more of its own would keep a pair from coming to rest. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
-  bool is_given = island->substeps || t->share < 1;
+  bool is_given = island->substeps || t->fraction < 1;
   if (is_given || island->tetrahedron_block_count == 0 || !(island->cell_m > 0)) return 1;
-  return sbri_touches_any(t) ? time_s * sbri_impact_speed(t) / (sbri_impact_share * island->cell_m) : 1;
+  return sbri_soft_contacts_any(t) ? time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->cell_m)
+                                   : 1;
 }
 
 /* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. Their
@@ -294,8 +296,8 @@ static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s
   return needed < SBRI_MAX_STRAINED_SUBSTEPS ? needed : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 
-/* Remembers the greatest of the lanes. */
-static inline void sbri_keep_stretch(const sbri_island_tick *t, const float stretches[SBRI_BLOCK]) {
+/* Stores the maximum over the lanes. */
+static inline void sbri_store_stretch(const sbri_island_tick *t, const float stretches[SBRI_BLOCK]) {
   float greatest = 0;
   for (int lane = 0; lane < SBRI_BLOCK; lane++)
     greatest = stretches[lane] > greatest ? stretches[lane] : greatest;

@@ -22,7 +22,7 @@ static const double MARGIN = 1.1;
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
   if (island->substeps) return island->substeps;
   uint32_t stable = sbri_stable_substeps(island, tick_s, island->rest_stretch);
-  double outer = MARGIN * tick_s * island->outer_rad_s / 2; /* gas and bending are not swept */
+  double outer = MARGIN * tick_s * island->external_rad_s / 2; /* gas and bending are not swept */
   bool solid = island->tetrahedron_count > 0;
   bool few = island->scheme != &sbri_position_based || stable > HOPELESS_SUBSTEPS;
   uint32_t factor = SPRING_FACTOR, max = MAX_SPRING_SUBSTEPS;
@@ -43,7 +43,7 @@ static void tick_position_based(const sbri_island_tick *tick) {
   tick->model->kernels->position_based_tick(tick);
 }
 
-const sbri_scheme sbri_position_based = {.word = SBF_SCHEME_POSITION_BASED,
+const sbri_scheme sbri_position_based = {.kind = SBF_SCHEME_POSITION_BASED,
     .sweeps = true,
     .refuse = sbri_refuse_regions,
     .substeps = substeps,

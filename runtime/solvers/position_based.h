@@ -43,21 +43,21 @@ static inline void sbri_moves_begin(const sbri_island_tick *t) {
 }
 
 /* Held points on their way through the tick. */
-static inline void sbri_moves_carry_held(const sbri_island_tick *t, float share) {
+static inline void sbri_moves_move_pinned(const sbri_island_tick *t, float fraction) {
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
     const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-    t->moves[slot] =
-        (sbri_point){(to->x - from->x) * share, (to->y - from->y) * share, (to->z - from->z) * share, 0};
+    t->moves[slot] = (sbri_point){
+        (to->x - from->x) * fraction, (to->y - from->y) * fraction, (to->z - from->z) * fraction, 0};
   }
 }
 
 /* Weight, outer forces and damping of the velocities; then the moves go on by them, and what they are before
  * any spring is kept in t->accelerations. */
-static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float share) {
+static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float fraction) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
-  if (t->outer) sbri_outer_forces(t, h);
+  if (t->external_forces) sbri_compute_external_forces(t, h);
   sbri_decay_all(t, h); /* first: what rests must feel all of its weight */
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
@@ -65,8 +65,8 @@ static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float 
     sbri_wide g = sbri_wide_load(island->gravity_scales + slot);
     sbri_wide3 a = {
         g * sbri_wide_all(t->gravity.x), g * sbri_wide_all(t->gravity.y), g * sbri_wide_all(t->gravity.z)};
-    if (t->outer) {
-      sbri_wide3 f = sbri_wide_load_points(t->outer + slot);
+    if (t->external_forces) {
+      sbri_wide3 f = sbri_wide_load_points(t->external_forces + slot);
       sbri_wide w = sbri_wide_load(island->inverse_masses + slot);
       a.x = a.x + f.x * w, a.y = a.y + f.y * w, a.z = a.z + f.z * w;
     }
@@ -77,7 +77,7 @@ static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float 
     sbri_store3(sbri_triple(t->accelerations, slot), (sbri_wide3){u.x, u.y, u.z});
     sbri_wide_scatter4(t->moves + slot, in_order, u);
   }
-  sbri_moves_carry_held(t, share);
+  sbri_moves_move_pinned(t, fraction);
 }
 
 /* One sweep over all springs; kinds as in solvers/spring_forces.h. */
@@ -115,8 +115,8 @@ static inline void sbri_sweep_springs(const sbri_island_tick *t, float h, int ki
       }
       if (track) {
         float *at = stretches + lane;
-        sbri_wide share = beyond / length, old = sbri_wide_load(at), zero = sbri_wide_all(0);
-        sbri_wide_store(at, sbri_wide_select((k > zero) & (rest > zero), sbri_wide_max(share, old), old));
+        sbri_wide fraction = beyond / length, old = sbri_wide_load(at), zero = sbri_wide_all(0);
+        sbri_wide_store(at, sbri_wide_select((k > zero) & (rest > zero), sbri_wide_max(fraction, old), old));
       }
       sbri_wide s = pull / ((one + (p.w + q.w) * stiffness) * length), a = s * p.w, b = s * q.w;
       p.x = p.x + a * x, p.y = p.y + a * y, p.z = p.z + a * z;
@@ -196,12 +196,13 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
  * next may be one pass over the points, which leaves positions where the tick began. */
 static inline bool sbri_moves_alone(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  bool alone = !t->outer && !t->rests && !t->reactions && !island->link_limits && !island->solid_limits &&
-               !island->link_damping && !island->tetrahedron_damping && !sbri_is_crushed(t);
+  bool alone = !t->external_forces && !t->rests && !t->reactions && !island->link_limits &&
+               !island->solid_limits && !island->link_damping && !island->tetrahedron_damping &&
+               !sbri_is_compressed(t);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    alone =
-        alone && !body->keeps_volume && (body->held || !(body->alpha_1_s > 0)) && !sbri_is_pushed(t, body);
+    alone = alone && !body->keeps_volume && (body->is_pinned || !(body->alpha_1_s > 0)) &&
+            !sbri_has_impulses(t, body);
   }
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     alone = alone && !t->near_ground[block];
@@ -209,13 +210,13 @@ static inline bool sbri_moves_alone(const sbri_island_tick *t) {
 }
 
 /* What sbri_moves_end_body and sbri_moves_predict do, bit for bit, but for places. */
-static inline void sbri_moves_go_on(const sbri_island_tick *t, const sbri_body *body, float h) {
+static inline void sbri_moves_advance(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
   sbri_wide gx = sbri_wide_all(t->gravity.x), gy = sbri_wide_all(t->gravity.y),
             gz = sbri_wide_all(t->gravity.z);
   sbri_decay keep = sbri_decay_of(body, h);
-  bool guided = sbri_is_guided(t, body, keep);
+  bool guided = sbri_is_damped_to_driver(t, body, keep);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot), *kept = sbri_triple(t->accelerations, slot);
     sbri_wide3 free = sbri_load3(kept), v = sbri_load3(velocity);
@@ -264,11 +265,11 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   if (solid) sbri_solid_edges_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
-    float share = last ? 1 : (float)(s + 1) / (float)substeps;
+    float fraction = last ? 1 : (float)(s + 1) / (float)substeps;
     if (alone && s > 0)
-      sbri_moves_carry_held(t, share);
+      sbri_moves_move_pinned(t, fraction);
     else
-      sbri_moves_predict(t, h, share);
+      sbri_moves_predict(t, h, fraction);
 #define SBRI_CALL(known) sbri_sweep_springs(t, h, known, stretches)
     SBRI_FOR_FORCE_KIND(sbri_force_kind(t, last), SBRI_CALL)
 #undef SBRI_CALL
@@ -276,20 +277,20 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
       if (alone && !last)
-        sbri_moves_go_on(t, body, h);
-      else if (sbri_is_pushed(t, body))
+        sbri_moves_advance(t, body, h);
+      else if (sbri_has_impulses(t, body))
         sbri_moves_end_carried(t, body, h);
       else
         sbri_moves_end_body(t, body, h);
     }
-    sbri_carry_held(t, share);
-    if (solid && !alone && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
-    sbri_count_passes(t, 1);
+    sbri_move_pinned(t, fraction);
+    if (solid && !alone && s % SBRI_CHECK_INTERVAL == 0) sbri_update_compression(t);
+    sbri_count_element_visits(t, 1);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
-    if ((followed || sbri_is_crushed(t)) && !last) sbri_moves_follow(t);
+    if ((followed || sbri_is_compressed(t)) && !last) sbri_moves_follow(t);
   }
-  sbri_keep_stretch(t, stretches);
+  sbri_store_stretch(t, stretches);
   if (solid) sbri_tetrahedron_pass(t, true);
 }
 

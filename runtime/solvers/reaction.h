@@ -8,13 +8,13 @@
 
 #include "math/lane_sums.h"
 #include "math/vec3.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/region_forces.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
 
 static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_vec3 force, float h) {
-  int32_t carrier = t->island->carrier_of_held[slot - t->island->free_count];
+  int32_t carrier = t->island->rigid_body_of_pinned[slot - t->island->free_count];
   if (carrier < 0) return;
   sbri_reaction *r = &t->reactions[carrier];
   const sbri_point *at = &t->positions[slot];
@@ -23,19 +23,19 @@ static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_v
   r->moment = sbri_add(r->moment, sbri_cross(arm, impulse));
 }
 
-/* Of one of the springs that reach what is held, which may flow and have split, as sbri_spring_forces has it:
- * the slot of its held end, and the force there. */
-static inline uint32_t sbri_held_spring_force(const sbri_island_tick *t, uint32_t number, sbf_vec3 *force) {
+/* Slot of the pinned end of a spring with one pinned end, and the force on it, as sbri_spring_forces has it.
+ * The spring may have yielded or split. */
+static inline uint32_t sbri_pinned_spring_force(const sbri_island_tick *t, uint32_t number, sbf_vec3 *force) {
   const sbri_island *island = t->island;
   const sbfi_spring *s = &island->springs[number];
   uint32_t a = s->a, b = s->b;
-  if (t->rests) { /* a point that has split is another's end */
+  if (t->rests) { /* the end may be a split point */
     uint32_t at = island->link_of_spring[number];
     a = island->links[at / SBRI_BLOCK].a[at % SBRI_BLOCK],
     b = island->links[at / SBRI_BLOCK].b[at % SBRI_BLOCK];
   }
-  uint32_t held = a >= island->free_count ? a : b, free = a + b - held;
-  const sbri_point *x = &t->positions[held], *y = &t->positions[free];
+  uint32_t pinned = a >= island->free_count ? a : b, free = a + b - pinned;
+  const sbri_point *x = &t->positions[pinned], *y = &t->positions[free];
   sbf_vec3 d = {y->x - x->x, y->y - x->y, y->z - x->z};
   float square = sbri_dot(d, d) + SBRI_LENGTH_FLOOR, k = s->stiffness_n_m, damping = s->damping_ns_m;
   float rest = s->rest_length_m;
@@ -43,22 +43,22 @@ static inline uint32_t sbri_held_spring_force(const sbri_island_tick *t, uint32_
     uint32_t link = island->link_of_spring[number];
     rest = t->rests[link], k *= t->strengths[link], damping *= t->strengths[link];
   }
-  float share = k - k * rest / sqrtf(square);
-  if (share < 0) share -= share * s->slack;
+  float fraction = k - k * rest / sqrtf(square);
+  if (fraction < 0) fraction -= fraction * s->slack;
   if (damping > 0) {
-    const sbri_point *v = &t->velocity_points[held], *w = &t->velocity_points[free];
-    share += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;
+    const sbri_point *v = &t->velocity_points[pinned], *w = &t->velocity_points[free];
+    fraction += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;
   }
-  *force = sbri_scale(d, share);
-  return held;
+  *force = sbri_scale(d, fraction);
+  return pinned;
 }
 
 static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
-  for (uint32_t i = 0; i < island->held_spring_count; i++) {
+  for (uint32_t i = 0; i < island->pinned_spring_count; i++) {
     sbf_vec3 force;
-    uint32_t held = sbri_held_spring_force(t, island->held_springs[i], &force);
-    sbri_react_at(t, held, force, h);
+    uint32_t pinned = sbri_pinned_spring_force(t, island->pinned_springs[i], &force);
+    sbri_react_at(t, pinned, force, h);
   }
 }
 
@@ -66,7 +66,7 @@ static inline sbf_vec3 sbri_point_vec3(const sbri_point *p) {
   return sbri_vec3(p->x, p->y, p->z);
 }
 
-/* By the forces that a scheme has just found for a substep of h, before anything moves. */
+/* Adds reactions from the forces that were just computed for a substep of h, before anything moves. */
 static inline void sbri_react(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
   const bool flows = t->rests != NULL, damped = island->cell_damping != NULL;
@@ -80,22 +80,23 @@ static inline void sbri_react(const sbri_island_tick *t, float h) {
     for (uint32_t slot = first; slot < first + SBRI_LANES; slot++) {
       sbf_vec3 sum = sbri_point_vec3(&sums[slot - first]);
       if (sbri_has_element_forces(island)) sum = sbri_add(sum, sbri_point_vec3(&t->element_forces[slot]));
-      if (t->outer) sum = sbri_add(sum, sbri_point_vec3(&t->outer[slot]));
+      if (t->external_forces) sum = sbri_add(sum, sbri_point_vec3(&t->external_forces[slot]));
       sbri_react_at(t, slot, sum, h);
     }
   }
 }
 
-/* Of springs alone whose held ends all go with one rigid body: forces between two points along the line
- * through both leave no sum and no moment, so what they do to the free points tells what they do to that
- * body. By lanes of eight, so that the sums are the same for any number of them at once. */
-typedef sbri_lane_sums sbri_pull_sums; /* N and N m on the free points, about reaction.about */
+/* Sums for islands of springs whose pinned ends belong to one rigid body: internal forces cancel, so the
+ * forces on free points give the reaction. Summed in lanes of eight, so that the result is the same for any
+ * SIMD width. */
+typedef sbri_lane_sums
+    sbri_pull_sums; /* force and torque on the free points about reaction.about, N and N m */
 
-static inline bool sbri_pulls_tell_all(const sbri_island_tick *t) {
-  return t->island->answers && !t->outer && !sbri_has_element_forces(t->island);
+static inline bool sbri_pulls_are_complete(const sbri_island_tick *t) {
+  return t->island->answers && !t->external_forces && !sbri_has_element_forces(t->island);
 }
 
-/* Of a group of lanes at x with accelerations a. */
+/* Adds a group of lanes at x with accelerations a. */
 static inline void sbri_pulls_add(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, sbri_wide3 a, sbri_pull_sums *pulls) {
   const sbf_vec3 about = t->reactions[t->island->carriers[0]].about;
@@ -113,12 +114,12 @@ static inline void sbri_react_by_pulls(const sbri_island_tick *t, const sbri_pul
   r->moment = sbri_add_scaled(r->moment, sbri_lanes_moment(pulls), -h);
 }
 
-/* The same of schemes that do not go by forces: those at the substep's end. */
+/* The same for integrators without forces, at the end of the substep. */
 static inline void sbri_react_at_end(const sbri_island_tick *t, float h) {
-  if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
-  if (t->outer) sbri_outer_forces(t, h);
-  if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_forces(t, NULL);
-  if (t->island->region_block_count > 0) sbri_region_forces(t);
+  if (sbri_has_damping(t->island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
+  if (t->external_forces) sbri_compute_external_forces(t, h);
+  if (t->island->tetrahedron_block_count > 0) sbri_compute_tetrahedron_forces(t, NULL);
+  if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
   sbri_react(t, h);
 }
 

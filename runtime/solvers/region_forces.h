@@ -17,7 +17,7 @@
 
 #include "solvers/tetrahedron_forces.h"
 
-/* A region that turns by half a radian in a substep is found in so many to the last digit. */
+/* Iterations of the rotation: enough for half a radian per substep to full precision. */
 enum { SBRI_TURNS = 4 };
 
 typedef struct sbri_wide_columns {
@@ -46,19 +46,19 @@ SBRI_INLINE sbri_wide3 sbri_wide_solve(const sbri_wide g[6], sbri_wide3 b, float
   trace = sbri_wide_max(trace, zero - trace);
   sbri_mask good = det > sbri_wide_all(min) * trace * trace * trace;
   sbri_wide size = sbri_wide_select(good, det, half * trace);
-  sbri_wide share = sbri_wide_select(size > sbri_wide_all(1e-30f), sbri_wide_all(1) / size, zero);
+  sbri_wide fraction = sbri_wide_select(size > sbri_wide_all(1e-30f), sbri_wide_all(1) / size, zero);
   sbri_wide3 solved = {sbri_wide3_dot(vw, b), sbri_wide3_dot(wu, b), sbri_wide3_dot(uv, b)};
   return sbri_wide3_scale((sbri_wide3){sbri_wide_select(good, solved.x, b.x),
                               sbri_wide_select(good, solved.y, b.y), sbri_wide_select(good, solved.z, b.z)},
-      share);
+      fraction);
 }
 
-/* The rotation nearest to `a` (its columns), from the one in `q` on. */
+/* Rotation nearest to the matrix `a` (columns), starting at `q`. */
 SBRI_INLINE sbri_wide_columns sbri_wide_follow(const sbri_wide3 a[3], sbri_wide q[4]) {
   sbri_wide half = sbri_wide_all(0.5f), one = sbri_wide_all(1);
   sbri_wide_columns r = sbri_wide_columns_of(q);
   for (int turn = 0; turn < SBRI_TURNS; turn++) {
-    /* In the frame of the world: the columns of A R^T = sum a_k r_k^T. */
+    /* In world axes: the columns of A R^T = sum a_k r_k^T. */
     sbri_wide m[3][3];
     const sbri_wide *rows[3][3] = {
         {&a[0].x, &a[1].x, &a[2].x}, {&a[0].y, &a[1].y, &a[2].y}, {&a[0].z, &a[1].z, &a[2].z}};
@@ -73,7 +73,7 @@ SBRI_INLINE sbri_wide_columns sbri_wide_follow(const sbri_wide3 a[3], sbri_wide 
         zero - half * (m[2][0] + m[0][2])};
     sbri_wide3 axis = {m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]};
     sbri_wide3 w = sbri_wide_solve(g, axis, 1e-4f);
-    /* Cayley's turn: exact to the third order, and never more than half a turn. */
+    /* Cayley transform: exact to third order, at most half a turn. */
     sbri_wide x = half * w.x, y = half * w.y, z = half * w.z;
     sbri_wide next[4] = {q[0] + x * q[3] + y * q[2] - z * q[1], q[1] + y * q[3] + z * q[0] - x * q[2],
         q[2] + z * q[3] + x * q[1] - y * q[0], q[3] - x * q[0] - y * q[1] - z * q[2]};
@@ -85,36 +85,36 @@ SBRI_INLINE sbri_wide_columns sbri_wide_follow(const sbri_wide3 a[3], sbri_wide 
   return r;
 }
 
-typedef struct sbri_wide_spin {
-  sbri_wide3 drift, turn; /* of the region's centre; about it */
-} sbri_wide_spin;
+typedef struct sbri_wide_rigid_motion {
+  sbri_wide3 drift, angular_velocity; /* linear velocity of the region's centre; angular velocity */
+} sbri_wide_rigid_motion;
 
-/* The rigid motion that fits the velocities best. */
-SBRI_INLINE sbri_wide_spin sbri_region_spin(const sbri_island_tick *t, const sbri_region_block *block,
-    const sbri_region_member *members, uint32_t lane, sbri_wide3 center) {
+/* Best fit of a rigid motion to the velocities. */
+SBRI_INLINE sbri_wide_rigid_motion sbri_region_rigid_motion(const sbri_island_tick *t,
+    const sbri_region_block *block, const sbri_region_member *members, uint32_t lane, sbri_wide3 center) {
   sbri_wide zero = sbri_wide_all(0), whole = sbri_wide_load(block->inverse_sums + lane);
   sbri_wide g[6] = {zero, zero, zero, zero, zero, zero};
-  sbri_wide_spin s = {{zero, zero, zero}, {zero, zero, zero}};
+  sbri_wide_rigid_motion s = {{zero, zero, zero}, {zero, zero, zero}};
   for (uint32_t i = 0; i < block->member_count; i++) {
     sbri_wide k = sbri_wide_load(members[i].stiffness + lane);
     sbri_wide3 r = sbri_wide3_sub(sbri_wide_gather(t->positions, members[i].slots + lane), center);
     sbri_wide3 v = sbri_wide_gather(t->velocity_points, members[i].slots + lane);
     s.drift = sbri_wide3_add(s.drift, sbri_wide3_scale(v, k));
-    s.turn = sbri_wide3_add(s.turn, sbri_wide3_scale(sbri_wide3_cross(r, v), k));
+    s.angular_velocity = sbri_wide3_add(s.angular_velocity, sbri_wide3_scale(sbri_wide3_cross(r, v), k));
     g[0] = g[0] + k * (r.y * r.y + r.z * r.z), g[1] = g[1] + k * (r.z * r.z + r.x * r.x);
     g[2] = g[2] + k * (r.x * r.x + r.y * r.y), g[3] = g[3] - k * r.x * r.y;
     g[4] = g[4] - k * r.y * r.z, g[5] = g[5] - k * r.z * r.x;
   }
   s.drift = sbri_wide3_scale(s.drift, whole);
-  s.turn = sbri_wide_solve(g, s.turn, 1e-5f);
+  s.angular_velocity = sbri_wide_solve(g, s.angular_velocity, 1e-5f);
   return s;
 }
 
-/* How a group of lanes lies now. */
+/* Present centre and rotation of eight regions. */
 typedef struct sbri_region_pose {
   sbri_wide3 center;
   sbri_wide_columns rotation;
-  sbri_wide_spin spin;
+  sbri_wide_rigid_motion rigid_motion;
 } sbri_region_pose;
 
 SBRI_INLINE sbri_region_pose sbri_region_pose_of(const sbri_island_tick *t, const sbri_region_block *block,
@@ -122,22 +122,23 @@ SBRI_INLINE sbri_region_pose sbri_region_pose_of(const sbri_island_tick *t, cons
   sbri_wide zero = sbri_wide_all(0), q[4];
   sbri_wide3 none = {zero, zero, zero}, center = none, a[3] = {none, none, none};
   for (int k = 0; k < 4; k++) q[k] = sbri_wide_load(rotations + k * SBRI_BLOCK + lane);
-  /* Against the first point's place, which keeps the digits. */
+  /* Relative to the first point, for precision. */
   sbri_wide3 first = sbri_wide_gather(t->positions, members->slots + lane);
   for (uint32_t i = 0; i < block->member_count; i++) {
     sbri_wide k = sbri_wide_load(members[i].stiffness + lane);
     sbri_wide3 x = sbri_wide3_sub(sbri_wide_gather(t->positions, members[i].slots + lane), first);
     x = sbri_wide3_scale(x, k);
     center = sbri_wide3_add(center, x);
-    /* The offsets times k sum to nothing, so that the centre need not be known yet. */
+    /* The sum of k times offsets is 0, so the centre is not needed yet. */
     for (int axis = 0; axis < 3; axis++)
       a[axis] = sbri_wide3_add(a[axis], sbri_wide3_scale(x, sbri_wide_load(members[i].offsets[axis] + lane)));
   }
-  sbri_region_pose pose = {.spin = {none, none}};
+  sbri_region_pose pose = {.rigid_motion = {none, none}};
   pose.center = sbri_wide3_add(first, sbri_wide3_scale(center, sbri_wide_load(block->inverse_sums + lane)));
   pose.rotation = sbri_wide_follow(a, q);
   for (int k = 0; k < 4; k++) sbri_wide_store(rotations + k * SBRI_BLOCK + lane, q[k]);
-  if (block->damping_s > 0) pose.spin = sbri_region_spin(t, block, members, lane, pose.center);
+  if (block->damping_s > 0)
+    pose.rigid_motion = sbri_region_rigid_motion(t, block, members, lane, pose.center);
   return pose;
 }
 
@@ -148,16 +149,17 @@ SBRI_INLINE sbri_wide3 sbri_region_force(const sbri_island_tick *t, const sbri_r
   sbri_wide3 off = sbri_wide3_sub(sbri_wide_gather(t->positions, m->slots + lane), pose->center);
   sbri_wide3 f = sbri_wide3_sub(sbri_wide_turned(&pose->rotation, offset), off);
   if (damping_s > 0) {
-    sbri_wide3 v = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, m->slots + lane), pose->spin.drift);
-    v = sbri_wide3_sub(v, sbri_wide3_cross(pose->spin.turn, off));
+    sbri_wide3 v =
+        sbri_wide3_sub(sbri_wide_gather(t->velocity_points, m->slots + lane), pose->rigid_motion.drift);
+    v = sbri_wide3_sub(v, sbri_wide3_cross(pose->rigid_motion.angular_velocity, off));
     f = sbri_wide3_sub(f, sbri_wide3_scale(v, sbri_wide_all(damping_s)));
   }
   return sbri_wide3_scale(f, sbri_wide_load(m->stiffness + lane));
 }
 
-/* Point by point through all eight regions: regions of a block may share points, and the order of sums is not
- * to depend on how many lanes there are at once. */
-static inline void sbri_region_block_forces(
+/* Visits the points of all eight regions in turn. Regions of a block may share points, and the order of sums
+ * must not depend on the SIMD width. */
+static inline void sbri_compute_region_block_forces(
     const sbri_island_tick *t, const sbri_region_block *block, float *rotations) {
   const sbri_region_member *members = t->island->region_members + block->first_member;
   sbri_region_pose poses[SBRI_BLOCK / SBRI_LANES];
@@ -171,14 +173,14 @@ static inline void sbri_region_block_forces(
     }
 }
 
-/* Adds the forces of the island's regions on its slots, N, to t->element_forces, which is empty before them
- * where there are no tetrahedra. */
-static inline void sbri_region_forces(const sbri_island_tick *t) {
+/* Adds the forces of the island's regions to t->element_forces, N, which is zero before if there are no
+ * tetrahedra. */
+static inline void sbri_compute_region_forces(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   if (island->tetrahedron_block_count == 0)
     memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
   for (uint32_t b = 0; b < island->region_block_count; b++)
-    sbri_region_block_forces(t, &island->region_blocks[b], t->rotations + 4 * SBRI_BLOCK * (size_t)b);
+    sbri_compute_region_block_forces(t, &island->region_blocks[b], t->rotations + 4 * SBRI_BLOCK * (size_t)b);
 }
 
 #endif

@@ -91,10 +91,10 @@ static void tick_relaxation(const sbri_island_tick *t) {
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
       take_back(&r, slot, settings->damping);
   }
-  sbri_count_passes(t, 1);
+  sbri_count_element_visits(t, 1);
 }
 
-const sbri_scheme sbri_relaxation = {.word = SBF_SCHEME_RELAXATION,
+const sbri_scheme sbri_relaxation = {.kind = SBF_SCHEME_RELAXATION,
     .forceless = true,
     .refuse = sbri_refuse_all_but_springs,
     .prepare = sbri_visits_make,

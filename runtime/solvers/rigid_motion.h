@@ -1,5 +1,6 @@
-/* A body's motion as a whole: the rigid one that has its momentum and its angular momentum. Written for the
- * lanes of the file that includes it; see model/kernels.h. */
+/* Rigid motion of a soft body: the one with the same momentum and angular momentum.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_RIGID_MOTION_H
 #define SBRI_RIGID_MOTION_H
 
@@ -10,8 +11,8 @@
 
 typedef struct sbri_rigid_motion {
   float mass_kg;
-  sbf_vec3 center, velocity, spin; /* m, m/s, rad/s about the centre */
-  float inertia[6];                /* about it, kg m^2: xx, yy, zz, xy, xz, yz of the matrix */
+  sbf_vec3 center, velocity, angular_velocity; /* m, m/s, rad/s about the centre */
+  float inertia[6];                            /* about it, kg m^2: xx, yy, zz, xy, xz, yz of the matrix */
 } sbri_rigid_motion;
 
 enum { SBRI_RIGID_SUMS = 9 };
@@ -21,9 +22,9 @@ static inline sbri_wide3 sbri_velocity_at(const float *velocities, uint32_t slot
   return (sbri_wide3){sbri_wide_load(v), sbri_wide_load(v + SBRI_BLOCK), sbri_wide_load(v + 2 * SBRI_BLOCK)};
 }
 
-/* The inertia matrix (xx, yy, zz, xy, xz, yz) solved for the spin. A body on a line has no inertia about it:
- * a millionth of the trace is added so that it has no spin about it either. */
-static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
+/* Angular velocity of an angular momentum for an inertia matrix (xx, yy, zz, xy, xz, yz). A millionth of the
+ * trace is added, so that a body on a line does not rotate about it. */
+static inline sbf_vec3 sbri_angular_velocity_from_inertia(const float inertia[6], sbf_vec3 momentum) {
   float min = 1e-6f * (inertia[0] + inertia[1] + inertia[2]);
   float a = inertia[0] + min, b = inertia[1] + min, c = inertia[2] + min;
   float d = inertia[3], e = inertia[4], f = inertia[5];
@@ -35,13 +36,13 @@ static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
       (sbf_vec3){sbri_dot(x, momentum), sbri_dot(y, momentum), sbri_dot(z, momentum)}, 1 / determinant);
 }
 
-/* About an axis of unit length. */
+/* Moment of inertia about a unit axis. */
 static inline float sbri_inertia_about(const float inertia[6], sbf_vec3 u) {
   float even = inertia[0] * u.x * u.x + inertia[1] * u.y * u.y + inertia[2] * u.z * u.z;
   return even + 2 * (inertia[3] * u.x * u.y + inertia[4] * u.x * u.z + inertia[5] * u.y * u.z);
 }
 
-/* Of the body's free points; arrays of its island. */
+/* Rigid motion of the body's free points; the arrays belong to its island. */
 static inline sbri_rigid_motion sbri_rigid_motion_find(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, const float *velocities) {
   float lanes[SBRI_RIGID_SUMS][SBRI_BLOCK] = {{0}}, sums[SBRI_RIGID_SUMS];
@@ -88,17 +89,19 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
   }
   for (int i = 0; i < SBRI_RIGID_SUMS; i++) sums[i] = sbri_tree_sum(lanes[i]);
   for (int i = 0; i < 6; i++) motion.inertia[i] = sums[3 + i];
-  motion.spin = sbri_spin_of(sums + 3, (sbf_vec3){sums[0], sums[1], sums[2]});
+  motion.angular_velocity =
+      sbri_angular_velocity_from_inertia(sums + 3, (sbf_vec3){sums[0], sums[1], sums[2]});
   return motion;
 }
 
-/* Keeps the share `kept` of what each velocity differs from that motion, which stays as it is. What is lost
- * has moved the points for another `ahead_s` seconds. */
+/* Keeps the fraction `kept` of each velocity relative to the rigid motion, which does not change. Moves
+ * points by the removed velocity times `ahead_s`. */
 static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_body *body,
     sbri_point *positions, float *velocities, float kept, float ahead_s) {
   sbri_rigid_motion m = sbri_rigid_motion_find(island, body, positions, velocities);
   sbri_wide k = sbri_wide_all(kept), zero = sbri_wide_all(0), ahead = sbri_wide_all(ahead_s);
-  sbri_wide sx = sbri_wide_all(m.spin.x), sy = sbri_wide_all(m.spin.y), sz = sbri_wide_all(m.spin.z);
+  sbri_wide sx = sbri_wide_all(m.angular_velocity.x), sy = sbri_wide_all(m.angular_velocity.y),
+            sz = sbri_wide_all(m.angular_velocity.z);
   sbri_wide cx = sbri_wide_all(m.center.x), cy = sbri_wide_all(m.center.y), cz = sbri_wide_all(m.center.z);
   sbri_wide vx = sbri_wide_all(m.velocity.x), vy = sbri_wide_all(m.velocity.y),
             vz = sbri_wide_all(m.velocity.z);
@@ -120,19 +123,19 @@ static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_
   }
 }
 
-/* The same with a rate for each slot, 1/s, over `time_s` seconds. What that would take of the motion as a
- * whole is given back. */
+/* The same with a rate per slot, 1/s, over `time_s` seconds. Restores the rigid motion afterwards. */
 static inline void sbri_rigid_motion_damp_each(const sbri_island *island, const sbri_body *body,
     sbri_point *positions, float *velocities, const float *rates, float time_s, float ahead_s) {
   sbri_rigid_motion was = sbri_rigid_motion_find(island, body, positions, velocities), now;
-  sbf_vec3 move = was.velocity, spin = was.spin;
+  sbf_vec3 move = was.velocity, angular_velocity = was.angular_velocity;
   for (int pass = 0; pass < 2; pass++) {
     for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
       sbri_point *x = &positions[slot];
       float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       if (!(island->masses[slot] > 0)) continue;
       sbf_vec3 r = sbri_sub((sbf_vec3){x->x, x->y, x->z}, was.center);
-      sbf_vec3 u = sbri_add(move, sbri_cross(spin, r)), w = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]}, had = w;
+      sbf_vec3 u = sbri_add(move, sbri_cross(angular_velocity, r)),
+               w = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]}, had = w;
       if (pass == 0)
         w = sbri_add_scaled(u, sbri_sub(w, u), sbri_exp(-rates[slot] * time_s));
       else
@@ -141,7 +144,8 @@ static inline void sbri_rigid_motion_damp_each(const sbri_island *island, const 
       x->x += ahead_s * (had.x - w.x), x->y += ahead_s * (had.y - w.y), x->z += ahead_s * (had.z - w.z);
     }
     now = sbri_rigid_motion_find(island, body, positions, velocities);
-    move = sbri_sub(was.velocity, now.velocity), spin = sbri_sub(was.spin, now.spin);
+    move = sbri_sub(was.velocity, now.velocity),
+    angular_velocity = sbri_sub(was.angular_velocity, now.angular_velocity);
   }
 }
 

@@ -14,21 +14,21 @@ static float *velocity_at(const sbri_island_tick *t, uint32_t slot) {
   return t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
 
-static sbf_vec3 place_of(const sbri_island_tick *t, uint32_t slot) {
+static sbf_vec3 position_of(const sbri_island_tick *t, uint32_t slot) {
   return sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z);
 }
 
-static void set_place(const sbri_island_tick *t, uint32_t slot, sbf_vec3 x) {
+static void set_position(const sbri_island_tick *t, uint32_t slot, sbf_vec3 x) {
   t->positions[slot] = (sbri_point){x.x, x.y, x.z, 0};
 }
 
-static void follow_guides(const sbri_island_tick *t, const sbri_body *body) {
+static void follow_drivers(const sbri_island_tick *t, const sbri_body *body) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
-    const float *guide = t->guide_velocities + (velocity_at(t, slot) - t->velocities);
+    const float *drivers = t->driver_velocities + (velocity_at(t, slot) - t->velocities);
     float *v = velocity_at(t, slot);
-    for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK) v[k] = guide[k];
-    set_place(t, slot,
-        sbri_add_scaled(place_of(t, slot), sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), t->tick_s));
+    for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK) v[k] = drivers[k];
+    set_position(t, slot,
+        sbri_add_scaled(position_of(t, slot), sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), t->tick_s));
   }
 }
 
@@ -42,7 +42,7 @@ static void strike(sbri_rigid_motion *motion, sbf_vec3 *out, sbf_vec3 normal, fl
   sbf_vec3 sideways = sbri_add_scaled(motion->velocity, normal, -speed);
   float size = sbri_length(sideways), max = -speed * friction;
   motion->velocity = sbri_scale(sideways, size > max ? 1 - max / size : 0);
-  motion->spin = sbri_vec3(0, 0, 0);
+  motion->angular_velocity = sbri_vec3(0, 0, 0);
 }
 
 static void strike_planes(
@@ -52,24 +52,25 @@ static void strike_planes(
     if (!t->near_ground[block]) continue;
     const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
-    strike(motion, out, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, place_of(t, slot)), body->friction);
+    strike(motion, out, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, position_of(t, slot)), body->friction);
   }
-  for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
-    const sbri_touch *touch = &t->touches[body->first_touch + i];
-    if (touch->collider == SBRI_ITSELF) continue;
-    float depth = touch->offset - sbri_dot(touch->normal, sbri_sample_place(t, &touch->sample));
-    strike(motion, out, touch->normal, depth, body->friction * touch->friction_share);
+  for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
+    const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
+    if (contact->collider == SBRI_ITSELF) continue;
+    float depth = contact->offset - sbri_dot(contact->normal, sbri_sample_position(t, &contact->sample));
+    strike(motion, out, contact->normal, depth, body->friction * contact->friction_scale);
   }
 }
 
 static void fly(const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, float h) {
-  float rate = sbri_length(motion->spin), sine, cosine;
+  float rate = sbri_length(motion->angular_velocity), sine, cosine;
   sbri_sincos(0.5f * rate * h, &sine, &cosine);
-  sbf_vec3 axis = sbri_scale(motion->spin, rate > 0 ? sine / rate : 0);
-  sbf_quat turn = {axis.x, axis.y, axis.z, cosine};
+  sbf_vec3 axis = sbri_scale(motion->angular_velocity, rate > 0 ? sine / rate : 0);
+  sbf_quat rotation = {axis.x, axis.y, axis.z, cosine};
   sbf_vec3 to = sbri_add_scaled(motion->center, motion->velocity, h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
-    set_place(t, slot, sbri_add(to, sbri_rotate(turn, sbri_sub(place_of(t, slot), motion->center))));
+    set_position(
+        t, slot, sbri_add(to, sbri_rotate(rotation, sbri_sub(position_of(t, slot), motion->center))));
   motion->center = to;
 }
 
@@ -84,11 +85,11 @@ static void move_loose(const sbri_island_tick *t, const sbri_body *body) {
     strike_planes(t, body, &motion, &out);
     motion.center = sbri_add(motion.center, out);
     for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
-      set_place(t, slot, sbri_add(place_of(t, slot), out));
+      set_position(t, slot, sbri_add(position_of(t, slot), out));
   }
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
-    sbf_vec3 arm = sbri_sub(place_of(t, slot), motion.center);
-    sbf_vec3 goes = sbri_add(motion.velocity, sbri_cross(motion.spin, arm));
+    sbf_vec3 arm = sbri_sub(position_of(t, slot), motion.center);
+    sbf_vec3 goes = sbri_add(motion.velocity, sbri_cross(motion.angular_velocity, arm));
     float *v = velocity_at(t, slot);
     v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
   }
@@ -99,8 +100,8 @@ static void tick(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
     if (body->slot_begin == body->slot_end) continue;
-    if (body->held)
-      follow_guides(t, body);
+    if (body->is_pinned)
+      follow_drivers(t, body);
     else
       move_loose(t, body);
   }
@@ -109,4 +110,4 @@ static void tick(const sbri_island_tick *t) {
   *t->stretch = island->rest_stretch, *t->stiffening = 1, *t->min_ratio = 1;
 }
 
-const sbri_scheme sbri_rigid_shape = {.word = SBF_SCHEME_AUTOMATIC, .tick = tick};
+const sbri_scheme sbri_rigid_shape = {.kind = SBF_SCHEME_AUTOMATIC, .tick = tick};

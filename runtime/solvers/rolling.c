@@ -8,9 +8,9 @@
 static const float PI = 3.14159265f;
 
 /* Points this near to the ground touch it: a share of the body's size. */
-static const float TOUCHING_SHARE = 1e-3f;
+static const float TOUCHING_FRACTION = 1e-3f;
 
-float sbri_rolling_share(float damping_ratio) {
+float sbri_rolling_fraction(float damping_ratio) {
   return (1 - sbri_exp(-2 * PI * damping_ratio)) * 2 / (3 * PI);
 }
 
@@ -22,9 +22,9 @@ typedef struct patch {
 } patch;
 
 static void add_to_patch(patch *p, sbf_vec3 at, sbf_vec3 normal) {
-  float place = sbri_dot(p->along, at);
-  p->low = p->count == 0 || place < p->low ? place : p->low;
-  p->high = p->count == 0 || place > p->high ? place : p->high;
+  float coordinate = sbri_dot(p->along, at);
+  p->low = p->count == 0 || coordinate < p->low ? coordinate : p->low;
+  p->high = p->count == 0 || coordinate > p->high ? coordinate : p->high;
   p->normal = sbri_add(p->normal, normal);
   p->count++;
 }
@@ -45,39 +45,41 @@ static void add_points(patch *p, const sbri_island_tick *t, const sbri_body *bod
 
 static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_vec3 along) {
   patch p = {.along = along};
-  float near = TOUCHING_SHARE * body->rest_size_m;
-  for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
-    const sbri_touch *touch = &t->touches[body->first_touch + i];
-    if (touch->collider == SBRI_ITSELF) continue;
-    sbf_vec3 x = sbri_sample_place(t, &touch->sample);
-    if (sbri_dot(touch->normal, x) - touch->offset <= near) add_to_patch(&p, x, touch->normal);
+  float near = TOUCHING_FRACTION * body->rest_size_m;
+  for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
+    const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
+    if (contact->collider == SBRI_ITSELF) continue;
+    sbf_vec3 x = sbri_sample_position(t, &contact->sample);
+    if (sbri_dot(contact->normal, x) - contact->offset <= near) add_to_patch(&p, x, contact->normal);
   }
   if (!body->samples) add_points(&p, t, body, near);
   return p;
 }
 
-static void turn(const sbri_island_tick *t, const sbri_body *body, sbf_vec3 center, sbf_vec3 spin) {
+static void turn(
+    const sbri_island_tick *t, const sbri_body *body, sbf_vec3 center, sbf_vec3 angular_velocity) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *at = &t->positions[slot];
     float *v = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    sbf_vec3 change = sbri_cross(spin, sbri_sub(sbri_vec3(at->x, at->y, at->z), center));
+    sbf_vec3 change = sbri_cross(angular_velocity, sbri_sub(sbri_vec3(at->x, at->y, at->z), center));
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
   }
 }
 
-void sbri_rolling_resist(const sbri_island_tick *t, const sbri_body *body) {
-  if (body->held || !(body->rolling_share > 0)) return;
+void sbri_rolling_apply_resistance(const sbri_island_tick *t, const sbri_body *body) {
+  if (body->is_pinned || !(body->rolling_fraction > 0)) return;
   patch touching = find_patch(t, body, sbri_vec3(0, 0, 0));
   if (touching.count == 0) return;
   sbf_vec3 n = sbri_normalize(touching.normal, sbri_vec3(0, 1, 0));
   sbri_rigid_motion motion = sbri_rigid_motion_find(t->island, body, t->positions, t->velocities);
-  sbf_vec3 spin = sbri_add_scaled(motion.spin, n, -sbri_dot(motion.spin, n));
-  float rate = sbri_length(spin);
+  sbf_vec3 angular_velocity =
+      sbri_add_scaled(motion.angular_velocity, n, -sbri_dot(motion.angular_velocity, n));
+  float rate = sbri_length(angular_velocity);
   float weight = -sbri_dot(t->gravity, n) * body->source->attributes.gravity_scale * motion.mass_kg;
   if (!(rate > 0) || !(weight > 0)) return;
-  sbf_vec3 axis = sbri_scale(spin, 1 / rate);
+  sbf_vec3 axis = sbri_scale(angular_velocity, 1 / rate);
   patch wide = find_patch(t, body, sbri_cross(axis, n));
-  float moment = body->rolling_share * 0.5f * (wide.high - wide.low) * weight;
+  float moment = body->rolling_fraction * 0.5f * (wide.high - wide.low) * weight;
   float inertia = sbri_inertia_about(motion.inertia, axis);
   float change = inertia > 0 ? moment * t->tick_s / inertia : 0;
   turn(t, body, motion.center, sbri_scale(axis, change < rate ? -change : -rate));

@@ -14,11 +14,11 @@
 
 #include "model/island_tick.h"
 
-/* Share of half the width of what touches by which the weight's push lies ahead: H 2 / (3 pi). */
-float sbri_rolling_share(float damping_ratio);
+/* Offset of the normal force as a fraction of half the contact width: H 2 / (3 pi). */
+float sbri_rolling_fraction(float damping_ratio);
 
-/* Takes off the body's spin what that moment does in a tick, and no more than all of it. After the contacts
- * of the tick are prepared. */
-void sbri_rolling_resist(const sbri_island_tick *tick, const sbri_body *body);
+/* Reduces the body's angular velocity by that moment over a tick, at most to 0. Call after contacts are
+ * prepared. */
+void sbri_rolling_apply_resistance(const sbri_island_tick *tick, const sbri_body *body);
 
 #endif

@@ -1,30 +1,30 @@
-/* What a scheme is: one way to step the islands of a model through a control tick. Each has a file of its own
- * in this folder, and its loops over points or elements in a header of the same name, which is compiled for
- * each instruction set (model/kernels.h). */
+/* Time integrators of soft bodies ("schemes"). Each steps the islands of a model through a control tick and
+ * has its own file in this folder. Loops over points or elements are in the header of the same name, which is
+ * compiled once per instruction set (model/kernels.h). */
 #ifndef SBRI_SCHEME_H
 #define SBRI_SCHEME_H
 
 #include "model/island_tick.h"
 
 struct sbri_scheme {
-  sbf_scheme word;
-  bool forceless; /* it knows no forces, masses or seconds: `velocities` hold the places of the tick before */
-  bool sweeps;    /* it works on the springs as links */
-  /* Why it cannot step the island, as "whose ..."; NULL: it can. Asked before the island's tables are made:
-   * of its bodies and their levels. May be NULL itself: it steps all. */
+  sbf_scheme kind;
+  bool forceless; /* uses no forces, masses or time: `velocities` hold the positions of the previous tick */
+  bool sweeps;    /* iterates over springs as links */
+  /* Returns why the integrator cannot step the island, as text that begins with "whose"; NULL if it can.
+   * Called before the island's tables exist, so it may use bodies and levels only. NULL pointer: it steps
+   * everything. */
   const char *(*refuse)(const sbr_model *model, const sbri_island *island);
-  /* Makes the tables that it alone needs, after the island's own; false where memory runs out. May be NULL.
-   */
+  /* Builds the integrator's own tables after the island's. Returns false if memory runs out. May be NULL. */
   bool (*prepare)(sbr_model *model, sbri_island *island);
-  /* Substeps of a tick of `tick_s` that it needs while no spring is stretched by more than `stretch`, the
-   * share of its length that is beyond its rest length. NULL: one. */
+  /* Number of substeps for a tick of `tick_s` seconds while no spring is longer than (1 + stretch) times its
+   * rest length. NULL pointer: one substep. */
   uint32_t (*substeps)(const sbri_island *island, double tick_s, float stretch);
   void (*tick)(const sbri_island_tick *tick);
 };
 
 extern const sbri_scheme sbri_symplectic, sbri_relaxation, sbri_explicit_euler, sbri_heun,
     sbri_position_based, sbri_block_descent;
-/* For bodies that none of these can step; hosts cannot ask for it. */
+/* Fallback: moves a body as a rigid shape. Hosts cannot select it. */
 extern const sbri_scheme sbri_rigid_shape;
 
 static inline const char *sbri_scheme_refuses(
@@ -32,18 +32,17 @@ static inline const char *sbri_scheme_refuses(
   return scheme->refuse ? scheme->refuse(model, island) : NULL;
 }
 
-/* For those that step springs alone. */
+/* Refuses every island that has more than springs. */
 const char *sbri_refuse_all_but_springs(const sbr_model *model, const sbri_island *island);
-/* For those that step all but regions, which are stable by themselves: none of them is faster than it says.
- */
+/* Refuses regions, whose stability limit the explicit integrators do not know. */
 const char *sbri_refuse_regions(const sbr_model *model, const sbri_island *island);
 
-/* Of position-based substeps, whatever the state. */
+/* Number of position-based substeps; does not depend on the state. */
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s);
 
-/* NULL: the runtime does not have it. */
+/* Returns NULL if the runtime does not implement the scheme. */
 const sbri_scheme *sbri_scheme_of(sbf_scheme word);
-/* Names of those it has, as "symplectic, relaxation". */
+/* Names of the implemented schemes, separated by commas: "symplectic, relaxation". */
 const char *sbri_scheme_names(void);
 
 static inline uint32_t sbri_scheme_substeps(const sbri_island *island, double tick_s, float stretch) {

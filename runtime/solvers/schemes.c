@@ -6,7 +6,7 @@ static const sbri_scheme *const schemes[] = {&sbri_symplectic, &sbri_position_ba
 
 const sbri_scheme *sbri_scheme_of(sbf_scheme word) {
   for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++)
-    if (schemes[i]->word == word) return schemes[i];
+    if (schemes[i]->kind == word) return schemes[i];
   return NULL;
 }
 

@@ -3,14 +3,14 @@
 #include "math/trig.h"
 #include "math/vec3.h"
 #include "solvers/rigid_motion.h"
-#include "solvers/touches.h"
+#include "solvers/soft_contacts.h"
 
 /* k: blocks of 0.05 to 0.15 by 0.3 m, of 10 kPa to 1 MPa and Poisson's ratios up to 0.45, slide down slopes
  * and stop on them as Coulomb says with 3 and more for coefficients up to 1.2; with 1 only up to 1. */
 static const float DAMPING = 3;
 
 /* m: a point no higher over its plane touches it. */
-static const float TOUCHES_M = 1e-5f;
+static const float CONTACT_DISTANCE_M = 1e-5f;
 /* m/s: a point that sticks is slower. */
 static const float STICKS_M_S = 1e-6f;
 
@@ -23,7 +23,7 @@ static void add_planes(
     const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
     sbf_vec3 x = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
-    if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] > TOUCHES_M) continue;
+    if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] > CONTACT_DISTANCE_M) continue;
     sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
     float friction = rule->frictions ? rule->frictions[slot] : rule->friction, speed = sbri_length(sideways);
@@ -34,11 +34,11 @@ static void add_planes(
 
 void sbri_slide_damp(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
   if (!(body->sliding_rad_s > 0)) return;
-  sbri_sliding sliding = sbri_touches_sliding(t, body, rule);
+  sbri_sliding sliding = sbri_soft_contacts_sum_sliding(t, body, rule);
   if (!body->samples) add_planes(t, body, rule, &sliding);
   float friction = sbri_length(sliding.friction);
   if (!(friction > 0)) return;
-  float coefficient = sliding.limit / sliding.load, share = friction / sliding.limit;
-  float rate = 2 * DAMPING * coefficient * coefficient * share * body->sliding_rad_s;
+  float coefficient = sliding.limit / sliding.load, fraction = friction / sliding.limit;
+  float rate = 2 * DAMPING * coefficient * coefficient * fraction * body->sliding_rad_s;
   sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, sbri_exp(-rate * rule->step_s), 0);
 }

@@ -15,7 +15,7 @@
 
 #include "contact/contact.h"
 
-/* After the contacts of a substep. */
+/* Applies the damping, after the contacts of a substep. */
 void sbri_slide_damp(const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_rule *rule);
 
 #endif

@@ -16,7 +16,7 @@
 
 /* No side of a rest shape becomes so many times as thin (the square of it): what is as crushed yields no
  * more. */
-#define SBRI_MAX_THINNING 64.0
+#define SBRI_MAX_FLOW_STRETCH 64.0
 /* Limits are swept until none is off by more than this strain. */
 #define SBRI_LIMIT_TOLERANCE 1e-3
 enum { SBRI_LIMIT_SWEEPS = 4 };
@@ -31,10 +31,10 @@ static inline uint32_t sbri_corner(const sbri_solid_lane *e, int k) {
   return *e->corners[k];
 }
 
-static inline void sbri_solid_edges_of(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3]) {
-  sbf_vec3 o = sbri_shifted_place(t, sbri_corner(e, 0));
+static inline void sbri_store_solid_edges(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3]) {
+  sbf_vec3 o = sbri_shifted_position(t, sbri_corner(e, 0));
   for (int k = 0; k < 3; k++) {
-    sbf_vec3 p = sbri_shifted_place(t, sbri_corner(e, k + 1));
+    sbf_vec3 p = sbri_shifted_position(t, sbri_corner(e, k + 1));
     d[k] = (sbfi_d3){(double)p.x - (double)o.x, (double)p.y - (double)o.y, (double)p.z - (double)o.z};
   }
 }
@@ -43,30 +43,31 @@ static inline void sbri_solid_edges_of(const sbri_island_tick *t, const sbri_sol
 static inline void sbri_limit_stretch(
     const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_stretches *s, int k, double bound) {
   const double *q = s->directions[k];
-  double sum = 0, held = 0, shares[4] = {0, q[0], q[1], q[2]};
+  double sum = 0, limited = 0, fractions[4] = {0, q[0], q[1], q[2]};
   bool is_long = s->values[k] > bound;
   sbfi_d3 d[3];
-  sbri_solid_edges_of(t, e, d);
+  sbri_store_solid_edges(t, e, d);
   sbfi_d3 u = sbfi_d3_add(
       sbfi_d3_add(sbfi_d3_scale(d[0], q[0]), sbfi_d3_scale(d[1], q[1])), sbfi_d3_scale(d[2], q[2]));
   double value = s->values[k] < 0 ? -sqrt(sbfi_d3_dot(u, u)) : sqrt(sbfi_d3_dot(u, u));
   if (!(fabs(value) > 1e-6) || is_long != (value > bound)) return;
-  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value)), apart = {0, 0, 0};
-  shares[0] = -(q[0] + q[1] + q[2]);
+  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value)), separation = {0, 0, 0};
+  fractions[0] = -(q[0] + q[1] + q[2]);
   for (int i = 0; i < 4; i++) {
     uint32_t slot = sbri_corner(e, i);
     double w = slot < t->island->free_count ? t->island->inverse_masses[slot] : 0;
-    sum += w * shares[i] * shares[i];
-    held += (double)sbri_held_ease(t, slot, sbri_scale(n, (float)shares[i]));
-    apart = sbri_add_scaled(apart, sbri_pushed_velocity(t, slot), (float)shares[i]);
+    sum += w * fractions[i] * fractions[i];
+    limited += (double)sbri_pinned_inverse_mass(t, slot, sbri_scale(n, (float)fractions[i]));
+    separation = sbri_add_scaled(separation, sbri_pushed_velocity(t, slot), (float)fractions[i]);
   }
   if (!(sum > 0)) return;
-  float all = (float)(sum + held), speed = sbri_dot(apart, n), way = (float)(value - bound) / all;
+  float all = (float)(sum + limited), speed = sbri_dot(separation, n), travel = (float)(value - bound) / all;
   bool leaving = is_long ? speed > 0 : speed < 0;
-  sbf_vec3 push = sbri_limit_turn(apart, n, way, all, (float)bound);
+  sbf_vec3 push = sbri_limit_turn(separation, n, travel, all, (float)bound);
   push = sbri_add_scaled(push, n, leaving ? -speed / all : 0);
-  for (int i = 0; i < 4; i++) sbri_move_slot(t, sbri_corner(e, i), sbri_scale(n, -(float)shares[i] * way));
-  for (int i = 0; i < 4; i++) sbri_push_slot(t, sbri_corner(e, i), sbri_scale(push, (float)shares[i]));
+  for (int i = 0; i < 4; i++)
+    sbri_move_slot(t, sbri_corner(e, i), sbri_scale(n, -(float)fractions[i] * travel));
+  for (int i = 0; i < 4; i++) sbri_push_slot(t, sbri_corner(e, i), sbri_scale(push, (float)fractions[i]));
   s->values[k] = bound;
 }
 
@@ -103,9 +104,9 @@ static inline void sbri_yield_solid(
     sbri_tetrahedron_block *block = sbri_solid_copy(t, element, n, &lane);
     const sbri_tetrahedron_block *made = &t->island->tetrahedron_blocks[block - t->flowing];
     for (int i = 0; i < 3; i++) {
-      float thinning = (float)(metric->at[i] * per_metric) / made->stiffness[i][lane];
-      if (thinning > (float)SBRI_MAX_THINNING) return;
-      if (thinning > *t->thinning) *t->thinning = thinning;
+      float flow_stretch = (float)(metric->at[i] * per_metric) / made->stiffness[i][lane];
+      if (flow_stretch > (float)SBRI_MAX_FLOW_STRETCH) return;
+      if (flow_stretch > *t->max_flow_stretch) *t->max_flow_stretch = flow_stretch;
     }
     for (int i = 0; i < 6; i++) block->stiffness[i][lane] = (float)(metric->at[i] * per_metric);
   }
@@ -119,7 +120,7 @@ static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_so
   if (!(block->shear[lane] > 0)) return false;
   double per_metric = (double)block->shear[lane] / block->inverse_volume[lane]; /* V mu */
   for (int i = 0; i < 6; i++) metric->at[i] = block->stiffness[i][lane] / per_metric;
-  sbri_solid_edges_of(t, e, d);
+  sbri_store_solid_edges(t, e, d);
   return sbfi_stretches_find(metric, d, stretches);
 }
 
@@ -169,18 +170,18 @@ SBRI_INLINE sbri_mask sbri_solids_beyond(
   sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3];
   for (int k = 0; k < 3; k++)
     d[k] = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[k + 1] + lane), x0);
-  static const int places[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  static const int indices[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   sbri_wide inverse_volume = sbri_wide_load(block->inverse_volume + lane), zero = sbri_wide_all(0);
   sbri_wide scale =
       inverse_volume / sbri_wide_max(sbri_wide_load(block->shear + lane), sbri_wide_all(1e-30f));
   sbri_wide k[6], b[6], product[3][3];
   for (int i = 0; i < 6; i++) k[i] = sbri_wide_load(block->stiffness[i] + lane) * scale;
   for (int i = 0; i < 3; i++)
-    for (int j = i; j < 3; j++) b[places[i][j]] = sbri_wide3_dot(d[i], d[j]);
+    for (int j = i; j < 3; j++) b[indices[i][j]] = sbri_wide3_dot(d[i], d[j]);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      product[i][j] = b[places[i][0]] * k[places[0][j]] + b[places[i][1]] * k[places[1][j]] +
-                      b[places[i][2]] * k[places[2][j]];
+      product[i][j] = b[indices[i][0]] * k[indices[0][j]] + b[indices[i][1]] * k[indices[1][j]] +
+                      b[indices[i][2]] * k[indices[2][j]];
   sbri_wide sum = sbri_wide_all(3);
   for (int i = 0; i < 3; i++) {
     sum = sum - sbri_wide_all(2) * product[i][i];

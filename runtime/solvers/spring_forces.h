@@ -6,7 +6,7 @@
 
 #include "solvers/scheme.h"
 
-/* Keeps a length from being 0, in m^2: far below what single precision can tell from 0 between two points. */
+/* Added to squared lengths, m^2, to avoid division by 0. Below the resolution of single precision. */
 #define SBRI_LENGTH_FLOOR 1e-30f
 
 static inline sbri_wide3 sbri_load3(const float *block) {
@@ -19,7 +19,7 @@ static inline void sbri_store3(float *block, sbri_wide3 v) {
   sbri_wide_store(block + 2 * SBRI_BLOCK, v.z);
 }
 
-/* Of a group of lanes in arrays that stand in blocks of three by eight, as velocities do. */
+/* Address of a group of lanes in arrays of blocks of three by eight, such as velocities. */
 static inline float *sbri_triple(float *blocks, uint32_t slot) {
   return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
@@ -27,13 +27,13 @@ static inline const float *sbri_const_triple(const float *blocks, uint32_t slot)
   return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
 
-/* Whether springs, tetrahedra or regions have damping of their own, which goes by velocity_points. */
+/* Whether springs, tetrahedra or regions have their own damping, which reads velocity_points. */
 static inline bool sbri_has_damping(const sbri_island *island) {
   return island->cell_damping || island->tetrahedron_damping || island->region_damping;
 }
 
-/* The velocities as points, for that damping; `rate` is one over the tick's length. */
-static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
+/* Copies velocities to velocity_points. `rate` is 1 / tick length. */
+static inline void sbri_copy_velocities_to_points(const sbri_island_tick *t, float rate) {
   const sbri_island *island = t->island;
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(t->velocity_points + slot, sbri_load3(sbri_const_triple(t->velocities, slot)));
@@ -44,12 +44,11 @@ static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate)
   }
 }
 
-/* What the forces on a group of lanes ask for; known where the function is made, so that the common ones
- * carry no more than they need. */
+/* Variants of the force loop, fixed at compile time so that the common ones do no extra work. */
 enum {
-  SBRI_DAMPED = 1,  /* springs have damping of their own, or slack */
-  SBRI_TRACKED = 2, /* the greatest share of a spring beyond its rest length is wanted */
-  SBRI_FLOWING = 4, /* rest lengths are state, and springs may be torn */
+  SBRI_DAMPED = 1,  /* springs have damping or slack */
+  SBRI_TRACKED = 2, /* the maximum stretch of the springs is measured */
+  SBRI_FLOWING = 4, /* rest lengths are state (yield), and springs may be torn */
   SBRI_FORCE_KINDS = 8
 };
 
@@ -58,7 +57,8 @@ static inline int sbri_force_kind(const sbri_island_tick *t, bool tracked) {
          (t->rests ? SBRI_FLOWING : 0);
 }
 
-/* Force of its springs on each point of a group of lanes; `stretches` (8) where tracked. */
+/* Spring force on each point of a group of lanes, N: the sum of k (1 - L / |d|) d over its springs.
+ * `stretches` (8 values) receives the maximum stretch if tracked. */
 SBRI_INLINE sbri_wide3 sbri_spring_forces(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
   const sbri_island *island = t->island;
@@ -81,14 +81,14 @@ SBRI_INLINE sbri_wide3 sbri_spring_forces(
       pull = k * sbri_wide_gather_floats(t->rests, links);
     }
     sbri_wide s = k - pull / sbri_wide_sqrt(square);
-    if (track) { /* goals, which have no rest length, do not count */
-      sbri_wide share = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
-      greatest = sbri_wide_select(pull > sbri_wide_all(0), sbri_wide_max(share, greatest), greatest);
+    if (track) { /* goal springs have rest length 0 and do not count */
+      sbri_wide fraction = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
+      greatest = sbri_wide_select(pull > sbri_wide_all(0), sbri_wide_max(fraction, greatest), greatest);
     }
     if (damped && island->cell_slack) {
-      size_t place = (size_t)c * SBRI_BLOCK + lane; /* links go along where points split */
-      sbri_wide slack = flowing ? sbri_wide_gather_floats(island->link_slack, island->cell_links + place)
-                                : sbri_wide_load(island->cell_slack + place);
+      size_t index = (size_t)c * SBRI_BLOCK + lane; /* links move with points that split */
+      sbri_wide slack = flowing ? sbri_wide_gather_floats(island->link_slack, island->cell_links + index)
+                                : sbri_wide_load(island->cell_slack + index);
       s = s - sbri_wide_min(s, sbri_wide_all(0)) * slack;
     }
     if (damped) {
@@ -110,12 +110,13 @@ static inline bool sbri_has_element_forces(const sbri_island *island) {
   return island->tetrahedron_block_count > 0 || island->region_block_count > 0;
 }
 
-/* Acceleration of each point of a group of lanes by all forces but frame damping and media friction. */
+/* Acceleration of each point of a group of lanes, m/s^2: all forces except frame damping and media friction.
+ */
 SBRI_INLINE sbri_wide3 sbri_acceleration(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
   sbri_wide3 f = sbri_spring_forces(t, slot, x, kind, stretches);
-  if (t->outer) {
-    sbri_wide3 more = sbri_wide_load_points(t->outer + slot);
+  if (t->external_forces) {
+    sbri_wide3 more = sbri_wide_load_points(t->external_forces + slot);
     f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
   }
   if (sbri_has_element_forces(t->island)) {
@@ -128,7 +129,7 @@ SBRI_INLINE sbri_wide3 sbri_acceleration(
       f.z * w + g * sbri_wide_all(t->gravity.z)};
 }
 
-/* The switch over kinds of forces: CALL with each as a constant. */
+/* Calls CALL with the kind of forces as a compile-time constant. */
 #define SBRI_FOR_FORCE_KIND(kind, CALL)                                                                      \
   switch (kind) {                                                                                            \
   case 0:                                                                                                    \

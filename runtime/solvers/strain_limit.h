@@ -14,54 +14,53 @@
 #define SBRI_STRAIN_LIMIT_H
 
 #include "math/vec3.h"
-#include "solvers/held_push.h"
 #include "solvers/motion.h"
+#include "solvers/pinned_impulse.h"
 
-/* Beyond a limit by less than this share is at it. */
+/* Relative tolerance of a limit. */
 #define SBRI_LIMIT_SLACK 2e-6f
-/* No turn becomes faster or slower by more than this share as its arm is made shorter or longer: what lies in
- * a heap is not to be thrown about. */
+/* Maximum relative change of an angular velocity by a change of arm length. Keeps heaps from bursting. */
 #define SBRI_LIMIT_MAX_TURN 0.2f
 
 static inline void sbri_shift_slot(
-    const sbri_island_tick *t, uint32_t slot, sbf_vec3 way, sbf_vec3 velocity_change) {
+    const sbri_island_tick *t, uint32_t slot, sbf_vec3 direction, sbf_vec3 velocity_change) {
   if (slot >= t->island->free_count) return;
   sbri_point *p = &t->positions[slot];
-  *p = (sbri_point){p->x + way.x, p->y + way.y, p->z + way.z, 0};
+  *p = (sbri_point){p->x + direction.x, p->y + direction.y, p->z + direction.z, 0};
   float *v = sbri_triple(t->velocities, slot);
   v[0] += velocity_change.x, v[SBRI_BLOCK] += velocity_change.y, v[2 * SBRI_BLOCK] += velocity_change.z;
 }
 
-/* An impulse on any slot. */
+/* Applies an impulse to a free or pinned slot. */
 static inline void sbri_push_slot(const sbri_island_tick *t, uint32_t slot, sbf_vec3 impulse) {
   if (slot < t->island->free_count)
     sbri_shift_slot(t, slot, sbri_vec3(0, 0, 0), sbri_scale(impulse, t->island->inverse_masses[slot]));
   else
-    sbri_held_push(t, slot, impulse);
+    sbri_pinned_apply_impulse(t, slot, impulse);
 }
 
 static inline sbf_vec3 sbri_pushed_velocity(const sbri_island_tick *t, uint32_t slot) {
-  return sbri_add(sbri_slot_velocity(t, t->velocities, slot), sbri_held_gain(t, slot));
+  return sbri_add(sbri_slot_velocity(t, t->velocities, slot), sbri_pinned_velocity_change(t, slot));
 }
 
-/* What keeps the angular momentum of an arm along n whose ends have been moved against each other, by `moved`
- * N s^2 at masses, to the length `bound`: an impulse across it, of the speed between its ends. */
+/* Tangential impulse that conserves the angular momentum of an arm along n whose ends were moved by `moved`
+ * (N s^2) to the length `bound`; `speed` is their relative velocity. */
 static inline sbf_vec3 sbri_limit_turn(sbf_vec3 speed, sbf_vec3 n, float moved, float sum, float bound) {
-  float share = moved / bound, max = SBRI_LIMIT_MAX_TURN / sum;
+  float fraction = moved / bound, max = SBRI_LIMIT_MAX_TURN / sum;
   if (!(bound > 0)) return sbri_vec3(0, 0, 0);
-  share = share > max ? max : share < -max ? -max : share;
-  return sbri_scale(sbri_add_scaled(speed, n, -sbri_dot(speed, n)), share);
+  fraction = fraction > max ? max : fraction < -max ? -max : fraction;
+  return sbri_scale(sbri_add_scaled(speed, n, -sbri_dot(speed, n)), fraction);
 }
 
-/* Moves any slot at once, by kg m. */
+/* Shifts a free or pinned slot immediately; the shift is in kg m. */
 static inline void sbri_move_slot(const sbri_island_tick *t, uint32_t slot, sbf_vec3 shift) {
   if (slot < t->island->free_count)
     sbri_shift_slot(t, slot, sbri_scale(shift, t->island->inverse_masses[slot]), sbri_vec3(0, 0, 0));
   else
-    sbri_held_shift(t, slot, shift);
+    sbri_pinned_apply_shift(t, slot, shift);
 }
 
-/* One spring, of length `length`, to the length `bound`. What holds it may have been moved out of the way. */
+/* Moves a spring of length `length` to the length `bound`. Its pinned end may have been shifted. */
 static inline void sbri_limit_link(
     const sbri_island_tick *t, uint32_t a, uint32_t b, float length, float bound) {
   uint32_t free_count = t->island->free_count;
@@ -69,17 +68,18 @@ static inline void sbri_limit_link(
   float wb = b < free_count ? t->island->inverse_masses[b] : 0;
   if (!(wa + wb > 0) || !(length > 0)) return;
   bool is_long = length > bound;
-  sbf_vec3 along = sbri_sub(sbri_shifted_place(t, b), sbri_shifted_place(t, a));
+  sbf_vec3 along = sbri_sub(sbri_shifted_position(t, b), sbri_shifted_position(t, a));
   length = sbri_length(along);
   if (!(length > 0) || is_long != (length > bound)) return;
   sbf_vec3 n = sbri_scale(along, 1 / length);
-  sbf_vec3 apart = sbri_sub(sbri_pushed_velocity(t, b), sbri_pushed_velocity(t, a));
-  float speed = sbri_dot(apart, n), ease = wa + wb + sbri_held_ease(t, a, n) + sbri_held_ease(t, b, n);
+  sbf_vec3 separation = sbri_sub(sbri_pushed_velocity(t, b), sbri_pushed_velocity(t, a));
+  float speed = sbri_dot(separation, n),
+        inverse_mass = wa + wb + sbri_pinned_inverse_mass(t, a, n) + sbri_pinned_inverse_mass(t, b, n);
   bool leaving = is_long ? speed > 0 : speed < 0;
-  float way = (length - bound) / ease, taken = leaving ? speed / ease : 0;
-  sbf_vec3 push = sbri_sub(sbri_scale(n, taken), sbri_limit_turn(apart, n, way, ease, bound));
-  sbri_move_slot(t, a, sbri_scale(n, way));
-  sbri_move_slot(t, b, sbri_scale(n, -way));
+  float travel = (length - bound) / inverse_mass, taken = leaving ? speed / inverse_mass : 0;
+  sbf_vec3 push = sbri_sub(sbri_scale(n, taken), sbri_limit_turn(separation, n, travel, inverse_mass, bound));
+  sbri_move_slot(t, a, sbri_scale(n, travel));
+  sbri_move_slot(t, b, sbri_scale(n, -travel));
   sbri_push_slot(t, a, push);
   sbri_push_slot(t, b, sbri_scale(push, -1));
 }

@@ -24,7 +24,7 @@ static inline sbri_hinge_shape sbri_hinge_shape_of(const sbf_vec3 x[4]) {
 }
 
 /* Of the angle, at the four points; zeros where a triangle has no area. */
-static inline void sbri_hinge_gradients(
+static inline void sbri_compute_hinge_gradients(
     const sbri_hinge_shape *shape, const sbf_vec3 x[4], sbf_vec3 gradients[4]) {
   float a = sbri_dot(shape->normals[0], shape->normals[0]),
         b = sbri_dot(shape->normals[1], shape->normals[1]);
@@ -49,8 +49,9 @@ static inline sbri_face_shape sbri_face_shape_of(const sbf_vec3 c[4]) {
   sbri_face_shape f;
   sbf_vec3 a = sbri_sub(c[2], c[0]), b = sbri_sub(c[3], c[1]), twice = sbri_cross(a, b);
   sbf_vec3 even = sbri_scale(sbri_add(c[0], c[2]), 0.5f), odd = sbri_scale(sbri_add(c[1], c[3]), 0.5f);
-  sbf_vec3 apart = sbri_sub(even, odd), evened = sbri_scale(twice, 0.125f);
-  sbf_vec3 p = sbri_scale(sbri_cross(apart, b), 1.0f / 12), q = sbri_scale(sbri_cross(apart, a), 1.0f / 12);
+  sbf_vec3 separation = sbri_sub(even, odd), evened = sbri_scale(twice, 0.125f);
+  sbf_vec3 p = sbri_scale(sbri_cross(separation, b), 1.0f / 12),
+           q = sbri_scale(sbri_cross(separation, a), 1.0f / 12);
   f.mean = sbri_scale(sbri_add(even, odd), 0.5f);
   f.area = sbri_scale(twice, 0.5f);
   f.gradients[0] = sbri_sub(evened, p);

@@ -7,4 +7,4 @@ static void tick_symplectic(const sbri_island_tick *tick) {
 }
 
 const sbri_scheme sbri_symplectic = {
-    .word = SBF_SCHEME_SYMPLECTIC, .substeps = sbri_stable_substeps, .tick = tick_symplectic};
+    .kind = SBF_SCHEME_SYMPLECTIC, .substeps = sbri_stable_substeps, .tick = tick_symplectic};

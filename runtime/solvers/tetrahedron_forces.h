@@ -31,10 +31,10 @@ SBRI_INLINE sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* How much faster than at rest the running state may swing, and how near to inside out it is; a lane each. */
+/* Per lane: bound of the stiffening relative to rest, and minimum J. */
 typedef struct sbri_tetrahedron_watch {
-  float stiffening[SBRI_BLOCK]; /* greatest share of an element's stiffness to that at rest, a bound */
-  float min_ratio[SBRI_BLOCK];  /* least J */
+  float stiffening[SBRI_BLOCK]; /* bound of the stiffness relative to rest, maximum over elements */
+  float min_ratio[SBRI_BLOCK];  /* minimum J */
 } sbri_tetrahedron_watch;
 
 /* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V): its
@@ -58,10 +58,10 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   a = sbri_wide_max(a, side * sbri_wide3_dot(n2, n2) / sbri_wide_max(k22, tiny));
   a = sbri_wide_max(a, side * sbri_wide3_dot(n3, n3) / sbri_wide_max(k33, tiny));
   /* a is lambda |cof F g|^2 / (mu |g|^2). */
-  sbri_wide share = sbri_wide_max(shear, tiny), max = sbri_wide_max(bulk + shear, tiny);
+  sbri_wide fraction = sbri_wide_max(shear, tiny), max = sbri_wide_max(bulk + shear, tiny);
   sbri_wide off = ratio - sbri_wide_all(1), curved = bulk * off - shear;
   curved = sbri_wide_max(sbri_wide_max(curved, zero - curved) - shear, zero);
-  sbri_wide stiffening = (sbri_wide_all(1) + a) * share / max + curved / max;
+  sbri_wide stiffening = (sbri_wide_all(1) + a) * fraction / max + curved / max;
   sbri_mask real = shear > zero;
   sbri_wide before = sbri_wide_load(watch->stiffening + lane), min = sbri_wide_load(watch->min_ratio + lane);
   sbri_wide_store(
@@ -72,14 +72,14 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
 /* Viscous forces, taken off f, at the rates w of the edges d: -beta V F S g_i, S Hooke's stress of the rate
  * E' of Green's strain. In edges, E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the
  * edges, and V g_j^T S g_i = 2 / (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
-SBRI_INLINE void sbri_tetrahedron_viscous(const sbri_tetrahedron_block *block, uint32_t lane,
+SBRI_INLINE void sbri_compute_viscous_forces(const sbri_tetrahedron_block *block, uint32_t lane,
     const float *betas, const sbri_wide3 d[3], const sbri_wide3 w[3], sbri_wide3 f[3]) {
-  static const int places[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  static const int indices[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   sbri_wide k[6], c[6], half = sbri_wide_all(0.5f), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
   for (int i = 0; i < 6; i++) k[i] = sbri_wide_load(block->stiffness[i] + lane);
   for (int i = 0; i < 3; i++)
     for (int j = i; j < 3; j++)
-      c[places[i][j]] = half * (sbri_wide3_dot(d[i], w[j]) + sbri_wide3_dot(w[i], d[j]));
+      c[indices[i][j]] = half * (sbri_wide3_dot(d[i], w[j]) + sbri_wide3_dot(w[i], d[j]));
   sbri_wide trace = k[0] * c[0] + k[1] * c[1] + k[2] * c[2] + two * (k[3] * c[3] + k[4] * c[4] + k[5] * c[5]);
   sbri_wide six = sbri_wide_all(6), mu = sbri_wide_max(six * sbri_wide_load(block->shear + lane), tiny);
   sbri_wide first = six * sbri_wide_load(block->bulk + lane) - mu;
@@ -88,24 +88,25 @@ SBRI_INLINE void sbri_tetrahedron_viscous(const sbri_tetrahedron_block *block, u
   for (int i = 0; i < 3; i++) {
     sbri_wide row[3]; /* (c K) column i */
     for (int j = 0; j < 3; j++)
-      row[j] = c[places[j][0]] * k[places[0][i]] + c[places[j][1]] * k[places[1][i]] +
-               c[places[j][2]] * k[places[2][i]];
+      row[j] = c[indices[j][0]] * k[indices[0][i]] + c[indices[j][1]] * k[indices[1][i]] +
+               c[indices[j][2]] * k[indices[2][i]];
     for (int j = 0; j < 3; j++) {
       sbri_wide s = two * per_volume *
-                        (k[places[j][0]] * row[0] + k[places[j][1]] * row[1] + k[places[j][2]] * row[2]) +
-                    even * k[places[j][i]];
+                        (k[indices[j][0]] * row[0] + k[indices[j][1]] * row[1] + k[indices[j][2]] * row[2]) +
+                    even * k[indices[j][i]];
       f[i] = sbri_wide3_sub(f[i], sbri_wide3_scale(d[j], beta * s));
     }
   }
 }
 
-/* The same at the velocities that points have now. */
-SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide3 f[3]) {
+/* The same at the present velocities. */
+SBRI_INLINE void sbri_compute_tetrahedron_damping(const sbri_island_tick *t,
+    const sbri_tetrahedron_block *block, uint32_t lane, const float *betas, const sbri_wide3 d[3],
+    sbri_wide3 f[3]) {
   sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
   for (int i = 0; i < 3; i++)
     w[i] = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, block->corners[i + 1] + lane), v);
-  sbri_tetrahedron_viscous(block, lane, betas, d, w, f);
+  sbri_compute_viscous_forces(block, lane, betas, d, w, f);
 }
 
 /* Edges of a group of lanes from their first corner. */
@@ -121,7 +122,7 @@ SBRI_INLINE sbri_tetrahedron_edges sbri_tetrahedron_edges_of(
       sbri_wide3_sub(sbri_wide_gather(x, block->corners[3] + lane), x0)}};
 }
 
-/* The forces of a group of lanes on its corners, but for the first's: its is minus `forces[0]`. */
+/* Forces of a group of lanes on corners 1 to 3; corner 0 receives minus `forces[0]`. */
 SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     const sbri_wide3 d[3], uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch,
     sbri_wide3 forces[4]) {
@@ -145,7 +146,7 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
   f[0] = sbri_wide3_sub(sbri_wide3_scale(n1, p), kd1);
   f[1] = sbri_wide3_sub(sbri_wide3_scale(n2, p), kd2);
   f[2] = sbri_wide3_sub(sbri_wide3_scale(n3, p), kd3);
-  if (betas) sbri_tetrahedron_damping(t, block, lane, betas, d, f);
+  if (betas) sbri_compute_tetrahedron_damping(t, block, lane, betas, d, f);
   if (watch) sbri_watch(block, lane, n1, n2, n3, ratio, watch);
   forces[0] = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
 }
@@ -183,10 +184,10 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
 
 /* Forces in N of the island's tetrahedra on its slots, into t->element_forces. `watch`: NULL, or what begins
  * as sbri_watch_begin makes it and is filled. */
-static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
+static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
   sbri_point *sums = t->element_forces;
   memset(sums, 0, t->island->slot_count * sizeof *sums);
-  /* Copies of the loop, so that the common one carries no more than it needs. */
+  /* Specialised loops, so that the common one does no extra work. */
   if (t->island->tetrahedron_damping)
     sbri_tetrahedron_blocks(t, t->island->tetrahedron_damping, watch, sums);
   else if (watch)
@@ -211,24 +212,23 @@ static inline float sbri_watch_min_ratio(const sbri_tetrahedron_watch *watch) {
   return min;
 }
 
-/* The forces, and if `looks` what is watched into the tick's state. */
-static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool looks) {
+/* The forces, and if `checks` what is watched into the tick's state. */
+static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool checks) {
   sbri_tetrahedron_watch watch;
   sbri_watch_begin(&watch);
-  sbri_tetrahedron_forces(t, looks ? &watch : NULL);
-  if (!looks) return;
+  sbri_compute_tetrahedron_forces(t, checks ? &watch : NULL);
+  if (!checks) return;
   *t->stiffening = sbri_watch_stiffening(&watch);
   *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
 
-/* As many substeps as that time takes at rest are stable for `time_s` where tetrahedra are stiffer than at
- * rest as last looked at: frequencies grow by the root of it, and what their own damping asks for by all of
- * it. */
+/* Time whose substeps at rest are stable for `time_s` at the last measured stiffening: frequencies grow with
+ * its root, damping with stiffening itself. */
 static inline double sbri_stiffened_time(const sbri_island_tick *t, float time_s) {
-  const float max = 1e4f; /* beyond it nothing would help */
-  float share = *t->stiffening * *t->thinning;
-  if (!(share < max)) share = max;
-  return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? share : sqrtf(share));
+  const float max = 1e4f; /* larger values would not help */
+  float fraction = *t->stiffening * *t->max_flow_stretch;
+  if (!(fraction < max)) fraction = max;
+  return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? fraction : sqrtf(fraction));
 }
 
 #endif

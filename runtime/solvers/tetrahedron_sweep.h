@@ -51,13 +51,13 @@ typedef struct sbri_sweep_step {
 SBRI_INLINE sbri_wide3 sbri_wide3_of(sbri_wide4 a) {
   return (sbri_wide3){a.x, a.y, a.z};
 }
-SBRI_INLINE void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 way, sbri_wide s) {
-  u->x = u->x + s * way.x, u->y = u->y + s * way.y, u->z = u->z + s * way.z;
+SBRI_INLINE void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 direction, sbri_wide s) {
+  u->x = u->x + s * direction.x, u->y = u->y + s * direction.y, u->z = u->z + s * direction.z;
 }
 
-/* Viscous forces into f, as sbri_tetrahedron_damping has them, at the rates by which the edges have changed
- * since the substep's beginning; already divided by 1 + h^2 times their own stiffness, beta / h of the
- * greatest at rest. `reach` is 0.6 sum w_i K_ii. */
+/* Viscous forces into f, as sbri_compute_tetrahedron_damping has them, at the rates by which the edges have
+ * changed since the substep's beginning; already divided by 1 + h^2 times their own stiffness, beta / h of
+ * the greatest at rest. `reach` is 0.6 sum w_i K_ii. */
 SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide reach, sbri_wide squares,
     const sbri_sweep_step *step, sbri_wide3 f[3]) {
@@ -68,13 +68,13 @@ SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrah
     w[i] = sbri_wide3_scale(sbri_wide3_sub(d[i], before), rate);
     viscous[i] = (sbri_wide3){zero, zero, zero};
   }
-  sbri_tetrahedron_viscous(block, lane, betas, d, w, viscous);
+  sbri_compute_viscous_forces(block, lane, betas, d, w, viscous);
   sbri_wide shear = sbri_wide_max(sbri_wide_load(block->shear + lane), sbri_wide_all(1e-30f));
   sbri_wide bulk = sbri_wide_load(block->bulk + lane), third = sbri_wide_all(1.0f / 3);
   sbri_wide stiffest = (sbri_wide_all(3) * bulk - shear) / shear * squares * third;
-  sbri_wide share = one / (one + sbri_wide_all(step->h) * sbri_wide_load(betas + lane) * reach *
-                                     sbri_wide_max(stiffest, one));
-  for (int i = 0; i < 3; i++) f[i] = sbri_wide3_add(f[i], sbri_wide3_scale(viscous[i], share));
+  sbri_wide fraction = one / (one + sbri_wide_all(step->h) * sbri_wide_load(betas + lane) * reach *
+                                        sbri_wide_max(stiffest, one));
+  for (int i = 0; i < 3; i++) f[i] = sbri_wide3_add(f[i], sbri_wide3_scale(viscous[i], fraction));
 }
 
 /* The settling of a group of lanes. Loops over corners are written out: compilers keep arrays in memory that

@@ -8,10 +8,10 @@
  * it: one is enough but where a body strikes the ground.
  *
  * Held points stay where they are, but simulated bodies that carry them take their part of the push, and give
- * way to it as far as their weight lets them (held_push.h): that part of the volume is theirs to bring back.
- * Where one body holds all that is held, or all on which the surface hangs, it takes what the free points
- * gain, with the other sign, of momentum and of angular momentum. Several could not share that out: the
- * gradient is then that where the substep began, by which the held points' parts add up to it (SHAKE).
+ * way to it as far as their weight lets them (pinned_impulse.h): that part of the volume is theirs to bring
+ * back. Where one body holds all that is held, or all on which the surface hangs, it takes what the free
+ * points gain, with the other sign, of momentum and of angular momentum. Several could not share that out:
+ * the gradient is then that where the substep began, by which the held points' parts add up to it (SHAKE).
  *
  * Points on the ground have nowhere to go below it. They count in the sum with that of their gradient which
  * leads along the ground or off it; what presses them down is taken by the ground, and rubs.
@@ -23,16 +23,16 @@
 
 #include "math/lane_sums.h"
 #include "skin/skin_lanes.h"
-#include "solvers/held_push.h"
 #include "solvers/motion.h"
+#include "solvers/pinned_impulse.h"
 
 /* No more than this share of the volume is regained in a step: a body turned inside out comes back slowly. */
-#define SBRI_MAX_VOLUME_SHARE 0.1f
+#define SBRI_MAX_VOLUME_FRACTION 0.1f
 
 /* Steps in a substep, while more than this share of the volume was missing before the last one: that leaves
  * about its square. */
 enum { SBRI_MAX_VOLUME_STEPS = 4 };
-#define SBRI_VOLUME_SHARE_LEFT 0.01f
+#define SBRI_VOLUME_FRACTION_LEFT 0.01f
 
 /* A point this near to the ground rests on it, in m. */
 #define SBRI_RESTING_M 1e-5f
@@ -50,7 +50,7 @@ static inline sbri_wide3 sbri_volume_off_ground(
 }
 
 /* Where what goes with those places and speeds was `h` before. */
-static inline sbri_wide3 sbri_places_before(const sbri_island_tick *t, uint32_t slot, float h) {
+static inline sbri_wide3 sbri_positions_before(const sbri_island_tick *t, uint32_t slot, float h) {
   sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
   sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
   sbri_wide step = sbri_wide_all(h);
@@ -84,7 +84,7 @@ static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_
     sbri_wide_store_points(t->velocity_points + slot, g);
     if (hold->by) {
       const sbf_vec3 *o = &hold->by->about;
-      sbri_wide3 r = sbri_places_before(t, slot, hold->h);
+      sbri_wide3 r = sbri_positions_before(t, slot, hold->h);
       r.x = r.x - sbri_wide_all(o->x), r.y = r.y - sbri_wide_all(o->y), r.z = r.z - sbri_wide_all(o->z);
       sbri_lane_sums_add(&hold->sums, lane, r, g);
     }
@@ -95,53 +95,53 @@ static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_
   return sbri_tree_sum(lanes);
 }
 
-static inline sbf_vec3 sbri_held_gradient(const sbri_point *faces, const sbri_face_share *share) {
-  const sbri_point *n = &faces[share->face];
-  return sbri_scale(sbri_vec3(n->x, n->y, n->z), share->weight);
+static inline sbf_vec3 sbri_pinned_gradient(const sbri_point *faces, const sbri_face_weight *face_weight) {
+  const sbri_point *n = &faces[face_weight->face];
+  return sbri_scale(sbri_vec3(n->x, n->y, n->z), face_weight->weight);
 }
 
 /* Whether it hangs on several bodies, of which at least one gives way. */
 static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
   if (!t->reactions || body->volume_carrier >= 0) return false;
   for (uint32_t k = 0; k < t->island->carrier_count; k++)
-    if (t->reactions[t->island->carriers[k]].ease > 0) return true;
+    if (t->reactions[t->island->carriers[k]].inverse_mass > 0) return true;
   return false;
 }
 
-static inline float sbri_reaction_ease(const sbri_reaction *r, sbf_vec3 push, sbf_vec3 turn) {
-  return r->ease * sbri_dot(push, push) + r->inverse_inertia * sbri_dot(turn, turn);
+static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 push, sbf_vec3 turn) {
+  return r->inverse_mass * sbri_dot(push, push) + r->inverse_inertia * sbri_dot(turn, turn);
 }
 
 /* What the held points' bodies add to that sum where they give way. */
-static inline float sbri_volume_held_ease(
+static inline float sbri_volume_pinned_inverse_mass(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
   float sum = 0;
   for (uint32_t k = 0; k < t->island->carrier_count; k++) {
     const sbri_reaction *r = &t->reactions[t->island->carriers[k]];
     sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
-    for (uint32_t i = 0; r->ease > 0 && i < body->volume_held_count; i++) {
-      const sbri_face_share *share = &body->volume_held[i];
-      if (sbri_reaction_at(t, share->slot) != r) continue;
-      sbf_vec3 g = sbri_held_gradient(faces, share);
+    for (uint32_t i = 0; r->inverse_mass > 0 && i < body->pinned_face_weight_count; i++) {
+      const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
+      if (sbri_reaction_at(t, face_weight->slot) != r) continue;
+      sbf_vec3 g = sbri_pinned_gradient(faces, face_weight);
       push = sbri_add(push, g);
-      turn = sbri_add(turn, sbri_cross(sbri_reaction_arm(t, r, share->slot), g));
+      turn = sbri_add(turn, sbri_cross(sbri_reaction_arm(t, r, face_weight->slot), g));
     }
-    sum += sbri_reaction_ease(r, push, turn);
+    sum += sbri_reaction_inverse_mass(r, push, turn);
   }
   return sum;
 }
 
 /* On what is held, where it was when the substep began. */
-static inline void sbri_volume_push_held(
+static inline void sbri_volume_apply_to_pinned(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float impulse, float h) {
-  for (uint32_t i = 0; i < body->volume_held_count; i++) {
-    const sbri_face_share *share = &body->volume_held[i];
-    sbri_reaction *r = sbri_reaction_at(t, share->slot);
-    sbf_vec3 push = sbri_scale(sbri_held_gradient(faces, share), impulse);
+  for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
+    const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
+    sbri_reaction *r = sbri_reaction_at(t, face_weight->slot);
+    sbf_vec3 push = sbri_scale(sbri_pinned_gradient(faces, face_weight), impulse);
     if (!r) continue;
-    sbri_held_push(t, share->slot, push);
-    sbf_vec3 way = sbri_scale(sbri_slot_velocity(t, t->velocities, share->slot), h);
-    r->moment = sbri_sub(r->moment, sbri_cross(way, push));
+    sbri_pinned_apply_impulse(t, face_weight->slot, push);
+    sbf_vec3 displacement = sbri_scale(sbri_slot_velocity(t, t->velocities, face_weight->slot), h);
+    r->moment = sbri_sub(r->moment, sbri_cross(displacement, push));
   }
 }
 
@@ -154,18 +154,19 @@ static inline float sbri_volume_within(
   if (!named) {
     vertices = t->surface_vertices + body->first_vertex;
     named = skin->faces;
-    sbri_lanes_vertices(skin, points - t->island->first_slot, t->surface_vertices + body->first_vertex);
+    sbri_lanes_compute_vertices(
+        skin, points - t->island->first_slot, t->surface_vertices + body->first_vertex);
   }
   return sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
 }
 
 /* The faces as they were when the substep began: by how places and speeds are now, which is all that a push
  * which changes both alike has to do with. */
-static inline void sbri_volume_faces_before(
+static inline void sbri_compute_volume_faces_before(
     const sbri_island_tick *t, const sbri_body *body, sbri_point *faces, float h) {
   sbri_point *before = t->element_forces; /* scratch that nothing else uses here */
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
-    sbri_wide_store_points(before + slot, sbri_places_before(t, slot, h));
+    sbri_wide_store_points(before + slot, sbri_positions_before(t, slot, h));
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
     const sbri_point *x = &t->positions[slot];
     sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
@@ -179,27 +180,28 @@ static inline void sbri_volume_faces_before(
 static inline float sbri_volume_step(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
   sbri_point *faces = t->surface_faces + body->first_face;
-  float rest = (float)body->rest_volume_m3, max = SBRI_MAX_VOLUME_SHARE * rest;
+  float rest = (float)body->rest_volume_m3, max = SBRI_MAX_VOLUME_FRACTION * rest;
   float missing = rest - sbri_volume_within(t, body, t->positions, faces) - *owed;
   const bool shared = sbri_volume_is_shared(t, body);
-  if (shared) sbri_volume_faces_before(t, body, faces, rule->step_s);
+  if (shared) sbri_compute_volume_faces_before(t, body, faces, rule->step_s);
   sbri_reaction *by = t->reactions && body->volume_carrier >= 0 ? &t->reactions[body->volume_carrier] : NULL;
   sbri_volume_hold hold;
-  hold.by = by && by->ease > 0 ? by : NULL, hold.h = rule->step_s;
+  hold.by = by && by->inverse_mass > 0 ? by : NULL, hold.h = rule->step_s;
   if (hold.by) memset(&hold.sums, 0, sizeof hold.sums);
-  float sum = sbri_volume_gradients(t, body, faces, missing, &hold), held = 0;
+  float sum = sbri_volume_gradients(t, body, faces, missing, &hold), limited = 0;
   sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
   if (hold.by) push = sbri_lanes_push(&hold.sums), turn = sbri_lanes_moment(&hold.sums);
-  if (hold.by && body->volume_held_count > 0) held = sbri_reaction_ease(hold.by, push, turn);
-  if (shared) held = sbri_volume_held_ease(t, body, faces);
+  if (hold.by && body->pinned_face_weight_count > 0)
+    limited = sbri_reaction_inverse_mass(hold.by, push, turn);
+  if (shared) limited = sbri_volume_pinned_inverse_mass(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
-  float s = (missing > max ? max : missing < -max ? -max : missing) / (sum + held);
-  *owed += s * held;
+  float s = (missing > max ? max : missing < -max ? -max : missing) / (sum + limited);
+  *owed += s * limited;
   if (hold.by) {
     hold.by->impulse = sbri_add_scaled(hold.by->impulse, push, -s / rule->step_s);
     hold.by->moment = sbri_add_scaled(hold.by->moment, turn, -s / rule->step_s);
   }
-  if (shared) sbri_volume_push_held(t, body, faces, s / rule->step_s, rule->step_s);
+  if (shared) sbri_volume_apply_to_pinned(t, body, faces, s / rule->step_s, rule->step_s);
   sbri_wide rate = sbri_wide_all(1 / rule->step_s);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
@@ -224,13 +226,13 @@ static inline float sbri_volume_step(
  * second. Momentum is kept with what the held points' bodies take, but for what the ground does. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
-  sbri_touches_remember(t, body);
+  sbri_soft_contacts_store(t, body);
   float owed = 0;
   for (int i = 0; i < SBRI_MAX_VOLUME_STEPS; i++) {
     float missing = sbri_volume_step(t, body, &rule, &owed);
-    if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) break;
+    if (missing < SBRI_VOLUME_FRACTION_LEFT && -missing < SBRI_VOLUME_FRACTION_LEFT) break;
   }
-  sbri_touches_bound(t, body, &rule);
+  sbri_soft_contacts_bound(t, body, &rule);
 }
 
 #endif

@@ -11,10 +11,10 @@
 #include "step/step.h"
 
 /* Ground that the host may change is looked at in every so many ticks. */
-enum { LOOK_EVERY = 4 };
+enum { CHECK_INTERVAL = 4 };
 
 bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
-  const sbri_character_state *head = sbri_head(c);
+  const sbri_character_state *head = sbri_header(c);
   if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0 || head->up != 0)
     return false;
   if (sbri_any_loads(c) || head->turned != 0 || sbri_dot(head->moved, head->moved) > 0) return false;
@@ -34,10 +34,10 @@ bool sbri_character_is_still(const sbri_character *c) {
 }
 
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
-  if (!sbri_head(c)->asleep) return false;
-  bool looks = !sbri_ground_is_fixed(&c->ground) && world->ticks % LOOK_EVERY == 0;
-  if (!looks && !world->colliders.moving) return true;
+  if (!sbri_header(c)->asleep) return false;
+  bool checks = !sbri_ground_is_fixed(&c->ground) && world->ticks % CHECK_INTERVAL == 0;
+  if (!checks && !world->colliders.moving) return true;
   /* The feet and the bodies look for themselves. */
-  sbri_head(c)->asleep = 0;
+  sbri_header(c)->asleep = 0;
   return false;
 }

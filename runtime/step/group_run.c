@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "body_contact/body_contacts.h"
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/vec3.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
-#include "solvers/outer_forces.h"
+#include "solvers/external_forces.h"
 #include "solvers/router.h"
 #include "solvers/scheme.h"
 #include "solvers/tetrahedron_forces.h"
@@ -24,7 +24,7 @@ enum { MIN_STEPS = 4, MAX_STEPS = 128 };
 enum { STEPS_OF_SOFT = 2 };
 
 static sbri_group_member member_of(const sbr_world *world, sbri_character *c, sbr_double3 origin) {
-  sbr_double3 own = sbri_head(c)->origin;
+  sbr_double3 own = sbri_header(c)->origin;
   sbri_group_member m = {.character = c,
       .offset = {(float)(own.x - origin.x), (float)(own.y - origin.y), (float)(own.z - origin.z)},
       .scale = c->scale,
@@ -59,19 +59,19 @@ static uint32_t steps_of(const sbri_island_tick *t) {
 static void hold(sbri_character *c, const sbri_island *island) {
   sbri_point *begins = sbri_begins(c) + island->first_slot;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
-  sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + island->first_slot);
+  sbri_compute_pin_targets(island, sbri_deltas(c), sbri_targets(c) + island->first_slot);
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) begins[slot] = positions[slot];
 }
 
 static void begin_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
-  (void)sbri_island_follow(c, &now, index, m->tick_s); /* what has jumped goes on from there */
-  sbri_island_tuck(c, &now);
-  sbri_island_keep_motions(c, index);
+  (void)sbri_island_update_drivers(c, &now, index, m->tick_s); /* what has jumped goes on from there */
+  sbri_island_fill_unused_slots(c, &now);
+  sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  tick.outer_rad_s = &now.outer_rad_s;
-  sbri_outer_look(&tick);
+  tick.external_rad_s = &now.external_rad_s;
+  sbri_update_gas_stiffness(&tick);
   hold(c, &now);
   sbri_island_prepare_contacts(&tick, c);
   (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery);
@@ -98,8 +98,8 @@ static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) 
     if (!is_in_contact(m, i)) continue;
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
     sbri_island_tick tick = sbri_island_tick_of(world, c, i, &now);
-    tick.outer_rad_s = &now.outer_rad_s;
-    sbri_outer_look(&tick);
+    tick.external_rad_s = &now.external_rad_s;
+    sbri_update_gas_stiffness(&tick);
     uint32_t steps = steps_of(&tick);
     max = steps > max ? steps : max;
   }
@@ -115,21 +115,21 @@ static uint32_t advance_island(
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_point *targets = sbri_targets(c) + now.first_slot;
   const sbri_point *positions = sbri_positions(c) + now.first_slot;
-  float share = to - from, part = share / (1 - from);
-  if (now.substeps) now.substeps = (uint32_t)ceilf(share * (float)now.substeps);
-  sbri_held_places(&now, sbri_deltas(c), targets);
+  float fraction = to - from, part = fraction / (1 - from);
+  if (now.substeps) now.substeps = (uint32_t)ceilf(fraction * (float)now.substeps);
+  sbri_compute_pin_targets(&now, sbri_deltas(c), targets);
   for (uint32_t s = now.free_count; s < now.slot_count; s++) {
     const sbri_point *x = &positions[s];
     targets[s] = (sbri_point){x->x + part * (targets[s].x - x->x), x->y + part * (targets[s].y - x->y),
         x->z + part * (targets[s].z - x->z), 0};
   }
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  tick.tick_s *= share, tick.share = share;
-  tick.outer_rad_s = &now.outer_rad_s;
-  sbri_outer_look(&tick);
+  tick.tick_s *= fraction, tick.fraction = fraction;
+  tick.external_rad_s = &now.external_rad_s;
+  sbri_update_gas_stiffness(&tick);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
   if (now.scheme->sweeps || now.substeps) return 0;
-  tick.tick_s = m->tick_s, tick.share = 1;
+  tick.tick_s = m->tick_s, tick.fraction = 1;
   return steps_of(&tick);
 }
 
@@ -158,10 +158,10 @@ static void run_alone(const sbr_world *world, const sbri_group_member *m, uint32
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   if (m->parts.steps) /* which have moved what holds it */
-    sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
+    sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  tick.outer_rad_s = &now.outer_rad_s;
-  sbri_outer_look(&tick);
+  tick.external_rad_s = &now.external_rad_s;
+  sbri_update_gas_stiffness(&tick);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
 }
 
@@ -169,11 +169,12 @@ static void end_island(const sbr_world *world, sbri_group_member *m, uint32_t in
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  if (is_in_contact(m, index)) sbri_held_places(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
-  sbri_island_tell(&tick, c);
+  if (is_in_contact(m, index))
+    sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
+  sbri_island_report_contacts(&tick, c);
   if (now.splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   (void)sbri_island_recover(world, c, index, NULL);
-  sbri_island_may_sleep(world, c, index);
+  sbri_island_update_sleep(world, c, index);
 }
 
 static void end(const sbr_world *world, sbri_group_member *m) {
@@ -200,10 +201,10 @@ static uint32_t rounded_steps(uint32_t steps) {
 /* Whether something is led out from deep within another: that presses evenly, at no more than its speed, and
  * is no blow that shorter steps would answer better. */
 static bool is_led_out(const sbr_world *world, const sbri_contact_group *group) {
-  const sbri_contact *touches = world->body_contacts->contacts + group->first_contact;
+  const sbri_contact *contacts = world->body_contacts->contacts + group->first_contact;
   bool any = false;
   for (uint32_t i = 0; i < group->contact_count; i++)
-    any |= touches[i].exits_nearest || touches[i].exits_common;
+    any |= contacts[i].exits_nearest || contacts[i].exits_common;
   return any;
 }
 
@@ -223,7 +224,8 @@ static void run_steps(const sbr_world *world, sbri_contact_group *group, uint32_
     uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(max) * 0.9999f);
     if (done == steps || led_out || left <= steps - done) continue;
     begin = to, steps = left, done = 0;
-    sbri_contacts_rescale(world->body_contacts, group, (float)world->tick_s * (1 - begin) / (float)steps);
+    sbri_contacts_scale_impulses(
+        world->body_contacts, group, (float)world->tick_s * (1 - begin) / (float)steps);
   }
 }
 

@@ -1,6 +1,6 @@
 /* The origin that a character's numbers are relative to goes with it, so that they stay exact however far it
  * walks, or its bodies are thrown. */
-#include "detail/rungs.h"
+#include "detail/detail_levels.h"
 #include "math/vec3.h"
 #include "ragdoll/ragdoll.h"
 #include "solvers/scheme.h"
@@ -25,12 +25,12 @@ static float whole(float metres, float step) {
   return step * (float)(int32_t)(steps < 0 ? steps - 0.5f : steps + 0.5f);
 }
 
-static sbf_vec3 place_of(const sbri_character *c) {
+static sbf_vec3 position_of(const sbri_character *c) {
   sbf_vec3 root = sbri_pose(c)[sbri_root_frame(c->model)].position;
   if (!c->model->island_count || !c->model->slot_count) return root;
   const sbri_point *p = &sbri_positions(c)[c->model->islands[0].first_slot];
-  sbf_vec3 flesh = sbri_scale((sbf_vec3){p->x, p->y, p->z}, c->scale);
-  return sbri_length(sbri_sub(flesh, root)) > LEFT_ROOT_M * c->scale ? flesh : root;
+  sbf_vec3 soft_point = sbri_scale((sbf_vec3){p->x, p->y, p->z}, c->scale);
+  return sbri_length(sbri_sub(soft_point, root)) > LEFT_ROOT_M * c->scale ? soft_point : root;
 }
 
 static void shift_frames(sbr_transform *pose, uint32_t count, sbf_vec3 shift) {
@@ -44,13 +44,13 @@ static void shift_points(sbri_point *points, uint32_t count, sbf_vec3 shift) {
 
 void sbri_character_rebase(sbri_character *c) {
   const sbr_model *model = c->model;
-  sbf_vec3 at = place_of(c);
+  sbf_vec3 at = position_of(c);
   float step = step_of(c->scale), near = REBASE_AT_M * step, far = 1e9f * step;
   if (fabsf(at.x) < near && fabsf(at.y) < near && fabsf(at.z) < near) return;
   if (!(fabsf(at.x) < far && fabsf(at.y) < far && fabsf(at.z) < far)) return;
   sbf_vec3 shift = {whole(at.x, step), whole(at.y, step), whole(at.z, step)};
   sbf_vec3 own = sbri_scale(shift, 1 / c->scale);
-  sbri_character_state *head = sbri_head(c);
+  sbri_character_state *head = sbri_header(c);
   head->origin.x += (double)shift.x, head->origin.y += (double)shift.y, head->origin.z += (double)shift.z;
   sbri_gait_rebase(&model->rig, sbri_gait(c), shift);
   shift_frames(sbri_pose(c), model->frame_count, shift);

@@ -1,5 +1,6 @@
-/* One control tick of everything: characters' poses first, each a task; then their islands, each a task. A
- * task touches nothing that another one does, so neither the number of threads nor their order shows. */
+/* Steps a world by one control tick: first the characters' animation, then contacts between characters, then
+ * soft-body islands. Each stage is a set of tasks. No task writes what another task reads, so the result has
+ * the same bits for any number of threads and any order. */
 #include <string.h>
 
 #include "body_contact/body_contacts.h"
@@ -17,12 +18,12 @@ static void tick_character(void *context, uint32_t index) {
   sbri_character_tick(world, &world->characters[index]);
 }
 
-/* Before it is known who meets whom. */
-static void change_rung(void *context, uint32_t index) {
+/* Runs before the broad phase, which needs the final detail level of every character. */
+static void change_detail_level(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_character *c = &world->characters[index];
-  if (!c->model || sbri_head(c)->paused || sbri_head(c)->asleep) return;
-  sbri_rung_change(world, c);
+  if (!c->model || sbri_header(c)->paused || sbri_header(c)->asleep) return;
+  sbri_detail_level_change(world, c);
   sbri_contact_surfaces_select_level(world, index);
 }
 
@@ -61,8 +62,8 @@ void sbri_step_tick(sbr_world *world) {
   sbri_stage_end(world, SBR_STAGE_COLLIDERS);
   if (world->body_contacts) sbri_near_characters_find(world);
   if (world->detail) sbri_detail_choose(world);
-  sbri_rooms_tend(world);
-  if (world->body_contacts) run(world, change_rung, world->character_capacity);
+  sbri_character_storage_update(world);
+  if (world->body_contacts) run(world, change_detail_level, world->character_capacity);
   sbri_stage_end(world, SBR_STAGE_DETAIL);
   if (world->body_contacts) sbri_broad_phase_update(world);
   sbri_stage_end(world, SBR_STAGE_BROAD_PHASE);

@@ -1,4 +1,4 @@
-/* One control tick of a world, from the top down: step.c has its order. */
+/* One control tick of a world. step.c has the order of the stages. */
 #ifndef SBRI_STEP_H
 #define SBRI_STEP_H
 
@@ -8,44 +8,45 @@
 
 void sbri_step_tick(sbr_world *world);
 
-/* ---- step/rooms.c ---- */
+/* ---- step/storage_update.c ---- */
 
-/* When it is known who goes over to which rung, by one thread: memory for what this tick needs, and back what
- * is of no use. */
-void sbri_rooms_tend(sbr_world *world);
+/* Allocates storage for detail levels that this tick needs and frees storage that has been unused for a
+ * while. Runs after detail selection, on one thread. */
+void sbri_character_storage_update(sbr_world *world);
 
 /* ---- step/rebase.c ---- */
 
-/* Moves the origin by whole metres to where the character is, and everything the other way. */
+/* Moves the character's origin by whole metres to where the character is, and moves everything stored
+ * relative to it the other way. Keeps float positions precise far from the world's origin. */
 void sbri_character_rebase(sbri_character *c);
 
 /* ---- step/character_sleep.c ---- */
 
-/* Whether the character sleeps through this tick; and whether it would if its gait stood still. */
+/* Whether the character sleeps through this tick; and whether it could sleep if its gait did not move. */
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c);
 bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c);
-/* Before a tick of the gait, and after it: whether it has left everything as it was. */
+/* Stores the gait's state before its tick; after it, returns whether the tick changed nothing. */
 void sbri_character_keep_gait(sbri_character *c);
 bool sbri_character_is_still(const sbri_character *c);
 
 /* ---- step/character_tick.c ---- */
 
-/* It steps along with others whom it meets: step/group_run.c. */
+/* Whether the character is in a contact group, which step/group_run.c steps as a whole. */
 bool sbri_character_is_grouped(const sbr_world *world, const sbri_character *c);
-/* Everything of a character but the soft bodies that are stepped by themselves. */
+/* Steps a character's gait, rigid bodies and frames. Soft bodies are stepped later, as islands. */
 void sbri_character_tick(sbr_world *world, sbri_character *c);
 
 /* ---- step/group_run.c ---- */
 
 struct sbri_contact_group;
-/* The tick of a group, after its characters' gaits. */
+/* Steps all bodies of a contact group together, after the gaits of its characters. */
 void sbri_group_run(sbr_world *world, struct sbri_contact_group *group);
 
 /* ---- step/tick_events.c ---- */
 
-/* What all characters have met with in this tick, as events. */
+/* Gathers the events of all characters in this tick. */
 void sbri_tick_events_gather(sbr_world *world);
-/* Counts who was stepped, and tells who has fallen asleep or woken. */
+/* Counts the stepped characters and adds sleep and wake events. */
 void sbri_tick_sleep_note(sbr_world *world);
 
 #endif

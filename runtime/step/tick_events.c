@@ -2,11 +2,11 @@
 #include "math/vec3.h"
 #include "step/step.h"
 
-static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 place) {
-  sbr_double3 origin = sbri_head(c)->origin;
+static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 position) {
+  sbr_double3 origin = sbri_header(c)->origin;
   event.character = sbri_id_of(world, c);
-  event.position =
-      (sbr_double3){origin.x + (double)place.x, origin.y + (double)place.y, origin.z + (double)place.z};
+  event.position = (sbr_double3){
+      origin.x + (double)position.x, origin.y + (double)position.y, origin.z + (double)position.z};
   sbri_event_add(world, event);
 }
 
@@ -56,11 +56,11 @@ static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touch
     const sbri_touching_one *one = &touching->now[i];
     if (one->thing >= world->colliders.end || !world->colliders.at[one->thing].shape) continue;
     sbri_collider *collider = &world->colliders.at[one->thing];
-    sbr_double3 origin = sbri_head(c)->origin;
-    const sbr_double3 *place = collider->body.goes ? &collider->from : &collider->to;
-    const double arm[3] = {origin.x + scale * (double)one->place.x - place->x,
-        origin.y + scale * (double)one->place.y - place->y,
-        origin.z + scale * (double)one->place.z - place->z};
+    sbr_double3 origin = sbri_header(c)->origin;
+    const sbr_double3 *position = collider->body.goes ? &collider->from : &collider->to;
+    const double arm[3] = {origin.x + scale * (double)one->position.x - position->x,
+        origin.y + scale * (double)one->position.y - position->y,
+        origin.z + scale * (double)one->position.z - position->z};
     const double push[3] = {
         -mass * (double)one->push.x, -mass * (double)one->push.y, -mass * (double)one->push.z};
     const double moment[3] = {-mass * scale * (double)one->moment.x, -mass * scale * (double)one->moment.y,
@@ -72,7 +72,7 @@ static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touch
     }
     sbri_collider *leader = sbri_collider_leader(&world->colliders, one->thing);
     if (!leader) continue;
-    sbr_double3 about = {place->x + arm[0], place->y + arm[1], place->z + arm[2]};
+    sbr_double3 about = {position->x + arm[0], position->y + arm[1], position->z + arm[2]};
     note_push(leader, push, moment, about, is_first_of(&world->colliders, touching, i));
   }
 }
@@ -84,25 +84,25 @@ static void add_contacts(
     sbri_touching_one *one = &touching->now[i];
     if (!one->fresh) continue;
     one->fresh = false;
-    sbr_event event = {.kind = SBR_EVENT_CONTACT, .soft_body = soft, .rigid_body = rigid};
+    sbr_event event = {.kind = SBR_EVENT_CONTACT_BEGIN, .soft_body = soft, .rigid_body = rigid};
     if (one->thing < world->colliders.capacity)
       event.collider = sbri_collider_name(&world->colliders, one->thing);
     event.normal = one->normal;
     event.impulse = one->impulse * c->scale * c->scale * c->scale / c->time_scale;
-    add_event(world, c, event, sbri_scale(one->place, c->scale));
+    add_event(world, c, event, sbri_scale(one->position, c->scale));
   }
 }
 
 static void push_from(sbr_world *world, const sbri_character *c) {
-  if (sbri_head(c)->paused) return;
+  if (sbri_header(c)->paused) return;
   for (uint32_t k = 0; k < c->model->island_count; k++) {
     const sbri_island *island = &c->model->islands[k];
-    bool asleep = sbri_head(c)->asleep || sbri_island_states(c)[k].asleep;
+    bool asleep = sbri_header(c)->asleep || sbri_island_states(c)[k].asleep;
     for (uint32_t b = 0; b < island->body_count; b++)
       push_colliders(world, c, &sbri_soft_touching(c)[island->bodies[b]], asleep);
   }
   uint32_t rigid = c->model->rigid.body_count;
-  bool asleep = sbri_head(c)->asleep || (rigid && sbri_rigid_drive(c)->asleep);
+  bool asleep = sbri_header(c)->asleep || (rigid && sbri_rigid_drive(c)->asleep);
   for (uint32_t b = 0; b < rigid; b++) push_colliders(world, c, &sbri_rigid_touching(c)[b], asleep);
 }
 
@@ -120,18 +120,18 @@ void sbri_tick_events_gather(sbr_world *world) {
     for (uint32_t b = 0; b < soft_count; b++) add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
     for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
       add_contacts(world, c, &sbri_rigid_touching(c)[b], 0, (int32_t)b);
-    for (uint32_t k = 0; !sbri_head(c)->asleep && k < c->model->island_count; k++) {
+    for (uint32_t k = 0; !sbri_header(c)->asleep && k < c->model->island_count; k++) {
       const sbri_tears *tears = &sbri_tears_of(c)[k];
       for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
         uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
         add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body, .rigid_body = -1},
-            sbri_scale(tears->at[e].place, c->scale));
+            sbri_scale(tears->at[e].position, c->scale));
       }
       if (tears->unsplit)
         add_event(world, c,
             (sbr_event){
                 .kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0], .rigid_body = -1},
-            sbri_scale(tears->at[0].place, c->scale));
+            sbri_scale(tears->at[0].position, c->scale));
     }
   }
 }
@@ -143,8 +143,8 @@ void sbri_tick_sleep_note(sbr_world *world) {
     const sbri_island *island = &c->model->islands[world->work[i].island];
     sbri_island_state *state = &sbri_island_states(c)[world->work[i].island];
     if (!state->asleep) world->awake_count += island->body_count;
-    if (state->asleep == state->told_asleep) continue;
-    state->told_asleep = state->asleep;
+    if (state->asleep == state->reported_asleep) continue;
+    state->reported_asleep = state->asleep;
     const sbri_point *p = sbri_positions(c) + island->first_slot;
     add_event(world, c,
         (sbr_event){.kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE,

@@ -1,7 +1,7 @@
 /* Room for points that split: slots of a body that are not used yet. */
 #include "tear/spare_slot.h"
 
-uint32_t sbri_split_room(const sbri_character *c, const sbri_island *island, uint32_t slot) {
+uint32_t sbri_find_spare_slot(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   const sbr_model *model = c->model;
   uint32_t b = 0;
   while (slot >= model->bodies[island->bodies[b]].slot_end) b++;

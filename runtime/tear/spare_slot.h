@@ -5,7 +5,7 @@
 #include "world/state.h"
 
 /* A slot that is not used yet, of the body that has `slot`; SBRI_UNUSED: there is none. */
-uint32_t sbri_split_room(const sbri_character *c, const sbri_island *island, uint32_t slot);
+uint32_t sbri_find_spare_slot(const sbri_character *c, const sbri_island *island, uint32_t slot);
 /* Place, velocity, origin and weight's scale of one slot of the island to another. */
 void sbri_split_copy(sbri_character *c, const sbri_island *island, uint32_t from, uint32_t to);
 void sbri_split_weigh(sbri_character *c, const sbri_island *island, uint32_t slot, float mass_kg);

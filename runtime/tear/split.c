@@ -28,7 +28,7 @@ static void unsplit_springs(sbri_character *c, const sbri_island *island) {
       island->link_block_count * sizeof *island->links);
 }
 
-void sbri_unsplit(sbri_character *c) {
+void sbri_reset_splits(sbri_character *c) {
   const sbr_model *model = c->model;
   for (uint32_t i = 0; model->splits && i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
@@ -66,7 +66,7 @@ static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int co
 }
 
 /* What is whole and has the slot for a corner. */
-static void look_around(splitting *s, uint32_t slot) {
+static void query_around(splitting *s, uint32_t slot) {
   const sbri_tear_table *table = s->island->tears;
   uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
   s->count = 0;
@@ -104,7 +104,7 @@ static float volume_of(const splitting *s, uint32_t part) {
 
 /* How many parts could not be split off. */
 static uint32_t split(splitting *s, uint32_t slot) {
-  look_around(s, slot);
+  query_around(s, slot);
   s->part_count = 0;
   for (uint32_t i = 0; i < s->count; i++)
     if (s->parts[i] == SBRI_UNUSED) flood(s, i);
@@ -118,15 +118,15 @@ static uint32_t split(splitting *s, uint32_t slot) {
   }
   for (uint32_t part = 0; part < s->part_count; part++) {
     if (part == largest) continue;
-    uint32_t room = sbri_split_room(s->c, s->island, slot);
-    if (room == SBRI_UNUSED) return s->part_count - 1 - part;
-    float share = mass * (volume_of(s, part) / all);
-    sbri_split_copy(s->c, s->island, slot, room);
-    sbri_split_weigh(s->c, s->island, room, share);
-    left -= share;
+    uint32_t capacity = sbri_find_spare_slot(s->c, s->island, slot);
+    if (capacity == SBRI_UNUSED) return s->part_count - 1 - part;
+    float fraction = mass * (volume_of(s, part) / all);
+    sbri_split_copy(s->c, s->island, slot, capacity);
+    sbri_split_weigh(s->c, s->island, capacity, fraction);
+    left -= fraction;
     for (uint32_t i = 0; i < s->count; i++)
       for (int copy = 0; s->parts[i] == part && copy < 2; copy++)
-        *corner(s, s->elements[i], s->corners[i], copy) = room;
+        *corner(s, s->elements[i], s->corners[i], copy) = capacity;
   }
   sbri_split_weigh(s->c, s->island, slot, left);
   return 0;

@@ -51,7 +51,7 @@ static void claim(const fraying *f, spring_star *star, uint32_t node, uint32_t s
 }
 
 /* Each spring claims the point at its other end and those that one has springs to; false: too many. */
-static bool look_around(const fraying *f, const sbri_network *network, uint32_t slot, spring_star *star) {
+static bool query_around(const fraying *f, const sbri_network *network, uint32_t slot, spring_star *star) {
   uint32_t origin = f->origins[slot];
   star->count = 0;
   for (sbri_network_end end = {0}; sbri_network_next(network, slot, &end);) {
@@ -149,8 +149,8 @@ static void move_spring(const fraying *f, uint32_t spring, uint32_t from, uint32
 /* How many parts could not be split off. */
 static uint32_t split(fraying *f, uint32_t slot) {
   const sbri_island *island = &f->island;
-  if (!look_around(f, &f->whole, slot, &f->now) || size_of(&f->now, 0) == f->now.count) return 0;
-  if (!look_around(f, &f->rest, f->origins[slot], &f->made)) return 0;
+  if (!query_around(f, &f->whole, slot, &f->now) || size_of(&f->now, 0) == f->now.count) return 0;
+  if (!query_around(f, &f->rest, f->origins[slot], &f->made)) return 0;
   float all = 0, mass = island->masses[slot], left = mass;
   uint32_t unsplit = 0;
   bool leaving[MAX_SPRINGS];
@@ -160,8 +160,8 @@ static uint32_t split(fraying *f, uint32_t slot) {
   }
   for (uint32_t part = 0; part < f->now.count; part++) {
     if (!leaving[part]) continue;
-    uint32_t room = sbri_split_room(f->c, island, slot), block = room / SBRI_BLOCK, at = 0;
-    if (room == SBRI_UNUSED ||
+    uint32_t capacity = sbri_find_spare_slot(f->c, island, slot), block = capacity / SBRI_BLOCK, at = 0;
+    if (capacity == SBRI_UNUSED ||
         size_of(&f->now, part) > island->cell_begins[block + 1] - island->cell_begins[block]) {
       unsplit++;
       continue;
@@ -169,12 +169,12 @@ static uint32_t split(fraying *f, uint32_t slot) {
     float stiffness = 0;
     for (uint32_t i = 0; i < f->now.count; i++)
       if (f->now.parts[i] == part) stiffness += stiffness_of(f, slot, i);
-    float share = all > 0 ? mass * (stiffness / all) : 0.5f * left;
-    sbri_split_copy(f->c, island, slot, room);
-    sbri_split_weigh(f->c, island, room, share);
-    left -= share;
+    float fraction = all > 0 ? mass * (stiffness / all) : 0.5f * left;
+    sbri_split_copy(f->c, island, slot, capacity);
+    sbri_split_weigh(f->c, island, capacity, fraction);
+    left -= fraction;
     for (uint32_t i = 0; i < f->now.count; i++)
-      if (f->now.parts[i] == part) move_spring(f, i, slot, room, at++);
+      if (f->now.parts[i] == part) move_spring(f, i, slot, capacity, at++);
   }
   sbri_split_weigh(f->c, island, slot, left);
   return unsplit;

@@ -9,7 +9,7 @@
 
 #include "math/vec3.h"
 
-enum { MAX_SPRINGS_APART = 3, CARRIERS = 4 };
+enum { MAX_SPRING_DISTANCE = 3, CARRIERS = 4 };
 
 void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
@@ -26,7 +26,7 @@ static bool is_near(const sbri_torn_network *t, const sbri_network *network, uin
   uint32_t end = 1, step_end = 1;
   bool found = from == to;
   t->queue[0] = from, t->seen[from] = 0;
-  for (uint32_t next = 0, steps = 0; next < end && steps < MAX_SPRINGS_APART && !found; steps++) {
+  for (uint32_t next = 0, steps = 0; next < end && steps < MAX_SPRING_DISTANCE && !found; steps++) {
     for (; next < step_end && !found; next++)
       for (sbri_network_end e = {0}; !found && sbri_network_next(network, t->queue[next], &e);) {
         found = e.other == to;
@@ -104,7 +104,7 @@ static sbf_vec3 rest_of(const sbri_torn_network *t, uint32_t slot) {
 }
 
 /* The place of the vertex at rest, by what carried it when it was made. */
-static sbf_vec3 rest_place(const sbri_torn_network *t, const carriers *made) {
+static sbf_vec3 rest_position(const sbri_torn_network *t, const carriers *made) {
   sbf_vec3 sum = {0, 0, 0};
   float all = 0;
   for (uint32_t k = 0; k < CARRIERS; k++)
@@ -123,9 +123,9 @@ static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weight
   }
   for (uint32_t i = 0; i < count; i++) /* symmetric and positive: no pivots */
     for (uint32_t row = i + 1; row < count; row++) {
-      double share = m[row][i] / m[i][i];
-      for (uint32_t j = i; j < count; j++) m[row][j] -= share * m[i][j];
-      weights[row] -= share * weights[i];
+      double fraction = m[row][i] / m[i][i];
+      for (uint32_t j = i; j < count; j++) m[row][j] -= fraction * m[i][j];
+      weights[row] -= fraction * weights[i];
     }
   for (uint32_t i = count; i-- > 0;) {
     for (uint32_t j = i + 1; j < count; j++) weights[i] -= m[i][j] * weights[j];
@@ -144,7 +144,7 @@ static bool has(const carriers *is, uint32_t count, uint32_t slot) {
 static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
   carriers next = {{0}, {0}};
   double weights[CARRIERS];
-  sbf_vec3 offsets[CARRIERS], place = rest_place(t, made);
+  sbf_vec3 offsets[CARRIERS], position = rest_position(t, made);
   uint32_t count = 0, from = is->slots[side];
   float all = 0;
   for (uint32_t k = 0; k < CARRIERS; k++) {
@@ -154,7 +154,7 @@ static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, con
   }
   for (sbri_network_end e = {0}; count < CARRIERS && sbri_network_next(&t->whole, from, &e);)
     if (!has(&next, count, e.other)) next.slots[count++] = e.other;
-  for (uint32_t k = 0; k < count; k++) offsets[k] = sbri_sub(rest_of(t, next.slots[k]), place);
+  for (uint32_t k = 0; k < count; k++) offsets[k] = sbri_sub(rest_of(t, next.slots[k]), position);
   find_weights(offsets, count, weights);
   for (uint32_t k = 0; k < count; k++) next.weights[k] = all * (float)weights[k];
   for (uint32_t k = count; k < CARRIERS; k++) next.slots[k] = from;

@@ -16,17 +16,17 @@
 /* The way from one corner's tetrahedron to the next one's goes through no more sides than this. */
 enum { MAX_SIDES = 6 };
 
-static void mend(sbri_character *c, const sbri_skin *skin) {
+static void repair(sbri_character *c, const sbri_skin *skin) {
   if (!skin->binding_count) return;
   memcpy(sbri_skin_cells(c) + skin->first_cell, skin->cells, skin->cell_count * sizeof *skin->cells);
   for (uint32_t i = 0; i < skin->binding_count; i++)
     sbri_bound_to(c)[skin->first_binding + i] = skin->bindings[i].tetrahedron;
 }
 
-void sbri_skins_mend(sbri_character *c) {
+void sbri_restore_skins(sbri_character *c) {
   const sbr_model *model = c->model;
-  for (uint32_t i = 0; i < model->skin_count; i++) mend(c, &model->skins[i]);
-  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) mend(c, &model->bodies[i].surface);
+  for (uint32_t i = 0; i < model->skin_count; i++) repair(c, &model->skins[i]);
+  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) repair(c, &model->bodies[i].surface);
   memset(sbri_torn_polygons(c), 0, model->torn_polygon_count * sizeof(uint32_t));
 }
 
@@ -86,14 +86,14 @@ static void move_weights(
     const tearing *t, sbri_carry_cell *cells, uint32_t lane, uint32_t from, uint32_t to) {
   const sbri_body *body = body_of(t, to);
   sbfi_tetrahedron element;
-  sbfi_d3 place = {0, 0, 0}, weights = {0, 0, 0};
+  sbfi_d3 position = {0, 0, 0}, weights = {0, 0, 0};
   float sum = 0;
   if (!sbri_body_tetrahedron(body, to - body->first_tetrahedron, &element)) return;
   for (uint32_t k = 0; k < 4; k++) sum += cells[k].weights[lane];
   if (!(sum > 0)) return;
   for (uint32_t k = 0; k < 4; k++)
-    place = sbfi_d3_add(place, sbfi_d3_scale(rest_corner(t, from, k), cells[k].weights[lane] / sum));
-  sbfi_d3 off = sbfi_d3_sub(place, rest_corner(t, to, 0));
+    position = sbfi_d3_add(position, sbfi_d3_scale(rest_corner(t, from, k), cells[k].weights[lane] / sum));
+  sbfi_d3 off = sbfi_d3_sub(position, rest_corner(t, to, 0));
   weights.x = sbfi_d3_dot(element.gradients[1], off), weights.y = sbfi_d3_dot(element.gradients[2], off);
   weights.z = sbfi_d3_dot(element.gradients[3], off);
   cells[0].weights[lane] = sum * (float)(1 - weights.x - weights.y - weights.z);

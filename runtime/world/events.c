@@ -7,7 +7,7 @@ void sbri_event_add(sbr_world *world, sbr_event event) {
   world->events[world->event_head++ % SBRI_EVENTS] = event;
 }
 
-uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity) {
+uint32_t sbr_world_take_events(sbr_world *world, sbr_event *events, uint32_t capacity) {
   if (!world || !events) return 0;
   if (world->event_head - world->event_tail > SBRI_EVENTS)
     world->event_tail = world->event_head - SBRI_EVENTS;

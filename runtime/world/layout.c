@@ -2,7 +2,7 @@
 #include "collide/host_body.h"
 #include "world/state.h"
 
-static size_t place(size_t *end, size_t count, size_t size) {
+static size_t position(size_t *end, size_t count, size_t size) {
   size_t at = (*end + 63) & ~(size_t)63;
   *end = at + count * size;
   return at;
@@ -20,7 +20,7 @@ size_t sbri_deltas_size(const sbr_model *model) {
 typedef struct extents {
   size_t vertices, faces, groups; /* of the largest skin */
   size_t surface, surface_faces;  /* of all bodies' surfaces, padded */
-  size_t touches, self_faces;     /* of all bodies */
+  size_t contacts, self_faces;    /* of all bodies */
 } extents;
 
 static size_t larger(size_t a, size_t b) {
@@ -38,7 +38,7 @@ static void measure_skins(const sbr_model *model, extents *e) {
 
 /* A touch of each sample, or point, on the ground and one on something else, a few between several things;
  * and of the body itself, points and edges. A quarter of coarse edges may be over ridges at once. */
-static uint32_t touch_capacity(const sbri_body *body) {
+static uint32_t max_contacts(const sbri_body *body) {
   uint32_t slots = body->slot_end - body->slot_begin;
   uint32_t own = body->self_face_count ? slots + body->self_face_count : 0;
   uint32_t edges = body->coarse_edge_count / 4 + (body->coarse_edge_count ? 32 : 0);
@@ -46,129 +46,130 @@ static uint32_t touch_capacity(const sbri_body *body) {
 }
 
 /* Where each body's share of what all of them have in common begins. */
-static void share_out(sbr_model *model, extents *e) {
+static void distribute(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
     sbri_body *body = &model->bodies[i];
     body->first_vertex = (uint32_t)e->surface;
     body->first_face = (uint32_t)e->surface_faces;
-    body->first_touch = (uint32_t)e->touches;
+    body->first_soft_contact = (uint32_t)e->contacts;
     body->first_self_face = (uint32_t)e->self_faces;
-    body->touch_capacity = touch_capacity(body);
+    body->max_contacts = max_contacts(body);
     e->surface += padded(body->surface.vertex_count);
     e->surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
-    e->touches += body->touch_capacity;
+    e->contacts += body->max_contacts;
     e->self_faces += body->self_face_count;
   }
 }
 
 /* What a snapshot copies and the hash covers. */
-static void place_state(sbr_model *model) {
+static void lay_out_state(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, end = 0;
-  place(&end, 1, sizeof(sbri_character_state));
-  l->loads = place(&end, SBR_LOAD_CAPACITY, sizeof(sbri_load));
+  position(&end, 1, sizeof(sbri_character_state));
+  l->loads = position(&end, SBR_LOAD_CAPACITY, sizeof(sbri_load));
   const sbr_model *base = model->base;
-  uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
-  l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbri_going));
-  l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
-  l->pose = place(&end, frames, sizeof(sbr_transform));
-  l->previous_pose = place(&end, frames, sizeof(sbr_transform));
-  l->islands = place(&end, model->island_count, sizeof(sbri_island_state));
-  l->positions = place(&end, slots, sizeof(sbri_point));
-  l->previous_positions = place(&end, slots, sizeof(sbri_point));
-  l->velocities = place(&end, 3 * slots, sizeof(float));
-  l->guide_motions = place(&end, model->asset->soft_bodies.count, sizeof(sbri_guide_motion));
-  l->rests = place(&end, model->flow_count, sizeof(float));
-  l->strengths = place(&end, model->flow_count, sizeof(float));
-  l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
-  l->solids = place(&end, model->solid_block_count, sizeof(sbri_tetrahedron_block));
-  l->torn = place(&end, model->solid_count, sizeof(uint32_t));
+  uint32_t meshes = base->detail_level_count > 1 ? model->asset->render_meshes.count : 0;
+  l->faded = position(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbri_fading_vertex));
+  l->gait = position(&end, 1, sbri_gait_state_size(&model->rig));
+  l->pose = position(&end, frames, sizeof(sbr_transform));
+  l->previous_pose = position(&end, frames, sizeof(sbr_transform));
+  l->islands = position(&end, model->island_count, sizeof(sbri_island_state));
+  l->positions = position(&end, slots, sizeof(sbri_point));
+  l->previous_positions = position(&end, slots, sizeof(sbri_point));
+  l->velocities = position(&end, 3 * slots, sizeof(float));
+  l->driver_motions = position(&end, model->asset->soft_bodies.count, sizeof(sbri_driver_motion));
+  l->rests = position(&end, model->flow_count, sizeof(float));
+  l->strengths = position(&end, model->flow_count, sizeof(float));
+  l->rotations = position(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
+  l->solids = position(&end, model->solid_block_count, sizeof(sbri_tetrahedron_block));
+  l->torn = position(&end, model->solid_count, sizeof(uint32_t));
   size_t torn_slots = model->splits ? slots : 0;
-  l->origins = place(&end, torn_slots, sizeof(uint32_t));
-  l->masses = place(&end, torn_slots, sizeof(float));
-  l->inverse_masses = place(&end, torn_slots, sizeof(float));
-  l->gravity_scales = place(&end, torn_slots, sizeof(float));
+  l->origins = position(&end, torn_slots, sizeof(uint32_t));
+  l->masses = position(&end, torn_slots, sizeof(float));
+  l->inverse_masses = position(&end, torn_slots, sizeof(float));
+  l->gravity_scales = position(&end, torn_slots, sizeof(float));
   size_t thread_cells = model->thread_cell_count;
-  l->thread_ends = place(&end, model->thread_block_count, sizeof(uint32_t));
-  l->thread_cells = place(&end, thread_cells, sizeof(sbri_spring_cell));
-  l->thread_damping = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
-  l->thread_slack = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
-  l->thread_links = place(&end, thread_cells * SBRI_BLOCK, sizeof(uint32_t));
-  l->thread_blocks = place(&end, model->thread_link_count, sizeof(sbri_link_block));
-  l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
-  l->bound_to = place(&end, model->binding_count, sizeof(uint32_t));
-  l->torn_polygons = place(&end, model->torn_polygon_count, sizeof(uint32_t));
-  l->rigid_bodies = place(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
-  l->rigid_joints = place(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
-  l->rigid_drive = place(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
-  l->rigid_kept = place(&end, sbri_rigid_touch_capacity(&model->rigid), sizeof(sbri_kept_touch));
-  l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
+  l->thread_ends = position(&end, model->thread_block_count, sizeof(uint32_t));
+  l->thread_cells = position(&end, thread_cells, sizeof(sbri_spring_cell));
+  l->thread_damping = position(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_slack = position(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_links = position(&end, thread_cells * SBRI_BLOCK, sizeof(uint32_t));
+  l->thread_blocks = position(&end, model->thread_link_count, sizeof(sbri_link_block));
+  l->skin_cells = position(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
+  l->bound_to = position(&end, model->binding_count, sizeof(uint32_t));
+  l->torn_polygons = position(&end, model->torn_polygon_count, sizeof(uint32_t));
+  l->rigid_bodies = position(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
+  l->rigid_joints = position(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
+  l->rigid_drive = position(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
+  l->rigid_kept = position(&end, sbri_rigid_contact_capacity(&model->rigid), sizeof(sbri_stored_contact));
+  l->jiggles = position(&end, model->jiggle_count, sizeof(sbri_position_follower));
   l->used_size = l->state_size = (end + 63) & ~(size_t)63;
 }
 
 /* What means nothing between calls. */
-static void place_scratch(sbr_model *model, const extents *e) {
+static void lay_out_scratch(sbr_model *model, const extents *e) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, end = 0;
-  l->deltas = place(&end, 1, sbri_deltas_size(model));
-  l->previous_deltas = place(&end, 1, sbri_deltas_size(model));
-  l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
-  l->rigid_targets = place(&end, model->rigid.body_count, sizeof(sbr_transform));
-  l->reactions = place(&end, model->rigid.body_count, sizeof(sbri_reaction));
-  l->burdens = place(&end, model->rigid.body_count, sizeof(sbri_rigid_burden));
-  l->stepped_pose = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
+  l->deltas = position(&end, 1, sbri_deltas_size(model));
+  l->previous_deltas = position(&end, 1, sbri_deltas_size(model));
+  l->animated = position(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
+  l->rigid_targets = position(&end, model->rigid.body_count, sizeof(sbr_transform));
+  l->reactions = position(&end, model->rigid.body_count, sizeof(sbri_reaction));
+  l->burdens = position(&end, model->rigid.body_count, sizeof(sbri_rigid_burden));
+  l->stepped_pose = position(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid_work_size = sbri_rigid_work_size(&model->rigid);
-  l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));
-  l->targets = place(&end, slots, sizeof(sbri_point));
-  l->guide_velocities = place(&end, 3 * slots, sizeof(float));
-  l->begins = place(&end, slots, sizeof(sbri_point));
-  l->velocity_points = place(&end, slots, sizeof(sbri_point));
-  l->outer = place(&end, slots, sizeof(sbri_point));
-  l->accelerations = place(&end, 3 * slots, sizeof(float));
-  l->older_velocities = place(&end, 3 * slots, sizeof(float));
-  l->moves = place(&end, slots, sizeof(sbri_point));
-  l->edges = place(&end, (size_t)model->link_block_count * 3 * SBRI_BLOCK, sizeof(float));
-  l->solid_edges = place(&end, (size_t)model->tetrahedron_block_count * 9 * SBRI_BLOCK, sizeof(float));
-  l->tears = place(&end, model->island_count, sizeof(sbri_tears));
-  l->element_forces = place(&end, slots, sizeof(sbri_point));
-  l->planes = place(&end, 4 * slots, sizeof(float));
-  l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
-  l->touches = place(&end, e->touches, sizeof(sbri_touch));
-  l->contact_islands = place(&end, model->island_count, 1);
-  l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->gait_before = position(&end, 1, sbri_gait_state_size(&model->rig));
+  l->targets = position(&end, slots, sizeof(sbri_point));
+  l->driver_velocities = position(&end, 3 * slots, sizeof(float));
+  l->begins = position(&end, slots, sizeof(sbri_point));
+  l->velocity_points = position(&end, slots, sizeof(sbri_point));
+  l->external_forces = position(&end, slots, sizeof(sbri_point));
+  l->accelerations = position(&end, 3 * slots, sizeof(float));
+  l->older_velocities = position(&end, 3 * slots, sizeof(float));
+  l->moves = position(&end, slots, sizeof(sbri_point));
+  l->edges = position(&end, (size_t)model->link_block_count * 3 * SBRI_BLOCK, sizeof(float));
+  l->solid_edges = position(&end, (size_t)model->tetrahedron_block_count * 9 * SBRI_BLOCK, sizeof(float));
+  l->tears = position(&end, model->island_count, sizeof(sbri_tears));
+  l->element_forces = position(&end, slots, sizeof(sbri_point));
+  l->planes = position(&end, 4 * slots, sizeof(float));
+  l->near_ground = position(&end, slots / SBRI_BLOCK + 1, 1);
+  l->contacts = position(&end, e->contacts, sizeof(sbri_soft_contact));
+  l->contact_islands = position(&end, model->island_count, 1);
+  l->contact_counts = position(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->external_bodies =
-      place(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
-  l->slot_touches = place(&end, slots, 1);
-  l->touch_weights = place(&end, slots, sizeof(float));
-  l->self_boxes = place(&end, e->self_faces, sizeof(sbri_box));
-  l->self_balls = place(&end, e->self_faces, sizeof(sbri_moving_ball));
-  l->self_nodes = place(&end, 2 * e->self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
-  l->self_items = place(&end, e->self_faces, sizeof(uint32_t));
-  l->self_edges = place(&end, e->self_faces, 1);
-  l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
-  l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
-  l->sampled = place(&end, slots, sizeof(sbri_point));
-  l->sampled_deltas = place(&end, 1, sbri_deltas_size(model));
-  l->vertices = place(&end, padded(e->vertices), sizeof(sbri_point));
-  l->faces = place(&end, e->faces * SBRI_BLOCK, sizeof(sbri_point));
-  l->sums = place(&end, padded(larger(e->groups, e->vertices)), sizeof(sbri_point));
-  l->loads_now = place(&end, 1, sizeof(sbri_loads_now_list));
-  l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
-  l->queue = place(&end, model->solid_count, sizeof(uint32_t));
-  l->touched = place(&end, model->binding_count, 1);
-  l->owners = place(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
-  l->frayed = place(&end, model->thread_cell_count ? slots : 0, 1);
-  l->surface_vertices = place(&end, e->surface, sizeof(sbri_point));
+      position(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
+  l->slot_contacts = position(&end, slots, 1);
+  l->contact_weights = position(&end, slots, sizeof(float));
+  l->self_boxes = position(&end, e->self_faces, sizeof(sbri_box));
+  l->self_balls = position(&end, e->self_faces, sizeof(sbri_moving_ball));
+  l->self_nodes =
+      position(&end, 2 * e->self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
+  l->self_items = position(&end, e->self_faces, sizeof(uint32_t));
+  l->self_edges = position(&end, e->self_faces, 1);
+  l->touching = position(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
+  l->rigid_touching = position(&end, model->rigid.body_count, sizeof(sbri_touching));
+  l->sampled = position(&end, slots, sizeof(sbri_point));
+  l->sampled_deltas = position(&end, 1, sbri_deltas_size(model));
+  l->vertices = position(&end, padded(e->vertices), sizeof(sbri_point));
+  l->faces = position(&end, e->faces * SBRI_BLOCK, sizeof(sbri_point));
+  l->sums = position(&end, padded(larger(e->groups, e->vertices)), sizeof(sbri_point));
+  l->loads_now = position(&end, 1, sizeof(sbri_loads_now_list));
+  l->visits = position(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
+  l->queue = position(&end, model->solid_count, sizeof(uint32_t));
+  l->touched = position(&end, model->binding_count, 1);
+  l->owners = position(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
+  l->frayed = position(&end, model->thread_cell_count ? slots : 0, 1);
+  l->surface_vertices = position(&end, e->surface, sizeof(sbri_point));
   bool steps = model->island_count > 0; /* the vertices alone are asked for without */
-  l->surface_forces = place(&end, steps ? e->surface : 0, sizeof(sbri_point));
-  l->surface_velocities = place(&end, steps ? e->surface : 0, sizeof(sbri_point));
-  l->surface_faces = place(&end, steps ? e->surface_faces : 0, sizeof(sbri_point));
-  if (model->base->rung_count > 1) {
+  l->surface_forces = position(&end, steps ? e->surface : 0, sizeof(sbri_point));
+  l->surface_velocities = position(&end, steps ? e->surface : 0, sizeof(sbri_point));
+  l->surface_faces = position(&end, steps ? e->surface_faces : 0, sizeof(sbri_point));
+  if (model->base->detail_level_count > 1) {
     size_t bodies = model->asset->soft_bodies.count;
     l->offsets = l->begins, l->speeds = l->moves; /* between ticks nothing else is there */
-    l->energies = place(&end, bodies, sizeof(double));
-    l->fading = place(&end, padded(e->vertices), sizeof(sbri_point));
-    l->pulls = place(&end, bodies + 1, sizeof(float));
+    l->energies = position(&end, bodies, sizeof(double));
+    l->fading = position(&end, padded(e->vertices), sizeof(sbri_point));
+    l->pulls = position(&end, bodies + 1, sizeof(float));
   }
   l->scratch_size = (end + 63) & ~(size_t)63;
 }
@@ -176,16 +177,16 @@ static void place_scratch(sbr_model *model, const extents *e) {
 static void make_layout(sbr_model *model) {
   extents e = {0};
   measure_skins(model, &e);
-  share_out(model, &e);
-  place_state(model);
-  place_scratch(model, &e);
+  distribute(model, &e);
+  lay_out_state(model);
+  lay_out_scratch(model, &e);
 }
 
 void sbri_layouts_make(sbr_model *model) {
-  for (uint32_t r = 0; r < model->rung_count; r++) {
-    sbr_model *one = model->rungs[r];
+  for (uint32_t r = 0; r < model->detail_level_count; r++) {
+    sbr_model *one = model->levels[r];
     make_layout(one);
-    model->ladder[r].bytes = sbri_room_size(one);
+    model->detail_levels[r].bytes = sbri_character_storage_size(one);
     if (one->layout.state_size > model->max_state_size) model->max_state_size = one->layout.state_size;
   }
 }

@@ -25,12 +25,12 @@ sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) 
   return now;
 }
 
-void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *places) {
+void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *positions) {
   if (body->first_spare == body->slot_real_end) return;
   const uint32_t *origins = sbri_origins(c) + c->model->islands[body->island].first_slot;
   for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) {
     uint32_t from = origins[slot] == SBRI_UNUSED ? body->slot_begin : origins[slot];
-    places[slot - body->slot_begin] = places[from - body->slot_begin];
+    positions[slot - body->slot_begin] = positions[from - body->slot_begin];
   }
 }
 

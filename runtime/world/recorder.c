@@ -24,7 +24,7 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_RIGID_SHARE] = 3,
     [SBRI_RECORDED_RIGID_PUSH] = 8,
     [SBRI_RECORDED_RIGID_FALL] = 4,
-    [SBRI_RECORDED_RUNG] = 2,
+    [SBRI_RECORDED_DETAIL_LEVEL] = 2,
     [SBRI_RECORDED_SHOWN] = 2,
     [SBRI_RECORDED_VIEW] = 11,
     [SBRI_RECORDED_SOFT_VELOCITY] = 8,
@@ -51,14 +51,14 @@ static void put_double(unsigned char *to, double value) {
 }
 
 bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
-  unsigned char bytes[SBRI_RECORDED_HEAD_BYTES + SBRI_RECORDED_MAX * SBRI_RECORDED_NUMBER_BYTES];
+  unsigned char bytes[SBRI_RECORDED_HEADER_BYTES + SBRI_RECORDED_MAX * SBRI_RECORDED_NUMBER_BYTES];
   if (!sbri_usable(numbers, counts[what])) return false;
   if (!world->record.write) return true;
   put_u32(bytes, (uint32_t)what);
   put_u32(bytes + 4, counts[what]);
   for (uint32_t i = 0; i < counts[what]; i++)
-    put_double(bytes + SBRI_RECORDED_HEAD_BYTES + i * SBRI_RECORDED_NUMBER_BYTES, numbers[i]);
+    put_double(bytes + SBRI_RECORDED_HEADER_BYTES + i * SBRI_RECORDED_NUMBER_BYTES, numbers[i]);
   world->record.write(world->record.user, bytes,
-      SBRI_RECORDED_HEAD_BYTES + (size_t)counts[what] * SBRI_RECORDED_NUMBER_BYTES);
+      SBRI_RECORDED_HEADER_BYTES + (size_t)counts[what] * SBRI_RECORDED_NUMBER_BYTES);
   return true;
 }

@@ -1,5 +1,5 @@
-/* A character: constant settings, one block of mutable state (what a snapshot copies and the hash covers),
- * and scratch memory whose content means nothing between calls. */
+/* A character: settings, one block of state (copied by snapshots, covered by the state hash), and scratch
+ * memory without content between calls. */
 #ifndef SBRI_STATE_H
 #define SBRI_STATE_H
 
@@ -12,113 +12,116 @@
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
 
-enum { SBRI_TICK_EVENTS = 2 * SBRI_MAX_LEGS + 1 }; /* feet go up and down, and it lands */
+enum {
+  SBRI_TICK_EVENTS = 2 * SBRI_MAX_LEGS + 1
+}; /* a lift-off and a landing per foot, and one landing of the character */
 
-/* What has become of a polygon. */
+/* State of a polygon. */
 enum { SBRI_POLYGON_TORN = 1 };
 
-/* First in the state block. No padding: the hash reads it as words. */
+/* Begins the state block. Has no padding, because the hash reads it as words. */
 typedef struct sbri_character_state {
-  sbr_double3 origin;            /* m, world */
-  float forward, sideways, turn; /* wanted motion */
+  sbr_double3 origin;            /* world position of the character's origin, m */
+  float forward, sideways, turn; /* commanded motion */
   uint32_t paused;
-  uint32_t asleep; /* nothing of it changes until a call or the ground does */
-  /* Its rung, the one that it goes over to when the next tick begins, and what the host has put it on, plus
-   * 1. */
-  uint32_t rung, next_rung, set_rung_plus_1;
-  uint32_t rung_ticks;              /* since it changed; UINT32_MAX: nobody has seen how it is */
-  uint32_t fade_ticks, fades_ticks; /* left of the change, and of how many; 0: it is over */
-  float fade, fade_before;          /* share of `faded` that shows, and a tick ago */
-  uint32_t shown;                   /* sbr_shown */
-  uint32_t unseen_ticks;            /* for how long no view has it */
-  uint32_t fade_kept;               /* it goes over in the next tick, and is looked at meanwhile */
-  uint32_t swing_ticks;             /* for how long a change has been put off because it swings */
-  float up;                         /* wanted vertical speed, m/s */
-  sbf_vec3 moved;                   /* by the host, in the next tick; m */
-  float turned;                     /* the same, rad */
+  uint32_t asleep; /* 1: does not change until a call or the ground does */
+  /* Present detail level, the one of the next tick, and 1 + the one set by the host (0: automatic). */
+  uint32_t detail_level, next_detail_level, set_detail_level_plus_1;
+  uint32_t detail_level_ticks;      /* ticks since the level changed; UINT32_MAX: not displayed since */
+  uint32_t fade_ticks, fades_ticks; /* remaining ticks of the transition and their total; 0: none */
+  float fade, fade_before; /* weight of `faded` in the displayed vertices, now and in the previous tick */
+  uint32_t shown;          /* sbr_visibility */
+  uint32_t unseen_ticks;   /* ticks outside all views */
+  uint32_t fade_kept;      /* changes level in the next tick; its vertices are stored until then */
+  uint32_t swing_ticks;    /* ticks for which a change has been delayed because it swings */
+  float up;                /* commanded vertical speed, m/s */
+  sbf_vec3 moved;          /* displacement by the host in the next tick, m */
+  float turned;            /* rotation by the host in the next tick, rad */
 } sbri_character_state;
 
 typedef struct sbri_island_state {
-  float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
-  float stiffening;      /* greatest share of a tetrahedron's stiffness to that at rest then, 1 at rest */
-  float min_ratio;       /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
-  float thinning;        /* greatest g.g of a yielded rest shape to that it was made with, 1 as made */
-  uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
-  uint32_t unstable;     /* for how many ticks its shape has been (soft/folded.c) */
-  float excess_j;        /* of energy, likewise; 0: not looked at */
-  uint32_t calm_ticks;   /* for which its motion is still taken out of it */
+  float stretch; /* maximum stretch of a spring in the last substep, as a fraction beyond its rest length */
+  float stiffening; /* maximum stiffness of a tetrahedron in the last substep relative to rest */
+  float min_ratio;  /* minimum J of the tetrahedra in the last substep; below 0: inverted; 1: no tetrahedra */
+  float max_flow_stretch; /* maximum g.g of a yielded rest shape relative to the original one */
+  uint32_t folded_ticks;  /* ticks with almost no volume or with inverted elements */
+  uint32_t unstable;      /* ticks with an unstable shape (soft/folded.c) */
+  float excess_j;         /* excess energy in them, J; 0: not measured */
+  uint32_t damping_ticks; /* remaining ticks of extra damping */
   uint32_t recoveries;
-  uint32_t unsplit; /* points that a tear should have split, and there was no room */
+  uint32_t unsplit; /* points that could not split for lack of spare slots */
   sbri_recovery recovery;
-  uint32_t asleep;      /* it is not stepped */
-  uint32_t told_asleep; /* what the host was last told of that */
-  uint32_t quiet_ticks; /* for how long it has been as slow as a sleeper */
-  uint32_t ground_mark; /* of the ground that a sleeper lies on */
-  uint32_t passes;      /* over its elements, since it was made */
+  uint32_t asleep;          /* 1: not stepped */
+  uint32_t reported_asleep; /* value of `asleep` last reported to the host */
+  uint32_t idle_ticks;      /* ticks below the sleep speed */
+  uint32_t ground_mark;     /* version of the ground below a sleeping island */
+  uint32_t element_visits;  /* element visits since its creation */
 } sbri_island_state;
 
-/* How what holds a body moved in the last tick, as a rigid body; of a loose body, how it itself moved when it
- * was last sound. */
-typedef struct sbri_guide_motion {
-  sbf_vec3 velocity, spin; /* of its middle, m/s; rad/s */
-} sbri_guide_motion;
+/* Rigid motion of a body's drivers in the last tick; of a body without pins, its own rigid motion when it was
+ * last sound. */
+typedef struct sbri_driver_motion {
+  sbf_vec3 velocity, angular_velocity; /* velocity of its centre, m/s; rad/s */
+} sbri_driver_motion;
 
-/* A vertex as the rung before would have it go on, asset metres: as a weight on a spring. Places are from
- * where the bones alone would have it, or, where there are none, from where the new rung has it. */
-typedef struct sbri_going {
-  sbf_vec3 place, was; /* and a tick ago */
-  sbf_vec3 still;      /* where it would come to rest */
-  sbf_vec3 kept;       /* while a change is begun: where it was shown two ticks before that */
-} sbri_going;
+/* A vertex of the previous detail level during a transition, asset metres: it continues as a mass on a
+ * spring. Positions are relative to the vertex as posed by bones alone or, without bones, as the new level
+ * has it. */
+typedef struct sbri_fading_vertex {
+  sbf_vec3 position, was; /* now and in the previous tick */
+  sbf_vec3 still;         /* its equilibrium */
+  sbf_vec3 kept;          /* while a transition begins: displayed position two ticks before it */
+} sbri_fading_vertex;
 
-/* Memory for a rung: a state block and scratch behind it, each as its model lays them out. */
-typedef struct sbri_room {
-  const sbr_model *model; /* NULL: there is none */
+/* Memory of a character at one detail level: state and scratch, as the model's layout divides them. */
+typedef struct sbri_character_storage {
+  const sbr_model *model; /* NULL: not allocated */
   unsigned char *state, *scratch;
-} sbri_room;
+} sbri_character_storage;
 
 typedef struct sbri_character {
-  const sbr_model *model; /* of the rung that it is on; NULL: the place is free */
+  const sbr_model *model; /* of its detail level; NULL: free entry */
   uint32_t generation;
   bool hold;
-  bool near; /* others are about that its bodies may have to meet: of this tick */
+  bool near; /* other characters are near enough for contact in this tick */
   float scale;
-  float time_scale;  /* 1 / sqrt(scale): its own seconds in one of the world's */
-  sbr_ground ground; /* that it stands on */
+  float time_scale;  /* 1 / sqrt(scale): its own seconds per world second */
+  sbr_ground ground; /* ground that it stands on */
   unsigned char *state, *scratch;
-  sbri_room spare;        /* of the rung that it was on before, or is about to go over to */
-  uint32_t spare_ticks;   /* for which nothing has asked for that */
-  void *rigid_work;       /* (rigid_work_size) what simulated rigid parts are solved in; NULL: none are */
-  uint32_t rigid_ticks;   /* for which none have been */
-  uint32_t refused_ticks; /* until memory that there was not is asked for again */
-  uint64_t sampled_at;    /* stamp of the moment that `sampled` holds; 0: none */
+  sbri_character_storage spare; /* of its previous or next detail level */
+  uint32_t spare_ticks;         /* ticks for which it has not been needed */
+  void *rigid_work; /* (rigid_work_size) work memory of the rigid body solver; NULL: no simulated bodies */
+  uint32_t rigid_ticks;   /* ticks without simulated bodies */
+  uint32_t refused_ticks; /* ticks until a failed allocation is retried */
+  uint64_t sampled_at;    /* stamp of the time that `sampled` belongs to; 0: none */
   uint32_t event_count;   /* of the last tick */
   sbri_gait_event events[SBRI_TICK_EVENTS];
 } sbri_character;
 
-/* ---- world/room.c ---- */
+/* ---- world/character_storage.c ---- */
 
-/* Bytes of a room. */
-size_t sbri_room_size(const sbr_model *model);
-/* Room for the model, of any content; false: memory has run out. */
-bool sbri_room_make(const sbf_allocator *allocator, const sbr_model *model, sbri_room *room);
-void sbri_room_free(const sbf_allocator *allocator, sbri_room *room);
+/* Size of the storage of a model, bytes. */
+size_t sbri_character_storage_size(const sbr_model *model);
+/* Allocates uninitialised storage for the model; false if memory runs out. */
+bool sbri_character_storage_create(
+    const sbf_allocator *allocator, const sbr_model *model, sbri_character_storage *storage);
+void sbri_character_storage_free(const sbf_allocator *allocator, sbri_character_storage *storage);
 void sbri_rigid_work_free(const sbf_allocator *allocator, sbri_character *c);
-/* The character has the spare room, full of zeros, and what it had is the spare one. */
-void sbri_room_swap(sbri_character *c);
+/* Exchanges the character's storage and its spare one; the new one is zeroed. */
+void sbri_character_storage_swap(sbri_character *c);
 
 /* ---- world/layout.c ---- */
 
-/* Of a model and all its rungs. */
+/* Computes the layouts of a model and all its detail levels. */
 void sbri_layouts_make(sbr_model *model);
-/* Bytes of the deltas of its frames (pose/frames.h). */
+/* Size of the deltas of all frames (pose/frames.h), bytes. */
 size_t sbri_deltas_size(const sbr_model *model);
 
 #define SBRI_STATE_PART(name, type, offset)                                                                  \
   static inline type *sbri_##name(const sbri_character *c) {                                                 \
     return (type *)(void *)(c->state + (offset));                                                            \
   }
-SBRI_STATE_PART(head, sbri_character_state, 0)
+SBRI_STATE_PART(header, sbri_character_state, 0)
 SBRI_STATE_PART(loads, sbri_load, c->model->layout.loads) /* (SBR_LOAD_CAPACITY) */
 SBRI_STATE_PART(gait, void, c->model->layout.gait)
 SBRI_STATE_PART(pose, sbr_transform, c->model->layout.pose)                          /* (frame_count) */
@@ -127,21 +130,20 @@ SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)     
 SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
 SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
-SBRI_STATE_PART(guide_motions, sbri_guide_motion, c->model->layout.guide_motions)    /* (bodies) */
+SBRI_STATE_PART(driver_motions, sbri_driver_motion, c->model->layout.driver_motions) /* (bodies) */
 SBRI_STATE_PART(rests, float, c->model->layout.rests)                    /* (flow_count) m, rest lengths */
 SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flow_count) 1, or 0 where torn */
 SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
 SBRI_STATE_PART(solids, sbri_tetrahedron_block, c->model->layout.solids) /* (solid_block_count) */
 SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (solid_count) sbri_torn_state */
-/* Of models whose elements may tear, else empty: where each slot comes from, SBRI_UNUSED while it is room
- * for a point that splits; what it weighs; the cells of skins, the tetrahedron that each binding rides on,
- * and what has become of each polygon. */
+/* Only in models whose elements may tear: the origin of each slot (SBRI_UNUSED for a spare slot), its mass;
+ * cells of skins, the tetrahedron that each binding is embedded in, and the state of each polygon. */
 SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)            /* (slot_count) */
 SBRI_STATE_PART(masses, float, c->model->layout.masses)                 /* (slot_count) kg */
 SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses) /* (slot_count) 1/kg */
 SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales) /* (slot_count) */
-/* Of islands whose springs may tear, as the model has them with points that have split: what is in use of
- * each block's cells, the cells, their damping and links, and the links. */
+/* Only in islands whose springs may tear, in the model's layout plus split points: number of used cells per
+ * block, cells, their damping and links, and the links. */
 SBRI_STATE_PART(thread_ends, uint32_t, c->model->layout.thread_ends)            /* (thread_block_count) */
 SBRI_STATE_PART(thread_cells, sbri_spring_cell, c->model->layout.thread_cells)  /* (thread_cell_count) */
 SBRI_STATE_PART(thread_damping, float, c->model->layout.thread_damping)         /* (thread_cell_count x 8) */
@@ -154,9 +156,10 @@ SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)        
 SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies)  /* (rigid bodies) */
 SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
 SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
-SBRI_STATE_PART(rigid_kept, sbri_kept_touch, c->model->layout.rigid_kept) /* (sbri_rigid_touch_capacity) */
-SBRI_STATE_PART(faded, sbri_going, c->model->layout.faded)              /* (vertices of all render meshes) */
-SBRI_STATE_PART(jiggles, sbri_place_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */
+SBRI_STATE_PART(
+    rigid_kept, sbri_stored_contact, c->model->layout.rigid_kept)  /* (sbri_rigid_contact_capacity) */
+SBRI_STATE_PART(faded, sbri_fading_vertex, c->model->layout.faded) /* (vertices of all render meshes) */
+SBRI_STATE_PART(jiggles, sbri_position_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
@@ -173,10 +176,10 @@ SBRI_SCRATCH_PART(burdens, sbri_rigid_burden, c->model->layout.burdens)         
 SBRI_SCRATCH_PART(stepped_pose, sbr_transform, c->model->layout.stepped_pose)   /* (frame_count) in a tick */
 SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
 SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
-SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)    /* (slot_count x 3) */
+SBRI_SCRATCH_PART(driver_velocities, float, c->model->layout.driver_velocities)  /* (slot_count x 3) */
 SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                   /* (slot_count) */
 SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points) /* (slot_count) */
-SBRI_SCRATCH_PART(outer, sbri_point, c->model->layout.outer)                     /* (slot_count) */
+SBRI_SCRATCH_PART(external_forces, sbri_point, c->model->layout.external_forces) /* (slot_count) */
 SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)          /* (slot_count x 3) */
 SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)    /* (slot_count x 3) */
 SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                     /* (slot_count) */
@@ -191,15 +194,15 @@ SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /
 SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
 SBRI_SCRATCH_PART(frayed, uint8_t, c->model->layout.frayed)  /* (slot_count) likewise: near a torn spring */
 SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)    /* (slot_count / 8) */
-SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)         /* (samples of all bodies) */
-SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts) /* (bodies) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
+SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
+SBRI_SCRATCH_PART(contact_counts, uint32_t, c->model->layout.contact_counts) /* (bodies) */
 /* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
 SBRI_SCRATCH_PART(contact_islands, uint8_t, c->model->layout.contact_islands)
 SBRI_SCRATCH_PART(
     external_bodies_of, struct sbri_external_bodies, c->model->layout.external_bodies) /* (bodies) */
-SBRI_SCRATCH_PART(touch_weights, float, c->model->layout.touch_weights)                /* (slot_count) */
-SBRI_SCRATCH_PART(slot_touches, uint8_t, c->model->layout.slot_touches)                /* (slot_count) */
+SBRI_SCRATCH_PART(contact_weights, float, c->model->layout.contact_weights)            /* (slot_count) */
+SBRI_SCRATCH_PART(slot_contacts, uint8_t, c->model->layout.slot_contacts)              /* (slot_count) */
 SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)             /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching)      /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
@@ -217,7 +220,7 @@ SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertice
 SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
 SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
 SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
-/* Of a change of rungs, of the one before it: how far each point was from its guide, and how fast. */
+/* Of the previous detail level during a transition: offset and speed of each point relative to its driver. */
 SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets) /* (slot_count) */
 SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)   /* (slot_count) */
 SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (most vertices of a mesh, padded) */
@@ -225,8 +228,8 @@ SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)          /* (bodies + 1)
 SBRI_SCRATCH_PART(energies, double, c->model->layout.energies)   /* (bodies) J */
 #undef SBRI_SCRATCH_PART
 
-/* A host's impulse in the character's own units is so many times as great: masses go with the cube of the
- * scale and times with its square root, speeds with the root too. */
+/* Factor from a host's impulse to the character's own units. Masses scale with scale^3, times and speeds with
+ * sqrt(scale). */
 static inline float sbri_own_impulse(const sbri_character *c) {
   return c->time_scale / (c->scale * c->scale * c->scale);
 }
@@ -234,22 +237,22 @@ static inline float sbri_own_impulse(const sbri_character *c) {
 static inline void sbri_island_wake(sbri_character *c, uint32_t island) {
   sbri_island_state *state = &sbri_island_states(c)[island];
   state->asleep = 0;
-  state->quiet_ticks = 0;
+  state->idle_ticks = 0;
 }
 static inline void sbri_character_wake(sbri_character *c) {
-  sbri_head(c)->asleep = 0;
+  sbri_header(c)->asleep = 0;
 }
 
 /* ---- world/present.c ---- */
 
 #define SBRI_UNUSED UINT32_MAX
 
-/* The island with what its state has in place of the model's: masses, and tetrahedra. */
+/* Returns the island with present masses and tetrahedra from the state. */
 sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island);
-/* Gives points that have split what their origins have, and unused ones what the body's first has: for tables
- * of the body's slots that are made by the model's. */
-void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *places);
-/* A skin as the character has it: with cells of its own where it may tear. */
+/* Copies to split points the values of their origins, and to unused slots those of the body's first slot, in
+ * tables that are indexed by slots. */
+void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *positions);
+/* Returns a skin with the character's own cells if it may tear. */
 sbri_skin sbri_skin_now(const sbri_character *c, const sbri_skin *skin);
 
 #endif

@@ -1,4 +1,4 @@
-/* A world: its characters by handle, what they meet, what happened, and what is recorded of it. */
+/* A world: characters by handle, colliders, contacts, events and recording. */
 #ifndef SBRI_WORLD_H
 #define SBRI_WORLD_H
 
@@ -9,13 +9,13 @@
 
 enum { SBRI_EVENTS = 256 };
 
-/* Time is counted in parts of 2^-32 s, so that frames add up without rounding. */
+/* Time is counted in units of 2^-32 s, so that frames add up without rounding. */
 #define SBRI_TIME_UNITS 4294967296.0
 
-/* Of those, about a microsecond: a tick that would only cover so little is left for later. */
+/* About a microsecond, in those units: a shorter remainder does not cause a tick. */
 enum { SBRI_TIME_SLACK = 4096 };
 
-/* One island of one character: what a task steps. */
+/* Task of the island stage: one island of one character. */
 typedef struct sbri_work {
   uint32_t character, island;
 } sbri_work;
@@ -29,41 +29,40 @@ struct sbr_world {
   double tick_s;
   int64_t tick_units, longest_units;
   uint64_t ticks;
-  int64_t
-      ahead_units; /* by how much the last tick lies beyond the sampled moment; may lag by SBRI_TIME_SLACK */
-  uint64_t stamp;  /* counts sampled moments; from 1 */
+  int64_t ahead_units; /* time of the last tick minus the sampled time; may be less by SBRI_TIME_SLACK */
+  uint64_t stamp;      /* number of the sampled time, from 1 */
   sbri_collider_set colliders;
   struct sbri_body_contacts
-      *body_contacts; /* body_contact/body_contacts.h; NULL: bodies of characters do not meet each other */
-  struct sbri_detail *detail; /* detail/choose.h; NULL: rungs are the host's */
+      *body_contacts;         /* body_contact/body_contacts.h; NULL: no contacts between characters */
+  struct sbri_detail *detail; /* detail/choose.h; NULL: the host sets detail levels */
   sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of this tick, character after character */
   size_t work_count, work_capacity;
-  uint32_t sleep_ticks; /* of rest before sleep; 0: nothing sleeps */
+  uint32_t sleep_ticks; /* ticks at rest before sleep; 0: no sleep */
   uint32_t awake_count; /* soft bodies stepped in the last tick */
   sbr_event events[SBRI_EVENTS];
-  sbr_clock clock;                 /* now_s NULL: ticks are not timed */
+  sbr_clock clock;                 /* now_s NULL: no timing */
   sbr_profile profile;             /* of the last tick that was timed */
-  sbr_record_output record;        /* write NULL: it is not recorded */
-  uint64_t recorded_at;            /* tick of the last hash in it */
-  uint64_t event_head, event_tail; /* numbers of the next one written and read */
+  sbr_record_output record;        /* write NULL: no recording */
+  uint64_t recorded_at;            /* tick of the last recorded hash */
+  uint64_t event_head, event_tail; /* sequence numbers of the next event to write and to read */
 };
 
-/* ---- world/roster.c ---- */
+/* ---- world/character_pool.c ---- */
 
-/* The character that the handle names; NULL: none. */
+/* Returns the character of a handle; NULL if it is invalid. */
 sbri_character *sbri_character_of(const sbr_world *world, sbr_character_id id);
 sbr_character_id sbri_id_of(const sbr_world *world, const sbri_character *c);
 
 sbr_collider_id sbri_collider_name(const sbri_collider_set *set, uint32_t number);
 
-/* Anew the list of work, of the characters that are awake; its memory is there already. */
+/* Rebuilds the list of islands of awake characters. Does not allocate. */
 void sbri_work_list(sbr_world *world);
 
 /* ---- world/events.c ---- */
 
-/* Of this tick; the event's place is the world's. */
+/* Adds an event of this tick; its position is in world space. */
 void sbri_event_add(sbr_world *world, sbr_event event);
 
 #endif

@@ -17,10 +17,10 @@ static bool decoded(const char *text, size_t step, sbfi_text *to) {
   size_t length = strlen(text);
   for (size_t at = 0; at < length; at += step) {
     size_t piece = length - at < step ? length - at : step, size;
-    uint8_t *room = malloc(SBFI_BASE64_ROOM(piece));
-    bool good = sbfi_base64_read(&reader, text + at, piece, room, &size) == piece;
-    sbfi_text_append(to, room, size);
-    free(room);
+    uint8_t *buffer = malloc(SBFI_BASE64_CAPACITY(piece));
+    bool good = sbfi_base64_read(&reader, text + at, piece, buffer, &size) == piece;
+    sbfi_text_append(to, buffer, size);
+    free(buffer);
     if (!good) return false;
   }
   return sbfi_base64_is_complete(&reader);
@@ -84,9 +84,9 @@ START_TEST(what_is_not_base64_is_refused_where_it_stands)
       {"Zm8=\xC3", 4}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     sbfi_base64_reader reader = {0};
-    uint8_t room[32];
+    uint8_t buffer[32];
     size_t size, length = strlen(cases[i].text);
-    size_t bad = sbfi_base64_read(&reader, cases[i].text, length, room, &size);
+    size_t bad = sbfi_base64_read(&reader, cases[i].text, length, buffer, &size);
     ck_assert_msg(bad == (cases[i].bad == SIZE_MAX ? length : cases[i].bad), "%s: %zu", cases[i].text, bad);
     if (bad == length) ck_assert_msg(!sbfi_base64_is_complete(&reader), "%s", cases[i].text);
   }

@@ -8,7 +8,7 @@ static uint64_t hash_of(const void *bytes, size_t size, size_t step) {
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
   for (size_t at = 0; at < size; at += step)
-    sbfi_hash64_bytes(&hash, (const char *)bytes + at, size - at < step ? size - at : step);
+    sbfi_hash64_add_bytes(&hash, (const char *)bytes + at, size - at < step ? size - at : step);
   return sbfi_hash64_value(&hash);
 }
 
@@ -37,10 +37,10 @@ START_TEST(numbers_count_as_little_endian_bytes)
   const double f64 = 1;
   sbfi_hash64 hash;
   sbfi_hash64_init(&hash);
-  sbfi_hash64_u32(&hash, &u32, 1);
-  sbfi_hash64_u64(&hash, &u64, 1);
-  sbfi_hash64_f32(&hash, &f32, 1);
-  sbfi_hash64_f64(&hash, &f64, 1);
+  sbfi_hash64_add_u32(&hash, &u32, 1);
+  sbfi_hash64_add_u64(&hash, &u64, 1);
+  sbfi_hash64_add_f32(&hash, &f32, 1);
+  sbfi_hash64_add_f64(&hash, &f64, 1);
   ck_assert_uint_eq(sbfi_hash64_value(&hash), hash_of(bytes, sizeof bytes, sizeof bytes));
   ck_assert_uint_eq(sbfi_hash64_value(&hash), hash_of(bytes, sizeof bytes, 5));
 }

@@ -88,9 +88,9 @@ START_TEST(an_array_grows_by_pieces)
   sbfi_array_init(&array, NULL, sizeof(uint16_t));
   ck_assert(sbfi_array_append(&array, NULL, 0));
   ck_assert_ptr_nonnull(sbfi_array_push(&array, 0)); /* NULL would say that memory ran out */
-  uint16_t *place = sbfi_array_push(&array, 3);
-  ck_assert_ptr_nonnull(place);
-  ck_assert(place[0] == 0 && place[2] == 0);
+  uint16_t *destination = sbfi_array_push(&array, 3);
+  ck_assert_ptr_nonnull(destination);
+  ck_assert(destination[0] == 0 && destination[2] == 0);
   const uint16_t more[] = {7, 8};
   ck_assert(sbfi_array_append(&array, more, 2));
   ck_assert_uint_eq(array.count, 5);

@@ -27,8 +27,8 @@ static void divide_by_ten(wide *n) {
   }
 }
 
-static int bit(const wide *n, int place) {
-  return place < 0 ? 0 : n->limb[place / 32] >> place % 32 & 1;
+static int bit(const wide *n, int index) {
+  return index < 0 ? 0 : n->limb[index / 32] >> index % 32 & 1;
 }
 
 static int bit_length(const wide *n) {

@@ -190,8 +190,8 @@ END_TEST
 START_TEST(nothing_is_inherited)
 {
   sbfi_process_result result;
-  int held = fcntl(1, F_DUPFD, 100); /* not close-on-exec */
-  ck_assert_int_ge(held, 100);
+  int pinned = fcntl(1, F_DUPFD, 100); /* not close-on-exec */
+  ck_assert_int_ge(pinned, 100);
   sigset_t set, now;
   sigemptyset(&set);
   sigaddset(&set, SIGTERM);
@@ -203,7 +203,7 @@ START_TEST(nothing_is_inherited)
   sbfi_process_result_free(&result);
   sigprocmask(SIG_SETMASK, NULL, &now); /* and the host keeps what it had */
   ck_assert(sigismember(&now, SIGTERM) && !sigismember(&now, SIGUSR1));
-  close(held);
+  close(pinned);
 }
 END_TEST
 

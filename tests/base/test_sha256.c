@@ -13,7 +13,7 @@ static const char *hash_of(const char *bytes, size_t size, size_t step) {
   for (size_t at = 0; at < size; at += step)
     sbfi_sha256_update(&hash, bytes + at, size - at < step ? size - at : step);
   sbfi_sha256_finish(&hash, digest);
-  sbfi_sha256_text(digest, text);
+  sbfi_sha256_format(digest, text);
   return text;
 }
 

@@ -51,11 +51,11 @@ uint32_t tubes_add(
   uint32_t first = to->point_count, last = UINT32_MAX, begin = 0;
   for (uint32_t p = 0; p + 1 < path_count; p++)
     for (uint32_t i = p ? 1 : 0; i <= rings; i++) {
-      sbfi_d3 along = sbfi_d3_sub(path[p + 1], path[p]), way = along;
+      sbfi_d3 along = sbfi_d3_sub(path[p + 1], path[p]), direction = along;
       if (i == rings && p + 2 < path_count) /* halfway round the bend */
-        way = sbfi_d3_add(sbfi_d3_normal(along), sbfi_d3_normal(sbfi_d3_sub(path[p + 2], path[p + 1])));
+        direction = sbfi_d3_add(sbfi_d3_normal(along), sbfi_d3_normal(sbfi_d3_sub(path[p + 2], path[p + 1])));
       sbfi_d3 middle = sbfi_d3_add(path[p], sbfi_d3_scale(along, (double)i / rings));
-      uint32_t ring = add_ring(to, middle, way, radius);
+      uint32_t ring = add_ring(to, middle, direction, radius);
       if (last == UINT32_MAX)
         begin = ring;
       else
@@ -86,8 +86,8 @@ uint32_t tubes_add_ball(rigged_tubes *to, sbfi_d3 middle, double radius, uint32_
 }
 
 /* The rotation that takes +Y to a direction. */
-static sbf_quat rotation_to(sbfi_d3 way) {
-  sbfi_d3 to = sbfi_d3_normal(way);
+static sbf_quat rotation_to(sbfi_d3 direction) {
+  sbfi_d3 to = sbfi_d3_normal(direction);
   if (to.y < -0.999999) return (sbf_quat){1, 0, 0, 0};
   double w = 1 + to.y, length = sqrt(to.z * to.z + to.x * to.x + w * w);
   return (sbf_quat){(float)(to.z / length), 0, (float)(-to.x / length), (float)(w / length)};

@@ -17,9 +17,9 @@ static double box_distance(const void *user, uint32_t item, const double point[3
   return sbfi_box_distance((const sbfi_box *)user + item, point);
 }
 
-static double enter_at(const void *user, uint32_t item, const double origin[3], const double way[3]) {
+static double enter_at(const void *user, uint32_t item, const double origin[3], const double direction[3]) {
   (void)origin;
-  (void)way;
+  (void)direction;
   return ((const double *)user)[item];
 }
 
@@ -44,10 +44,10 @@ START_TEST(of_equals_the_lowest_number)
   ck_assert(min == 1);
   /* What the caller has already is not beaten by an equal. */
   ck_assert_uint_eq(sbfi_box_tree_nearest(&tree, (double[]){0, 1, 1}, box_distance, boxes, &min), UINT32_MAX);
-  double places[100];
-  for (int i = 0; i < 100; i++) places[i] = 5;
-  ck_assert_uint_eq(
-      sbfi_box_tree_pierced(&tree, (double[]){0, 1.5, 1.5}, (double[]){1, 0, 0}, INFINITY, enter_at, places),
+  double positions[100];
+  for (int i = 0; i < 100; i++) positions[i] = 5;
+  ck_assert_uint_eq(sbfi_box_tree_pierced(
+                        &tree, (double[]){0, 1.5, 1.5}, (double[]){1, 0, 0}, INFINITY, enter_at, positions),
       0);
 }
 END_TEST

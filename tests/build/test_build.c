@@ -27,9 +27,9 @@ static sbf_asset *build(const sbf_asset *from, const sbf_build_options *options,
   return built;
 }
 
-static void print(void *user, const sbf_diagnostic *finding) {
+static void print(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  fprintf(stderr, "%s %s\n", finding->path, finding->message);
+  fprintf(stderr, "%s %s\n", diagnostic->path, diagnostic->message);
 }
 
 static void check_structure(const sbf_asset *built) {
@@ -311,9 +311,9 @@ START_TEST(sizes_beyond_measure_are_refused)
 END_TEST
 
 static int warnings[8], warning_count;
-static void note(void *user, const sbf_diagnostic *finding) {
+static void note(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  if (warning_count < 8) warnings[warning_count++] = finding->code;
+  if (warning_count < 8) warnings[warning_count++] = diagnostic->code;
 }
 
 START_TEST(warnings_say_what_was_not_made)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "build/levels/jiggle_level.h"
-#include "build/levels/ladder.h"
+#include "build/levels/level_set.h"
 #include "harness.h"
 #include "mechanics/static_solve.h"
 #include "sbfmt/build.h"
@@ -25,16 +25,16 @@ static void teardown(void) {
 static sbf_soft_body *add_beam(bool pinned) {
   sbf_polygon_mesh cube = shape_cube(asset, 8, 0.2f, (sbf_vec3){0, 0, 0});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)cube.positions.at;
-  uint32_t *held = sbf_asset_allocate(asset, cube.positions.count, sizeof *held), count = 0;
+  uint32_t *pinned_points = sbf_asset_allocate(asset, cube.positions.count, sizeof *pinned_points), count = 0;
   for (uint32_t i = 0; i < cube.positions.count; i++) {
     at[i].x = 5 * (at[i].x + 0.1f);
-    if (at[i].x < 1e-6f) held[count++] = i;
+    if (at[i].x < 1e-6f) pinned_points[count++] = i;
   }
   sbf_soft_body *body = shape_add_body(asset, "beam", &cube, false);
   body->attributes.young_modulus = 1e6f;
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned_points, count};
   if (pinned) body->pins = (sbf_pin_set_list){pins, 1};
   return body;
 }
@@ -47,10 +47,10 @@ static uint32_t grid_point(uint32_t n, uint32_t x, uint32_t y, uint32_t z) {
  * people's figures are of. */
 static void grid_level(sbf_level *level, uint32_t n) {
   static const int paths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}};
-  uint32_t points = (5 * n + 1) * (n + 1) * (n + 1), count = 0, held = (n + 1) * (n + 1);
+  uint32_t points = (5 * n + 1) * (n + 1) * (n + 1), count = 0, pinned_points = (n + 1) * (n + 1);
   sbf_vec3 *at = sbf_asset_allocate(asset, points, sizeof *at);
   sbf_uint4 *tetrahedra = sbf_asset_allocate(asset, 30 * (size_t)n * n * n, sizeof *tetrahedra);
-  uint32_t *pinned = sbf_asset_allocate(asset, held, sizeof *pinned);
+  uint32_t *pinned = sbf_asset_allocate(asset, pinned_points, sizeof *pinned);
   uint32_t *none = sbf_asset_allocate(asset, 386, sizeof *none);
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   for (uint32_t x = 0; x <= 5 * n; x++)
@@ -78,10 +78,10 @@ static void grid_level(sbf_level *level, uint32_t n) {
       t->at[1] = t->at[2];
       t->at[2] = swapped;
     }
-  for (uint32_t i = 0; i < held; i++) pinned[i] = i;
+  for (uint32_t i = 0; i < pinned_points; i++) pinned[i] = i;
   memset(none, 0xff, 386 * sizeof *none);
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){pinned, held};
+  pins->points = (sbf_u32_list){pinned, pinned_points};
   sbf_level_init(level);
   level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
   level->cell = 0.2f / (float)n;
@@ -105,7 +105,7 @@ static end_motion move_end(
   sbfi_arena_init(&arena, NULL, 0);
   ck_assert(sbfi_level_statics_make(&s, body, level, NULL, &arena));
   double *forces = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *forces);
-  double *places = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *places);
+  double *positions = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *positions);
   uint32_t first = grid_point(n, 5 * n, 0, 0), last = grid_point(n, 5 * n, n, n);
   double sum = 0;
   for (uint32_t i = first; i <= last; i++) {
@@ -116,15 +116,15 @@ static end_motion move_end(
     forces[3 * i + 1] = -couple * level->positions.at[i].z / sum;
     forces[3 * i + 2] = couple * level->positions.at[i].y / sum;
   }
-  sbfi_static_start(&s.network, places);
+  sbfi_static_start(&s.network, positions);
   const sbfi_static_problem problem = {
       .network = &s.network, .gravity = g, .forces = forces, .tolerance = 1e-6};
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL));
+  ck_assert(sbfi_static_solve(&problem, positions, &outcome, NULL));
   ck_assert(outcome.converged);
   end_motion end = {0, 0, 0};
   for (uint32_t i = first; i <= last; i++) {
     sbf_vec3 p = level->positions.at[i];
-    double dy = places[3 * i + 1] - p.y, dz = places[3 * i + 2] - p.z, points = last - first + 1;
+    double dy = positions[3 * i + 1] - p.y, dz = positions[3 * i + 2] - p.z, points = last - first + 1;
     end.y += dy / points;
     end.z += dz / points;
     end.turn += (p.y * dz - p.z * dy) / sum;
@@ -182,23 +182,24 @@ static sbfi_d3 push(const sbf_soft_body *body, const sbf_level *level, float x, 
   sbfi_arena_init(&arena, NULL, 0);
   ck_assert(sbfi_level_statics_make(&s, body, level, NULL, &arena));
   double *forces = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *forces);
-  double *places = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *places);
+  double *positions = sbfi_arena_allocate(&arena, s.network.point_count, 3 * sizeof *positions);
   double mass = 0;
   sbfi_d3 sum = {0, 0, 0};
   for (uint32_t i = 0; i < s.network.point_count; i++)
     mass += level->positions.at[i].x > x ? s.network.masses[i] : 0;
   for (uint32_t i = 0; i < s.network.point_count; i++) {
-    double share = level->positions.at[i].x > x ? s.network.masses[i] / mass : 0;
-    forces[3 * i] = share * force.x, forces[3 * i + 1] = share * force.y, forces[3 * i + 2] = share * force.z;
+    double fraction = level->positions.at[i].x > x ? s.network.masses[i] / mass : 0;
+    forces[3 * i] = fraction * force.x, forces[3 * i + 1] = fraction * force.y,
+               forces[3 * i + 2] = fraction * force.z;
   }
-  sbfi_static_start(&s.network, places);
+  sbfi_static_start(&s.network, positions);
   const sbfi_static_problem problem = {.network = &s.network, .forces = forces, .tolerance = 1e-5};
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL) && outcome.converged);
+  ck_assert(sbfi_static_solve(&problem, positions, &outcome, NULL) && outcome.converged);
   for (uint32_t i = 0; i < s.network.point_count; i++) {
-    double share = level->positions.at[i].x > x ? s.network.masses[i] / mass : 0;
-    sum.x += share * (places[3 * i] - level->positions.at[i].x);
-    sum.y += share * (places[3 * i + 1] - level->positions.at[i].y);
-    sum.z += share * (places[3 * i + 2] - level->positions.at[i].z);
+    double fraction = level->positions.at[i].x > x ? s.network.masses[i] / mass : 0;
+    sum.x += fraction * (positions[3 * i] - level->positions.at[i].x);
+    sum.y += fraction * (positions[3 * i + 1] - level->positions.at[i].y);
+    sum.z += fraction * (positions[3 * i + 2] - level->positions.at[i].z);
   }
   sbfi_arena_free(&arena);
   return sum;
@@ -218,12 +219,12 @@ START_TEST(an_arm_of_the_armadillo)
   }
   float size = high - low, shoulder = low + 0.68f * size, hand = low + 0.92f * size;
   sbf_soft_body *body = shape_add_body(asset, "armadillo", &mesh, false);
-  uint32_t *held = sbf_asset_allocate(asset, mesh.positions.count, sizeof *held), count = 0;
+  uint32_t *pinned = sbf_asset_allocate(asset, mesh.positions.count, sizeof *pinned), count = 0;
   for (uint32_t i = 0; i < mesh.positions.count; i++)
-    if (mesh.positions.at[i].x < shoulder) held[count++] = i;
+    if (mesh.positions.at[i].x < shoulder) pinned[count++] = i;
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned, count};
   body->pins = (sbf_pin_set_list){pins, 1};
   body->attributes.young_modulus = 1000 * 9.81f * size * 20;
   sbfi_reference r;
@@ -427,18 +428,18 @@ static sbf_soft_body *add_plate(const int order[3]) {
   static const float sides[3] = {1, 0.2f, 0.04f};
   sbf_polygon_mesh cube = shape_cube(asset, 4, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)cube.positions.at;
-  uint32_t *held = sbf_asset_allocate(asset, cube.positions.count, sizeof *held), count = 0;
+  uint32_t *pinned = sbf_asset_allocate(asset, cube.positions.count, sizeof *pinned), count = 0;
   for (uint32_t i = 0; i < cube.positions.count; i++) {
     const float corner[3] = {at[i].x, at[i].y, at[i].z};
     for (int k = 0; k < 3; k++)
-      if (order[k] == 0 && corner[k] < 1e-4f) held[count++] = i;
+      if (order[k] == 0 && corner[k] < 1e-4f) pinned[count++] = i;
     at[i] = (sbf_vec3){corner[0] * sides[order[0]], corner[1] * sides[order[1]], corner[2] * sides[order[2]]};
   }
   sbf_soft_body *body = shape_add_body(asset, "plate", &cube, false);
   body->attributes.young_modulus = 1e8f;
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned, count};
   body->pins = (sbf_pin_set_list){pins, 1};
   return body;
 }

@@ -88,9 +88,9 @@ START_TEST(what_is_held_equals_nothing)
 }
 END_TEST
 
-static void count_off(void *user, const sbf_diagnostic *finding) {
+static void count_off(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  off_count += finding->code == SBF_CODE_LEVEL_OFF;
+  off_count += diagnostic->code == SBF_CODE_LEVEL_OFF;
 }
 
 /* One calibration for all that are equal, one more for the cube that is not. */

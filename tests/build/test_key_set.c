@@ -30,8 +30,9 @@ END_TEST
 
 START_TEST(test_places)
 {
-  sbfi_key plus = sbfi_key_of_place((sbf_vec3){0, 1, 2}), minus = sbfi_key_of_place((sbf_vec3){-0.0f, 1, 2});
-  sbfi_key other = sbfi_key_of_place((sbf_vec3){0, 1, 2.0000002f});
+  sbfi_key plus = sbfi_key_of_position((sbf_vec3){0, 1, 2}),
+           minus = sbfi_key_of_position((sbf_vec3){-0.0f, 1, 2});
+  sbfi_key other = sbfi_key_of_position((sbf_vec3){0, 1, 2.0000002f});
   ck_assert_mem_eq(&plus, &minus, sizeof plus);
   ck_assert_mem_ne(&plus, &other, sizeof plus);
 }

@@ -39,7 +39,7 @@ START_TEST(a_line_is_told_from_a_plane)
 END_TEST
 
 /* Two tetrahedra apart from each other, the second deeper at its last point. */
-static const sbf_vec3 places[] = {
+static const sbf_vec3 positions[] = {
     {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1.5f}};
 static const sbf_uint4 corners[] = {{{0, 1, 2, 3}}, {{4, 5, 6, 7}}};
 static const double depths2[] = {0, 0, 0, 0, 0, 0, 0, 0.01};
@@ -47,7 +47,7 @@ static const double depths2[] = {0, 0, 0, 0, 0, 0, 0, 0.01};
 static uint32_t hold(const uint8_t *taken, double width, uint32_t *core, uint32_t count) {
   sbf_level level;
   sbf_level_init(&level);
-  level.positions = (sbf_vec3_list){places, 8};
+  level.positions = (sbf_vec3_list){positions, 8};
   level.lattice.tetrahedra = (sbf_uint4_list){corners, 2};
   ck_assert(sbfi_lattice_hold_pieces(&level, depths2, taken, width, core, &count, &arena));
   return count;
@@ -88,8 +88,8 @@ static void check_held(const sbf_level *level, const char *name) {
   uint32_t points = level->positions.count;
   uint32_t *parents = sbfi_arena_allocate(&arena, points, sizeof *parents);
   uint32_t *list = sbfi_arena_allocate(&arena, points, sizeof *list);
-  uint8_t *held = sbfi_arena_allocate(&arena, points, 1), *used = sbfi_arena_allocate(&arena, points, 1);
-  sbf_level_held_points(level, held);
+  uint8_t *pinned = sbfi_arena_allocate(&arena, points, 1), *used = sbfi_arena_allocate(&arena, points, 1);
+  sbf_level_held_points(level, pinned);
   sbfi_sets_begin(parents, points);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 0; k < 4; k++) {
@@ -100,7 +100,7 @@ static void check_held(const sbf_level *level, const char *name) {
     uint32_t count = 0;
     if (parents[root] != root || !used[root]) continue;
     for (uint32_t i = 0; i < points; i++)
-      if (held[i] && sbfi_set_root(parents, i) == root) list[count++] = i;
+      if (pinned[i] && sbfi_set_root(parents, i) == root) list[count++] = i;
     double width = sbfi_farthest_line_of(level->positions.at, list, count).width;
     ck_assert_msg(width >= 0.249 * (double)level->cell, "%s: %u tetrahedra, %u points hold %g cells", name,
         level->lattice.tetrahedra.count, count, width / (double)level->cell);
@@ -108,9 +108,9 @@ static void check_held(const sbf_level *level, const char *name) {
 }
 
 static int unsettled;
-static void note(void *user, const sbf_diagnostic *finding) {
+static void note(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  unsettled += finding->code == SBF_CODE_LEVEL_UNSETTLED;
+  unsettled += diagnostic->code == SBF_CODE_LEVEL_UNSETTLED;
 }
 
 static sbf_asset *build(uint32_t elements, uint32_t levels, bool calibrate) {

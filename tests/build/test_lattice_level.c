@@ -19,16 +19,16 @@ static void teardown(void) {
   sbf_asset_free(asset);
 }
 
-static void print(void *user, const sbf_diagnostic *finding) {
+static void print(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  fprintf(stderr, "%s %s\n", finding->path, finding->message);
+  fprintf(stderr, "%s %s\n", diagnostic->path, diagnostic->message);
 }
 
 static sbf_diagnostic findings[16];
 static int finding_count;
-static void note(void *user, const sbf_diagnostic *finding) {
+static void note(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  if (finding_count < 16) findings[finding_count++] = *finding;
+  if (finding_count < 16) findings[finding_count++] = *diagnostic;
 }
 static int count_noted(int code) {
   int count = 0;
@@ -164,11 +164,11 @@ START_TEST(pins_on_the_surface_are_taken_over)
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   ck_assert_uint_eq(level->pins.count, 2);
   ck_assert_uint_eq(level->pins.at[1].points.count, 0);
-  const sbf_pin_set *held = &level->pins.at[0];
-  ck_assert_int_eq(held->derived, 0);
-  ck_assert_uint_ge(held->points.count, 41); /* of the top's 25 corners and 16 middles */
-  for (uint32_t i = 0; i < held->points.count; i++)
-    ck_assert_float_gt(level->positions.at[held->points.at[i]].y, 1.1f);
+  const sbf_pin_set *pinned = &level->pins.at[0];
+  ck_assert_int_eq(pinned->derived, 0);
+  ck_assert_uint_ge(pinned->points.count, 41); /* of the top's 25 corners and 16 middles */
+  for (uint32_t i = 0; i < pinned->points.count; i++)
+    ck_assert_float_gt(level->positions.at[pinned->points.at[i]].y, 1.1f);
   sbf_asset_free(built);
 }
 END_TEST

@@ -36,9 +36,9 @@ static void make_level(void) {
       SBFI_LATTICE_MADE);
   volume = counts.quality.volume;
   ck_assert_uint_le(level.positions.count, 4000);
-  uint8_t *held = sbfi_arena_allocate(&arena, level.positions.count, 1);
-  sbf_level_held_points(&level, held);
-  sbf_level_masses(body, &level, held, lattice_masses);
+  uint8_t *pinned = sbfi_arena_allocate(&arena, level.positions.count, 1);
+  sbf_level_held_points(&level, pinned);
+  sbf_level_masses(body, &level, pinned, lattice_masses);
   ck_assert(
       sbfi_lattice_springs_level_make(&level, body, SBF_NONE, asset, &inert, (sbfi_progress){0}, &arena));
 }
@@ -78,12 +78,12 @@ END_TEST
 /* A modulus and a damping that rise along the bar, and an end that is held. */
 START_TEST(maps_and_pins_count)
 {
-  uint32_t count = body->surface.positions.count, held_count = 0, soft = 0, stiff = 0;
-  uint32_t *held = sbf_asset_allocate(asset, count, sizeof *held);
+  uint32_t count = body->surface.positions.count, pinned_count = 0, soft = 0, stiff = 0;
+  uint32_t *pinned = sbf_asset_allocate(asset, count, sizeof *pinned);
   sbf_weight_map maps[2];
   for (uint32_t i = 0; i < count; i++) {
     factors[i] = 0.1f + 0.9f * body->surface.positions.at[i].x;
-    if (body->surface.positions.at[i].x < 1e-6f) held[held_count++] = i;
+    if (body->surface.positions.at[i].x < 1e-6f) pinned[pinned_count++] = i;
   }
   sbf_weight_map_init(&map);
   map.values = (sbf_f32_list){factors, count};
@@ -94,7 +94,7 @@ START_TEST(maps_and_pins_count)
   body->attributes.stiffness_damping = 0.01f;
   sbf_pin_set pins;
   sbf_pin_set_init(&pins);
-  pins.points = (sbf_u32_list){held, held_count};
+  pins.points = (sbf_u32_list){pinned, pinned_count};
   body->pins = (sbf_pin_set_list){&pins, 1};
   make_level();
   const sbf_spring_set *set = &level.springs.at[0];

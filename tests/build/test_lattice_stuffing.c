@@ -22,7 +22,7 @@ static void make_at_random(const sbfi_lattice_grid *grid, sbfi_arena *arena, sbf
   ck_assert_ptr_nonnull(inside);
   for (uint32_t n = 0; n < grid->node_count; n++) {
     int32_t at[3];
-    sbfi_lattice_coordinates(grid, n, at);
+    sbfi_lattice_compute_coordinates(grid, n, at);
     bool within = true;
     for (int k = 0; k < 3; k++) within &= at[k] >= 4 && at[k] <= 16;
     inside[n] = within && random_share() < density;
@@ -33,12 +33,12 @@ static void make_at_random(const sbfi_lattice_grid *grid, sbfi_arena *arena, sbf
     static const double edges[2] = {0.4, 0.28};
     if (cuts.edges[s] == UINT32_MAX) continue;
     double limit = edges[(cuts.edges[s] & 7) < SBFI_LATTICE_LONG_EDGES], pick = random_share(), tiny = 1e-6;
-    double share = pick < 0.3   ? limit + tiny
-                   : pick < 0.6 ? 1 - limit - tiny
-                   : pick < 0.7 ? limit - tiny
-                   : pick < 0.8 ? 1 - limit + tiny
-                                : random_share();
-    cuts.shares[s] = (float)share;
+    double fraction = pick < 0.3   ? limit + tiny
+                      : pick < 0.6 ? 1 - limit - tiny
+                      : pick < 0.7 ? limit - tiny
+                      : pick < 0.8 ? 1 - limit + tiny
+                                   : random_share();
+    cuts.fractions[s] = (float)fraction;
   }
   ck_assert(sbfi_lattice_stuff(grid, inside, &cuts, made, arena, arena));
 }
@@ -130,7 +130,7 @@ START_TEST(all_inside_is_the_grid_itself)
   inside[sbfi_lattice_node(&grid, 7, 7, 7)] = 1;
   ck_assert(sbfi_lattice_cuts_find(&cuts, &grid, inside, &arena));
   ck_assert_uint_eq(cuts.count, 14);
-  for (size_t s = 0; s < cuts.slot_count; s++) cuts.shares[s] = 0.5f;
+  for (size_t s = 0; s < cuts.slot_count; s++) cuts.fractions[s] = 0.5f;
   ck_assert(sbfi_lattice_stuff(&grid, inside, &cuts, &made, &arena, &arena));
   ck_assert_uint_eq(made.count, 24); /* tetrahedra at a node */
   ck_assert_uint_eq(made.point_count, 15);
@@ -148,13 +148,13 @@ START_TEST(edges_lead_where_they_say)
   for (int32_t kind = 0; kind < 2; kind++) {
     uint32_t node = sbfi_lattice_node(&grid, 6 + kind, 4 + kind, 8 + kind);
     int32_t at[3], there[3];
-    sbfi_lattice_coordinates(&grid, node, at);
+    sbfi_lattice_compute_coordinates(&grid, node, at);
     ck_assert_int_eq(at[0], 6 + kind);
     ck_assert_uint_eq(sbfi_lattice_kind(&grid, node), (uint32_t)kind);
     for (int k = 0; k < SBFI_LATTICE_EDGES; k++) {
-      sbfi_lattice_coordinates(&grid, (uint32_t)((int64_t)node + grid.steps[kind][k]), there);
+      sbfi_lattice_compute_coordinates(&grid, (uint32_t)((int64_t)node + grid.steps[kind][k]), there);
       for (int axis = 0; axis < 3; axis++)
-        ck_assert_int_eq(there[axis] - at[axis], sbfi_lattice_ways[k][axis]);
+        ck_assert_int_eq(there[axis] - at[axis], sbfi_lattice_directions[k][axis]);
     }
   }
   ck_assert(!sbfi_lattice_grid_fit(&grid, (sbfi_d3){0, 0, 0}, (sbfi_d3){1, 1, 1}, 1e-3 / 2));

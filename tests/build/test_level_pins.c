@@ -64,8 +64,8 @@ START_TEST(points_go_by_the_levels_order)
 {
   sbf_pin_set pins = some_pins();
   body->pins = (sbf_pin_set_list){&pins, 1};
-  const uint32_t places[] = {5, 6, 7, 900}; /* the level has no place for 3, nor for 25 */
-  level.new_from_old = (sbf_u32_list){places, 4};
+  const uint32_t indices[] = {5, 6, 7, 900}; /* the level has no place for 3, nor for 25 */
+  level.new_from_old = (sbf_u32_list){indices, 4};
   ck_assert(sbfi_level_pins_make(&level, body, 0, asset, NULL, 0, &scratch));
   const sbf_pin_set *taken = &level.pins.at[0];
   ck_assert_uint_eq(taken->points.count, 1);
@@ -102,8 +102,8 @@ START_TEST(attachments)
   body->attachments = (sbf_attachment_list){rules, 3};
   sbf_pin_set pins;
   sbf_pin_set_init(&pins);
-  const uint32_t held[] = {0}; /* (-1, -1, -1) */
-  pins.points = (sbf_u32_list){held, 1};
+  const uint32_t pinned[] = {0}; /* (-1, -1, -1) */
+  pins.points = (sbf_u32_list){pinned, 1};
   body->pins = (sbf_pin_set_list){&pins, 1};
   ck_assert(sbfi_level_pins_make(&level, body, 0, asset, NULL, 0, &scratch));
   ck_assert_uint_eq(level.pins.count, 3);

@@ -34,18 +34,18 @@ typedef struct held_body {
 static held_body hold(sbf_polygon_mesh mesh, int axis, double low, double high) {
   held_body made = {shape_add_body(asset, "body", &mesh, false), axis, 0};
   uint32_t points = mesh.positions.count, count = 0;
-  uint32_t *held = sbf_asset_allocate(asset, points, sizeof *held);
+  uint32_t *pinned = sbf_asset_allocate(asset, points, sizeof *pinned);
   double min = INFINITY, max = -INFINITY;
   for (uint32_t i = 0; i < points; i++) {
     min = fmin(min, along(mesh.positions.at[i], axis));
     max = fmax(max, along(mesh.positions.at[i], axis));
   }
   for (uint32_t i = 0; i < points; i++)
-    if (along(mesh.positions.at[i], axis) <= min + low * (max - min) + 1e-6) held[count++] = i;
+    if (along(mesh.positions.at[i], axis) <= min + low * (max - min) + 1e-6) pinned[count++] = i;
   made.beyond = min + high * (max - min);
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
   sbf_pin_set_init(pins);
-  pins->points = (sbf_u32_list){held, count};
+  pins->points = (sbf_u32_list){pinned, count};
   made.body->pins = (sbf_pin_set_list){pins, 1};
   return made;
 }
@@ -59,7 +59,7 @@ static held_body beam(void) {
 
 /* How far the surface beyond goes when it is pushed with 1 N spread over it: 0 to 2 along an axis, 3 turning
  * about the body's axis, 1 N m per m. */
-static double yields(const held_body *of, const sbf_level *level, int way) {
+static double yields(const held_body *of, const sbf_level *level, int direction) {
   sbfi_level_statics s;
   sbfi_linear_statics linear;
   ck_assert(sbfi_level_statics_make(&s, of->body, level, NULL, &arena));
@@ -77,13 +77,14 @@ static double yields(const held_body *of, const sbf_level *level, int way) {
   middle = sbfi_d3_scale(middle, 1 / area);
   for (uint32_t i = 0; i < surface->count; i++) {
     if (along(surface->at[i], of->axis) <= of->beyond) continue;
-    sbfi_d3 axis = {of->axis == 0, of->axis == 1, of->axis == 2}, push = {way == 0, way == 1, way == 2};
-    if (way == 3) push = sbfi_d3_cross(axis, sbfi_d3_sub(sbfi_d3_of(surface->at[i]), middle));
+    sbfi_d3 axis = {of->axis == 0, of->axis == 1, of->axis == 2},
+            push = {direction == 0, direction == 1, direction == 2};
+    if (direction == 3) push = sbfi_d3_cross(axis, sbfi_d3_sub(sbfi_d3_of(surface->at[i]), middle));
     const sbfi_carried *by = &s.carried[i];
     const float weights[4] = {by->weights.x, by->weights.y, by->weights.z, by->weights.w};
     for (int k = 0; k < 4; k++) {
-      double share = (double)weights[k] * s.areas[i] / area, *to = forces + 3 * (size_t)by->points.at[k];
-      to[0] += share * push.x, to[1] += share * push.y, to[2] += share * push.z;
+      double fraction = (double)weights[k] * s.areas[i] / area, *to = forces + 3 * (size_t)by->points.at[k];
+      to[0] += fraction * push.x, to[1] += fraction * push.y, to[2] += fraction * push.z;
     }
   }
   sbfi_linear_statics_solve(&linear, forces, 1e-4, moved);
@@ -119,15 +120,16 @@ static shares_off compare(const held_body *of, uint32_t elements) {
     sbfi_reference_free(&reference);
     ck_assert_double_ge(calibration.min, 0.05);
     ck_assert_double_le(calibration.max, 4);
-    for (int way = 0; way < 4; way++)
-      (local ? off.local : off.one)[way] = yields(of, &level, way) / yields(of, &fine, way) - 1;
+    for (int direction = 0; direction < 4; direction++)
+      (local ? off.local : off.one)[direction] =
+          yields(of, &level, direction) / yields(of, &fine, direction) - 1;
   }
   return off;
 }
 
-static double worst(const double shares[4], int from) {
+static double worst(const double fractions[4], int from) {
   double max = 0;
-  for (int way = from; way < 4; way++) max = fmax(max, fabs(shares[way]));
+  for (int direction = from; direction < 4; direction++) max = fmax(max, fabs(fractions[direction]));
   return max;
 }
 

@@ -67,12 +67,12 @@ START_TEST(tetrahedra_join_too)
 END_TEST
 
 /* A square of springs with its diagonal, and a pair that nothing holds. */
-static bool turns(const char *held) {
+static bool turns(const char *pinned) {
   static const sbf_uint2 sides[] = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}, {{0, 2}}, {{4, 5}}};
   static const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
   sbf_spring_network n = network();
   bool turn;
-  for (int i = 0; i < 6; i++) masses[i] = held[i] == '1' ? 0 : 1;
+  for (int i = 0; i < 6; i++) masses[i] = pinned[i] == '1' ? 0 : 1;
   n.ends = sides, n.spring_count = 6, n.positions = at;
   ck_assert(sbfi_pieces_turn(&n, 10, &turn, &arena));
   return turn;

@@ -97,8 +97,8 @@ START_TEST(an_interior_point_counts_where_it_is_nearest)
   float *factors;
   sbf_level level;
   sbf_level_init(&level);
-  const sbf_vec3 places[] = {{0.1f, 0.05f, 0}, {0, 0.5f, 0}, {0.45f, 0.25f, 0.1f}};
-  level.positions = (sbf_vec3_list){places, 3};
+  const sbf_vec3 positions[] = {{0.1f, 0.05f, 0}, {0, 0.5f, 0}, {0.45f, 0.25f, 0.1f}};
+  level.positions = (sbf_vec3_list){positions, 3};
   body->interior = (sbf_vec3_list){&middle, 1};
   moduli[maps[0].values.count] = 5;
   maps[0].values.count++;

@@ -27,7 +27,7 @@ static sbf_asset *standing(bool on_a_leg) {
 }
 
 /* Least share of the first bone in the points up to a height, and how many points are marked as soles. */
-static float min_share(bool on_a_leg, float height, uint32_t *marked) {
+static float min_fraction(bool on_a_leg, float height, uint32_t *marked) {
   sbf_asset *asset = standing(on_a_leg);
   sbfi_arena arena;
   sbfi_skin_union skin;
@@ -58,16 +58,16 @@ static float min_share(bool on_a_leg, float height, uint32_t *marked) {
 START_TEST(a_sole_is_its_foots_alone)
 {
   uint32_t marked;
-  ck_assert_float_eq_tol(min_share(true, 0.1f, &marked), 1, 1e-6f);
+  ck_assert_float_eq_tol(min_fraction(true, 0.1f, &marked), 1, 1e-6f);
   ck_assert_uint_gt(marked, 0);
-  ck_assert_float_lt(min_share(true, 0.9f, &marked), 0.7f); /* above it all is as it was */
+  ck_assert_float_lt(min_fraction(true, 0.9f, &marked), 0.7f); /* above it all is as it was */
 }
 END_TEST
 
 START_TEST(what_stands_on_no_leg_is_left_alone)
 {
   uint32_t marked;
-  ck_assert_float_lt(min_share(false, 0.1f, &marked), 0.99f);
+  ck_assert_float_lt(min_fraction(false, 0.1f, &marked), 0.99f);
   ck_assert_uint_eq(marked, 0);
 }
 END_TEST

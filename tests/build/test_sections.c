@@ -19,9 +19,9 @@ static const double SIXTY_DEG = 1.0471975511965976;
 
 static uint32_t notes_of[1024];
 
-static void take(void *user, const sbf_diagnostic *finding) {
+static void take(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  notes_of[finding->code % 1024]++;
+  notes_of[diagnostic->code % 1024]++;
 }
 
 static uint32_t notes(sbf_code code) {
@@ -38,9 +38,9 @@ static sbf_asset *build(const sbf_asset *asset, sbf_build_options options) {
   return built;
 }
 
-static void forbid(void *user, const sbf_diagnostic *finding) {
+static void forbid(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  ck_assert_msg(finding->severity == SBF_SEVERITY_INFO, "%s at %s", finding->message, finding->path);
+  ck_assert_msg(diagnostic->severity == SBF_SEVERITY_INFO, "%s at %s", diagnostic->message, diagnostic->path);
 }
 
 START_TEST(a_limb_becomes_sections)
@@ -143,9 +143,9 @@ START_TEST(what_is_worn_leaves_the_skin_whole)
   hat->bone = 0;
   hat->surface = shape_cube(asset, 2, 0.05f, asset->render_meshes.at[0].mesh.positions.at[0]);
   asset->soft_bodies = (sbf_soft_body_list){hat, 1};
-  static const sbf_build_sections ways[] = {SBF_BUILD_SECTIONS_AUTOMATIC, SBF_BUILD_SECTIONS_NONE};
+  static const sbf_build_sections directions[] = {SBF_BUILD_SECTIONS_AUTOMATIC, SBF_BUILD_SECTIONS_NONE};
   for (int i = 0; i < 2; i++) {
-    sbf_asset *built = build(asset, (sbf_build_options){.sections = ways[i]});
+    sbf_asset *built = build(asset, (sbf_build_options){.sections = directions[i]});
     ck_assert_uint_eq(built->soft_bodies.count, 1 + (i == 0 ? bare->soft_bodies.count : 0));
     const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
     for (uint32_t e = 0; e < level->embeddings.count; e++)

@@ -31,13 +31,13 @@ static void teardown(void) {
   free(tubes);
 }
 
-/* The weights of all sites of a shell; those of two bones where `share` of the first is below 1. */
-static void weigh(uint32_t shell, uint32_t bone, uint32_t other, float share) {
+/* The weights of all sites of a shell; those of two bones where `fraction` of the first is below 1. */
+static void weigh(uint32_t shell, uint32_t bone, uint32_t other, float fraction) {
   for (uint32_t i = 0; i < mesh.site_count; i++) {
     if (mesh.shell_of_site[i] != shell) continue;
     for (int k = 0; k < SBFI_SITE_BONES; k++) weights[i].bones[k] = UINT32_MAX, weights[i].weights[k] = 0;
-    weights[i].bones[0] = bone, weights[i].weights[0] = share;
-    if (share < 1) weights[i].bones[1] = other, weights[i].weights[1] = 1 - share;
+    weights[i].bones[0] = bone, weights[i].weights[0] = fraction;
+    if (fraction < 1) weights[i].bones[1] = other, weights[i].weights[1] = 1 - fraction;
   }
 }
 
@@ -134,7 +134,7 @@ START_TEST(hinges_follow_the_bone_that_begins_there)
   holds[0] = holds[1] = true;
   weigh(0, 0, 0, 1);
   weigh(1, 0, 1, 0.8f);
-  segments[1].head = sbfi_weight_mesh_place(&mesh, (sbf_vec3){1.5f, 0, 0});
+  segments[1].head = sbfi_weight_mesh_position(&mesh, (sbf_vec3){1.5f, 0, 0});
   repair();
   check_shell(1, 1);
   segments[2].head = segments[1].head; /* two begin there: the leading one */
@@ -154,8 +154,8 @@ static void add_machine(void) {
 }
 
 static void lay_bone(uint32_t bone, sbf_vec3 head, sbf_vec3 tail, int32_t next) {
-  segments[bone].head = sbfi_weight_mesh_place(&mesh, head);
-  segments[bone].tail = sbfi_weight_mesh_place(&mesh, tail);
+  segments[bone].head = sbfi_weight_mesh_position(&mesh, head);
+  segments[bone].tail = sbfi_weight_mesh_position(&mesh, tail);
   segments[bone].next = next;
 }
 

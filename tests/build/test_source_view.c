@@ -5,17 +5,17 @@
 
 #include "fill_asset.h"
 #include "harness.h"
-#include "model/place.h"
+#include "model/element_path.h"
 
 /* How many elements below a place are marked derived. */
-static uint32_t count_derived(const sbfi_place *place) {
+static uint32_t count_derived(const sbfi_element_path *path) {
   uint32_t count = 0;
-  for (uint32_t f = 0; f < place->element->field_count; f++) {
-    const sbfi_field *field = &place->element->fields[f];
+  for (uint32_t f = 0; f < path->element->field_count; f++) {
+    const sbfi_field *field = &path->element->fields[f];
     if (field->type == SBFI_REF && strstr(field->name, "derived"))
-      count += sbfi_get_integer(place->object, field) != SBF_NONE;
-    for (uint32_t i = 0; i < sbfi_child_count(place->object, field); i++) {
-      sbfi_place child = sbfi_place_child(place, field, i);
+      count += sbfi_get_integer(path->object, field) != SBF_NONE;
+    for (uint32_t i = 0; i < sbfi_child_count(path->object, field); i++) {
+      sbfi_element_path child = sbfi_element_path_child(path, field, i);
       count += count_derived(&child);
     }
   }
@@ -31,7 +31,7 @@ START_TEST(nothing_derived_is_left)
     sbfi_arena_init(&arena, NULL, 0);
     sbf_asset view;
     ck_assert(sbfi_source_view(filled, &arena, &view));
-    sbfi_place root = sbfi_place_root(filled), seen = sbfi_place_root(&view);
+    sbfi_element_path root = sbfi_element_path_root(filled), seen = sbfi_element_path_root(&view);
     before += count_derived(&root);
     ck_assert_uint_eq(count_derived(&seen), 0);
     ck_assert_uint_eq(view.derivations.count, 0);
@@ -82,12 +82,12 @@ START_TEST(references_follow)
   joint.body_b = 2;
   asset->joints = (sbf_joint_list){&joint, 1};
   const int32_t derived[] = {0, SBF_NONE, SBF_NONE};
-  int32_t places[3];
-  sbfi_source_places(derived, 3, sizeof *derived, 0, places);
-  ck_assert_int_eq(places[0], SBF_NONE);
-  ck_assert_int_eq(places[1], 0);
-  ck_assert_int_eq(places[2], 1);
-  sbfi_renumbering by = {offsetof(sbf_asset, rigid_bodies), places, 3};
+  int32_t indices[3];
+  sbfi_find_source_indices(derived, 3, sizeof *derived, 0, indices);
+  ck_assert_int_eq(indices[0], SBF_NONE);
+  ck_assert_int_eq(indices[1], 0);
+  ck_assert_int_eq(indices[2], 1);
+  sbfi_renumbering by = {offsetof(sbf_asset, rigid_bodies), indices, 3};
   sbfi_lost_reference lost;
   ck_assert(sbfi_references_renumber(asset, &by, 1, &lost));
   ck_assert_int_eq(joint.body_a, SBF_NONE); /* may be absent */

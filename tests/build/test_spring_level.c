@@ -40,12 +40,12 @@ typedef struct swing {
 static swing swing_of(const sbf_soft_body *body, const sbf_level *level) {
   uint32_t count = 0, points = level->positions.count;
   for (uint32_t s = 0; s < level->springs.count; s++) count += level->springs.at[s].ends.count;
-  uint8_t *held = sbfi_arena_allocate(&scratch, points, 1);
+  uint8_t *pinned = sbfi_arena_allocate(&scratch, points, 1);
   sbf_uint2 *ends = sbfi_arena_allocate(&scratch, count, sizeof *ends);
   float *stiffness = sbfi_arena_allocate(&scratch, count, sizeof *stiffness);
   swing made = {.masses = sbfi_arena_allocate(&scratch, points, sizeof(float))};
-  sbf_level_held_points(level, held);
-  sbf_level_masses(body, level, held, made.masses);
+  sbf_level_held_points(level, pinned);
+  sbf_level_masses(body, level, pinned, made.masses);
   count = 0;
   for (uint32_t s = 0; s < level->springs.count; s++)
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++) {
@@ -174,8 +174,8 @@ static double moment_of(const sbf_level *level, int from_kind, int to_kind) {
 
 START_TEST(sums_of_stiffness)
 {
-  sbf_soft_body *held = cube_of(3, 0.2f, true), *loose = cube_of(3, 0.2f, false);
-  sbf_level level = make(held, true);
+  sbf_soft_body *pinned = cube_of(3, 0.2f, true), *loose = cube_of(3, 0.2f, false);
+  sbf_level level = make(pinned, true);
   double ev = 5e4 * 0.008;
   ck_assert_double_eq_tol(
       moment_of(&level, SBF_SPRING_KIND_STRUCTURAL, SBF_SPRING_KIND_FLEXION), 4 * ev, 1e-3 * ev);

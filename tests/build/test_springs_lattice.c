@@ -83,7 +83,7 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
   sbf_level level;
   ck_assert(sbfi_spring_level_make(&level, body, &recipe, asset, &map, &counts, &arena));
   uint32_t points = level.positions.count, free_points = 0;
-  uint8_t *held = sbfi_arena_allocate(&arena, points, 1);
+  uint8_t *pinned = sbfi_arena_allocate(&arena, points, 1);
   float *masses = sbfi_arena_allocate(&arena, points, sizeof *masses);
   double *forces = sbfi_arena_allocate(&arena, 3 * points, sizeof *forces), sum = 0;
   double *moved = sbfi_arena_allocate(&arena, 3 * points, sizeof *moved);
@@ -97,8 +97,8 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
       ends[next] = level.springs.at[s].ends.at[k];
       stiffness[next++] = level.springs.at[s].stiffness.at[k];
     }
-  sbf_level_held_points(&level, held);
-  ck_assert_double_eq_tol(sbf_level_masses(body, &level, held, masses), 8, 1e-3);
+  sbf_level_held_points(&level, pinned);
+  ck_assert_double_eq_tol(sbf_level_masses(body, &level, pinned, masses), 8, 1e-3);
   sbf_spring_network network = {.point_count = points,
       .spring_count = *springs,
       .positions = level.positions.at,

@@ -24,9 +24,10 @@ static void teardown(void) {
 static uint32_t make_star(sbf_vec3 positions[15], sbf_uint2 ends[14]) {
   positions[0] = (sbf_vec3){0, 0, 0};
   for (uint32_t i = 0; i < 14; i++) {
-    const int *way = sbfi_lattice_ways[i % SBFI_LATTICE_EDGES];
+    const int *direction = sbfi_lattice_directions[i % SBFI_LATTICE_EDGES];
     float half = i < SBFI_LATTICE_EDGES ? 0.5f : -0.5f;
-    positions[i + 1] = (sbf_vec3){half * (float)way[0], half * (float)way[1], half * (float)way[2]};
+    positions[i + 1] =
+        (sbf_vec3){half * (float)direction[0], half * (float)direction[1], half * (float)direction[2]};
     ends[i] = (sbf_uint2){{0, i + 1}};
   }
   return 14;
@@ -122,7 +123,7 @@ static double sag(const bar *b, int axis) {
   uint32_t points = level->positions.count, springs = 0, tetrahedra = level->lattice.tetrahedra.count,
            ends = 0;
   for (uint32_t s = 0; s < level->springs.count; s++) springs += level->springs.at[s].ends.count;
-  uint8_t *held = sbfi_arena_allocate(&arena, points, 1);
+  uint8_t *pinned = sbfi_arena_allocate(&arena, points, 1);
   float *masses = sbfi_arena_allocate(&arena, points, sizeof *masses);
   float *stiffness = sbfi_arena_allocate(&arena, springs + 1, sizeof *stiffness);
   float *moduli = sbfi_arena_allocate(&arena, tetrahedra + 1, sizeof *moduli);
@@ -141,9 +142,9 @@ static double sag(const bar *b, int axis) {
     moduli[t] = b->modulus;
     ratios[t] = 0.25f;
   }
-  sbf_level_held_points(level, held);
-  sbf_level_masses(body, level, held, masses);
-  for (uint32_t i = 0; i < points; i++) masses[i] = held[i] ? 0 : masses[i];
+  sbf_level_held_points(level, pinned);
+  sbf_level_masses(body, level, pinned, masses);
+  for (uint32_t i = 0; i < points; i++) masses[i] = pinned[i] ? 0 : masses[i];
   for (uint32_t i = 0; i < points; i++) forces[3 * i + (uint32_t)axis] = 9.81 * masses[i];
   const sbf_spring_network network = {points, springs, level->positions.at, masses, NULL, joined, stiffness,
       tetrahedra, level->lattice.tetrahedra.at, moduli, ratios, 0, NULL, NULL, NULL};
@@ -171,10 +172,10 @@ START_TEST(sag_goes_with_weight_over_modulus)
       bar b = scales[s];
       b.options.interior = interiors[i];
       b.options.without_calibration = true;
-      double share = sag(&b, 1) / b.length / (b.density * 9.81 * b.length / b.modulus);
-      if (s == 0) first = share;
-      ck_assert_double_gt(share, 0);
-      ck_assert_double_eq_tol(share / first, 1, 0.05);
+      double fraction = sag(&b, 1) / b.length / (b.density * 9.81 * b.length / b.modulus);
+      if (s == 0) first = fraction;
+      ck_assert_double_gt(fraction, 0);
+      ck_assert_double_eq_tol(fraction / first, 1, 0.05);
     }
   }
 }

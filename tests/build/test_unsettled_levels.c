@@ -18,17 +18,17 @@ static void teardown(void) {
   sbf_asset_free(asset);
 }
 
-static void note(void *user, const sbf_diagnostic *finding) {
+static void note(void *user, const sbf_diagnostic *diagnostic) {
   (void)user;
-  noted_off += finding->code == SBF_CODE_LEVEL_OFF;
-  if (finding->code != SBF_CODE_LEVEL_UNSETTLED && finding->code != SBF_CODE_LEVEL_OFF) return;
+  noted_off += diagnostic->code == SBF_CODE_LEVEL_OFF;
+  if (diagnostic->code != SBF_CODE_LEVEL_UNSETTLED && diagnostic->code != SBF_CODE_LEVEL_OFF) return;
   noted++;
-  memcpy(
-      said, finding->message, sizeof finding->message < sizeof said ? sizeof finding->message : sizeof said);
+  memcpy(said, diagnostic->message,
+      sizeof diagnostic->message < sizeof said ? sizeof diagnostic->message : sizeof said);
 }
 
 /* A bar of 1.6 x 0.4 x 0.4 m along +X, of 10 MPa, pinned at those points nearest to the places. */
-static sbf_asset *build_bar(const sbf_vec3 *places, uint32_t count, uint32_t elements, uint32_t levels) {
+static sbf_asset *build_bar(const sbf_vec3 *positions, uint32_t count, uint32_t elements, uint32_t levels) {
   sbf_polygon_mesh bar = shape_bar(asset, 32, 8, 1.6f, 0.4f);
   sbf_soft_body *body = shape_add_body(asset, "bar", &bar, false);
   sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
@@ -37,7 +37,7 @@ static sbf_asset *build_bar(const sbf_vec3 *places, uint32_t count, uint32_t ele
     float min = 1e9f;
     for (uint32_t i = 0; i < bar.positions.count; i++) {
       sbf_vec3 at = bar.positions.at[i];
-      float x = at.x - places[p].x, y = at.y - places[p].y, z = at.z - places[p].z;
+      float x = at.x - positions[p].x, y = at.y - positions[p].y, z = at.z - positions[p].z;
       float squared = x * x + y * y + z * z;
       if (squared >= min) continue;
       min = squared;
@@ -59,8 +59,8 @@ static sbf_asset *build_bar(const sbf_vec3 *places, uint32_t count, uint32_t ele
 /* Nothing is calibrated against what turns. */
 START_TEST(a_body_held_at_a_point_is_warned_of)
 {
-  const sbf_vec3 place = {0, 0.2f, 0.2f};
-  sbf_asset *built = build_bar(&place, 1, 300, 2);
+  const sbf_vec3 position = {0, 0.2f, 0.2f};
+  sbf_asset *built = build_bar(&position, 1, 300, 2);
   ck_assert_int_eq(noted, 1);
   ck_assert_ptr_nonnull(strstr(said, "\"bar\""));
   ck_assert_uint_eq(report.calibrated, 0);

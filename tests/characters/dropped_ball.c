@@ -38,13 +38,13 @@ typedef struct drop {
 
 static drop begin(const dropped_ball *ball) {
   drop d = {.asset = build_ball(ball)};
-  sbr_world_definition place = sbr_default_world_definition();
+  sbr_world_definition position = sbr_default_world_definition();
   sbr_character_definition who = sbr_default_character_definition();
   sbf_diagnostic error;
-  place.ground = sbr_ground_flat(0);
+  position.ground = sbr_ground_flat(0);
   who.position.y = (double)(ball->height_m + ball->radius_m);
   ck_assert_msg(sbr_model_create(d.asset, NULL, &d.model, &error) == SBF_OK, "%s", error.message);
-  ck_assert_msg(sbr_world_create(&place, &d.world, &error) == SBF_OK, "%s", error.message);
+  ck_assert_msg(sbr_world_create(&position, &d.world, &error) == SBF_OK, "%s", error.message);
   ck_assert_msg(sbr_character_create(d.world, d.model, &who, &d.id, &error) == SBF_OK, "%s", error.message);
   return d;
 }
@@ -59,7 +59,7 @@ void dropped_ball_check(const dropped_ball *ball) {
   double height = (double)ball->height_m, radius = (double)ball->radius_m, density = (double)is->density;
   double bulk = (double)is->young_modulus / (3 * (1 - 2 * (double)is->poisson_ratio));
   double speed = sqrt(2 * 9.81 * height), sound = sqrt((double)is->young_modulus / density);
-  sbr_body_health health = sbr_character_health(d.world, d.id, 0);
+  sbr_body_health health = sbr_character_get_body_health(d.world, d.id, 0);
   double max = energy_of(&health) + 1e-3 * health.potential_j;
   char name[96];
   snprintf(name, sizeof name, "%s, radius %g m, nu %g, from %g m", ball->preset, radius,
@@ -67,7 +67,7 @@ void dropped_ball_check(const dropped_ball *ball) {
   int ticks = (int)(60 * (speed / 9.81 + 1.5));
   for (int i = 0; i < ticks; i++) {
     sbr_world_step(d.world, 1.0 / 60);
-    health = sbr_character_health(d.world, d.id, 0);
+    health = sbr_character_get_body_health(d.world, d.id, 0);
     ck_assert_msg(health.finite, "%s, tick %d", name, i);
     ck_assert_msg(energy_of(&health) <= max, "%s, tick %d: %g of %g J", name, i, energy_of(&health), max);
   }
@@ -87,7 +87,7 @@ bool dropped_ball_inverts(const dropped_ball *ball) {
   bool inverts = false;
   for (int i = 0; i < 90; i++) {
     sbr_world_step(d.world, 1.0 / 60);
-    inverts |= sbr_character_health(d.world, d.id, 0).inverted;
+    inverts |= sbr_character_get_body_health(d.world, d.id, 0).inverted;
   }
   sbr_world_destroy(d.world);
   sbr_model_destroy(d.model);

@@ -22,18 +22,18 @@ static sbf_asset *built_pup(void) {
   return asset;
 }
 
-/* Two that walk on the same way, `apart_m` from each other. */
-static sbr_world *world_of(const sbr_model *model, bool contacts, double apart_m) {
+/* Two that walk on the same way, `separation_m` from each other. */
+static sbr_world *world_of(const sbr_model *model, bool contacts, double separation_m) {
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_world *world;
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
-  if (contacts) ck_assert_int_eq(sbr_world_bodies_meet(world, CONTACTS, NULL), SBF_OK);
+  if (contacts) ck_assert_int_eq(sbr_world_enable_body_contacts(world, CONTACTS, NULL), SBF_OK);
   for (int i = 0; i < 2; i++) {
     sbr_character_definition standing = sbr_default_character_definition();
     sbr_character_id character;
-    standing.position.x = apart_m * i;
+    standing.position.x = separation_m * i;
     ck_assert_int_eq(sbr_character_create(world, model, &standing, &character, NULL), SBF_OK);
-    sbr_character_drive(world, character, 0.3f, 0, 0);
+    sbr_character_set_drive(world, character, 0.3f, 0, 0);
   }
   return world;
 }
@@ -47,7 +47,7 @@ START_TEST(what_touches_nothing_moves_as_alone)
   for (int i = 0; i < TICKS; i++) {
     sbr_world_tick(without);
     sbr_world_tick(with);
-    ck_assert_msg(sbr_world_state_hash(with) == sbr_world_state_hash(without), "tick %d", i);
+    ck_assert_msg(sbr_world_get_state_hash(with) == sbr_world_get_state_hash(without), "tick %d", i);
   }
   ck_assert_uint_eq(sbr_world_get_counters(with).body_contact_count, 0);
   sbr_world_destroy(without);
@@ -71,7 +71,7 @@ START_TEST(what_touches_moves_otherwise)
     touched += sbr_world_get_counters(with).body_contact_count;
   }
   ck_assert_uint_gt(touched, 0);
-  ck_assert(sbr_world_state_hash(with) != sbr_world_state_hash(without));
+  ck_assert(sbr_world_get_state_hash(with) != sbr_world_get_state_hash(without));
   sbr_world_destroy(without);
   sbr_world_destroy(with);
   sbr_model_destroy(model);

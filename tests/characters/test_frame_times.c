@@ -68,7 +68,7 @@ static walk begin(const stage *s) {
   definition.ground = sbr_ground_noise(0.03, 5);
   ck_assert_int_eq(sbr_world_create(&definition, &w.world, NULL), SBF_OK);
   ck_assert_int_eq(sbr_character_create(w.world, s->model, &standing, &w.character, NULL), SBF_OK);
-  sbr_character_drive(w.world, w.character, 0.25f, 0, 0.3f);
+  sbr_character_set_drive(w.world, w.character, 0.25f, 0, 0.3f);
   return w;
 }
 
@@ -105,17 +105,17 @@ START_TEST(every_tick_has_one_state)
   walk even = begin(&s);
   for (int i = 1; i <= TICKS; i++) {
     sbr_world_tick(even.world);
-    hashes[i] = sbr_world_state_hash(even.world);
+    hashes[i] = sbr_world_get_state_hash(even.world);
     ck_assert(i < 2 || hashes[i] != hashes[i - 1]);
   }
-  ck_assert_double_gt(sbr_character_distance(even.world, even.character), 0.05 * SECONDS);
+  ck_assert_double_gt(sbr_character_get_distance(even.world, even.character), 0.05 * SECONDS);
   sbr_world_destroy(even.world);
   for (size_t h = 0; h < sizeof hosts / sizeof *hosts; h++) {
     walk w = begin(&s);
-    for (uint32_t k = 0; sbr_world_ticks(w.world) < 60 * SECONDS; k++) {
+    for (uint32_t k = 0; sbr_world_get_tick_count(w.world) < 60 * SECONDS; k++) {
       sbr_world_step(w.world, hosts[h](k));
-      uint64_t ticks = sbr_world_ticks(w.world);
-      if (ticks > 0) ck_assert_uint_eq(sbr_world_state_hash(w.world), hashes[ticks]);
+      uint64_t ticks = sbr_world_get_tick_count(w.world);
+      if (ticks > 0) ck_assert_uint_eq(sbr_world_get_state_hash(w.world), hashes[ticks]);
     }
     sbr_world_destroy(w.world);
   }
@@ -133,8 +133,8 @@ static void watch(const stage *s, int fps, shown *seconds) {
   walk w = begin(s);
   for (int second = 0; second < SECONDS; second++) {
     for (int i = 0; i < fps; i++) sbr_world_step(w.world, 1.0 / fps);
-    sbr_character_bones(w.world, w.character, seconds[second].bones, MAX_BONES);
-    seconds[second].origin = sbr_character_origin(w.world, w.character);
+    sbr_character_get_bones(w.world, w.character, seconds[second].bones, MAX_BONES);
+    seconds[second].origin = sbr_character_get_origin(w.world, w.character);
   }
   sbr_world_destroy(w.world);
 }

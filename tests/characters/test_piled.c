@@ -24,9 +24,9 @@ static sbf_asset *armadillo(const char *path, float young_pa) {
   return built;
 }
 
-static uint32_t look(const sbr_world *world, sbr_character_id who, sbf_vec3 at[MAX]) {
-  sbr_double3 o = sbr_character_origin(world, who);
-  uint32_t count = sbr_character_surface(world, who, 0, at, MAX);
+static uint32_t check(const sbr_world *world, sbr_character_id who, sbf_vec3 at[MAX]) {
+  sbr_double3 o = sbr_character_get_origin(world, who);
+  uint32_t count = sbr_character_get_surface(world, who, 0, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
   return count;
@@ -64,7 +64,7 @@ START_TEST(armadillos_dropped_hard_come_apart)
   definition.ground = sbr_ground_flat(0);
   ck_assert(sbr_model_create(asset, NULL, &model, NULL) == SBF_OK);
   ck_assert(sbr_world_create(&definition, &world, NULL) == SBF_OK);
-  ck_assert(sbr_world_bodies_meet(world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(world, 0, NULL) == SBF_OK);
   for (int i = 0; i < 2; i++) {
     sbr_character_definition at = sbr_default_character_definition();
     at.position.y = (double)-low;
@@ -75,7 +75,7 @@ START_TEST(armadillos_dropped_hard_come_apart)
   for (int t = 0; t < TICKS; t++) sbr_world_tick(world);
   static sbf_vec3 at[2][MAX];
   const sbf_polygon_mesh *mesh = &asset->soft_bodies.at[0].surface;
-  for (int i = 0; i < 2; i++) (void)look(world, who[i], at[i]);
+  for (int i = 0; i < 2; i++) (void)check(world, who[i], at[i]);
   double one = deepest(mesh, at[0], at[1], mesh->positions.count),
          other = deepest(mesh, at[1], at[0], mesh->positions.count);
   double inner_m = (double)asset->soft_bodies.at[0].collision.inner_thickness;

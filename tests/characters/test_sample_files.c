@@ -1,6 +1,6 @@
-/* The specification's own samples, every part of the format among them, live: on each level and rung, with
- * all rigid parts let go, thrown about, torn and read, nothing reads out of bounds (sanitizers watch) and no
- * number is lost. */
+/* The specification's own samples, every part of the format among them, live: on each level and detail level,
+ * with all rigid parts let go, thrown about, torn and read, nothing reads out of bounds (sanitizers watch)
+ * and no number is lost. */
 #include <stdio.h>
 
 #include "harness.h"
@@ -29,27 +29,29 @@ static void read_all(
   sbr_pin_reaction pins[8];
   for (uint32_t m = 0; m < asset->render_meshes.count; m++)
     for (uint32_t l = 0; l <= asset->render_meshes.at[m].levels.count; l++) {
-      sbr_model_level_vertices(model, m, l, vertices, POINTS);
-      sbr_character_torn_polygons(world, character, m, l, torn, POINTS);
-      sbr_character_level_corner_normals(world, character, m, l, normals, POINTS);
-      uint32_t count = sbr_character_level_skin(world, character, m, l, points, normals, tangents, POINTS);
+      sbr_model_get_level_vertices(model, m, l, vertices, POINTS);
+      sbr_character_get_torn_polygons(world, character, m, l, torn, POINTS);
+      sbr_character_get_level_corner_normals(world, character, m, l, normals, POINTS);
+      uint32_t count =
+          sbr_character_get_level_skin(world, character, m, l, points, normals, tangents, POINTS);
       for (uint32_t i = 0; i < count && i < POINTS && l == 0; i++) ck_assert(is_finite(points[i]));
     }
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
-    ck_assert(sbr_character_health(world, character, b).finite || asset->soft_bodies.at[b].levels.count == 0);
-    sbr_character_surface(world, character, b, points, POINTS);
-    uint32_t count = sbr_character_points(world, character, b, points, POINTS);
+    ck_assert(sbr_character_get_body_health(world, character, b).finite ||
+              asset->soft_bodies.at[b].levels.count == 0);
+    sbr_character_get_surface(world, character, b, points, POINTS);
+    uint32_t count = sbr_character_get_points(world, character, b, points, POINTS);
     for (uint32_t i = 0; i < count && i < POINTS; i++) ck_assert(is_finite(points[i]));
-    sbr_character_tetrahedra(world, character, b, tetrahedra, 256);
-    sbr_character_springs(world, character, b, springs, 256);
-    sbr_character_pin_reactions(world, character, b, pins, 8);
+    sbr_character_get_tetrahedra(world, character, b, tetrahedra, 256);
+    sbr_character_get_springs(world, character, b, springs, 256);
+    sbr_character_get_pin_reactions(world, character, b, pins, 8);
   }
 }
 
 /* What a host may do in a frame. */
 static void disturb(const sbf_asset *asset, sbr_world *world, sbr_character_id character, int frame) {
-  if (frame == 5) sbr_character_drive(world, character, 1, 0.2f, 0.5f);
-  if (frame == 20) sbr_character_rigid_mode(world, character, -1, SBR_RIGID_PASSIVE);
+  if (frame == 5) sbr_character_set_drive(world, character, 1, 0.2f, 0.5f);
+  if (frame == 20) sbr_character_set_rigid_mode(world, character, -1, SBR_RIGID_PASSIVE);
   for (uint32_t b = 0; b < asset->soft_bodies.count && frame == 30; b++)
     (void)sbr_character_apply_soft_impulse(world, character, b, SBR_WHOLE_BODY, (sbf_vec3){30, 60, 0}, NULL);
   if (frame == 45) sbr_character_teleport(world, character, (sbr_double3){100, 2, 3}, 1);
@@ -65,7 +67,7 @@ START_TEST(samples_live)
   sbf_diagnostic error;
   ck_assert_msg(sbf_load_file(harness_source(path), NULL, &asset, &error) == SBF_OK, "%s", error.message);
   const sbr_model_options options = {
-      .level = (uint32_t)(_i / 2 % LEVELS), .ladder = _i % 2 == 0, .free = _i % 2 != 0};
+      .level = (uint32_t)(_i / 2 % LEVELS), .detail_levels = _i % 2 == 0, .free = _i % 2 != 0};
   sbr_model *model;
   ck_assert_msg(sbr_model_create(asset, &options, &model, &error) == SBF_OK, "%s: %s", name, error.message);
   sbr_world_definition world_is = sbr_default_world_definition();
@@ -73,11 +75,12 @@ START_TEST(samples_live)
   sbr_world *world;
   sbr_character_id character;
   ck_assert_int_eq(sbr_world_create(&world_is, &world, &error), SBF_OK);
-  ck_assert_int_eq(sbr_world_bodies_meet(world, 0, &error), SBF_OK);
+  ck_assert_int_eq(sbr_world_enable_body_contacts(world, 0, &error), SBF_OK);
   ck_assert_int_eq(sbr_character_create(world, model, &character_is, &character, &error), SBF_OK);
   for (int frame = 0; frame < 60; frame++) {
     disturb(asset, world, character, frame);
-    if (options.ladder && frame % 10 == 9) sbr_character_set_rung(world, character, (uint32_t)frame / 10);
+    if (options.detail_levels && frame % 10 == 9)
+      sbr_character_set_detail_level(world, character, (uint32_t)frame / 10);
     sbr_world_tick(world);
     read_all(asset, model, world, character);
   }

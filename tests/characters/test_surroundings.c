@@ -98,12 +98,12 @@ static void run(scene *s, int ticks) {
 }
 
 /* Where the first bone is that hangs on nothing. */
-static sbr_double3 place_of(const scene *s, const sbf_asset *asset) {
+static sbr_double3 position_of(const scene *s, const sbf_asset *asset) {
   sbr_transform bones[256];
   uint32_t root = 0;
   while (asset->bones.at[root].parent >= 0) root++;
-  sbr_double3 o = sbr_character_origin(s->world, s->walker);
-  sbr_character_bones(s->world, s->walker, bones, 256);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->walker);
+  sbr_character_get_bones(s->world, s->walker, bones, 256);
   sbf_vec3 p = bones[root].position;
   return (sbr_double3){o.x + (double)p.x, o.y + (double)p.y, o.z + (double)p.z};
 }
@@ -111,10 +111,10 @@ static sbr_double3 place_of(const scene *s, const sbf_asset *asset) {
 /* The greatest of all its bones' heads along an axis of the world. */
 static double foremost(const scene *s, const sbf_asset *asset, int axis) {
   sbr_transform bones[256];
-  sbr_double3 o = sbr_character_origin(s->world, s->walker);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->walker);
   const double origin[3] = {o.x, o.y, o.z};
   double most = -INFINITY;
-  sbr_character_bones(s->world, s->walker, bones, 256);
+  sbr_character_get_bones(s->world, s->walker, bones, 256);
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     const float at[3] = {bones[i].position.x, bones[i].position.y, bones[i].position.z};
     most = fmax(most, origin[axis] + (double)at[axis]);
@@ -137,13 +137,13 @@ START_TEST(a_wall_stops_it)
     box_mesh(&s, (sbr_double3){0, 0.5, 1.1}, (sbf_vec3){2, 0.5f, 0.1f});
   else
     box(&s, (sbr_double3){0, 0.5, 1.1}, (sbf_vec3){2, 0.5f, 0.1f});
-  sbr_character_drive(s.world, s.walker, 0.4f, 0, 0);
+  sbr_character_set_drive(s.world, s.walker, 0.4f, 0, 0);
   run(&s, 5 * SECOND);
   double front = foremost(&s, pup, 2) + nose;
   ck_assert_msg(front > 0.9 && front < 1.02, "its nose is at %g m, the wall at 1 m", front);
-  double before = place_of(&s, pup).z;
+  double before = position_of(&s, pup).z;
   run(&s, SECOND); /* and it stays there */
-  ck_assert_double_eq_tol(place_of(&s, pup).z, before, 0.02);
+  ck_assert_double_eq_tol(position_of(&s, pup).z, before, 0.02);
   end_scene(&s);
 }
 END_TEST
@@ -159,7 +159,7 @@ START_TEST(every_kind_is_stopped)
   scene s = scene_of(model, 0, 0);
   double nose = nose_of(asset), length = 2 * nose, margin = foremost(&s, asset, 2);
   box(&s, (sbr_double3){0, length, nose + length + 0.1}, (sbf_vec3){9, (float)length, 0.1f});
-  sbr_character_drive(s.world, s.walker, (float)(0.5 * length), 0, 0);
+  sbr_character_set_drive(s.world, s.walker, (float)(0.5 * length), 0, 0);
   run(&s, 6 * SECOND);
   double front = foremost(&s, asset, 2);
   ck_assert_msg(front > margin + 0.5 * length && front < nose + length,
@@ -172,11 +172,11 @@ END_TEST
 
 /* From its second second on it walks so far, and comes so much higher. */
 static void check_climb(scene *s, int seconds, double z, double rise, double within) {
-  sbr_character_drive(s->world, s->walker, 0.3f, 0, 0);
+  sbr_character_set_drive(s->world, s->walker, 0.3f, 0, 0);
   run(s, SECOND);
-  double before = place_of(s, pup).y;
+  double before = position_of(s, pup).y;
   run(s, (seconds - 1) * SECOND);
-  sbr_double3 at = place_of(s, pup);
+  sbr_double3 at = position_of(s, pup);
   ck_assert_msg(at.z > z, "it came to %g m", at.z);
   ck_assert_double_eq_tol(at.y - before, rise, within);
   end_scene(s);
@@ -190,11 +190,12 @@ START_TEST(a_ramp_is_climbed)
   sbr_collider_id ramp = box(&s, (sbr_double3){0, -9, 0}, (sbf_vec3){2, (float)thick, (float)along});
   sbr_double3 middle = {
       0, along * sin(angle) - thick * cos(angle), foot + along * cos(angle) + thick * sin(angle)};
-  sbr_collider_place(s.world, ramp, middle, (sbf_quat){-(float)sin(angle / 2), 0, 0, (float)cos(angle / 2)});
-  sbr_character_drive(s.world, s.walker, 0.3f, 0, 0);
-  double before = place_of(&s, pup).y;
+  sbr_collider_set_transform(
+      s.world, ramp, middle, (sbf_quat){-(float)sin(angle / 2), 0, 0, (float)cos(angle / 2)});
+  sbr_character_set_drive(s.world, s.walker, 0.3f, 0, 0);
+  double before = position_of(&s, pup).y;
   run(&s, 8 * SECOND);
-  sbr_double3 at = place_of(&s, pup);
+  sbr_double3 at = position_of(&s, pup);
   ck_assert_msg(at.z > foot + 0.2, "it came to %g m", at.z);
   ck_assert_double_eq_tol(at.y - before, (at.z - foot) * tan(angle), 0.15);
   end_scene(&s);
@@ -216,26 +217,26 @@ START_TEST(a_displaced_one_steps)
 {
   scene s = scene_of(pup_model, 0, 0);
   sbr_leg_state before[LEGS], legs[LEGS];
-  double z = place_of(&s, pup).z, slip = 0;
+  double z = position_of(&s, pup).z, slip = 0;
   box(&s, (sbr_double3){0, 0.5, 2.5}, (sbf_vec3){2, 0.5f, 0.1f});
   for (int i = 0; i < 3 * SECOND; i++) {
-    sbr_character_legs(s.world, s.walker, before, LEGS);
+    sbr_character_get_legs(s.world, s.walker, before, LEGS);
     sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.2f / SECOND}, 0);
     sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.2f / SECOND}, 0);
     sbr_world_tick(s.world);
-    sbr_character_legs(s.world, s.walker, legs, LEGS);
+    sbr_character_get_legs(s.world, s.walker, legs, LEGS);
     for (int k = 0; k < 4; k++)
       if (before[k].planted && legs[k].planted)
         slip = fmax(slip, fabs((double)(legs[k].foot.z - before[k].foot.z)));
   }
-  ck_assert_double_eq_tol(place_of(&s, pup).z - z, 1.2, 0.03);
+  ck_assert_double_eq_tol(position_of(&s, pup).z - z, 1.2, 0.03);
   for (int k = 0; k < 4; k++) ck_assert_uint_ge(legs[k].steps_taken, 4);
   ck_assert_double_le(slip, 1e-4);
   for (int i = 0; i < 3 * SECOND; i++) {
     sbr_character_displace(s.world, s.walker, (sbf_vec3){0, 0, 0.4f / SECOND}, 0);
     sbr_world_tick(s.world);
   }
-  ck_assert_double_lt(place_of(&s, pup).z, 2.4);
+  ck_assert_double_lt(position_of(&s, pup).z, 2.4);
   end_scene(&s);
 }
 END_TEST
@@ -245,10 +246,11 @@ START_TEST(it_slides_along_a_wall)
 {
   scene s = scene_of(pup_model, 0, 0);
   sbr_collider_id wall = box(&s, (sbr_double3){0, 0.5, 1.2}, (sbf_vec3){5, 0.5f, 0.1f});
-  sbr_collider_place(s.world, wall, (sbr_double3){0, 0.5, 1.2}, (sbf_quat){0, 0.38268343f, 0, 0.92387953f});
-  sbr_character_drive(s.world, s.walker, 0.4f, 0, 0);
+  sbr_collider_set_transform(
+      s.world, wall, (sbr_double3){0, 0.5, 1.2}, (sbf_quat){0, 0.38268343f, 0, 0.92387953f});
+  sbr_character_set_drive(s.world, s.walker, 0.4f, 0, 0);
   run(&s, 6 * SECOND);
-  sbr_double3 at = place_of(&s, pup);
+  sbr_double3 at = position_of(&s, pup);
   ck_assert_msg(fabs(at.x) > 0.3 && at.z > 0.3, "it is at %g, %g", at.x, at.z);
   end_scene(&s);
 }
@@ -277,13 +279,13 @@ START_TEST(a_lift_lifts_it)
   double y = 0;
   sbr_collider_id floor = box(&s, (sbr_double3){0, -0.1, 0}, (sbf_vec3){2, 0.1f, 2});
   run(&s, SECOND / 2);
-  double before = place_of(&s, pup).y;
+  double before = position_of(&s, pup).y;
   for (int i = 0; i < 2 * SECOND; i++) {
     y += 0.5 / SECOND;
     sbr_collider_move(s.world, floor, (sbr_double3){0, y - 0.1, 0}, (sbf_quat){0, 0, 0, 1});
     sbr_world_tick(s.world);
   }
-  ck_assert_double_eq_tol(place_of(&s, pup).y - before, y, 0.01);
+  ck_assert_double_eq_tol(position_of(&s, pup).y - before, y, 0.01);
   end_scene(&s);
 }
 END_TEST
@@ -299,15 +301,15 @@ START_TEST(a_lift_lowers_a_snake)
   sbr_event events[64];
   sbr_collider_id floor = box(&s, (sbr_double3){0, -0.1, 0}, (sbf_vec3){3, 0.1f, 3});
   run(&s, SECOND / 2);
-  double before = place_of(&s, asset).y;
-  sbr_world_events(s.world, events, 64);
+  double before = position_of(&s, asset).y;
+  sbr_world_take_events(s.world, events, 64);
   for (int i = 1; i <= SECOND; i++) { /* up to 4 m/s */
     y -= 4.0 * i / SECOND / SECOND;
     sbr_collider_move(s.world, floor, (sbr_double3){0, y - 0.1, 0}, (sbf_quat){0, 0, 0, 1});
     sbr_world_tick(s.world);
-    ck_assert_double_eq_tol(place_of(&s, asset).y - before, y, 0.02);
+    ck_assert_double_eq_tol(position_of(&s, asset).y - before, y, 0.02);
   }
-  for (uint32_t i = sbr_world_events(s.world, events, 64); i-- > 0;)
+  for (uint32_t i = sbr_world_take_events(s.world, events, 64); i-- > 0;)
     ck_assert_int_ne(events[i].kind, SBR_EVENT_LANDED);
   end_scene(&s);
   sbr_model_destroy(model);
@@ -320,13 +322,13 @@ START_TEST(a_turntable_carries_and_turns_it)
   scene s = scene_of(pup_model, -50, 0);
   sbr_collider_id floor = box(&s, (sbr_double3){0.5, -0.1, 0}, (sbf_vec3){2, 0.1f, 2});
   run(&s, SECOND / 2);
-  sbr_double3 before = place_of(&s, pup);
+  sbr_double3 before = position_of(&s, pup);
   for (int i = 1; i <= SECOND; i++) { /* a quarter turn to the left about (0.5, 0) */
     float half = 0.25f * 3.14159265f * (float)i / SECOND;
     sbr_collider_move(s.world, floor, (sbr_double3){0.5, -0.1, 0}, (sbf_quat){0, sinf(half), 0, cosf(half)});
     sbr_world_tick(s.world);
   }
-  sbr_double3 at = place_of(&s, pup);
+  sbr_double3 at = position_of(&s, pup);
   ck_assert_double_eq_tol(at.x, 0.5 + before.z, 0.03);
   ck_assert_double_eq_tol(at.z, 0.5 - before.x, 0.03);
   end_scene(&s);
@@ -340,18 +342,18 @@ START_TEST(it_falls_where_its_floor_goes)
   sbr_event events[64];
   uint32_t landed = 0, count;
   run(&s, SECOND);
-  sbr_double3 before = place_of(&s, pup);
+  sbr_double3 before = position_of(&s, pup);
   sbr_collider_destroy(s.world, floor);
   int ticks = 0;
-  while (sbr_world_events(s.world, events, 64)) {}
+  while (sbr_world_take_events(s.world, events, 64)) {}
   for (; ticks < 2 * SECOND && !landed; ticks++) {
     sbr_world_tick(s.world);
-    count = sbr_world_events(s.world, events, 64);
+    count = sbr_world_take_events(s.world, events, 64);
     for (uint32_t i = 0; i < count; i++) landed += events[i].kind == SBR_EVENT_LANDED;
   }
   run(&s, SECOND);
   ck_assert_uint_eq(landed, 1);
-  ck_assert_double_eq_tol(before.y - place_of(&s, pup).y, 2, 0.01);
+  ck_assert_double_eq_tol(before.y - position_of(&s, pup).y, 2, 0.01);
   /* sqrt(2 h / g), a tick for the collider to go and one of the steps' error. */
   ck_assert_int_ge(ticks, (int)(SECOND * sqrt(2 * 2 / 9.81)) - 1);
   ck_assert_int_le(ticks, (int)(SECOND * sqrt(2 * 2 / 9.81)) + 3);
@@ -370,7 +372,7 @@ START_TEST(a_door_pushes_it)
     sbr_world_tick(s.world);
   }
   run(&s, SECOND);
-  ck_assert_msg(place_of(&s, pup).z > z + 0.1, "the door is at %g m, it at %g", z, place_of(&s, pup).z);
+  ck_assert_msg(position_of(&s, pup).z > z + 0.1, "the door is at %g m, it at %g", z, position_of(&s, pup).z);
   end_scene(&s);
 }
 END_TEST
@@ -383,9 +385,9 @@ START_TEST(what_is_light_gives_way)
   sbr_shape_definition form = sbr_default_shape_definition();
   form.radius = 0.25f;
   collider_of(&s, &form, (sbr_double3){0, 0.25, 1}, masses[_i]);
-  sbr_character_drive(s.world, s.walker, 0.4f, 0, 0);
+  sbr_character_set_drive(s.world, s.walker, 0.4f, 0, 0);
   run(&s, 4 * SECOND);
-  double z = place_of(&s, pup).z;
+  double z = position_of(&s, pup).z;
   ck_assert_msg(_i ? z < 0.8 : z > 1, "it came to %g m", z);
   end_scene(&s);
 }
@@ -399,10 +401,10 @@ START_TEST(a_fish_stays_in_its_tank)
     box(&s, (sbr_double3){0, 1, 2.0 * k}, (sbf_vec3){3, 2, 0.5f});
   }
   box(&s, (sbr_double3){0, 2.5, 0}, (sbf_vec3){3, 0.5f, 3});
-  sbr_character_drive(s.world, s.walker, 0.6f, 0, 0.1f);
+  sbr_character_set_drive(s.world, s.walker, 0.6f, 0, 0.1f);
   sbr_character_set_vertical_speed(s.world, s.walker, 0.5f);
   run(&s, 8 * SECOND);
-  sbr_double3 at = place_of(&s, koi);
+  sbr_double3 at = position_of(&s, koi);
   ck_assert_msg(fabs(at.x) < 1.5 && fabs(at.z) < 1.5 && at.y < 2, "it is at %g, %g, %g", at.x, at.y, at.z);
   end_scene(&s);
 }
@@ -413,9 +415,9 @@ START_TEST(no_wall_is_passed_at_speed)
 {
   scene s = scene_of(koi_model, 0, 1);
   box(&s, (sbr_double3){0, 1, 4}, (sbf_vec3){30, 30, 0.02f});
-  sbr_character_drive(s.world, s.walker, 60, 0, 0);
+  sbr_character_set_drive(s.world, s.walker, 60, 0, 0);
   run(&s, 3 * SECOND);
-  ck_assert_double_lt(place_of(&s, koi).z, 4);
+  ck_assert_double_lt(position_of(&s, koi).z, 4);
   end_scene(&s);
 }
 END_TEST

@@ -14,7 +14,7 @@ static chart_track swings(double height, double period_s) {
   ck_assert(chart_track_make(&t, TICKS, 2));
   for (uint32_t i = 0; i < TICKS; i++) {
     double y = -height * cos(6.283185307179586 * i * tick_s / period_s);
-    t.places[2 * i].y = (float)y, t.places[2 * i + 1].y = (float)-y;
+    t.positions[2 * i].y = (float)y, t.positions[2 * i + 1].y = (float)-y;
     t.energy_j[i] = 5 + height, t.kinetic_j[i] = 2, t.volume[i] = 1 - height / 10;
   }
   return t;
@@ -56,10 +56,10 @@ START_TEST(rest_is_judged_by_the_last_tick_alone)
   chart_track a = swings(0.1, 0.6), b = swings(0.1, 0.6);
   double errors[CHART_AXIS_COUNT];
   for (uint32_t i = 0; i < TICKS; i++)
-    for (int k = 0; k < 2; k++) a.places[2 * i + k] = b.places[2 * i + k] = (sbf_vec3){9, 9, 9};
+    for (int k = 0; k < 2; k++) a.positions[2 * i + k] = b.positions[2 * i + k] = (sbf_vec3){9, 9, 9};
   for (int k = 0; k < 2; k++) {
-    b.places[2 * TICKS - 2 + k] = (sbf_vec3){rest[k].x, -0.2f, 0};
-    a.places[2 * TICKS - 2 + k] = (sbf_vec3){rest[k].x, -0.21f, 0};
+    b.positions[2 * TICKS - 2 + k] = (sbf_vec3){rest[k].x, -0.2f, 0};
+    a.positions[2 * TICKS - 2 + k] = (sbf_vec3){rest[k].x, -0.21f, 0};
   }
   ck_assert(chart_errors_of(&a, &b, rest, tick_s, &along_y, ALL, errors));
   ck_assert_double_eq_tol(errors[CHART_SHAPE], 0.05, 1e-5);

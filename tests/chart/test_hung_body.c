@@ -13,10 +13,10 @@ static chart_hung_body body_of(chart_elastic elastic, double mass_ratio, double 
   return body;
 }
 
-static chart_verdict judge(const chart_hung_body *body, sbf_scheme scheme, double turn) {
+static chart_verdict check(const chart_hung_body *body, sbf_scheme scheme, double turn) {
   chart_verdict verdict;
   sbf_diagnostic error;
-  ck_assert_int_eq(chart_hung_body_judge(body, scheme, turn, &verdict, &error), SBF_OK);
+  ck_assert_int_eq(chart_hung_body_evaluate(body, scheme, turn, &verdict, &error), SBF_OK);
   return verdict;
 }
 
@@ -46,8 +46,8 @@ START_TEST(bodies_die_where_their_stiffest_mode_does)
     for (int s = 0; s < 3; s++) {
       double bound = chart_stable_below(schemes[s], 0.1);
       double beyond = s == 2 ? 2.5 : 1.3;
-      chart_verdict below = judge(&body, schemes[s], 0.9 * bound);
-      chart_verdict above = judge(&body, schemes[s], beyond * bound);
+      chart_verdict below = check(&body, schemes[s], 0.9 * bound);
+      chart_verdict above = check(&body, schemes[s], beyond * bound);
       ck_assert_msg(below.outcome == CHART_SOUND, "scheme %d, ratio %g: %s", s, ratios[k], below.why);
       ck_assert_msg(above.outcome == CHART_DEAD, "scheme %d, ratio %g: off by %g", s, ratios[k], above.off);
     }
@@ -63,13 +63,13 @@ START_TEST(what_does_not_die_is_soft_or_damped)
   double off[2], hangs[2];
   for (int k = 0; k < 2; k++) {
     chart_hung_body body = body_of(CHART_OF_SPRINGS, k ? 100 : 1, 0);
-    chart_verdict soft = judge(&body, SBF_SCHEME_POSITION_BASED, 1),
-                  fine = judge(&body, SBF_SCHEME_POSITION_BASED, 0.1);
+    chart_verdict soft = check(&body, SBF_SCHEME_POSITION_BASED, 1),
+                  fine = check(&body, SBF_SCHEME_POSITION_BASED, 0.1);
     ck_assert_int_eq(fine.outcome, CHART_SOUND);
     ck_assert_int_eq(soft.outcome, CHART_BIASED);
     off[k] = soft.off, hangs[k] = soft.reached;
-    ck_assert_int_eq(judge(&body, SBF_SCHEME_BLOCK_DESCENT, 20).outcome, CHART_BIASED);
-    ck_assert_int_eq(judge(&body, SBF_SCHEME_SYMPLECTIC, 1).outcome, CHART_SOUND);
+    ck_assert_int_eq(check(&body, SBF_SCHEME_BLOCK_DESCENT, 20).outcome, CHART_BIASED);
+    ck_assert_int_eq(check(&body, SBF_SCHEME_SYMPLECTIC, 1).outcome, CHART_SOUND);
     chart_hung_body_free(&body);
   }
   ck_assert_double_gt(off[0], 0.1);
@@ -83,9 +83,9 @@ START_TEST(poisson_ratios_move_the_stiffest_mode_alone)
 {
   chart_hung_body low = body_of(CHART_OF_TETRAHEDRA, 1, 0.1), high = body_of(CHART_OF_TETRAHEDRA, 1, 0.48);
   ck_assert_double_gt(high.highest_rad_s, 2 * low.highest_rad_s);
-  ck_assert_int_eq(judge(&high, SBF_SCHEME_SYMPLECTIC, 1.6).outcome, CHART_SOUND);
-  ck_assert_int_eq(judge(&high, SBF_SCHEME_SYMPLECTIC, 2).outcome, CHART_DEAD);
-  ck_assert_int_eq(judge(&high, SBF_SCHEME_RELAXATION, 0.1).outcome, CHART_REFUSED);
+  ck_assert_int_eq(check(&high, SBF_SCHEME_SYMPLECTIC, 1.6).outcome, CHART_SOUND);
+  ck_assert_int_eq(check(&high, SBF_SCHEME_SYMPLECTIC, 2).outcome, CHART_DEAD);
+  ck_assert_int_eq(check(&high, SBF_SCHEME_RELAXATION, 0.1).outcome, CHART_REFUSED);
   chart_hung_body_free(&low);
   chart_hung_body_free(&high);
 }

@@ -24,7 +24,7 @@ START_TEST(a_spring_swings_as_a_cosine)
   move(chart_mass_on_spring(2, 50), 0.5f, 32, 300, &t);
   for (uint32_t i = 0; i < t.ticks; i++) {
     double exact = -1.02 + 0.02 * cos(5 * (i + 1) * tick_s);
-    ck_assert_double_eq_tol((double)t.places[2 * i + 1].y, exact, 2e-7);
+    ck_assert_double_eq_tol((double)t.positions[2 * i + 1].y, exact, 2e-7);
     ck_assert_double_eq_tol(t.energy_j[i], t.energy_j[0], 1e-9);
   }
   chart_track_free(&t);
@@ -38,7 +38,7 @@ START_TEST(a_chain_swings_in_all_its_modes)
   enum { COUNT = 20 };
   const double mass = 0.05, stiffness = 56;
   chart_track t;
-  move(chart_held_chain(COUNT, 0.1f, 0.05f, 56), 1, 64, 120, &t);
+  move(chart_pinned_chain(COUNT, 0.1f, 0.05f, 56), 1, 64, 120, &t);
   for (uint32_t i = 0; i < t.ticks; i++)
     for (int k = 1; k <= COUNT; k++) {
       double off = 0, at = (i + 1) * tick_s;
@@ -47,7 +47,7 @@ START_TEST(a_chain_swings_in_all_its_modes)
         for (int n = 1; n <= COUNT; n++) weight += sin(n * j * pi / (COUNT + 1));
         off += 2.0 / (COUNT + 1) * weight * sin(k * j * pi / (COUNT + 1)) * (1 - cos(w * at)) / (w * w);
       }
-      ck_assert_double_eq_tol((double)t.places[i * t.points + (uint32_t)k].y, -0.1 * k - off, 2e-6);
+      ck_assert_double_eq_tol((double)t.positions[i * t.points + (uint32_t)k].y, -0.1 * k - off, 2e-6);
     }
   chart_track_free(&t);
 }
@@ -62,7 +62,7 @@ START_TEST(a_pendulum_has_its_period)
   chart_track t;
   chart_swing swing;
   move(chart_level_pendulum(1, 1, 1e6f), 9.81f, 256, TICKS, &t);
-  for (uint32_t i = 0; i < TICKS; i++) x[i] = (double)t.places[2 * i + 1].x;
+  for (uint32_t i = 0; i < TICKS; i++) x[i] = (double)t.positions[2 * i + 1].x;
   ck_assert(chart_swing_of(x, TICKS, tick_s, 0, &swing));
   double exact = 2 * pi * sqrt(1 / 9.81) * 1.1803406;
   ck_assert_double_eq_tol(swing.period_s, exact, 1e-4 * exact);

@@ -30,10 +30,10 @@ static void find(found *f, const chart_case *of, bool of_mesh) {
       of_mesh ? chart_truth_find_mesh(&f->truth, f->of, &f->scene, f->rest, &f->stated, &error)
               : chart_truth_find(&f->truth, f->of, &f->scene, f->rest, MAX_SWEPT, &f->stated, &error);
   ck_assert_int_eq(status, SBF_OK);
-  const char *told = strstr(f->stated.what, " substeps a frame");
-  ck_assert_ptr_nonnull(told);
-  while (told > f->stated.what && told[-1] != ' ') told--;
-  f->substeps = (unsigned)strtoul(told, NULL, 10);
+  const char *reported = strstr(f->stated.what, " substeps a frame");
+  ck_assert_ptr_nonnull(reported);
+  while (reported > f->stated.what && reported[-1] != ' ') reported--;
+  f->substeps = (unsigned)strtoul(reported, NULL, 10);
 }
 
 static void end(found *f) {
@@ -48,26 +48,27 @@ static double stated_share(const found *f) {
 }
 
 /* Two runs of the same motion, looked at from anew: how far the first is off the second. */
-static double apart(const found *f, const sbf_scheme schemes[2], const uint32_t substeps[2], double *errors) {
+static double separation(
+    const found *f, const sbf_scheme schemes[2], const uint32_t substeps[2], double *errors) {
   chart_track tracks[2];
   sbf_diagnostic error;
   for (int i = 0; i < 2; i++) {
     chart_motion motion;
     const chart_setting setting = {.scheme = schemes[i], .substeps = substeps[i]};
     ck_assert_int_eq(chart_motion_open(&motion, &f->scene, &setting, &error), SBF_OK);
-    ck_assert(chart_motion_look(&motion, &tracks[i]));
+    ck_assert(chart_motion_sample(&motion, &tracks[i]));
     ck_assert(tracks[i].sound);
     chart_motion_close(&motion);
   }
   ck_assert(chart_errors_of(&tracks[0], &tracks[1], f->rest, tick_s, &f->of->signal, f->of->axes, errors));
-  double share = errors[CHART_PATH] / chart_extent_of(&tracks[1], f->rest);
+  double fraction = errors[CHART_PATH] / chart_extent_of(&tracks[1], f->rest);
   chart_track_free(&tracks[0]), chart_track_free(&tracks[1]);
-  return share;
+  return fraction;
 }
 
 static double apart_by(const found *f, uint32_t substeps) {
   double errors[CHART_AXIS_COUNT];
-  return apart(f, (const sbf_scheme[]){SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN},
+  return separation(f, (const sbf_scheme[]){SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN},
       (const uint32_t[]){substeps, substeps}, errors);
 }
 
@@ -92,9 +93,9 @@ START_TEST(a_mesh_is_measured_by_the_pair_that_it_states)
   find(&f, chart_case_named("pressure"), true);
   const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_SYMPLECTIC};
   ck_assert_double_gt(
-      apart(&f, schemes, (const uint32_t[]){f.substeps / 4, f.substeps / 2}, errors), converged);
+      separation(&f, schemes, (const uint32_t[]){f.substeps / 4, f.substeps / 2}, errors), converged);
   ck_assert_double_le(stated_share(&f), converged);
-  apart(&f, schemes, (const uint32_t[]){f.substeps / 2, f.substeps}, errors);
+  separation(&f, schemes, (const uint32_t[]){f.substeps / 2, f.substeps}, errors);
   for (int i = 0; i < CHART_AXIS_COUNT; i++)
     if (f.of->axes & 1u << i) ck_assert_double_eq(errors[i], f.stated.errors[i]);
   end(&f);

@@ -5,11 +5,11 @@
 
 #include "harness.h"
 
-static chart_verdict judge(sbf_scheme scheme, double turn, double damping) {
+static chart_verdict check(sbf_scheme scheme, double turn, double damping) {
   const chart_cell cell = {.scheme = scheme, .turn = turn, .damping = damping, .stretch = 0.02};
   chart_verdict verdict;
   sbf_diagnostic error;
-  ck_assert_int_eq(chart_cell_judge(&cell, &verdict, &error), SBF_OK);
+  ck_assert_int_eq(chart_cell_evaluate(&cell, &verdict, &error), SBF_OK);
   return verdict;
 }
 
@@ -22,8 +22,8 @@ START_TEST(steps_die_beyond_their_bound_and_not_before)
   for (int k = 0; k < 4; k++) {
     double bound = chart_stable_below(schemes[_i], ratios[k]);
     ck_assert(bound > 0.1 && bound < 3);
-    chart_verdict below = judge(schemes[_i], 0.95 * bound, ratios[k]);
-    chart_verdict above = judge(schemes[_i], 1.15 * bound, ratios[k]);
+    chart_verdict below = check(schemes[_i], 0.95 * bound, ratios[k]);
+    chart_verdict above = check(schemes[_i], 1.15 * bound, ratios[k]);
     ck_assert_msg(below.outcome <= CHART_BIASED, "ratio %g: %s", ratios[k], below.why);
     ck_assert_msg(above.outcome == CHART_DEAD, "ratio %g: off by %g", ratios[k], above.off);
   }
@@ -45,14 +45,14 @@ END_TEST
 /* Undamped: symplectic's frequency is off by (w h)^2 / 24, implicit steps' damping by w h / 2. */
 START_TEST(what_is_off_is_what_the_scheme_adds)
 {
-  chart_verdict v = judge(SBF_SCHEME_SYMPLECTIC, 0.5, 0);
+  chart_verdict v = check(SBF_SCHEME_SYMPLECTIC, 0.5, 0);
   ck_assert_int_eq(v.outcome, CHART_SOUND);
   ck_assert_double_eq_tol(v.off, 2 * asin(0.25) / 0.5 - 1, 1e-4);
-  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 1.3, 0).outcome, CHART_BIASED);
-  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 2.1, 0).outcome, CHART_DEAD);
-  ck_assert_double_eq_tol(judge(SBF_SCHEME_POSITION_BASED, 0.06, 0).off, 0.03, 5e-4);
-  ck_assert_double_eq_tol(judge(SBF_SCHEME_BLOCK_DESCENT, 0.06, 0).off, 0.03, 5e-4);
-  ck_assert_int_eq(judge(SBF_SCHEME_EXPLICIT_EULER, 0.2, 0).outcome, CHART_DEAD);
+  ck_assert_int_eq(check(SBF_SCHEME_SYMPLECTIC, 1.3, 0).outcome, CHART_BIASED);
+  ck_assert_int_eq(check(SBF_SCHEME_SYMPLECTIC, 2.1, 0).outcome, CHART_DEAD);
+  ck_assert_double_eq_tol(check(SBF_SCHEME_POSITION_BASED, 0.06, 0).off, 0.03, 5e-4);
+  ck_assert_double_eq_tol(check(SBF_SCHEME_BLOCK_DESCENT, 0.06, 0).off, 0.03, 5e-4);
+  ck_assert_int_eq(check(SBF_SCHEME_EXPLICIT_EULER, 0.2, 0).outcome, CHART_DEAD);
 }
 END_TEST
 
@@ -64,13 +64,13 @@ START_TEST(damping_makes_symplectic_steps_off_in_proportion)
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 2; k++) {
       double z = ratios[i], expected = z * turns[k] / (2 * sqrt(1 - z * z));
-      double off = judge(SBF_SCHEME_SYMPLECTIC, turns[k], z).off;
+      double off = check(SBF_SCHEME_SYMPLECTIC, turns[k], z).off;
       ck_assert_msg(
           fabs(off - expected) < 0.1 * expected, "z %g, w h %g: %g, not %g", z, turns[k], off, expected);
     }
-  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.14, 0.5).outcome, CHART_SOUND);
-  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.17, 0.5).outcome, CHART_BIASED);
-  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.9, 0).outcome, CHART_SOUND);
+  ck_assert_int_eq(check(SBF_SCHEME_SYMPLECTIC, 0.14, 0.5).outcome, CHART_SOUND);
+  ck_assert_int_eq(check(SBF_SCHEME_SYMPLECTIC, 0.17, 0.5).outcome, CHART_BIASED);
+  ck_assert_int_eq(check(SBF_SCHEME_SYMPLECTIC, 0.9, 0).outcome, CHART_SOUND);
 }
 END_TEST
 
@@ -79,8 +79,8 @@ START_TEST(implicit_steps_live_and_are_biased)
 {
   static const double turns[] = {0.2, 1, 2, 5, 20};
   for (int k = 0; k < 5; k++) {
-    ck_assert_int_eq(judge(SBF_SCHEME_POSITION_BASED, turns[k], 0.1).outcome, CHART_BIASED);
-    ck_assert_int_eq(judge(SBF_SCHEME_BLOCK_DESCENT, turns[k], 0.1).outcome, CHART_BIASED);
+    ck_assert_int_eq(check(SBF_SCHEME_POSITION_BASED, turns[k], 0.1).outcome, CHART_BIASED);
+    ck_assert_int_eq(check(SBF_SCHEME_BLOCK_DESCENT, turns[k], 0.1).outcome, CHART_BIASED);
   }
 }
 END_TEST
@@ -90,7 +90,7 @@ START_TEST(frames_move_no_bound)
 {
   static const double turns[] = {0.3, 1.2, 1.7, 1.95};
   for (int k = 0; k < 4; k++) {
-    chart_verdict even = judge(SBF_SCHEME_SYMPLECTIC, turns[k], 0.1), verdict;
+    chart_verdict even = check(SBF_SCHEME_SYMPLECTIC, turns[k], 0.1), verdict;
     for (int late = 0; late < 2; late++) {
       const chart_cell cell = {.scheme = SBF_SCHEME_SYMPLECTIC,
           .turn = turns[k],
@@ -99,7 +99,7 @@ START_TEST(frames_move_no_bound)
           .hitch_ticks = late ? 12 : 0,
           .stretch = 0.02};
       sbf_diagnostic error;
-      ck_assert_int_eq(chart_cell_judge(&cell, &verdict, &error), SBF_OK);
+      ck_assert_int_eq(chart_cell_evaluate(&cell, &verdict, &error), SBF_OK);
       ck_assert_int_eq(verdict.outcome, even.outcome);
       if (even.outcome != CHART_DEAD) ck_assert_double_eq_tol(verdict.off, even.off, 0.002);
     }

@@ -8,11 +8,12 @@ enum { FRONT = 4 };
 
 static void round_trip(sbfi_packed_filter filter, uint32_t width, const uint8_t *raw, size_t raw_size) {
   sbfi_packed_coder coder;
-  size_t room = raw_size + raw_size / 8 + 256, stored_size = 0;
-  uint8_t *stored = malloc(room), *again = malloc(raw_size ? raw_size : 1);
+  size_t capacity = raw_size + raw_size / 8 + 256, stored_size = 0;
+  uint8_t *stored = malloc(capacity), *again = malloc(raw_size ? raw_size : 1);
   FUZZ_MUST(stored && again);
   sbfi_packed_coder_init(&coder, NULL, 1);
-  sbfi_coded coded = sbfi_packed_deflate(&coder, raw, raw_size, filter, width, stored, room, &stored_size);
+  sbfi_coded coded =
+      sbfi_packed_deflate(&coder, raw, raw_size, filter, width, stored, capacity, &stored_size);
   /* The one that is for some lists only. */
   FUZZ_MUST(coded == SBFI_CODED || (coded == SBFI_CODED_TOO_LONG && filter == SBFI_FILTER_RECENT));
   if (coded == SBFI_CODED) {

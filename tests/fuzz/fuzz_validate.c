@@ -3,8 +3,8 @@
 #include "fuzz_asset.h"
 #include "sbfmt/validate.h"
 
-static void see(void *user, const sbf_diagnostic *finding) {
-  FUZZ_MUST(finding->code != 0 && finding->message[0] && finding->path[0]);
+static void see(void *user, const sbf_diagnostic *diagnostic) {
+  FUZZ_MUST(diagnostic->code != 0 && diagnostic->message[0] && diagnostic->path[0]);
   ++*(uint32_t *)user;
 }
 

@@ -195,7 +195,7 @@ void scene_skin(sbfi_scene *scene, sbfi_scene_mesh *mesh, uint32_t joint_count, 
     const uint32_t *joint_of_point) {
   sbfi_scene_joint *made = give(scene, joint_count, sizeof *made);
   uint32_t *starts = give(scene, mesh->point_count + 1, sizeof *starts);
-  uint32_t *places = give(scene, mesh->point_count, sizeof *places);
+  uint32_t *indices = give(scene, mesh->point_count, sizeof *indices);
   float *weights = give(scene, mesh->point_count, sizeof *weights);
   scene_end(scene);
   for (uint32_t j = 0; j < joint_count; j++) {
@@ -205,13 +205,13 @@ void scene_skin(sbfi_scene *scene, sbfi_scene_mesh *mesh, uint32_t joint_count, 
   }
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     starts[i + 1] = i + 1;
-    places[i] = joint_of_point[i];
+    indices[i] = joint_of_point[i];
     weights[i] = 1;
   }
   mesh->joint_count = joint_count;
   mesh->joints = made;
   mesh->skin_starts = starts;
-  mesh->skin_joints = places;
+  mesh->skin_joints = indices;
   mesh->skin_weights = weights;
 }
 

@@ -134,10 +134,10 @@ START_TEST(memory_may_run_out)
   sbfi_scene scene;
   ck_assert_int_eq(sbfi_scene_read(&scene, path, NULL, NULL), SBF_OK);
   ((sbfi_scene_node *)scene.nodes)[2].world.at[0][3] += 5; /* no longer as bound */
-  for (size_t room = 0;; room += 64) {
-    scene.arena.limit_bytes = scene.arena.used_bytes + room;
+  for (size_t capacity = 0;; capacity += 64) {
+    scene.arena.limit_bytes = scene.arena.used_bytes + capacity;
     if (sbfi_scene_take_bind_pose(&scene)) break;
-    ck_assert_uint_lt(room, 1 << 20);
+    ck_assert_uint_lt(capacity, 1 << 20);
   }
   ck_assert_ptr_null(scene_check(&scene));
   sbfi_scene_free(&scene);

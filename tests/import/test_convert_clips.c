@@ -157,9 +157,9 @@ START_TEST(tracks_are_as_short_as_they_can_be)
   const sbf_clip *clip = clip_named(c.asset, "still");
   ck_assert_uint_eq(clip->tracks.count, 2);
   int32_t bone = bone_named(c.asset, "two");
-  const sbf_track *place = track_of(clip, bone, SBF_TRACK_PROPERTY_TRANSLATION);
-  ck_assert_uint_eq(place->times.count, 1);
-  ck_assert_float_eq(place->values.at[0], 0.5f);
+  const sbf_track *position = track_of(clip, bone, SBF_TRACK_PROPERTY_TRANSLATION);
+  ck_assert_uint_eq(position->times.count, 1);
+  ck_assert_float_eq(position->values.at[0], 0.5f);
   const sbf_track *scale = track_of(clip, bone, SBF_TRACK_PROPERTY_SCALE);
   ck_assert_uint_eq(scale->times.count, 2);
   ck_assert_float_eq(scale->values.at[4], 2);

@@ -48,11 +48,11 @@ static uint32_t leg_on(const sbf_asset *a, int side) {
 
 static sbf_vec3 middle_of(const sbf_render_mesh *mesh) {
   sbf_vec3 sum = {0, 0, 0};
-  float share = 1.0f / (float)mesh->mesh.positions.count;
+  float fraction = 1.0f / (float)mesh->mesh.positions.count;
   for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
-    sum.x += share * mesh->mesh.positions.at[i].x;
-    sum.y += share * mesh->mesh.positions.at[i].y;
-    sum.z += share * mesh->mesh.positions.at[i].z;
+    sum.x += fraction * mesh->mesh.positions.at[i].x;
+    sum.y += fraction * mesh->mesh.positions.at[i].y;
+    sum.z += fraction * mesh->mesh.positions.at[i].z;
   }
   return sum;
 }
@@ -60,11 +60,11 @@ static sbf_vec3 middle_of(const sbf_render_mesh *mesh) {
 /* Whichever way the file has it look, and whether names or feet tell. */
 START_TEST(it_looks_along_z)
 {
-  for (int told = 0; told < 3; told++)
+  for (int reported = 0; reported < 3; reported++)
     for (uint32_t quarters = 0; quarters < 4; quarters++) {
       /* Backwards is believed where both say so. */
-      turned t = {quarters, told != 1, told != 0};
-      uint32_t expected = quarters == 2 && told != 2 ? 2 : 0;
+      turned t = {quarters, reported != 1, reported != 0};
+      uint32_t expected = quarters == 2 && reported != 2 ? 2 : 0;
       sbfi_scene scene;
       converted c;
       make(&scene, &t);
@@ -79,9 +79,9 @@ START_TEST(it_looks_along_z)
       check_near(
           middle_of(mesh_named(a, "boot1")), way_on * 0.28125, 0.0625, t.toes ? way_on * 0.0625 : 0, 1e-6);
       ck_assert_uint_eq(a->clips.count, 1);
-      const sbf_track *way = &a->clips.at[0].tracks.at[0];
-      ck_assert_float_eq_tol(way->values.at[3], 0, 1e-6f);
-      ck_assert_float_eq_tol(way->values.at[5], 2 * (float)way_on, 1e-6f);
+      const sbf_track *direction = &a->clips.at[0].tracks.at[0];
+      ck_assert_float_eq_tol(direction->values.at[3], 0, 1e-6f);
+      ck_assert_float_eq_tol(direction->values.at[5], 2 * (float)way_on, 1e-6f);
       converted_free(&c);
       sbfi_scene_free(&scene);
     }

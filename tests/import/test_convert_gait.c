@@ -45,15 +45,15 @@ START_TEST(what_has_no_legs_is_told)
   converted c;
   sbf_convert_options options = {.no_gait = true};
   sbf_diagnostic error;
-  int told = 0;
+  int reported = 0;
   scene_begin(&scene);
   int32_t root = scene_node(&scene, "root", -1, true, 0, 1, 0);
   scene_box(&scene, scene_node(&scene, "part", root, false, 0, 0, 0), 0.5, 0, 0, 0, false);
   scene_end(&scene);
   converted_scene(&c, &scene, &scene, &options);
-  options = (sbf_convert_options){.report = count_notes, .user = &told};
+  options = (sbf_convert_options){.report = count_notes, .user = &reported};
   ck_assert_int_eq(sbf_convert_gait(c.asset, &options, &error), SBF_OK);
-  ck_assert_int_eq(told, 1);
+  ck_assert_int_eq(reported, 1);
   ck_assert_uint_eq(c.asset->gaits.count, 0);
   options.struct_size = 3;
   ck_assert_int_ne(sbf_convert_gait(c.asset, &options, &error), SBF_OK);

@@ -65,7 +65,7 @@ static const char *put(const char *name, const char *text) {
 }
 
 /* Where a bone's +Y points at a time. */
-static void direction(const sbf_asset *asset, float time_s, uint32_t bone, double *to, double *place) {
+static void direction(const sbf_asset *asset, float time_s, uint32_t bone, double *to, double *position) {
   static const double along[3] = {0, 1, 0};
   sbfi_bone_frame frames[8];
   sbfi_clip_poses poses;
@@ -74,7 +74,7 @@ static void direction(const sbf_asset *asset, float time_s, uint32_t bone, doubl
   ck_assert(sbfi_clip_poses_init(&poses, asset, &asset->clips.at[0], &scratch));
   sbfi_clip_pose(&poses, time_s, frames);
   sbfi_turn_vector(frames[bone].rotation, along, to);
-  memcpy(place, frames[bone].place, sizeof frames[bone].place);
+  memcpy(position, frames[bone].position, sizeof frames[bone].position);
   sbfi_arena_free(&scratch);
 }
 
@@ -95,17 +95,17 @@ START_TEST(a_leg_swings_and_the_hips_go_half_as_far)
   ck_assert_uint_eq(n.clips, 1);
   ck_assert_uint_eq(n.unmatched, 2); /* the ear here, the antenna there */
   ck_assert_uint_eq(sbf_asset_check(asset, NULL, NULL, 0), 0);
-  double to[3], place[3];
-  direction(asset, 0, 1, to, place);
+  double to[3], position[3];
+  direction(asset, 0, 1, to, position);
   expect(to, 0, -1, 0); /* straight down, as the source's leg is, however this one was spread */
-  expect(place, 0.05, 0.5, 0);
-  direction(asset, 0.5f, 1, to, place);
+  expect(position, 0.05, 0.5, 0);
+  direction(asset, 0.5f, 1, to, position);
   expect(to, 0, 0, 1);
   /* by the heights of the thighs above the lowest point, which the end site marks */
-  expect(place, 0.05, 0.5, 2 * 0.5 * 0.8660254);
-  direction(asset, 0.5f, 2, to, place);
+  expect(position, 0.05, 0.5, 2 * 0.5 * 0.8660254);
+  direction(asset, 0.5f, 2, to, position);
   expect(to, 0, -sqrt(0.5), sqrt(0.5));
-  direction(asset, 0.5f, 3, to, place);
+  direction(asset, 0.5f, 3, to, position);
   expect(to, 0, 1, 0); /* goes along */
   sbf_asset_free(asset);
 }

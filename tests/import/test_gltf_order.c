@@ -12,34 +12,34 @@ static const char *const files[] = {"examples/pup/pup.glb", "examples/lizard/liz
 
 static void renumber(struct aiMesh *mesh) {
   unsigned n = mesh->mNumVertices, next = 0;
-  unsigned *place = malloc(n * sizeof *place);
+  unsigned *slots = malloc(n * sizeof *slots);
   struct aiVector3D *moved = malloc(n * sizeof *moved);
-  for (unsigned i = 0; i < n; i++) place[i] = n;
+  for (unsigned i = 0; i < n; i++) slots[i] = n;
   for (unsigned f = 0; f < mesh->mNumFaces; f++)
     for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; k++) {
       unsigned *at = &mesh->mFaces[f].mIndices[k];
-      if (place[*at] == n) place[*at] = next++;
-      *at = place[*at];
+      if (slots[*at] == n) slots[*at] = next++;
+      *at = slots[*at];
     }
   struct aiVector3D *lists[] = {mesh->mVertices, mesh->mNormals, mesh->mTextureCoords[0]};
   for (int l = 0; l < 3; l++) {
     if (!lists[l]) continue;
     for (unsigned i = 0; i < n; i++)
-      if (place[i] < n) moved[place[i]] = lists[l][i];
+      if (slots[i] < n) moved[slots[i]] = lists[l][i];
     memcpy(lists[l], moved, next * sizeof *moved);
   }
   for (unsigned b = 0; b < mesh->mNumBones; b++) {
     struct aiBone *bone = mesh->mBones[b];
     unsigned kept = 0;
     for (unsigned k = 0; k < bone->mNumWeights; k++)
-      if (place[bone->mWeights[k].mVertexId] < n) {
+      if (slots[bone->mWeights[k].mVertexId] < n) {
         bone->mWeights[kept] = bone->mWeights[k];
-        bone->mWeights[kept++].mVertexId = place[bone->mWeights[k].mVertexId];
+        bone->mWeights[kept++].mVertexId = slots[bone->mWeights[k].mVertexId];
       }
     bone->mNumWeights = kept;
   }
   mesh->mNumVertices = next;
-  free(place);
+  free(slots);
   free(moved);
 }
 

@@ -61,22 +61,23 @@ static void posed(const sbf_asset *a, const sbf_pose *pose, int32_t bone, double
   }
   const sbf_pose_key *key = key_of(pose, bone);
   if (!key) return;
-  double turn[4] = {key->rotation.x, key->rotation.y, key->rotation.z, key->rotation.w};
-  sbfi_turn_product(to, turn, to);
+  double rotation[4] = {key->rotation.x, key->rotation.y, key->rotation.z, key->rotation.w};
+  sbfi_turn_product(to, rotation, to);
 }
 
 /* Where the bone's child lies from it in the pose, of unit length. */
-static void direction(const sbf_asset *a, const sbf_pose *pose, int32_t bone, int32_t child, double way[3]) {
+static void direction(
+    const sbf_asset *a, const sbf_pose *pose, int32_t bone, int32_t child, double heading[3]) {
   const sbf_quat r = a->bones.at[bone].rotation;
   double rest[4] = {r.x, r.y, r.z, r.w}, undo[4], now[4], length = 0;
   const sbf_vec3 p = a->bones.at[bone].head, q = a->bones.at[child].head;
-  double apart[3] = {q.x - p.x, q.y - p.y, q.z - p.z};
+  double separation[3] = {q.x - p.x, q.y - p.y, q.z - p.z};
   posed(a, pose, bone, now);
   sbfi_turn_undo(rest, undo);
-  sbfi_turn_vector(undo, apart, way);
-  sbfi_turn_vector(now, way, way);
-  for (int k = 0; k < 3; k++) length += way[k] * way[k];
-  for (int k = 0; k < 3; k++) way[k] /= sqrt(length);
+  sbfi_turn_vector(undo, separation, heading);
+  sbfi_turn_vector(now, heading, heading);
+  for (int k = 0; k < 3; k++) length += heading[k] * heading[k];
+  for (int k = 0; k < 3; k++) heading[k] /= sqrt(length);
 }
 
 static double angle_between(const double a[3], const double b[3]) {
@@ -224,10 +225,10 @@ START_TEST(a_clip_says_how_it_stands)
   converted_scene(&c, &scene, &scene, NULL);
   const sbf_asset *a = c.asset;
   const sbf_pose *pose = &a->poses.at[a->gaits.at[0].rest_pose];
-  double way[3];
+  double heading[3];
   ck_assert_uint_eq(pose->keys.count, 1);
-  direction(a, pose, bone_named(a, "arm.L"), bone_named(a, "elbow.L"), way);
-  ck_assert_double_eq_tol(asin(-way[1]) / DEGREE, 60, 0.1);
+  direction(a, pose, bone_named(a, "arm.L"), bone_named(a, "elbow.L"), heading);
+  ck_assert_double_eq_tol(asin(-heading[1]) / DEGREE, 60, 0.1);
   converted_free(&c);
   sbfi_scene_free(&scene);
 }

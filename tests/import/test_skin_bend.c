@@ -17,7 +17,7 @@ static const struct {
     {"walk-dae/walk.dae", 18, 2000}};
 enum { CHARACTER_COUNT = sizeof characters / sizeof *characters };
 
-static void tell(const char *file, const skin_bend *r) {
+static void report_progress(const char *file, const skin_bend *r) {
   printf("%s: rest %.2g, off LBS %.2g, crack %.2g; %u seam triangles in %u poses: stretch %.3g (LBS %.3g), "
          "above twice %u (%u); flips %u (%u), more in %u poses\n",
       file, r->rest_error, r->lbs_distance, r->crack, r->seam_count, r->poses, r->seam_stretch,
@@ -37,7 +37,7 @@ static void check(const char *name, const char *path, uint32_t sections, uint32_
     skin_bend r;
     if (!built->render_meshes.at[m].skin) continue;
     skin_bend_measure(built, m, 1.0471975511965976, &r);
-    if (getenv("SBFMT_TELL")) tell(name, &r);
+    if (getenv("SBFMT_TELL")) report_progress(name, &r);
     ck_assert_double_le(r.rest_error, 1e-6);
     ck_assert_double_le(r.crack, 1e-6);
     ck_assert_uint_eq(r.worse_poses, 0);

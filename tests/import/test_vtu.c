@@ -100,18 +100,19 @@ END_TEST
 
 /* A compressed array of `raw` bytes in one block, with the header's words replaced where they are not 0. */
 static void put_compressed(sbfi_text *to, const void *raw, uint32_t size, uint32_t block, uint32_t stored) {
-  uint8_t room[4096];
+  uint8_t buffer[4096];
   size_t length;
   sbfi_packed_coder coder;
   sbfi_packed_coder_init(&coder, NULL, 9);
   ck_assert_int_eq(
-      sbfi_packed_deflate(&coder, raw, size, SBFI_FILTER_NONE, 0, room, sizeof room, &length), SBFI_CODED);
+      sbfi_packed_deflate(&coder, raw, size, SBFI_FILTER_NONE, 0, buffer, sizeof buffer, &length),
+      SBFI_CODED);
   sbfi_packed_coder_free(&coder);
   uint32_t words[4] = {1, block ? block : size, 0, stored ? stored : (uint32_t)length};
   uint8_t header[16];
   for (int i = 0; i < 16; i++) header[i] = (uint8_t)(words[i / 4] >> 8 * (i % 4));
   sbfi_base64_encode(to, header, sizeof header);
-  sbfi_base64_encode(to, room, length);
+  sbfi_base64_encode(to, buffer, length);
 }
 
 static sbf_status read_points(

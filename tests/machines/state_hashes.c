@@ -28,9 +28,9 @@ static bool run_file(const char *path, uint64_t *hash, sbf_diagnostic *error) {
   if (status == SBF_OK) status = sbr_world_create(&definition, &world, error);
   if (status == SBF_OK) status = sbr_character_create(world, model, &standing, &character, error);
   if (status == SBF_OK) {
-    sbr_character_drive(world, character, 0.3f, 0, 0.2f);
+    sbr_character_set_drive(world, character, 0.3f, 0, 0.2f);
     for (int i = 0; i < WALK_TICKS; i++) sbr_world_tick(world);
-    *hash = sbr_world_state_hash(world);
+    *hash = sbr_world_get_state_hash(world);
   }
   sbr_world_destroy(world);
   sbr_model_destroy(model);

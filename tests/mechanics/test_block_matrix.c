@@ -34,7 +34,7 @@ START_TEST(product)
 {
   const double x[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   double y[9];
-  sbfi_block_matrix_times(&matrix, x, y);
+  sbfi_block_matrix_multiply(&matrix, x, y);
   const double expected[9] = {0, 8, 12, 15, 20, 24, 28, 32, 36};
   for (int i = 0; i < 9; i++) ck_assert_double_eq(y[i], expected[i]);
 }

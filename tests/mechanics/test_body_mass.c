@@ -8,7 +8,7 @@
 static sbf_asset *asset;
 static sbf_soft_body *body;
 static sbf_level level;
-static uint8_t held[256];
+static uint8_t pinned[256];
 static float masses[256];
 
 static void setup(void) {
@@ -52,14 +52,14 @@ START_TEST(held_points_of_other_bodies_have_none)
   sbf_level other;
   sbf_level_init(&other);
   other.positions = (sbf_vec3_list){corners, 4};
-  memset(held, 0, sizeof held);
-  held[1] = 1;
+  memset(pinned, 0, sizeof pinned);
+  pinned[1] = 1;
   other.lattice.tetrahedra = (sbf_uint4_list){tetrahedra, 1};
-  ck_assert_double_eq_tol(sbf_level_masses(body, &other, held, masses), 0.75, 1e-5);
+  ck_assert_double_eq_tol(sbf_level_masses(body, &other, pinned, masses), 0.75, 1e-5);
   ck_assert_float_eq(masses[1], 0);
   ck_assert_float_eq_tol(masses[2], 0.25f, 1e-6f);
   other.masses = (sbf_f32_list){stated, 4};
-  ck_assert_double_eq_tol(sbf_level_masses(body, &other, held, masses), 8, 1e-6);
+  ck_assert_double_eq_tol(sbf_level_masses(body, &other, pinned, masses), 8, 1e-6);
   ck_assert_float_eq(masses[1], 0);
 }
 END_TEST
@@ -72,17 +72,17 @@ START_TEST(held_points_have_none)
   sbf_pin_set_init(&pins);
   pins.points = (sbf_u32_list){points, 3};
   level.pins = (sbf_pin_set_list){&pins, 1};
-  ck_assert_uint_eq(sbf_level_held_points(&level, held), 3);
+  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 3);
   pins.weights = (sbf_f32_list){weights, 3};
-  ck_assert_uint_eq(sbf_level_held_points(&level, held), 1);
-  ck_assert(held[3] && !held[7]);
+  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 1);
+  ck_assert(pinned[3] && !pinned[7]);
   ck_assert_double_eq_tol(
-      sbf_level_masses(body, &level, held, masses), 8, 1e-5); /* the rest carries it all */
+      sbf_level_masses(body, &level, pinned, masses), 8, 1e-5); /* the rest carries it all */
   ck_assert(masses[3] == 0);
   pins.minimum = 1;
-  ck_assert_uint_eq(sbf_level_held_points(&level, held), 3);
+  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 3);
   pins.minimum = 0, pins.maximum = 0.9f;
-  ck_assert_uint_eq(sbf_level_held_points(&level, held), 0);
+  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 0);
 }
 END_TEST
 

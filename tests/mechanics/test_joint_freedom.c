@@ -11,7 +11,7 @@ START_TEST(kinds_leave_free_what_the_specification_says)
     for (int axis = SBF_JOINT_AXIS_LINEAR_X; axis <= SBF_JOINT_AXIS_SWING_Z; axis++) {
       bool free = sbfi_joint_is_free((sbf_joint_kind)kind, (sbf_joint_axis)axis);
       counts[axis >= SBF_JOINT_AXIS_TWIST] += free;
-      ck_assert_int_eq(free, !(sbfi_joint_held((sbf_joint_kind)kind) >> axis & 1));
+      ck_assert_int_eq(free, !(sbfi_joint_is_locked((sbf_joint_kind)kind) >> axis & 1));
     }
     ck_assert_int_eq(counts[0], linear[kind]);
     ck_assert_int_eq(counts[1], angular[kind]);

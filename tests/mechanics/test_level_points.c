@@ -34,8 +34,8 @@ END_TEST
 
 START_TEST(points_in_another_order)
 {
-  const uint32_t places[] = {4, 1, 77};
-  level.new_from_old = (sbf_u32_list){places, 3};
+  const uint32_t indices[] = {4, 1, 77};
+  level.new_from_old = (sbf_u32_list){indices, 3};
   ck_assert_uint_eq(sbfi_level_point(&level, 0), 4);
   ck_assert_uint_eq(sbfi_level_point(&level, 2), UINT32_MAX);
   ck_assert_uint_eq(sbfi_level_point(&level, 3), UINT32_MAX);

@@ -53,7 +53,7 @@ START_TEST(rigid_motion_costs_nothing)
   map(turn, (sbfi_d3){3, -2, 7}, x);
   ck_assert_double_eq_tol(sbfi_tetrahedron_volume_ratio(&element, x), 1, 1e-12);
   ck_assert_double_eq_tol(sbfi_tetrahedron_energy(&element, x), 0, 1e-12 * young * element.volume);
-  sbfi_tetrahedron_forces(&element, x, f);
+  sbfi_tetrahedron_compute_forces(&element, x, f);
   for (int i = 0; i < 4; i++) ck_assert_double_le(sbfi_d3_length(f[i]), 1e-11 * young * element.volume);
 }
 END_TEST
@@ -88,7 +88,7 @@ START_TEST(uniaxial_stress)
   const double m[9] = {l, 0, 0, 0, w, 0, 0, 0, w};
   sbfi_d3 x[4], f[4];
   map(m, (sbfi_d3){0, 0, 0}, x);
-  sbfi_tetrahedron_forces(&element, x, f);
+  sbfi_tetrahedron_compute_forces(&element, x, f);
   for (int i = 0; i < 4; i++) {
     ck_assert_double_eq_tol(f[i].x, -element.volume * stress * element.gradients[i].x, 1e-9 * young);
     ck_assert_double_eq_tol(f[i].y, 0, 1e-9 * young);
@@ -104,7 +104,7 @@ START_TEST(forces_are_the_slope_of_the_energy)
   sbfi_d3 x[4], f[4], sum = {0, 0, 0}, moment = {0, 0, 0};
   double h = 1e-6;
   memcpy(x, states[_i], sizeof x);
-  sbfi_tetrahedron_forces(&element, x, f);
+  sbfi_tetrahedron_compute_forces(&element, x, f);
   for (int i = 0; i < 4; i++) {
     double *coordinates[3] = {&x[i].x, &x[i].y, &x[i].z}, force[3] = {f[i].x, f[i].y, f[i].z};
     for (int k = 0; k < 3; k++) {
@@ -133,10 +133,10 @@ START_TEST(products_are_the_change_of_the_forces)
     high[i] = sbfi_d3_add(states[_i][i], sbfi_d3_scale(u[i], h));
     low[i] = sbfi_d3_sub(states[_i][i], sbfi_d3_scale(u[i], h));
   }
-  sbfi_tetrahedron_forces(&element, high, above);
-  sbfi_tetrahedron_forces(&element, low, below);
+  sbfi_tetrahedron_compute_forces(&element, high, above);
+  sbfi_tetrahedron_compute_forces(&element, low, below);
   sbfi_tetrahedron_product(&element, states[_i], u, products);
-  sbfi_tetrahedron_hessian(&element, states[_i], blocks);
+  sbfi_tetrahedron_compute_hessian(&element, states[_i], blocks);
   for (int i = 0; i < 4; i++) {
     sbfi_d3 change = sbfi_d3_scale(sbfi_d3_sub(below[i], above[i]), 1 / (2 * h));
     ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(products[i], change)), 1e-5 * young);
@@ -167,7 +167,7 @@ START_TEST(inside_out_is_pushed_back)
   map(mirror, (sbfi_d3){0, 0, 0}, x);
   double inverted = sbfi_tetrahedron_energy(&element, x);
   ck_assert_double_eq_tol(sbfi_tetrahedron_volume_ratio(&element, x), -1, 1e-12);
-  sbfi_tetrahedron_forces(&element, x, f);
+  sbfi_tetrahedron_compute_forces(&element, x, f);
   double pushed = 0;
   for (int i = 0; i < 4; i++) pushed += f[i].x * rest[i].x;
   ck_assert_double_gt(pushed, 0);

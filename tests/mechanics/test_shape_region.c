@@ -4,13 +4,13 @@
 
 enum { POINTS = 7 };
 static const double weights[POINTS] = {1, 0.5, 2, 1.2, 0.7, 3, 0.1};
-static const sbfi_d3 places[POINTS] = {{0, 0, 0}, {1, 0.2, 0}, {0.1, 0.9, 0.3}, {-0.2, 0.4, 1.1},
+static const sbfi_d3 positions[POINTS] = {{0, 0, 0}, {1, 0.2, 0}, {0.1, 0.9, 0.3}, {-0.2, 0.4, 1.1},
     {0.8, 0.7, 0.6}, {-0.5, -0.3, 0.2}, {0.3, -0.8, -0.4}};
 static sbfi_d3 offsets[POINTS];
 
 static void setup(void) {
-  sbfi_d3 center = sbfi_region_center(weights, places, POINTS);
-  for (int i = 0; i < POINTS; i++) offsets[i] = sbfi_d3_sub(places[i], center);
+  sbfi_d3 center = sbfi_region_center(weights, positions, POINTS);
+  for (int i = 0; i < POINTS; i++) offsets[i] = sbfi_d3_sub(positions[i], center);
 }
 
 static sbfi_region_fit fit_to(const sbfi_d3 *x) {
@@ -37,7 +37,7 @@ static sbfi_d3 turned(sbfi_d3 v) { /* 0.6 and 0.8 about z, then about x: a rotat
 START_TEST(a_turned_shape_is_found)
 {
   sbfi_d3 x[POINTS];
-  for (int i = 0; i < POINTS; i++) x[i] = turned(places[i]);
+  for (int i = 0; i < POINTS; i++) x[i] = turned(positions[i]);
   sbfi_region_fit fit = fit_to(x);
   for (int i = 0; i < POINTS; i++)
     ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(x[i], sbfi_region_goal(&fit, offsets[i]))), 1e-12);
@@ -50,7 +50,7 @@ START_TEST(forces_are_those_of_the_energy)
 {
   sbfi_d3 x[POINTS], sum = {0, 0, 0}, moment = {0, 0, 0};
   for (int i = 0; i < POINTS; i++) {
-    x[i] = turned(places[i]);
+    x[i] = turned(positions[i]);
     x[i].x += 0.3 * sin(i), x[i].y *= 1.2, x[i].z += 0.2 * cos(3 * i);
   }
   sbfi_region_fit fit = fit_to(x);
@@ -73,7 +73,7 @@ END_TEST
 START_TEST(a_mirrored_shape_is_turned_not_mirrored)
 {
   sbfi_d3 x[POINTS];
-  for (int i = 0; i < POINTS; i++) x[i] = (sbfi_d3){-places[i].x, places[i].y, places[i].z};
+  for (int i = 0; i < POINTS; i++) x[i] = (sbfi_d3){-positions[i].x, positions[i].y, positions[i].z};
   sbfi_region_fit fit = fit_to(x);
   double det = sbfi_d3_dot(fit.columns[0], sbfi_d3_cross(fit.columns[1], fit.columns[2]));
   ck_assert_double_eq_tol(det, 1, 1e-12);

@@ -91,14 +91,14 @@ START_TEST(what_is_no_metric_is_refused)
 END_TEST
 
 /* The formula of the specification, in F_p itself: F_p <- W diag(r) W^T F_p. */
-static matrix flowed(matrix f, matrix inverse_plastic, double y, double share) {
+static matrix flowed(matrix f, matrix inverse_plastic, double y, double fraction) {
   matrix elastic = times(f, inverse_plastic), squares = times(transposed(elastic), elastic),
          inverse = {{{0}}};
   double vectors[9], r[3], product = 1;
-  sbfi_symmetric_eigen(3, &squares.at[0][0], vectors);
+  sbfi_symmetric_compute_eigen(3, &squares.at[0][0], vectors);
   for (int k = 0; k < 3; k++) {
     double s = sqrt(squares.at[k][k]), cut = s > 1 + y ? 1 + y : s < 1 - y ? 1 - y : s;
-    r[k] = pow(s / cut, share);
+    r[k] = pow(s / cut, fraction);
     product *= r[k];
   }
   for (int k = 0; k < 3; k++)

@@ -61,9 +61,9 @@ END_TEST
 START_TEST(no_length_no_stiffness)
 {
   const sbf_vec3 same[] = {{1, 2, 3}, {1, 2, 3}, {2, 2, 3}};
-  const float share[] = {1, 1, 1};
+  const float fraction[] = {1, 1, 1};
   const sbf_uint2 two[] = {{{0, 1}}, {{1, 2}}};
-  sbf_stiffness_of_network(1, same, 3, share, two, 2, sums, stiffness);
+  sbf_stiffness_of_network(1, same, 3, fraction, two, 2, sums, stiffness);
   ck_assert(stiffness[0] == 0);
   ck_assert_float_eq_tol(stiffness[1], 2, 1e-6f); /* both ends' whole volume, length 1 */
 }
@@ -73,9 +73,9 @@ START_TEST(short_springs_count_as_longer)
 {
   /* Lengths 1, 1 and 0.1 at one point: 0.1 is below half of the mean over both ends, (2.1 + 0.1) / 4. */
   const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1f}};
-  const float share[] = {2.1f, 0, 0, 0};
+  const float fraction[] = {2.1f, 0, 0, 0};
   const sbf_uint2 three[] = {{{0, 1}}, {{0, 2}}, {{0, 3}}};
-  sbf_stiffness_of_network(1, at, 4, share, three, 3, sums, stiffness);
+  sbf_stiffness_of_network(1, at, 4, fraction, three, 3, sums, stiffness);
   ck_assert_float_eq_tol(stiffness[0], 1, 1e-5f);
   ck_assert_float_eq_tol(stiffness[2], 1 / 0.275f, 1e-4f);
 }
@@ -88,11 +88,11 @@ START_TEST(anchors_give_the_pyramid)
   const sbf_vec3 at[] = {
       {0, 0, 1}, {0, 0, 0}, {h, 0, 0.5f}, {-h, 0, 0.5f}, {0, h, 0.5f}, {0, -h, 0.5f}, {3, 3, 3}};
   const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}, {{0, 3}}, {{4, 0}}, {{5, 0}}, {{1, 2}}, {{0, 6}}};
-  const uint8_t held[] = {0, 1, 1, 1, 1, 1, 0};
-  const float share[] = {0.25f, 0, 0, 0, 0, 0, 1};
+  const uint8_t pinned[] = {0, 1, 1, 1, 1, 1, 0};
+  const float fraction[] = {0.25f, 0, 0, 0, 0, 0, 1};
   const sbf_vec3 up[7] = {{0, 0, 1}};
   double scratch[63], along = 0, trace = 0, k = 1000 * 0.25 / (0.5 * 0.5); /* E V / d^2 */
-  sbf_stiffness_of_anchors(1000, 0.5, up, at, 7, share, held, springs, 7, scratch, stiffness);
+  sbf_stiffness_of_anchors(1000, 0.5, up, at, 7, fraction, pinned, springs, 7, scratch, stiffness);
   for (int s = 0; s < 5; s++) {
     trace += stiffness[s];
     along += stiffness[s] * (s == 0 ? 1 : 0.25);
@@ -110,17 +110,17 @@ START_TEST(anchors_that_cannot_fit_keep_the_trace)
    * with k = a + b c^2 that is a third of 1.2 and a half of 0.8. */
   const sbf_vec3 at[] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}};
   const sbf_uint2 springs[] = {{{3, 0}}, {{3, 0}}, {{3, 0}}, {{1, 0}}, {{2, 0}}};
-  const uint8_t held[] = {0, 1, 1, 1};
-  const float share[] = {1, 0, 0, 0};
+  const uint8_t pinned[] = {0, 1, 1, 1};
+  const float fraction[] = {1, 0, 0, 0};
   const sbf_vec3 up[4] = {{0, 0, 1}};
   double scratch[36];
-  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, springs, 5, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, up, at, 4, fraction, pinned, springs, 5, scratch, stiffness);
   ck_assert_float_eq_tol(stiffness[0], 0.4f, 1e-5f);
   ck_assert_float_eq_tol(stiffness[3], 0.4f, 1e-5f);
   ck_assert_float_eq_tol(stiffness[4], 0.4f, 1e-5f);
   /* One along and two across, all across the axis asked for: the trace stays, evenly shared. */
   const sbf_vec3 none[4] = {{0, 0, 0}};
-  sbf_stiffness_of_anchors(1, 1, none, at, 4, share, held, springs + 2, 3, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, none, at, 4, fraction, pinned, springs + 2, 3, scratch, stiffness);
   for (int s = 0; s < 3; s++) ck_assert_float_eq_tol(stiffness[s], 2 / 3.0f, 1e-5f);
 }
 END_TEST
@@ -133,18 +133,18 @@ START_TEST(no_direction_is_left_free)
                  flat[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
   const sbf_vec3 any[4] = {{0, 0, 0}};
   const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}, {{3, 0}}};
-  const uint8_t held[] = {0, 1, 1, 1};
-  const float share[] = {1, 0, 0, 0};
+  const uint8_t pinned[] = {0, 1, 1, 1};
+  const float fraction[] = {1, 0, 0, 0};
   double scratch[36];
-  sbf_stiffness_of_anchors(1, 1, any, at, 4, share, held, springs, 3, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, any, at, 4, fraction, pinned, springs, 3, scratch, stiffness);
   /* Of a trace of 2, across the plane z^2 / (1 + z^2) = 0.0769: enough. */
   ck_assert_float_eq_tol(stiffness[0], 2 / 3.0f, 1e-5f);
   sbf_vec3 lower[4];
   for (int i = 0; i < 4; i++) lower[i] = (sbf_vec3){at[i].x, at[i].y, at[i].z / 2};
   /* 2 * 0.0099 falls short of 0.05. */
-  sbf_stiffness_of_anchors(1, 1, any, lower, 4, share, held, springs, 3, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, any, lower, 4, fraction, pinned, springs, 3, scratch, stiffness);
   ck_assert_float_eq_tol(3 * stiffness[0] * 0.01f / 1.01f, 0.05f, 1e-4f);
-  sbf_stiffness_of_anchors(1, 1, any, flat, 4, share, held, springs, 3, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, any, flat, 4, fraction, pinned, springs, 3, scratch, stiffness);
   ck_assert_float_eq_tol(stiffness[0], 2 / 3.0f, 1e-5f); /* nothing would help */
 }
 END_TEST
@@ -173,8 +173,8 @@ START_TEST(levels_fill_in_what_is_not_stated)
   body.surface.positions = level.positions;
   body.surface.polygon_sizes = (sbf_u32_list){&size, 1};
   body.surface.polygon_points = (sbf_u32_list){corners, 4};
-  float shares[POINTS], all[POINTS * POINTS];
-  sbf_level_stiffness(&body, &level, shares, sums, all);
+  float fractions[POINTS], all[POINTS * POINTS];
+  sbf_level_stiffness(&body, &level, fractions, sums, all);
   ck_assert(all[0] == 7 && all[1] == 7);
   double moment = 0;
   for (uint32_t s = 0; s < spring_count; s++)

@@ -9,7 +9,7 @@
 typedef struct statics {
   lattice_box box;
   sbf_spring_network network;
-  double *places, *forces;
+  double *positions, *forces;
   sbfi_static_outcome outcome;
 } statics;
 
@@ -23,22 +23,22 @@ static statics begin(uint32_t along, uint32_t across, double poisson, float dens
       .tetrahedra = s.box.tetrahedra,
       .young_modulus = s.box.young_modulus,
       .poisson_ratios = s.box.poisson_ratios};
-  s.places = calloc(3 * (size_t)s.box.point_count, sizeof *s.places);
+  s.positions = calloc(3 * (size_t)s.box.point_count, sizeof *s.positions);
   s.forces = calloc(3 * (size_t)s.box.point_count, sizeof *s.forces);
-  ck_assert(s.places && s.forces);
-  sbfi_static_start(&s.network, s.places);
+  ck_assert(s.positions && s.forces);
+  sbfi_static_start(&s.network, s.positions);
   return s;
 }
 
 static void end(statics *s) {
-  free(s->places);
+  free(s->positions);
   free(s->forces);
   lattice_box_free(&s->box);
 }
 
 static void solve(statics *s, sbf_vec3 gravity) {
   sbfi_static_problem problem = {.network = &s->network, .gravity = gravity, .forces = s->forces};
-  ck_assert(sbfi_static_solve(&problem, s->places, &s->outcome, NULL));
+  ck_assert(sbfi_static_solve(&problem, s->positions, &s->outcome, NULL));
   ck_assert_msg(s->outcome.converged, "residual %g after %u steps", s->outcome.residual, s->outcome.steps);
   ck_assert_double_le(s->outcome.residual, 1e-8);
   ck_assert_double_gt(s->outcome.min_ratio, 0);
@@ -50,7 +50,7 @@ static sbfi_d3 tip(const statics *s) {
   double count = 0;
   for (uint32_t i = 0; i < s->box.point_count; i++) {
     if (i % (s->box.cells[0] + 1) != s->box.cells[0]) continue;
-    const double *p = s->places + 3 * (size_t)i;
+    const double *p = s->positions + 3 * (size_t)i;
     sum = sbfi_d3_add(sum, sbfi_d3_sub((sbfi_d3){p[0], p[1], p[2]}, sbfi_d3_of(s->box.positions[i])));
     count++;
   }
@@ -65,11 +65,11 @@ START_TEST(patch_test)
   uint32_t inside = 0;
   for (uint32_t i = 0; i < s.box.point_count; i++) {
     uint32_t x = i % 6, y = i / 6 % 4, z = i / 24;
-    bool held = x == 0 || x == 5 || y == 0 || y == 3 || z == 0 || z == 3;
-    double *p = s.places + 3 * (size_t)i, r[3] = {p[0], p[1], p[2]};
-    for (int k = 0; k < 3 && held; k++) p[k] = m[3 * k] * r[0] + m[3 * k + 1] * r[1] + m[3 * k + 2] * r[2];
-    if (held) s.box.masses[i] = 0;
-    inside += !held;
+    bool pinned = x == 0 || x == 5 || y == 0 || y == 3 || z == 0 || z == 3;
+    double *p = s.positions + 3 * (size_t)i, r[3] = {p[0], p[1], p[2]};
+    for (int k = 0; k < 3 && pinned; k++) p[k] = m[3 * k] * r[0] + m[3 * k + 1] * r[1] + m[3 * k + 2] * r[2];
+    if (pinned) s.box.masses[i] = 0;
+    inside += !pinned;
   }
   ck_assert_uint_gt(inside, 0);
   solve(&s, (sbf_vec3){0, 0, 0});
@@ -77,7 +77,7 @@ START_TEST(patch_test)
     sbf_vec3 r = s.box.positions[i];
     for (int k = 0; k < 3; k++)
       ck_assert_double_eq_tol(
-          s.places[3 * (size_t)i + k], m[3 * k] * r.x + m[3 * k + 1] * r.y + m[3 * k + 2] * r.z, 1e-8);
+          s.positions[3 * (size_t)i + k], m[3 * k] * r.x + m[3 * k + 1] * r.y + m[3 * k + 2] * r.z, 1e-8);
   }
   end(&s);
 }
@@ -90,15 +90,15 @@ START_TEST(uniaxial_tension)
   lattice_box_hold(&s.box);
   double pull = 1e6 * 0.04 * 1e-4; /* a strain of 1e-4 */
   /* A face's load goes to its corners by the triangles at each: 1 or 2 of the 6 thirds. */
-  double shares[4] = {0}, total = 0;
+  double fractions[4] = {0}, total = 0;
   for (uint32_t t = 0; t < s.box.tetrahedron_count; t++) {
     uint32_t far = 0;
     for (int k = 0; k < 4; k++) far += s.box.tetrahedra[t].at[k] % 6 == 5;
     for (int k = 0; k < 4 && far == 3; k++)
-      if (s.box.tetrahedra[t].at[k] % 6 == 5) shares[s.box.tetrahedra[t].at[k] / 6] += 1, total += 1;
+      if (s.box.tetrahedra[t].at[k] % 6 == 5) fractions[s.box.tetrahedra[t].at[k] / 6] += 1, total += 1;
   }
   ck_assert_double_eq(total, 6);
-  for (uint32_t i = 0; i < 4; i++) s.forces[3 * (6 * i + 5)] = pull * shares[i] / total;
+  for (uint32_t i = 0; i < 4; i++) s.forces[3 * (6 * i + 5)] = pull * fractions[i] / total;
   solve(&s, (sbf_vec3){0, 0, 0});
   ck_assert_double_eq_tol(tip(&s).x, 1e-4, 3e-8);
   ck_assert_double_eq_tol(tip(&s).y, 0, 3e-9); /* of second order */
@@ -137,7 +137,7 @@ END_TEST
 /* About x, of the middle of the side y = 0 at one cross-section. */
 static double angle_at(const statics *s, uint32_t x) {
   uint32_t point = lattice_box_point(&s->box, x, 0, s->box.cells[2] / 2);
-  return (s->places[3 * (size_t)point + 2] - (double)s->box.positions[point].z) / -0.1;
+  return (s->positions[3 * (size_t)point + 2] - (double)s->box.positions[point].z) / -0.1;
 }
 
 START_TEST(torsion_of_a_square_bar)
@@ -174,7 +174,7 @@ START_TEST(springs_hang_as_the_chain_does)
   sbf_vec3 positions[COUNT + 1];
   float masses[COUNT + 1], stiffness[COUNT], rest[COUNT];
   sbf_uint2 ends[COUNT];
-  double places[3 * (COUNT + 1)];
+  double points[3 * (COUNT + 1)];
   for (uint32_t i = 0; i <= COUNT; i++) {
     positions[i] = (sbf_vec3){0, -(float)i, 0};
     masses[i] = i ? 0.5f : 0;
@@ -188,16 +188,16 @@ START_TEST(springs_hang_as_the_chain_does)
       .stiffness = stiffness};
   sbfi_static_problem problem = {.network = &network, .rest_lengths = rest, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
-  sbfi_static_start(&network, places);
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL));
+  sbfi_static_start(&network, points);
+  ck_assert(sbfi_static_solve(&problem, points, &outcome, NULL));
   ck_assert(outcome.converged);
   double down = COUNT * 0.9 + 0.5 * 9.81 / 100 * COUNT * (COUNT + 1) / 2;
-  ck_assert_double_eq_tol(places[3 * COUNT + 1], -down, 1e-6);
+  ck_assert_double_eq_tol(points[3 * COUNT + 1], -down, 1e-6);
   /* Sideways, which no spring resists at rest: it swings there and holds by its tension. */
   problem.gravity = (sbf_vec3){9.81f, 0, 0};
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL));
+  ck_assert(sbfi_static_solve(&problem, points, &outcome, NULL));
   ck_assert(outcome.converged);
-  ck_assert_double_eq_tol(places[3 * COUNT], down, 1e-5);
+  ck_assert_double_eq_tol(points[3 * COUNT], down, 1e-5);
 }
 END_TEST
 
@@ -205,7 +205,7 @@ START_TEST(what_nothing_holds_does_not_converge)
 {
   statics s = begin(3, 1, 0.4, 1000);
   sbfi_static_problem problem = {.network = &s.network, .gravity = {0, -9.81f, 0}, .max_steps = 10};
-  ck_assert(sbfi_static_solve(&problem, s.places, &s.outcome, NULL));
+  ck_assert(sbfi_static_solve(&problem, s.positions, &s.outcome, NULL));
   ck_assert(!s.outcome.converged);
   ck_assert_double_gt(s.outcome.residual, 0.5);
   end(&s);
@@ -221,7 +221,7 @@ START_TEST(memory_may_run_out)
   for (size_t allowed = 0; !done && allowed < 100; allowed++) {
     harness_memory memory;
     harness_memory_init(&memory, allowed);
-    done = sbfi_static_solve(&problem, s.places, &s.outcome, &memory.allocator);
+    done = sbfi_static_solve(&problem, s.positions, &s.outcome, &memory.allocator);
     ck_assert_uint_eq(memory.held_bytes, 0);
   }
   ck_assert(done && s.outcome.converged);

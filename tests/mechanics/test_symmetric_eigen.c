@@ -7,7 +7,7 @@
 START_TEST(known_matrix)
 {
   double matrix[9] = {2, -1, 0, -1, 2, -1, 0, -1, 2}, vectors[9];
-  sbfi_symmetric_eigen(3, matrix, vectors);
+  sbfi_symmetric_compute_eigen(3, matrix, vectors);
   double sum = 0, product = 1;
   for (int i = 0; i < 3; i++) {
     double value = matrix[4 * i], x = vectors[i], y = vectors[3 + i], z = vectors[6 + i];
@@ -28,7 +28,7 @@ START_TEST(large_matrices_come_apart)
   double matrix[N * N], kept[N * N], vectors[N * N];
   for (int i = 0; i < N; i++)
     for (int j = 0; j < N; j++) matrix[i * N + j] = kept[i * N + j] = 1.0 / (1 + i + j) + (i == j);
-  sbfi_symmetric_eigen(N, matrix, vectors);
+  sbfi_symmetric_compute_eigen(N, matrix, vectors);
   for (int e = 0; e < N; e++)
     for (int i = 0; i < N; i++) {
       double sum = 0;
@@ -41,12 +41,12 @@ END_TEST
 START_TEST(nothing_to_do)
 {
   double matrix[4] = {0}, vectors[4], diagonal[4] = {3, 0, 0, -1};
-  sbfi_symmetric_eigen(2, matrix, vectors);
+  sbfi_symmetric_compute_eigen(2, matrix, vectors);
   ck_assert(matrix[0] == 0 && vectors[0] == 1 && vectors[1] == 0 && vectors[3] == 1);
-  sbfi_symmetric_eigen(2, diagonal, vectors);
+  sbfi_symmetric_compute_eigen(2, diagonal, vectors);
   ck_assert(diagonal[0] == 3 && diagonal[3] == -1);
   double odd[4] = {NAN, 1, 1, 2}; /* ends, whatever comes out */
-  sbfi_symmetric_eigen(2, odd, vectors);
+  sbfi_symmetric_compute_eigen(2, odd, vectors);
 }
 END_TEST
 

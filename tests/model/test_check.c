@@ -281,10 +281,10 @@ START_TEST(test_memory_runs_out)
     harness_memory memory;
     harness_memory_init(&memory, SIZE_MAX);
     broken b = {.asset = fill_asset(&(fill_options){.seed = 12, .allocator = &memory.allocator})};
-    size_t held = memory.held_bytes;
+    size_t pinned = memory.held_bytes;
     memory.allowed = memory.calls + allowed;
     uint32_t found = sbf_asset_check(b.asset, keep_first, &b, 0);
-    ck_assert_uint_eq(memory.held_bytes, held);
+    ck_assert_uint_eq(memory.held_bytes, pinned);
     if (found) ck_assert_int_eq(b.first.code, SBF_CODE_OUT_OF_MEMORY);
     memory.allowed = SIZE_MAX;
     sbf_asset_free(b.asset);

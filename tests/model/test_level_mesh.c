@@ -41,7 +41,7 @@ START_TEST(vertices_that_are_used)
   ck_assert_uint_eq(made.vertex_count, 3);
   ck_assert_mem_eq(made.vertices, ((uint32_t[]){1, 3, 5}), 3 * sizeof(uint32_t));
   ck_assert_mem_eq(
-      made.place_of, ((uint32_t[]){UINT32_MAX, 0, UINT32_MAX, 1, UINT32_MAX, 2}), 6 * sizeof(uint32_t));
+      made.position_of, ((uint32_t[]){UINT32_MAX, 0, UINT32_MAX, 1, UINT32_MAX, 2}), 6 * sizeof(uint32_t));
   ck_assert_uint_eq(made.mesh.mesh.positions.count, 3);
   ck_assert(made.mesh.mesh.positions.at[2].x == 2 && made.mesh.mesh.positions.at[2].y == 1);
   ck_assert_mem_eq(made.mesh.mesh.polygon_points.at, ((uint32_t[]){1, 0, 2}), 3 * sizeof(uint32_t));

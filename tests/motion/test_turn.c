@@ -40,13 +40,13 @@ END_TEST
 START_TEST(between_two_vectors_lies_the_least_turn)
 {
   static const double from[3] = {0, 1, 0}, to[3] = {0.6, 0, 0.8}, back[3] = {0, -1, 0};
-  double turn[4], there[3];
-  sbfi_turn_between(from, to, turn);
-  sbfi_turn_vector(turn, from, there);
+  double rotation[4], there[3];
+  sbfi_turn_between(from, to, rotation);
+  sbfi_turn_vector(rotation, from, there);
   for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(there[k], to[k], 1e-12);
-  ck_assert_double_eq_tol(2 * acos(turn[3]), PI / 2, 1e-12);
-  sbfi_turn_between(from, back, turn);
-  sbfi_turn_vector(turn, from, there);
+  ck_assert_double_eq_tol(2 * acos(rotation[3]), PI / 2, 1e-12);
+  sbfi_turn_between(from, back, rotation);
+  sbfi_turn_vector(rotation, from, there);
   ck_assert_double_eq_tol(there[1], -1, 1e-12);
 }
 END_TEST

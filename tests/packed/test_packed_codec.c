@@ -79,12 +79,12 @@ START_TEST(test_room_is_kept_to_the_byte)
   ck_assert_int_eq(
       sbfi_packed_deflate(&coder, (uint8_t *)values, BYTES, SBFI_FILTER_DELTA, 1, stored, BYTES, &size),
       SBFI_CODED);
-  for (size_t room = 0; room < size; room += size / 50 + 1) {
+  for (size_t capacity = 0; capacity < size; capacity += size / 50 + 1) {
     memset(stored, 0xee, BYTES);
     ck_assert_int_eq(
-        sbfi_packed_deflate(&coder, (uint8_t *)values, BYTES, SBFI_FILTER_DELTA, 1, stored, room, &again),
+        sbfi_packed_deflate(&coder, (uint8_t *)values, BYTES, SBFI_FILTER_DELTA, 1, stored, capacity, &again),
         SBFI_CODED_TOO_LONG);
-    ck_assert_uint_eq(stored[room], 0xee);
+    ck_assert_uint_eq(stored[capacity], 0xee);
   }
   ck_assert_int_eq(
       sbfi_packed_deflate(&coder, (uint8_t *)values, BYTES, SBFI_FILTER_DELTA, 1, stored, size - 1, &again),

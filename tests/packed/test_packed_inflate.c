@@ -32,13 +32,16 @@ static uint8_t *content(uint32_t seed, size_t size) {
   return bytes;
 }
 
-static size_t deflated(const uint8_t *bytes, size_t size, int level, int strategy, uint8_t *to, size_t room) {
-  z_stream stream = {
-      .next_in = (Bytef *)(uintptr_t)bytes, .avail_in = (uInt)size, .next_out = to, .avail_out = (uInt)room};
+static size_t deflated(
+    const uint8_t *bytes, size_t size, int level, int strategy, uint8_t *to, size_t capacity) {
+  z_stream stream = {.next_in = (Bytef *)(uintptr_t)bytes,
+      .avail_in = (uInt)size,
+      .next_out = to,
+      .avail_out = (uInt)capacity};
   ck_assert_int_eq(deflateInit2(&stream, level, Z_DEFLATED, 15, 8, strategy), Z_OK);
   ck_assert_int_eq(deflate(&stream, Z_FINISH), Z_STREAM_END);
   deflateEnd(&stream);
-  return room - stream.avail_out;
+  return capacity - stream.avail_out;
 }
 
 START_TEST(test_what_zlib_deflates_comes_back)

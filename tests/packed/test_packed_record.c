@@ -329,9 +329,9 @@ START_TEST(test_a_chunk_is_referred_to_once_and_by_its_owner)
 {
   make_file();
   uint32_t last = (uint32_t)patch_get(file.at, 40, 4) - 1;
-  size_t place = find_reference(last);
+  size_t index = find_reference(last);
   for (uint32_t other = 0; other < last + 3; other++) {
-    patch_put(file.at, place, 4, other);
+    patch_put(file.at, index, 4, other);
     if (other == last)
       ck_assert_int_eq(load_patched(), 0);
     else

@@ -170,13 +170,13 @@ START_TEST(test_every_failed_allocation_of_a_save_to_a_file)
   harness_memory_init(&memory, SIZE_MAX);
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 2, .allocator = &memory.allocator});
   const char *path = harness_scratch("allocations.sbfz");
-  size_t held = memory.held_bytes, allowed = 0;
+  size_t pinned = memory.held_bytes, allowed = 0;
   unlink(path);
   for (sbf_status status = SBF_FAILED; status != SBF_OK; allowed++) {
     memory.allowed = memory.calls + allowed;
     ck_assert_ptr_null(harness_read(path, NULL));
     status = sbf_packed_save_file(asset, path, NULL, NULL);
-    ck_assert_uint_eq(memory.held_bytes, held);
+    ck_assert_uint_eq(memory.held_bytes, pinned);
   }
   ck_assert_uint_gt(allowed, 8);
   sbf_asset_free(asset);

@@ -268,21 +268,21 @@ START_TEST(test_checksums_of_what_is_not_read)
   const struct {
     size_t at;
     sbf_code code;
-  } places[] = {{outline, SBF_CODE_PACKED_CRC}, {file.size - 1, SBF_CODE_PACKED_CRC},
+  } positions[] = {{outline, SBF_CODE_PACKED_CRC}, {file.size - 1, SBF_CODE_PACKED_CRC},
       {gap, SBF_CODE_PACKED_TABLE}, {outline - 1, SBF_CODE_PACKED_TABLE}};
   sbf_load_options options = fill_load_options(asset);
   for (int check = 0; check < 2; check++) {
     options.check_crc = check;
     ck_assert_int_eq(sbf_packed_load_memory(file.at, file.size, &options, &loaded, &error), SBF_OK);
     sbf_asset_free(loaded);
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-      file.at[places[i].at] ^= 0x55;
+    for (size_t i = 0; i < sizeof positions / sizeof *positions; i++) {
+      file.at[positions[i].at] ^= 0x55;
       sbf_status status = sbf_packed_load_memory(file.at, file.size, &options, &loaded, &error);
       ck_assert_int_eq(status, check ? SBF_BAD_INPUT : SBF_OK);
-      if (check) ck_assert_int_eq(error.code, (int)places[i].code);
-      if (check) ck_assert_uint_eq((size_t)error.offset, i < 2 ? outline : places[i].at);
+      if (check) ck_assert_int_eq(error.code, (int)positions[i].code);
+      if (check) ck_assert_uint_eq((size_t)error.offset, i < 2 ? outline : positions[i].at);
       sbf_asset_free(loaded);
-      file.at[places[i].at] ^= 0x55;
+      file.at[positions[i].at] ^= 0x55;
     }
   }
   sbf_buffer_free(&file);

@@ -37,7 +37,7 @@ int main(void) {
   SIZE(sbr_transform);
   SIZE(sbr_clip_play);
   SIZE(sbr_body_health);
-  SIZE(sbr_rung);
+  SIZE(sbr_detail_level);
   SIZE(sbr_detail_definition);
   SIZE(sbr_view);
   SIZE(sbr_soft_motion);
@@ -73,13 +73,13 @@ int main(void) {
   OFFSET(sbf_fix_options, report);
   OFFSET(sbr_model_options, gravity);
   OFFSET(sbr_model_options, instructions);
-  OFFSET(sbr_model_options, ladder);
+  OFFSET(sbr_model_options, detail_levels);
   OFFSET(sbr_world_definition, ground);
   OFFSET(sbr_world_definition, gravity);
   OFFSET(sbr_world_definition, sleep_after_s);
   OFFSET(sbr_character_definition, hold);
   OFFSET(sbr_clip_play, bone_mask);
-  OFFSET(sbr_rung, visits);
+  OFFSET(sbr_detail_level, visits);
   OFFSET(sbr_detail_definition, ns_per_visit);
   OFFSET(sbr_detail_definition, away_after_s);
   OFFSET(sbr_view, forward);

@@ -1,4 +1,4 @@
-"""Levels of detail through Python: rungs of a model, a host that chooses them, and a world that does."""
+"""Levels of detail through Python: detail levels of a model, a host that chooses them, and a world that does."""
 
 import os
 import sys
@@ -22,25 +22,25 @@ class Detail(unittest.TestCase):
         folder = os.path.join(ROOT, "examples", "lizard")
         source = sbfmt.convert(os.path.join(folder, "lizard.obj"), rig=os.path.join(folder, "lizard.glb"))
         cls.asset = source.build()
-        cls.model = runtime.Model(cls.asset, ladder=True)
+        cls.model = runtime.Model(cls.asset, detail_levels=True)
 
-    def test_a_ladder_goes_from_soft_to_away(self):
-        rungs = detail.rungs(self.model)
-        self.assertEqual(rungs[0].kind, "soft")
-        self.assertEqual([one.kind for one in rungs[-2:]], ["bones", "away"])
-        self.assertLess(rungs[0].error_m, rungs[-1].error_m)
-        for finer, coarser in zip(rungs, rungs[1:]):
+    def test_detail_levels_go_from_soft_to_away(self):
+        levels = detail.detail_levels(self.model)
+        self.assertEqual(levels[0].kind, "soft")
+        self.assertEqual([one.kind for one in levels[-2:]], ["bones", "away"])
+        self.assertLess(levels[0].error_m, levels[-1].error_m)
+        for finer, coarser in zip(levels, levels[1:]):
             self.assertGreater(finer.visits, coarser.visits)
-        self.assertEqual(len(detail.rungs(runtime.Model(self.asset))), 1)
+        self.assertEqual(len(detail.detail_levels(runtime.Model(self.asset))), 1)
 
-    def test_a_host_puts_characters_on_rungs(self):
-        last = len(detail.rungs(self.model)) - 2
+    def test_a_host_sets_detail_levels(self):
+        last = len(detail.detail_levels(self.model)) - 2
         with runtime.World(runtime.flat(0.0)) as world:
             lizard = world.add(self.model)
-            self.assertEqual(detail.rung(lizard), 0)
-            detail.set_rung(lizard, last)
+            self.assertEqual(detail.detail_level(lizard), 0)
+            detail.set_detail_level(lizard, last)
             world.step(TICK)
-            self.assertEqual(detail.rung(lizard), last)
+            self.assertEqual(detail.detail_level(lizard), last)
             begun = detail.fade(lizard)
             for _ in range(60):
                 world.step(TICK)
@@ -48,7 +48,7 @@ class Detail(unittest.TestCase):
             self.assertEqual(detail.fade(lizard), 0)
 
     def test_a_world_chooses_by_what_is_seen(self):
-        kinds = [one.kind for one in detail.rungs(self.model)]
+        kinds = [one.kind for one in detail.detail_levels(self.model)]
         with runtime.World(runtime.flat(0.0), capacity=20) as world:
             detail.choose(world, error_px=0.5, away_after_s=0.2)
             near, far, behind = (world.add(self.model, position=(0, 0, z)) for z in (2, 60, -30))
@@ -58,22 +58,22 @@ class Detail(unittest.TestCase):
             detail.look(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
             for _ in range(30):
                 world.step(TICK)
-            self.assertEqual([kinds[detail.rung(one)] for one in (near, far, behind, mirrored)], ["soft", "bones", "away", "soft"])
+            self.assertEqual([kinds[detail.detail_level(one)] for one in (near, far, behind, mirrored)], ["soft", "bones", "away", "soft"])
             self.assertEqual(detail.error_px(behind), 0)
             self.assertGreater(detail.error_px(far), 0)
             seen = detail.visits(world)
-            self.assertGreater(seen, detail.rungs(self.model)[0].visits)
+            self.assertGreater(seen, detail.detail_levels(self.model)[0].visits)
             for one in (near, mirrored):
                 detail.show(one, "never")
             for _ in range(30):
                 world.step(TICK)
             self.assertLess(detail.visits(world), seen / 10)
-            detail.set_rung(near, 0)
+            detail.set_detail_level(near, 0)
             world.step(TICK)
-            self.assertEqual(detail.rung(near), 0)
-            detail.set_rung(near, detail.CHOSEN)
+            self.assertEqual(detail.detail_level(near), 0)
+            detail.set_detail_level(near, detail.CHOSEN)
             world.step(TICK)
-            self.assertNotEqual(detail.rung(near), 0)
+            self.assertNotEqual(detail.detail_level(near), 0)
 
     def test_a_budget_is_kept(self):
         with runtime.World(runtime.flat(0.0), capacity=20) as world:
@@ -82,7 +82,7 @@ class Detail(unittest.TestCase):
             detail.look(world, [detail.view(eye=(0, 0.5, 0), forward=(0, 0, 1))])
             world.step(TICK)
             free = detail.visits(world)
-            self.assertEqual({detail.rung(one) for one in lizards}, {0})
+            self.assertEqual({detail.detail_level(one) for one in lizards}, {0})
             detail.choose(world, error_px=0.01, budget_us=free / 2 / 1e3, ns_per_visit=1)
             world.step(TICK)
             self.assertLessEqual(detail.visits(world), free / 2)

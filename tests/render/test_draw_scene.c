@@ -31,7 +31,7 @@ START_TEST(notes_hang_from_the_top)
   ck_assert_uint_gt(one, 10);
   draw_scene_add_note(scene, "it's 1,5 %", NULL);
   ck_assert_uint_lt(scene->overlay.count - one, one);
-  draw_scene_place_overlay(scene, &camera, 1440, 1440);
+  draw_scene_arrange_overlay(scene, &camera, 1440, 1440);
   const draw_line *lines = scene->placed_overlay.at;
   for (size_t i = 0; i < scene->placed_overlay.count; i++) {
     ck_assert_float_gt(lines[i].from.y, i < one ? 0.92f : 0.85f);
@@ -63,14 +63,14 @@ END_TEST
 START_TEST(corners_keep_their_places_in_the_image)
 {
   static const uint32_t three[9] = {0, 1, 2, 0, 9, 1, 0, 2, 3};
-  const draw_place place = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
+  const draw_transform transform = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
   const draw_image image = {1, 1};
   sbf_vec2 uvs[9];
   for (int i = 0; i < 9; i++) uvs[i] = (sbf_vec2){(float)i, 0.5f};
   draw_mesh mesh = square;
   mesh.triangles = three;
   mesh.triangle_count = 3;
-  mesh.place = &place;
+  mesh.transform = &transform;
   mesh.image = &image;
   mesh.corner_uvs = uvs;
   draw_scene_add_mesh(scene, &square);
@@ -90,7 +90,7 @@ START_TEST(corners_keep_their_normals)
 {
   static const uint32_t three[9] = {0, 1, 2, 0, 9, 1, 0, 2, 3};
   static const sbf_vec3 smooth[4] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-  const draw_place place = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {0, 0, 0}};
+  const draw_transform transform = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {0, 0, 0}};
   sbf_vec3 normals[9];
   for (int i = 0; i < 9; i++) normals[i] = i < 3 ? v3(0, 1, 0) : v3(0, 0, 1);
   draw_mesh mesh = square;
@@ -98,7 +98,7 @@ START_TEST(corners_keep_their_normals)
   mesh.triangle_count = 3;
   mesh.normals = smooth;
   mesh.corner_normals = normals;
-  mesh.place = &place;
+  mesh.transform = &transform;
   draw_scene_add_mesh(scene, &mesh);
   ck_assert_uint_eq(scene->positions.count, 6);
   for (size_t i = 0; i < 6; i++) {
@@ -111,9 +111,9 @@ END_TEST
 START_TEST(placed_mesh_is_turned_and_moved)
 {
   /* A quarter turn about +Y takes +Z to +X. */
-  const draw_place place = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
+  const draw_transform transform = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
   draw_mesh mesh = square;
-  mesh.place = &place;
+  mesh.transform = &transform;
   mesh.flat = _i == 1;
   draw_scene_add_mesh(scene, &mesh);
   ck_assert_float_eq_tol(normal_at(0).x, 1, 1e-5f);
@@ -140,9 +140,9 @@ START_TEST(far_veils_come_first)
 {
   static const float depths[] = {1, 4, -3};
   for (int i = 0; i < 3; i++) {
-    const draw_place place = {{0, 0, 0, 1}, {0, 0, depths[i]}};
+    const draw_transform transform = {{0, 0, 0, 1}, {0, 0, depths[i]}};
     draw_mesh mesh = square;
-    mesh.place = &place;
+    mesh.transform = &transform;
     mesh.transparency = 0.5f;
     draw_scene_add_mesh(scene, &mesh);
     draw_scene_add_mesh(scene, &square);
@@ -197,7 +197,7 @@ END_TEST
 
 START_TEST(steady_frames_allocate_nothing)
 {
-  const void *places[4] = {NULL};
+  const void *positions[4] = {NULL};
   for (int frame = 0; frame < 4; frame++) {
     draw_scene_clear(scene);
     for (int i = 0; i < 50; i++) draw_scene_add_mesh(scene, &square);
@@ -206,8 +206,8 @@ START_TEST(steady_frames_allocate_nothing)
     draw_scene_sort(scene, v3(0, 0, 20), v3(0, 0, 1));
     const void *now[4] = {scene->positions.at, scene->indices.at, scene->lines.at, scene->sorted_lines.at};
     for (int k = 0; k < 4; k++) {
-      if (frame) ck_assert_ptr_eq(now[k], places[k]);
-      places[k] = now[k];
+      if (frame) ck_assert_ptr_eq(now[k], positions[k]);
+      positions[k] = now[k];
     }
   }
 }

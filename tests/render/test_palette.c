@@ -48,13 +48,13 @@ END_TEST
 
 START_TEST(kinds_look_different)
 {
-  for (int a = 0; a < DRAW_SPRING_LOOK_COUNT; a++)
+  for (int a = 0; a < DRAW_SPRING_STYLE_COUNT; a++)
     for (int b = 0; b < a; b++) {
-      draw_colour x = draw_spring_look_of((draw_spring_look_kind)a)->colour;
-      draw_colour y = draw_spring_look_of((draw_spring_look_kind)b)->colour;
+      draw_colour x = draw_spring_style_of((draw_spring_style_kind)a)->colour;
+      draw_colour y = draw_spring_style_of((draw_spring_style_kind)b)->colour;
       ck_assert_int_gt(abs(x.r - y.r) + abs(x.g - y.g) + abs(x.b - y.b), 100);
     }
-  ck_assert_ptr_nonnull(draw_spring_look_of((draw_spring_look_kind)99));
+  ck_assert_ptr_nonnull(draw_spring_style_of((draw_spring_style_kind)99));
 }
 END_TEST
 

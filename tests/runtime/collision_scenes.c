@@ -27,7 +27,7 @@ void collision_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t col
 
 sbf_level *collision_sheet(
     scene *s, uint32_t body, sbf_vec3 center, float side, uint32_t cells, bool pinned) {
-  uint32_t n = cells + 1, springs = 0, held = 0;
+  uint32_t n = cells + 1, springs = 0, pinned_points = 0;
   sbf_vec3 *at = calloc((size_t)n * n, sizeof *at);
   float *masses = calloc((size_t)n * n, sizeof *masses),
         *stiffness = calloc(6 * (size_t)n * n, sizeof *stiffness);
@@ -39,7 +39,7 @@ sbf_level *collision_sheet(
     at[i] = (sbf_vec3){center.x + side * ((float)x / (float)cells - 0.5f), center.y,
         center.z + side * ((float)z / (float)cells - 0.5f)};
     masses[i] = 0.2f * side * side / (float)(n * n);
-    if (pinned && (x == 0 || z == 0 || x == cells || z == cells)) rim[held++] = i;
+    if (pinned && (x == 0 || z == 0 || x == cells || z == cells)) rim[pinned_points++] = i;
     const int steps[6][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}};
     for (int k = 0; k < 6; k++) {
       int64_t to_x = (int64_t)x + steps[k][0], to_z = (int64_t)z + steps[k][1];
@@ -50,7 +50,7 @@ sbf_level *collision_sheet(
   }
   sbf_level *level = scene_points(s, body, at, masses, n * n);
   scene_springs(s, level, ends, stiffness, springs);
-  if (pinned) scene_pin(s, level, -1, rim, held);
+  if (pinned) scene_pin(s, level, -1, rim, pinned_points);
   collision_surface(s, body, at, n, n);
   free(at), free(masses), free(stiffness), free(ends), free(rim);
   return level;
@@ -83,13 +83,13 @@ sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3
   return id;
 }
 
-void collision_check_over(scene *s, float (*over)(const scene *), bool meets) {
+void collision_check_over(scene *s, float (*over)(const scene *), bool collides) {
   float min = 9;
   for (int i = 0; i < 60; i++) {
     scene_ticks(s, 1);
     min = fminf(min, over(s));
   }
-  if (meets)
+  if (collides)
     ck_assert_float_ge(min, 0.002f);
   else
     ck_assert_float_le(min, -0.05f);

@@ -20,7 +20,7 @@ sbr_shape_definition collision_box(float x, float y, float z);
 sbr_shape *collision_shape(sbr_shape_definition definition);
 sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3 position);
 
-/* For a second, what `over` tells stays above 2 mm where it `meets`; else it falls through, by 5 cm. */
-void collision_check_over(scene *s, float (*over)(const scene *), bool meets);
+/* For a second, what `over` tells stays above 2 mm where it `collides`; else it falls through, by 5 cm. */
+void collision_check_over(scene *s, float (*over)(const scene *), bool collides);
 
 #endif

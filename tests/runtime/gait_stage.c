@@ -11,7 +11,7 @@ static void make(gait_stage *s) {
   sbri_rig_init(&s->rig, s->asset, s->memory);
   s->state = malloc(sbri_gait_state_size(&s->rig));
   s->pose = calloc(s->rig.bone_count, sizeof *s->pose);
-  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
+  sbri_gait_reset(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
   sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
 }
 
@@ -53,7 +53,7 @@ void gait_stage_remake(gait_stage *s) {
 
 void gait_stage_ticks(gait_stage *s, int count) {
   for (int i = 0; i < count; i++) {
-    sbri_gait_settle(&s->rig, s->state);
+    sbri_gait_begin_tick(&s->rig, s->state);
     sbri_gait_tick(&s->rig, s->state, &s->input, s->pose, NULL, 0);
   }
 }

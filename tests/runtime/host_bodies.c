@@ -10,7 +10,7 @@ static const double TICK_S = 1.0 / 60, G = 9.81;
 host_body host_body_make(
     scene *s, sbr_shape_definition form, double mass, const sbf_vec3 *arms, uint32_t parts, sbr_double3 at) {
   host_body b = {
-      .shape = collision_shape(form), .mass = mass, .weight = G, .turn = {0, 0, 0, 1}, .parts = parts};
+      .shape = collision_shape(form), .mass = mass, .weight = G, .rotation = {0, 0, 0, 1}, .parts = parts};
   sbf_vec3 h = form.half_sizes;
   const double half[3] = {(double)h.x, (double)h.y, (double)h.z};
   for (int k = 0; k < 3; k++) {
@@ -39,39 +39,39 @@ static sbf_vec3 single(const double v[3]) {
 
 void host_body_tell(scene *s, host_body *b) {
   for (uint32_t i = 0; i < b->parts; i++) {
-    sbf_vec3 arm = sbri_rotate(b->turn, b->arms[i]);
+    sbf_vec3 arm = sbri_rotate(b->rotation, b->arms[i]);
     sbr_collider_motion m = {
         .position = {b->at[0] + (double)arm.x, b->at[1] + (double)arm.y, b->at[2] + (double)arm.z},
-        .rotation = b->turn,
-        .velocity = sbri_add(single(b->velocity), sbri_cross(single(b->spin), arm)),
-        .spin = single(b->spin),
+        .rotation = b->rotation,
+        .velocity = sbri_add(single(b->velocity), sbri_cross(single(b->angular_velocity), arm)),
+        .angular_velocity = single(b->angular_velocity),
         .acceleration = {0, (float)-b->weight, 0},
-        .since_s = b->told ? (float)TICK_S : 0};
+        .since_s = b->is_reported ? (float)TICK_S : 0};
     sbr_collider_set_motion(s->world, b->ids[i], &m);
   }
-  b->told = true;
+  b->is_reported = true;
 }
 
 /* Its push and its weight, then its way; `floor`: a height that its middle does not go below. */
 static void take(scene *s, host_body *b, double floor) {
   b->velocity[1] -= b->weight * TICK_S;
   for (uint32_t i = 0; i < b->parts; i++) {
-    sbr_collider_push push = sbr_collider_take_push(s->world, b->ids[i]);
-    sbf_vec3 turn = sbri_add(push.moment, sbri_cross(sbri_rotate(b->turn, b->arms[i]), push.impulse));
+    sbr_collider_impulse push = sbr_collider_take_impulse(s->world, b->ids[i]);
+    sbf_vec3 turn = sbri_add(push.moment, sbri_cross(sbri_rotate(b->rotation, b->arms[i]), push.impulse));
     /* What turns it is taken along its own axes: balls, and crates that hardly turn. */
     const float j[3] = {push.impulse.x, push.impulse.y, push.impulse.z}, l[3] = {turn.x, turn.y, turn.z};
     for (int k = 0; k < 3; k++) {
       b->velocity[k] += (double)j[k] / b->mass;
-      b->spin[k] += (double)l[k] / b->inertia[k];
+      b->angular_velocity[k] += (double)l[k] / b->inertia[k];
     }
   }
   if (b->at[1] + TICK_S * b->velocity[1] < floor) {
     b->velocity[1] = (floor - b->at[1]) / TICK_S;
-    for (int k = 0; k < 3; k++) b->spin[k] = 0;
+    for (int k = 0; k < 3; k++) b->angular_velocity[k] = 0;
   }
   for (int k = 0; k < 3; k++) b->at[k] += TICK_S * b->velocity[k];
-  sbf_vec3 half = sbri_scale(single(b->spin), (float)TICK_S / 2);
-  b->turn = sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, b->turn));
+  sbf_vec3 half = sbri_scale(single(b->angular_velocity), (float)TICK_S / 2);
+  b->rotation = sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, b->rotation));
 }
 
 void host_body_go(scene *s, host_body *b, uint32_t ticks, double floor) {

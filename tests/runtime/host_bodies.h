@@ -12,9 +12,9 @@ typedef struct host_body {
   sbr_collider_id ids[HOST_BODY_PARTS];
   sbf_vec3 arms[HOST_BODY_PARTS]; /* of its colliders */
   uint32_t parts;
-  double mass, inertia[3], at[3], velocity[3], spin[3], weight; /* the last in m/s^2 */
-  sbf_quat turn;
-  bool told;
+  double mass, inertia[3], at[3], velocity[3], angular_velocity[3], weight; /* the last in m/s^2 */
+  sbf_quat rotation;
+  bool is_reported;
 } host_body;
 
 /* Of `parts` colliders at `arms`, NULL: at its place; friction 0.5, restitution 0. */

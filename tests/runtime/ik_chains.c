@@ -38,9 +38,9 @@ void ik_chain_bent(ik_chain_fixture *f) {
 
 void ik_chain_limit(ik_chain_fixture *f, float max) {
   /* The joint's +X is the link's +Y. */
-  sbf_quat turn = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(1, 0, 0));
-  f->limit = (sbri_joint_limit){.before = turn,
-      .after = sbri_quat_conjugate(turn),
+  sbf_quat rotation = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(1, 0, 0));
+  f->limit = (sbri_joint_limit){.before = rotation,
+      .after = sbri_quat_conjugate(rotation),
       .twist = {-0.5f, 0.5f},
       .swing_y = {-3.2f, 3.2f},
       .swing_z = {-3.2f, 3.2f},
@@ -58,7 +58,7 @@ float ik_chain_excess(const ik_chain_fixture *f) {
 
 static sbf_vec3 end_of(const ik_chain_fixture *f) {
   sbr_transform frames[IK_CHAIN_JOINTS];
-  sbri_ik_frames(&f->chain, frames);
+  sbri_ik_compute_frames(&f->chain, frames);
   for (int i = 1; i < IK_CHAIN_JOINTS; i++) {
     float length = sbri_length(sbri_sub(frames[i].position, frames[i - 1].position));
     ck_assert_float_eq_tol(length, 1, 1e-5f);
@@ -105,9 +105,9 @@ void ik_expect_keeps_hinges(ik_method *solve, int min) {
   uint32_t seed = 13;
   int reached = 0;
   for (int k = 0; k < 2; k++) {
-    sbf_quat turn = sbri_quat_between(axes[k], sbri_vec3(1, 0, 0));
-    hinges[k] = (sbri_joint_limit){.before = turn,
-        .after = sbri_quat_conjugate(turn),
+    sbf_quat rotation = sbri_quat_between(axes[k], sbri_vec3(1, 0, 0));
+    hinges[k] = (sbri_joint_limit){.before = rotation,
+        .after = sbri_quat_conjugate(rotation),
         .twist = {-0.3f, 1.2f},
         .cone = 3.2f,
         .active = true};
@@ -160,7 +160,7 @@ void ik_expect_bows_to_pole(ik_method *solve) {
     sbri_ik_result r = solve(&f.chain);
     if (!r.reached || sbri_length(f.chain.target) < 1) continue;
     sbr_transform frames[IK_CHAIN_JOINTS];
-    sbri_ik_frames(&f.chain, frames);
+    sbri_ik_compute_frames(&f.chain, frames);
     sbf_vec3 along = sbri_normalize(f.chain.target, sbri_vec3(0, 1, 0)), bow = {0, 0, 0};
     for (int k = 1; k + 1 < IK_CHAIN_JOINTS; k++) {
       sbf_vec3 p = frames[k].position;
@@ -183,7 +183,7 @@ void ik_expect_copies_rotation(ik_method *solve) {
     f.chain.copy_rotation = 1;
     sbri_ik_result r = solve(&f.chain);
     sbr_transform frames[IK_CHAIN_JOINTS];
-    sbri_ik_frames(&f.chain, frames);
+    sbri_ik_compute_frames(&f.chain, frames);
     sbf_quat a = frames[IK_CHAIN_JOINTS - 1].rotation, b = f.chain.target_rotation;
     ck_assert_float_ge(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 0.99999f);
     ck_assert_float_le(r.error, 1);
@@ -210,7 +210,7 @@ void ik_expect_eases(ik_method *solve, float off) {
   const float reach = 10, soft = 0.1f;
   float last = 0;
   for (int i = 0; i <= 80; i++) {
-    float out = 8 + 0.05f * (float)i, eased = sbri_ease_reach(out, reach, soft);
+    float out = 8 + 0.05f * (float)i, eased = sbri_soften_reach(out, reach, soft);
     ik_chain_fixture f;
     ik_chain_bent(&f);
     f.chain.soft_reach = soft;

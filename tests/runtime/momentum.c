@@ -28,8 +28,8 @@ scene_momentum scene_momentum_of(const scene *s) {
     for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
       const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
       add(&m, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
-      m.angular[0] += (double)body->spin.x, m.angular[1] += (double)body->spin.y;
-      m.angular[2] += (double)body->spin.z;
+      m.angular[0] += (double)body->angular_momentum.x, m.angular[1] += (double)body->angular_momentum.y;
+      m.angular[2] += (double)body->angular_momentum.z;
     }
     for (uint32_t k = 0; k < c->model->island_count; k++) {
       const sbri_island now = sbri_island_now(c, &c->model->islands[k]), *island = &now;
@@ -45,7 +45,7 @@ scene_momentum scene_momentum_of(const scene *s) {
 double scene_energy_of(const scene *s) {
   double sum = rigid_energy(s, s->asset->rigid_bodies.count);
   for (uint32_t b = 0; b < s->asset->soft_bodies.count; b++) {
-    sbr_body_health health = sbr_character_health(s->world, s->character, b);
+    sbr_body_health health = sbr_character_get_body_health(s->world, s->character, b);
     sum += health.kinetic_j + health.elastic_j + health.potential_j;
   }
   return sum;

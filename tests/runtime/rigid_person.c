@@ -67,9 +67,9 @@ float person_fastest(const scene *s) {
 }
 
 void person_shove(const scene *s, uint32_t body, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   sbf_vec3 c = rigid_state(s, body).center;
-  sbr_character_rigid_push(s->world, s->character, body,
+  sbr_character_apply_rigid_impulse(s->world, s->character, body,
       (sbr_double3){o.x + (double)c.x, o.y + (double)c.y + 0.05 * (double)s->character_definition.scale,
           o.z + (double)c.z},
       impulse);

@@ -52,13 +52,14 @@ uint32_t rigid_box(scene *s, sbf_vec3 center, sbf_vec3 size, float mass) {
   return number;
 }
 
-static sbf_frame frame_in(const scene *s, int32_t body, sbf_vec3 place, sbf_quat axes) {
+static sbf_frame frame_in(const scene *s, int32_t body, sbf_vec3 position, sbf_quat axes) {
   sbf_vec3 from = {0, 0, 0};
   if (body >= 0) from = s->asset->rigid_bodies.at[body].center;
-  return (sbf_frame){{place.x - from.x, place.y - from.y, place.z - from.z}, axes};
+  return (sbf_frame){{position.x - from.x, position.y - from.y, position.z - from.z}, axes};
 }
 
-sbf_joint *rigid_joint(scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf_vec3 place, sbf_quat axes) {
+sbf_joint *rigid_joint(
+    scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf_vec3 position, sbf_quat axes) {
   uint32_t number = s->asset->joints.count++;
   ck_assert_uint_lt(number, RIGID_MAX);
   sbf_joint *joint = (sbf_joint *)(uintptr_t)&s->asset->joints.at[number];
@@ -67,8 +68,8 @@ sbf_joint *rigid_joint(scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf
   joint->kind = kind;
   joint->body_a = a;
   joint->body_b = (int32_t)b;
-  joint->frame_a = frame_in(s, a, place, axes);
-  joint->frame_b = frame_in(s, (int32_t)b, place, axes);
+  joint->frame_a = frame_in(s, a, position, axes);
+  joint->frame_b = frame_in(s, (int32_t)b, position, axes);
   return joint;
 }
 
@@ -91,11 +92,11 @@ void rigid_drive(scene *s, sbf_joint *joint, sbf_drive drive) {
 }
 
 sbr_rigid_state rigid_state(const scene *s, uint32_t body) {
-  return sbr_character_rigid_state(s->world, s->character, body);
+  return sbr_character_get_rigid_state(s->world, s->character, body);
 }
 
 sbr_joint_state rigid_joint_state(const scene *s, uint32_t joint) {
-  return sbr_character_joint_state(s->world, s->character, joint);
+  return sbr_character_get_joint_state(s->world, s->character, joint);
 }
 
 double rigid_energy(const scene *s, uint32_t body_count) {
@@ -122,9 +123,9 @@ void rigid_pin(
 }
 
 void rigid_push(const scene *s, uint32_t body, sbf_vec3 offset, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   sbf_vec3 c = rigid_state(s, body).center;
   sbr_double3 at = {
       o.x + (double)(c.x + offset.x), o.y + (double)(c.y + offset.y), o.z + (double)(c.z + offset.z)};
-  sbr_character_rigid_push(s->world, s->character, body, at, impulse);
+  sbr_character_apply_rigid_impulse(s->world, s->character, body, at, impulse);
 }

@@ -14,8 +14,9 @@ scene rigid_begin(void);
 /* A dynamic box of that size and mass about `center`; returns its number. */
 uint32_t rigid_box(scene *s, sbf_vec3 center, sbf_vec3 size, float mass);
 sbf_rigid_body *rigid_body(scene *s, uint32_t number);
-/* A joint whose frames meet at `place` (asset space), their axes turned by `axes`; `a` -1: the world. */
-sbf_joint *rigid_joint(scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf_vec3 place, sbf_quat axes);
+/* A joint whose frames meet at `position` (asset space), their axes turned by `axes`; `a` -1: the world. */
+sbf_joint *rigid_joint(
+    scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf_vec3 position, sbf_quat axes);
 void rigid_limit(scene *s, sbf_joint *joint, sbf_limit limit);
 void rigid_drive(scene *s, sbf_joint *joint, sbf_drive drive);
 

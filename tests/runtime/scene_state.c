@@ -23,9 +23,9 @@ void scene_comes_back(const scene *s) {
   scene going = *s;
   for (int i = 0; i < 60; i++) {
     scene_ticks(&going, 1);
-    ck_assert(sbr_character_health(s->world, s->character, 0).finite);
+    ck_assert(sbr_character_get_body_health(s->world, s->character, 0).finite);
   }
-  sbr_body_health health = sbr_character_health(s->world, s->character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s->world, s->character, 0);
   ck_assert(!health.inverted);
   ck_assert_float_lt(health.max_strain, 0.1f);
 }

@@ -123,11 +123,11 @@ void scene_bone(scene *s, sbf_vec3 head) {
 
 sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box) {
   sbf_level *level = scene_points(s, body, box->positions, box->masses, box->point_count);
-  uint32_t held_count = 0, *held = sbf_asset_allocate(s->asset, box->point_count, sizeof *held);
-  ck_assert_ptr_nonnull(held);
+  uint32_t pinned_count = 0, *pinned = sbf_asset_allocate(s->asset, box->point_count, sizeof *pinned);
+  ck_assert_ptr_nonnull(pinned);
   for (uint32_t i = 0; i < box->point_count; i++)
-    if (!(box->masses[i] > 0)) held[held_count++] = i;
-  if (held_count) scene_pin(s, level, -1, held, held_count);
+    if (!(box->masses[i] > 0)) pinned[pinned_count++] = i;
+  if (pinned_count) scene_pin(s, level, -1, pinned, pinned_count);
   uint32_t count = box->tetrahedron_count;
   level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
   level->lattice.tetrahedra =
@@ -235,17 +235,17 @@ typedef struct box {
   uint32_t point_count;
   uint32_t *quads; /* (quad_count x 4) */
   uint32_t quad_count;
-  uint32_t *place; /* ((cells + 1)^3) number of the point at each lattice place of the surface */
+  uint32_t *slots; /* ((cells + 1)^3) number of the point at each lattice place of the surface */
 } box;
 
 static uint32_t box_point(box *b, const uint32_t at[3]) {
-  uint32_t n = b->cells + 1, *place = &b->place[(at[0] * n + at[1]) * n + at[2]];
-  if (*place == 0) {
+  uint32_t n = b->cells + 1, *slots = &b->slots[(at[0] * n + at[1]) * n + at[2]];
+  if (*slots == 0) {
     b->points[b->point_count++] = (sbf_vec3){b->low.x + b->step.x * (float)at[0],
         b->low.y + b->step.y * (float)at[1], b->low.z + b->step.z * (float)at[2]};
-    *place = b->point_count;
+    *slots = b->point_count;
   }
-  return *place - 1;
+  return *slots - 1;
 }
 
 /* One side, square to `axis`, at its low or its high end, seen from outside counter-clockwise. */
@@ -300,7 +300,7 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
       .step = {size.x / (float)cells, size.y / (float)cells, size.z / (float)cells},
       .points = calloc(lattice + quad_count + 1, sizeof *b.points),
       .quads = calloc(quad_count, 4 * sizeof *b.quads),
-      .place = calloc(lattice, sizeof *b.place)};
+      .slots = calloc(lattice, sizeof *b.slots)};
   for (int axis = 0; axis < 3; axis++)
     for (int high = 0; high < 2; high++) box_side(&b, axis, high);
 
@@ -335,19 +335,19 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
     diagonals[shear++] = (sbf_uint2){{at[1], at[3]}};
   }
   sbf_level *level = scene_points(s, body_index, b.points, NULL, b.point_count);
-  uint32_t *held = calloc(b.point_count - surface, sizeof *held);
-  for (uint32_t i = surface; i < b.point_count; i++) held[i - surface] = i;
-  scene_pin(s, level, 0, held, b.point_count - surface);
+  uint32_t *pinned = calloc(b.point_count - surface, sizeof *pinned);
+  for (uint32_t i = surface; i < b.point_count; i++) pinned[i - surface] = i;
+  scene_pin(s, level, 0, pinned, b.point_count - surface);
 
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   float *volumes = calloc(b.point_count, sizeof *volumes);
   sbf_vec3 *normals = calloc(b.point_count, sizeof *normals);
-  uint8_t *is_held = calloc(b.point_count, 1);
+  uint8_t *is_point_pinned = calloc(b.point_count, 1);
   double *scratch = calloc(9 * (size_t)b.point_count, sizeof *scratch);
   float *stiffness = calloc(12 * (size_t)quad_count + surface, sizeof *stiffness);
-  sbf_level_held_points(level, is_held);
-  sbf_level_shares(body, level, is_held, volumes);
+  sbf_level_held_points(level, is_point_pinned);
+  sbf_level_shares(body, level, is_point_pinned, volumes);
   for (uint32_t i = 0; i < b.point_count; i++) volumes[i] *= (float)measures.volume;
   memmove(pairs + structural, diagonals, shear * sizeof *pairs);
   double modulus = body->attributes.young_modulus;
@@ -358,16 +358,17 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
     float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
     normals[i] = (sbf_vec3){n.x / length, n.y / length, n.z / length};
   }
-  sbf_stiffness_of_anchors(modulus, measures.depth, normals, b.points, b.point_count, volumes, is_held, inner,
-      internal, scratch, stiffness + structural + shear);
+  sbf_stiffness_of_anchors(modulus, measures.depth, normals, b.points, b.point_count, volumes,
+      is_point_pinned, inner, internal, scratch, stiffness + structural + shear);
   sbf_spring_set *sets = sbf_asset_allocate(s->asset, 3, sizeof *sets);
   uint32_t set_count = 0;
   add_set(s, sets, &set_count, SBF_SPRING_KIND_STRUCTURAL, pairs, stiffness, structural);
   add_set(s, sets, &set_count, SBF_SPRING_KIND_SHEAR, pairs + structural, stiffness + structural, shear);
   add_set(s, sets, &set_count, SBF_SPRING_KIND_INTERNAL, inner, stiffness + structural + shear, internal);
   level->springs = (sbf_spring_set_list){sets, set_count};
-  free(normals), free(stiffness), free(scratch), free(is_held), free(volumes), free(held), free(pairs);
-  free(b.place), free(b.quads), free(b.points);
+  free(normals), free(stiffness), free(scratch), free(is_point_pinned), free(volumes), free(pinned),
+      free(pairs);
+  free(b.slots), free(b.quads), free(b.points);
 }
 
 void scene_skin(scene *s, uint32_t body_index) {
@@ -438,7 +439,7 @@ void scene_ticks(scene *s, uint32_t ticks) {
 }
 
 uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity) {
-  return sbr_character_points(s->world, s->character, body, positions, capacity);
+  return sbr_character_get_points(s->world, s->character, body, positions, capacity);
 }
 
 sbf_vec3 scene_point(const scene *s, uint32_t body, uint32_t point) {

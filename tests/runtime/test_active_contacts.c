@@ -1,8 +1,8 @@
 /* Heavy bodies on light ones come to rest. */
 #include <math.h>
 
+#include "contact_scenes.h"
 #include "harness.h"
-#include "meeting_scenes.h"
 #include "random.h"
 
 static const sbf_vec3 gravity = {0, -9.81f, 0};

@@ -33,10 +33,10 @@ static bool is_made_for(sbf_scheme scheme, kind what) {
   return scheme != SBF_SCHEME_RELAXATION || what < SOLID_HELD;
 }
 
-static void add_solid(scene *s, bool held) {
+static void add_solid(scene *s, bool pinned) {
   lattice_box box = lattice_box_make(
       (sbf_vec3){-0.3f, 0.8f, -0.2f}, (sbf_vec3){0.6f, 0.4f, 0.4f}, 3, 2, 2, 1000, 1e5f, 0.4f);
-  if (held) lattice_box_hold(&box);
+  if (pinned) lattice_box_hold(&box);
   scene_lattice(s, 0, &box);
   lattice_box_free(&box);
 }
@@ -93,7 +93,7 @@ START_TEST(bad_starts_are_survived)
       int whole = 0, since = 0; /* ticks that it is whole; the first of them, once they are ten */
       for (int i = 1; i <= TICKS; i++) {
         scene_ticks(&s, 1);
-        sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+        sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
         ck_assert(h.finite);
         whole = is_whole(&h, (kind)what) ? whole + 1 : 0;
         if (whole == 10 && !since) since = i - 9;

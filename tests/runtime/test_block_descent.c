@@ -64,11 +64,11 @@ START_TEST(it_damps_as_implicit_euler_does)
   const sbf_vec3 at[2] = {{0, 0, 0}, {1, 0, 0}};
   const float masses[2] = {1, 1};
   const sbf_uint2 ends = {{0, 1}};
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   scene s = scene_begin();
   sbf_level *level = scene_points(&s, 0, at, masses, 2);
   scene_springs(&s, level, &ends, &k, 1);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   scene_body(&s, 0)->attributes.gravity_scale = 0;
   s.model_options.scheme = SBF_SCHEME_BLOCK_DESCENT;
   s.model_options.substeps = 4;
@@ -103,12 +103,12 @@ START_TEST(nothing_is_too_stiff)
   double max = 0;
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite);
     if (i > 60) max = fmax(max, health.kinetic_j);
   }
   ck_assert_double_lt(max, 5);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   if (_i == 0) ck_assert(!health.inverted);
   scene_free(&s);
 }
@@ -149,7 +149,7 @@ START_TEST(every_width_gives_the_same_bits)
 {
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
-    if (!sbr_instructions_available((sbr_instructions)i)) continue;
+    if (!sbr_instructions_are_available((sbr_instructions)i)) continue;
     scene s = scene_begin();
     scene_bodies(&s, 2);
     scene_bone(&s, (sbf_vec3){0, 0.1f, 0});
@@ -167,16 +167,16 @@ START_TEST(every_width_gives_the_same_bits)
     s.model_options.scheme = SBF_SCHEME_BLOCK_DESCENT;
     s.model_options.instructions = (sbr_instructions)i;
     scene_start(&s);
-    sbr_character_drive(s.world, s.character, 0.3f, 0, 0.5f);
+    sbr_character_set_drive(s.world, s.character, 0.3f, 0, 0.5f);
     scene_ticks(&s, 90);
-    uint64_t found = sbr_world_state_hash(s.world);
+    uint64_t found = sbr_world_get_state_hash(s.world);
     for (uint32_t b = 0; b < 2; b++) {
-      sbr_body_health health = sbr_character_health(s.world, s.character, b);
+      sbr_body_health health = sbr_character_get_body_health(s.world, s.character, b);
       ck_assert(health.finite && !health.inverted);
       ck_assert_uint_eq(health.recoveries, 0);
     }
     if (!hash) hash = found;
-    ck_assert_msg(found == hash, "%s", sbr_instructions_name((sbr_instructions)i));
+    ck_assert_msg(found == hash, "%s", sbr_instructions_get_name((sbr_instructions)i));
     scene_free(&s);
   }
 }

@@ -15,31 +15,31 @@ static sbf_gait *gait_of(gait_stage *s) {
 
 /* With one foot so far ahead of where it stands, the body facing anywhere. */
 static sbri_stance stance_with(gait_stage *s, uint32_t leg, float ahead, float heading) {
-  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), heading);
+  sbri_gait_reset(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), heading);
   sbf_vec3 *foot = &s->state->feet[leg].ground;
   *foot = sbri_add(*foot, sbri_vec3(ahead * sinf(heading), 0, ahead * cosf(heading)));
   return sbri_body_stance(&s->rig, s->state, &s->input);
 }
 
-/* Of `share` of the line's angle, feet standing wide enough for it to count nearly whole. */
-static void expect_turn(float yaw, float share, float side) {
-  float angle = share * atan2f(AHEAD, ACROSS), turn = 0.8f * angle / (0.8f + angle);
+/* Of `fraction` of the line's angle, feet standing wide enough for it to count nearly whole. */
+static void expect_turn(float yaw, float fraction, float side) {
+  float angle = fraction * atan2f(AHEAD, ACROSS), turn = 0.8f * angle / (0.8f + angle);
   ck_assert_float_le(side * yaw, turn);
   ck_assert_float_ge(side * yaw, 0.9f * turn);
 }
 
 START_TEST(hips_turn_with_the_line_between_the_feet)
 {
-  static const float headings[3] = {0, 1.1f, -2.7f}, shares[3] = {0.5f, 1, 0};
+  static const float headings[3] = {0, 1.1f, -2.7f}, fractions[3] = {0.5f, 1, 0};
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
-  gait_of(&s)->hip_tilt = shares[_i];
+  gait_of(&s)->hip_tilt = fractions[_i];
   for (int h = 0; h < 3; h++) {
     ck_assert_float_le(fabsf(stance_with(&s, QUADRUPED_HIND_L, 0, headings[h]).hips_yaw), 1e-5f);
     /* About +Y, the side whose foot is ahead goes ahead. */
-    expect_turn(stance_with(&s, QUADRUPED_HIND_L, AHEAD, headings[h]).hips_yaw, shares[_i], -1);
-    expect_turn(stance_with(&s, QUADRUPED_HIND_R, AHEAD, headings[h]).hips_yaw, shares[_i], 1);
-    expect_turn(stance_with(&s, QUADRUPED_HIND_R, -AHEAD, headings[h]).hips_yaw, shares[_i], -1);
+    expect_turn(stance_with(&s, QUADRUPED_HIND_L, AHEAD, headings[h]).hips_yaw, fractions[_i], -1);
+    expect_turn(stance_with(&s, QUADRUPED_HIND_R, AHEAD, headings[h]).hips_yaw, fractions[_i], 1);
+    expect_turn(stance_with(&s, QUADRUPED_HIND_R, -AHEAD, headings[h]).hips_yaw, fractions[_i], -1);
     ck_assert_float_le(fabsf(stance_with(&s, QUADRUPED_HIND_R, AHEAD, headings[h]).chest_yaw), 1e-5f);
   }
   gait_stage_end(&s);
@@ -67,7 +67,7 @@ START_TEST(crossed_feet_do_not_turn_the_hips_round)
   gait_stage s;
   gait_stage_begin(&s, quadruped_asset());
   gait_of(&s)->hip_tilt = 1;
-  sbri_gait_place(&s.rig, s.state, &s.input, sbri_vec3(0, 0, 0), 0);
+  sbri_gait_reset(&s.rig, s.state, &s.input, sbri_vec3(0, 0, 0), 0);
   s.state->feet[QUADRUPED_HIND_L].ground = sbri_vec3(-0.3f, 0, 0.3f);
   s.state->feet[QUADRUPED_HIND_R].ground = sbri_vec3(0.3f, 0, -0.3f);
   float yaw = sbri_body_stance(&s.rig, s.state, &s.input).hips_yaw;

@@ -36,7 +36,7 @@ START_TEST(a_walk_finds_all)
       while (sbri_bounds_walk_next(&walk, &item)) seen[item]++;
       for (uint32_t i = 0; i < counts[n]; i++) {
         ck_assert_uint_le(seen[i], 1);
-        if (sbri_box_meets(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
+        if (sbri_boxes_overlap(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
       }
     }
   }
@@ -72,7 +72,7 @@ START_TEST(a_refitted_tree_finds_all)
       while (sbri_bounds_walk_next(&walk, &item)) seen[item]++;
       for (uint32_t i = 0; i < COUNT; i++) ck_assert_uint_ge(1, seen[i]);
       for (uint32_t i = 0; i < COUNT; i++)
-        if (sbri_box_meets(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
+        if (sbri_boxes_overlap(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
     }
   }
 }

@@ -32,9 +32,9 @@ static sbf_asset *serpent(void) {
   }
   for (int i = 0; i <= LINKS; i++) {
     bool nods = i == LINKS;
-    sbf_quat turn = sbri_quat_about(nods ? sbri_vec3(1, 0, 0) : UP, nods ? 0.5f : 0.1f);
+    sbf_quat rotation = sbri_quat_about(nods ? sbri_vec3(1, 0, 0) : UP, nods ? 0.5f : 0.1f);
     float *values = sbf_asset_allocate(a, 8, sizeof *values);
-    const float keys[8] = {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w};
+    const float keys[8] = {0, 0, 0, 1, rotation.x, rotation.y, rotation.z, rotation.w};
     memcpy(values, keys, sizeof keys);
     sbf_track_init(&tracks[i]);
     tracks[i].bone = i + 1;
@@ -90,7 +90,8 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   sbf_diagnostic error;
   name_chains(q);
   sbf_asset *from = serpent();
-  ck_assert_msg(sbr_carry_clips(q, from, "a serpent", take, &n, &error) == SBF_OK, "%s", error.message);
+  ck_assert_msg(
+      sbr_asset_retarget_clips(q, from, "a serpent", take, &n, &error) == SBF_OK, "%s", error.message);
   sbf_asset_free(from); /* what was carried over stands by itself */
   ck_assert_uint_eq(n.clips, 1);
   ck_assert_uint_eq(n.unmatched, 2);
@@ -107,9 +108,9 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   ck_assert_int_eq(sbr_model_create(q, NULL, &model, NULL), SBF_OK);
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
   ck_assert_int_eq(sbr_character_create(world, model, &standing, &character, NULL), SBF_OK);
-  sbr_character_play(world, character, 0, 0, &how);
+  sbr_character_play_clip(world, character, 0, 0, &how);
   for (int i = 0; i < 90; i++) sbr_world_tick(world);
-  sbr_character_bones(world, character, pose, BONES);
+  sbr_character_get_bones(world, character, pose, BONES);
   /* Three bones for six links: each turns as the second, fourth and sixth have. */
   for (int k = 0; k < 3; k++)
     ck_assert_float_eq_tol(turned(q, pose, TAIL + k, UP), 0.2f * (float)(k + 1), 2e-3f);
@@ -134,7 +135,7 @@ START_TEST(a_loaded_character_takes_clips_too)
   ck_assert_msg(sbf_packed_load_file(path, NULL, &loaded, &error) == SBF_OK, "%s", error.message);
   sbf_asset *from = serpent();
   for (int i = 0; i < 2; i++)
-    ck_assert_int_eq(sbr_carry_clips(loaded, from, NULL, NULL, NULL, &error), SBF_OK);
+    ck_assert_int_eq(sbr_asset_retarget_clips(loaded, from, NULL, NULL, NULL, &error), SBF_OK);
   ck_assert_uint_eq(loaded->clips.count, 2);
   ck_assert_uint_eq(sbf_asset_check(loaded, NULL, NULL, 0), 0);
   sbf_asset_free(from);
@@ -148,12 +149,13 @@ START_TEST(skeletons_that_share_nothing_are_refused)
   sbf_asset *q = quadruped_asset();
   sbf_diagnostic error;
   sbf_asset *from = serpent();
-  ck_assert_int_eq(sbr_carry_clips(q, from, "a serpent", NULL, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(sbr_asset_retarget_clips(q, from, "a serpent", NULL, NULL, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_IMPORT_MOTION_NONE);
   ck_assert_str_eq(error.file, "a serpent");
   ck_assert_uint_eq(q->clips.count, 0);
-  ck_assert_int_eq(sbr_carry_clips(from, q, NULL, NULL, NULL, &error), SBF_BAD_INPUT); /* it has no clip */
-  ck_assert_int_eq(sbr_carry_clips(NULL, from, NULL, NULL, NULL, &error), SBF_FAILED);
+  ck_assert_int_eq(
+      sbr_asset_retarget_clips(from, q, NULL, NULL, NULL, &error), SBF_BAD_INPUT); /* it has no clip */
+  ck_assert_int_eq(sbr_asset_retarget_clips(NULL, from, NULL, NULL, NULL, &error), SBF_FAILED);
   sbf_asset_free(from);
   sbf_asset_free(q);
 }

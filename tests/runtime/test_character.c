@@ -20,7 +20,7 @@ enum { POINTS = 51 };
 
 static sbr_double3 world_point(const scene *s, uint32_t point) {
   sbf_vec3 p = scene_point(s, 0, point);
-  sbr_double3 origin = sbr_character_origin(s->world, s->character);
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
   return (sbr_double3){origin.x + (double)p.x, origin.y + (double)p.y, origin.z + (double)p.z};
 }
 
@@ -61,7 +61,7 @@ START_TEST(it_goes_where_it_is_driven_however_far)
   s.character_definition.position.x = 1e7;
   scene_start(&s);
   sbr_double3 before = world_point(&s, 0);
-  sbr_character_drive(s.world, s.character, 2, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 2, 0, 0);
   double fastest = 0;
   for (int i = 0; i < 1200; i++) {
     sbr_double3 last = world_point(&s, 0);
@@ -73,7 +73,7 @@ START_TEST(it_goes_where_it_is_driven_however_far)
   ck_assert_double_eq_tol(after.z - before.z, 2 * 20, 1);
   ck_assert_double_eq_tol(after.x, before.x, 0.01);
   ck_assert_double_lt(fastest, 4); /* no jump where the origin moves */
-  ck_assert_double_eq_tol(sbr_character_distance(s.world, s.character), after.z - before.z, 0.05);
+  ck_assert_double_eq_tol(sbr_character_get_distance(s.world, s.character), after.z - before.z, 0.05);
   ck_assert_double_lt(deformation(&s), 0.02);
   scene_free(&s);
 }
@@ -83,7 +83,7 @@ START_TEST(a_teleport_leaves_the_shape_and_stops_it)
 {
   scene s = walker();
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 1);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 1);
   scene_ticks(&s, 20);
   double before = deformation(&s);
   ck_assert_double_gt(before, 1e-4);
@@ -92,8 +92,8 @@ START_TEST(a_teleport_leaves_the_shape_and_stops_it)
   sbr_double3 p = world_point(&s, 26); /* the centre */
   ck_assert_double_eq_tol(p.x, -500.5, 0.3);
   ck_assert_double_eq_tol(p.y, 2.5, 0.1);
-  ck_assert_double_eq_tol(sbr_character_health(s.world, s.character, 0).kinetic_j, 0, 1e-12);
-  sbr_character_drive(s.world, s.character, 0, 0, 0);
+  ck_assert_double_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).kinetic_j, 0, 1e-12);
+  sbr_character_set_drive(s.world, s.character, 0, 0, 0);
   scene_ticks(&s, 5);
   ck_assert_double_lt(deformation(&s), 2 * before);
   scene_free(&s);
@@ -104,7 +104,7 @@ START_TEST(a_reset_brings_back_the_rest_shape)
 {
   scene s = walker();
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 1);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 1);
   scene_ticks(&s, 50);
   sbr_double3 before = world_point(&s, 26);
   sbr_character_reset(s.world, s.character);
@@ -122,14 +122,14 @@ START_TEST(a_paused_character_stands_still)
 {
   scene s = walker();
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0);
   scene_ticks(&s, 20);
-  sbr_character_pause(s.world, s.character, true);
+  sbr_character_set_paused(s.world, s.character, true);
   sbr_double3 before = world_point(&s, 3);
   sbr_world_step(s.world, 0.1037);
   sbr_double3 during = world_point(&s, 3);
   ck_assert_mem_eq(&before, &during, sizeof before);
-  sbr_character_pause(s.world, s.character, false);
+  sbr_character_set_paused(s.world, s.character, false);
   scene_ticks(&s, 20);
   ck_assert_double_gt(world_point(&s, 3).z, before.z + 0.2);
   scene_free(&s);
@@ -159,8 +159,8 @@ START_TEST(scaled_bodies_move_alike)
     }
   }
   ck_assert_double_gt(deformation(&small), 1e-3);
-  sbr_body_health a = sbr_character_health(small.world, small.character, 0),
-                  b = sbr_character_health(large.world, large.character, 0);
+  sbr_body_health a = sbr_character_get_body_health(small.world, small.character, 0),
+                  b = sbr_character_get_body_health(large.world, large.character, 0);
   ck_assert_double_eq_tol(b.kinetic_j, 256 * a.kinetic_j, 0.01 * b.kinetic_j);
   ck_assert_double_eq_tol(b.elastic_j, 256 * a.elastic_j, 0.01 * b.elastic_j);
   scene_free(&small);
@@ -187,7 +187,7 @@ START_TEST(definitions_are_checked)
   }
   ck_assert_int_eq(sbr_character_create(s.world, NULL, &definition, &id, &error), SBF_FAILED);
   sbr_character_id none = {0}, wrong = {0x00050099};
-  sbr_character_drive(s.world, none, 1, 1, 1);
+  sbr_character_set_drive(s.world, none, 1, 1, 1);
   sbr_character_teleport(s.world, wrong, (sbr_double3){0, 0, 0}, 0);
   sbr_character_reset(s.world, wrong);
   sbr_character_destroy(s.world, none);
@@ -240,20 +240,20 @@ START_TEST(numbers_that_are_none_never_get_in)
     float *at[5] = {
         &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.away_after_s};
     *at[k] = no;
-    ck_assert_int_eq(sbr_world_detail(s.world, &detail, &error), SBF_FAILED);
+    ck_assert_int_eq(sbr_world_select_detail_levels(s.world, &detail, &error), SBF_FAILED);
   }
   scene_ticks(&s, 10);
-  uint64_t hash = sbr_world_state_hash(s.world);
-  sbr_character_drive(s.world, s.character, no, 0, 0);
-  sbr_character_drive(s.world, s.character, 0, 0, no);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  sbr_character_set_drive(s.world, s.character, no, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 0, 0, no);
   sbr_character_teleport(s.world, s.character, (sbr_double3){0, (double)no, 0}, 0);
   sbr_character_teleport(s.world, s.character, (sbr_double3){0, 0, 0}, no);
   sbr_world_step(s.world, (double)no);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   scene_ticks(&s, 10);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
-  sbr_character_drive(s.world, s.character, 1, 0, 0);
-  ck_assert_uint_ne(sbr_world_state_hash(s.world), hash);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0);
+  ck_assert_uint_ne(sbr_world_get_state_hash(s.world), hash);
   scene_free(&s);
 }
 END_TEST
@@ -267,8 +267,8 @@ START_TEST(each_may_have_a_ground_of_its_own)
   above.ground = sbr_ground_flat(3);
   sbr_character_id upper;
   ck_assert(sbr_character_create(s.world, s.model, &above, &upper, NULL) == SBF_OK);
-  sbr_character_drive(s.world, s.character, 0.5f, 0, 0);
-  sbr_character_drive(s.world, upper, 0.5f, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 0.5f, 0, 0);
+  sbr_character_set_drive(s.world, upper, 0.5f, 0, 0);
   scene_ticks(&s, 120);
   sbr_character_teleport(s.world, upper, (sbr_double3){2, 0, 5}, 0);
   sbr_character_teleport(s.world, s.character, (sbr_double3){2, 0, 5}, 0);

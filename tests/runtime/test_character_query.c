@@ -25,9 +25,9 @@ static scene swinging(sbf_scheme scheme, uint32_t substeps, float step_error_m, 
 
 static uint32_t passes_of(sbf_scheme scheme, uint32_t substeps, float step_error_m, bool damped) {
   scene s = swinging(scheme, substeps, step_error_m, damped);
-  ck_assert_uint_eq(sbr_character_passes(s.world, s.character, 0), 0);
+  ck_assert_uint_eq(sbr_character_get_element_visits(s.world, s.character, 0), 0);
   scene_ticks(&s, 10);
-  uint32_t passes = sbr_character_passes(s.world, s.character, 0);
+  uint32_t passes = sbr_character_get_element_visits(s.world, s.character, 0);
   scene_free(&s);
   return passes;
 }
@@ -64,14 +64,14 @@ START_TEST(they_belong_to_the_state)
   enum { MAX = 1 << 20 };
   static unsigned char kept[MAX];
   scene s = swinging(SBF_SCHEME_SYMPLECTIC, 2, 0, true);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   ck_assert_uint_le(size, MAX);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, kept, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, kept, size), SBF_OK);
   scene_ticks(&s, 5);
-  ck_assert_uint_eq(sbr_character_passes(s.world, s.character, 0), 10);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, kept, size), SBF_OK);
-  ck_assert_uint_eq(sbr_character_passes(s.world, s.character, 0), 0);
-  ck_assert_uint_eq(sbr_character_passes(s.world, s.character, 7), 0);
+  ck_assert_uint_eq(sbr_character_get_element_visits(s.world, s.character, 0), 10);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, kept, size), SBF_OK);
+  ck_assert_uint_eq(sbr_character_get_element_visits(s.world, s.character, 0), 0);
+  ck_assert_uint_eq(sbr_character_get_element_visits(s.world, s.character, 7), 0);
   scene_free(&s);
 }
 END_TEST

@@ -1,9 +1,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "detail_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "rung_scenes.h"
 #include "sbfmt/codes.h"
 #include "tape.h"
 
@@ -24,7 +24,7 @@ static crowd make_crowd(const sbr_detail_definition *how, const sbr_tasks *tasks
   sbr_detail_definition by_default = sbr_default_detail_definition();
   if (tasks) c.s.world_definition.tasks = *tasks;
   scene_start(&c.s);
-  ck_assert_int_eq(sbr_world_detail(c.s.world, how ? how : &by_default, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_world_select_detail_levels(c.s.world, how ? how : &by_default, NULL), SBF_OK);
   c.ids[0] = c.s.character;
   for (uint32_t i = 1; i < CROWD; i++) {
     sbr_character_definition where = c.s.character_definition;
@@ -35,13 +35,13 @@ static crowd make_crowd(const sbr_detail_definition *how, const sbr_tasks *tasks
 }
 
 static uint32_t rung_of(const crowd *c, uint32_t i) {
-  return sbr_character_rung(c->s.world, c->ids[i]);
+  return sbr_character_get_detail_level(c->s.world, c->ids[i]);
 }
 
-static void look(crowd *c, double z, uint32_t ticks) {
+static void check(crowd *c, double z, uint32_t ticks) {
   const sbr_view view = view_from(z);
   for (uint32_t t = 0; t < ticks; t++) {
-    sbr_world_views(c->s.world, &view, 1);
+    sbr_world_set_views(c->s.world, &view, 1);
     sbr_world_tick(c->s.world);
   }
 }
@@ -49,24 +49,24 @@ static void look(crowd *c, double z, uint32_t ticks) {
 START_TEST(what_is_far_is_coarse_and_what_nobody_sees_goes_away)
 {
   crowd c = make_crowd(NULL, NULL);
-  look(&c, -1, 2);
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
+  check(&c, -1, 2);
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
   for (uint32_t i = 0; i < CROWD; i++) {
-    ck_assert(sbr_character_error_px(c.s.world, c.ids[i]) <= 0.5f);
+    ck_assert(sbr_character_get_error_px(c.s.world, c.ids[i]) <= 0.5f);
     if (i > 0) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
   }
-  look(&c, -120, 40); /* 2 cm of the bones' error, 120 m away: 0.15 pixels */
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
-  ck_assert(sbr_character_error_px(c.s.world, c.ids[0]) > 0.1f);
-  look(&c, 200, 30); /* all are behind */
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
-  ck_assert(sbr_character_error_px(c.s.world, c.ids[0]) == 0);
-  look(&c, 200, 40);
-  for (uint32_t i = 0; i < CROWD; i++) ck_assert_uint_eq(rung_of(&c, i), RUNG_AWAY);
-  look(&c, -1, 1);
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
-  ck_assert(sbr_character_fade(c.s.world, c.ids[0]) == 0); /* nobody has seen where it was */
-  ck_assert(sbr_character_health(c.s.world, c.ids[0], 0).elastic_j > 0);
+  check(&c, -120, 40); /* 2 cm of the bones' error, 120 m away: 0.15 pixels */
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
+  ck_assert(sbr_character_get_error_px(c.s.world, c.ids[0]) > 0.1f);
+  check(&c, 200, 30); /* all are behind */
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
+  ck_assert(sbr_character_get_error_px(c.s.world, c.ids[0]) == 0);
+  check(&c, 200, 40);
+  for (uint32_t i = 0; i < CROWD; i++) ck_assert_uint_eq(rung_of(&c, i), DETAIL_OFFSCREEN);
+  check(&c, -1, 1);
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
+  ck_assert(sbr_character_get_detail_fade(c.s.world, c.ids[0]) == 0); /* nobody has seen where it was */
+  ck_assert(sbr_character_get_body_health(c.s.world, c.ids[0], 0).elastic_j > 0);
   scene_free(&c.s);
 }
 END_TEST
@@ -84,15 +84,15 @@ START_TEST(predicted_pixels_are_those_of_the_measured_error)
     const sbr_view view = view_from(-distance);
     levels[1].simulation.motion_error = error_m;
     scene_start(&c.s);
-    ck_assert_int_eq(sbr_world_detail(c.s.world, &by_default, NULL), SBF_OK);
+    ck_assert_int_eq(sbr_world_select_detail_levels(c.s.world, &by_default, NULL), SBF_OK);
     for (int t = 0; t < 40; t++) {
-      sbr_world_views(c.s.world, &view, 1);
+      sbr_world_set_views(c.s.world, &view, 1);
       sbr_world_tick(c.s.world);
     }
-    ck_assert_uint_eq(sbr_character_rung(c.s.world, c.s.character), pixels < 0.35 ? 1u : 0u);
-    sbr_character_set_rung(c.s.world, c.s.character, 1);
+    ck_assert_uint_eq(sbr_character_get_detail_level(c.s.world, c.s.character), pixels < 0.35 ? 1u : 0u);
+    sbr_character_set_detail_level(c.s.world, c.s.character, 1);
     sbr_world_tick(c.s.world);
-    double said = (double)sbr_character_error_px(c.s.world, c.s.character);
+    double said = (double)sbr_character_get_error_px(c.s.world, c.s.character);
     ck_assert_double_ge(said, pixels);
     ck_assert_double_le(said, 1.1 * pixels);
     scene_free(&c.s);
@@ -103,17 +103,17 @@ END_TEST
 START_TEST(the_host_may_know_better)
 {
   crowd c = make_crowd(NULL, NULL);
-  sbr_character_shown(c.s.world, c.ids[0], SBR_SHOWN_NEVER);
-  sbr_character_set_rung(c.s.world, c.ids[1], RUNG_COARSE);
-  look(&c, -1, 70);
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_AWAY);
-  ck_assert_uint_eq(rung_of(&c, 1), RUNG_COARSE);
-  sbr_character_shown(c.s.world, c.ids[0], SBR_SHOWN_BY_VIEWS);
-  sbr_character_shown(c.s.world, c.ids[1], SBR_SHOWN_ALWAYS);
-  sbr_character_set_rung(c.s.world, c.ids[1], SBR_RUNG_CHOSEN);
-  look(&c, 3, 70); /* both are behind */
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_AWAY);
-  ck_assert_uint_eq(rung_of(&c, 1), RUNG_FINE);
+  sbr_character_set_visibility(c.s.world, c.ids[0], SBR_VISIBILITY_NEVER);
+  sbr_character_set_detail_level(c.s.world, c.ids[1], DETAIL_COARSE);
+  check(&c, -1, 70);
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_OFFSCREEN);
+  ck_assert_uint_eq(rung_of(&c, 1), DETAIL_COARSE);
+  sbr_character_set_visibility(c.s.world, c.ids[0], SBR_VISIBILITY_BY_VIEWS);
+  sbr_character_set_visibility(c.s.world, c.ids[1], SBR_VISIBILITY_ALWAYS);
+  sbr_character_set_detail_level(c.s.world, c.ids[1], SBR_DETAIL_AUTOMATIC);
+  check(&c, 3, 70); /* both are behind */
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_OFFSCREEN);
+  ck_assert_uint_eq(rung_of(&c, 1), DETAIL_FINE);
   scene_free(&c.s);
 }
 END_TEST
@@ -122,10 +122,10 @@ START_TEST(a_camera_that_trembles_changes_nothing)
 {
   crowd c = make_crowd(NULL, NULL);
   uint32_t changes = 0, was[CROWD];
-  look(&c, -20, 60);
+  check(&c, -20, 60);
   for (uint32_t i = 0; i < CROWD; i++) was[i] = rung_of(&c, i);
   for (int t = 0; t < 300; t++) {
-    look(&c, -20 + (t % 2 ? 1.0 : -1.0), 1);
+    check(&c, -20 + (t % 2 ? 1.0 : -1.0), 1);
     for (uint32_t i = 0; i < CROWD; i++) {
       changes += rung_of(&c, i) != was[i];
       was[i] = rung_of(&c, i);
@@ -140,7 +140,7 @@ END_TEST
 static uint32_t rung_beside(crowd *c, double aside) {
   sbr_view view = view_from(-3);
   view.forward = (sbf_vec3){(float)sin(aside), 0, (float)cos(aside)};
-  sbr_world_views(c->s.world, &view, 1);
+  sbr_world_set_views(c->s.world, &view, 1);
   sbr_world_tick(c->s.world);
   return rung_of(c, 0);
 }
@@ -152,22 +152,22 @@ START_TEST(a_view_that_turns_finds_it_ready)
   crowd c = make_crowd(NULL, NULL);
   double in = 0, out = 0, step = 0.002, far = 1.6;
   const double edge = atan(tan(0.5236) * sqrt(1 + 256.0 / 81));
-  uint32_t changes = 0, rung, before = RUNG_BONES;
+  uint32_t changes = 0, detail_level, before = DETAIL_BONES;
   for (uint32_t t = 0; t < 5; t++) rung_beside(&c, far);
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
   for (double aside = far; aside > 0; aside -= step)
-    for (int tick = 0; tick < 3; tick++, before = rung) {
-      rung = rung_beside(&c, aside);
-      if ((rung == RUNG_FINE) == (before == RUNG_FINE)) continue;
-      ck_assert(sbr_character_fade(c.s.world, c.ids[0]) == 0);
+    for (int tick = 0; tick < 3; tick++, before = detail_level) {
+      detail_level = rung_beside(&c, aside);
+      if ((detail_level == DETAIL_FINE) == (before == DETAIL_FINE)) continue;
+      ck_assert(sbr_character_get_detail_fade(c.s.world, c.ids[0]) == 0);
       in = aside, changes++;
     }
   ck_assert_uint_eq(changes, 1);
   ck_assert_double_gt(in, edge);
   for (double aside = 0; aside < far; aside += step)
-    for (int tick = 0; tick < 3; tick++, before = rung) {
-      rung = rung_beside(&c, aside);
-      if ((rung == RUNG_FINE) != (before == RUNG_FINE)) out = aside, changes++;
+    for (int tick = 0; tick < 3; tick++, before = detail_level) {
+      detail_level = rung_beside(&c, aside);
+      if ((detail_level == DETAIL_FINE) != (before == DETAIL_FINE)) out = aside, changes++;
     }
   ck_assert_uint_eq(changes, 2);
   ck_assert_double_gt(out, in + 5 * step);
@@ -177,22 +177,23 @@ END_TEST
 
 START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
 {
-  sbr_rung rungs[8];
+  sbr_detail_level detail_levels[8];
   scene alone = rung_scene_begin(false);
   scene_start(&alone);
-  sbr_model_rungs(alone.model, rungs, 8);
+  sbr_model_get_detail_levels(alone.model, detail_levels, 8);
   scene_free(&alone);
   sbr_detail_definition how = sbr_default_detail_definition();
   how.error_px = 1e-3f; /* all as fine as can be, but */
-  double all = CROWD * (double)rungs[0].visits, max = 6 * (double)rungs[0].visits;
+  double all = CROWD * (double)detail_levels[0].visits, max = 6 * (double)detail_levels[0].visits;
   how.budget_us = (float)(max * (double)how.ns_per_visit * 1e-3);
   crowd c = make_crowd(&how, NULL);
-  look(&c, -6, 90);
+  check(&c, -6, 90);
   ck_assert(all > max);
-  ck_assert_msg(sbr_world_visits(c.s.world) <= max, "%g of %g visits", sbr_world_visits(c.s.world), max);
-  ck_assert(sbr_world_visits(c.s.world) > 0.6 * max);
-  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
-  ck_assert_uint_gt(rung_of(&c, CROWD - 1), RUNG_FINE);
+  ck_assert_msg(sbr_world_get_element_visits(c.s.world) <= max, "%g of %g visits",
+      sbr_world_get_element_visits(c.s.world), max);
+  ck_assert(sbr_world_get_element_visits(c.s.world) > 0.6 * max);
+  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
+  ck_assert_uint_gt(rung_of(&c, CROWD - 1), DETAIL_FINE);
   for (uint32_t i = 1; i < CROWD; i++) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
   scene_free(&c.s);
 }
@@ -201,9 +202,9 @@ END_TEST
 /* Through the crowd and back. */
 static uint64_t fly(crowd *c) {
   for (uint32_t i = 0; i < CROWD; i++)
-    sbr_character_drive(c->s.world, c->ids[i], 0.3f, 0, i % 2 ? 0.4f : -0.4f);
-  for (int t = 0; t < 200; t++) look(c, -10 + 0.3 * t - (t > 100 ? 0.6 * (t - 100) : 0), 1);
-  return sbr_world_state_hash(c->s.world);
+    sbr_character_set_drive(c->s.world, c->ids[i], 0.3f, 0, i % 2 ? 0.4f : -0.4f);
+  for (int t = 0; t < 200; t++) check(c, -10 + 0.3 * t - (t > 100 ? 0.6 * (t - 100) : 0), 1);
+  return sbr_world_get_state_hash(c->s.world);
 }
 
 START_TEST(threads_and_recordings_agree)
@@ -215,15 +216,15 @@ START_TEST(threads_and_recordings_agree)
   static int threads = 3;
   const sbr_tasks tasks = {run_on_threads, &threads};
   crowd one = make_crowd(&how, NULL), several = make_crowd(&how, &tasks), again = make_crowd(&how, NULL);
-  sbr_world_record(one.s.world, &output);
+  sbr_world_set_recording(one.s.world, &output);
   uint64_t hash = fly(&one);
-  sbr_world_record(one.s.world, NULL);
+  sbr_world_set_recording(one.s.world, NULL);
   ck_assert_uint_eq(fly(&several), hash);
   sbr_replay replay;
   ck_assert_int_eq(sbr_replay_begin(&replay, again.s.world, t.bytes, t.size, NULL), SBF_OK);
-  while (sbr_replay_frame(&replay)) {}
+  while (sbr_replay_step(&replay)) {}
   ck_assert(!replay.differs);
-  ck_assert_uint_eq(sbr_world_state_hash(again.s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(again.s.world), hash);
   scene_free(&one.s);
   scene_free(&several.s);
   scene_free(&again.s);
@@ -236,11 +237,11 @@ START_TEST(wrong_definitions_and_want_of_memory_are_told)
   sbr_detail_definition how = sbr_default_detail_definition();
   sbf_diagnostic error;
   how.error_px = 0;
-  ck_assert_int_eq(sbr_world_detail(c.s.world, &how, &error), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_select_detail_levels(c.s.world, &how, &error), SBF_FAILED);
   ck_assert_int_eq(error.code, SBF_CODE_BAD_CALL);
   how = (sbr_detail_definition){.error_px = 1};
-  ck_assert_int_eq(sbr_world_detail(c.s.world, &how, &error), SBF_FAILED);
-  ck_assert_int_eq(sbr_world_detail(NULL, &how, &error), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_select_detail_levels(c.s.world, &how, &error), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_select_detail_levels(NULL, &how, &error), SBF_FAILED);
   scene_free(&c.s);
   for (size_t allowed = 0; allowed < 3; allowed++) {
     harness_memory memory;
@@ -251,7 +252,7 @@ START_TEST(wrong_definitions_and_want_of_memory_are_told)
     ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
     how = sbr_default_detail_definition();
     memory.allowed = memory.calls + allowed;
-    ck_assert_int_eq(sbr_world_detail(world, &how, &error), SBF_FAILED);
+    ck_assert_int_eq(sbr_world_select_detail_levels(world, &how, &error), SBF_FAILED);
     ck_assert_int_eq(error.code, SBF_CODE_OUT_OF_MEMORY);
     sbr_world_tick(world);
     sbr_world_destroy(world);

@@ -10,7 +10,7 @@
 typedef struct external_body {
   sbr_shape *shape;
   sbr_collider_id id;
-  double mass, at[3], velocity[3], spin[3]; /* kg, m, m/s, kg m^2/s about its middle */
+  double mass, at[3], velocity[3], angular_velocity[3]; /* kg, m, m/s, kg m^2/s about its middle */
 } external_body;
 
 static external_body external_body_of(
@@ -31,13 +31,13 @@ static void external_body_tick(scene *s, external_body *g, double tick_s) {
           g->at[2] + tick_s * g->velocity[2]},
       (sbf_quat){0, 0, 0, 1});
   scene_ticks(s, 1);
-  sbr_collider_push push = sbr_collider_take_push(s->world, g->id);
+  sbr_collider_impulse push = sbr_collider_take_impulse(s->world, g->id);
   const float j[3] = {push.impulse.x, push.impulse.y, push.impulse.z},
               l[3] = {push.moment.x, push.moment.y, push.moment.z};
   for (int k = 0; k < 3; k++) {
     g->at[k] += tick_s * g->velocity[k];
     g->velocity[k] += (double)j[k] / g->mass;
-    g->spin[k] += (double)l[k];
+    g->angular_velocity[k] += (double)l[k];
   }
 }
 
@@ -46,7 +46,8 @@ static scene_momentum all_of(const scene *s, const external_body *g) {
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     m.linear[k] += g->mass * g->velocity[k];
-    m.angular[k] += g->mass * (g->at[i] * g->velocity[j] - g->at[j] * g->velocity[i]) + g->spin[k];
+    m.angular[k] +=
+        g->mass * (g->at[i] * g->velocity[j] - g->at[j] * g->velocity[i]) + g->angular_velocity[k];
   }
   return m;
 }
@@ -75,7 +76,8 @@ START_TEST(a_ball_and_a_cloth_keep_their_momentum)
   for (int i = 0; i < 60; i++) external_body_tick(&s, &g, 1.0 / 60);
   scene_momentum after = all_of(&s, &g);
   ck_assert_double_lt(g.velocity[1], 2.9); /* it has given some of it away */
-  ck_assert_double_gt(g.spin[2] * g.spin[2] + g.spin[0] * g.spin[0], 1e-8);
+  ck_assert_double_gt(
+      g.angular_velocity[2] * g.angular_velocity[2] + g.angular_velocity[0] * g.angular_velocity[0], 1e-8);
   assert_kept(&after, &before, 2e-5, 1e-3);
   scene_free(&s);
   sbr_shape_destroy(g.shape);
@@ -93,7 +95,8 @@ START_TEST(boxes_keep_their_momentum)
   rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, 0, 1, (sbf_vec3){0.15f, 0.8f, 0.05f}, (sbf_quat){0, 0, 0, 1});
   rigid_body(&s, 0)->restitution = _i ? 0.5f : 0;
   scene_start(&s);
-  sbr_character_rigid_push(s.world, s.character, 0, (sbr_double3){0, 0.8, 0.05}, (sbf_vec3){0.3f, -3, 0});
+  sbr_character_apply_rigid_impulse(
+      s.world, s.character, 0, (sbr_double3){0, 0.8, 0.05}, (sbf_vec3){0.3f, -3, 0});
   external_body g = external_body_of(
       &s, collision_box(0.3f, 0.3f, 0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 2);
@@ -127,21 +130,21 @@ START_TEST(what_lies_weighs)
   scene_ticks(&s, 50);
   bool slept = false;
   for (int i = 0; i < 60; i++) {
-    (void)sbr_collider_take_push(s.world, g.id);
+    (void)sbr_collider_take_impulse(s.world, g.id);
     scene_ticks(&s, 1);
-    sbr_collider_push push = sbr_collider_take_push(s.world, g.id);
+    sbr_collider_impulse push = sbr_collider_take_impulse(s.world, g.id);
     float k = scale * scale * scale, weight = 3 * k * 9.81f / 60;
     ck_assert_float_eq_tol(push.impulse.y, -weight, 0.02f * weight);
     ck_assert_float_eq_tol(push.moment.z, 0.1f * scale * weight / 3, 0.02f * weight);
-    slept = slept || sbr_world_awake(s.world) == 0;
+    slept = slept || sbr_world_count_awake_bodies(s.world) == 0;
   }
   ck_assert(slept);
-  sbr_collider_push none = sbr_collider_take_push(s.world, g.id);
+  sbr_collider_impulse none = sbr_collider_take_impulse(s.world, g.id);
   ck_assert(none.impulse.y == 0 && none.moment.z == 0); /* it was asked already */
-  sbr_character_pause(s.world, s.character, true);
+  sbr_character_set_paused(s.world, s.character, true);
   scene_ticks(&s, 5);
-  ck_assert(sbr_collider_take_push(s.world, g.id).impulse.y == 0);
-  ck_assert(sbr_collider_take_push(s.world, (sbr_collider_id){77}).impulse.y == 0);
+  ck_assert(sbr_collider_take_impulse(s.world, g.id).impulse.y == 0);
+  ck_assert(sbr_collider_take_impulse(s.world, (sbr_collider_id){77}).impulse.y == 0);
   scene_free(&s);
   sbr_shape_destroy(g.shape);
 }
@@ -170,12 +173,12 @@ START_TEST(each_of_many_bears_its_share)
     external_bodies[i] = external_body_of(&s, collision_box(0.05f, 0.05f, 0.05f), 1,
         (sbr_double3){(double)at[i].x, -0.05, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 90);
-  for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_push(s.world, external_bodies[i].id);
+  for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_impulse(s.world, external_bodies[i].id);
   scene_ticks(&s, 1);
   for (uint32_t i = 0; i < MANY; i++) {
     float weight = masses[i] * 9.81f / 60;
     ck_assert_float_eq_tol(
-        sbr_collider_take_push(s.world, external_bodies[i].id).impulse.y, -weight, 0.02f * weight);
+        sbr_collider_take_impulse(s.world, external_bodies[i].id).impulse.y, -weight, 0.02f * weight);
   }
   scene_free(&s);
   for (uint32_t i = 0; i < MANY; i++) sbr_shape_destroy(external_bodies[i].shape);

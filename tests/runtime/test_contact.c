@@ -38,7 +38,7 @@ static scene cube(
 
 static sbr_double3 center(const scene *s) {
   sbf_vec3 points[8];
-  sbr_double3 origin = sbr_character_origin(s->world, s->character), sum = origin;
+  sbr_double3 origin = sbr_character_get_origin(s->world, s->character), sum = origin;
   ck_assert_uint_eq(scene_read(s, 0, points, 8), 8);
   for (int i = 0; i < 8; i++) {
     sum.x += points[i].x / 8.0;
@@ -50,7 +50,7 @@ static sbr_double3 center(const scene *s) {
 
 static double lowest(const scene *s) {
   sbf_vec3 points[8];
-  double origin = sbr_character_origin(s->world, s->character).y, low = 1e9;
+  double origin = sbr_character_get_origin(s->world, s->character).y, low = 1e9;
   scene_read(s, 0, points, 8);
   for (int i = 0; i < 8; i++) low = fmin(low, origin + (double)points[i].y);
   return low;
@@ -82,7 +82,7 @@ START_TEST(a_body_thrown_down_is_never_left_in_the_ground)
     scene_ticks(&s, 1);
     ck_assert_double_ge(lowest(&s), -1e-3);
   }
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST
@@ -112,20 +112,20 @@ END_TEST
  * or 0.12. */
 START_TEST(a_weight_map_scales_friction)
 {
-  for (int held = 0; held < 2; held++) {
+  for (int pinned = 0; pinned < 2; pinned++) {
     scene s = cube(0.6f, 0, sbr_ground_slope(20), (sbr_double3){0, 0, 3}, 20);
     sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
     float *values = sbf_asset_allocate(s.asset, 8, sizeof *values);
     sbf_weight_map_init(map);
     map->property = SBF_WEIGHT_PROPERTY_FRICTION;
-    for (int i = 0; i < 8; i++) values[i] = i & 4 ? 0 : held ? 2 : 0.2f;
+    for (int i = 0; i < 8; i++) values[i] = i & 4 ? 0 : pinned ? 2 : 0.2f;
     map->values = (sbf_f32_list){values, 8};
     scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
     scene_start(&s);
     scene_ticks(&s, 90);
     double before = center(&s).z;
     scene_ticks(&s, 60);
-    if (held)
+    if (pinned)
       ck_assert_double_lt(before - center(&s).z, 0.02);
     else
       ck_assert_double_gt(before - center(&s).z, 0.5);
@@ -169,7 +169,7 @@ START_TEST(restitution_gives_back_its_share)
   bool fallen = false;
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
-    sbr_double3 origin = sbr_character_origin(s.world, s.character);
+    sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
     double y = origin.y + (double)scene_point(&s, 0, 0).y;
     fallen = fallen || y > before;
     if (fallen) highest = fmax(highest, y);

@@ -45,16 +45,16 @@ START_TEST(all_that_polygons_use_is_sampled)
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *sample = &body_of(&s)->samples[i];
     float sum = 0, inverse = 0;
-    sbf_vec3 place = {0, 0, 0}, rest = body->surface.positions.at[sample->vertex];
+    sbf_vec3 position = {0, 0, 0}, rest = body->surface.positions.at[sample->vertex];
     for (int k = 0; k < 4; k++) {
       const sbri_point *p = &island->rest[sample->slots[k]];
       float w = sample->weights[k];
       sum += w, inverse += w * w * island->inverse_masses[sample->slots[k]];
-      place = sbri_add_scaled(place, sbri_vec3(p->x, p->y, p->z), w);
+      position = sbri_add_scaled(position, sbri_vec3(p->x, p->y, p->z), w);
     }
     ck_assert_float_eq_tol(sum, 1, 1e-5f);
     ck_assert_float_eq_tol(inverse * sample->mass_kg, 1, 1e-4f);
-    ck_assert_float_lt(sbri_length(sbri_sub(place, rest)), 1e-5f);
+    ck_assert_float_lt(sbri_length(sbri_sub(position, rest)), 1e-5f);
   }
   scene_free(&s);
 }
@@ -125,7 +125,8 @@ START_TEST(a_push_is_a_force_at_that_place)
   scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
   uint32_t counts[1] = {1};
-  sbri_touch touch = {.sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}, .friction_share = 1};
+  sbri_soft_contact contact = {
+      .sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}, .friction_scale = 1};
   sbri_island_tick tick = {.model = s.model,
       .island = &s.model->islands[0],
       .tick_s = 1.0f / 60,
@@ -133,30 +134,30 @@ START_TEST(a_push_is_a_force_at_that_place)
       .velocities = sbri_velocities(c),
       .targets = sbri_positions(c),
       .begins = sbri_positions(c),
-      .touches = &touch,
-      .touch_weights = sbri_touch_weights(c),
-      .touch_counts = counts};
+      .contacts = &contact,
+      .contact_weights = sbri_contact_weights(c),
+      .contact_counts = counts};
   for (uint32_t slot = 0; slot < tick.island->free_count; slot++) {
     float *v = sbri_triple(tick.velocities, slot);
     v[0] = -2 + 0.1f * (float)(slot % 5), v[SBRI_BLOCK] = -3 + 0.2f * (float)(slot % 3);
     v[2 * SBRI_BLOCK] = 1 - 0.1f * (float)(slot % 7);
   }
-  const sbri_sample *sample = &touch.sample;
-  sbf_vec3 place = sbri_sample_place(&tick, sample);
-  touch.offset = sbri_dot(touch.normal, place);
+  const sbri_sample *sample = &contact.sample;
+  sbf_vec3 position = sbri_sample_position(&tick, sample);
+  contact.offset = sbri_dot(contact.normal, position);
   sbf_vec3 before_v = velocity_of(&tick, sample);
-  momenta before = momenta_of(&tick, place);
+  momenta before = momenta_of(&tick, position);
   const float friction = 0.2f;
   sbri_contact_rule rule = {friction, 0, NULL, 1e-3f, 1, 0, 0.05f};
-  sbri_touches_answer(&tick, body_of(&s), tick.velocities, &rule);
+  sbri_soft_contacts_solve(&tick, body_of(&s), tick.velocities, &rule);
   sbf_vec3 after_v = velocity_of(&tick, sample);
-  momenta after = momenta_of(&tick, place);
+  momenta after = momenta_of(&tick, position);
   /* What falls in stops, and friction takes no more sideways than its share of that. */
-  float gain = sbri_dot(touch.normal, sbri_sub(after_v, before_v));
-  ck_assert_float_eq_tol(sbri_dot(touch.normal, after_v), 0, 1e-4f);
-  ck_assert_float_eq_tol(gain, -sbri_dot(touch.normal, before_v), 1e-4f);
+  float gain = sbri_dot(contact.normal, sbri_sub(after_v, before_v));
+  ck_assert_float_eq_tol(sbri_dot(contact.normal, after_v), 0, 1e-4f);
+  ck_assert_float_eq_tol(gain, -sbri_dot(contact.normal, before_v), 1e-4f);
   sbf_vec3 change = sbri_sub(after_v, before_v);
-  float sideways = sbri_length(sbri_add_scaled(change, touch.normal, -gain));
+  float sideways = sbri_length(sbri_add_scaled(change, contact.normal, -gain));
   ck_assert_float_eq_tol(sideways, friction * gain, 1e-3f);
   /* The momentum is that of a push there: it does not turn the body about that place. */
   const float *change_at = &change.x;
@@ -166,7 +167,7 @@ START_TEST(a_push_is_a_force_at_that_place)
     ck_assert_double_eq_tol(after.angular[i], before.angular[i], 2e-3);
   }
   /* A second look finds nothing to do. */
-  sbri_touches_answer(&tick, body_of(&s), tick.velocities, &rule);
+  sbri_soft_contacts_solve(&tick, body_of(&s), tick.velocities, &rule);
   sbf_vec3 again = velocity_of(&tick, sample);
   ck_assert_float_lt(sbri_length(sbri_sub(again, after_v)), 1e-4f);
   scene_free(&s);
@@ -186,10 +187,10 @@ static fall fall_of(scene *s) {
   static sbf_vec3 before[512], after[512];
   fall f = {0, 0, 1};
   for (int tick = 0; tick < 360; tick++) {
-    uint32_t count = sbr_character_surface(s->world, s->character, 0, before, 512);
+    uint32_t count = sbr_character_get_surface(s->world, s->character, 0, before, 512);
     scene_ticks(s, 1);
-    sbr_character_surface(s->world, s->character, 0, after, 512);
-    double origin = sbr_character_origin(s->world, s->character).y;
+    sbr_character_get_surface(s->world, s->character, 0, after, 512);
+    double origin = sbr_character_get_origin(s->world, s->character).y;
     f.speed_m_s = 0, f.end_m = 1;
     for (uint32_t i = 0; i < count; i++) {
       double x = after[i].x - before[i].x, y = after[i].y - before[i].y, z = after[i].z - before[i].z;
@@ -210,8 +211,8 @@ START_TEST(a_surface_beyond_its_lattice_stays_above_the_ground)
     scene_body(&s, 0)->attributes.stiffness_damping = 2e-3f; /* else it gains energy in the air */
   scene_start(&s);
   fall f = fall_of(&s);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).recoveries, 0);
   ck_assert_double_gt(f.lowest_m, -2e-3);
   ck_assert_double_gt(f.end_m, -2e-4);
   ck_assert_double_lt(f.end_m, 1e-3);

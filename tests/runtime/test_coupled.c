@@ -259,15 +259,15 @@ START_TEST(flesh_hangs_on_a_joint)
   scene_start(&s);
   scene_ticks(&s, 60);
   rigid_push(&s, body, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.3f * hung[_i].rigid_kg, 0, 0});
-  float apart = 0, farthest = 0;
+  float separation = 0, farthest = 0;
   for (int i = 0; i < 600; i++) {
     sbr_world_tick(s.world);
     sbr_joint_state joint = rigid_joint_state(&s, 0);
-    apart = joint.apart > apart ? joint.apart : apart;
+    separation = joint.separation > separation ? joint.separation : separation;
     float x = fabsf(scene_point(&s, 0, lattice_box_point(&box, 1, 0, 1)).x);
     farthest = x > farthest ? x : farthest;
   }
-  ck_assert_float_le(apart, 1e-4f);
+  ck_assert_float_le(separation, 1e-4f);
   ck_assert_float_le(farthest, 0.5f);
   scene_free(&s);
 }
@@ -298,14 +298,14 @@ START_TEST(the_same_bits_on_any_threads)
     }
     rigid_push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){1, 2, 0.5f});
     scene_ticks(&s, 30);
-    size_t size = sbr_world_snapshot_size(s.world);
+    size_t size = sbr_world_get_snapshot_size(s.world);
     void *kept = malloc(size);
-    ck_assert_int_eq(sbr_world_snapshot_save(s.world, kept, size), SBF_OK);
+    ck_assert_int_eq(sbr_world_save_snapshot(s.world, kept, size), SBF_OK);
     for (int again = 0; again < 2; again++) {
       scene_ticks(&s, 40);
-      hashes[threads == 1 && again == 0 ? 0 : 1] = sbr_world_state_hash(s.world);
+      hashes[threads == 1 && again == 0 ? 0 : 1] = sbr_world_get_state_hash(s.world);
       ck_assert_uint_eq(hashes[threads == 1 && again == 0 ? 0 : 1], hashes[0]);
-      ck_assert_int_eq(sbr_world_snapshot_restore(s.world, kept, size), SBF_OK);
+      ck_assert_int_eq(sbr_world_restore_snapshot(s.world, kept, size), SBF_OK);
     }
     free(kept);
     scene_free(&s);
@@ -328,7 +328,7 @@ START_TEST(they_sleep_together)
     if (rigid && !slept_at) slept_at = i;
   }
   ck_assert_int_ge(slept_at, 30);
-  ck_assert_uint_eq(sbri_head(c)->asleep, 1);
+  ck_assert_uint_eq(sbri_header(c)->asleep, 1);
   sbf_vec3 before = scene_point(&s, 0, 40);
   rigid_push(&s, 0, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 3, 0});
   scene_ticks(&s, 12);

@@ -80,7 +80,7 @@ START_TEST(a_clock_changes_no_motion)
   counting_clock clock = {0};
   sbr_world_set_clock(with.world, (sbr_clock){count_on, &clock});
   scene_ticks(&with, 60), scene_ticks(&without, 60);
-  ck_assert_uint_eq(sbr_world_state_hash(with.world), sbr_world_state_hash(without.world));
+  ck_assert_uint_eq(sbr_world_get_state_hash(with.world), sbr_world_get_state_hash(without.world));
   scene_free(&with), scene_free(&without);
 }
 END_TEST
@@ -118,7 +118,7 @@ START_TEST(sleepers_are_not_awake)
   scene_ticks(&s, 1);
   ck_assert_uint_eq(sbr_world_get_counters(s.world).soft_body_awake_count, 1);
   scene_ticks(&s, 600);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 0);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 0);
   ck_assert_uint_eq(sbr_world_get_counters(s.world).soft_body_awake_count, 0);
   scene_free(&s);
 }
@@ -147,13 +147,13 @@ START_TEST(broken_states_are_noticed)
   sbri_pose(c)[0].rotation.w += 1;
   ck_assert_str_eq(fault_of(&s), "character 0, frame 0: its rotation is no unit quaternion");
   sbri_pose(c)[0].rotation.w -= 1;
-  ck_assert_uint_gt(sbri_touch_counts(c)[0], 0);
-  sbri_touches(c)[c->model->bodies[0].first_touch].sample.slots[2] = 100000;
+  ck_assert_uint_gt(sbri_contact_counts(c)[0], 0);
+  sbri_contacts(c)[c->model->bodies[0].first_soft_contact].sample.slots[2] = 100000;
   ck_assert_str_eq(
       fault_of(&s), "character 0, soft body 0: a contact lies on a point that is not its island's");
-  sbri_touch_counts(c)[0] = UINT32_MAX;
+  sbri_contact_counts(c)[0] = UINT32_MAX;
   ck_assert_str_eq(fault_of(&s), "character 0, soft body 0: it has more contacts than room for them");
-  sbri_touch_counts(c)[0] = 0;
+  sbri_contact_counts(c)[0] = 0;
   ck_assert_int_eq(sbr_world_validate(s.world, NULL), SBF_OK);
   s.world->event_tail = s.world->event_head + 1;
   ck_assert_str_eq(fault_of(&s), "world, events 0: more were read than were written");
@@ -168,8 +168,8 @@ START_TEST(no_world_has_nothing)
   ck_assert_uint_eq(sbr_world_get_profile(NULL).tick, 0);
   ck_assert_int_eq(sbr_world_validate(NULL, NULL), SBF_OK);
   sbr_world_set_clock(NULL, (sbr_clock){NULL, NULL});
-  ck_assert_str_eq(sbr_stage_name(SBR_STAGE_ISLANDS), "islands");
-  ck_assert_str_eq(sbr_stage_name(SBR_STAGE_COUNT), "");
+  ck_assert_str_eq(sbr_stage_get_name(SBR_STAGE_ISLANDS), "islands");
+  ck_assert_str_eq(sbr_stage_get_name(SBR_STAGE_COUNT), "");
 }
 END_TEST
 

@@ -86,10 +86,10 @@ START_TEST(contacts_of_a_lying_body_carry_its_weight)
   const float scale = _i ? 1.5f : 1;
   scene s = lying_block(scale);
   double weight = 8 * pow((double)scale, 3) * 9.81;
-  uint64_t before = sbr_world_state_hash(s.world);
+  uint64_t before = sbr_world_get_state_hash(s.world);
   ck_assert_double_eq_tol(upward_impulse(draw(s.world, SBR_DRAW_CONTACTS)) * 60, weight, 0.03 * weight);
   ck_assert_uint_gt(sheet.point_count, 4);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), before);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), before);
   scene_free(&s);
 }
 END_TEST
@@ -148,7 +148,7 @@ START_TEST(bounds_enclose_an_island_and_sleepers_are_grey)
   for (uint32_t i = 0; i < count; i++) {
     low.x = fminf(low.x, points[i].x), low.y = fminf(low.y, points[i].y), low.z = fminf(low.z, points[i].z);
   }
-  sbr_double3 origin = sbr_character_origin(s.world, s.character);
+  sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
   ck_assert_uint_eq(draw(s.world, SBR_DRAW_BOUNDS)->line_count, 12);
   ck_assert_double_eq_tol(sheet.lines[0].from.x, origin.x + (double)low.x, 1e-5);
   ck_assert_double_eq_tol(sheet.lines[0].from.y, origin.y + (double)low.y, 1e-5);
@@ -195,7 +195,7 @@ START_TEST(colliders_are_drawn_where_they_are)
   }
   sbr_collider_id id = collision_collider(&s, box, (sbr_double3){0, 0, 0});
   uint32_t round_lines = sheet.line_count;
-  sbr_collider_place(s.world, id, (sbr_double3){7, 0, 0}, (sbf_quat){0, 0, 0.70710678f, 0.70710678f});
+  sbr_collider_set_transform(s.world, id, (sbr_double3){7, 0, 0}, (sbf_quat){0, 0, 0.70710678f, 0.70710678f});
   scene_ticks(&s, 1);
   ck_assert_uint_eq(draw(s.world, SBR_DRAW_COLLIDERS)->line_count, round_lines + 12);
   double right = 0;
@@ -215,10 +215,10 @@ START_TEST(a_walker_shows_bones_and_feet)
   s.world_definition.gravity = (sbf_vec3){0, -9.81f, 0};
   s.character_definition.position.y = 0;
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 0.5f, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 0.5f, 0, 0);
   scene_ticks(&s, 40);
   sbr_leg_state legs[4];
-  uint32_t lifted = 0, count = sbr_character_legs(s.world, s.character, legs, 4);
+  uint32_t lifted = 0, count = sbr_character_get_legs(s.world, s.character, legs, 4);
   for (uint32_t i = 0; i < count; i++) lifted += !legs[i].planted;
   draw(s.world, SBR_DRAW_GAIT);
   ck_assert_uint_eq(sheet.point_count, 2 * count + lifted);

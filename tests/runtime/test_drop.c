@@ -28,12 +28,12 @@ static drop_result drop(sbf_scheme scheme, sbf_vec3 size, uint32_t cells) {
   for (int tick = 0; tick < 300; tick++) {
     scene_read(&s, 0, before, 512);
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite);
     ck_assert_uint_eq(health.recoveries, 0);
     r.min_volume = fmin(r.min_volume, (double)health.volume_ratio);
     count = scene_read(&s, 0, after, 512);
-    double origin = sbr_character_origin(s.world, s.character).y;
+    double origin = sbr_character_get_origin(s.world, s.character).y;
     for (uint32_t i = 0; i < count; i++) r.lowest_m = fmin(r.lowest_m, origin + (double)after[i].y);
   }
   for (uint32_t i = 0; i < count; i++) {

@@ -14,7 +14,7 @@ static const float KEPT_M = 0.01f;
 
 enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
 
-static void add_flesh(scene *s, uint32_t body, enum flesh kind, float x, float young_pa) {
+static void add_attached(scene *s, uint32_t body, enum flesh kind, float x, float young_pa) {
   lattice_box box = kind == MATTRESS ? lattice_box_make((sbf_vec3){x - 0.4f, 0, -0.4f},
                                            (sbf_vec3){0.8f, 0.2f, 0.8f}, 12, 3, 12, 160, young_pa, 0)
                                      : lattice_box_make((sbf_vec3){x - 0.15f, 0, -0.15f},
@@ -44,7 +44,7 @@ START_TEST(momentum_is_kept)
   double mass = masses[_i / 2];
   enum flesh kind = _i % 2 ? MATTRESS : CUBE;
   scene s = flesh_begin();
-  add_flesh(&s, 0, kind, 0, 20000);
+  add_attached(&s, 0, kind, 0, 20000);
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000; /* above the ground */
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
@@ -74,7 +74,7 @@ START_TEST(what_is_dropped_comes_to_rest)
   double mass = masses[_i / 2];
   enum flesh kind = _i % 2 ? MATTRESS : CUBE;
   scene s = flesh_begin();
-  add_flesh(&s, 0, kind, 0, mass < 2 ? 20000 : 100000);
+  add_attached(&s, 0, kind, 0, mass < 2 ? 20000 : 100000);
   scene_start(&s);
   scene_ticks(&s, 60);
   double top = kind == MATTRESS ? 0.2 : 0.3;
@@ -95,7 +95,7 @@ START_TEST(weight_presses_as_it_should)
   float scale = _i ? 2 : 1;
   double mass = 100.0 * (double)(scale * scale * scale), height = 0.2 * (double)scale;
   scene s = flesh_begin();
-  add_flesh(&s, 0, MATTRESS, 0, 50000);
+  add_attached(&s, 0, MATTRESS, 0, 50000);
   s.character_definition.scale = scale;
   scene_start(&s);
   scene_ticks(&s, 120);
@@ -115,7 +115,7 @@ END_TEST
 START_TEST(what_a_floor_holds_bears)
 {
   scene s = flesh_begin();
-  add_flesh(&s, 0, CUBE, 0, 50000);
+  add_attached(&s, 0, CUBE, 0, 50000);
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000.25;
   scene_start(&s);
@@ -139,8 +139,8 @@ START_TEST(several_bear_it_together)
   const sbf_vec3 arms[HOST_BODY_PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
   scene s = flesh_begin();
   scene_bodies(&s, 2);
-  add_flesh(&s, 0, CUBE, -0.3f, 20000);
-  add_flesh(&s, 1, CUBE, 0.3f, 20000);
+  add_attached(&s, 0, CUBE, -0.3f, 20000);
+  add_attached(&s, 1, CUBE, 0.3f, 20000);
   scene_start(&s);
   scene_ticks(&s, 60);
   host_body b =
@@ -150,7 +150,7 @@ START_TEST(several_bear_it_together)
   host_body_go(&s, &b, 300, -10);
   ck_assert_double_lt(host_body_fastest(&s, &b, 60), 1e-3);
   ck_assert_double_eq_tol(b.at[1], 0.34, 0.001); /* 1 cm over them, which it presses in by as much */
-  ck_assert_float_lt(fabsf(b.turn.z), 0.02f);
+  ck_assert_float_lt(fabsf(b.rotation.z), 0.02f);
   end(&s, &b);
 }
 END_TEST
@@ -159,14 +159,14 @@ END_TEST
 START_TEST(untold_it_goes_on)
 {
   scene s = flesh_begin();
-  add_flesh(&s, 0, CUBE, 0, 20000);
+  add_attached(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
   host_body b = host_body_make(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
   b.velocity[0] = 1;
   host_body_tell(&s, &b);
   scene_ticks(&s, 60);
   sbr_hit hit;
-  ck_assert(sbr_world_ray(s.world, (sbr_double3){59.0 / 60, 4, 0}, (sbf_vec3){0, -1, 0}, 4, 1, &hit));
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){59.0 / 60, 4, 0}, (sbf_vec3){0, -1, 0}, 4, 1, &hit));
   ck_assert_double_eq_tol(hit.position.y, 5 - G / 2 + 0.1, 0.1);
   end(&s, &b);
 }
@@ -175,7 +175,7 @@ END_TEST
 START_TEST(bad_ones_are_refused)
 {
   scene s = flesh_begin();
-  add_flesh(&s, 0, CUBE, 0, 20000);
+  add_attached(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
   sbr_shape *shape = collision_shape(collision_ball(0.1f));
   sbf_diagnostic error;

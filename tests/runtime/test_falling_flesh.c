@@ -12,10 +12,10 @@ static sbf_level level_of(scene *s, uint32_t cells) {
   lattice_box box = lattice_box_make((sbf_vec3){0.12f, 0.03f, -0.04f}, (sbf_vec3){0.16f, 0.08f, 0.08f},
       2 * cells, cells, cells, 400, 6e4f, 0.3f);
   sbf_level *level = scene_lattice(s, 0, &box);
-  uint32_t held[64], count = 0;
+  uint32_t pinned[64], count = 0;
   for (uint32_t k = 0; k <= cells; k++)
-    for (uint32_t i = 0; i <= 2 * cells; i++) held[count++] = lattice_box_point(&box, i, 0, k);
-  rigid_pin(s, level, 0, LIMB, held, count);
+    for (uint32_t i = 0; i <= 2 * cells; i++) pinned[count++] = lattice_box_point(&box, i, 0, k);
+  rigid_pin(s, level, 0, LIMB, pinned, count);
   lattice_box_free(&box);
   return *level;
 }

@@ -4,8 +4,8 @@
 
 #include "body_contact/body_contacts.h"
 #include "collision_scenes.h"
+#include "contact_scenes.h"
 #include "harness.h"
-#include "meeting_scenes.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
 #include "skin_depth.h"
@@ -66,8 +66,8 @@ static void skin_surface(scene *s, uint32_t body) {
   mesh->polygon_points = (sbf_u32_list){corners, 4 * faces};
 }
 
-/* `held`: the lower leg's underside is. */
-static scene begin_bar(bool self, bool held, float young_pa) {
+/* `pinned`: the lower leg's underside is. */
+static scene begin_bar(bool self, bool pinned, float young_pa) {
   scene s = rigid_begin();
   scene_bodies(&s, 1);
   lattice_box box = lattice_box_make(
@@ -77,7 +77,7 @@ static scene begin_bar(bool self, bool held, float young_pa) {
       for (uint32_t z = 0; z <= WIDE; z++) {
         uint32_t i = lattice_box_point(&box, x, y, z);
         box.positions[i] = bent_from(x, y, z, LONG, WIDE);
-        if (held && y == 0 && x < LONG / 3) box.masses[i] = 0;
+        if (pinned && y == 0 && x < LONG / 3) box.masses[i] = 0;
       }
   sbf_level *level = scene_lattice(&s, 0, &box);
   skin_surface(&s, 0);
@@ -91,7 +91,7 @@ static scene begin_bar(bool self, bool held, float young_pa) {
 
 static void start(scene *s) {
   scene_start(s);
-  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(s->world, 0, NULL) == SBF_OK);
 }
 
 /* ---- How deep skins lie in each other ---- */
@@ -103,8 +103,8 @@ typedef struct placed_skin {
 
 static placed_skin skin_of(const scene *s, sbr_character_id who) {
   placed_skin skin;
-  sbr_double3 o = sbr_character_origin(s->world, who);
-  skin.count = sbr_character_surface(s->world, who, 0, skin.at, SKIN_MAX);
+  sbr_double3 o = sbr_character_get_origin(s->world, who);
+  skin.count = sbr_character_get_surface(s->world, who, 0, skin.at, SKIN_MAX);
   for (uint32_t i = 0; i < skin.count; i++)
     skin.at[i] = (sbf_vec3){skin.at[i].x + (float)o.x, skin.at[i].y + (float)o.y, skin.at[i].z + (float)o.z};
   return skin;
@@ -155,7 +155,7 @@ START_TEST(a_skin_lies_on_itself)
       placed_skin skin = skin_of(&s, s.character);
       if (i % 5 == 0) max[self] = fmax(max[self], deepest_in_itself(&s, &skin));
     }
-    ck_assert(!sbr_character_health(s.world, s.character, 0).inverted);
+    ck_assert(!sbr_character_get_body_health(s.world, s.character, 0).inverted);
     if (self) ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
     scene_free(&s);
   }
@@ -213,7 +213,7 @@ static void move(const scene *s, sbr_character_id who, float x) {
     sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK] = x;
 }
 
-static double way_of(const placed_skin *from, const placed_skin *to) {
+static double find_displacement(const placed_skin *from, const placed_skin *to) {
   double sum = 0;
   for (uint32_t i = 0; i < from->count; i++) sum += (double)(to->at[i].x - from->at[i].x) / from->count;
   return sum;
@@ -235,7 +235,7 @@ START_TEST(skins_of_two_push_each_other_off)
   scene_ticks(&s, 1);
   placed_skin end = skin_of(&s, s.character);
   ck_assert_double_le(max, 0.006);
-  ck_assert_double_ge(way_of(&begin, &end), 0.8 / 60);
+  ck_assert_double_ge(find_displacement(&begin, &end), 0.8 / 60);
   scene_free(&s);
 }
 END_TEST

@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "collision_scenes.h"
+#include "contact_scenes.h"
 #include "harness.h"
-#include "meeting_scenes.h"
 #include "momentum.h"
 #include "shapes.h"
 #include "skin_depth.h"
@@ -25,14 +25,14 @@ static void put(sbf_vec3 *at, uint32_t count, const lies *to) {
   }
 }
 
-static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, bool held) {
+static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, bool pinned) {
   lattice_box box = lattice_box_make((sbf_vec3){-0.5f * LENGTH, -0.5f * THICK, -0.5f * THICK},
       (sbf_vec3){LENGTH, THICK, THICK}, CELLS, 1, 1, 1000, young_pa, 0.3f);
   sbf_polygon_mesh bar = shape_bar(s->asset, CELLS, 1, LENGTH, THICK);
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)bar.positions.at;
   for (uint32_t i = 0; i < bar.positions.count; i++) at[i].x -= 0.5f * LENGTH;
   for (uint32_t i = 0; i < box.point_count; i++)
-    if (held && fabsf(box.positions[i].x) > 0.49f * LENGTH) box.masses[i] = 0;
+    if (pinned && fabsf(box.positions[i].x) > 0.49f * LENGTH) box.masses[i] = 0;
   put(at, bar.positions.count, to);
   put(box.positions, box.point_count, to);
   meeting_flesh(s, body, &box, &bar);
@@ -40,9 +40,10 @@ static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, boo
 }
 
 /* Places of a body's vertices, from the second character on that character's. */
-static void look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
-  sbr_double3 o = sbr_character_origin(s->world, who), own = sbr_character_origin(s->world, s->character);
-  uint32_t count = sbr_character_surface(s->world, who, body, at, MAX);
+static void check(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
+  sbr_double3 o = sbr_character_get_origin(s->world, who),
+              own = sbr_character_get_origin(s->world, s->character);
+  uint32_t count = sbr_character_get_surface(s->world, who, body, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = sbri_add(at[i], sbri_vec3((float)(o.x - own.x), (float)(o.y - own.y), (float)(o.z - own.z)));
 }
@@ -71,7 +72,7 @@ static double deepest(
 static double deepest_of_bars(const scene *s, sbr_character_id other, uint32_t body) {
   static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  look(s, s->character, 0, a), look(s, other, body, b);
+  check(s, s->character, 0, a), check(s, other, body, b);
   return deepest(mesh, a, mesh, b);
 }
 
@@ -134,7 +135,7 @@ static void check_over_beam(scene *s, const sbf_polygon_mesh *hull, const sbf_ve
   double max = 0;
   for (int i = 0; i < 60; i++) {
     scene_ticks(s, 1);
-    look(s, s->character, 0, at);
+    check(s, s->character, 0, at);
     max = fmax(max, deepest(&s->asset->soft_bodies.at[0].surface, at, hull, beam));
   }
   ck_assert_double_le(max, 0.002);
@@ -209,7 +210,7 @@ START_TEST(a_bar_lies_over_a_narrow_box)
   scene_ticks(&s, 240);
   ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
   static sbf_vec3 at[MAX];
-  look(&s, s.character, 0, at);
+  check(&s, s.character, 0, at);
   for (uint32_t i = 0; i < scene_body(&s, 0)->surface.positions.count; i++)
     ck_assert_float_ge(at[i].y, 0.03f); /* its ends hang */
   scene_free(&s);

@@ -2,9 +2,9 @@
 #include <math.h>
 
 #include "collide/triangle.h"
+#include "contact_scenes.h"
 #include "harness.h"
 #include "lattice_box.h"
-#include "meeting_scenes.h"
 #include "momentum.h"
 #include "sbrun/collision.h"
 #include "skin_depth.h"
@@ -59,9 +59,9 @@ static scene begin_capsule(uint32_t rings, float radius) {
   return s;
 }
 
-static void look(const scene *s, sbr_character_id who, sbf_vec3 at[MAX]) {
-  sbr_double3 o = sbr_character_origin(s->world, who);
-  uint32_t count = sbr_character_surface(s->world, who, 0, at, MAX);
+static void check(const scene *s, sbr_character_id who, sbf_vec3 at[MAX]) {
+  sbr_double3 o = sbr_character_get_origin(s->world, who);
+  uint32_t count = sbr_character_get_surface(s->world, who, 0, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
 }
@@ -72,11 +72,11 @@ static uint32_t crossings(const sbf_polygon_mesh *mesh, const sbf_vec3 *one, con
   const uint32_t *c = mesh->polygon_points.at;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; c += mesh->polygon_sizes.at[p++])
     for (uint32_t k = 0; k < mesh->polygon_sizes.at[p]; k++) {
-      sbf_vec3 from = one[c[k]], way = sbri_sub(one[c[(k + 1) % mesh->polygon_sizes.at[p]]], from);
+      sbf_vec3 from = one[c[k]], displacement = sbri_sub(one[c[(k + 1) % mesh->polygon_sizes.at[p]]], from);
       const uint32_t *d = mesh->polygon_points.at;
       for (uint32_t q = 0; q < mesh->polygon_sizes.count; d += mesh->polygon_sizes.at[q++])
         for (uint32_t i = 2; i < mesh->polygon_sizes.at[q]; i++)
-          count += sbri_triangle_cross(from, way, other[d[0]], other[d[i - 1]], other[d[i]]) >= 0;
+          count += sbri_triangle_cross(from, displacement, other[d[0]], other[d[i - 1]], other[d[i]]) >= 0;
     }
   return count;
 }
@@ -84,7 +84,7 @@ static uint32_t crossings(const sbf_polygon_mesh *mesh, const sbf_vec3 *one, con
 static uint32_t crossings_of(const scene *s, sbr_character_id one, sbr_character_id other) {
   static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  look(s, one, a), look(s, other, b);
+  check(s, one, a), check(s, other, b);
   return crossings(mesh, a, b) + crossings(mesh, b, a);
 }
 
@@ -92,7 +92,7 @@ typedef struct crossing {
   uint32_t rings;
   float radius, y, along, heading;
 } crossing;
-static const crossing places[] = {
+static const crossing positions[] = {
     {7, 0.02f, 0.004f, 0.03f, 1.5708f},
     {7, 0.02f, 0, 0, 1.2f},
     {7, 0.02f, 0.02f, 0.12f, 0.9f},
@@ -103,7 +103,7 @@ static const crossing places[] = {
 
 START_TEST(thin_limbs_that_cross_come_apart)
 {
-  const crossing *at = &places[_i];
+  const crossing *at = &positions[_i];
   scene s = begin_capsule(at->rings, at->radius);
   meeting_start(&s);
   sbr_character_definition d = s.character_definition;
@@ -158,7 +158,7 @@ static uint32_t places_inside(const scene *s, sbf_vec3 size) {
   static sbf_vec3 at[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
   uint32_t count = 0;
-  (void)sbr_character_surface(s->world, s->character, 0, at, MAX);
+  (void)sbr_character_get_surface(s->world, s->character, 0, at, MAX);
   for (uint32_t k = 0; k < 8; k++)
     for (uint32_t axis = 1; axis < 8; axis *= 2)
       for (int i = 0; i <= PLACES && !(k & axis); i++) {
@@ -198,7 +198,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_inside");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, thin_limbs_that_cross_come_apart, 0, sizeof places / sizeof *places);
+  tcase_add_loop_test(tests, thin_limbs_that_cross_come_apart, 0, sizeof positions / sizeof *positions);
   tcase_add_loop_test(tests, rigid_things_come_out_of_soft_bodies, 0, sizeof rods / sizeof *rods);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

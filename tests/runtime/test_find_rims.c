@@ -11,7 +11,7 @@
 /* A strip of 1 m by 4 cm in five squares' length, along x or along z, through `middle`. */
 enum { ROWS = 6, POINTS = 2 * ROWS };
 
-static sbf_level *strip(scene *s, uint32_t body, sbf_vec3 middle, bool along_z, bool held) {
+static sbf_level *strip(scene *s, uint32_t body, sbf_vec3 middle, bool along_z, bool pinned) {
   sbf_vec3 at[POINTS];
   float masses[POINTS], stiffness[6 * POINTS];
   sbf_uint2 ends[6 * POINTS];
@@ -32,7 +32,7 @@ static sbf_level *strip(scene *s, uint32_t body, sbf_vec3 middle, bool along_z, 
   sbf_level *level = scene_points(s, body, at, masses, POINTS);
   scene_springs(s, level, ends, stiffness, count);
   const uint32_t rim[4] = {0, 1, POINTS - 2, POINTS - 1};
-  if (held) scene_pin(s, level, -1, rim, 4);
+  if (pinned) scene_pin(s, level, -1, rim, 4);
   collision_surface(s, body, at, 2, ROWS);
   scene_body(s, body)->attributes.damping_ratio = 0.3f;
   scene_body(s, body)->attributes.friction = 1;
@@ -66,24 +66,24 @@ static float over(const scene *s) {
 }
 
 /* One falls across the other, which is held at its ends, from 10 cm and at up to 10 m/s, square to it or not
- * in its middle: it never passes. `meets` off, it does at once. */
+ * in its middle: it never passes. `contacts` off, it does at once. */
 START_TEST(crossing_strips_do_not_pass)
 {
   const float speeds[3] = {0, 2, 10};
-  for (int meets = 0; meets < 2; meets++) {
+  for (int contacts = 0; contacts < 2; contacts++) {
     scene s = rigid_begin();
     scene_bodies(&s, 2);
     (void)strip(&s, 0, (sbf_vec3){0, 0, 0}, false, true);
     (void)strip(&s, 1, (sbf_vec3){0.01f, 0.1f, 0.02f}, true, false);
     scene_start(&s);
-    if (meets) ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+    if (contacts) ck_assert(sbr_world_enable_body_contacts(s.world, 0, NULL) == SBF_OK);
     sbri_character *c = sbri_character_of(s.world, s.character);
     const sbri_body *body = &c->model->bodies[1];
     const sbri_island *island = &c->model->islands[body->island];
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
       (sbri_velocities(c) + 3 * (size_t)island->first_slot)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) +
                                                             SBRI_BLOCK + slot % SBRI_BLOCK] = -speeds[_i];
-    collision_check_over(&s, over, meets);
+    collision_check_over(&s, over, contacts);
     scene_free(&s);
   }
 }
@@ -98,7 +98,7 @@ START_TEST(momentum_is_kept)
   (void)strip(&s, 0, (sbf_vec3){0, 0, 0}, false, false);
   (void)strip(&s, 1, (sbf_vec3){0.01f, 0.1f, 0.02f}, true, false);
   scene_start(&s);
-  ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(s.world, 0, NULL) == SBF_OK);
   sbri_character *c = sbri_character_of(s.world, s.character);
   const sbri_body *body = &c->model->bodies[1];
   const sbri_island *island = &c->model->islands[body->island];

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 #include "collision_scenes.h"
+#include "contact_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "meeting_scenes.h"
 #include "momentum.h"
 #include "shapes.h"
 #include "skin_depth.h"
@@ -50,9 +50,9 @@ static sbr_character_id another(scene *s, sbf_vec3 off, float heading) {
   return id;
 }
 
-static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
-  sbr_double3 o = sbr_character_origin(s->world, who);
-  uint32_t count = sbr_character_surface(s->world, who, body, at, MAX);
+static uint32_t check(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MAX]) {
+  sbr_double3 o = sbr_character_get_origin(s->world, who);
+  uint32_t count = sbr_character_get_surface(s->world, who, body, at, MAX);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
   return count;
@@ -62,8 +62,8 @@ static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_ve
 static double deepest(const scene *s, sbr_character_id one, sbr_character_id other) {
   static sbf_vec3 a[MAX], b[MAX];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  uint32_t count = look(s, one, 0, a);
-  ck_assert_uint_eq(look(s, other, s->asset->soft_bodies.count - 1, b), count);
+  uint32_t count = check(s, one, 0, a);
+  ck_assert_uint_eq(check(s, other, s->asset->soft_bodies.count - 1, b), count);
   double max = 0;
   for (uint32_t i = 0; i < count; i++)
     max = fmax(max, fmax(skin_depth(mesh, b, a[i], UINT32_MAX), skin_depth(mesh, a, b[i], UINT32_MAX)));
@@ -75,7 +75,7 @@ typedef struct crosswise {
   sbf_vec3 off;
   float heading;
 } crosswise;
-static const crosswise places[] = {
+static const crosswise positions[] = {
     {{0, 0.005f, 0}, 1.5708f},
     {{0.11f, 0.03f, 0.06f}, 1.5708f},
     {{0.02f, -0.02f, 0.05f}, 0.9f},
@@ -95,7 +95,7 @@ static scene begin_crosswise(const crosswise *at, sbr_tasks tasks, sbr_character
 START_TEST(bars_that_lie_crosswise_come_apart)
 {
   sbr_character_id other;
-  scene s = begin_crosswise(&places[_i], (sbr_tasks){0}, &other);
+  scene s = begin_crosswise(&positions[_i], (sbr_tasks){0}, &other);
   ck_assert_double_ge(deepest(&s, s.character, other), 0.035);
   double speed = 0;
   for (int i = 0; i < 180; i++) {
@@ -106,7 +106,7 @@ START_TEST(bars_that_lie_crosswise_come_apart)
   ck_assert_double_le(deepest(&s, s.character, other), 5e-4);
   ck_assert_double_le(speed, 0.5);
   for (int k = 0; k < 3; k++) ck_assert_double_le(fabs(after.linear[k]), 1e-4 * after.mass);
-  ck_assert(!sbr_character_health(s.world, other, 0).inverted);
+  ck_assert(!sbr_character_get_body_health(s.world, other, 0).inverted);
   scene_free(&s);
 }
 END_TEST
@@ -118,16 +118,16 @@ START_TEST(the_way_out_is_of_the_same_bits)
   for (int i = 0; i < 2; i++) {
     int threads = i ? 3 : 1;
     sbr_character_id other;
-    scene s = begin_crosswise(&places[1], (sbr_tasks){.run = run_on_threads, .user = &threads}, &other);
+    scene s = begin_crosswise(&positions[1], (sbr_tasks){.run = run_on_threads, .user = &threads}, &other);
     scene_ticks(&s, 12);
-    size_t size = sbr_world_snapshot_size(s.world);
+    size_t size = sbr_world_get_snapshot_size(s.world);
     unsigned char *kept = malloc(size);
-    ck_assert(sbr_world_snapshot_save(s.world, kept, size) == SBF_OK);
+    ck_assert(sbr_world_save_snapshot(s.world, kept, size) == SBF_OK);
     scene_ticks(&s, 30);
-    hashes[i] = sbr_world_state_hash(s.world);
-    ck_assert(sbr_world_snapshot_restore(s.world, kept, size) == SBF_OK);
+    hashes[i] = sbr_world_get_state_hash(s.world);
+    ck_assert(sbr_world_restore_snapshot(s.world, kept, size) == SBF_OK);
     scene_ticks(&s, 30);
-    ck_assert_uint_eq(hashes[i], sbr_world_state_hash(s.world));
+    ck_assert_uint_eq(hashes[i], sbr_world_get_state_hash(s.world));
     free(kept);
     scene_free(&s);
   }
@@ -181,13 +181,13 @@ START_TEST(parts_that_overlap_at_rest_stay_quiet)
 {
   scene s = begin_two_bars((sbf_vec3){0.02f, 0.03f * (float)_i, 0.05f});
   static sbf_vec3 before[MAX], after[MAX];
-  uint32_t count = look(&s, s.character, 1, before);
+  uint32_t count = check(&s, s.character, 1, before);
   ck_assert_double_ge(deepest(&s, s.character, s.character), 0.01);
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
     ck_assert_double_le(meeting_fastest(&s, s.character), 1e-4);
   }
-  (void)look(&s, s.character, 1, after);
+  (void)check(&s, s.character, 1, after);
   for (uint32_t i = 0; i < count; i++) ck_assert_float_le(sbri_length(sbri_sub(after[i], before[i])), 1e-5f);
   scene_free(&s);
 }
@@ -196,7 +196,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_through");
   TCase *tests = tcase_create("all");
-  tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof places / sizeof *places);
+  tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof positions / sizeof *positions);
   tcase_add_test(tests, the_way_out_is_of_the_same_bits);
   tcase_add_loop_test(tests, parts_of_one_that_got_through_each_other_come_apart, 0, 3);
   tcase_add_loop_test(tests, parts_that_overlap_at_rest_stay_quiet, 0, 3);

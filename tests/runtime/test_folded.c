@@ -10,7 +10,7 @@ enum { CLOSING = 120, SHUT = 180, REGAINED = SHUT + 16, LANDING = SHUT + 31, END
  * it has its shape again within a quarter of a second, and leaps. Landing presses it anew. */
 START_TEST(what_is_pressed_flat_is_left_alone)
 {
-  const double height = 0.4, share = _i ? 0.05 : 0.3;
+  const double height = 0.4, fraction = _i ? 0.05 : 0.3;
   scene s = scene_begin();
   lattice_box box = lattice_box_make((sbf_vec3){-0.3f, 0, -0.2f}, (sbf_vec3){0.6f, (float)height, 0.4f}, 6, 4,
       4, 1000, _i ? 2e4f : 2e5f, 0.45f);
@@ -28,10 +28,10 @@ START_TEST(what_is_pressed_flat_is_left_alone)
   sbr_body_health h = {0};
   for (int i = 1; i <= END; i++) {
     double down = i < CLOSING ? (double)i / CLOSING : 1, gap = height + 0.02;
-    gap = i <= SHUT ? gap + (share * height - gap) * down : gap + 0.05 * (i - SHUT);
+    gap = i <= SHUT ? gap + (fraction * height - gap) * down : gap + 0.05 * (i - SHUT);
     sbr_collider_move(s.world, id, (sbr_double3){0, gap + 0.5, 0}, (sbf_quat){0, 0, 0, 1});
     scene_ticks(&s, 1);
-    h = sbr_character_health(s.world, s.character, 0);
+    h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(h.finite);
     ck_assert_msg(h.recoveries == 0, "put back in tick %d", i);
     if (i == SHUT && !_i) ck_assert_double_lt(h.kinetic_j, 1);

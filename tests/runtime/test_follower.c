@@ -39,12 +39,12 @@ START_TEST(two_steps_are_one_of_twice_the_time)
       float h = 0.001f * (float)ms;
       sbri_follower_step once = sbri_follower_step_of(3, ratios[k], 1.5f, 2 * h);
       sbri_follower_step half = sbri_follower_step_of(3, ratios[k], 1.5f, h);
-      sbri_place_follower a, b;
-      sbri_place_follower_reset(&a, sbri_vec3(0, 0, 0));
+      sbri_position_follower a, b;
+      sbri_position_follower_reset(&a, sbri_vec3(0, 0, 0));
       b = a;
-      sbri_place_follower_tick(&a, sbri_vec3(1, -2, 0), &once); /* evenly there in 2 h */
-      sbri_place_follower_tick(&b, sbri_vec3(0.5f, -1, 0), &half);
-      sbri_place_follower_tick(&b, sbri_vec3(1, -2, 0), &half);
+      sbri_position_follower_tick(&a, sbri_vec3(1, -2, 0), &once); /* evenly there in 2 h */
+      sbri_position_follower_tick(&b, sbri_vec3(0.5f, -1, 0), &half);
+      sbri_position_follower_tick(&b, sbri_vec3(1, -2, 0), &half);
       ck_assert_float_le(sbri_length(sbri_sub(a.value, b.value)), 1e-5f);
       ck_assert_float_le(sbri_length(sbri_sub(a.rate, b.rate)), 2e-3f);
     }
@@ -54,14 +54,14 @@ END_TEST
 START_TEST(it_follows_even_motion_at_a_constant_distance)
 {
   sbri_follower_step step = sbri_follower_step_of(2, 0.7f, 0, 1.0f / 60);
-  sbri_place_follower f;
-  sbri_place_follower_reset(&f, sbri_vec3(0, 0, 0));
+  sbri_position_follower f;
+  sbri_position_follower_reset(&f, sbri_vec3(0, 0, 0));
   float w = 6.2831853f * 2, behind = 2 * 0.7f / w; /* r = 0: 2 z / w seconds late */
-  for (int i = 1; i <= 240; i++) sbri_place_follower_tick(&f, sbri_vec3((float)i / 60, 0, 0), &step);
+  for (int i = 1; i <= 240; i++) sbri_position_follower_tick(&f, sbri_vec3((float)i / 60, 0, 0), &step);
   ck_assert_float_eq_tol(4 - f.value.x, behind, 1e-4f);
   sbri_follower_step ahead = sbri_follower_step_of(2, 0.7f, 2, 1.0f / 60);
-  sbri_place_follower_reset(&f, sbri_vec3(0, 0, 0));
-  for (int i = 1; i <= 240; i++) sbri_place_follower_tick(&f, sbri_vec3((float)i / 60, 0, 0), &ahead);
+  sbri_position_follower_reset(&f, sbri_vec3(0, 0, 0));
+  for (int i = 1; i <= 240; i++) sbri_position_follower_tick(&f, sbri_vec3((float)i / 60, 0, 0), &ahead);
   ck_assert_float_eq_tol(f.value.x, 4, 1e-4f); /* r = 2: not late at all */
 }
 END_TEST

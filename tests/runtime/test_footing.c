@@ -104,14 +104,14 @@ START_TEST(a_sole_lies_as_a_board_does)
   gait_stage_begin_on(&w, quadruped_asset(), bank, 0.25);
   for (int l = 0; l < 4; l++)
     w.rig.legs[l].sole = (sbri_sole){.left = 0.03f, .right = -0.03f, .toe = 0.05f, .heel = -0.05f};
-  sbf_vec3 place = {0, 0, 1}, normal; /* half of it on the level, half on the bank */
-  sbri_lay_sole(&w.rig, w.state, &w.input, 0, &place, &normal);
+  sbf_vec3 position = {0, 0, 1}, normal; /* half of it on the level, half on the bank */
+  sbri_lay_sole(&w.rig, w.state, &w.input, 0, &position, &normal);
   float slope = -normal.z / normal.y;
   ck_assert_float_eq_tol(slope, 0.125f, 0.01f);
   for (float z = -0.05f; z <= 0.051f; z += 0.01f) {
     sbf_vec3 unused;
     double ground = bank(&w.ground, 0, 1 + (double)z, &unused);
-    ck_assert_double_ge((double)(place.y + slope * z), ground - 1e-6);
+    ck_assert_double_ge((double)(position.y + slope * z), ground - 1e-6);
   }
   gait_stage_end(&w);
 }
@@ -160,7 +160,7 @@ START_TEST(feet_go_over_what_lies_between)
   const sbr_obstacle_set set = {&floor, things, 4};
   gait_stage w;
   gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
-  w.ground = sbr_ground_obstacles(&set);
+  w.ground = sbr_ground_with_obstacles(&set);
   w.input.forward = 0.25f;
   float max = 0, lift = 0;
   for (int i = 0; i < 1200; i++) {
@@ -182,7 +182,7 @@ START_TEST(a_wall_is_not_climbed)
   const sbr_obstacle_set set = {&floor, &wall, 1};
   gait_stage w;
   gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
-  w.ground = sbr_ground_obstacles(&set);
+  w.ground = sbr_ground_with_obstacles(&set);
   w.input.forward = 0.3f;
   for (int i = 0; i < 900; i++) {
     gait_stage_ticks(&w, 1);
@@ -197,9 +197,9 @@ END_TEST
 /* Walked on as on any other ground: a host that casts rays, triangles, heights. */
 static double ray_down(void *user, sbr_double3 from, double length, sbf_vec3 *normal) {
   (void)user;
-  double height = 0.15 * from.z, way = from.y - height, unit = sqrt(1 + 0.15 * 0.15);
+  double height = 0.15 * from.z, travel = from.y - height, unit = sqrt(1 + 0.15 * 0.15);
   *normal = (sbf_vec3){0, (float)(1 / unit), (float)(-0.15 / unit)};
-  return way <= length ? way : -1;
+  return travel <= length ? travel : -1;
 }
 
 START_TEST(every_kind_of_ground_carries_the_same_walk)
@@ -211,14 +211,14 @@ START_TEST(every_kind_of_ground_carries_the_same_walk)
   static const sbr_ray_caster caster = {ray_down, NULL, 10, 100, 0};
   sbr_ground_mesh *mesh;
   ck_assert_int_eq(sbr_ground_mesh_create(NULL, corners, 4, triangles, 2, -99, &mesh, NULL), SBF_OK);
-  const sbr_ground grounds[4] = {sbr_ground_plane(0, (sbf_vec3){0, 1, -0.15f}), sbr_ground_of_mesh(mesh),
-      sbr_ground_height_field(&field), sbr_ground_rays(&caster)};
+  const sbr_ground grounds[4] = {sbr_ground_plane(0, (sbf_vec3){0, 1, -0.15f}), sbr_ground_from_mesh(mesh),
+      sbr_ground_height_field(&field), sbr_ground_from_rays(&caster)};
   sbf_vec3 ends[4];
   for (int g = 0; g < 4; g++) {
     gait_stage w;
     gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
     w.ground = grounds[g];
-    sbri_gait_place(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+    sbri_gait_reset(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
     w.input.forward = 0.25f;
     for (int i = 0; i < 480; i++) {
       gait_stage_ticks(&w, 1);
@@ -241,10 +241,10 @@ START_TEST(without_a_chest_it_pitches_as_its_feet_lie)
   gait.chest = -1; /* as of a spider */
   w.asset->gaits.at = &gait;
   gait_stage_remake(&w);
-  sbri_gait_place(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
+  sbri_gait_reset(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
   gait_stage_ticks(&w, 2);
-  float share = w.rig.gait->body_tilt;
-  ck_assert_float_eq_tol(-w.state->hips_pitch, share * atanf(0.3f), 0.02f);
+  float fraction = w.rig.gait->body_tilt;
+  ck_assert_float_eq_tol(-w.state->hips_pitch, fraction * atanf(0.3f), 0.02f);
   gait_stage_end(&w);
 }
 END_TEST

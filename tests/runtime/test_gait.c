@@ -115,10 +115,10 @@ START_TEST(walks_forward_step_by_step)
   begin(&w, flat, 0);
   run(&w, 10, 0.3f, 0, 0);
   expect_good_walk(&w, 8);
-  sbf_vec3 place;
+  sbf_vec3 position;
   float heading;
-  sbri_gait_placement(w.on.state, &place, &heading);
-  ck_assert_float_eq_tol(place.z, 3, 0.1f);
+  sbri_gait_get_placement(w.on.state, &position, &heading);
+  ck_assert_float_eq_tol(position.z, 3, 0.1f);
   ck_assert_double_eq_tol(sbri_gait_distance(w.on.state), 3, 0.1);
   ck_assert_float_eq_tol(w.max_lift, 0.04f, 0.002f);
   ck_assert_uint_gt(w.events, 60);
@@ -145,16 +145,16 @@ START_TEST(feet_come_home_when_it_stops)
   begin(&w, flat, 0);
   run(&w, 3, 0.3f, 0, 0.3f);
   run(&w, 4, 0, 0, 0);
-  sbf_vec3 place;
+  sbf_vec3 position;
   float heading;
-  sbri_gait_placement(w.on.state, &place, &heading);
+  sbri_gait_get_placement(w.on.state, &position, &heading);
   sbr_leg_state legs[4];
   sbri_gait_legs(&w.on.rig, w.on.state, 1, legs, 4);
   for (int l = 0; l < 4; l++) {
-    sbf_quat turn = {0, sinf(heading / 2), 0, cosf(heading / 2)};
+    sbf_quat rotation = {0, sinf(heading / 2), 0, cosf(heading / 2)};
     sbf_vec3 home = w.on.rig.legs[l].home;
     home.y = 0;
-    home = sbri_add(place, sbri_rotate(turn, home));
+    home = sbri_add(position, sbri_rotate(rotation, home));
     ck_assert(legs[l].planted);
     ck_assert_float_le(sbri_length(sbri_sub(legs[l].foot, home)), 0.012f);
   }
@@ -190,9 +190,9 @@ START_TEST(tail_lags_and_overshoots)
     for (int i = 0; i < 120; i++) {
       if (phase == 1) w.on.input.turn = 0;
       tick(&w);
-      sbf_vec3 place, tip = sbri_sub(w.on.pose[7].position, w.on.pose[5].position);
+      sbf_vec3 position, tip = sbri_sub(w.on.pose[7].position, w.on.pose[5].position);
       float heading;
-      sbri_gait_placement(w.on.state, &place, &heading);
+      sbri_gait_get_placement(w.on.state, &position, &heading);
       sbf_quat back = {0, sinf(-heading / 2), 0, cosf(-heading / 2)};
       sbf_vec3 local = sbri_rotate(back, tip); /* straight: (0, 0, -) */
       if (phase == 0)
@@ -215,15 +215,15 @@ START_TEST(head_leads_a_turn_and_comes_back)
   walk w;
   begin(&w, flat, 0);
   run(&w, 1, 0, 0, 1);
-  sbf_vec3 place;
+  sbf_vec3 position;
   float heading;
-  sbri_gait_placement(w.on.state, &place, &heading);
+  sbri_gait_get_placement(w.on.state, &position, &heading);
   sbf_vec3 looks = sbri_rotate(w.on.pose[4].rotation, (sbf_vec3){0, 0, 1});
   float ahead = atan2f(looks.x, looks.z) - heading;
   ck_assert_float_gt(ahead, 0.25f);
   ck_assert_float_le(ahead, 0.75f);
   run(&w, 4, 0, 0, 0);
-  sbri_gait_placement(w.on.state, &place, &heading);
+  sbri_gait_get_placement(w.on.state, &position, &heading);
   looks = sbri_rotate(w.on.pose[4].rotation, (sbf_vec3){0, 0, 1});
   ck_assert_float_eq_tol(remainderf(atan2f(looks.x, looks.z) - heading, 6.2831853f), 0, 0.02f);
   gait_stage_end(&w.on);
@@ -238,7 +238,7 @@ START_TEST(a_knee_turns_with_the_bone_of_its_pole)
   ck_assert_int_eq(with_hips.on.rig.legs[QUADRUPED_HIND_L].pole_bone, 1); /* the thigh hangs on it */
   sbri_leg *leg = &with_head.on.rig.legs[QUADRUPED_HIND_L];
   leg->pole_bone = 4;
-  leg->pole_place = sbri_sub(leg->pole, with_head.on.rig.rest[4].position);
+  leg->pole_position = sbri_sub(leg->pole, with_head.on.rig.rest[4].position);
   run(&with_hips, 0.1, 0, 0, 0);
   run(&with_head, 0.1, 0, 0, 0);
   ck_assert_float_le(
@@ -289,7 +289,7 @@ START_TEST(the_same_speed_at_any_size)
     walk w;
     begin(&w, flat, 0);
     w.on.input.scale = scales[k];
-    sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
+    sbri_gait_reset(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
     w.on.input.forward = 0.3f;
     uint32_t before = 0, after = 0;
     for (int i = 0; i < 900; i++) {
@@ -317,7 +317,7 @@ START_TEST(a_body_left_behind_puts_its_feet_down_anew)
   begin(&w, flat, 0);
   run(&w, 1, 0.3f, 0, 0);
   sbri_gait_rebase(&w.on.rig, w.on.state, (sbf_vec3){0, 0, 0});
-  sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){50, 0, 0}, 1);
+  sbri_gait_reset(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){50, 0, 0}, 1);
   run(&w, 1, 0.3f, 0, 0);
   ck_assert_float_le(w.worst_stretch, 1e-4f);
   gait_stage_end(&w.on);
@@ -350,7 +350,7 @@ START_TEST(a_taller_copy_walks_at_the_same_speed)
   walk w;
   begin(&w, flat, 0);
   w.on.input.scale = 3;
-  sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
+  sbri_gait_reset(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
   w.on.input.forward = 0.5f;
   for (int i = 0; i < 600; i++) {
     sbri_gait_event events[16];

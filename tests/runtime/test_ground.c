@@ -48,9 +48,9 @@ END_TEST
 START_TEST(stairs)
 {
   sbr_ground g = sbr_ground_stairs(0.1, 0.3);
-  const double places[] = {-1, 0.29, 0.31, 0.59, 0.61, 3.01}, heights[] = {0, 0, 0.1, 0.1, 0.2, 1.0};
+  const double positions[] = {-1, 0.29, 0.31, 0.59, 0.61, 3.01}, heights[] = {0, 0, 0.1, 0.1, 0.2, 1.0};
   for (int i = 0; i < 6; i++)
-    ck_assert_double_eq_tol(sbri_ground_height(&g, 7, places[i], NULL), heights[i], 1e-12);
+    ck_assert_double_eq_tol(sbri_ground_height(&g, 7, positions[i], NULL), heights[i], 1e-12);
   g = sbr_ground_stairs(0.1, 0);
   ck_assert_double_eq(sbri_ground_height(&g, 0, 9, NULL), 0);
 }

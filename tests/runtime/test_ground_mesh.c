@@ -26,7 +26,7 @@ START_TEST(heights_and_normals_are_those_of_the_triangles)
   sbr_ground_mesh *mesh;
   ck_assert_int_eq(
       sbr_ground_mesh_create(NULL, points, POINTS, triangles, TRIANGLES, -1, &mesh, NULL), SBF_OK);
-  sbr_ground g = sbr_ground_of_mesh(mesh);
+  sbr_ground g = sbr_ground_from_mesh(mesh);
   sbf_vec3 normal;
   for (uint32_t i = 0; i < POINTS; i++)
     ck_assert_double_eq_tol(
@@ -47,7 +47,7 @@ START_TEST(the_highest_of_two_floors_counts)
   static const uint32_t t[6] = {0, 1, 2, 3, 5, 4};
   sbr_ground_mesh *mesh;
   ck_assert_int_eq(sbr_ground_mesh_create(NULL, p, 6, t, 2, 0, &mesh, NULL), SBF_OK);
-  sbr_ground g = sbr_ground_of_mesh(mesh);
+  sbr_ground g = sbr_ground_from_mesh(mesh);
   sbf_vec3 normal;
   ck_assert_double_eq_tol(g.height(&g, 0.2, 0.2, &normal), 2, 1e-6);
   ck_assert_float_gt(normal.y, 0.99f); /* upwards, whichever way it is wound */

@@ -38,7 +38,7 @@ START_TEST(obstacles_stand_on_their_ground)
       {SBR_OBSTACLE_CYLINDER, {5, 1, -2}, {0.5f, 0.25f, 0}, 0},
       {SBR_OBSTACLE_SPHERE, {9, 0, -2}, {1, 0, 0}, 0}};
   const sbr_obstacle_set set = {&base, some, 3};
-  sbr_ground g = sbr_ground_obstacles(&set);
+  sbr_ground g = sbr_ground_with_obstacles(&set);
   ck_assert_double_eq_tol(height(&g, 0, -2.9), 0.3, 1e-6);
   ck_assert_double_eq_tol(height(&g, 0.5, -2), 0, 1e-6);
   ck_assert_double_eq_tol(height(&g, 5.4, -2), 1.25, 1e-6);
@@ -57,7 +57,7 @@ START_TEST(rays_are_the_host_s)
 {
   int count = 0;
   const sbr_ray_caster caster = {cast, &count, 50, 100, -3};
-  sbr_ground g = sbr_ground_rays(&caster);
+  sbr_ground g = sbr_ground_from_rays(&caster);
   ck_assert_double_eq_tol(height(&g, 1, 0), 2, 1e-9);
   ck_assert_double_eq_tol(height(&g, -1, 0), -3, 1e-9);
   ck_assert_int_eq(count, 2);

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 #include "collision_scenes.h"
+#include "contact_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "meeting_scenes.h"
 #include "momentum.h"
 #include "world/world.h"
 
@@ -76,8 +76,8 @@ START_TEST(boxes_bounce_by_their_restitution)
   meeting_start(&s);
   meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   scene_ticks(&s, 60);
-  double apart = (double)(rigid_state(&s, 1).velocity.z - rigid_state(&s, 0).velocity.z);
-  ck_assert_double_eq_tol(apart / 2, (double)es[_i], 0.02);
+  double separation = (double)(rigid_state(&s, 1).velocity.z - rigid_state(&s, 0).velocity.z);
+  ck_assert_double_eq_tol(separation / 2, (double)es[_i], 0.02);
   scene_free(&s);
 }
 END_TEST
@@ -279,14 +279,14 @@ START_TEST(snapshots_hold_what_touches_push_with)
         (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   meeting_start(&s);
   scene_ticks(&s, 20);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   unsigned char *kept = malloc(size);
-  ck_assert(sbr_world_snapshot_save(s.world, kept, size) == SBF_OK);
+  ck_assert(sbr_world_save_snapshot(s.world, kept, size) == SBF_OK);
   scene_ticks(&s, 40);
-  uint64_t hash = sbr_world_state_hash(s.world);
-  ck_assert(sbr_world_snapshot_restore(s.world, kept, size) == SBF_OK);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  ck_assert(sbr_world_restore_snapshot(s.world, kept, size) == SBF_OK);
   scene_ticks(&s, 40);
-  ck_assert_uint_eq(hash, sbr_world_state_hash(s.world));
+  ck_assert_uint_eq(hash, sbr_world_get_state_hash(s.world));
   free(kept);
   scene_free(&s);
 }
@@ -316,8 +316,8 @@ START_TEST(soft_cubes_of_two_characters_keep_momentum)
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4 * before.linear[2]);
   ck_assert_double_ge(speed, 0.4 * (double)thrown);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
-  ck_assert_uint_eq(sbr_character_health(s.world, other, 0).recoveries, 0);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).recoveries, 0);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, other, 0).recoveries, 0);
   scene_free(&s);
 }
 END_TEST
@@ -372,7 +372,7 @@ static uint64_t run_heap(int threads) {
   (void)meeting_another(&s, (sbr_double3){0.05, 0.7, 0.05});
   (void)meeting_another(&s, (sbr_double3){3, 0, 0});
   scene_ticks(&s, 90);
-  uint64_t hash = sbr_world_state_hash(s.world);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   scene_free(&s);
   return hash;
 }

@@ -35,12 +35,12 @@ static void make(sbf_scheme scheme, kind what, hardship how) {
   } else {
     sbf_level *level =
         scene_regions(&s, 0, (sbf_vec3){0, 0, 0}, 0.1f, counts, 1, how == VERY_STIFF ? 2000 : 100, 1);
-    uint32_t held[9], count = 0;
+    uint32_t pinned[9], count = 0;
     for (uint32_t i = 0; i < box.point_count; i++) {
       ((float *)(uintptr_t)level->masses.at)[i] = box.masses[i];
-      if (!(box.masses[i] > 0)) held[count++] = i;
+      if (!(box.masses[i] > 0)) pinned[count++] = i;
     }
-    scene_pin(&s, level, -1, held, count);
+    scene_pin(&s, level, -1, pinned, count);
   }
   scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
   if (scheme == SBF_SCHEME_EXPLICIT_EULER) { /* which needs it damped */
@@ -67,7 +67,7 @@ START_TEST(hard_cases_hold)
         scene_ticks(&s, 1);
       if (how == JUMPS && i % 20 == 0)
         sbr_character_teleport(s.world, s.character, (sbr_double3){i, 1000, -3 * i}, 0.3f * (float)i);
-      sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+      sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
       ck_assert_msg(health.finite, "kind %d, tick %d", what, i);
       ck_assert_msg(health.recoveries == 0, "kind %d, tick %d", what, i);
       ck_assert_msg(!health.inverted, "kind %d, tick %d", what, i);

@@ -15,7 +15,7 @@ START_TEST(energies_of_a_stretched_falling_pair)
   s.character_definition.position.y = 0;
   s.world_definition.ground = sbr_ground_flat(10);
   scene_start(&s);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_double_eq_tol(h.elastic_j, 0.5 * 100 * 0.25, 1e-9);
   ck_assert_double_eq_tol(h.kinetic_j, 0, 1e-12);
   ck_assert_double_eq_tol(h.potential_j, 4 * 9.81 * 10, 1e-3);
@@ -37,16 +37,16 @@ static scene section(void) {
 START_TEST(volume_is_measured_against_rest)
 {
   scene s = section();
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 1e-5f);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1, 1e-5f);
   sbri_character *c = sbri_character_of(s.world, s.character);
   for (uint32_t i = 0; i < c->model->slot_count; i++) sbri_positions(c)[i].x *= 1.1f;
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1.1f, 1e-5f);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1.1f, 1e-5f);
   for (uint32_t i = 0; i < c->model->slot_count; i++) sbri_positions(c)[i].x *= -1;
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_float_eq_tol(h.volume_ratio, -1.1f, 1e-5f);
   ck_assert(h.inverted);
   sbri_velocities(c)[5] = INFINITY;
-  ck_assert(!sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert(!sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST
@@ -54,7 +54,7 @@ END_TEST
 START_TEST(what_is_not_there_is_all_zero)
 {
   scene s = section();
-  sbr_body_health h = sbr_character_health(s.world, s.character, 3);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 3);
   ck_assert(!h.finite && h.volume_ratio == 0);
   scene_free(&s);
 }

@@ -19,9 +19,9 @@ static uint32_t point(uint32_t x, uint32_t z) {
   return x * (CELLS + 1) + z;
 }
 
-/* An asset with a square metre of cotton, 0.15 kg, level, in springs along its sides and diagonals; `held`:
+/* An asset with a square metre of cotton, 0.15 kg, level, in springs along its sides and diagonals; `pinned`:
  * by the bone, or by the world where that is -1, along x = 0. */
-static scene make_cotton(bool held, int32_t bone, float damping_ratio) {
+static scene make_cotton(bool pinned, int32_t bone, float damping_ratio) {
   static sbf_vec3 positions[POINTS];
   static float masses[POINTS], stiffness[SPRINGS];
   static uint32_t sizes[QUADS], corners[4 * QUADS], edge[CELLS + 1];
@@ -49,7 +49,7 @@ static scene make_cotton(bool held, int32_t bone, float damping_ratio) {
   if (bone >= 0) scene_bone(&s, (sbf_vec3){0, 0, 0});
   sbf_level *level = scene_points(&s, 0, positions, masses, POINTS);
   scene_springs(&s, level, ends, stiffness, springs);
-  if (held) scene_pin(&s, level, bone, edge, CELLS + 1);
+  if (pinned) scene_pin(&s, level, bone, edge, CELLS + 1);
   sbf_soft_body *body = scene_body(&s, 0);
   body->surface.positions = (sbf_vec3_list){positions, POINTS};
   body->surface.polygon_sizes = (sbf_u32_list){sizes, QUADS};
@@ -63,8 +63,8 @@ static scene make_cotton(bool held, int32_t bone, float damping_ratio) {
   return s;
 }
 
-static scene cotton(bool held, float damping_ratio) {
-  scene s = make_cotton(held, -1, damping_ratio);
+static scene cotton(bool pinned, float damping_ratio) {
+  scene s = make_cotton(pinned, -1, damping_ratio);
   scene_start(&s);
   return s;
 }
@@ -119,7 +119,7 @@ START_TEST(cloth_stays_behind_its_bone)
   s.asset->clips = (sbf_clip_list){clip, 1};
   scene_start(&s);
   sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
-  sbr_character_play(s.world, s.character, 0, 0, &how);
+  sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   scene_ticks(&s, 11);
   ck_assert_float_gt(scene_point(&s, 0, point(0, CELLS / 2)).y, 0.39f);
   ck_assert_float_lt(fabsf(scene_point(&s, 0, point(CELLS, CELLS / 2)).y), 0.1f);

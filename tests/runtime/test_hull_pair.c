@@ -27,14 +27,14 @@ START_TEST(faces_meet_in_four_places)
   sbfi_arena arena;
   arena_begin(&arena);
   sbri_hull small = box_of(sbri_vec3(0.5f, 0.5f, 0.5f), &arena), large = box_of(sbri_vec3(2, 1, 2), &arena);
-  const sbf_quat turn = {0, 0.25881905f, 0, 0.96592583f}; /* 30 degrees */
+  const sbf_quat rotation = {0, 0.25881905f, 0, 0.96592583f}; /* 30 degrees */
   const float gaps[2] = {-0.01f, 0.02f};
   for (int i = 0; i < 2; i++)
     for (int swap = 0; swap < 2; swap++) {
-      sbri_placed_hull a = {&small, {0.3f, 1.5f + gaps[i], 0.1f}, turn, 1},
+      sbri_placed_hull a = {&small, {0.3f, 1.5f + gaps[i], 0.1f}, rotation, 1},
                        b = {&large, {0, 0, 0}, {0, 0, 0, 1}, 1};
       sbri_hull_pair pair;
-      ck_assert(swap ? sbri_hulls_meet(&b, &a, 0.05f, &pair) : sbri_hulls_meet(&a, &b, 0.05f, &pair));
+      ck_assert(swap ? sbri_collide_hulls(&b, &a, 0.05f, &pair) : sbri_collide_hulls(&a, &b, 0.05f, &pair));
       ck_assert_uint_eq(pair.count, 4);
       ck_assert_float_ge(pair.normal.y * (swap ? -1 : 1), 0.99999f);
       for (uint32_t k = 0; k < 4; k++) {
@@ -44,7 +44,7 @@ START_TEST(faces_meet_in_four_places)
       }
       sbri_placed_hull far = a;
       far.at.y = 1.6f;
-      ck_assert(!sbri_hulls_meet(&far, &b, 0.05f, &pair));
+      ck_assert(!sbri_collide_hulls(&far, &b, 0.05f, &pair));
     }
   sbfi_arena_free(&arena);
 }
@@ -57,11 +57,11 @@ START_TEST(edges_meet_in_one_place)
   arena_begin(&arena);
   sbri_hull beam = box_of(sbri_vec3(2, 0.1f, 0.1f), &arena);
   const sbf_quat roll = {0.38268343f, 0, 0, 0.92387953f}, across = {0, 0.70710678f, 0, 0.70710678f};
-  float apart = 2 * 0.1f * sqrtf(2);
-  sbri_placed_hull a = {&beam, {0, apart - 0.003f, 0}, sbri_quat_multiply(across, roll), 1};
+  float separation = 2 * 0.1f * sqrtf(2);
+  sbri_placed_hull a = {&beam, {0, separation - 0.003f, 0}, sbri_quat_multiply(across, roll), 1};
   sbri_placed_hull b = {&beam, {0, 0, 0}, roll, 1};
   sbri_hull_pair pair;
-  ck_assert(sbri_hulls_meet(&a, &b, 0.01f, &pair));
+  ck_assert(sbri_collide_hulls(&a, &b, 0.01f, &pair));
   ck_assert_uint_eq(pair.count, 1);
   ck_assert_float_eq_tol(pair.gaps[0], -0.003f, 1e-5f);
   ck_assert_float_ge(pair.normal.y, 0.9999f);
@@ -78,7 +78,7 @@ START_TEST(the_way_out_is_the_least)
   sbri_hull one = box_of(sbri_vec3(0.3f, 0.5f, 0.7f), &arena),
             other = box_of(sbri_vec3(0.4f, 0.4f, 0.4f), &arena);
   uint32_t seed = 7;
-  int met = 0;
+  int hits = 0;
   for (int i = 0; i < 500; i++) {
     float r[7];
     for (int k = 0; k < 7; k++) {
@@ -89,15 +89,15 @@ START_TEST(the_way_out_is_the_least)
         &one, {r[0], r[1], r[2]}, sbri_quat_normalize((sbf_quat){r[3], r[4], r[5], r[6]}), 1};
     sbri_placed_hull b = {&other, {0, 0, 0}, {0, 0, 0, 1}, 1};
     sbri_hull_pair pair;
-    if (!sbri_hulls_meet(&a, &b, 0, &pair)) continue;
-    met++;
+    if (!sbri_collide_hulls(&a, &b, 0, &pair)) continue;
+    hits++;
     ck_assert_float_le(pair.gap, 1e-5f);
     sbri_placed_hull out = a;
     out.at = sbri_add_scaled(a.at, pair.normal, -pair.gap + 1e-4f);
     sbri_hull_pair again;
-    ck_assert(!sbri_hulls_meet(&out, &b, 0, &again));
+    ck_assert(!sbri_collide_hulls(&out, &b, 0, &again));
   }
-  ck_assert_int_ge(met, 100);
+  ck_assert_int_ge(hits, 100);
   sbfi_arena_free(&arena);
 }
 END_TEST

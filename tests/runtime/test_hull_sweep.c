@@ -16,7 +16,7 @@ static scene begin(sbf_vec3 at, float plate_kg) {
   rigid_box(&s, at, (sbf_vec3){0.05f, 0.05f, 0.05f}, 0.2f);
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 1, 0.01f}, plate_kg);
   scene_start(&s);
-  ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(s.world, 0, NULL) == SBF_OK);
   return s;
 }
 
@@ -75,7 +75,7 @@ START_TEST(two_fast_boxes_meet)
     rigid_body(&s, i)->restitution = 0.5f;
   }
   scene_start(&s);
-  ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(s.world, 0, NULL) == SBF_OK);
   for (uint32_t i = 0; i < 2; i++) state(&s, i)->velocity = (sbf_vec3){0, 0, i ? -100 : 100};
   for (int i = 0; i < 10; i++) {
     scene_ticks(&s, 1);

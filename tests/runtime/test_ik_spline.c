@@ -14,7 +14,7 @@ START_TEST(ends_at_the_target_on_one_smooth_bow)
     sbri_ik_result r = sbri_ik_spline(&f.chain);
     ck_assert_float_le(r.error, 0.02f);
     sbr_transform frames[IK_CHAIN_JOINTS];
-    sbri_ik_frames(&f.chain, frames);
+    sbri_ik_compute_frames(&f.chain, frames);
     float min = 1;
     for (int k = 2; k < IK_CHAIN_JOINTS; k++) {
       sbf_vec3 a = sbri_sub(frames[k - 1].position, frames[k - 2].position);

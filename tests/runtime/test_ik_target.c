@@ -16,13 +16,13 @@ typedef struct walker {
 } walker;
 
 /* Far from the world's origin, where a target that is not taken from there would lie elsewhere. */
-static const sbr_double3 place = {100, 0, -40};
+static const sbr_double3 position = {100, 0, -40};
 
 static walker begin(void) {
   walker w = {.asset = quadruped_asset()};
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
-  character.position = place;
+  character.position = position;
   ck_assert_int_eq(sbr_model_create(w.asset, NULL, &w.model, NULL), SBF_OK);
   ck_assert_int_eq(sbr_world_create(&world, &w.world, NULL), SBF_OK);
   ck_assert_int_eq(sbr_character_create(w.world, w.model, &character, &w.character, NULL), SBF_OK);
@@ -42,20 +42,20 @@ static void ticks(walker *w, int count) {
 /* Where the foot is from the character's place. */
 static sbf_vec3 foot(const walker *w) {
   sbr_transform bones[BONES];
-  sbr_double3 origin = sbr_character_origin(w->world, w->character);
-  sbr_character_bones(w->world, w->character, bones, BONES);
+  sbr_double3 origin = sbr_character_get_origin(w->world, w->character);
+  sbr_character_get_bones(w->world, w->character, bones, BONES);
   sbf_vec3 at = bones[FORE_FOOT].position;
-  return sbri_vec3((float)(at.x + origin.x - place.x), (float)(at.y + origin.y - place.y),
-      (float)(at.z + origin.z - place.z));
+  return sbri_vec3((float)(at.x + origin.x - position.x), (float)(at.y + origin.y - position.y),
+      (float)(at.z + origin.z - position.z));
 }
 
-static float apart(sbf_vec3 a, sbf_vec3 b) {
+static float separation(sbf_vec3 a, sbf_vec3 b) {
   return sbri_length(sbri_sub(a, b));
 }
 
 static sbr_ik_target target_at(sbf_vec3 at, float weight) {
-  return (sbr_ik_target){
-      {place.x + (double)at.x, place.y + (double)at.y, place.z + (double)at.z}, {0, 0, 0, 1}, weight};
+  return (sbr_ik_target){{position.x + (double)at.x, position.y + (double)at.y, position.z + (double)at.z},
+      {0, 0, 0, 1}, weight};
 }
 
 static const sbf_vec3 wanted = {0.15f, 0.15f, 0.3f};
@@ -65,14 +65,14 @@ START_TEST(a_foot_goes_where_it_is_told_and_back)
   walker w = begin();
   ticks(&w, 2);
   sbf_vec3 rest = foot(&w);
-  ck_assert_float_gt(apart(rest, wanted), 0.05f);
+  ck_assert_float_gt(separation(rest, wanted), 0.05f);
   sbr_ik_target target = target_at(wanted, 1);
-  sbr_character_ik_target(w.world, w.character, FORE_CHAIN, &target);
+  sbr_character_set_ik_target(w.world, w.character, FORE_CHAIN, &target);
   ticks(&w, 30);
-  ck_assert_float_le(apart(foot(&w), wanted), 2e-3f);
-  sbr_character_ik_target(w.world, w.character, FORE_CHAIN, NULL);
+  ck_assert_float_le(separation(foot(&w), wanted), 2e-3f);
+  sbr_character_set_ik_target(w.world, w.character, FORE_CHAIN, NULL);
   ticks(&w, 30);
-  ck_assert_float_le(apart(foot(&w), rest), 1e-3f);
+  ck_assert_float_le(separation(foot(&w), rest), 1e-3f);
   end(&w);
 }
 END_TEST
@@ -86,10 +86,10 @@ START_TEST(weights_are_kept_between_none_and_all)
   float far[4];
   for (int i = 0; i < 4; i++) {
     sbr_ik_target target = target_at(wanted, weights[i]);
-    sbr_character_ik_target(w.world, w.character, FORE_CHAIN, &target);
+    sbr_character_set_ik_target(w.world, w.character, FORE_CHAIN, &target);
     ticks(&w, 30);
-    far[i] = apart(foot(&w), wanted);
-    if (weights[i] <= 0) ck_assert_float_le(apart(foot(&w), rest), 1e-3f);
+    far[i] = separation(foot(&w), wanted);
+    if (weights[i] <= 0) ck_assert_float_le(separation(foot(&w), rest), 1e-3f);
   }
   ck_assert_float_le(far[0], 2e-3f); /* as with 1 */
   ck_assert_float_gt(far[1], 0.01f);
@@ -104,11 +104,11 @@ START_TEST(chains_that_are_not_there_are_ignored)
   ticks(&w, 2);
   sbf_vec3 rest = foot(&w);
   sbr_ik_target target = target_at(wanted, 1);
-  sbr_character_ik_target(w.world, w.character, w.asset->ik_chains.count, &target);
-  sbr_character_ik_target(w.world, w.character, UINT32_MAX, &target);
-  sbr_character_ik_target(w.world, (sbr_character_id){w.character.value + 1}, FORE_CHAIN, &target);
+  sbr_character_set_ik_target(w.world, w.character, w.asset->ik_chains.count, &target);
+  sbr_character_set_ik_target(w.world, w.character, UINT32_MAX, &target);
+  sbr_character_set_ik_target(w.world, (sbr_character_id){w.character.value + 1}, FORE_CHAIN, &target);
   ticks(&w, 30);
-  ck_assert_float_le(apart(foot(&w), rest), 1e-3f);
+  ck_assert_float_le(separation(foot(&w), rest), 1e-3f);
   end(&w);
 }
 END_TEST

@@ -25,7 +25,7 @@ typedef struct found {
 } found;
 
 /* Of the blocks from `begin` to `end`; `marks` holds numbers of blocks by slots. */
-static found look(const sbri_island *island, uint32_t begin, uint32_t end, uint32_t *marks) {
+static found check(const sbri_island *island, uint32_t begin, uint32_t end, uint32_t *marks) {
   found f = {0};
   for (uint32_t b = begin; b < end; b++) {
     const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[b];
@@ -67,9 +67,9 @@ START_TEST(blocks_hold_each_once)
   ck_assert_uint_eq(island->tetrahedron_count, box.tetrahedron_count);
   ck_assert_uint_eq(dense, (box.tetrahedron_count + 7) / SBRI_BLOCK);
   ck_assert_uint_le(full, dense);
-  found firsts = look(island, 0, full, marks);
-  found loose = look(island, full, dense, marks);
-  found again = look(island, dense, island->tetrahedron_block_count, marks);
+  found firsts = check(island, 0, full, marks);
+  found loose = check(island, full, dense, marks);
+  found again = check(island, dense, island->tetrahedron_block_count, marks);
   free(marks);
   ck_assert_uint_eq(firsts.inert, 0);
   ck_assert_uint_eq(firsts.shared + again.shared, 0);
@@ -113,7 +113,7 @@ START_TEST(numbers_of_a_lane)
   ck_assert_float_eq_tol(block->bulk[0], 800.0f / 6, 1e-4f);
   ck_assert_float_eq_tol(block->shear[0], 400.0f / 6, 1e-4f);
   for (int i = 0; i < 4; i++) ck_assert_float_eq_tol(island->masses[i], 1, 1e-6f); /* a quarter each */
-  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 0);
   scene_free(&s);
 }
 END_TEST
@@ -162,7 +162,7 @@ START_TEST(tetrahedra_of_a_level_of_springs_do_not_act)
   scene_lattice(&s, 0, &box)->model = SBF_ELASTIC_MODEL_SPRINGS;
   scene_start(&s);
   ck_assert_uint_eq(s.model->islands[0].tetrahedron_count, 0);
-  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 1);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 1);
   scene_free(&s);
 }
 END_TEST

@@ -120,7 +120,7 @@ START_TEST(a_level_that_is_stepped_is_taken_where_there_is_one)
   s.model_options.level = 1;
   scene_start(&s);
   ck_assert_uint_eq(scene_read(&s, 0, NULL, 0), 1); /* the coarser */
-  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 1);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 1);
   sbr_world_destroy(s.world);
   sbr_model_destroy(s.model);
   levels[2].model = SBF_ELASTIC_MODEL_JIGGLE;

@@ -33,9 +33,9 @@ static scene arm_in(int kind, float aside, float friction, bool weighs, uint32_t
   scene_start(&s);
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   drive.joint_damping_1_s = 0, drive.joint_friction = friction;
-  sbr_character_rigid_drive(s.world, s.character, &drive);
-  sbr_character_rigid_mode(s.world, s.character, ARM, kind == 2 ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
-  sbr_character_rigid_share(s.world, s.character, ARM, kind == 2 ? 1e-6f : 1);
+  sbr_character_set_rigid_drive(s.world, s.character, &drive);
+  sbr_character_set_rigid_mode(s.world, s.character, ARM, kind == 2 ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
+  sbr_character_set_rigid_drive_fraction(s.world, s.character, ARM, kind == 2 ? 1e-6f : 1);
   return s;
 }
 
@@ -46,7 +46,7 @@ static scene arm_of(int kind, float aside, float friction) {
 static float angle(const scene *s) {
   return asinf(rigid_state(s, ARM).center.x / REACH_M);
 }
-static float spin(const scene *s) {
+static float angular_velocity(const scene *s) {
   return rigid_state(s, ARM).angular_velocity.z;
 }
 
@@ -70,7 +70,7 @@ START_TEST(each_swing_is_shorter_by_what_friction_takes)
   ck_assert_int_ge(swings, 5);
   ck_assert_int_le(swings, 8);
   ck_assert_float_le(fabsf(angle(&s)), 1.3f * FRICTION);
-  ck_assert_float_le(fabsf(spin(&s)), 1.3e-3f);
+  ck_assert_float_le(fabsf(angular_velocity(&s)), 1.3e-3f);
   scene_free(&s);
 }
 END_TEST
@@ -105,7 +105,8 @@ START_TEST(what_is_turned_slows_down_evenly)
     int half = (int)(0.5f * began / (a * tick));
     scene_ticks(&s, (uint32_t)half);
     float since = (float)half * tick;
-    ck_assert_float_eq_tol(spin(&s), began - a * since, 1.5f * a * tick / (float)steps[i] + 1e-3f);
+    ck_assert_float_eq_tol(
+        angular_velocity(&s), began - a * since, 1.5f * a * tick / (float)steps[i] + 1e-3f);
     ck_assert_float_eq_tol(angle(&s), (began - 0.5f * a * since) * since, off);
     scene_ticks(&s, (uint32_t)half + 12);
     float stands = angle(&s);
@@ -126,7 +127,7 @@ START_TEST(a_hit_is_not_held)
     scene_ticks(&s, 10);
     rigid_push(&s, ARM, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0, 0});
     scene_ticks(&s, 1);
-    after[with] = spin(&s);
+    after[with] = angular_velocity(&s);
     scene_free(&s);
   }
   float takes = FRICTION * KG * G * REACH_M * TICK_S / (KG * REACH_M * REACH_M);

@@ -1,7 +1,7 @@
 #include "harness.h"
 #include "ik_chains.h"
 
-static float apart(sbf_quat a, sbf_quat b) {
+static float separation(sbf_quat a, sbf_quat b) {
   return sbri_length(sbri_quat_log(sbri_quat_multiply(a, sbri_quat_conjugate(b))));
 }
 
@@ -27,7 +27,7 @@ START_TEST(parts_make_the_whole_again)
   for (int i = 0; i < 20000; i++) {
     sbf_quat q = ik_random_rotation(&seed);
     sbri_swing_twist p = sbri_swing_twist_of(q);
-    ck_assert_float_le(apart(sbri_swing_twist_join(p), q), 2e-5f);
+    ck_assert_float_le(separation(sbri_swing_twist_join(p), q), 2e-5f);
     ck_assert_float_le(fabsf(p.twist), 3.1415928f);
     ck_assert_float_le(p.swing_y * p.swing_y + p.swing_z * p.swing_z, 9.8697f);
   }
@@ -67,9 +67,9 @@ START_TEST(a_hinge_keeps_the_turn_about_its_axis)
       .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-0.5f, 2}, .cone = 0, .active = true};
   sbf_quat about_x = sbri_quat_about(sbri_vec3(1, 0, 0), 1.1f);
   sbf_quat off = sbri_quat_multiply(sbri_quat_about(sbri_vec3(0, 0.6f, 0.8f), 0.4f), about_x);
-  ck_assert_float_le(apart(sbri_joint_limit_clamp(&hinge, off), about_x), 1e-5f);
+  ck_assert_float_le(separation(sbri_joint_limit_clamp(&hinge, off), about_x), 1e-5f);
   sbf_quat far = sbri_quat_about(sbri_vec3(1, 0, 0), 2.9f), bound = sbri_quat_about(sbri_vec3(1, 0, 0), 2);
-  ck_assert_float_le(apart(sbri_joint_limit_clamp(&hinge, far), bound), 1e-5f);
+  ck_assert_float_le(separation(sbri_joint_limit_clamp(&hinge, far), bound), 1e-5f);
 }
 END_TEST
 
@@ -79,7 +79,7 @@ START_TEST(the_nearer_bound_is_taken_across_half_a_turn)
       .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-3, 1}, .cone = 1, .active = true};
   sbf_quat q = sbri_quat_about(sbri_vec3(1, 0, 0), 3.1f); /* nearer to -3 than to 1 */
   sbf_quat bound = sbri_quat_about(sbri_vec3(1, 0, 0), -3);
-  ck_assert_float_le(apart(sbri_joint_limit_clamp(&limit, q), bound), 1e-5f);
+  ck_assert_float_le(separation(sbri_joint_limit_clamp(&limit, q), bound), 1e-5f);
   ck_assert(same(sbri_joint_limit_clamp(NULL, q), q));
 }
 END_TEST
@@ -88,7 +88,7 @@ END_TEST
 START_TEST(what_a_limit_is_ready_for_changes_no_answer)
 {
   uint32_t seed = 4;
-  int held = 0, broken = 0;
+  int pinned = 0, broken = 0;
   for (int i = 0; i < 100000; i++) {
     sbri_joint_limit slow = random_limit(&seed);
     if (i % 3 == 1) slow.cone = 0; /* a hinge */
@@ -103,9 +103,9 @@ START_TEST(what_a_limit_is_ready_for_changes_no_answer)
     bool holds = sbri_joint_limit_holds(&ready, moved, 1e-5f);
     ck_assert_int_eq(holds, excess <= 1e-5f);
     ck_assert(same(sbri_joint_limit_clamp(&ready, moved), sbri_joint_limit_clamp(&slow, moved)));
-    *(holds ? &held : &broken) += 1;
+    *(holds ? &pinned : &broken) += 1;
   }
-  ck_assert_int_gt(held, 10000);
+  ck_assert_int_gt(pinned, 10000);
   ck_assert_int_gt(broken, 10000);
 }
 END_TEST

@@ -20,10 +20,10 @@ static scene begin(void) {
 }
 
 static void push(const scene *s, uint32_t body, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   sbf_vec3 c = rigid_state(s, body).center;
   sbr_double3 at = {o.x + (double)c.x, o.y + (double)c.y, o.z + (double)c.z};
-  sbr_character_rigid_push(s->world, s->character, body, at, impulse);
+  sbr_character_apply_rigid_impulse(s->world, s->character, body, at, impulse);
 }
 
 /* Mean time from one upward passage of a coordinate through `middle` to the next, s. */
@@ -53,11 +53,11 @@ START_TEST(a_cone_holds_nothing_at_its_axis)
   sbf_joint *joint = rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, -1, 0, (sbf_vec3){0, 0, 0}, rigid_along_y);
   rigid_limit(&s, joint, (sbf_limit){.target = SBF_JOINT_AXIS_SWING, .max = 0.7f});
   scene_start(&s);
-  const sbf_vec3 ways[4] = {{0.3f, 0, 0}, {-0.3f, 0, 0}, {0, 0, 0.3f}, {0, 0, -0.3f}};
-  push(&s, 0, ways[_i]);
+  const sbf_vec3 directions[4] = {{0.3f, 0, 0}, {-0.3f, 0, 0}, {0, 0, 0.3f}, {0, 0, -0.3f}};
+  push(&s, 0, directions[_i]);
   scene_ticks(&s, 6);
   sbf_vec3 v = rigid_state(&s, 0).velocity;
-  float along = (v.x * ways[_i].x + v.z * ways[_i].z) / 0.3f;
+  float along = (v.x * directions[_i].x + v.z * directions[_i].z) / 0.3f;
   ck_assert_double_eq_tol((double)along, 0.3 * cos(0.1 * sqrt(G)), 0.01); /* after a tenth of a second */
   scene_free(&s);
 }
@@ -79,8 +79,8 @@ START_TEST(a_hinge_swings_as_a_pendulum)
     sbr_world_tick(s.world);
     sbr_joint_state now = rigid_joint_state(&s, 0);
     max = fmax(max, fabs((double)now.coordinates[SBF_JOINT_AXIS_TWIST]));
-    ck_assert_float_le(now.apart, 1e-5f);
-    ck_assert_float_le(now.bent, 1e-5f);
+    ck_assert_float_le(now.separation, 1e-5f);
+    ck_assert_float_le(now.angular_error, 1e-5f);
   }
   ck_assert_double_eq_tol(max, PI / 3, 0.01); /* after half a minute, neither gained nor lost */
   scene_free(&s);
@@ -116,8 +116,8 @@ START_TEST(a_slider_slides)
   scene_ticks(&s, 60);
   sbr_joint_state now = rigid_joint_state(&s, 0);
   ck_assert_float_eq_tol(now.coordinates[SBF_JOINT_AXIS_LINEAR_X], 9.81f / 4, 0.03f);
-  ck_assert_float_le(now.apart, 1e-5f);
-  ck_assert_float_le(now.bent, 1e-5f);
+  ck_assert_float_le(now.separation, 1e-5f);
+  ck_assert_float_le(now.angular_error, 1e-5f);
   scene_free(&s);
 }
 END_TEST
@@ -135,8 +135,8 @@ START_TEST(a_cylinder_falls_and_turns)
   sbr_joint_state now = rigid_joint_state(&s, 0);
   ck_assert_float_eq_tol(now.coordinates[SBF_JOINT_AXIS_LINEAR_X], -9.81f / 2, 0.03f);
   ck_assert_float_eq_tol(now.coordinates[SBF_JOINT_AXIS_TWIST], 1, 0.01f);
-  ck_assert_float_le(now.apart, 2e-5f);
-  ck_assert_float_le(now.bent, 2e-5f);
+  ck_assert_float_le(now.separation, 2e-5f);
+  ck_assert_float_le(now.angular_error, 2e-5f);
   scene_free(&s);
 }
 END_TEST
@@ -169,8 +169,8 @@ START_TEST(a_fixed_body_stays)
   scene_start(&s);
   scene_ticks(&s, 120);
   sbr_joint_state now = rigid_joint_state(&s, 0);
-  ck_assert_float_le(now.apart, 1e-5f);
-  ck_assert_float_le(now.bent, 1e-5f);
+  ck_assert_float_le(now.separation, 1e-5f);
+  ck_assert_float_le(now.angular_error, 1e-5f);
   ck_assert_float_eq_tol(now.force.y, 9.81f, 0.01f);
   ck_assert_float_eq_tol(now.torque.z, 9.81f, 0.01f); /* a metre of arm */
   scene_free(&s);
@@ -221,7 +221,7 @@ START_TEST(a_pulley_is_atwoods_machine)
     double down = G * r * (r * a - b) / (r * r * a + b);
     ck_assert_double_eq_tol((double)rigid_state(&s, 0).velocity.y, -0.5 * down, 0.03);
     ck_assert_double_eq_tol((double)rigid_state(&s, 1).velocity.y, 0.5 * down / r, 0.03);
-    ck_assert_float_le(rigid_joint_state(&s, 0).apart, 2e-5f);
+    ck_assert_float_le(rigid_joint_state(&s, 0).separation, 2e-5f);
     scene_free(&s);
   }
 }
@@ -260,11 +260,11 @@ START_TEST(limits_hold)
   for (int i = 0; i < 240; i++) {
     if (i == 60) push(&s, 0, (sbf_vec3){0, 40, 0}); /* some 20 m/s */
     sbr_world_tick(s.world);
-    float beyond = rigid_joint_state(&s, 0).beyond_angle;
+    float beyond = rigid_joint_state(&s, 0).angle_violation;
     worst = beyond > worst ? beyond : worst;
   }
   ck_assert_float_le(worst, 0.0175f);
-  ck_assert_float_le(rigid_joint_state(&s, 0).beyond_angle, 0.00175f);
+  ck_assert_float_le(rigid_joint_state(&s, 0).angle_violation, 0.00175f);
   ck_assert_float_eq_tol(rigid_joint_state(&s, 0).coordinates[SBF_JOINT_AXIS_TWIST], -0.5f, 1e-3f);
   scene_free(&s);
 }
@@ -291,7 +291,7 @@ START_TEST(a_hinge_turns_beyond_half_a_turn)
     farthest = sign * turned > farthest ? sign * turned : farthest;
   }
   ck_assert_float_eq_tol(farthest, 4, 0.02f);
-  ck_assert_float_le(rigid_joint_state(&s, 0).beyond_angle, 0.002f);
+  ck_assert_float_le(rigid_joint_state(&s, 0).angle_violation, 0.002f);
   scene_free(&s);
 }
 END_TEST

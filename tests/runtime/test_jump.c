@@ -84,14 +84,14 @@ static scene begin(const jump *j) {
   add_clip(&s, j);
   scene_start(&s);
   sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
-  sbr_character_play(s.world, s.character, 0, 0, &how);
+  sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }
 
 static sbr_body_health health_after(const jump *j, uint32_t ticks) {
   scene s = begin(j);
   scene_ticks(&s, ticks);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   scene_free(&s);
   return health;
@@ -155,7 +155,7 @@ START_TEST(what_a_fall_crushes_recovers)
   s.world_definition.ground = sbr_ground_flat(0);
   scene_start(&s);
   scene_ticks(&s, 360);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite && !health.inverted);
   ck_assert_float_gt(health.min_element_ratio, 0.4f);
   scene_free(&s);
@@ -208,7 +208,7 @@ static scene begin_bent(void) {
   s.asset->clips = (sbf_clip_list){clip, 1};
   scene_start(&s);
   sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
-  sbr_character_play(s.world, s.character, 0, 0, &how);
+  sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }
 
@@ -217,7 +217,7 @@ START_TEST(a_bent_bar_of_few_vertices_is_not_put_back)
   scene s = begin_bent();
   for (int i = 0; i < 420; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite && !health.inverted);
     ck_assert_uint_eq(health.recoveries, 0);
     ck_assert_float_gt(health.min_element_ratio, 0.3f);

@@ -36,23 +36,23 @@ static scene make_scene(void) {
   return s;
 }
 
-static uint64_t hash_after(sbr_instructions instructions, bool held, sbf_scheme scheme) {
+static uint64_t hash_after(sbr_instructions instructions, bool pinned, sbf_scheme scheme) {
   scene s = make_scene();
-  s.model_options.free = !held;
+  s.model_options.free = !pinned;
   s.model_options.scheme = scheme;
   s.model_options.instructions = instructions;
   scene_start(&s);
-  ck_assert_int_eq(sbr_model_instructions(s.model), instructions);
-  sbr_character_drive(s.world, s.character, 0.3f, 0, 0.5f);
+  ck_assert_int_eq(sbr_model_get_instructions(s.model), instructions);
+  sbr_character_set_drive(s.world, s.character, 0.3f, 0, 0.5f);
   scene_ticks(&s, TICKS);
   for (uint32_t b = 0; b < s.asset->soft_bodies.count; b++) {
-    sbr_body_health health = sbr_character_health(s.world, s.character, b);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, b);
     ck_assert(health.finite);
     if (scheme == SBF_SCHEME_EXPLICIT_EULER) continue; /* it does not hold such a body */
     ck_assert_uint_eq(health.recoveries, 0);
     ck_assert_float_gt(health.max_strain, 1e-4f); /* they do move */
   }
-  uint64_t hash = sbr_world_state_hash(s.world);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   scene_free(&s);
   return hash;
 }
@@ -63,16 +63,16 @@ START_TEST(every_width_gives_the_same_bits)
 {
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
       SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};
-  bool held = _i % 2 != 0;
+  bool pinned = _i % 2 != 0;
   sbf_scheme scheme = schemes[_i / 2];
-  uint64_t hash = hash_after(SBR_INSTRUCTIONS_SCALAR, held, scheme);
+  uint64_t hash = hash_after(SBR_INSTRUCTIONS_SCALAR, pinned, scheme);
   for (int i = SBR_INSTRUCTIONS_SCALAR + 1; i <= WIDTHS; i++) {
     sbr_instructions instructions = (sbr_instructions)i;
-    if (sbr_instructions_available(instructions))
+    if (sbr_instructions_are_available(instructions))
       ck_assert_msg(
-          hash_after(instructions, held, scheme) == hash, "%s", sbr_instructions_name(instructions));
+          hash_after(instructions, pinned, scheme) == hash, "%s", sbr_instructions_get_name(instructions));
     else if (_i == 0)
-      harness_skip("this processor does not have %s", sbr_instructions_name(instructions));
+      harness_skip("this processor does not have %s", sbr_instructions_get_name(instructions));
   }
 }
 END_TEST
@@ -82,9 +82,9 @@ START_TEST(a_model_takes_the_widest)
   scene s = make_scene();
   scene_start(&s);
   ck_assert_ptr_eq(s.model->kernels, sbri_kernels_of(SBR_INSTRUCTIONS_AUTOMATIC));
-  ck_assert_int_ne(sbr_model_instructions(s.model), SBR_INSTRUCTIONS_AUTOMATIC);
+  ck_assert_int_ne(sbr_model_get_instructions(s.model), SBR_INSTRUCTIONS_AUTOMATIC);
   ck_assert_uint_ge(s.model->kernels->lanes, sbri_kernels_plain.lanes);
-  ck_assert_uint_eq(sbr_lanes(), s.model->kernels->lanes);
+  ck_assert_uint_eq(sbr_get_lane_count(), s.model->kernels->lanes);
   ck_assert_uint_eq(sbri_kernels_scalar.lanes, 1);
 #if defined(__x86_64__) || defined(__aarch64__)
   ck_assert_uint_ge(sbri_kernels_plain.lanes, 4);
@@ -105,9 +105,9 @@ START_TEST(instructions_of_other_processors_are_refused)
 #endif
   s.model_options.instructions = (sbr_instructions)(WIDTHS + 1);
   ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &model, &error), SBF_FAILED);
-  ck_assert_ptr_null(sbr_instructions_name(s.model_options.instructions));
+  ck_assert_ptr_null(sbr_instructions_get_name(s.model_options.instructions));
   ck_assert_ptr_null(model);
-  ck_assert_int_eq(sbr_model_instructions(NULL), SBR_INSTRUCTIONS_AUTOMATIC);
+  ck_assert_int_eq(sbr_model_get_instructions(NULL), SBR_INSTRUCTIONS_AUTOMATIC);
   scene_free(&s);
 }
 END_TEST

@@ -9,12 +9,12 @@ typedef struct heard {
   char all[2048];
 } heard;
 
-static void hear(void *user, const sbf_diagnostic *finding) {
+static void hear(void *user, const sbf_diagnostic *diagnostic) {
   heard *h = user;
   h->count++;
-  ck_assert_int_eq(finding->code, SBF_CODE_PART_LEFT_OUT);
-  ck_assert_int_eq(finding->severity, SBF_SEVERITY_INFO);
-  strcat(h->all, finding->message);
+  ck_assert_int_eq(diagnostic->code, SBF_CODE_PART_LEFT_OUT);
+  ck_assert_int_eq(diagnostic->severity, SBF_SEVERITY_INFO);
+  strcat(h->all, diagnostic->message);
   strcat(h->all, "\n");
 }
 
@@ -38,8 +38,8 @@ START_TEST(nothing_is_left_out_of_what_it_does)
   }
   scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){maps, SBF_WEIGHT_PROPERTY_COUNT};
   scene_start(&s);
-  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
-  ck_assert_uint_eq(sbr_model_left_out(NULL, NULL, NULL), 0);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 0);
+  ck_assert_uint_eq(sbr_model_report_unsupported(NULL, NULL, NULL), 0);
   scene_free(&s);
 }
 END_TEST
@@ -54,14 +54,14 @@ START_TEST(what_it_does_not_do_is_told)
   is->pressure = 100;
   scene_body(&s, 0)->collision.self = true;
   scene_start(&s);
-  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 0);
   scene_free(&s);
   s = section();
   scene_body(&s, 0)->collision.self = true; /* without a face there is nothing to meet */
   scene_body(&s, 0)->surface.polygon_sizes.count = scene_body(&s, 0)->surface.polygon_points.count = 0;
   scene_start(&s);
   heard h = {0, ""};
-  ck_assert_uint_eq(sbr_model_left_out(s.model, hear, &h), 1);
+  ck_assert_uint_eq(sbr_model_report_unsupported(s.model, hear, &h), 1);
   ck_assert_uint_eq(h.count, 1);
   ck_assert_ptr_nonnull(strstr(
       h.all, "collisions with themselves of bodies whose surface points are not the level's are left out"));

@@ -45,11 +45,11 @@ static void expect_same(const scene *s, const uint32_t *point_of) {
   enum { MAX = 64 };
   sbf_vec3 full[MAX], few[MAX], normals[MAX];
   uint32_t vertices[MAX];
-  ck_assert_uint_eq(sbr_model_level_vertices(s->model, 0, 1, vertices, MAX), 8);
-  uint32_t count = sbr_character_skin(s->world, s->character, 0, full, NULL, NULL, MAX);
+  ck_assert_uint_eq(sbr_model_get_level_vertices(s->model, 0, 1, vertices, MAX), 8);
+  uint32_t count = sbr_character_get_skin(s->world, s->character, 0, full, NULL, NULL, MAX);
   ck_assert_uint_eq(count, 56);
   memset(few, 0x55, sizeof few);
-  ck_assert_uint_eq(sbr_character_level_skin(s->world, s->character, 0, 1, few, normals, NULL, MAX), 8);
+  ck_assert_uint_eq(sbr_character_get_level_skin(s->world, s->character, 0, 1, few, normals, NULL, MAX), 8);
   for (uint32_t i = 0; i < 8; i++) {
     bool known = false;
     for (int k = 0; k < 8; k++) known |= point_of[k] == vertices[i];
@@ -73,12 +73,12 @@ START_TEST(carried_as_the_full_mesh_is)
   expect_same(&s, point_of);
   scene_ticks(&s, 20);
   expect_same(&s, point_of);
-  ck_assert_uint_eq(sbr_model_level_vertices(s.model, 0, 0, NULL, 0), 56);
-  ck_assert_uint_eq(sbr_model_level_vertices(s.model, 0, 2, NULL, 0), 0);
-  ck_assert_uint_eq(sbr_model_level_vertices(s.model, 1, 0, NULL, 0), 0);
-  ck_assert_uint_eq(sbr_character_level_skin(s.world, s.character, 0, 2, NULL, NULL, NULL, 0), 0);
-  ck_assert_uint_eq(sbr_character_level_corner_normals(s.world, s.character, 0, 1, NULL, 0), 36);
-  ck_assert_uint_eq(sbr_character_level_corner_normals(s.world, s.character, 0, 2, NULL, 0), 0);
+  ck_assert_uint_eq(sbr_model_get_level_vertices(s.model, 0, 0, NULL, 0), 56);
+  ck_assert_uint_eq(sbr_model_get_level_vertices(s.model, 0, 2, NULL, 0), 0);
+  ck_assert_uint_eq(sbr_model_get_level_vertices(s.model, 1, 0, NULL, 0), 0);
+  ck_assert_uint_eq(sbr_character_get_level_skin(s.world, s.character, 0, 2, NULL, NULL, NULL, 0), 0);
+  ck_assert_uint_eq(sbr_character_get_level_corner_normals(s.world, s.character, 0, 1, NULL, 0), 36);
+  ck_assert_uint_eq(sbr_character_get_level_corner_normals(s.world, s.character, 0, 2, NULL, 0), 0);
   scene_free(&s);
 }
 END_TEST
@@ -95,24 +95,24 @@ START_TEST(skinned_as_the_full_mesh_is)
   uint32_t *counts = sbf_asset_allocate(s.asset, count, sizeof *counts);
   uint32_t *bones = sbf_asset_allocate(s.asset, count, sizeof *bones);
   float *weights = sbf_asset_allocate(s.asset, count, sizeof *weights);
-  uint32_t held = 0;
+  uint32_t pinned = 0;
   for (uint32_t v = 0; v < count; v++) {
     counts[v] = v % 3 != 0; /* the others hang on the root */
-    if (counts[v]) weights[held++] = 1;
+    if (counts[v]) weights[pinned++] = 1;
   }
   sbf_skin_init(skin);
   skin->influence_counts = (sbf_u32_list){counts, count};
-  skin->bones = (sbf_u32_list){bones, held};
-  skin->weights = (sbf_f32_list){weights, held};
+  skin->bones = (sbf_u32_list){bones, pinned};
+  skin->weights = (sbf_f32_list){weights, pinned};
   mesh->skin = skin;
   s.character_definition.heading = 0.7f;
   scene_start(&s);
   enum { MAX = 64 };
   sbf_vec3 full[MAX], few[MAX];
   uint32_t vertices[MAX];
-  sbr_model_level_vertices(s.model, 0, 1, vertices, MAX);
-  sbr_character_skin(s.world, s.character, 0, full, NULL, NULL, MAX);
-  ck_assert_uint_eq(sbr_character_level_skin(s.world, s.character, 0, 1, few, NULL, NULL, MAX), 8);
+  sbr_model_get_level_vertices(s.model, 0, 1, vertices, MAX);
+  sbr_character_get_skin(s.world, s.character, 0, full, NULL, NULL, MAX);
+  ck_assert_uint_eq(sbr_character_get_level_skin(s.world, s.character, 0, 1, few, NULL, NULL, MAX), 8);
   for (uint32_t i = 0; i < 8; i++) ck_assert_mem_eq(&few[i], &full[vertices[i]], sizeof *few);
   scene_free(&s);
 }
@@ -162,9 +162,9 @@ START_TEST(corners_look_as_named)
   scene_start(&s);
   sbf_vec3 seen[36], smooth[8];
   sbf_vec4 tangents[8];
-  ck_assert_uint_eq(sbr_character_level_corner_normals(s.world, s.character, 0, 1, seen, 36), 36);
+  ck_assert_uint_eq(sbr_character_get_level_corner_normals(s.world, s.character, 0, 1, seen, 36), 36);
   for (int i = 0; i < 36; i++) ck_assert_float_gt(sbri_dot(seen[i], normals[corners[i]]), 0.999f);
-  ck_assert_uint_eq(sbr_character_level_skin(s.world, s.character, 0, 1, NULL, smooth, tangents, 8), 8);
+  ck_assert_uint_eq(sbr_character_get_level_skin(s.world, s.character, 0, 1, NULL, smooth, tangents, 8), 8);
   for (int i = 0; i < 8; i++) ck_assert_float_gt(tangents[i].z, 0.3f);
   scene_free(&s);
 }

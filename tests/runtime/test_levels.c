@@ -2,13 +2,13 @@
 #include "prepare/prepare.h"
 #include "sbfmt/asset.h"
 
-static const sbf_vec3 places[2];
+static const sbf_vec3 positions[2];
 
 static sbf_level of_model(sbf_elastic_model model) {
   sbf_level level;
   sbf_level_init(&level);
   level.model = model;
-  level.positions.at = places;
+  level.positions.at = positions;
   level.positions.count = 2;
   return level;
 }

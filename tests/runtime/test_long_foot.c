@@ -11,7 +11,7 @@ static const float TICK_S = 1.0f / 60, MAX = 4.6f * 3.14159265f / 180; /* rad a 
 static sbri_leg long_legged(void) {
   sbri_leg leg = {.upper_length = 1, .lower_length = 1, .has_toe = true, .rest_span = 1.4f, .reach = 1.7f};
   leg.ankle = sbri_vec3(0, 0.9f, 0);
-  leg.toe_place = sbri_vec3(0, 0.1f, 0);
+  leg.toe_position = sbri_vec3(0, 0.1f, 0);
   return leg;
 }
 

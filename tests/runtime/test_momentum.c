@@ -266,13 +266,13 @@ START_TEST(every_width_gives_the_same_bits)
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
     sbr_instructions instructions = (sbr_instructions)i;
-    if (!sbr_instructions_available(instructions)) continue;
+    if (!sbr_instructions_are_available(instructions)) continue;
     scene s = dumbbell(&kinds[_i], instructions);
     (void)hit(&s, &kinds[_i]);
     scene_ticks(&s, 30);
-    uint64_t now = sbr_world_state_hash(s.world);
+    uint64_t now = sbr_world_get_state_hash(s.world);
     if (i == SBR_INSTRUCTIONS_SCALAR) hash = now;
-    ck_assert_msg(now == hash, "%s: %s", kinds[_i].name, sbr_instructions_name(instructions));
+    ck_assert_msg(now == hash, "%s: %s", kinds[_i].name, sbr_instructions_get_name(instructions));
     scene_free(&s);
   }
 }

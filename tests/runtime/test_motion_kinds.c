@@ -256,7 +256,7 @@ static double rolled(const gait_stage *s, uint32_t bone) {
   return atan2((double)up.z, (double)up.y);
 }
 
-static double apart(double a, double b) {
+static double separation(double a, double b) {
   return fabs(remainder(a - b, 2 * PI));
 }
 
@@ -268,7 +268,7 @@ START_TEST(wheels_turn_by_the_distance_over_their_radius)
   s.input.forward = 0.7f;
   gait_stage_ticks(&s, 200);
   for (uint32_t w = 1; w <= 4; w++)
-    ck_assert_double_lt(apart(rolled(&s, w), sbri_gait_distance(s.state) / 0.3), 1e-3);
+    ck_assert_double_lt(separation(rolled(&s, w), sbri_gait_distance(s.state) / 0.3), 1e-3);
   gait_stage_end(&s);
   /* About the middle: one side by the turn times half the gauge ahead, the other back. */
   gait_stage_begin(&s, cart(&gait, false, true));
@@ -278,8 +278,8 @@ START_TEST(wheels_turn_by_the_distance_over_their_radius)
     gait_stage_ticks(&s, 1);
     round += remainder((double)s.state->heading - last, 2 * PI), last = (double)s.state->heading;
   }
-  ck_assert_double_lt(apart(rolled(&s, 1), -round * 0.5 / 0.3), 2e-3);
-  ck_assert_double_lt(apart(rolled(&s, 2), round * 0.5 / 0.3), 2e-3);
+  ck_assert_double_lt(separation(rolled(&s, 1), -round * 0.5 / 0.3), 2e-3);
+  ck_assert_double_lt(separation(rolled(&s, 2), round * 0.5 / 0.3), 2e-3);
   gait_stage_end(&s);
 }
 END_TEST
@@ -314,9 +314,9 @@ START_TEST(a_car_turns_about_its_fixed_axle_no_tighter_than_it_steers)
   ck_assert_double_eq_tol((double)s.state->turn, tan(0.6) / 2, 1e-3);
   sbf_vec3 rear = sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f);
   gait_stage_ticks(&s, 1);
-  sbf_vec3 way =
+  sbf_vec3 direction =
       sbri_unheaded(s.state, sbri_sub(sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f), rear));
-  ck_assert_double_eq_tol((double)(way.x / way.z), 0, 0.01);
+  ck_assert_double_eq_tol((double)(direction.x / direction.z), 0, 0.01);
   gait_stage_end(&s);
 }
 END_TEST
@@ -494,26 +494,26 @@ START_TEST(a_world_restores_it_and_ignores_numbers_that_are_none)
   ck_assert_int_eq(sbr_model_create(a, NULL, &model, &error), SBF_OK);
   ck_assert_int_eq(sbr_world_create(&world_as, &world, &error), SBF_OK);
   ck_assert_int_eq(sbr_character_create(world, model, &as, &one, &error), SBF_OK);
-  sbr_character_drive(world, one, 1, 0, 0.5f);
+  sbr_character_set_drive(world, one, 1, 0, 0.5f);
   sbr_character_set_vertical_speed(world, one, 0.3f);
   sbr_character_set_vertical_speed(world, one, NAN);
   sbr_character_set_vertical_speed(world, one, INFINITY);
   for (int t = 0; t < 60; t++) sbr_world_tick(world);
-  size_t size = sbr_world_snapshot_size(world);
+  size_t size = sbr_world_get_snapshot_size(world);
   void *bytes = malloc(size);
-  ck_assert_int_eq(sbr_world_snapshot_save(world, bytes, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(world, bytes, size), SBF_OK);
   for (int t = 0; t < 60; t++) sbr_world_tick(world);
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   sbr_transform bones[BONES];
-  sbr_character_bones(world, one, bones, BONES);
-  sbr_double3 origin = sbr_character_origin(world, one);
+  sbr_character_get_bones(world, one, bones, BONES);
+  sbr_double3 origin = sbr_character_get_origin(world, one);
   ck_assert_double_eq_tol(origin.y + (double)bones[BONES / 2].position.y, 1 + 0.3 * (2 - 0.3), 0.1);
-  ck_assert_int_eq(sbr_world_snapshot_restore(world, bytes, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_restore_snapshot(world, bytes, size), SBF_OK);
   for (int t = 0; t < 60; t++) sbr_world_tick(world);
-  ck_assert_uint_eq(sbr_world_state_hash(world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(world), hash);
   sbr_character_reset(world, one);
   for (int t = 0; t < 60; t++) sbr_world_tick(world);
-  sbr_character_bones(world, one, bones, BONES);
+  sbr_character_get_bones(world, one, bones, BONES);
   for (int b = 0; b < BONES; b++) ck_assert(isfinite(bones[b].position.y));
   free(bytes);
   sbr_world_destroy(world);

@@ -101,9 +101,9 @@ START_TEST(the_first_of_several_pins_holds)
   sets[0].bone = 0;
   sets[0].points = sets[1].points = (sbf_u32_list){&point, 1}; /* the second by the world */
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0);
   scene_ticks(&s, 120);
-  sbr_double3 origin = sbr_character_origin(s.world, s.character);
+  sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_gt(origin.z + (double)scene_point(&s, 0, 0).z, 1);
   scene_free(&s);
 }
@@ -118,16 +118,16 @@ START_TEST(the_world_holds_where_the_character_was_put)
   sbf_level *level = scene_points(&s, 0, &position, NULL, 1);
   add_pins(&s, level, 1)->points = (sbf_u32_list){&point, 1};
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0);
   scene_ticks(&s, 600); /* the origin has moved by then */
-  sbr_double3 origin = sbr_character_origin(s.world, s.character);
+  sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
   sbf_vec3 p = scene_point(&s, 0, 0);
   ck_assert_double_ge(origin.z, 4);
   ck_assert_double_eq_tol(origin.z + (double)p.z, 0, 1e-5);
   ck_assert_double_eq_tol(origin.x + (double)p.x, 0.5, 1e-5);
   sbr_character_teleport(s.world, s.character, (sbr_double3){100, 1000, 0}, 0);
   scene_ticks(&s, 60);
-  origin = sbr_character_origin(s.world, s.character);
+  origin = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq_tol(origin.x + (double)scene_point(&s, 0, 0).x, 100.5, 1e-5);
   scene_free(&s);
 }
@@ -152,14 +152,14 @@ START_TEST(guides_blend_between_the_bones_that_hold)
   sets[1].bone = 1, sets[1].points = (sbf_u32_list){&last, 1};
   scene_start(&s);
   const sbri_body *body = &s.model->bodies[0];
-  ck_assert(body->held);
-  ck_assert_ptr_nonnull(body->guides);
+  ck_assert(body->is_pinned);
+  ck_assert_ptr_nonnull(body->drivers);
   for (uint32_t i = 1; i + 1 < POINTS; i++) {
-    const sbri_guide *guide = &body->guides[body->slot_from_point[i] - body->slot_begin];
+    const sbri_driver *driver = &body->drivers[body->slot_from_point[i] - body->slot_begin];
     float of_second = 0, sum = 0;
-    for (int k = 0; k < SBRI_GUIDES; k++) {
-      sum += guide->weights[k];
-      if (guide->frames[k] == 1) of_second += guide->weights[k];
+    for (int k = 0; k < SBRI_DRIVERS; k++) {
+      sum += driver->weights[k];
+      if (driver->frames[k] == 1) of_second += driver->weights[k];
     }
     ck_assert_float_eq_tol(sum, 1, 1e-6f);
     ck_assert_float_eq_tol(of_second, (float)i / (POINTS - 1), 0.02f);

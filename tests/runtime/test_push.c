@@ -1,9 +1,9 @@
 /* Blows of soft bodies on each other: how deep they drive them, and where to. */
 #include <math.h>
 
+#include "contact_scenes.h"
 #include "harness.h"
 #include "math/vec3.h"
-#include "meeting_scenes.h"
 #include "sbrun/collision.h"
 #include "shapes.h"
 #include "skin_depth.h"
@@ -38,8 +38,8 @@ static scene begin(
 
 static placed skin_of(const scene *s, sbr_character_id who) {
   placed p = {.middle = {0, 0, 0}};
-  sbr_double3 o = sbr_character_origin(s->world, who);
-  ck_assert_uint_eq(sbr_character_surface(s->world, who, 0, p.at, MAX), MAX);
+  sbr_double3 o = sbr_character_get_origin(s->world, who);
+  ck_assert_uint_eq(sbr_character_get_surface(s->world, who, 0, p.at, MAX), MAX);
   for (uint32_t i = 0; i < MAX; i++) {
     p.at[i] = sbri_add(p.at[i], sbri_vec3((float)o.x, (float)o.y, (float)o.z));
     p.middle = sbri_add_scaled(p.middle, p.at[i], 1.0f / MAX);

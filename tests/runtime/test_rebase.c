@@ -21,22 +21,22 @@ START_TEST(what_flies_far_keeps_its_shape)
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){pull, 0, 0};
   scene_start(&s);
-  double begin = sbr_character_origin(s.world, s.character).x + (double)scene_point(&s, 0, 0).x;
+  double begin = sbr_character_get_origin(s.world, s.character).x + (double)scene_point(&s, 0, 0).x;
   float max = 0;
   for (int i = 0; i < TICKS; i++) {
     scene_ticks(&s, 1);
-    max = fmaxf(max, sbr_character_health(s.world, s.character, 0).max_strain);
+    max = fmaxf(max, sbr_character_get_body_health(s.world, s.character, 0).max_strain);
   }
   ck_assert_float_le(max, bounds[_i]); /* a centimetre at 150 m/s goes 250 times its size in a tick */
   sbf_vec3 at = scene_point(&s, 0, 0);
-  double way = sbr_character_origin(s.world, s.character).x + (double)at.x - begin;
+  double travel = sbr_character_get_origin(s.world, s.character).x + (double)at.x - begin;
   double exact = 0.5 * (double)pull * SECONDS * SECONDS;
-  ck_assert_double_eq_tol(way, exact, 2e-3 * exact);
+  ck_assert_double_eq_tol(travel, exact, 2e-3 * exact);
   ck_assert_float_le(fabsf(at.x), 20);
   sbr_character_reset(s.world, s.character); /* it stands where it began */
   scene_ticks(&s, 1);
-  way = sbr_character_origin(s.world, s.character).x + (double)scene_point(&s, 0, 0).x - begin;
-  ck_assert_double_le(fabs(way), 0.01);
+  travel = sbr_character_get_origin(s.world, s.character).x + (double)scene_point(&s, 0, 0).x - begin;
+  ck_assert_double_le(fabs(travel), 0.01);
   scene_free(&s);
 }
 END_TEST

@@ -32,26 +32,26 @@ static void push(const scene *s, int which) {
 /* Two seconds of all kinds of calls, in frames of uneven length. */
 static uint64_t act(scene *s) {
   for (int i = 0; i < 80; i++) {
-    if (i == 3) sbr_character_drive(s->world, s->character, 0.7f, -0.2f, 1.5f);
+    if (i == 3) sbr_character_set_drive(s->world, s->character, 0.7f, -0.2f, 1.5f);
     if (i == 20) sbr_character_teleport(s->world, s->character, (sbr_double3){12.25, 900, -3.1}, 0.4f);
-    if (i == 30) sbr_character_pause(s->world, s->character, true);
-    if (i == 34) sbr_character_pause(s->world, s->character, false);
+    if (i == 30) sbr_character_set_paused(s->world, s->character, true);
+    if (i == 34) sbr_character_set_paused(s->world, s->character, false);
     if (i == 40) sbr_character_wake(s->world, s->character);
     if (i >= 41 && i <= 45) push(s, i - 41);
     if (i == 60) sbr_character_reset(s->world, s->character);
     if (i == 61) sbr_world_tick(s->world);
     sbr_world_step(s->world, 0.01 + 0.0007 * (i % 40));
   }
-  return sbr_world_state_hash(s->world);
+  return sbr_world_get_state_hash(s->world);
 }
 
 static uint64_t record(tape *t) {
   scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
   const sbr_record_output output = {tape_keep, t};
   t->size = 0;
-  sbr_world_record(s.world, &output);
+  sbr_world_set_recording(s.world, &output);
   uint64_t hash = act(&s);
-  sbr_world_record(s.world, NULL);
+  sbr_world_set_recording(s.world, NULL);
   size_t end = t->size;
   scene_ticks(&s, 5); /* no longer recorded */
   ck_assert_uint_eq(t->size, end);
@@ -66,18 +66,18 @@ START_TEST(what_is_played_ends_in_the_same_state)
   scene s = make(_i ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC);
   const sbr_record_output output = {tape_keep, &again};
   again.size = 0;
-  sbr_world_record(s.world, &output);
+  sbr_world_set_recording(s.world, &output);
   sbr_replay replay;
   ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, NULL), SBF_OK);
   ck_assert_uint_eq(replay.frame_count, 81);
   ck_assert_uint_eq(replay.checks, 1);
-  while (sbr_replay_frame(&replay)) ck_assert_double_gt(replay.frame_s, 0.009);
+  while (sbr_replay_step(&replay)) ck_assert_double_gt(replay.frame_s, 0.009);
   ck_assert_uint_eq(replay.frames, 81);
   ck_assert_uint_ge(replay.checks, 3);
   ck_assert(!replay.differs);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   /* What is played can be recorded, and is the same. */
-  sbr_world_record(s.world, NULL);
+  sbr_world_set_recording(s.world, NULL);
   ck_assert_uint_eq(again.size, t.size);
   ck_assert_mem_eq(again.bytes, t.bytes, t.size);
   scene_free(&s);
@@ -101,7 +101,7 @@ START_TEST(another_world_is_told)
     if (t.bytes[at] == 5) t.bytes[at + 8 + 8 + 6] ^= 8; /* forward of a drive */
   ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, NULL), SBF_OK);
   ck_assert(!replay.differs);
-  while (sbr_replay_frame(&replay))
+  while (sbr_replay_step(&replay))
     ;
   ck_assert(replay.differs);
   ck_assert_uint_ge(replay.differs_at_tick, 60);
@@ -128,7 +128,7 @@ START_TEST(damaged_recordings_do_no_harm)
       cut.bytes[at] ^= 0x41;
       sbr_replay_begin(&replay, s.world, cut.bytes, cut.size, &error);
     }
-    for (int frame = 0; frame < 200 && sbr_replay_frame(&replay); frame++)
+    for (int frame = 0; frame < 200 && sbr_replay_step(&replay); frame++)
       ;
     ck_assert(_i || !replay.differs);
     scene_free(&s);
@@ -145,15 +145,15 @@ START_TEST(characters_made_meanwhile_are_told)
   sbr_replay replay;
   sbf_diagnostic error;
   t.size = 0;
-  sbr_world_record(s.world, &output);
+  sbr_world_set_recording(s.world, &output);
   scene_ticks(&s, 3);
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &other, NULL), SBF_OK);
   ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, &error), SBF_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(error.message, "characters were made"));
-  ck_assert(!sbr_replay_frame(&replay));
+  ck_assert(!sbr_replay_step(&replay));
   ck_assert_int_eq(sbr_replay_begin(NULL, s.world, t.bytes, t.size, &error), SBF_FAILED);
-  sbr_world_record(NULL, &output);
-  ck_assert(!sbr_replay_frame(NULL));
+  sbr_world_set_recording(NULL, &output);
+  ck_assert(!sbr_replay_step(NULL));
   scene_free(&s);
 }
 END_TEST

@@ -23,7 +23,7 @@ static scene begin_cube(double height, sbf_scheme scheme, uint32_t substeps) {
 }
 
 /* Everything at the same velocity, and turning about the middle. */
-static void throw(const scene *s, sbf_vec3 velocity, sbf_vec3 spin) {
+static void throw(const scene *s, sbf_vec3 velocity, sbf_vec3 angular_velocity) {
   sbri_character *c = sbri_character_of(s->world, s->character);
   const sbri_island *island = &c->model->islands[0];
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
@@ -31,14 +31,14 @@ static void throw(const scene *s, sbf_vec3 velocity, sbf_vec3 spin) {
     sbf_vec3 arm = {p->x, p->y - 0.5f * SIZE, p->z};
     float *v = sbri_velocities(c) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     if (!(island->masses[slot] > 0)) continue;
-    v[0] = velocity.x + spin.y * arm.z - spin.z * arm.y;
-    v[SBRI_BLOCK] = velocity.y + spin.z * arm.x - spin.x * arm.z;
-    v[2 * SBRI_BLOCK] = velocity.z + spin.x * arm.y - spin.y * arm.x;
+    v[0] = velocity.x + angular_velocity.y * arm.z - angular_velocity.z * arm.y;
+    v[SBRI_BLOCK] = velocity.y + angular_velocity.z * arm.x - angular_velocity.x * arm.z;
+    v[2 * SBRI_BLOCK] = velocity.z + angular_velocity.x * arm.y - angular_velocity.y * arm.x;
   }
 }
 
 static sbr_body_health health_of(const scene *s) {
-  return sbr_character_health(s->world, s->character, 0);
+  return sbr_character_get_body_health(s->world, s->character, 0);
 }
 
 /* It used to stop where it was. A corner that is torn off as far as numbers go is an explosion whatever the

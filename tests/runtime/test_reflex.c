@@ -16,37 +16,38 @@ static scene standing(void) {
 }
 
 static void hit(const scene *s, sbf_vec3 impulse) {
-  sbr_rigid_fall fall = sbr_default_rigid_fall();
-  sbr_character_rigid_fall(s->world, s->character, &fall);
+  sbr_fall_definition fall = sbr_default_fall_definition();
+  sbr_character_knock_over(s->world, s->character, &fall);
   person_shove(s, 1, impulse);
 }
 
 static float worst_limit(const scene *s) {
   float beyond = 0;
-  for (uint32_t j = 0; j < PARTS - 1; j++) beyond = larger(beyond, rigid_joint_state(s, j).beyond_angle);
+  for (uint32_t j = 0; j < PARTS - 1; j++) beyond = larger(beyond, rigid_joint_state(s, j).angle_violation);
   return beyond;
 }
 
 /* How far a body goes in this tick beside its way in the one before, at most, m. */
-static float worst_jump(const scene *s, sbf_vec3 places[PARTS], sbf_vec3 ways[PARTS]) {
+static float worst_jump(const scene *s, sbf_vec3 positions[PARTS], sbf_vec3 directions[PARTS]) {
   float max = 0;
   for (uint32_t b = 0; b < PARTS; b++) {
-    sbf_vec3 now = rigid_state(s, b).center, was = places[b];
-    sbf_vec3 way = {now.x - was.x, now.y - was.y, now.z - was.z};
-    sbf_vec3 d = {way.x - ways[b].x, way.y - ways[b].y, way.z - ways[b].z};
+    sbf_vec3 now = rigid_state(s, b).center, was = positions[b];
+    sbf_vec3 displacement = {now.x - was.x, now.y - was.y, now.z - was.z};
+    sbf_vec3 d = {
+        displacement.x - directions[b].x, displacement.y - directions[b].y, displacement.z - directions[b].z};
     max = larger(max, sqrtf(d.x * d.x + d.y * d.y + d.z * d.z));
-    places[b] = now, ways[b] = way;
+    positions[b] = now, directions[b] = displacement;
   }
   return max;
 }
 
 /* The events of landing since the last call, and where the last of them was. */
-static uint32_t landings(const scene *s, sbr_double3 *place) {
+static uint32_t landings(const scene *s, sbr_double3 *position) {
   sbr_event events[64];
   uint32_t count, landed = 0;
-  while ((count = sbr_world_events(s->world, events, 64)))
+  while ((count = sbr_world_take_events(s->world, events, 64)))
     for (uint32_t e = 0; e < count; e++)
-      if (events[e].kind == SBR_EVENT_LANDED) landed++, *place = events[e].position;
+      if (events[e].kind == SBR_EVENT_LANDED) landed++, *position = events[e].position;
   return landed;
 }
 
@@ -58,27 +59,28 @@ START_TEST(hit_falls_and_gets_up)
   static const sbf_vec3 hits[4] = {{0, 0, 120}, {150, 0, -40}, {-80, 60, 0}, {0, 0, -150}};
   scene s = standing();
   scene_ticks(&s, 30);
-  ck_assert_int_eq(sbr_character_rigid_posture(s.world, s.character), SBR_RIGID_UP);
+  ck_assert_int_eq(sbr_character_get_posture(s.world, s.character), SBR_POSTURE_UPRIGHT);
   hit(&s, hits[_i]);
-  float beyond = 0, apart = 0, lowest = 10, resting = 0;
+  float beyond = 0, separation = 0, lowest = 10, resting = 0;
   float jump = 0;
-  sbf_vec3 places[PARTS] = {{0}}, ways[PARTS] = {{0}};
+  sbf_vec3 positions[PARTS] = {{0}}, directions[PARTS] = {{0}};
   int down = 0, rising = 0, up = 0, landed = 0;
-  sbr_double3 place = {NAN, 0, 0};
+  sbr_double3 position = {NAN, 0, 0};
   for (int i = 1; i <= 480 && !up; i++) {
     sbr_world_tick(s.world);
-    sbr_rigid_posture posture = sbr_character_rigid_posture(s.world, s.character);
-    float head = rigid_state(&s, 2).center.y, off = worst_jump(&s, places, ways);
-    if (posture != SBR_RIGID_FALLING) jump = larger(jump, off);
+    sbr_posture posture = sbr_character_get_posture(s.world, s.character);
+    float head = rigid_state(&s, 2).center.y, off = worst_jump(&s, positions, directions);
+    if (posture != SBR_POSTURE_FALLING) jump = larger(jump, off);
     lowest = head < lowest ? head : lowest;
     beyond = larger(beyond, worst_limit(&s));
-    for (uint32_t j = 0; j < PARTS - 1; j++) apart = larger(apart, rigid_joint_state(&s, j).apart);
+    for (uint32_t j = 0; j < PARTS - 1; j++)
+      separation = larger(separation, rigid_joint_state(&s, j).separation);
     if (head < 0.6f && !down) down = i;
-    if (posture == SBR_RIGID_RISING && !rising) rising = i, resting = worst_limit(&s);
-    if (posture == SBR_RIGID_UP) up = i;
-    uint32_t told = landings(&s, &place);
-    ck_assert_uint_eq(told, rising == i);
-    landed += (int)told;
+    if (posture == SBR_POSTURE_RISING && !rising) rising = i, resting = worst_limit(&s);
+    if (posture == SBR_POSTURE_UPRIGHT) up = i;
+    uint32_t reported = landings(&s, &position);
+    ck_assert_uint_eq(reported, rising == i);
+    landed += (int)reported;
   }
   ck_assert(down > 0 && down <= 120);
   ck_assert_int_gt(rising, down);
@@ -86,11 +88,11 @@ START_TEST(hit_falls_and_gets_up)
   ck_assert_int_gt(up, rising);
   ck_assert_float_le(beyond, 0.01745f);
   ck_assert_float_le(resting, 0.001745f);
-  ck_assert_float_le(apart, 1e-3f);
+  ck_assert_float_le(separation, 1e-3f);
   ck_assert_float_le(jump, 0.025f); /* the help's 40 m/s^2 make 11 mm, the drives and the ground the rest */
   scene_ticks(&s, 30);
   sbf_vec3 chest = rigid_state(&s, 1).center;
-  ck_assert_float_le(hypotf(chest.x - (float)place.x, chest.z - (float)place.z), 0.2f);
+  ck_assert_float_le(hypotf(chest.x - (float)position.x, chest.z - (float)position.z), 0.2f);
   ck_assert_float_eq_tol(rigid_state(&s, 2).center.y, 1.625f, 0.03f);
   scene_free(&s);
 }

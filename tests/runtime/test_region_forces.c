@@ -23,12 +23,12 @@ static scene make_block(float w) {
 
 /* Momentum, angular momentum about where the character's origin is at first, and energy. */
 typedef struct kept {
-  sbf_vec3 momentum, spin;
+  sbf_vec3 momentum, angular_velocity;
   double energy;
 } kept;
 
 static kept measure(const scene *s) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   double off[3] = {o.x - s->character_definition.position.x, o.y, o.z - s->character_definition.position.z};
   const sbri_island *island = &s->model->islands[0];
   const sbri_point *x = sbri_positions(character_of(s));
@@ -42,7 +42,7 @@ static kept measure(const scene *s) {
       l[k] += m * (r[(k + 1) % 3] * u[(k + 2) % 3] - r[(k + 2) % 3] * u[(k + 1) % 3]);
     }
   }
-  sbr_body_health health = sbr_character_health(s->world, s->character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s->world, s->character, 0);
   return (kept){{(float)p[0], (float)p[1], (float)p[2]}, {(float)l[0], (float)l[1], (float)l[2]},
       health.kinetic_j + health.elastic_j};
 }
@@ -67,7 +67,8 @@ START_TEST(momentum_spin_and_energy_are_kept)
     float size = fabsf(before.momentum.x) + fabsf(before.momentum.z);
     ck_assert_float_eq_tol(now.momentum.x, before.momentum.x, 5e-5f * size);
     ck_assert_float_eq_tol(now.momentum.z, before.momentum.z, 5e-5f * size);
-    ck_assert_float_eq_tol(now.spin.z, before.spin.z, 3e-3f * fabsf(before.spin.z));
+    ck_assert_float_eq_tol(
+        now.angular_velocity.z, before.angular_velocity.z, 3e-3f * fabsf(before.angular_velocity.z));
     ck_assert_double_eq_tol(now.energy, before.energy, 0.01 * before.energy);
   }
   scene_free(&s);
@@ -120,9 +121,9 @@ START_TEST(a_hanging_bar_is_as_stiff_as_the_modulus_says)
   const float step = 0.05f, w = 300;
   scene s = scene_begin();
   sbf_level *level = scene_regions(&s, 0, (sbf_vec3){0, 0, 0}, step, counts, 1, w, 0.125f);
-  uint32_t held[16];
-  for (uint32_t i = 0; i < 16; i++) held[i] = i % 4 + 4 * (40 + 41 * (i / 4));
-  scene_pin(&s, level, -1, held, 16);
+  uint32_t pinned[16];
+  for (uint32_t i = 0; i < 16; i++) pinned[i] = i % 4 + 4 * (40 + 41 * (i / 4));
+  scene_pin(&s, level, -1, pinned, 16);
   scene_body(&s, 0)->attributes.damping_ratio = 1;
   scene_start(&s);
   scene_ticks(&s, 900);
@@ -149,7 +150,7 @@ START_TEST(flat_and_mirrored_starts_come_back)
     else
       x[i].x = -x[i].x;
   scene_ticks(&s, 600);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_float_lt(health.max_strain, 0.02f);
   ck_assert_double_lt(health.elastic_j, 1e-3);
@@ -205,11 +206,12 @@ START_TEST(damping_of_their_own_leaves_rigid_motion_alone)
   kept before = measure(&s);
   scene_ticks(&s, 600);
   kept now = measure(&s);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_double_lt(now.energy, 0.9 * before.energy);
   ck_assert_double_lt(health.elastic_j, 0.01 * before.energy); /* what turning stretches */
   ck_assert_float_eq_tol(now.momentum.x, before.momentum.x, 1e-4f * before.momentum.x);
-  ck_assert_float_eq_tol(now.spin.z, before.spin.z, 5e-3f * fabsf(before.spin.z));
+  ck_assert_float_eq_tol(
+      now.angular_velocity.z, before.angular_velocity.z, 5e-3f * fabsf(before.angular_velocity.z));
   scene_free(&s);
 }
 END_TEST
@@ -221,8 +223,8 @@ static scene make_walker(sbf_scheme scheme, sbr_instructions instructions) {
   scene_bone(&s, (sbf_vec3){0, 0.3f, 0});
   sbf_level *level =
       scene_regions(&s, 0, (sbf_vec3){0, 0.02f, 0}, 0.1f, (const uint32_t[3]){5, 4, 3}, 1, 60, 0.1f);
-  static const uint32_t held[3] = {17, 18, 38};
-  scene_pin(&s, level, 0, held, 3);
+  static const uint32_t pinned[3] = {17, 18, 38};
+  scene_pin(&s, level, 0, pinned, 3);
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
   scene_body(&s, 0)->attributes.stiffness_damping = 1e-3f;
   s.world_definition.ground = sbr_ground_flat(0);
@@ -230,7 +232,7 @@ static scene make_walker(sbf_scheme scheme, sbr_instructions instructions) {
   s.model_options.scheme = scheme;
   s.model_options.instructions = instructions;
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 0.3f, 0, 0.8f);
+  sbr_character_set_drive(s.world, s.character, 0.3f, 0, 0.8f);
   return s;
 }
 
@@ -239,20 +241,20 @@ START_TEST(every_width_and_a_snapshot_give_the_same_bits)
   static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN};
   uint64_t hash = 0;
   for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++) {
-    if (!sbr_instructions_available((sbr_instructions)i)) continue;
+    if (!sbr_instructions_are_available((sbr_instructions)i)) continue;
     scene s = make_walker(schemes[_i], (sbr_instructions)i);
     scene_ticks(&s, 60);
-    size_t size = sbr_world_snapshot_size(s.world);
+    size_t size = sbr_world_get_snapshot_size(s.world);
     void *bytes = malloc(size);
-    ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
+    ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
     scene_ticks(&s, 60);
-    uint64_t end = sbr_world_state_hash(s.world);
-    ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
+    uint64_t end = sbr_world_get_state_hash(s.world);
+    ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
     scene_ticks(&s, 60);
-    ck_assert_uint_eq(sbr_world_state_hash(s.world), end);
+    ck_assert_uint_eq(sbr_world_get_state_hash(s.world), end);
     if (!hash) hash = end;
-    ck_assert_msg(end == hash, "%s", sbr_instructions_name((sbr_instructions)i));
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    ck_assert_msg(end == hash, "%s", sbr_instructions_get_name((sbr_instructions)i));
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite);
     ck_assert_uint_eq(health.recoveries, 0);
     ck_assert_float_gt(health.max_strain, 1e-4f);

@@ -9,11 +9,11 @@
 enum { TICKS = 240 };
 static const float tolerance_m = 1e-5f;
 
-static sbf_uint2_list ends_of(scene *s, const reference_pair *pairs, uint32_t count, uint32_t held_from) {
+static sbf_uint2_list ends_of(scene *s, const reference_pair *pairs, uint32_t count, uint32_t pinned_from) {
   sbf_uint2 *ends = sbf_asset_allocate(s->asset, count, sizeof *ends);
   uint32_t kept = 0;
   for (uint32_t i = 0; i < count; i++)
-    if (pairs[i].a < held_from || pairs[i].b < held_from)
+    if (pairs[i].a < pinned_from || pairs[i].b < pinned_from)
       ends[kept++] = (sbf_uint2){{pairs[i].a, pairs[i].b}};
   return (sbf_uint2_list){ends, kept};
 }
@@ -35,10 +35,10 @@ static void make_body(scene *s, uint32_t index, const reference_section *from) {
   }
   body->surface.polygon_sizes = (sbf_u32_list){sizes, from->face_count};
   body->surface.polygon_points = (sbf_u32_list){corners, count};
-  uint32_t held_count = from->point_count - from->surface_count;
-  uint32_t *held = calloc(held_count, sizeof *held);
-  for (uint32_t i = 0; i < held_count; i++) held[i] = from->surface_count + i;
-  scene_pin(s, level, 0, held, held_count);
+  uint32_t pinned_count = from->point_count - from->surface_count;
+  uint32_t *pinned = calloc(pinned_count, sizeof *pinned);
+  for (uint32_t i = 0; i < pinned_count; i++) pinned[i] = from->surface_count + i;
+  scene_pin(s, level, 0, pinned, pinned_count);
   /* Sets in another order than that of the visits, which goes by kind. */
   const sbf_spring_kind kinds[] = {
       SBF_SPRING_KIND_SHEAR, SBF_SPRING_KIND_STRUCTURAL, SBF_SPRING_KIND_INTERNAL};
@@ -51,7 +51,7 @@ static void make_body(scene *s, uint32_t index, const reference_section *from) {
     sets[k].ends = ends_of(s, pairs[k], counts[k], from->surface_count);
   }
   level->springs = (sbf_spring_set_list){sets, 3};
-  free(held);
+  free(pinned);
   free(positions);
 }
 
@@ -150,9 +150,9 @@ START_TEST(held_points_drag_the_body_along)
   s.character_definition.position.y = 0;
   s.world_definition.ground = sbr_ground_flat(0);
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 0.5f, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 0.5f, 0, 0);
   scene_ticks(&s, 1200); /* 10 m, and so over moves of the origin */
-  sbr_double3 origin = sbr_character_origin(s.world, s.character);
+  sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
   double z = origin.z + (double)scene_point(&s, 0, 0).z;
   ck_assert_double_gt(z, 9);
   ck_assert_double_lt(z, 10.5);

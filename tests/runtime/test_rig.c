@@ -68,7 +68,7 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
   ck_assert_uint_eq(s.rig.leg_count, 3);
   const sbri_leg *leg = &s.rig.legs[2];
   ck_assert(leg->has_toe && leg->toe == 3 && leg->foot == 2 && leg->lower == 1 && leg->upper == 0);
-  ck_assert_float_eq_tol(leg->ankle.y - leg->toe_place.y, 0.2f, 1e-6f);
+  ck_assert_float_eq_tol(leg->ankle.y - leg->toe_position.y, 0.2f, 1e-6f);
   ck_assert_float_gt(leg->reach, leg->upper_length + leg->lower_length); /* its foot leans */
   gait_stage_end(&s);
   gait_stage_begin(&s, quadruped_asset());

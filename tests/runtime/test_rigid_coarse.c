@@ -9,7 +9,7 @@
 enum { SHOVES = 24, FINE_SHOVES = 4, TICKS = 360, RESTS_FROM = 300 };
 
 typedef struct fall {
-  float apart, deep;         /* m: the farthest that a joint was off, the deepest that a corner was */
+  float separation, deep;    /* m: the farthest that a joint was off, the deepest that a corner was */
   float on_the_way, at_rest; /* rad: of limits */
   uint32_t steps;            /* in the first two seconds */
   int moved;                 /* ticks until nothing moves by more than 1 mm/s any more */
@@ -19,7 +19,7 @@ static float larger(float a, float b) {
   return a > b ? a : b;
 }
 
-static float next_share(uint32_t *seed) {
+static float next_fraction(uint32_t *seed) {
   *seed = *seed * 1664525u + 1013904223u;
   return (float)(*seed >> 8) / 16777216.0f;
 }
@@ -46,7 +46,7 @@ static float fastest(const scene *s, uint32_t parts) {
 static float depth(const scene *s, uint32_t parts) {
   const sbri_rigid_model *model = &s->model->rigid;
   float min = 0;
-  double o = sbr_character_origin(s->world, s->character).y;
+  double o = sbr_character_get_origin(s->world, s->character).y;
   for (uint32_t b = 0; b < parts; b++) {
     const sbr_transform *pose = &sbri_rigid_bodies(&s->world->characters[0])[b].pose;
     for (uint32_t i = 0; i < model->bodies[b].vertex_count; i++) {
@@ -67,7 +67,8 @@ static fall falls(bool whole, bool stairs, bool coarse, sbf_vec3 shove) {
     float *beyond = t < RESTS_FROM ? &found.on_the_way : &found.at_rest;
     for (uint32_t j = 0; j + 1 < parts; j++) {
       sbr_joint_state now = rigid_joint_state(&s, j);
-      found.apart = larger(found.apart, now.apart), *beyond = larger(*beyond, now.beyond_angle);
+      found.separation = larger(found.separation, now.separation),
+      *beyond = larger(*beyond, now.angle_violation);
     }
     if (!stairs) found.deep = larger(found.deep, depth(&s, parts));
     if (t > 0 && t < 120) found.steps += sbri_rigid_drive(&s.world->characters[0])->substeps;
@@ -78,7 +79,7 @@ static fall falls(bool whole, bool stairs, bool coarse, sbf_vec3 shove) {
 }
 
 static sbf_vec3 shove_of(uint32_t *seed, bool stairs) {
-  float aside = 120 * next_share(seed) - 60, on = 60 + 120 * next_share(seed);
+  float aside = 120 * next_fraction(seed) - 60, on = 60 + 120 * next_fraction(seed);
   return (sbf_vec3){aside, 0, stairs || on < 120 ? on : -on};
 }
 
@@ -92,7 +93,7 @@ START_TEST(what_falls_coarsely_stays_whole_and_lies)
   for (int i = 0; i < SHOVES; i++) {
     sbf_vec3 shove = shove_of(&seed, stairs);
     fall f = falls(whole, stairs, true, shove);
-    ck_assert_float_le(f.apart, 3e-4f);
+    ck_assert_float_le(f.separation, 3e-4f);
     ck_assert_float_le(f.on_the_way, 0.0175f);
     ck_assert_float_le(f.at_rest, 0.00175f);
     ck_assert_float_le(f.deep, 4e-3f);
@@ -135,7 +136,7 @@ START_TEST(threads_change_nothing)
     }
     person_shove(&s, 1, (sbf_vec3){40, 0, 110});
     scene_ticks(&s, 120);
-    hashes[i] = sbr_world_state_hash(s.world);
+    hashes[i] = sbr_world_get_state_hash(s.world);
     scene_free(&s);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);

@@ -44,9 +44,9 @@ START_TEST(a_rigid_motion_is_found)
 {
   make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0);
   sbri_rigid_motion m = sbri_rigid_motion_find(&island, &body, positions, velocities);
-  ck_assert_float_eq_tol(m.spin.x, 0.3f, 1e-4f);
-  ck_assert_float_eq_tol(m.spin.y, 2, 1e-4f);
-  ck_assert_float_eq_tol(m.spin.z, -1, 1e-4f);
+  ck_assert_float_eq_tol(m.angular_velocity.x, 0.3f, 1e-4f);
+  ck_assert_float_eq_tol(m.angular_velocity.y, 2, 1e-4f);
+  ck_assert_float_eq_tol(m.angular_velocity.z, -1, 1e-4f);
   ck_assert_float_eq_tol(m.mass_kg, 13 * 0.5f + 0.1f * 78, 1e-4f);
 }
 END_TEST
@@ -65,7 +65,7 @@ START_TEST(damping_leaves_it_alone)
   }
   sbf_vec3 r = {
       positions[4].x - first.center.x, positions[4].y - first.center.y, positions[4].z - first.center.z};
-  sbf_vec3 rigid = sbri_add(first.velocity, sbri_cross(first.spin, r));
+  sbf_vec3 rigid = sbri_add(first.velocity, sbri_cross(first.angular_velocity, r));
   ck_assert_float_eq_tol(*velocity_of(4, 0), rigid.x, 1e-3f);
   ck_assert_float_eq_tol(*velocity_of(4, 1), rigid.y, 1e-3f);
 }
@@ -76,10 +76,10 @@ START_TEST(points_on_a_line_have_no_spin_about_it)
   make((sbf_vec3){0, 0, 0}, (sbf_vec3){0, 0, 0}, 0.1f);
   for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){(float)i, 0, 0, 0};
   sbri_rigid_motion m = sbri_rigid_motion_find(&island, &body, positions, velocities);
-  ck_assert_float_eq_tol(m.spin.x, 0, 1e-3f);
+  ck_assert_float_eq_tol(m.angular_velocity.x, 0, 1e-3f);
   for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){1, 2, 3, 0};
   m = sbri_rigid_motion_find(&island, &body, positions, velocities);
-  ck_assert(m.spin.x == 0 && m.spin.y == 0 && m.spin.z == 0);
+  ck_assert(m.angular_velocity.x == 0 && m.angular_velocity.y == 0 && m.angular_velocity.z == 0);
   body.slot_end = body.slot_real_end = 0;
   ck_assert_float_eq(sbri_rigid_motion_find(&island, &body, positions, velocities).mass_kg, 0);
 }
@@ -105,7 +105,7 @@ START_TEST(rates_of_their_own_leave_it_alone)
   float left[2] = {0, 0};
   for (uint32_t i = 0; i < REAL; i++) {
     sbf_vec3 r = sbri_sub((sbf_vec3){positions[i].x, positions[i].y, positions[i].z}, m.center);
-    sbf_vec3 u = sbri_add(m.velocity, sbri_cross(m.spin, r));
+    sbf_vec3 u = sbri_add(m.velocity, sbri_cross(m.angular_velocity, r));
     sbf_vec3 v = {*velocity_of(i, 0), *velocity_of(i, 1), *velocity_of(i, 2)};
     left[i % 2] += sbri_length(sbri_sub(v, u));
   }

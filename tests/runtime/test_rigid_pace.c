@@ -23,10 +23,10 @@ static uint32_t steps_of(const scene *s) {
   return sbri_rigid_drive(&s->world->characters[0])->substeps;
 }
 
-static double apart(const scene *a, const scene *b, uint32_t body) {
+static double separation(const scene *a, const scene *b, uint32_t body) {
   sbf_vec3 x = rigid_state(a, body).center, y = rigid_state(b, body).center;
-  sbr_double3 from = sbr_character_origin(a->world, a->character),
-              of = sbr_character_origin(b->world, b->character);
+  sbr_double3 from = sbr_character_get_origin(a->world, a->character),
+              of = sbr_character_get_origin(b->world, b->character);
   double d[3] = {from.x + (double)x.x - of.x - (double)y.x, from.y + (double)x.y - of.y - (double)y.y,
       from.z + (double)x.z - of.z - (double)y.z};
   return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -47,9 +47,9 @@ START_TEST(flight_takes_few_steps)
     if (t > 0) steps += steps_of(&s);
     for (uint32_t j = 0; j + 1 < ALL_PARTS; j++) {
       sbr_joint_state now = rigid_joint_state(&s, j);
-      off = fmaxf(off, now.apart), beyond = fmaxf(beyond, now.beyond_angle);
+      off = fmaxf(off, now.separation), beyond = fmaxf(beyond, now.angle_violation);
     }
-    for (uint32_t b = 0; b < ALL_PARTS; b++) worst = fmax(worst, apart(&s, &fine, b));
+    for (uint32_t b = 0; b < ALL_PARTS; b++) worst = fmax(worst, separation(&s, &fine, b));
   }
   ck_assert_uint_le(steps, max[_i]);
   ck_assert_float_le(off, 3e-5f);

@@ -7,7 +7,7 @@
 #include "solvers/rigid_motion.h"
 
 enum { POINTS = 8 };
-static const float tick_s = 1.0f / 60, gravity = 10, half_width = 0.1f, spin = 3;
+static const float tick_s = 1.0f / 60, gravity = 10, half_width = 0.1f, angular_velocity = 3;
 
 static float masses[POINTS], velocities[3 * POINTS], planes[4 * POINTS];
 static sbri_point positions[POINTS];
@@ -18,13 +18,14 @@ static sbf_soft_body source;
 
 /* A box that stands on the ground with four corners, `half_width` to both sides of the middle, and turns
  * about z; `lifted` above the ground. */
-static sbri_island_tick box(float share, float lifted) {
+static sbri_island_tick box(float fraction, float lifted) {
   sbf_soft_body_init(&source);
   for (uint32_t i = 0; i < POINTS; i++) {
     float x = i & 1 ? half_width : -half_width, y = i & 2 ? 0.4f : 0, z = i & 4 ? 0.3f : -0.3f;
     masses[i] = 0.5f;
     positions[i] = (sbri_point){x, y + lifted, z, 0};
-    velocities[i] = 1 - spin * (y - 0.2f), velocities[POINTS + i] = spin * x, velocities[2 * POINTS + i] = 0;
+    velocities[i] = 1 - angular_velocity * (y - 0.2f), velocities[POINTS + i] = angular_velocity * x,
+    velocities[2 * POINTS + i] = 0;
     planes[i] = 0, planes[POINTS + i] = 1, planes[2 * POINTS + i] = 0, planes[3 * POINTS + i] = 0;
   }
   near_ground = 1;
@@ -32,7 +33,7 @@ static sbri_island_tick box(float share, float lifted) {
   body = (sbri_body){.source = &source,
       .slot_real_end = POINTS,
       .slot_end = POINTS,
-      .rolling_share = share,
+      .rolling_fraction = fraction,
       .rest_size_m = 1};
   return (sbri_island_tick){.island = &island,
       .tick_s = tick_s,
@@ -44,28 +45,28 @@ static sbri_island_tick box(float share, float lifted) {
 }
 
 static sbri_rigid_motion motion_after(sbri_island_tick tick) {
-  sbri_rolling_resist(&tick, &body);
+  sbri_rolling_apply_resistance(&tick, &body);
   return sbri_rigid_motion_find(&island, &body, positions, velocities);
 }
 
 START_TEST(the_share_grows_with_the_damping)
 {
-  ck_assert_float_eq(sbri_rolling_share(0), 0);
+  ck_assert_float_eq(sbri_rolling_fraction(0), 0);
   /* 1 - exp(-2 pi 0.2) is lost of the work. */
-  ck_assert_float_eq_tol(sbri_rolling_share(0.2f), 0.7154f * 0.2122f, 1e-4f);
-  ck_assert_float_gt(sbri_rolling_share(1), sbri_rolling_share(0.5f));
-  ck_assert_float_lt(sbri_rolling_share(10), 0.2123f);
+  ck_assert_float_eq_tol(sbri_rolling_fraction(0.2f), 0.7154f * 0.2122f, 1e-4f);
+  ck_assert_float_gt(sbri_rolling_fraction(1), sbri_rolling_fraction(0.5f));
+  ck_assert_float_lt(sbri_rolling_fraction(10), 0.2123f);
 }
 END_TEST
 
 START_TEST(the_moment_is_that_of_the_weight_moved_ahead)
 {
-  const float share = 0.1f;
-  sbri_rigid_motion m = motion_after(box(share, 0));
+  const float fraction = 0.1f;
+  sbri_rigid_motion m = motion_after(box(fraction, 0));
   float inertia = POINTS * 0.5f * (half_width * half_width + 0.04f);
-  float change = share * half_width * POINTS * 0.5f * gravity * tick_s / inertia;
-  ck_assert_float_eq_tol(m.spin.z, spin - change, 1e-4f);
-  ck_assert_float_eq_tol(m.spin.x, 0, 1e-5f);
+  float change = fraction * half_width * POINTS * 0.5f * gravity * tick_s / inertia;
+  ck_assert_float_eq_tol(m.angular_velocity.z, angular_velocity - change, 1e-4f);
+  ck_assert_float_eq_tol(m.angular_velocity.x, 0, 1e-5f);
   ck_assert_float_eq_tol(m.velocity.x, 1, 1e-5f); /* a moment alone */
 }
 END_TEST
@@ -73,19 +74,19 @@ END_TEST
 START_TEST(it_takes_no_more_than_the_spin)
 {
   sbri_rigid_motion m = motion_after(box(100, 0));
-  ck_assert_float_eq_tol(m.spin.z, 0, 1e-4f);
+  ck_assert_float_eq_tol(m.angular_velocity.z, 0, 1e-4f);
 }
 END_TEST
 
 START_TEST(bodies_in_the_air_roll_on)
-{ ck_assert_float_eq_tol(motion_after(box(0.1f, 0.01f)).spin.z, spin, 1e-4f); }
+{ ck_assert_float_eq_tol(motion_after(box(0.1f, 0.01f)).angular_velocity.z, angular_velocity, 1e-4f); }
 END_TEST
 
 START_TEST(bodies_that_are_held_have_none)
 {
   sbri_island_tick tick = box(0.1f, 0);
-  body.held = true;
-  ck_assert_float_eq_tol(motion_after(tick).spin.z, spin, 1e-4f);
+  body.is_pinned = true;
+  ck_assert_float_eq_tol(motion_after(tick).angular_velocity.z, angular_velocity, 1e-4f);
 }
 END_TEST
 

@@ -31,10 +31,10 @@ START_TEST(what_is_soft_is_stepped_explicitly)
     scene_start(&s);
     ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_symplectic);
     ck_assert(s.model->islands[0].routed == (k == 0));
-    sbr_character_drive(s.world, s.character, 0.5f, 0, 1);
+    sbr_character_set_drive(s.world, s.character, 0.5f, 0, 1);
     scene_ticks(&s, 120);
     ck_assert_uint_eq(recovering(&s), 0);
-    hashes[k] = sbr_world_state_hash(s.world);
+    hashes[k] = sbr_world_get_state_hash(s.world);
     scene_free(&s);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);
@@ -46,10 +46,10 @@ START_TEST(what_is_stiff_is_not)
   scene s = section(1e12f);
   scene_start(&s);
   ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_position_based);
-  ck_assert_uint_le(sbr_model_substeps(s.model), 32);
-  sbr_character_drive(s.world, s.character, 1, 0, 1);
+  ck_assert_uint_le(sbr_model_get_substeps(s.model), 32);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 1);
   scene_ticks(&s, 120);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_float_eq_tol(health.volume_ratio, 1, 0.05f);
   ck_assert_uint_eq(health.recoveries, 0);
@@ -63,7 +63,7 @@ START_TEST(what_is_asked_for_is_done)
   s.model_options.substeps = 9;
   scene_start(&s);
   ck_assert(!s.model->islands[0].routed);
-  ck_assert_uint_eq(sbr_model_substeps(s.model), 9);
+  ck_assert_uint_eq(sbr_model_get_substeps(s.model), 9);
   scene_free(&s);
 }
 END_TEST
@@ -83,10 +83,10 @@ START_TEST(what_is_thrown_about_recovers_and_is_let_go)
   ck_assert_uint_eq(recovering(&s), SBRI_RECOVERING_TICKS);
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
-    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+    ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
   ck_assert_uint_eq(recovering(&s), 0);
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
   scene_free(&s);
 }
 END_TEST
@@ -123,12 +123,12 @@ START_TEST(what_is_inside_out_is_whole_within_a_second)
   sbri_point *at = sbri_positions(&s.world->characters[0]);
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < island->free_count; i++) at[i].x = -at[i].x;
-  ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).volume_ratio, 0);
+  ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 0);
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
-    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+    ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
   scene_free(&s);
 }
 END_TEST

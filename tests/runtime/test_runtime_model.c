@@ -26,8 +26,8 @@ START_TEST(calls_are_checked)
   ck_assert_ptr_nonnull(strstr(error.message, "position_based"));
   ck_assert_ptr_null(s.model);
   sbr_model_destroy(NULL);
-  ck_assert_uint_eq(sbr_model_substeps(NULL), 1);
-  ck_assert_uint_eq(sbr_model_body_substeps(NULL, 0), 0);
+  ck_assert_uint_eq(sbr_model_get_substeps(NULL), 1);
+  ck_assert_uint_eq(sbr_model_get_body_substeps(NULL, 0), 0);
   scene_free(&s);
 }
 END_TEST
@@ -50,7 +50,7 @@ START_TEST(scheme_and_substeps_come_from_the_call_or_the_level)
     s.model_options.scheme = cases[i].asked;
     s.model_options.substeps = cases[i].substeps_asked;
     scene_start(&s);
-    ck_assert_int_eq(s.model->islands[0].scheme->word, cases[i].scheme);
+    ck_assert_int_eq(s.model->islands[0].scheme->kind, cases[i].scheme);
     ck_assert_uint_eq(s.model->islands[0].substeps, cases[i].substeps);
     sbr_world_destroy(s.world);
     sbr_model_destroy(s.model);
@@ -108,7 +108,7 @@ START_TEST(freed_bodies_have_their_whole_mass)
     scene_start(&s);
     const sbri_island *island = &s.model->islands[0];
     for (uint32_t i = 0; i < island->free_count; i++) masses[free] += (double)island->masses[i];
-    ck_assert(s.model->bodies[0].held != free);
+    ck_assert(s.model->bodies[0].is_pinned != free);
     scene_free(&s);
   }
   ck_assert_double_eq_tol(masses[0], 72, 0.01); /* 0.4 x 0.3 x 0.6 m of water */
@@ -148,10 +148,10 @@ START_TEST(an_empty_asset_makes_an_empty_model)
   scene s = scene_begin();
   s.asset->soft_bodies.count = 0;
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0);
   scene_ticks(&s, 60);
-  ck_assert_double_gt(sbr_character_distance(s.world, s.character), 0.5);
-  ck_assert_uint_ne(sbr_world_state_hash(s.world), 0);
+  ck_assert_double_gt(sbr_character_get_distance(s.world, s.character), 0.5);
+  ck_assert_uint_ne(sbr_world_get_state_hash(s.world), 0);
   scene_free(&s);
 }
 END_TEST

@@ -14,7 +14,7 @@ static scene walker(void) {
   s.character_definition.position.y = 0;
   s.world_definition.ground = sbr_ground_flat(0);
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0.8f);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0.8f);
   return s;
 }
 
@@ -24,7 +24,7 @@ static void run(double fps, sbf_vec3 (*points)[POINTS], sbr_double3 *origins) {
   for (int second = 0; second < SECONDS; second++) {
     for (int i = 0; i < (int)fps; i++) sbr_world_step(s.world, 1 / fps);
     scene_read(&s, 0, points[second], POINTS);
-    origins[second] = sbr_character_origin(s.world, s.character);
+    origins[second] = sbr_character_get_origin(s.world, s.character);
   }
   scene_free(&s);
 }
@@ -55,12 +55,12 @@ START_TEST(uneven_frames_and_a_hitch_change_nothing)
   scene even = walker(), uneven = walker();
   for (int i = 1; i <= TICKS + 31; i++) {
     sbr_world_tick(even.world);
-    hashes[i] = sbr_world_state_hash(even.world);
+    hashes[i] = sbr_world_get_state_hash(even.world);
   }
-  for (uint32_t k = 0; sbr_world_ticks(uneven.world) < TICKS; k++) {
+  for (uint32_t k = 0; sbr_world_get_tick_count(uneven.world) < TICKS; k++) {
     double jitter = (double)(k * 2654435761u % 1000) / 1000, frame_s = 0.004 + 0.03 * jitter;
     sbr_world_step(uneven.world, k % 40 == 39 ? 0.25 : frame_s);
-    ck_assert_uint_eq(sbr_world_state_hash(uneven.world), hashes[sbr_world_ticks(uneven.world)]);
+    ck_assert_uint_eq(sbr_world_get_state_hash(uneven.world), hashes[sbr_world_get_tick_count(uneven.world)]);
   }
   scene_free(&even);
   scene_free(&uneven);
@@ -73,16 +73,16 @@ START_TEST(between_ticks_lies_the_straight_way)
   scene_ticks(&s, 10);
   sbf_vec3 a = scene_point(&s, 0, 2);
   sbr_transform bone_a, bone;
-  sbr_character_bones(s.world, s.character, &bone_a, 1);
+  sbr_character_get_bones(s.world, s.character, &bone_a, 1);
   sbr_world_step(s.world, 0.25 / 60); /* a quarter into the next tick */
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 11);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 11);
   sbf_vec3 quarter = scene_point(&s, 0, 2);
-  sbr_character_bones(s.world, s.character, &bone, 1);
+  sbr_character_get_bones(s.world, s.character, &bone, 1);
   sbr_world_step(s.world, 0.75 / 60);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 11);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 11);
   sbf_vec3 b = scene_point(&s, 0, 2);
   sbr_transform bone_b;
-  sbr_character_bones(s.world, s.character, &bone_b, 1);
+  sbr_character_get_bones(s.world, s.character, &bone_b, 1);
   ck_assert_float_eq_tol(quarter.z, a.z + 0.25f * (b.z - a.z), 1e-6f);
   ck_assert_float_eq_tol(
       bone.position.z, bone_a.position.z + 0.25f * (bone_b.position.z - bone_a.position.z), 1e-6f);
@@ -95,14 +95,14 @@ START_TEST(small_buffers_are_not_overrun)
 {
   scene s = walker();
   sbf_vec3 points[3] = {{9, 9, 9}, {9, 9, 9}, {9, 9, 9}}, normals[3] = {{9, 9, 9}, {9, 9, 9}, {9, 9, 9}};
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, points, normals, NULL, 2), 26);
+  ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 0, points, normals, NULL, 2), 26);
   ck_assert(points[1].x != 9 && points[2].x == 9 && normals[1].x != 9 && normals[2].x == 9);
-  ck_assert_uint_eq(sbr_character_surface(s.world, s.character, 0, points, 1), 26);
-  ck_assert_uint_eq(sbr_character_points(s.world, s.character, 0, points, 1), POINTS);
+  ck_assert_uint_eq(sbr_character_get_surface(s.world, s.character, 0, points, 1), 26);
+  ck_assert_uint_eq(sbr_character_get_points(s.world, s.character, 0, points, 1), POINTS);
   ck_assert_float_eq(points[2].x, 9);
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 7, points, normals, NULL, 2), 0);
-  ck_assert_uint_eq(sbr_character_surface(s.world, s.character, 7, points, 2), 0);
-  ck_assert_uint_eq(sbr_character_corner_normals(s.world, s.character, 0, normals, 1), 4 * 24);
+  ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 7, points, normals, NULL, 2), 0);
+  ck_assert_uint_eq(sbr_character_get_surface(s.world, s.character, 7, points, 2), 0);
+  ck_assert_uint_eq(sbr_character_get_corner_normals(s.world, s.character, 0, normals, 1), 4 * 24);
   scene_free(&s);
 }
 END_TEST

@@ -24,7 +24,7 @@ static const char *const model_names[] = {"tetrahedra", "springs", "regions"};
 static const char *const case_names[] = {
     "stretch", "bend", "bend_far", "twist", "nu_0.49", "swing", "spin", "spin_6_rad/s"};
 
-enum { ALONG = 10, ACROSS = 2, MAX_POINTS = 128, MAX_HELD = 18, MAX_SPRINGS = 1024 };
+enum { ALONG = 10, ACROSS = 2, MAX_POINTS = 128, MAX_PINNED = 18, MAX_SPRINGS = 1024 };
 
 typedef struct row {
   sbf_scheme scheme;
@@ -83,10 +83,10 @@ static void add_edge(uint32_t p, uint32_t q) {
   b.stiffness[b.spring_count++] = 0.4f * 1e6f * 0.1f;
 }
 
-static void make_bar(float poisson, bool held) {
+static void make_bar(float poisson, bool pinned) {
   b.box = lattice_box_make(
       (sbf_vec3){0, -0.1f, -0.1f}, (sbf_vec3){1, 0.2f, 0.2f}, ALONG, ACROSS, ACROSS, 1000, 1e6f, poisson);
-  if (held) lattice_box_hold(&b.box);
+  if (pinned) lattice_box_hold(&b.box);
   b.spring_count = 0;
   for (uint32_t t = 0; t < b.box.tetrahedron_count; t++)
     for (int i = 0; i < 4; i++)
@@ -112,12 +112,12 @@ static sbf_vec3 held_at(uint32_t point, question q) {
 }
 
 static void hold(sbf_level *level, question q) {
-  uint32_t held[MAX_HELD], count = 0;
-  sbf_vec3 *offsets = sbf_asset_allocate(s.asset, MAX_HELD, sizeof *offsets);
+  uint32_t pinned[MAX_PINNED], count = 0;
+  sbf_vec3 *offsets = sbf_asset_allocate(s.asset, MAX_PINNED, sizeof *offsets);
   for (uint32_t i = 0; i < b.box.point_count; i++)
-    if (!(b.box.masses[i] > 0)) offsets[count] = held_at(i, q), held[count++] = i;
+    if (!(b.box.masses[i] > 0)) offsets[count] = held_at(i, q), pinned[count++] = i;
   if (!count) return;
-  scene_pin(&s, level, -1, held, count);
+  scene_pin(&s, level, -1, pinned, count);
   ((sbf_pin_set *)(uintptr_t)level->pins.at)->offsets = (sbf_vec3_list){offsets, count};
 }
 
@@ -156,25 +156,25 @@ static sbf_vec3 load_of(question q) {
   return (sbf_vec3){0, q == BEND ? -0.5f : q == BEND_FAR ? -30 : -9.81f, 0};
 }
 
-static void run_to_rest(elastic model, const row *r, question q, sbf_vec3 *places) {
+static void run_to_rest(elastic model, const row *r, question q, sbf_vec3 *positions) {
   begin(model, r, q, load_of(q));
   scene_body(&s, 0)->attributes.damping_ratio = 1;
   scene_start(&s);
   scene_ticks(&s, r->scheme == SBF_SCHEME_BLOCK_DESCENT ? 900 : 400);
-  ck_assert_uint_eq(scene_read(&s, 0, places, MAX_POINTS), b.box.point_count);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  ck_assert_uint_eq(scene_read(&s, 0, positions, MAX_POINTS), b.box.point_count);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(h.finite && !h.inverted && h.recoveries == 0);
 }
 
 /* Share by which the displacements are greater than those of the energy's least. */
 static double rest_bias(elastic model, const row *r, question q) {
   static const row finest = {.scheme = SBF_SCHEME_SYMPLECTIC, .substeps = 64};
-  static sbf_vec3 places[MAX_POINTS], exact[MAX_POINTS];
+  static sbf_vec3 positions[MAX_POINTS], exact[MAX_POINTS];
   if (model == REGIONS) {
     run_to_rest(model, &finest, q, exact);
     end();
   }
-  run_to_rest(model, r, q, places);
+  run_to_rest(model, r, q, positions);
   if (model != REGIONS) {
     sbf_spring_network network = network_of(model);
     double *solved = calloc(3 * (size_t)b.box.point_count, sizeof *solved);
@@ -195,7 +195,7 @@ static double rest_bias(elastic model, const row *r, question q) {
   for (uint32_t i = 0; i < b.box.point_count; i++) {
     if (!(b.box.masses[i] > 0)) continue;
     sbfi_d3 rest = sbfi_d3_of(b.box.positions[i]), e = sbfi_d3_sub(sbfi_d3_of(exact[i]), rest);
-    along += sbfi_d3_dot(e, sbfi_d3_sub(sbfi_d3_of(places[i]), rest)), all += sbfi_d3_dot(e, e);
+    along += sbfi_d3_dot(e, sbfi_d3_sub(sbfi_d3_of(positions[i]), rest)), all += sbfi_d3_dot(e, e);
   }
   ck_assert_double_gt(all, 1e-8);
   end();
@@ -207,7 +207,7 @@ static double rest_bias(elastic model, const row *r, question q) {
 /* The bar let go from a slight bend: period and damping ratio of that motion. */
 static double swing_period(elastic model, const row *r, double *damping) {
   enum { TICKS = 240 };
-  static sbf_vec3 places[MAX_POINTS], shape[MAX_POINTS];
+  static sbf_vec3 positions[MAX_POINTS], shape[MAX_POINTS];
   double off[TICKS], sum = 0, first = -1, last = -1, high[2] = {0, 0};
   uint32_t crossings = 0;
   begin(model, r, SWING, (sbf_vec3){0, 0, 0});
@@ -224,12 +224,12 @@ static double swing_period(elastic model, const row *r, double *damping) {
   }
   for (uint32_t n = 0; n < TICKS; n++) {
     scene_ticks(&s, 1);
-    scene_read(&s, 0, places, MAX_POINTS);
+    scene_read(&s, 0, positions, MAX_POINTS);
     off[n] = 0;
     for (uint32_t i = 0; i < b.box.point_count; i++)
       off[n] += b.box.masses[i] / sum *
-                sbfi_d3_dot(
-                    sbfi_d3_sub(sbfi_d3_of(places[i]), sbfi_d3_of(b.box.positions[i])), sbfi_d3_of(shape[i]));
+                sbfi_d3_dot(sbfi_d3_sub(sbfi_d3_of(positions[i]), sbfi_d3_of(b.box.positions[i])),
+                    sbfi_d3_of(shape[i]));
     if (n == 0 || !(off[n - 1] < 0 && off[n] >= 0)) continue;
     last = n - 1 + off[n - 1] / (off[n - 1] - off[n]);
     if (first < 0) first = last;
@@ -311,7 +311,7 @@ static double spin_bias(elastic model, const row *r, float rad_s) {
 
 /* ---- */
 
-static void tell(const row *r, elastic model, question q, double bias, double damping) {
+static void report(const row *r, elastic model, question q, double bias, double damping) {
   const char *path = getenv("SBFMT_BIAS_CSV");
   FILE *file = path ? fopen(path, "a") : NULL;
   if (!file) return;
@@ -334,7 +334,7 @@ START_TEST(bias_is_within_its_bound)
       bias = swing_bias((elastic)model, r, &damping);
     else
       bias = q >= SPIN ? spin_bias((elastic)model, r, q == SPIN ? 1 : 6) : rest_bias((elastic)model, r, q);
-    tell(r, (elastic)model, q, bias, damping);
+    report(r, (elastic)model, q, bias, damping);
     bool good = fabs(bias) <= within && (q != SWING || fabs(damping) <= r->damping[model]);
     if (!good)
       used += (size_t)snprintf(said + used, sizeof said - used, "%s, %u, %s of %s: %.6f, damping %.6f\n",

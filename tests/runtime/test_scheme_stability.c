@@ -56,10 +56,10 @@ static scene cloth(sbf_scheme scheme, float stiffness, bool sorted) {
   uint32_t count = list_springs(positions, springs);
   if (sorted) qsort(springs, count, sizeof *springs, nearer);
   for (uint32_t i = 0; i < count; i++) ends[i] = springs[i].ends, k[i] = stiffness;
-  const uint32_t held[2] = {0, SIDE - 1};
+  const uint32_t pinned[2] = {0, SIDE - 1};
   sbf_level *level = scene_points(&s, 0, positions, masses, POINTS);
   scene_springs(&s, level, ends, k, count);
-  scene_pin(&s, level, -1, held, 2);
+  scene_pin(&s, level, -1, pinned, 2);
   s.model_options.scheme = scheme;
   free(ends), free(springs), free(k);
   return s;
@@ -77,7 +77,7 @@ START_TEST(springs_listed_from_the_pins_on_do_not_burst)
     scene_start(&s);
     for (int i = 0; i < 180; i++) {
       scene_ticks(&s, 1);
-      sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+      sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
       ck_assert(h.finite);
       if (_i >= EXPLICIT_EULER) continue;
       ck_assert_uint_eq(h.recoveries, 0);
@@ -108,17 +108,17 @@ START_TEST(hitches_and_jitter_show_the_same_motion)
   for (int how = 0; how < 3; how++) {
     scene s = section(schemes[_i]);
     scene_start(&s);
-    sbr_character_drive(s.world, s.character, 1, 0, 1);
+    sbr_character_set_drive(s.world, s.character, 1, 0, 1);
     uint32_t state = 5;
-    while (sbr_world_ticks(s.world) < 120) {
-      double left = (120 - (double)sbr_world_ticks(s.world)) / 60;
-      const double share = random_between(&state, 0, 1);
-      double frame = how == 0 ? 1.0 / 60 : how == 1 ? 0.25 : 0.002 + share * 0.1;
+    while (sbr_world_get_tick_count(s.world) < 120) {
+      double left = (120 - (double)sbr_world_get_tick_count(s.world)) / 60;
+      const double fraction = random_between(&state, 0, 1);
+      double frame = how == 0 ? 1.0 / 60 : how == 1 ? 0.25 : 0.002 + fraction * 0.1;
       sbr_world_step(s.world, frame < left ? frame : left);
     }
-    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
-    if (how == 0) even = sbr_world_state_hash(s.world);
-    ck_assert_uint_eq(sbr_world_state_hash(s.world), even);
+    ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
+    if (how == 0) even = sbr_world_get_state_hash(s.world);
+    ck_assert_uint_eq(sbr_world_get_state_hash(s.world), even);
     scene_free(&s);
   }
 }
@@ -131,13 +131,13 @@ START_TEST(pins_may_jump)
   for (int i = 0; i < 120; i++) {
     if (i % 20 == 5)
       sbr_character_teleport(s.world, s.character, (sbr_double3){i, 1000, -2.0 * i}, 0.3f * (float)i);
-    if (i % 20 == 15) sbr_character_drive(s.world, s.character, (float)(i % 40) * 20, 0, 50);
-    if (i % 20 == 19) sbr_character_drive(s.world, s.character, 0, 0, 0);
+    if (i % 20 == 15) sbr_character_set_drive(s.world, s.character, (float)(i % 40) * 20, 0, 50);
+    if (i % 20 == 19) sbr_character_set_drive(s.world, s.character, 0, 0, 0);
     scene_ticks(&s, 1);
-    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+    ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
   scene_ticks(&s, 60);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(_i >= EXPLICIT_EULER || fabsf(h.volume_ratio - 1) < 0.1f);
   scene_free(&s);
 }
@@ -191,27 +191,27 @@ static scene bar(sbf_scheme scheme) {
 START_TEST(elements_may_be_listed_the_other_way_round)
 {
   for (int solid = 0; solid < (schemes[_i] == SBF_SCHEME_RELAXATION ? 1 : 2); solid++) {
-    sbf_vec3 places[2][128];
+    sbf_vec3 positions[2][128];
     uint32_t count = 0;
     for (int turned = 0; turned < 2; turned++) {
       scene s = solid ? bar(schemes[_i]) : section(schemes[_i]);
       if (turned) turn_lists((sbf_level *)(uintptr_t)&scene_body(&s, 0)->levels.at[0]);
       scene_start(&s);
-      if (!solid) sbr_character_drive(s.world, s.character, 1, 0, 1);
+      if (!solid) sbr_character_set_drive(s.world, s.character, 1, 0, 1);
       for (int i = 0; i < 60; i++) {
         scene_ticks(&s, 1);
-        sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+        sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
         ck_assert(h.finite && h.recoveries == 0);
       }
-      count = scene_read(&s, 0, places[turned], 128);
+      count = scene_read(&s, 0, positions[turned], 128);
       ck_assert_uint_le(count, 128);
       scene_free(&s);
     }
     float max = 0;
     for (uint32_t i = 0; i < count; i++)
-      max = fmaxf(
-          max, fmaxf(fabsf(places[1][i].x - places[0][i].x),
-                   fmaxf(fabsf(places[1][i].y - places[0][i].y), fabsf(places[1][i].z - places[0][i].z))));
+      max = fmaxf(max, fmaxf(fabsf(positions[1][i].x - positions[0][i].x),
+                           fmaxf(fabsf(positions[1][i].y - positions[0][i].y),
+                               fabsf(positions[1][i].z - positions[0][i].z))));
     static const float within[SCHEME_COUNT] = {2e-6f, 2e-6f, 2e-4f, 2e-6f, 2e-6f, 2e-5f, 1e-2f};
     ck_assert_msg(max < within[_i], "solid %d: %g m", solid, (double)max);
   }
@@ -223,20 +223,20 @@ START_TEST(heavy_hangs_on_light)
 {
   enum { LINKS = 8 };
   scene s = scene_begin();
-  const uint32_t held = 0;
-  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 2e4f, 0.001f, 10), -1, &held, 1);
+  const uint32_t pinned = 0;
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 2e4f, 0.001f, 10), -1, &pinned, 1);
   scene_body(&s, 0)->attributes.mass_damping = 1;
   scene_body(&s, 0)->attributes.stiffness_damping = 2e-5f;
   s.model_options.scheme = schemes[_i];
   scene_start(&s);
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
-    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+    ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
   /* 98 N stretch each link by 4.9 mm. Position-based, and so what is left to the runtime, cannot hold a
    * weight like that on links this light in 32 substeps: it stretches. */
   if (_i < EXPLICIT_EULER)
-    ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).max_strain,
+    ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain,
         _i == POSITION_BASED || _i == AUTOMATIC ? 20 : 0.5f);
   scene_free(&s);
 }
@@ -257,7 +257,7 @@ START_TEST(a_surface_inside_out_does_not_blow_up)
     body->attributes.pressure = 1000;
     scene_start(&s);
     scene_ticks(&s, 120);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(h.finite);
     ck_assert(_i >= EXPLICIT_EULER || h.max_strain < 0.5f);
     scene_free(&s);
@@ -283,7 +283,7 @@ START_TEST(loose_bodies_are_mended_where_they_lie)
   }
   sbri_velocities(c)[0] = 1e9f;
   scene_ticks(&s, 2);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_uint_eq(h.recoveries, 1);
   ck_assert_float_eq_tol(h.volume_ratio, 1, 0.1f);
   float low = 1e9f, sum = 0;

@@ -29,10 +29,10 @@ static scene oscillator(int scheme, uint32_t substeps) {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}};
   const float masses[] = {0, MASS};
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 2);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &STIFFNESS, 1);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){0.5f, 0, 0};
   s.model_options.scheme = schemes[scheme];
@@ -191,7 +191,7 @@ START_TEST(heun_keeps_the_bounds_of_the_file)
 {
   const uint32_t min[] = {48, 0, 0, 0}, max[] = {0, 9, 0, 0}, of_host[] = {0, 0, 64, 8};
   const float error[] = {1, 1e-9f, 1e-3f, 1e-3f};
-  float places[4];
+  float positions[4];
   for (int k = 0; k < 4; k++) {
     scene s = oscillator(HEUN, of_host[k]);
     sbf_simulation *simulation = &((sbf_level *)scene_body(&s, 0)->levels.at)->simulation;
@@ -199,12 +199,12 @@ START_TEST(heun_keeps_the_bounds_of_the_file)
     simulation->substeps_least = min[k], simulation->substeps_most = max[k];
     scene_start(&s);
     scene_ticks(&s, 45);
-    places[k] = scene_point(&s, 0, 1).x;
+    positions[k] = scene_point(&s, 0, 1).x;
     scene_free(&s);
   }
-  ck_assert_float_eq(places[0], places[2]);
-  ck_assert_float_eq(places[1], places[3]);
-  ck_assert_float_ne(places[0], places[1]);
+  ck_assert_float_eq(positions[0], positions[2]);
+  ck_assert_float_eq(positions[1], positions[3]);
+  ck_assert_float_ne(positions[0], positions[1]);
 }
 END_TEST
 
@@ -226,14 +226,15 @@ START_TEST(a_body_falls_as_at_the_origin)
     s.model_options.substeps = cases[i].substeps;
     s.character_definition.position.x = cases[i].x;
     scene_start(&s);
-    double begin = (double)scene_point(&s, 0, 0).y + sbr_character_origin(s.world, s.character).y;
+    double begin = (double)scene_point(&s, 0, 0).y + sbr_character_get_origin(s.world, s.character).y;
     scene_ticks(&s, 60);
     /* Heun's steps are a power of two; the order of a fall is exact for it, and h g t / 2 for the others. */
     double h = tick / cases[i].substeps, g = 9.81;
     double late = _i == HEUN ? 0 : _i == EXPLICIT_EULER ? -h * g / 2 : h * g / 2;
-    double fallen = begin - ((double)scene_point(&s, 0, 0).y + sbr_character_origin(s.world, s.character).y);
+    double fallen =
+        begin - ((double)scene_point(&s, 0, 0).y + sbr_character_get_origin(s.world, s.character).y);
     ck_assert_double_eq_tol(fallen, g / 2 + late, 4e-4);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert_float_lt(health.max_strain, 1e-4f);
     scene_free(&s);
   }
@@ -283,9 +284,9 @@ END_TEST
 /* Links hang from a point: each stretches by the weight below it. */
 static scene chain(int scheme, uint32_t links, float stiffness, float mass, bool level_start) {
   scene s = scene_begin();
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_vec3 step = level_start ? (sbf_vec3){0.1f, 0, 0} : (sbf_vec3){0, -0.1f, 0};
-  scene_pin(&s, scene_chain(&s, 0, step, links, stiffness, mass, mass), -1, &held, 1);
+  scene_pin(&s, scene_chain(&s, 0, step, links, stiffness, mass, mass), -1, &pinned, 1);
   s.model_options.scheme = schemes[scheme];
   return s;
 }
@@ -338,22 +339,22 @@ END_TEST
 
 /* Half a rope of `links` springs with equal masses between them, hung up at one height: from its middle to
  * its end under the horizontal pull H, each link by the direction and the size of its tension. */
-static void half_rope(int links, double pull, double weight, double k, double length, double way[2]) {
-  way[0] = way[1] = 0;
+static void half_rope(int links, double pull, double weight, double k, double length, double direction[2]) {
+  direction[0] = direction[1] = 0;
   for (int i = 0; i < links / 2; i++) {
     double down = (i + 0.5) * weight, tension = hypot(pull, down), l = length + tension / k;
-    way[0] += l * pull / tension, way[1] += l * down / tension;
+    direction[0] += l * pull / tension, direction[1] += l * down / tension;
   }
 }
 
 static double sag(int links, double weight, double k, double length) {
-  double low = 1e-3, high = 1e4, way[2] = {0, 0};
+  double low = 1e-3, high = 1e4, direction[2] = {0, 0};
   for (int i = 0; i < 100; i++) {
     double middle = sqrt(low * high);
-    half_rope(links, middle, weight, k, length, way);
-    *(way[0] > 0.5 ? &high : &low) = middle;
+    half_rope(links, middle, weight, k, length, direction);
+    *(direction[0] > 0.5 ? &high : &low) = middle;
   }
-  return way[1];
+  return direction[1];
 }
 
 /* A rope between two points at one height. */
@@ -370,11 +371,11 @@ START_TEST(a_rope_hangs_as_a_catenary)
     masses[i] = 0.02f;
     if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, k[i] = 50000, rest[i] = 1.25f / LINKS;
   }
-  const uint32_t held[2] = {0, LINKS};
+  const uint32_t pinned[2] = {0, LINKS};
   sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
   scene_springs(&s, level, ends, k, LINKS);
   ((sbf_spring_set *)(uintptr_t)level->springs.at)->rest_lengths = (sbf_f32_list){rest, LINKS};
-  scene_pin(&s, level, -1, held, 2);
+  scene_pin(&s, level, -1, pinned, 2);
   scene_body(&s, 0)->attributes.mass_damping = 4;
   s.model_options.scheme = schemes[_i];
   if (_i == HEUN) scene_body(&s, 0)->attributes.stiffness_damping = 1e-4f;
@@ -431,10 +432,10 @@ START_TEST(weight_maps_damp_point_by_point)
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}};
   const float masses[] = {0, MASS, MASS}, stiffness[] = {STIFFNESS, STIFFNESS};
   static const float factors[] = {1, 0.5f, 3};
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 3);
   scene_springs(&s, level, (const sbf_uint2[]){{{0, 1}}, {{0, 2}}}, stiffness, 2);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
   sbf_weight_map_init(map);
   map->property = SBF_WEIGHT_PROPERTY_MASS_DAMPING;
@@ -473,10 +474,10 @@ START_TEST(a_goal_pulls_a_point_to_its_place)
   const sbf_vec3 positions[] = {{0.2f, 0, 0}, {0.5f, 0, 0}};
   const float masses[] = {1, 1}, stiffness = 1e-3f;
   static const float weight = 0.5f;
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 2);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1); /* next to nothing */
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at;
   set->weights = (sbf_f32_list){&weight, 1};
   set->stiffness = 200, set->damping = 20;

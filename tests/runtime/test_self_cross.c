@@ -9,7 +9,7 @@
 
 enum { COLUMNS = 21, ROWS = 25, ALL = COLUMNS * ROWS };
 
-static bool are_apart(const uint32_t ends[2], const uint32_t t[3]) {
+static bool are_separated(const uint32_t ends[2], const uint32_t t[3]) {
   for (int k = 0; k < 3; k++)
     if (t[k] == ends[0] || t[k] == ends[1]) return false;
   return true;
@@ -21,7 +21,7 @@ static uint32_t count_of_side(const sbf_vec3 at[ALL], const uint32_t ends[2]) {
   for (uint32_t c = 0; c + COLUMNS < ALL; c++) {
     const uint32_t two[2][3] = {{c, c + COLUMNS, c + COLUMNS + 1}, {c, c + COLUMNS + 1, c + 1}};
     for (int k = 0; k < 2 && c % COLUMNS < COLUMNS - 1; k++)
-      count += are_apart(ends, two[k]) &&
+      count += are_separated(ends, two[k]) &&
                grid_pierces(at[ends[0]], at[ends[1]], at[two[k][0]], at[two[k][1]], at[two[k][2]]);
   }
   return count;
@@ -58,7 +58,7 @@ START_TEST(a_crumpled_sheet_is_not_through_itself)
   scene_ticks(&s, 150);
   scene_read(&s, 0, now, ALL);
   ck_assert_uint_eq(count_all(now), 0);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST

@@ -34,15 +34,15 @@ static float over(const scene *s) {
 START_TEST(rims_meet_their_own_body)
 {
   static sbf_vec3 at[2 * PART];
-  const uint32_t held[4] = {0, 1, PART - 2, PART - 1};
+  const uint32_t pinned[4] = {0, 1, PART - 2, PART - 1};
   strips(at);
-  for (int meets = 0; meets < 2; meets++) {
+  for (int contacts = 0; contacts < 2; contacts++) {
     grid g = {at, 2, 2 * ROWS, ROWS, 0.01f, 1000, 100};
     scene s = grid_begin(&g);
-    scene_pin(&s, (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at, -1, held, 4);
-    scene_body(&s, 0)->collision.self = meets;
+    scene_pin(&s, (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at, -1, pinned, 4);
+    scene_body(&s, 0)->collision.self = contacts;
     scene_start(&s);
-    collision_check_over(&s, over, meets);
+    collision_check_over(&s, over, contacts);
     scene_free(&s);
   }
 }

@@ -16,17 +16,17 @@ static void expect(const sbr_shape *s, sbf_vec3 x, float gap, sbf_vec3 normal) {
   ck_assert(sbri_shape_nearest(s, x, 10, 10, &found));
   ck_assert_float_eq_tol(found.gap, gap, 1e-5f);
   ck_assert_float_ge(sbri_dot(found.normal, normal), 0.9999f);
-  sbf_vec3 back = sbri_add_scaled(found.place, found.normal, found.gap);
+  sbf_vec3 back = sbri_add_scaled(found.position, found.normal, found.gap);
   ck_assert_float_le(sbri_length(sbri_sub(back, x)), 1e-4f);
 }
 
-static void expect_way(const sbr_shape *s, sbf_vec3 x, sbf_vec3 way, float share, sbf_vec3 normal) {
+static void expect_way(const sbr_shape *s, sbf_vec3 x, sbf_vec3 direction, float fraction, sbf_vec3 normal) {
   float found = -1;
   sbf_vec3 n = {0, 0, 0};
-  bool enters = sbri_shape_enter(s, x, way, &found, &n);
-  ck_assert_int_eq(enters, share >= 0);
+  bool enters = sbri_shape_enter(s, x, direction, &found, &n);
+  ck_assert_int_eq(enters, fraction >= 0);
   if (!enters) return;
-  ck_assert_float_eq_tol(found, share, 1e-5f);
+  ck_assert_float_eq_tol(found, fraction, 1e-5f);
   ck_assert_float_ge(sbri_dot(n, normal), 0.9999f);
 }
 

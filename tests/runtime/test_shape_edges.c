@@ -28,8 +28,8 @@ static float over(const scene *s) {
   scene_read(s, 0, at, ROW * ROW);
   for (uint32_t i = 0; i < ROW * ROW; i++) {
     if (i % ROW == CELLS || at[i].x * at[i + 1].x > 0) continue;
-    float share = at[i].x / (at[i].x - at[i + 1].x);
-    min = fminf(min, at[i].y + share * (at[i + 1].y - at[i].y));
+    float fraction = at[i].x / (at[i].x - at[i + 1].x);
+    min = fminf(min, at[i].y + fraction * (at[i + 1].y - at[i].y));
   }
   return min;
 }

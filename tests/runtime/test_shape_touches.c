@@ -25,10 +25,10 @@ static double speed(const scene *s, uint32_t body) {
   return sqrt((double)(v.x * v.x + v.y * v.y + v.z * v.z));
 }
 
-static float host_floor(void *user, sbf_vec3 place, float reach, sbf_vec3 *normal) {
+static float host_floor(void *user, sbf_vec3 position, float reach, sbf_vec3 *normal) {
   (void)user, (void)reach;
   *normal = (sbf_vec3){0, 1, 0};
-  return place.y;
+  return position.y;
 }
 
 /* A box dropped on the top (y = 0) of each kind of shape lies there, as high as it is. */
@@ -105,7 +105,7 @@ START_TEST(a_bullet_stops_at_a_thin_board)
   of.half_sizes = (sbf_vec3){1, 1, 0.005f};
   sbr_shape *shape = collision_shape(of);
   collision_collider(&s, shape, (sbr_double3){0, 0, 5});
-  sbr_character_rigid_push(s.world, s.character, 0, (sbr_double3){0, 0, 0}, (sbf_vec3){0, 0, 10});
+  sbr_character_apply_rigid_impulse(s.world, s.character, 0, (sbr_double3){0, 0, 0}, (sbf_vec3){0, 0, 10});
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     ck_assert_float_le(rigid_state(&s, 0).center.z, 5);
@@ -126,15 +126,16 @@ START_TEST(a_moving_ball_pushes)
   sbr_shape *shape = collision_shape(shape_kind(SBR_SHAPE_SPHERE));
   sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){-1, 0, 0});
   sbr_hit hit;
-  ck_assert(sbr_world_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){2, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){2, 0, 0}, 10, UINT32_MAX, &hit));
   ck_assert_uint_eq(hit.collider.value, id.value);
   ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
-  ck_assert(sbr_world_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, UINT32_MAX, &hit));
   ck_assert_int_eq(hit.rigid_body, 0);
   ck_assert_double_eq_tol(hit.position.x, 0.1, 1e-5);
-  ck_assert(!sbr_world_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, 2, &hit));
+  ck_assert(!sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, 2, &hit));
   ck_assert_uint_eq(
-      sbr_world_overlap(s.world, (sbr_double3){-2, -1, -1}, (sbr_double3){1, 1, 1}, UINT32_MAX, &hit, 1), 2);
+      sbr_world_overlap_aabb(s.world, (sbr_double3){-2, -1, -1}, (sbr_double3){1, 1, 1}, UINT32_MAX, &hit, 1),
+      2);
   for (int i = 1; i <= 60; i++) {
     sbr_collider_move(s.world, id, (sbr_double3){-1 + i / 60.0, 0, 0}, (sbf_quat){0, 0, 0, 1});
     scene_ticks(&s, 1);
@@ -142,8 +143,8 @@ START_TEST(a_moving_ball_pushes)
   }
   ck_assert_double_eq_tol((double)rigid_state(&s, 0).velocity.x, 1, 0.02);
   sbr_event event;
-  ck_assert_uint_eq(sbr_world_events(s.world, &event, 1), 1);
-  ck_assert_int_eq(event.kind, SBR_EVENT_CONTACT);
+  ck_assert_uint_eq(sbr_world_take_events(s.world, &event, 1), 1);
+  ck_assert_int_eq(event.kind, SBR_EVENT_CONTACT_BEGIN);
   ck_assert_int_eq(event.rigid_body, 0);
   ck_assert_uint_eq(event.collider.value, id.value);
   ck_assert_float_ge(event.normal.x, 0.999f);
@@ -162,16 +163,16 @@ START_TEST(rays_find_the_ground)
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_world *world;
   sbr_hit hit;
-  definition.ground = _i ? sbr_ground_obstacles(&set) : base;
+  definition.ground = _i ? sbr_ground_with_obstacles(&set) : base;
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
-  ck_assert(sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 1, &hit));
+  ck_assert(sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 1, &hit));
   ck_assert(hit.ground);
   ck_assert_double_eq_tol(hit.distance, 3, 1e-5);
   ck_assert_float_eq_tol(hit.normal.y, 1, 1e-6f);
-  ck_assert(!sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 2.9, 1, &hit));
-  ck_assert(!sbr_world_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 2, &hit));
-  ck_assert(!sbr_world_ray(world, (sbr_double3){0, -1, 0}, (sbf_vec3){0, 1, 0}, 10, 1, &hit));
-  ck_assert_int_eq(sbr_world_ray(world, (sbr_double3){0, 0.5, 0}, (sbf_vec3){1, 0, 0}, 10, 1, &hit), _i);
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 2.9, 1, &hit));
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 2, &hit));
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, -1, 0}, (sbf_vec3){0, 1, 0}, 10, 1, &hit));
+  ck_assert_int_eq(sbr_world_cast_ray(world, (sbr_double3){0, 0.5, 0}, (sbf_vec3){1, 0, 0}, 10, 1, &hit), _i);
   if (_i) ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
   sbr_world_destroy(world);
 }
@@ -194,13 +195,14 @@ START_TEST(places_that_are_no_numbers_are_refused)
   ck_assert_int_eq(sbr_collider_create(s.world, &d, &id, &error), SBF_FAILED);
   id = collision_collider(&s, shape, (sbr_double3){-1, 0, 0});
   sbr_collider_move(s.world, id, (sbr_double3){(double)NAN, 0, 0}, (sbf_quat){0, 0, 0, 1});
-  sbr_collider_place(s.world, id, (sbr_double3){0, 0, 0}, (sbf_quat){0, NAN, 0, 1});
+  sbr_collider_set_transform(s.world, id, (sbr_double3){0, 0, 0}, (sbf_quat){0, NAN, 0, 1});
   scene_ticks(&s, 2);
-  ck_assert(sbr_world_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
   ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
-  ck_assert(!sbr_world_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){NAN, 0, 0}, 10, UINT32_MAX, &hit));
   ck_assert(
-      !sbr_world_ray(s.world, (sbr_double3){-3, (double)NAN, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+      !sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){NAN, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(!sbr_world_cast_ray(
+      s.world, (sbr_double3){-3, (double)NAN, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
   scene_free(&s);
   sbr_shape_destroy(shape);
 }

@@ -33,7 +33,8 @@ START_TEST(the_skin_lies_at_rest_to_begin_with)
   enum { MAX = 128 };
   sbf_vec3 positions[MAX], normals[MAX];
   const sbf_vec3_list *rest = &s.asset->render_meshes.at[0].mesh.positions;
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, positions, normals, NULL, MAX), rest->count);
+  ck_assert_uint_eq(
+      sbr_character_get_skin(s.world, s.character, 0, positions, normals, NULL, MAX), rest->count);
   for (uint32_t i = 0; i < rest->count; i++) {
     ck_assert_float_le(distance(positions[i], rest->at[i]), 1e-6f);
     ck_assert_float_eq_tol(sbri_length(normals[i]), 1, 1e-6f);
@@ -83,7 +84,7 @@ START_TEST(hard_edges_stay_hard_and_soft_ones_soft)
     scene_start(&s);
     sbf_vec3 *normals = calloc(corner_count, sizeof *normals);
     ck_assert_uint_eq(
-        sbr_character_corner_normals(s.world, s.character, 0, normals, corner_count), corner_count);
+        sbr_character_get_corner_normals(s.world, s.character, 0, normals, corner_count), corner_count);
     if (hard)
       ck_assert_float_gt(worst_corner(&s, normals), 0.9999f);
     else
@@ -124,7 +125,7 @@ START_TEST(seams_are_shaded_as_authored)
     make_seam(&s, authored[k]);
     scene_start(&s);
     sbf_vec3 normals[8];
-    ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, NULL, normals, NULL, 8), 8);
+    ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 0, NULL, normals, NULL, 8), 8);
     for (int i = 0; i < 8; i++) ck_assert_float_le(distance(normals[i], authored[k].at[i]), 1e-4f);
     scene_free(&s);
   }
@@ -145,7 +146,7 @@ START_TEST(tangents_follow_the_texture)
   scene_start(&s);
   sbf_vec3 normals[8];
   sbf_vec4 tangents[8];
-  sbr_character_skin(s.world, s.character, 0, NULL, normals, tangents, 8);
+  sbr_character_get_skin(s.world, s.character, 0, NULL, normals, tangents, 8);
   for (int i = 0; i < 8; i++) {
     sbf_vec3 t = {tangents[i].x, tangents[i].y, tangents[i].z};
     ck_assert_float_eq_tol(sbri_length(t), 1, 1e-5f);
@@ -165,7 +166,7 @@ START_TEST(without_texture_tangents_are_zero)
   sbf_vec4 tangents[8], zero = {0, 0, 0, 0};
   sbf_vec3 normals[8];
   memset(tangents, 0x55, sizeof tangents);
-  sbr_character_skin(s.world, s.character, 0, NULL, normals, tangents, 8);
+  sbr_character_get_skin(s.world, s.character, 0, NULL, normals, tangents, 8);
   for (int i = 0; i < 8; i++) ck_assert_mem_eq(&tangents[i], &zero, sizeof zero);
   scene_free(&s);
 }
@@ -179,8 +180,8 @@ START_TEST(normals_turn_with_the_body)
   scene straight = box(2);
   scene_start(&straight);
   sbf_vec3 turned[26], normals[26];
-  sbr_character_skin(s.world, s.character, 0, NULL, turned, NULL, 26);
-  sbr_character_skin(straight.world, straight.character, 0, NULL, normals, NULL, 26);
+  sbr_character_get_skin(s.world, s.character, 0, NULL, turned, NULL, 26);
+  sbr_character_get_skin(straight.world, straight.character, 0, NULL, normals, NULL, 26);
   float sine, cosine;
   sbri_sincos(0.6f, &sine, &cosine);
   for (int i = 0; i < 26; i++)

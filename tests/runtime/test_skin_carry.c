@@ -12,13 +12,13 @@ static scene carried(const float *blends) {
   static const sbf_vec3 corners[2][4] = {
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 0, 0}, {0, 2, 0}, {1, 0, 0}, {0, 0, 1}}};
   static const float masses[] = {1, 1, 1, 1};
-  static const uint32_t held[] = {0, 1, 2, 3}, vertices[] = {1, 2};
+  static const uint32_t pinned[] = {0, 1, 2, 3}, vertices[] = {1, 2};
   static const sbf_uint4 points[] = {{{0, 1, 2, 3}}, {{0, 1, 2, 3}}, {{3, 2, 1, 0}}};
   static const sbf_vec4 weights[] = {{1, 0, 0, 0}, {0.25f, 0.25f, 0.25f, 0.25f}, {-0.5f, 0.5f, 0.5f, 0.5f}};
   static const sbf_vec3 rest[] = {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}, {2, 3, 4}};
   for (uint32_t b = 0; b < 2; b++) {
     sbf_level *level = scene_points(&s, b, corners[b], masses, 4);
-    scene_pin(&s, level, -1, held, 4);
+    scene_pin(&s, level, -1, pinned, 4);
     sbf_embedding *e = sbf_asset_allocate(s.asset, 1, sizeof *e);
     sbf_embedding_init(e);
     e->render_mesh = 0;
@@ -50,7 +50,7 @@ START_TEST(vertices_blend_over_points_and_bodies)
   scene s = carried(blends);
   scene_start(&s);
   sbf_vec3 p[4];
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, p, NULL, NULL, 4), 4);
+  ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 4), 4);
   expect(p[0], 0, 0, 0);
   /* Half of the first body's mean, half of the second's first point. */
   expect(p[1], 0.125f, 0.125f, 0.125f);
@@ -66,7 +66,7 @@ START_TEST(shares_that_do_not_add_up_are_brought_there)
   scene s = carried(blends);
   scene_start(&s);
   sbf_vec3 p[4];
-  sbr_character_skin(s.world, s.character, 0, p, NULL, NULL, 4);
+  sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 4);
   expect(p[1], 0.25f * 0.25f, 0.25f * 0.25f, 0.25f * 0.25f);
   scene_free(&s);
 }
@@ -105,8 +105,8 @@ START_TEST(skins_follow_bones_where_no_body_carries_them)
   s.world_definition.ground = sbr_ground_flat(0);
   scene_start(&s);
   sbf_vec3 p[3];
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, p, NULL, NULL, 3), 3);
-  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  ck_assert_uint_eq(sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 3), 3);
+  sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   for (int i = 0; i < 3; i++) {
     ck_assert_double_eq_tol(o.x + (double)p[i].x, 2.0 * (double)rest[i].z, 1e-5);
     ck_assert_double_eq_tol(o.z + (double)p[i].z, 10 - 2.0 * (double)rest[i].x, 1e-5);
@@ -127,10 +127,10 @@ START_TEST(a_body_without_levels_goes_with_its_bone)
   scene_start(&s);
   scene_ticks(&s, 3);
   sbf_vec3 p;
-  ck_assert_uint_eq(sbr_character_surface(s.world, s.character, 0, &p, 1), 1);
-  ck_assert_double_eq_tol(sbr_character_origin(s.world, s.character).y + (double)p.y, 7, 1e-6);
-  ck_assert_uint_eq(sbr_character_points(s.world, s.character, 0, &p, 1), 0);
-  ck_assert_float_eq(sbr_character_health(s.world, s.character, 0).volume_ratio, 1);
+  ck_assert_uint_eq(sbr_character_get_surface(s.world, s.character, 0, &p, 1), 1);
+  ck_assert_double_eq_tol(sbr_character_get_origin(s.world, s.character).y + (double)p.y, 7, 1e-6);
+  ck_assert_uint_eq(sbr_character_get_points(s.world, s.character, 0, &p, 1), 0);
+  ck_assert_float_eq(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1);
   scene_free(&s);
 }
 END_TEST
@@ -166,7 +166,7 @@ START_TEST(points_named_several_times_carry_once)
   const sbri_skin *skin = &s.model->skins[0];
   ck_assert_uint_eq(skin->binding_count, 3);
   sbf_vec3 p[3];
-  sbr_character_skin(s.world, s.character, 0, p, NULL, NULL, 3);
+  sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 3);
   for (int i = 0; i < 3; i++) expect(p[i], rest[i].x, rest[i].y, rest[i].z);
   scene_free(&s);
   lattice_box_free(&box);

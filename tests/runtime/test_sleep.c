@@ -46,15 +46,15 @@ static scene make_scene(sbr_ground ground, double sleep_after_s) {
 static double energy(const scene *s) {
   double sum = 0;
   for (uint32_t b = 0; b < 2; b++) {
-    sbr_body_health health = sbr_character_health(s->world, s->character, b);
+    sbr_body_health health = sbr_character_get_body_health(s->world, s->character, b);
     sum += health.kinetic_j + health.elastic_j + health.potential_j;
   }
   return sum;
 }
 
 static void sleep_all(scene *s) {
-  for (int i = 0; i < 1200 && (i == 0 || sbr_world_awake(s->world) > 0); i++) scene_ticks(s, 1);
-  ck_assert_uint_eq(sbr_world_awake(s->world), 0);
+  for (int i = 0; i < 1200 && (i == 0 || sbr_world_count_awake_bodies(s->world) > 0); i++) scene_ticks(s, 1);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s->world), 0);
 }
 
 /* Of what sleeps; whoever wakes goes on from these. */
@@ -69,7 +69,7 @@ static void expect_no_velocity(const scene *s) {
 
 static uint32_t count_events(const scene *s, sbr_event_kind kind) {
   sbr_event events[64];
-  uint32_t count = sbr_world_events(s->world, events, 64), found = 0;
+  uint32_t count = sbr_world_take_events(s->world, events, 64), found = 0;
   for (uint32_t i = 0; i < count; i++) found += events[i].kind == kind;
   return found;
 }
@@ -83,7 +83,7 @@ START_TEST(what_rests_sleeps_without_a_jump_of_energy)
     before = energy(&s);
     scene_ticks(&s, 1);
     scene_ticks(&twin, 1);
-    awake = sbr_world_awake(s.world);
+    awake = sbr_world_count_awake_bodies(s.world);
   }
   ck_assert_uint_lt(ticks, 1200);
   ck_assert_uint_gt(ticks, 30);
@@ -97,11 +97,11 @@ START_TEST(what_rests_sleeps_without_a_jump_of_energy)
   scene_ticks(&s, 300);
   ck_assert_double_eq(energy(&s), asleep);
   ck_assert_float_eq(scene_point(&s, 0, 3).y, point.y);
-  ck_assert(sbr_character_health(s.world, s.character, 0).asleep);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).asleep);
   /* Awake again it is where it was, and goes on as what never slept. */
   sbr_character_wake(s.world, s.character);
   scene_ticks(&s, 1);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 2);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 2);
   ck_assert_uint_eq(count_events(&s, SBR_EVENT_AWAKE), 2);
   ck_assert_double_le(energy(&s), asleep + 1e-4);
   scene_ticks(&twin, 300);
@@ -119,16 +119,16 @@ START_TEST(nothing_sleeps_unless_it_may)
 {
   scene s = make_scene(sbr_ground_flat(0), 0);
   scene_ticks(&s, 600);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 2);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 2);
   scene_free(&s);
 }
 END_TEST
 
 static void drive(scene *s) {
-  sbr_character_drive(s->world, s->character, 0.5f, 0, 0);
+  sbr_character_set_drive(s->world, s->character, 0.5f, 0, 0);
 }
 static void turn_bone(scene *s) { /* as a clip or a hand would */
-  sbr_character_drive(s->world, s->character, 0, 0, 1);
+  sbr_character_set_drive(s->world, s->character, 0, 0, 1);
 }
 static void teleport(scene *s) {
   sbr_character_teleport(s->world, s->character, (sbr_double3){3, 0, 2}, 1);
@@ -159,20 +159,20 @@ START_TEST(what_moves_it_wakes_it)
   scene s = make_scene((sbr_ground){pad_height, &host_pad, {0}}, 0.5);
   sleep_all(&s);
   scene_ticks(&s, 20);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 0);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 0);
   float before = scene_point(&s, 0, 3).y;
   uint32_t max = 0;
   causes[_i].act(&s);
   for (int i = 0; i < 6; i++) {
     scene_ticks(&s, 1);
-    max = sbr_world_awake(s.world) > max ? sbr_world_awake(s.world) : max;
+    max = sbr_world_count_awake_bodies(s.world) > max ? sbr_world_count_awake_bodies(s.world) : max;
   }
   ck_assert_uint_ge(max, causes[_i].awake);
   scene_ticks(&s, 300);
   float moved = scene_point(&s, 0, 3).y - before;
   if (causes[_i].act == raise_ground) ck_assert_float_eq_tol(moved, 0.02f, 0.003f);
   if (causes[_i].act == lower_ground) ck_assert_float_eq_tol(moved, -0.02f, 0.003f);
-  ck_assert(sbr_character_health(s.world, s.character, 1).finite);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 1).finite);
   scene_free(&s);
 }
 END_TEST
@@ -215,22 +215,22 @@ START_TEST(threads_and_snapshots_agree_about_sleep)
 {
   scene s = make_scene(sbr_ground_flat(0), 0.5), other = make_scene(sbr_ground_flat(0), 0.5);
   other.world->tasks = (sbr_tasks){count_tasks, NULL}; /* which takes tasks the other way about */
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
   for (int i = 0; i < 400; i++) {
-    if (i == 50) ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
+    if (i == 50) ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
     scene_ticks(&s, 1);
     scene_ticks(&other, 1);
-    ck_assert_uint_eq(sbr_world_state_hash(s.world), sbr_world_state_hash(other.world));
+    ck_assert_uint_eq(sbr_world_get_state_hash(s.world), sbr_world_get_state_hash(other.world));
   }
   sleep_all(&s);
   sleep_all(&other);
-  uint64_t end = sbr_world_state_hash(s.world);
-  uint64_t ticks = sbr_world_ticks(s.world);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 50);
+  uint64_t end = sbr_world_get_state_hash(s.world);
+  uint64_t ticks = sbr_world_get_tick_count(s.world);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 50);
   scene_ticks(&s, (uint32_t)(ticks - 50));
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), end);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), end);
   free(bytes);
   scene_free(&s);
   scene_free(&other);

@@ -47,7 +47,7 @@ static scene begin_block(enum block_kind kind, sbf_scheme scheme, float friction
 static double middle_of(const scene *s) {
   static sbf_vec3 points[512];
   uint32_t count = scene_read(s, 0, points, 512);
-  double x = sbr_character_origin(s->world, s->character).x;
+  double x = sbr_character_get_origin(s->world, s->character).x;
   for (uint32_t i = 0; i < count; i++) x += (double)points[i].x / count;
   return x;
 }
@@ -72,8 +72,8 @@ typedef struct slid {
   double speed, acceleration;
 } slid;
 
-static slid slide(slope_case which, double share) {
-  scene s = begin_block(which.kind, which.scheme, which.friction, atan(share * (double)which.friction));
+static slid slide(slope_case which, double fraction) {
+  scene s = begin_block(which.kind, which.scheme, which.friction, atan(fraction * (double)which.friction));
   scene_ticks(&s, 90);
   double first = middle_of(&s);
   scene_ticks(&s, 60);
@@ -86,27 +86,27 @@ static slid slide(slope_case which, double share) {
 
 START_TEST(a_block_stays_where_friction_holds_it)
 {
-  static const double shares[] = {0.8, 0.95};
+  static const double fractions[] = {0.8, 0.95};
   slope_case which = slope_case_of(_i);
   for (int k = 0; k < 2; k++) {
-    double speed = slide(which, shares[k]).speed;
+    double speed = slide(which, fractions[k]).speed;
     ck_assert_msg(fabs(speed) < 1e-3, "kind %d, scheme %d, friction %g, at %g of it: %g m/s", (int)which.kind,
-        (int)which.scheme, (double)which.friction, shares[k], speed);
+        (int)which.scheme, (double)which.friction, fractions[k], speed);
   }
 }
 END_TEST
 
 START_TEST(a_block_slides_as_coulomb_says)
 {
-  static const double shares[] = {1.05, 1.2};
+  static const double fractions[] = {1.05, 1.2};
   slope_case which = slope_case_of(_i);
   for (int k = 0; k < 2; k++) {
-    double friction = (double)which.friction, angle = atan(shares[k] * friction);
+    double friction = (double)which.friction, angle = atan(fractions[k] * friction);
     double right = GRAVITY * (sin(angle) - friction * cos(angle)),
-           found = slide(which, shares[k]).acceleration;
+           found = slide(which, fractions[k]).acceleration;
     ck_assert_msg(fabs(found - right) < 0.02 * right,
         "kind %d, scheme %d, friction %g, at %g of it: %g of %g m/s^2", (int)which.kind, (int)which.scheme,
-        friction, shares[k], found, right);
+        friction, fractions[k], found, right);
   }
 }
 END_TEST

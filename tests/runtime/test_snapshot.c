@@ -18,7 +18,7 @@ static scene walker_by(sbf_scheme scheme) {
   s.world_definition.ground = sbr_ground_noise(0.05, 3);
   s.model_options.scheme = scheme;
   scene_start(&s);
-  sbr_character_drive(s.world, s.character, 1, 0, 0.8f);
+  sbr_character_set_drive(s.world, s.character, 1, 0, 0.8f);
   return s;
 }
 
@@ -30,24 +30,24 @@ START_TEST(a_restored_world_goes_on_alike)
 {
   scene s = walker_by(schemes[_i]);
   scene_ticks(&s, 37);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
   uint64_t hashes[100];
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
-  uint64_t before = sbr_world_state_hash(s.world);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
+  uint64_t before = sbr_world_get_state_hash(s.world);
   for (int i = 0; i < 100; i++) {
     scene_ticks(&s, 1);
-    hashes[i] = sbr_world_state_hash(s.world);
+    hashes[i] = sbr_world_get_state_hash(s.world);
     ck_assert_uint_ne(hashes[i], i ? hashes[i - 1] : before);
   }
-  sbr_character_drive(s.world, s.character, -1, 1, 0);
+  sbr_character_set_drive(s.world, s.character, -1, 1, 0);
   scene_ticks(&s, 50);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), before);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 37);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), before);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 37);
   for (int i = 0; i < 100; i++) {
     scene_ticks(&s, 1);
-    ck_assert_uint_eq(sbr_world_state_hash(s.world), hashes[i]);
+    ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hashes[i]);
   }
   free(bytes);
   scene_free(&s);
@@ -60,10 +60,10 @@ START_TEST(two_worlds_agree_to_the_bit)
   for (int i = 0; i < 50; i++) {
     scene_ticks(&a, 1);
     scene_ticks(&b, 1);
-    ck_assert_uint_eq(sbr_world_state_hash(a.world), sbr_world_state_hash(b.world));
+    ck_assert_uint_eq(sbr_world_get_state_hash(a.world), sbr_world_get_state_hash(b.world));
   }
-  sbr_character_drive(b.world, b.character, 1, 0, 0.80001f);
-  ck_assert_uint_ne(sbr_world_state_hash(a.world), sbr_world_state_hash(b.world));
+  sbr_character_set_drive(b.world, b.character, 1, 0, 0.80001f);
+  ck_assert_uint_ne(sbr_world_get_state_hash(a.world), sbr_world_get_state_hash(b.world));
   scene_free(&a);
   scene_free(&b);
 }
@@ -72,26 +72,26 @@ END_TEST
 START_TEST(what_does_not_fit_is_refused)
 {
   scene s = walker();
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   unsigned char *bytes = malloc(size);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size - 1), SBF_FAILED);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size - 1), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
   scene_ticks(&s, 3);
-  uint64_t hash = sbr_world_state_hash(s.world);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size - 1), SBF_FAILED);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size - 1), SBF_FAILED);
   bytes[0] ^= 1;
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_FAILED);
   bytes[0] ^= 1;
   sbr_character_id other;
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &other, NULL), SBF_OK);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_FAILED);
   sbr_character_destroy(s.world, other);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
   sbr_character_destroy(s.world, s.character); /* another one in the same place */
   ck_assert_int_eq(
       sbr_character_create(s.world, s.model, &s.character_definition, &s.character, NULL), SBF_OK);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_FAILED);
   free(bytes);
   scene_free(&s);
 }

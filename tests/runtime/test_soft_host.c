@@ -20,17 +20,17 @@ static const float momentum_off[SCHEMES] = {2e-4f, 2e-4f, 2e-4f, 2e-3f};
 static const float balance_off[SCHEMES] = {1e-3f, 1e-2f, 1e-3f, 1e-3f};
 
 /* A cube of tetrahedra with a surface about it, free or with its side x = 0 held by the world; not damped. */
-static scene cube(sbf_scheme scheme, bool held, float gravity_m_s2, float scale) {
+static scene cube(sbf_scheme scheme, bool pinned, float gravity_m_s2, float scale) {
   scene s = scene_begin();
   lattice_box box =
       lattice_box_make((sbf_vec3){0, 1, 0}, (sbf_vec3){size_m, size_m, size_m}, 2, 2, 2, density, 2e5f, 0.3f);
   scene_bone(&s, (sbf_vec3){0, 1, 0});
   sbf_soft_body *body = scene_body(&s, 0);
   scene_section(&s, 0, (sbf_vec3){0.2f, 1.2f, 0.2f}, (sbf_vec3){size_m, size_m, size_m}, 2);
-  if (held) lattice_box_hold(&box);
+  if (pinned) lattice_box_hold(&box);
   scene_embed(&s, scene_lattice(&s, 0, &box), &box);
   lattice_box_free(&box);
-  body->attributes.damping_ratio = held ? 1 : 0;
+  body->attributes.damping_ratio = pinned ? 1 : 0;
   s.model_options.scheme = scheme;
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){0, -gravity_m_s2, 0};
@@ -40,20 +40,21 @@ static scene cube(sbf_scheme scheme, bool held, float gravity_m_s2, float scale)
 }
 
 static float mass_of(const scene *s) {
-  return sbr_character_soft_motion(s->world, s->character, 0).mass;
+  return sbr_character_get_soft_motion(s->world, s->character, 0).mass;
 }
 
 static sbf_vec3 vertex_at(const scene *s, uint32_t vertex) {
   sbf_vec3 vertices[256];
-  uint32_t count = sbr_character_surface(s->world, s->character, 0, vertices, 256);
+  uint32_t count = sbr_character_get_surface(s->world, s->character, 0, vertices, 256);
   ck_assert_uint_lt(vertex, count);
   return vertices[vertex];
 }
 
 /* The vertex at the corner of the greatest coordinates. */
 static uint32_t far_corner(const scene *s) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
-  return sbr_character_nearest_vertex(s->world, s->character, 0, (sbr_double3){o.x + 9, o.y + 9, o.z + 9});
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
+  return sbr_character_find_nearest_vertex(
+      s->world, s->character, 0, (sbr_double3){o.x + 9, o.y + 9, o.z + 9});
 }
 
 static void check_vec3(const double is[3], const double wanted[3], double tolerance) {
@@ -95,10 +96,10 @@ START_TEST(an_impulse_on_the_whole_body_deforms_nothing)
                        s.world, s.character, 0, SBR_WHOLE_BODY, (sbf_vec3){2 * mass, 0, 0}, NULL),
       SBF_OK);
   scene_ticks(&s, 30);
-  sbr_soft_motion m = sbr_character_soft_motion(s.world, s.character, 0);
+  sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
   ck_assert_float_eq_tol(m.velocity.x, 2, 1e-5f);
   ck_assert_float_eq_tol(m.angular_velocity.y, 0, 1e-4f);
-  ck_assert_double_lt(sbr_character_health(s.world, s.character, 0).elastic_j, 1e-6);
+  ck_assert_double_lt(sbr_character_get_body_health(s.world, s.character, 0).elastic_j, 1e-6);
   scene_free(&s);
 }
 END_TEST
@@ -109,7 +110,7 @@ START_TEST(a_velocity_that_is_set_is_had)
   const sbf_vec3 v = {1, -2, 0.5f}, w = {0.5f, 2, -1};
   for (int i = 0; i < 2; i++) { /* what it had before does not matter */
     ck_assert_int_eq(sbr_character_set_soft_velocity(s.world, s.character, 0, v, w, NULL), SBF_OK);
-    sbr_soft_motion m = sbr_character_soft_motion(s.world, s.character, 0);
+    sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
     ck_assert_float_eq_tol(m.velocity.x, v.x, 1e-5f);
     ck_assert_float_eq_tol(m.velocity.y, v.y, 1e-5f);
     ck_assert_float_eq_tol(m.velocity.z, v.z, 1e-5f);
@@ -118,7 +119,7 @@ START_TEST(a_velocity_that_is_set_is_had)
     ck_assert_float_eq_tol(m.angular_velocity.z, w.z, 1e-4f);
     sbf_vec3 before = m.center;
     scene_ticks(&s, 6); /* no weight: it goes straight on */
-    sbf_vec3 now = sbr_character_soft_motion(s.world, s.character, 0).center;
+    sbf_vec3 now = sbr_character_get_soft_motion(s.world, s.character, 0).center;
     ck_assert_float_eq_tol(now.x - before.x, 0.1f * v.x, 1e-4f);
     ck_assert_float_eq_tol(now.y - before.y, 0.1f * v.y, 1e-4f);
   }
@@ -151,14 +152,14 @@ START_TEST(pins_bear_what_hangs_on_them)
   scene s = cube(schemes[_i % SCHEMES], true, gravity, scale);
   scene_ticks(&s, 600);
   sbr_pin_reaction r;
-  ck_assert_uint_eq(sbr_character_pin_reactions(s.world, s.character, 0, &r, 1), 1);
+  ck_assert_uint_eq(sbr_character_get_pin_reactions(s.world, s.character, 0, &r, 1), 1);
   float weight = mass_of(&s) * gravity, off = balance_off[_i % SCHEMES];
   ck_assert_uint_eq(r.points, 9);
   ck_assert_int_eq(r.bone, -1);
   ck_assert_float_eq_tol(r.force.y, weight, off * weight);
   ck_assert_float_eq_tol(r.force.x, 0, off * weight);
   /* The centre of mass is to the side: the pins hold it up by a moment, weight times arm. */
-  sbr_soft_motion m = sbr_character_soft_motion(s.world, s.character, 0);
+  sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
   float arm = m.center.x - r.about.x;
   ck_assert_float_gt(arm, 0.15f * scale);
   ck_assert_float_eq_tol(r.torque.z, arm * weight, off * arm * weight);
@@ -183,7 +184,7 @@ START_TEST(goal_springs_are_pins_too)
   scene_start(&s);
   scene_ticks(&s, 400);
   sbr_pin_reaction r;
-  ck_assert_uint_eq(sbr_character_pin_reactions(s.world, s.character, 0, &r, 1), 1);
+  ck_assert_uint_eq(sbr_character_get_pin_reactions(s.world, s.character, 0, &r, 1), 1);
   ck_assert_float_eq_tol(r.force.y, kg * gravity, 1e-3f * kg * gravity);
   ck_assert_float_eq_tol(scene_point(&s, 0, 0).y, 1 - kg * gravity / 200, 1e-4f);
   scene_free(&s);
@@ -195,7 +196,7 @@ START_TEST(what_is_held_hangs_where_it_is_held)
   scene s = cube(schemes[_i], false, gravity, 1);
   uint32_t vertex = far_corner(&s);
   sbf_vec3 at = vertex_at(&s, vertex);
-  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   sbr_soft_hold hold = sbr_default_soft_hold();
   hold.target = (sbr_double3){o.x + (double)at.x + 0.3, o.y + (double)at.y + 0.2, o.z + (double)at.z};
   hold.frequency_hz = 4;
@@ -208,19 +209,19 @@ START_TEST(what_is_held_hangs_where_it_is_held)
         SBF_OK);
   }
   at = vertex_at(&s, vertex);
-  o = sbr_character_origin(s.world, s.character);
+  o = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq_tol(o.y + (double)at.y, hold.target.y - (double)(weight / k), 0.01);
   ck_assert_double_eq_tol(o.x + (double)at.x, hold.target.x, 0.02);
-  sbf_vec3 force = sbr_character_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
   ck_assert_float_eq_tol(force.y, weight, 0.1f * weight);
   /* Let go it falls as it is. */
   ck_assert(sbr_character_release_vertex(s.world, s.character, 0, vertex));
   ck_assert(!sbr_character_release_vertex(s.world, s.character, 0, vertex));
-  float before = sbr_character_soft_motion(s.world, s.character, 0).velocity.y;
+  float before = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y;
   scene_ticks(&s, 6);
-  float fell = sbr_character_soft_motion(s.world, s.character, 0).velocity.y - before;
+  float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
   ck_assert_float_eq_tol(fell, -0.1f * gravity, 1e-3f);
-  ck_assert_float_eq(sbr_character_hold_force(s.world, s.character, 0, vertex).y, 0);
+  ck_assert_float_eq(sbr_character_get_hold_force(s.world, s.character, 0, vertex).y, 0);
   scene_free(&s);
 }
 END_TEST
@@ -229,20 +230,20 @@ START_TEST(a_hold_never_pulls_harder_than_it_may)
 {
   scene s = cube(SBF_SCHEME_SYMPLECTIC, false, gravity, 1);
   uint32_t vertex = far_corner(&s);
-  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   sbr_soft_hold hold = sbr_default_soft_hold();
   float weight = mass_of(&s) * gravity;
   hold.target = (sbr_double3){o.x, o.y + 50, o.z};
   hold.max_force = 0.5f * weight;
   ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, NULL), SBF_OK);
-  float before = sbr_character_soft_motion(s.world, s.character, 0).velocity.y;
+  float before = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y;
   scene_ticks(&s, 12);
-  sbf_vec3 force = sbr_character_hold_force(s.world, s.character, 0, vertex);
+  sbf_vec3 force = sbr_character_get_hold_force(s.world, s.character, 0, vertex);
   ck_assert_float_le(
       sqrtf(force.x * force.x + force.y * force.y + force.z * force.z), hold.max_force * 1.0001f);
-  float fell = sbr_character_soft_motion(s.world, s.character, 0).velocity.y - before;
+  float fell = sbr_character_get_soft_motion(s.world, s.character, 0).velocity.y - before;
   ck_assert_float_eq_tol(fell, -0.5f * gravity * 0.2f, 0.01f);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST
@@ -260,22 +261,22 @@ START_TEST(what_sleeps_wakes)
   s.world_definition.sleep_after_s = 0.2;
   scene_start(&s);
   scene_ticks(&s, 300);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 0);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 0);
   ck_assert_int_eq(sbr_character_set_soft_velocity(
                        s.world, s.character, 0, (sbf_vec3){0, 1, 0}, (sbf_vec3){0, 0, 0}, NULL),
       SBF_OK);
   scene_ticks(&s, 1);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 1);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 1);
   scene_ticks(&s, 300);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 0);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 0);
   /* A force keeps it awake for as long as it acts, and it sleeps after that. */
   ck_assert_int_eq(sbr_character_apply_soft_force(
                        s.world, s.character, 0, SBR_WHOLE_BODY, (sbf_vec3){0, -0.01f, 0}, 2, NULL),
       SBF_OK);
   scene_ticks(&s, 110);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 1);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 1);
   scene_ticks(&s, 300);
-  ck_assert_uint_eq(sbr_world_awake(s.world), 0);
+  ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 0);
   scene_free(&s);
 }
 END_TEST
@@ -292,7 +293,7 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   const sbf_vec3 one = {1, 0, 0}, none = {NAN, 0, 0}, endless = {0, INFINITY, 0};
   sbf_diagnostic e;
   sbr_soft_hold hold = sbr_default_soft_hold();
-  uint64_t hash = sbr_world_state_hash(s.world);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   sbr_world *w = s.world;
   sbr_character_id c = s.character, nobody = {12345};
   refused(sbr_character_apply_soft_impulse(w, nobody, 0, 0, one, &e), &e, "no such character");
@@ -307,7 +308,7 @@ START_TEST(bad_calls_are_refused_and_change_nothing)
   refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "not a finite number");
   hold.target.x = 0, hold.damping_ratio = 11;
   refused(sbr_character_hold_vertex(w, c, 0, 0, &hold, &e), &e, "damping_ratio");
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++)
     ck_assert_int_eq(sbr_character_apply_soft_force(w, c, 0, 0, one, 5, &e), SBF_OK);
   refused(sbr_character_apply_soft_force(w, c, 0, 0, one, 5, &e), &e, "already");

@@ -40,13 +40,13 @@ START_TEST(what_falls_gains_no_energy)
   double begin = 0;
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     double energy = health.kinetic_j + health.elastic_j + health.potential_j;
     if (i == 0) begin = energy;
     ck_assert(health.finite);
     ck_assert_double_le(energy, 1.02 * begin);
   }
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_uint_eq(health.recoveries, 0);
   ck_assert_float_eq_tol(health.volume_ratio, 1, 0.05f);
   scene_free(&s);
@@ -61,7 +61,7 @@ START_TEST(no_more_than_the_budget_asks_for)
   scene s = make(moduli[_i], 0.48f, SBF_SCHEME_AUTOMATIC);
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  uint32_t substeps = sbr_model_substeps(s.model);
+  uint32_t substeps = sbr_model_get_substeps(s.model);
   ck_assert_ptr_eq(island->scheme, &sbri_symplectic);
   ck_assert_uint_le(substeps, SBRI_MAX_SUBSTEPS);
   if (_i == 0) {

@@ -14,10 +14,10 @@ static scene s;
 static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER};
 
-static void begin(uint32_t along, float density, float young_pa, float poisson, bool held) {
+static void begin(uint32_t along, float density, float young_pa, float poisson, bool pinned) {
   box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, along, along / 5, along / 5, density,
       young_pa, poisson);
-  if (held) lattice_box_hold(&box);
+  if (pinned) lattice_box_hold(&box);
   s = scene_begin();
   s.world_definition.has_gravity = true;
 }
@@ -95,14 +95,14 @@ START_TEST(free_fall_keeps_the_shape_anywhere)
     s.character_definition.position = (sbr_double3){cases[k].away, 1000, -cases[k].away};
     start(schemes[_i], cases[k].substeps, (sbf_vec3){0, -9.81f, 0});
     scene_ticks(&s, 30);
-    sbr_double3 origin = sbr_character_origin(s.world, s.character);
+    sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
     sbf_vec3 p = scene_point(&s, 0, 0);
     uint32_t n = schemes[_i] == SBF_SCHEME_HEUN && cases[k].substeps == 200 ? 256 : cases[k].substeps;
     double h = 1.0 / 60 / n, all = 30.0 * n, fallen = 0.5 * 9.81 * 0.25;
     if (_i < 2) fallen = 9.81 * h * h * all * (all + 1) / 2;
     ck_assert_double_eq_tol(origin.y + p.y - box.positions[0].y, -fallen, 2e-5);
     ck_assert_double_eq_tol(origin.x + p.x - box.positions[0].x, cases[k].away, 2e-6);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert_float_lt(health.max_strain, 2e-5f);
     end();
   }
@@ -110,7 +110,7 @@ START_TEST(free_fall_keeps_the_shape_anywhere)
 END_TEST
 
 /* Where the points of a bar that was bent and let go are after a tenth of a second. */
-static void swing(sbf_scheme scheme, uint32_t substeps, sbf_vec3 *places) {
+static void swing(sbf_scheme scheme, uint32_t substeps, sbf_vec3 *positions) {
   begin(5, 1000, 1e5f, 0.3f, true);
   start(scheme, substeps, (sbf_vec3){0, 0, 0});
   sbri_character *c = &s.world->characters[0];
@@ -119,7 +119,7 @@ static void swing(sbf_scheme scheme, uint32_t substeps, sbf_vec3 *places) {
     x->y += 0.2f * x->x * x->x, x->z += 0.05f * x->x;
   }
   scene_ticks(&s, 6);
-  ck_assert_uint_eq(scene_read(&s, 0, places, 64), box.point_count);
+  ck_assert_uint_eq(scene_read(&s, 0, positions, 64), box.point_count);
   end();
 }
 
@@ -128,13 +128,13 @@ START_TEST(errors_fall_with_the_order)
   /* 1 for all but Heun's method, which has 2. */
   static const double orders[] = {1, 1, 2, 1};
   static const uint32_t min[] = {16, 64, 16, 256};
-  static sbf_vec3 exact[64], places[64];
+  static sbf_vec3 exact[64], positions[64];
   double errors[2] = {0, 0};
   swing(SBF_SCHEME_HEUN, 512, exact);
   for (uint32_t n = 0; n < 2; n++) {
-    swing(schemes[_i], min[_i] << n, places);
+    swing(schemes[_i], min[_i] << n, positions);
     for (uint32_t i = 0; i < box.point_count; i++) {
-      double off = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(places[i]), sbfi_d3_of(exact[i])));
+      double off = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[i]), sbfi_d3_of(exact[i])));
       errors[n] = off > errors[n] ? off : errors[n];
     }
   }
@@ -157,7 +157,7 @@ START_TEST(energy_does_not_drift)
   double means[2] = {0, 0};
   for (int i = 0; i < 3000; i++) {
     sbr_body_health h = {0};
-    if (i < 500 || i >= 2500) h = sbr_character_health(s.world, s.character, 0);
+    if (i < 500 || i >= 2500) h = sbr_character_get_body_health(s.world, s.character, 0);
     means[i >= 2500] += (h.kinetic_j + h.elastic_j) / 500;
     scene_ticks(&s, 1);
   }

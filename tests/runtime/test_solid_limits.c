@@ -14,10 +14,10 @@ static scene s;
 static const sbf_scheme schemes[] = {
     SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER};
 
-static void begin(uint32_t along, float young_pa, bool held, sbf_vec3 gravity) {
+static void begin(uint32_t along, float young_pa, bool pinned, sbf_vec3 gravity) {
   box = lattice_box_make(
       (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, along, along / 5, along / 5, 1000, young_pa, 0.4f);
-  if (held) lattice_box_hold(&box);
+  if (pinned) lattice_box_hold(&box);
   s = scene_begin();
   scene_lattice(&s, 0, &box);
   s.world_definition.has_gravity = true;
@@ -56,7 +56,7 @@ START_TEST(strains_stay_within_their_limits)
   float max = 0;
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite);
     max = i > 30 && health.max_strain > max ? health.max_strain : max;
   }
@@ -86,7 +86,7 @@ START_TEST(limits_keep_momentum)
   sum_momenta(after);
   for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(after[k], before[k], 2e-4 * fabs(before[1]));
   for (int k = 3; k < 6; k++) ck_assert_double_eq_tol(after[k], before[k], 2e-2 * fabs(before[5]));
-  ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).max_strain, 0.08f);
+  ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 0.08f);
   end();
 }
 END_TEST
@@ -122,14 +122,14 @@ START_TEST(yield_flows_as_specified)
   ck_assert_double_gt(exact, 0.06);
   ck_assert_double_lt(exact, 0.2);
   scene_ticks(&s, 30);
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).max_strain, exact, 2e-3);
-  uint64_t hash = sbr_world_state_hash(s.world);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).max_strain, exact, 2e-3);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   sbr_character_reset(s.world, s.character);
-  ck_assert_uint_ne(sbr_world_state_hash(s.world), hash);
-  ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).max_strain, 1e-5f);
+  ck_assert_uint_ne(sbr_world_get_state_hash(s.world), hash);
+  ck_assert_float_lt(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 1e-5f);
   for (uint32_t i = 0; i < 4; i++)
     sbri_positions(c)[i].x *= 1.3f; /* the rest shape is that of before again */
-  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).max_strain, 0.3f, 1e-4f);
+  ck_assert_float_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 0.3f, 1e-4f);
   scene_free(&s);
 }
 END_TEST
@@ -148,7 +148,7 @@ START_TEST(what_has_yielded_keeps_its_shape)
     s.world->gravity = (sbf_vec3){0, 0, 0};
     scene_ticks(&s, 120);
     lengths[n] = scene_point(&s, 0, lattice_box_point(&box, 5, 0, 0)).x;
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite && !health.inverted);
     ck_assert_uint_eq(health.recoveries, 0);
     end();

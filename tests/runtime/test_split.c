@@ -53,7 +53,7 @@ static void add_skin(void) {
   enum { VERTICES = (COLUMNS + 1) * (ROWS + 1), QUADS = COLUMNS * ROWS };
   sbf_render_mesh *mesh = sbf_asset_allocate(s.asset, 1, sizeof *mesh);
   sbf_embedding *embedding = sbf_asset_allocate(s.asset, 1, sizeof *embedding);
-  sbf_vec3 *places = sbf_asset_allocate(s.asset, VERTICES, sizeof *places);
+  sbf_vec3 *positions = sbf_asset_allocate(s.asset, VERTICES, sizeof *positions);
   sbf_uint4 *points = sbf_asset_allocate(s.asset, VERTICES, sizeof *points);
   sbf_vec4 *weights = sbf_asset_allocate(s.asset, VERTICES, sizeof *weights);
   uint32_t *sizes = sbf_asset_allocate(s.asset, QUADS, sizeof *sizes);
@@ -63,14 +63,14 @@ static void add_skin(void) {
   for (uint32_t i = 0; i <= COLUMNS; i++)
     for (uint32_t k = 0; k <= ROWS; k++) {
       uint32_t v = i * (ROWS + 1) + k;
-      places[v] = (sbf_vec3){(float)i / COLUMNS, 0.199f, 0.02f + 0.16f * (float)k / ROWS};
-      points[v] = find_element(sbfi_d3_of(places[v]), &weights[v]);
+      positions[v] = (sbf_vec3){(float)i / COLUMNS, 0.199f, 0.02f + 0.16f * (float)k / ROWS};
+      points[v] = find_element(sbfi_d3_of(positions[v]), &weights[v]);
       if (i == COLUMNS || k == ROWS) continue;
       const uint32_t at[4] = {v, v + 1, v + ROWS + 2, v + ROWS + 1};
       memcpy(corners + 4 * quad, at, sizeof at);
       sizes[quad++] = 4;
     }
-  mesh->mesh.positions = (sbf_vec3_list){places, VERTICES};
+  mesh->mesh.positions = (sbf_vec3_list){positions, VERTICES};
   mesh->mesh.polygon_sizes = (sbf_u32_list){sizes, QUADS};
   mesh->mesh.polygon_points = (sbf_u32_list){corners, 4 * QUADS};
   embedding->render_mesh = 0;
@@ -145,7 +145,7 @@ START_TEST(a_bar_tears_in_two_where_it_is_weakest)
   scene_momentum before = scene_momentum_of(&s);
   ck_assert_uint_eq(count_parts(), 1);
   scene_ticks(&s, 40);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_gt(health.torn, 10);
   ck_assert_uint_eq(health.unsplit, 0);
@@ -183,20 +183,21 @@ START_TEST(the_skin_opens_and_follows)
 {
   enum { QUADS = COLUMNS * ROWS, VERTICES = (COLUMNS + 1) * (ROWS + 1) };
   uint8_t torn[QUADS];
-  sbf_vec3 places[VERTICES];
+  sbf_vec3 positions[VERTICES];
   begin(SBF_SCHEME_SYMPLECTIC, 0);
-  ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
+  ck_assert_uint_eq(sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
   for (int q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
   scene_ticks(&s, 40);
-  ck_assert_uint_eq(sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, VERTICES), VERTICES);
-  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  ck_assert_uint_eq(
+      sbr_character_get_skin(s.world, s.character, 0, positions, NULL, NULL, VERTICES), VERTICES);
+  sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
   const sbf_polygon_mesh *mesh = &s.asset->render_meshes.at[0].mesh;
   uint32_t open = 0;
   for (uint32_t q = 0; q < QUADS; q++) {
     open += torn[q];
     for (uint32_t k = 0; k < 4 && !torn[q]; k++) { /* what is left is not stretched over the gap */
       uint32_t a = mesh->polygon_points.at[4 * q + k], b = mesh->polygon_points.at[4 * q + (k + 1) % 4];
-      double now = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(places[a]), sbfi_d3_of(places[b])));
+      double now = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[a]), sbfi_d3_of(positions[b])));
       double rest =
           sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(mesh->positions.at[a]), sbfi_d3_of(mesh->positions.at[b])));
       ck_assert_double_lt(now, 2.5 * rest);
@@ -205,11 +206,12 @@ START_TEST(the_skin_opens_and_follows)
   ck_assert_uint_ge(open, ROWS);
   ck_assert_uint_le(open, 4 * ROWS);
   sbr_character_reset(s.world, s.character);
-  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
   for (int q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
-  sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, VERTICES);
-  for (uint32_t v = 0; v < VERTICES; v++) ck_assert_float_eq_tol(places[v].x, mesh->positions.at[v].x, 1e-5f);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).torn, 0);
+  sbr_character_get_skin(s.world, s.character, 0, positions, NULL, NULL, VERTICES);
+  for (uint32_t v = 0; v < VERTICES; v++)
+    ck_assert_float_eq_tol(positions[v].x, mesh->positions.at[v].x, 1e-5f);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, 0);
   ck_assert_uint_eq(count_parts(), 1);
   end();
 }
@@ -219,11 +221,11 @@ START_TEST(want_of_room_is_told)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 1);
   scene_ticks(&s, 40);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_gt(health.unsplit, 0);
   sbr_event events[256];
-  uint32_t count = sbr_world_events(s.world, events, 256), tears = 0, unsplit = 0;
+  uint32_t count = sbr_world_take_events(s.world, events, 256), tears = 0, unsplit = 0;
   for (uint32_t i = 0; i < count; i++) {
     tears += events[i].kind == SBR_EVENT_TEAR, unsplit += events[i].kind == SBR_EVENT_UNSPLIT;
     ck_assert_double_eq_tol(events[i].position.x, 0.5, 1);
@@ -238,17 +240,17 @@ START_TEST(a_snapshot_holds_the_tear)
 {
   begin(schemes[_i], 0);
   scene_ticks(&s, 5);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
-  uint64_t begins = sbr_world_state_hash(s.world);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
+  uint64_t begins = sbr_world_get_state_hash(s.world);
   scene_ticks(&s, 30);
-  uint64_t hash = sbr_world_state_hash(s.world);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   ck_assert_uint_eq(count_parts(), 2);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), begins);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), begins);
   scene_ticks(&s, 30);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   free(bytes);
   end();
 }
@@ -262,7 +264,7 @@ START_TEST(every_width_gives_the_same_bits)
     if (n) s.model->kernels = &sbri_kernels_scalar;
     scene_ticks(&s, 40);
     ck_assert_uint_eq(count_parts(), 2);
-    hashes[n] = sbr_world_state_hash(s.world);
+    hashes[n] = sbr_world_get_state_hash(s.world);
     end();
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);

@@ -129,7 +129,7 @@ START_TEST(a_point_between_two_halves_splits)
   scene_momentum before = scene_momentum_of(&s);
   ck_assert_uint_eq(count_parts(), 1);
   scene_ticks(&s, 60);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_eq(health.torn, weak.count);
   ck_assert_uint_eq(health.unsplit, 0);
@@ -164,7 +164,7 @@ START_TEST(what_never_hung_together_stays)
   scene_start(&s);
   pull_apart();
   scene_ticks(&s, 60);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_gt(health.torn, 0);
   ck_assert_uint_eq(count_copies(), 0);
@@ -177,16 +177,16 @@ START_TEST(a_snapshot_holds_the_split)
 {
   begin(schemes[_i], 0);
   scene_ticks(&s, 2);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
   uint64_t hashes[2];
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
   for (int n = 0; n < 2; n++) {
     scene_ticks(&s, 40);
     ck_assert_uint_eq(count_parts(), 2);
-    hashes[n] = sbr_world_state_hash(s.world);
+    hashes[n] = sbr_world_get_state_hash(s.world);
     if (n) break;
-    ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
+    ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
     ck_assert_uint_eq(count_parts(), 1);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);
@@ -203,7 +203,7 @@ START_TEST(every_width_gives_the_same_bits)
     if (n) s.model->kernels = &sbri_kernels_scalar;
     scene_ticks(&s, 60);
     ck_assert_uint_eq(count_parts(), 2);
-    hashes[n] = sbr_world_state_hash(s.world);
+    hashes[n] = sbr_world_get_state_hash(s.world);
     scene_free(&s);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);
@@ -215,7 +215,7 @@ START_TEST(want_of_room_is_told)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 1);
   scene_ticks(&s, 60);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).unsplit, 0);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).unsplit, 0);
   ck_assert_uint_eq(count_copies(), 1);
   sbri_character *c = &s.world->characters[0];
   sbri_tears_of(c)[0].count = 0;
@@ -226,11 +226,11 @@ START_TEST(want_of_room_is_told)
   uint32_t unsplit = 0;
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
-    uint32_t count = sbr_world_events(s.world, events, 256);
+    uint32_t count = sbr_world_take_events(s.world, events, 256);
     for (uint32_t e = 0; e < count; e++) unsplit += events[e].kind == SBR_EVENT_UNSPLIT;
   }
   ck_assert_uint_gt(unsplit, 0);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_uint_gt(health.unsplit, 0);
   ck_assert(health.finite);
   scene_free(&s);
@@ -243,12 +243,12 @@ START_TEST(where_nothing_can_tear_no_room_is_kept)
   s = scene_begin();
   const sbf_vec3 at[3] = {{0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
   const float masses[3] = {1, 1, 1}, k = 100;
-  const uint32_t held[3] = {0, 1, 2};
+  const uint32_t pinned[3] = {0, 1, 2};
   static float weights[3] = {1, 1, 0.5f};
   scene_body(&s, 0)->attributes.tear_strain = 0.1f;
   sbf_level *level = scene_points(&s, 0, at, masses, 3);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &k, 1);
-  scene_pin(&s, level, -1, held, 3);
+  scene_pin(&s, level, -1, pinned, 3);
   sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at;
   set->weights = (sbf_f32_list){weights, 3};
   set->stiffness = 200;
@@ -257,7 +257,7 @@ START_TEST(where_nothing_can_tear_no_room_is_kept)
   ck_assert(!s.model->splits);
   ck_assert_uint_eq(body->first_spare, body->slot_real_end); /* whose origins would lie beyond the state */
   scene_ticks(&s, 5);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST

@@ -17,10 +17,10 @@ static scene hanging(int scheme, float stretch_damping) {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {0, -1, 0}};
   const float masses[] = {0, 1}, stiffness = 40;
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 2);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   scene_body(&s, 0)->attributes.stiffness_damping = stretch_damping;
   s.model_options.scheme = schemes[scheme];
   s.model_options.substeps = 16;
@@ -68,7 +68,7 @@ START_TEST(a_limit_touches_nothing_within_it)
     if (k) set_of(&s)->strain_max = 0.6f;
     scene_start(&s);
     scene_ticks(&s, 200);
-    hashes[k] = sbr_world_state_hash(s.world);
+    hashes[k] = sbr_world_get_state_hash(s.world);
     scene_free(&s);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);
@@ -95,7 +95,7 @@ START_TEST(a_limit_keeps_momentum)
   ck_assert_uint_eq(scene_read(&s, 0, p, 3), 3);
   ck_assert_float_eq_tol((p[0].x + 3 * p[1].x + 2 * p[2].x) / 6, 0.5f, 3e-5f);
   ck_assert_float_eq_tol((p[0].y + 3 * p[1].y + 2 * p[2].y) / 6, 1.0f / 3, 3e-5f);
-  ck_assert_float_le(sbr_character_health(s.world, s.character, 0).max_strain, 0.0201f);
+  ck_assert_float_le(sbr_character_get_body_health(s.world, s.character, 0).max_strain, 0.0201f);
   scene_free(&s);
 }
 END_TEST
@@ -106,14 +106,14 @@ START_TEST(a_yielding_spring_flows)
   scene s = hanging(_i, 0);
   const sbf_vec3 positions[] = {{0, 0, 0}, {0, -1.3f, 0}, {0, -1.3f, 0}};
   const float masses[] = {0, 0, 1}, rest = 1, stiffness = 40;
-  const uint32_t held[2] = {0, 1};
+  const uint32_t pinned[2] = {0, 1};
   sbf_level *level = scene_points(&s, 0, positions, masses, 3);
   scene_springs(&s, level, &(sbf_uint2){{0, 2}}, &stiffness, 1);
   level->springs.count = 1;
   set_of(&s)->rest_lengths = (sbf_f32_list){&rest, 1};
   set_of(&s)->yield_strain = 0.1f;
   scene_body(&s, 0)->attributes.yield_flow = 0.5f;
-  scene_pin(&s, level, -1, held, 2);
+  scene_pin(&s, level, -1, pinned, 2);
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){0, -12, 0};
   scene_body(&s, 0)->attributes.mass_damping = 2;
@@ -148,14 +148,14 @@ START_TEST(a_torn_spring_stops_and_is_told)
   set_of(&s)->tear_strain = 0.3f;
   s.character_definition.position.x = 3;
   scene_start(&s);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *before = malloc(size);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, before, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, before, size), SBF_OK);
   sbr_event events[8];
   uint32_t count = 0, torn_at = 0;
   for (uint32_t i = 1; i <= 60 && count == 0; i++) {
     scene_ticks(&s, 1);
-    count = sbr_world_events(s.world, events, 8);
+    count = sbr_world_take_events(s.world, events, 8);
     torn_at = i;
   }
   ck_assert_uint_eq(count, 1);
@@ -166,17 +166,17 @@ START_TEST(a_torn_spring_stops_and_is_told)
   ck_assert_double_eq_tol(events[0].position.y, 0 - 0.65, 0.02); /* its middle; the asset's origin is at 0 */
   /* 0.245 (1 - cos w t) = 0.3: w t = 1.797, and w = 6.32 */
   ck_assert_double_eq_tol(torn_at / 60.0, 1.797 / 6.3246, 0.03);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).torn, 1);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, 1);
   scene_ticks(&s, 60);
   ck_assert_float_lt(scene_point(&s, 0, 1).y, -5); /* it falls */
-  ck_assert_double_eq_tol(sbr_character_health(s.world, s.character, 0).elastic_j, 0, 1e-9);
-  uint64_t hash = sbr_world_state_hash(s.world);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, before, size), SBF_OK);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).torn, 0);
+  ck_assert_double_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).elastic_j, 0, 1e-9);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, before, size), SBF_OK);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, 0);
   scene_ticks(&s, torn_at + 60);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   sbr_character_reset(s.world, s.character);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).torn, 0);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, 0);
   ck_assert_float_gt(lowest_of(&s, 10), -1.3f); /* it holds again, for a while */
   free(before);
   scene_free(&s);
@@ -191,21 +191,21 @@ START_TEST(events_of_tears_are_bounded)
   sbf_vec3 positions[2 * POINTS];
   float masses[2 * POINTS], stiffness[POINTS];
   sbf_uint2 ends[POINTS];
-  uint32_t held[POINTS];
+  uint32_t pinned[POINTS];
   for (uint32_t i = 0; i < POINTS; i++) {
     positions[i] = (sbf_vec3){(float)i, 0, 0}, positions[POINTS + i] = (sbf_vec3){(float)i, -1, 0};
-    masses[i] = masses[POINTS + i] = 1, stiffness[i] = 10, held[i] = i;
+    masses[i] = masses[POINTS + i] = 1, stiffness[i] = 10, pinned[i] = i;
     ends[i] = (sbf_uint2){{i, POINTS + i}};
   }
   sbf_level *level = scene_points(&s, 0, positions, masses, 2 * POINTS);
   scene_springs(&s, level, ends, stiffness, POINTS);
-  scene_pin(&s, level, -1, held, POINTS);
+  scene_pin(&s, level, -1, pinned, POINTS);
   scene_body(&s, 0)->attributes.tear_strain = 0.2f;
   scene_start(&s);
   scene_ticks(&s, 60);
   sbr_event events[64];
-  ck_assert_uint_eq(sbr_world_events(s.world, events, 64), SBRI_TEARS);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).torn, POINTS);
+  ck_assert_uint_eq(sbr_world_take_events(s.world, events, 64), SBRI_TEARS);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, POINTS);
   scene_free(&s);
 }
 END_TEST

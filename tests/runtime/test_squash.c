@@ -140,11 +140,12 @@ START_TEST(volume_is_kept)
     delta.squash = &squash;
     sbf_vec3 rest[4] = {{0, 0, 0}, {1, 0.2f, 0}, {0.3f, 1, 0.1f}, {0, 0.4f, 1}}, before[4], after[4];
     for (int i = 0; i < 4; i++)
-      before[i] = sbri_delta_place(&plain, rest[i]), after[i] = sbri_delta_place(&delta, rest[i]);
+      before[i] = sbri_delta_position(&plain, rest[i]), after[i] = sbri_delta_position(&delta, rest[i]);
     ck_assert_float_eq_tol(volume_of(after), volume_of(before), 1e-5f);
     sbf_vec3 tip = sbri_add(squash.head, squash.axis);
-    sbf_vec3 way = sbri_sub(sbri_delta_place(&delta, tip), sbri_delta_place(&delta, squash.head));
-    ck_assert_float_eq_tol(sbri_length(way), along, 1e-5f);
+    sbf_vec3 displacement =
+        sbri_sub(sbri_delta_position(&delta, tip), sbri_delta_position(&delta, squash.head));
+    ck_assert_float_eq_tol(sbri_length(displacement), along, 1e-5f);
   }
 }
 END_TEST
@@ -167,15 +168,15 @@ START_TEST(a_host_reads_scales_at_every_frame_rate)
 {
   scene even = post(), fine = post();
   const sbr_clip_play whole = {.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
-  sbr_character_play(even.world, even.character, 0, 0, &whole);
-  sbr_character_play(fine.world, fine.character, 0, 0, &whole);
+  sbr_character_play_clip(even.world, even.character, 0, 0, &whole);
+  sbr_character_play_clip(fine.world, fine.character, 0, 0, &whole);
   float min = 1;
   for (int i = 0; i < 60; i++) {
     sbf_vec3 a[BONES], b[BONES];
     sbr_world_step(even.world, 1.0 / 60);
     for (int k = 0; k < 3; k++) sbr_world_step(fine.world, 1.0 / 180);
-    ck_assert_uint_eq(sbr_character_bone_scales(even.world, even.character, a, BONES), BONES);
-    sbr_character_bone_scales(fine.world, fine.character, b, BONES);
+    ck_assert_uint_eq(sbr_character_get_bone_scales(even.world, even.character, a, BONES), BONES);
+    sbr_character_get_bone_scales(fine.world, fine.character, b, BONES);
     for (int k = 0; k < BONES; k++) {
       ck_assert_float_eq_tol(a[k].x * a[k].y * a[k].z, 1, 1e-5f);
       ck_assert_float_eq_tol(a[k].y, b[k].y, 1e-5f);
@@ -185,12 +186,12 @@ START_TEST(a_host_reads_scales_at_every_frame_rate)
     min = a[0].y < min ? a[0].y : min;
   }
   ck_assert_float_lt(min, 0.9f);
-  ck_assert_uint_eq(sbr_world_state_hash(even.world), sbr_world_state_hash(fine.world));
+  ck_assert_uint_eq(sbr_world_get_state_hash(even.world), sbr_world_get_state_hash(fine.world));
   sbf_vec3 now[BONES];
   sbr_character_reset(even.world, even.character);
-  sbr_character_bone_scales(even.world, even.character, now, BONES);
+  sbr_character_get_bone_scales(even.world, even.character, now, BONES);
   ck_assert_float_eq(now[0].y, 1);
-  ck_assert_uint_eq(sbr_character_bone_scales(even.world, (sbr_character_id){77}, NULL, 0), 0);
+  ck_assert_uint_eq(sbr_character_get_bone_scales(even.world, (sbr_character_id){77}, NULL, 0), 0);
   scene_free(&even), scene_free(&fine);
 }
 END_TEST

@@ -29,7 +29,7 @@ static scene crowd(sbr_tasks tasks, sbf_scheme scheme) {
     s.character_definition.position.x += 1.5;
     s.character_definition.scale = 1 + (float)i;
     ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &id, NULL), SBF_OK);
-    sbr_character_drive(s.world, id, 0.5f, 0.1f * (float)i, 0.3f);
+    sbr_character_set_drive(s.world, id, 0.5f, 0.1f * (float)i, 0.3f);
   }
   return s;
 }
@@ -38,12 +38,12 @@ START_TEST(any_number_of_threads_gives_the_same_bits)
 {
   scene serial = crowd((sbr_tasks){NULL, NULL}, schemes[_i]);
   scene_ticks(&serial, 90);
-  uint64_t expected = sbr_world_state_hash(serial.world);
+  uint64_t expected = sbr_world_get_state_hash(serial.world);
   scene_free(&serial);
   for (int threads = 1; threads <= 8; threads = threads == 3 ? 8 : threads + 1) {
     scene s = crowd((sbr_tasks){run_on_threads, &threads}, schemes[_i]);
     scene_ticks(&s, 90);
-    ck_assert_uint_eq(sbr_world_state_hash(s.world), expected);
+    ck_assert_uint_eq(sbr_world_get_state_hash(s.world), expected);
     scene_free(&s);
   }
 }
@@ -68,12 +68,12 @@ START_TEST(numbers_that_are_none_are_recovered_from)
   scene_ticks(&s, 10);
   sbri_positions(sbri_character_of(s.world, s.character))[3].y = NAN;
   scene_ticks(&s, 1);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(h.finite);
   ck_assert_uint_eq(h.recoveries, 1);
   ck_assert_float_eq_tol(h.volume_ratio, 1, 0.01f);
   scene_ticks(&s, 60);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 1);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).recoveries, 1);
   scene_free(&s);
 }
 END_TEST
@@ -90,9 +90,9 @@ START_TEST(a_body_inside_out_comes_back)
   sbri_character *c = sbri_character_of(s.world, s.character);
   for (uint32_t i = 0; i < c->model->slot_count; i++) sbri_positions(c)[i].x *= -1;
   scene_ticks(&s, 1);
-  ck_assert(sbr_character_health(s.world, s.character, 0).inverted);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).inverted);
   scene_ticks(&s, 80);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_uint_eq(h.recoveries, 1);
   ck_assert_float_eq_tol(h.volume_ratio, 1, 0.01f);
   scene_free(&s);
@@ -103,16 +103,16 @@ START_TEST(bones_that_jump_take_their_bodies_along)
 {
   scene s = walker();
   scene_ticks(&s, 10);
-  sbr_character_drive(s.world, s.character, 3000, 0, 0); /* soon metres a tick */
+  sbr_character_set_drive(s.world, s.character, 3000, 0, 0); /* soon metres a tick */
   for (int i = 0; i < 30; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(h.finite);
     ck_assert_float_lt(h.max_strain, 2);
   }
-  sbr_character_drive(s.world, s.character, 0, 0, 0);
+  sbr_character_set_drive(s.world, s.character, 0, 0, 0);
   scene_ticks(&s, 240);
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_float_eq_tol(h.volume_ratio, 1, 0.05f);
   ck_assert_uint_eq(h.recoveries, 0);
   scene_free(&s);
@@ -122,10 +122,10 @@ END_TEST
 START_TEST(a_quarter_second_hitch_is_survived)
 {
   scene s = walker();
-  sbr_character_drive(s.world, s.character, 1.5f, 0, 2);
+  sbr_character_set_drive(s.world, s.character, 1.5f, 0, 2);
   for (int i = 0; i < 40; i++) {
     sbr_world_step(s.world, i % 3 ? 0.25 : 0.001);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(h.finite && !h.inverted);
     ck_assert_float_gt(h.volume_ratio, 0.9f);
   }

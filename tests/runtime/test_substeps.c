@@ -24,9 +24,9 @@ static double growth(scene *s) {
   for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
     sbri_positions(c)[i].x += 1e-4f * (float)(int32_t)random_next(&random) / 2147483648.0f;
   }
-  double before = sbr_character_health(s->world, s->character, 0).elastic_j;
+  double before = sbr_character_get_body_health(s->world, s->character, 0).elastic_j;
   scene_ticks(s, 120);
-  sbr_body_health h = sbr_character_health(s->world, s->character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s->world, s->character, 0);
   return h.finite && h.recoveries == 0 ? (h.elastic_j + h.kinetic_j) / before : INFINITY;
 }
 
@@ -36,7 +36,7 @@ START_TEST(as_many_as_are_needed_and_hardly_more)
   for (int i = 0; i < 3; i++) {
     scene s = section(moduli[i], 0);
     scene_start(&s);
-    uint32_t needed = sbr_model_substeps(s.model);
+    uint32_t needed = sbr_model_get_substeps(s.model);
     ck_assert_double_lt(growth(&s), 4); /* it swings, the more the nearer the bound */
     scene_free(&s);
 
@@ -56,7 +56,7 @@ START_TEST(damped_springs_need_more)
   scene plain = section(3e5f, 0), damped = section(3e5f, 1e-3f);
   scene_start(&plain);
   scene_start(&damped);
-  ck_assert_uint_gt(sbr_model_substeps(damped.model), sbr_model_substeps(plain.model));
+  ck_assert_uint_gt(sbr_model_get_substeps(damped.model), sbr_model_get_substeps(plain.model));
   ck_assert_double_lt(growth(&damped), 0.01);
   scene_free(&plain);
   scene_free(&damped);
@@ -85,7 +85,7 @@ START_TEST(what_is_stiff_beyond_measure_has_a_bound)
   const double frequencies[] = {1e9, 1e30, INFINITY, (double)NAN};
   uint32_t bound = 0;
   for (int i = 0; i < 4; i++) {
-    sbri_island island = {.outer_rad_s = frequencies[i]};
+    sbri_island island = {.external_rad_s = frequencies[i]};
     uint32_t substeps = sbri_stable_substeps(&island, 1.0 / 60, 0);
     ck_assert_uint_gt(substeps, SBRI_MAX_SUBSTEPS);
     ck_assert_uint_le(4 * (uint64_t)substeps, UINT32_MAX); /* what schemes multiply it by */
@@ -108,10 +108,10 @@ START_TEST(a_body_thrown_into_a_knot_does_not_burst)
     for (int k = 0; k < 3; k++) { p[k] = 0.5f * (float)(int32_t)random_next(&random) / 2147483648.0f; }
   }
   sbri_island_states(c)[0].stretch = 0.95f; /* as it would be, had it come there by itself */
-  double before = sbr_character_health(s.world, s.character, 0).elastic_j, max = 0;
+  double before = sbr_character_get_body_health(s.world, s.character, 0).elastic_j, max = 0;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(h.finite);
     max = fmax(max, h.elastic_j + h.kinetic_j);
   }

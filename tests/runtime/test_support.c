@@ -15,9 +15,9 @@ static void begin(gait_stage *stage, float ahead) {
     middle += stage->rig.legs[l].home.z / (float)stage->rig.leg_count;
   for (uint32_t b = 0; b < stage->rig.bone_count; b++) masses[b] = (sbri_bone_mass){0};
   const sbr_transform *root = &stage->rig.rest[0];
-  sbf_vec3 place = sbri_sub(sbri_vec3(0, 0.3f, middle + ahead), root->position);
-  masses[0] = (sbri_bone_mass){1, sbri_rotate(sbri_quat_conjugate(root->rotation), place)};
-  sbri_gait_place(&stage->rig, stage->state, &stage->input, sbri_vec3(0, 0, 0), 0);
+  sbf_vec3 position = sbri_sub(sbri_vec3(0, 0.3f, middle + ahead), root->position);
+  masses[0] = (sbri_bone_mass){1, sbri_rotate(sbri_quat_conjugate(root->rotation), position)};
+  sbri_gait_reset(&stage->rig, stage->state, &stage->input, sbri_vec3(0, 0, 0), 0);
 }
 
 START_TEST(a_balanced_rest_pose_stands_as_it_is)

@@ -11,10 +11,10 @@ static scene oscillator(float mass, float stiffness, float length) {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {length, 0, 0}};
   const float masses[] = {0, mass};
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 2);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   s.world_definition.has_gravity = true;
   return s;
 }
@@ -77,10 +77,10 @@ START_TEST(energy_does_not_drift)
   for (int half = 0; half < 2; half++)
     for (int i = 0; i < 6000; i++) {
       scene_ticks(&s, 1);
-      sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+      sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
       sums[half] += h.kinetic_j + h.elastic_j + h.potential_j;
     }
-  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(h.finite);
   double swing = 2.0 * 3.74 * 3.74 / 50; /* about the work of the weight over the stretch */
   ck_assert_double_eq_tol(sums[1] / 6000, sums[0] / 6000, 0.01 * swing);
@@ -162,8 +162,8 @@ START_TEST(a_hanging_chain_stretches_by_its_weight)
   enum { LINKS = 10 };
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.damping_ratio = 1;
-  const uint32_t held = 0;
-  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0, -0.1f, 0}, LINKS, 400, 0.2f, 0.2f), -1, &held, 1);
+  const uint32_t pinned = 0;
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0, -0.1f, 0}, LINKS, 400, 0.2f, 0.2f), -1, &pinned, 1);
   scene_start(&s);
   scene_ticks(&s, 600);
   double stretch = 0.2 * 9.81 / 400 * LINKS * (LINKS + 1) / 2;
@@ -177,16 +177,16 @@ START_TEST(a_pendulum_chain_swings_without_gain)
 {
   enum { LINKS = 10 };
   scene s = scene_begin();
-  const uint32_t held = 0;
-  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 20000, 0.2f, 0.2f), -1, &held, 1);
+  const uint32_t pinned = 0;
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 20000, 0.2f, 0.2f), -1, &pinned, 1);
   s.model_options.substeps = 20;
   scene_start(&s);
   double depth = 0.2 * 9.81 * 0.1 * LINKS * (LINKS + 1) / 2; /* J from level to hanging */
   double lowest = 0;
-  sbr_body_health begin = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health begin = sbr_character_get_body_health(s.world, s.character, 0);
   for (int i = 0; i < 600; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     double gained = h.kinetic_j + h.elastic_j + h.potential_j - begin.potential_j;
     ck_assert_double_lt(fabs(gained), 0.1 * depth);
     ck_assert_float_lt(h.max_strain, 0.3f); /* as its end cracks */
@@ -248,7 +248,7 @@ START_TEST(a_damped_body_in_free_flight_stays_at_rest)
     s.world_definition.gravity = (sbf_vec3){0, 0, 0};
     scene_start(&s);
     scene_ticks(&s, 150);
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert_msg(h.kinetic_j + h.elastic_j < 1e-4, "bar %d: %g and %g J", i, h.kinetic_j, h.elastic_j);
     scene_free(&s);
   }

@@ -19,7 +19,7 @@ static double ramp(const sbr_ground *ground, double x, double z, sbf_vec3 *norma
 
 static void begin(gait_stage *t, double rise, float z) {
   gait_stage_begin_on(t, quadruped_asset(), ramp, rise);
-  sbri_gait_place(&t->rig, t->state, &t->input, (sbf_vec3){0, 0, z}, 0);
+  sbri_gait_reset(&t->rig, t->state, &t->input, (sbf_vec3){0, 0, z}, 0);
 }
 
 /* Yaw (0) or pitch (1) of a bone of the tail, and the aim that it has. */
@@ -32,9 +32,9 @@ static void aim(sbri_stance *stance, int about, float angle) {
 
 /* How steeply the way from one bone's head to another's rises in the axes that a rotation has made. */
 static float rises(const gait_stage *t, uint32_t from, uint32_t to, sbf_quat axes) {
-  sbf_vec3 way = sbri_sub(t->pose[to].position, t->pose[from].position);
-  way = sbri_rotate(sbri_quat_conjugate(axes), way);
-  return atan2f(way.y, hypotf(way.x, way.z));
+  sbf_vec3 direction = sbri_sub(t->pose[to].position, t->pose[from].position);
+  direction = sbri_rotate(sbri_quat_conjugate(axes), direction);
+  return atan2f(direction.y, hypotf(direction.x, direction.z));
 }
 /* The same of the body against the world, and of the tail against the body. */
 static float climbs(const gait_stage *t) {

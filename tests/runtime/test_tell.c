@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "collision_scenes.h"
+#include "contact_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "meeting_scenes.h"
 #include "world/world.h"
 
 enum { MAX = 256 };
@@ -13,7 +13,7 @@ enum { MAX = 256 };
 /* Those of the kind. */
 static uint32_t events_of(scene *s, sbr_event_kind kind, sbr_event *to) {
   static sbr_event all[MAX];
-  uint32_t count = sbr_world_events(s->world, all, MAX), kept = 0;
+  uint32_t count = sbr_world_take_events(s->world, all, MAX), kept = 0;
   for (uint32_t i = 0; i < count; i++)
     if (all[i].kind == kind) to[kept++] = all[i];
   return kept;
@@ -31,11 +31,11 @@ START_TEST(a_hit_says_who_where_and_how_hard)
   meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   static sbr_event all[MAX];
   scene_ticks(&s, 60);
-  uint32_t count = sbr_world_events(s.world, all, MAX);
+  uint32_t count = sbr_world_take_events(s.world, all, MAX);
   ck_assert_uint_eq(count, 2);
   const sbr_event *hit = &all[0], *parted = &all[1];
-  ck_assert_int_eq(hit->kind, SBR_EVENT_CONTACT);
-  ck_assert_int_eq(parted->kind, SBR_EVENT_PARTED);
+  ck_assert_int_eq(hit->kind, SBR_EVENT_CONTACT_BEGIN);
+  ck_assert_int_eq(parted->kind, SBR_EVENT_CONTACT_END);
   for (int i = 0; i < 2; i++) {
     ck_assert_uint_eq(all[i].character.value, s.character.value);
     ck_assert_uint_eq(all[i].other.value, s.character.value);
@@ -46,7 +46,7 @@ START_TEST(a_hit_says_who_where_and_how_hard)
   }
   ck_assert_float_eq_tol(hit->impulse, 1.5f, 0.02f);
   ck_assert_float_eq_tol(hit->speed, 2, 1e-3f);
-  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq_tol(hit->position.z - o.z, 0.9, 0.02);
   ck_assert_double_le(fabs(hit->position.x - o.x), 0.101);
   ck_assert_uint_ge(hit->tick, 24); /* 0.8 m at 2 m/s */
@@ -70,18 +70,18 @@ START_TEST(what_rests_is_told_once)
   meeting_start(&s);
   static sbr_event all[MAX];
   scene_ticks(&s, 60);
-  uint32_t met = 0, count = events_of(&s, SBR_EVENT_CONTACT, all);
+  uint32_t hits = 0, count = events_of(&s, SBR_EVENT_CONTACT_BEGIN, all);
   for (uint32_t i = 0; i < count; i++) {
     if (!all[i].other.value) continue;
     ck_assert_int_eq(all[i].other_rigid_body, all[i].rigid_body + 1);
-    met++;
+    hits++;
   }
-  ck_assert_uint_eq(met, BOXES - 1);
+  ck_assert_uint_eq(hits, BOXES - 1);
   scene_ticks(&s, 240);
-  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT, all), 0);
+  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT_BEGIN, all), 0);
   meeting_throw(&s, s.character, BOXES - 1, (sbf_vec3){0, 8, 0}); /* up, off the others */
   scene_ticks(&s, 6);
-  ck_assert_uint_eq(events_of(&s, SBR_EVENT_PARTED, all), 1);
+  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT_END, all), 1);
   ck_assert_int_eq(all[0].rigid_body, BOXES - 2);
   ck_assert_int_eq(all[0].other_rigid_body, BOXES - 1);
   scene_free(&s);
@@ -102,7 +102,7 @@ START_TEST(soft_bodies_of_others_are_named)
   meeting_throw(&s, other, 0, (sbf_vec3){0, -2, 0});
   static sbr_event all[MAX];
   scene_ticks(&s, 8);
-  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT, all), 1);
+  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT_BEGIN, all), 1);
   ck_assert_uint_eq(all[0].character.value, s.character.value);
   ck_assert_uint_eq(all[0].soft_body, 0);
   ck_assert_int_eq(all[0].rigid_body, -1);
@@ -112,7 +112,7 @@ START_TEST(soft_bodies_of_others_are_named)
   ck_assert_float_gt(all[0].impulse, 0);
   sbr_character_destroy(s.world, other);
   scene_ticks(&s, 4);
-  ck_assert_uint_eq(events_of(&s, SBR_EVENT_PARTED, all), 0);
+  ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT_END, all), 0);
   scene_free(&s);
 }
 END_TEST
@@ -133,7 +133,7 @@ static uint32_t heap_events(int threads, sbr_event *to) {
     ck_assert(sbr_character_create(s.world, s.model, &d, &id, NULL) == SBF_OK);
   }
   scene_ticks(&s, 120);
-  uint32_t count = sbr_world_events(s.world, to, MAX);
+  uint32_t count = sbr_world_take_events(s.world, to, MAX);
   scene_free(&s);
   return count;
 }

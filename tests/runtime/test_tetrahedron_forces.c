@@ -45,7 +45,7 @@ static void end(void) {
   lattice_box_free(&box);
 }
 
-static sbfi_d3 place(const sbri_point *points, uint32_t slot) {
+static sbfi_d3 position(const sbri_point *points, uint32_t slot) {
   return (sbfi_d3){points[slot].x, points[slot].y, points[slot].z};
 }
 
@@ -56,8 +56,8 @@ static void expected_forces(sbfi_d3 *sums) {
     sbfi_tetrahedron element;
     sbfi_d3 x[4], f[4];
     ck_assert(sbri_body_tetrahedron(body, t, &element));
-    for (int k = 0; k < 4; k++) x[k] = place(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
-    sbfi_tetrahedron_forces(&element, x, f);
+    for (int k = 0; k < 4; k++) x[k] = position(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
+    sbfi_tetrahedron_compute_forces(&element, x, f);
     for (int k = 0; k < 4; k++) {
       sbfi_d3 *to = &sums[body->slot_from_point[box.tetrahedra[t].at[k]]];
       *to = sbfi_d3_add(*to, f[k]);
@@ -78,13 +78,13 @@ START_TEST(forces_are_those_of_the_energy)
   }
   sbfi_d3 *sums = calloc(island->slot_count, sizeof *sums);
   expected_forces(sums);
-  sbri_tetrahedron_forces(&tick, NULL);
+  sbri_compute_tetrahedron_forces(&tick, NULL);
   double max = 0, worst = 0;
   sbfi_d3 total = {0, 0, 0};
   for (uint32_t i = 0; i < island->slot_count; i++) {
-    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
+    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(position(forces, i), sums[i])));
     max = fmax(max, sbfi_d3_length(sums[i]));
-    total = sbfi_d3_add(total, place(forces, i));
+    total = sbfi_d3_add(total, position(forces, i));
   }
   ck_assert_double_gt(max, 1);
   ck_assert_double_le(worst, 2e-5 * max);
@@ -107,8 +107,8 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
     sbfi_d3 x[4], v[4], f[4];
     ck_assert(sbri_body_tetrahedron(body, t, &element));
     for (int k = 0; k < 4; k++) {
-      x[k] = place(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
-      v[k] = place(velocities, body->slot_from_point[box.tetrahedra[t].at[k]]);
+      x[k] = position(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
+      v[k] = position(velocities, body->slot_from_point[box.tetrahedra[t].at[k]]);
     }
     sbfi_tetrahedron_product(&element, x, v, f);
     for (int k = 0; k < 4; k++) {
@@ -116,10 +116,10 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
       *to = sbfi_d3_sub(*to, sbfi_d3_scale(f[k], (double)beta));
     }
   }
-  sbri_tetrahedron_forces(&tick, NULL);
+  sbri_compute_tetrahedron_forces(&tick, NULL);
   double max = 0, worst = 0;
   for (uint32_t i = 0; i < tick.island->slot_count; i++) {
-    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
+    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(position(forces, i), sums[i])));
     max = fmax(max, sbfi_d3_length(sums[i]));
   }
   ck_assert_double_gt(max, 1);
@@ -139,24 +139,24 @@ START_TEST(damping_leaves_turning_alone)
     p->x *= 1.4f, p->y += 0.3f * p->x, p->z *= 0.7f;
   }
   sbri_point *still = calloc(count, sizeof *still);
-  sbri_tetrahedron_forces(&tick, NULL);
+  sbri_compute_tetrahedron_forces(&tick, NULL);
   memcpy(still, forces, count * sizeof *still);
   for (uint32_t i = 0; i < count; i++) {
     const sbri_point *p = &positions[i];
     velocities[i] = (sbri_point){3 * p->z - 2 * p->y, 2 * p->x - p->z, p->y - 3 * p->x, 0};
   }
-  sbri_tetrahedron_forces(&tick, NULL);
+  sbri_compute_tetrahedron_forces(&tick, NULL);
   double max = 0;
-  for (uint32_t i = 0; i < count; i++) max = fmax(max, sbfi_d3_length(place(still, i)));
+  for (uint32_t i = 0; i < count; i++) max = fmax(max, sbfi_d3_length(position(still, i)));
   for (uint32_t i = 0; i < count; i++)
-    ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(place(forces, i), place(still, i))), 1e-4 * max);
+    ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(position(forces, i), position(still, i))), 1e-4 * max);
   for (uint32_t i = 0; i < count; i++)
     velocities[i] =
         (sbri_point){random_scattered(7 * i), random_scattered(7 * i + 1), random_scattered(7 * i + 2), 0};
-  sbri_tetrahedron_forces(&tick, NULL);
+  sbri_compute_tetrahedron_forces(&tick, NULL);
   double power = 0;
   for (uint32_t i = 0; i < count; i++)
-    power += sbfi_d3_dot(sbfi_d3_sub(place(forces, i), place(still, i)), place(velocities, i));
+    power += sbfi_d3_dot(sbfi_d3_sub(position(forces, i), position(still, i)), position(velocities, i));
   ck_assert_double_lt(power, 0);
   free(still);
   end();
@@ -168,7 +168,7 @@ START_TEST(what_is_watched)
   begin(0);
   sbri_tetrahedron_watch watch;
   sbri_watch_begin(&watch);
-  sbri_tetrahedron_forces(&tick, &watch);
+  sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_stiffening(&watch), 1, 1e-4f);
   ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), 1, 1e-4f);
   /* Grown alike by a half: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
@@ -178,12 +178,12 @@ START_TEST(what_is_watched)
   double max = lame.mu + lame.lambda;
   double expected = (lame.mu + 2.25 * 2.25 * lame.lambda + lame.lambda * 2.375 - 2 * lame.mu) / max;
   sbri_watch_begin(&watch);
-  sbri_tetrahedron_forces(&tick, &watch);
+  sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_double_eq_tol(sbri_watch_stiffening(&watch), expected, 1e-3 * expected);
   ck_assert_float_eq(sbri_watch_min_ratio(&watch), 1);
   for (uint32_t i = 0; i < tick.island->slot_count; i++) positions[i].y *= -0.5f;
   sbri_watch_begin(&watch);
-  sbri_tetrahedron_forces(&tick, &watch);
+  sbri_compute_tetrahedron_forces(&tick, &watch);
   ck_assert_float_eq_tol(sbri_watch_min_ratio(&watch), -0.5f * 1.5f * 1.5f * 1.5f, 1e-3f);
   end();
 }
@@ -215,26 +215,26 @@ START_TEST(a_beam_comes_to_rest_where_the_statics_say)
 {
   begin_beam(10, 1, (sbf_vec3){0, -9.81f, 0});
   sbf_spring_network network = lattice_box_network(&box);
-  double *places = calloc(3 * (size_t)box.point_count, sizeof *places);
+  double *points = calloc(3 * (size_t)box.point_count, sizeof *points);
   sbfi_static_problem problem = {.network = &network, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
-  sbfi_static_start(&network, places);
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL) && outcome.converged);
+  sbfi_static_start(&network, points);
+  ck_assert(sbfi_static_solve(&problem, points, &outcome, NULL) && outcome.converged);
   scene_ticks(&s, 240);
   static sbf_vec3 read[1024];
   uint32_t count = scene_read(&s, 0, read, 1024);
   ck_assert_uint_eq(count, box.point_count);
   for (uint32_t i = 0; i < count; i++) {
-    ck_assert_double_eq_tol(read[i].x, places[3 * i], 2e-4);
-    ck_assert_double_eq_tol(read[i].y, places[3 * i + 1], 2e-4);
-    ck_assert_double_eq_tol(read[i].z, places[3 * i + 2], 2e-4);
+    ck_assert_double_eq_tol(read[i].x, points[3 * i], 2e-4);
+    ck_assert_double_eq_tol(read[i].y, points[3 * i + 1], 2e-4);
+    ck_assert_double_eq_tol(read[i].z, points[3 * i + 2], 2e-4);
   }
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(!health.inverted && health.finite);
   ck_assert_float_gt(health.max_strain, 0.05f);
   ck_assert_float_lt(health.max_strain, 0.6f);
   ck_assert_uint_eq(health.recoveries, 0);
-  free(places);
+  free(points);
   end_beam();
 }
 END_TEST
@@ -293,7 +293,7 @@ START_TEST(energy_and_momentum_are_kept)
   for (int n = 0; n < 2; n++) {
     sums[n] = scene_momentum_of(&s);
     for (int i = 0; i < 600; i++) {
-      sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+      sbr_body_health h = sbr_character_get_body_health(s.world, s.character, 0);
       energies[n] += (h.kinetic_j + h.elastic_j) / 600;
       scene_ticks(&s, 1);
     }
@@ -357,7 +357,7 @@ START_TEST(the_step_is_divided_anew_as_it_stiffens)
   float max_stretch = 0, max_stiffening = 1;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     ck_assert(health.finite);
     ck_assert_uint_eq(health.recoveries, 0);
     max_stretch = health.max_strain > max_stretch ? health.max_strain : max_stretch;
@@ -373,14 +373,14 @@ START_TEST(a_snapshot_holds_all_of_it)
 {
   begin_beam(5, 0.2f, (sbf_vec3){0, -9.81f, 0});
   scene_ticks(&s, 20);
-  size_t size = sbr_world_snapshot_size(s.world);
+  size_t size = sbr_world_get_snapshot_size(s.world);
   void *bytes = malloc(size);
-  ck_assert_int_eq(sbr_world_snapshot_save(s.world, bytes, size), SBF_OK);
+  ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
   scene_ticks(&s, 30);
-  uint64_t hash = sbr_world_state_hash(s.world);
-  ck_assert_int_eq(sbr_world_snapshot_restore(s.world, bytes, size), SBF_OK);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
   scene_ticks(&s, 30);
-  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   free(bytes);
   end_beam();
 }

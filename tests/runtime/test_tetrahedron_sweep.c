@@ -17,10 +17,10 @@ static lattice_box box;
 static scene s;
 
 /* A body of 1 x 0.2 x 0.2 m along x. */
-static void begin(uint32_t along, float young_pa, float poisson, bool held, sbf_vec3 gravity) {
+static void begin(uint32_t along, float young_pa, float poisson, bool pinned, sbf_vec3 gravity) {
   box = lattice_box_make(
       (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, along, along / 5, along / 5, 1000, young_pa, poisson);
-  if (held) lattice_box_hold(&box);
+  if (pinned) lattice_box_hold(&box);
   s = scene_begin();
   scene_lattice(&s, 0, &box);
   s.world_definition.has_gravity = true;
@@ -68,7 +68,7 @@ START_TEST(a_short_step_follows_the_energy)
   }
   sbfi_tetrahedron element;
   ck_assert(sbri_body_tetrahedron(&s.model->bodies[0], 0, &element));
-  sbfi_tetrahedron_forces(&element, x, f);
+  sbfi_tetrahedron_compute_forces(&element, x, f);
   sbri_island_tick t = {.model = s.model,
       .island = island,
       .tetrahedra = island->tetrahedron_blocks,
@@ -104,7 +104,7 @@ START_TEST(a_sliver_falls)
   float *velocity = scene_velocity(&s, 0);
   velocity[0] = 0.3f, velocity[SBRI_BLOCK] = -0.2f, velocity[2 * SBRI_BLOCK] = 0.4f;
   scene_ticks(&s, 60);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_eq(health.recoveries, 0);
   float sum = 0;
@@ -134,13 +134,13 @@ END_TEST
 
 static double exact_tip(void) {
   sbf_spring_network network = lattice_box_network(&box);
-  double *places = calloc(3 * (size_t)box.point_count, sizeof *places);
+  double *positions = calloc(3 * (size_t)box.point_count, sizeof *positions);
   sbfi_static_problem problem = {.network = &network, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
-  sbfi_static_start(&network, places);
-  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL) && outcome.converged);
-  double tip = places[3 * lattice_box_point(&box, box.cells[0], 0, 0) + 1];
-  free(places);
+  sbfi_static_start(&network, positions);
+  ck_assert(sbfi_static_solve(&problem, positions, &outcome, NULL) && outcome.converged);
+  double tip = positions[3 * lattice_box_point(&box, box.cells[0], 0, 0) + 1];
+  free(positions);
   return tip;
 }
 
@@ -149,7 +149,7 @@ START_TEST(a_beam_rests_near_where_the_statics_say)
 {
   static const struct {
     uint32_t substeps;
-    double share, within;
+    double fraction, within;
   } cases[] = {{10, 1.38, 0.06}, {20, 1.006, 0.03}, {40, 0.985, 0.01}, {80, 0.997, 0.005}};
   begin(10, 1e6f, 0.4f, true, (sbf_vec3){0, -9.81f, 0});
   scene_body(&s, 0)->attributes.damping_ratio = 1;
@@ -157,9 +157,9 @@ START_TEST(a_beam_rests_near_where_the_statics_say)
   scene_start(&s);
   scene_ticks(&s, 240);
   double tip = scene_point(&s, 0, lattice_box_point(&box, 10, 0, 0)).y, exact = exact_tip();
-  ck_assert_msg(fabs(tip / exact - cases[_i].share) < cases[_i].within, "%u substeps: %.4f of %.4f m, %.4f",
-      cases[_i].substeps, tip, exact, tip / exact);
-  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
+  ck_assert_msg(fabs(tip / exact - cases[_i].fraction) < cases[_i].within,
+      "%u substeps: %.4f of %.4f m, %.4f", cases[_i].substeps, tip, exact, tip / exact);
+  ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).recoveries, 0);
   end();
 }
 END_TEST
@@ -245,7 +245,7 @@ START_TEST(damping_of_its_own_takes_energy)
     sbri_character *c = &s.world->characters[0];
     for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) sbri_positions(c)[i].x *= 1.1f;
     scene_ticks(&s, 60);
-    sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+    sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
     left[n] = health.kinetic_j + health.elastic_j;
     end();
   }
@@ -289,7 +289,7 @@ START_TEST(the_router_recovers_by_it)
   ck_assert_uint_gt(sbri_island_states(c)->recovery.ticks, 0);
   scene_ticks(&s, 60);
   ck_assert_uint_eq(sbri_island_states(c)->recovery.ticks, 0);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(!health.inverted);
   ck_assert_float_lt(health.max_strain, 0.1f);
   ck_assert_uint_eq(health.recoveries, (uint32_t)_i);

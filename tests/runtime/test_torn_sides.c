@@ -71,24 +71,24 @@ static void begin(sbf_scheme scheme) {
 START_TEST(a_cloth_is_pulled_in_two)
 {
   uint8_t torn[QUADS];
-  sbf_vec3 places[POINTS];
+  sbf_vec3 points[POINTS];
   begin(schemes[_i]);
   double before = scene_momentum_of(&s).linear[0];
-  ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
+  ck_assert_uint_eq(sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
   for (uint32_t q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
   scene_ticks(&s, 60);
-  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert(health.finite);
   ck_assert_uint_ge(health.torn, CELLS + 1);
   ck_assert_uint_eq(health.recoveries, 0);
   ck_assert_double_eq_tol(scene_momentum_of(&s).linear[0], before, 1e-4);
-  sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, POINTS);
-  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  sbr_character_get_skin(s.world, s.character, 0, points, NULL, NULL, POINTS);
+  sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
   uint32_t open = 0;
   for (uint32_t q = 0; q < QUADS; q++) {
     float low = 1, high = 0, longest = 0;
     for (uint32_t k = 0; k < 4; k++) {
-      sbf_vec3 a = places[corners[4 * q + k]], b = places[corners[4 * q + (k + 1) % 4]];
+      sbf_vec3 a = points[corners[4 * q + k]], b = points[corners[4 * q + (k + 1) % 4]];
       float x = positions[corners[4 * q + k]].x;
       low = x < low ? x : low, high = x > high ? x : high;
       longest = fmaxf(
@@ -100,9 +100,9 @@ START_TEST(a_cloth_is_pulled_in_two)
   }
   ck_assert_uint_ge(open, CELLS);
   ck_assert_uint_le(open, 2 * CELLS);
-  ck_assert_float_gt(places[point(CELLS, 0)].x - places[point(0, 0)].x, 1.5f);
+  ck_assert_float_gt(points[point(CELLS, 0)].x - points[point(0, 0)].x, 1.5f);
   sbr_character_reset(s.world, s.character);
-  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
   for (uint32_t q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
   scene_free(&s);
 }
@@ -113,7 +113,7 @@ END_TEST
 START_TEST(a_skin_that_springs_carry_opens_too)
 {
   enum { FINE = 4 * CELLS, VERTICES = (FINE + 1) * (FINE + 1), FINE_QUADS = FINE * FINE };
-  static sbf_vec3 rest[VERTICES], places[VERTICES];
+  static sbf_vec3 rest[VERTICES], locations[VERTICES];
   static sbf_uint4 points[VERTICES];
   static sbf_vec4 weights[VERTICES];
   static uint32_t fine_sizes[FINE_QUADS], fine_corners[4 * FINE_QUADS];
@@ -150,16 +150,17 @@ START_TEST(a_skin_that_springs_carry_opens_too)
     float *v = scene_velocity(&s, i);
     if (s.model->islands[0].masses[i] > 0) v[0] = 4 * (sbri_positions(c)[i].x - 0.5f) + 0.1f;
   }
-  ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS), FINE_QUADS);
+  ck_assert_uint_eq(
+      sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS), FINE_QUADS);
   for (uint32_t q = 0; q < FINE_QUADS; q++) ck_assert_uint_eq(torn[q], 0);
   scene_ticks(&s, 60);
-  sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, VERTICES);
-  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS);
+  sbr_character_get_skin(s.world, s.character, 0, locations, NULL, NULL, VERTICES);
+  sbr_character_get_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS);
   uint32_t open = 0;
   for (uint32_t q = 0; q < FINE_QUADS; q++) {
     float longest = 0;
     for (uint32_t k = 0; k < 4; k++) {
-      sbf_vec3 a = places[fine_corners[4 * q + k]], b = places[fine_corners[4 * q + (k + 1) % 4]];
+      sbf_vec3 a = locations[fine_corners[4 * q + k]], b = locations[fine_corners[4 * q + (k + 1) % 4]];
       longest = fmaxf(longest, fabsf(a.x - b.x));
     }
     open += torn[q];
@@ -170,7 +171,7 @@ START_TEST(a_skin_that_springs_carry_opens_too)
     float nearest = 1;
     for (uint32_t p = 0; p < POINTS; p++) {
       sbf_vec3 at = scene_point(&s, 0, p);
-      float x = at.x - places[v].x, z = at.z - places[v].z;
+      float x = at.x - locations[v].x, z = at.z - locations[v].z;
       nearest = fminf(nearest, sqrtf(x * x + z * z));
     }
     ck_assert_msg(nearest < 1.0f / CELLS, "vertex %u is %g m from any point", v, (double)nearest);

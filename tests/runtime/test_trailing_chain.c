@@ -36,8 +36,8 @@ static void run(gait_stage *s, double seconds, float forward, float turn) {
   for (int i = 0; i < (int)(60 * seconds); i++) {
     gait_stage_ticks(s, 1);
     for (int k = 1; k < BONES; k++) {
-      float apart = sbri_length(sbri_sub(s->pose[k].position, s->pose[k - 1].position));
-      ck_assert_float_eq_tol(apart, LENGTH, 1e-4f);
+      float separation = sbri_length(sbri_sub(s->pose[k].position, s->pose[k - 1].position));
+      ck_assert_float_eq_tol(separation, LENGTH, 1e-4f);
     }
   }
 }
@@ -112,8 +112,8 @@ START_TEST(links_keep_the_spacing_asked_for)
   for (int i = 0; i < 240; i++) {
     gait_stage_ticks(&s, 1);
     for (int k = 1; k < BONES; k++) {
-      float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
-      ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
+      float separation = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
+      ck_assert_float_eq_tol(separation, spacing[k - 1], 1e-4f);
     }
   }
   gait_stage_end(&s);
@@ -124,7 +124,7 @@ START_TEST(a_swimmer_keeps_its_height)
 {
   gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 1);
-  sbri_gait_place(&s.rig, s.state, &s.input, sbri_vec3(0, 0.7f, 0), 0);
+  sbri_gait_reset(&s.rig, s.state, &s.input, sbri_vec3(0, 0.7f, 0), 0);
   sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
   run(&s, 2, 0.5f, 1), run(&s, 2, 0.5f, -1);
   for (int k = 0; k < BONES; k++) ck_assert_float_eq_tol(s.pose[k].position.y, 0.8f, 1e-3f);
@@ -172,8 +172,8 @@ START_TEST(empty_links_take_no_room)
     if (i == 200) s.input.forward = s.input.turn = 0;
     gait_stage_ticks(&s, 1);
     for (int k = 1; k < BONES; k++) {
-      float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
-      ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
+      float separation = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
+      ck_assert_float_eq_tol(separation, spacing[k - 1], 1e-4f);
       ck_assert(isfinite(s.pose[k].rotation.w));
       if (spacing[k] == 0) ck_assert_float_ge(sbri_dot(along(&s, k), along(&s, k - 1)), 0.99999f);
     }

@@ -60,8 +60,9 @@ static float fastest(const flight *f) {
 }
 
 typedef struct fall {
-  float apart, on_the_way, at_rest; /* m, rad: of joints and limits, until it is to be at rest and then */
-  int moved;                        /* ticks until nothing moves by more than 1 mm/s any more */
+  float separation, on_the_way,
+      at_rest; /* m, rad: of joints and limits, until it is to be at rest and then */
+  int moved;   /* ticks until nothing moves by more than 1 mm/s any more */
 } fall;
 
 static fall tumble(flight *f, int ticks, int rests_from) {
@@ -71,7 +72,8 @@ static fall tumble(flight *f, int ticks, int rests_from) {
     float *beyond = i < rests_from ? &found.on_the_way : &found.at_rest;
     for (uint32_t j = 0; j + 1 < f->parts; j++) {
       sbr_joint_state now = rigid_joint_state(&f->scene, j);
-      found.apart = larger(found.apart, now.apart), *beyond = larger(*beyond, now.beyond_angle);
+      found.separation = larger(found.separation, now.separation),
+      *beyond = larger(*beyond, now.angle_violation);
     }
     if (fastest(f) > 1e-3f) found.moved = i + 1;
   }
@@ -85,12 +87,12 @@ static void falls(bool whole, bool boxes, sbf_vec3 shove) {
   start(&f, boxes);
   person_shove(&f.scene, 1, (sbf_vec3){shove.x, shove.y, boxes ? shove.z : -shove.z});
   fall found = tumble(&f, 360, 300);
-  ck_assert_float_le(found.apart, 1e-3f);
+  ck_assert_float_le(found.separation, 1e-3f);
   ck_assert_float_le(found.on_the_way, 0.0175f);
   ck_assert_float_le(found.at_rest, 0.00175f);
   ck_assert_int_le(found.moved, 300);
   sbf_vec3 hips = rigid_state(&f.scene, 0).center;
-  double z = (double)hips.z + sbr_character_origin(f.scene.world, f.scene.character).z;
+  double z = (double)hips.z + sbr_character_get_origin(f.scene.world, f.scene.character).z;
   ck_assert_double_ge(boxes ? -z : z, 0.5);
   end(&f);
 }
@@ -103,7 +105,7 @@ START_TEST(a_person_falls_down_stairs_of_the_ground)
 { falls(_i & 1, false, SHOVES[1 + _i / 2]); }
 END_TEST
 
-static float next_share(uint32_t *seed) {
+static float next_fraction(uint32_t *seed) {
   *seed = *seed * 1664525u + 1013904223u;
   return (float)(*seed >> 8) / 16777216.0f;
 }
@@ -116,10 +118,10 @@ START_TEST(all_that_fall_down_stairs_of_the_ground_come_to_rest)
   for (int i = 0; i < RANDOM_SHOVES; i++) {
     flight f = begin(whole, false);
     start(&f, false);
-    float aside = 120 * next_share(&seed) - 60;
-    person_shove(&f.scene, 1, (sbf_vec3){aside, 0, 120 + 60 * next_share(&seed)});
+    float aside = 120 * next_fraction(&seed) - 60;
+    person_shove(&f.scene, 1, (sbf_vec3){aside, 0, 120 + 60 * next_fraction(&seed)});
     fall found = tumble(&f, 360, 300);
-    ck_assert_float_le(found.apart, 1e-3f);
+    ck_assert_float_le(found.separation, 1e-3f);
     ck_assert_float_le(found.on_the_way, 0.0175f);
     ck_assert_float_le(found.at_rest, 0.00175f);
     ck_assert_int_le(found.moved, 300);
@@ -143,7 +145,7 @@ START_TEST(a_plank_lies_across_nosings)
   scene_start(&s);
   scene_ticks(&s, 300);
   sbf_vec3 c = rigid_state(&s, plank).center;
-  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  sbr_double3 o = sbr_character_get_origin(s.world, s.character);
   double slope = (double)(RISE / RUN) * (down ? -1 : 1), z = (double)c.z + o.z;
   double nosings = slope * (z - (down ? (double)RUN : 0)) + 0.02 * sqrt(1 + slope * slope);
   ck_assert_double_eq_tol((double)c.y + o.y, nosings, 2e-3);
@@ -167,7 +169,7 @@ START_TEST(what_hangs_over_a_nosing_meets_it)
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     sbr_rigid_state state = rigid_state(&s, cube);
-    sbr_double3 o = sbr_character_origin(s.world, s.character);
+    sbr_double3 o = sbr_character_get_origin(s.world, s.character);
     sbf_vec3 off = {0, (float)(y - o.y) - state.center.y, (float)(z - o.z) - state.center.z};
     sbf_quat q = state.frame.rotation; /* about x alone */
     float c = 1 - 2 * q.x * q.x, w = 2 * q.w * q.x;
@@ -215,10 +217,10 @@ START_TEST(what_swings_out_sleeps)
   scene_start(&s);
   sbr_rigid_drive drive = sbr_default_rigid_drive();
   drive.joint_friction = 0;
-  sbr_character_rigid_drive(s.world, s.character, &drive);
-  sbr_character_rigid_mode(s.world, s.character, -1, SBR_RIGID_KINEMATIC);
-  sbr_character_rigid_mode(s.world, s.character, 8, SBR_RIGID_PASSIVE); /* a shin and its foot */
-  sbr_character_rigid_mode(s.world, s.character, 9, SBR_RIGID_PASSIVE);
+  sbr_character_set_rigid_drive(s.world, s.character, &drive);
+  sbr_character_set_rigid_mode(s.world, s.character, -1, SBR_RIGID_KINEMATIC);
+  sbr_character_set_rigid_mode(s.world, s.character, 8, SBR_RIGID_PASSIVE); /* a shin and its foot */
+  sbr_character_set_rigid_mode(s.world, s.character, 9, SBR_RIGID_PASSIVE);
   scene_ticks(&s, 1);
   person_shove(&s, 8, (sbf_vec3){1.5f, 0, 0});
   scene_ticks(&s, 240);
@@ -253,7 +255,7 @@ START_TEST(threads_change_nothing)
     }
     person_shove(&f.scene, 1, SHOVES[0]);
     scene_ticks(&f.scene, 120);
-    hashes[i] = sbr_world_state_hash(f.scene.world);
+    hashes[i] = sbr_world_get_state_hash(f.scene.world);
     end(&f);
   }
   ck_assert_uint_eq(hashes[0], hashes[1]);

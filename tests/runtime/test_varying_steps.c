@@ -38,10 +38,10 @@ static double in_frames(double turn, double jitter, uint32_t frames) {
   double w = turn / TICK_S, max = 0;
   const float masses[] = {0, 1}, stiffness = (float)(w * w);
   const sbf_vec3 positions[] = {{0, 0, 0}, {0, -1, 0}};
-  const uint32_t held = 0;
+  const uint32_t pinned = 0;
   sbf_level *level = scene_points(&s, 0, positions, masses, 2);
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, level, -1, &pinned, 1);
   s.world_definition.has_gravity = s.model_options.has_gravity = true;
   s.world_definition.gravity = s.model_options.gravity = (sbf_vec3){0, (float)(-w * w * HEIGHT_M), 0};
   s.model_options.scheme = SBF_SCHEME_SYMPLECTIC;

@@ -18,9 +18,9 @@ static scene section(sbf_pressure_mode mode) {
 static void shake(scene *s, double *low, double *high) {
   *low = *high = 1;
   for (int i = 0; i < 240; i++) {
-    sbr_character_drive(s->world, s->character, i / 20 % 2 ? 3 : -3, 0, 0);
+    sbr_character_set_drive(s->world, s->character, i / 20 % 2 ? 3 : -3, 0, 0);
     scene_ticks(s, 1);
-    sbr_body_health h = sbr_character_health(s->world, s->character, 0);
+    sbr_body_health h = sbr_character_get_body_health(s->world, s->character, 0);
     ck_assert(h.finite);
     *low = fmin(*low, h.volume_ratio);
     *high = fmax(*high, h.volume_ratio);
@@ -60,10 +60,10 @@ START_TEST(keeping_it_moves_no_body)
     before[0] += island->masses[i] * p->x, before[1] += island->masses[i] * p->y;
     before[2] += island->masses[i] * p->z, mass += island->masses[i];
   }
-  ck_assert_double_lt(sbr_character_health(s.world, s.character, 0).volume_ratio, 0.85);
+  ck_assert_double_lt(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 0.85);
   scene_ticks(&s, 200);
-  ck_assert_double_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 2e-3);
-  sbr_double3 origin = sbr_character_origin(s.world, s.character);
+  ck_assert_double_eq_tol(sbr_character_get_body_health(s.world, s.character, 0).volume_ratio, 1, 2e-3);
+  sbr_double3 origin = sbr_character_get_origin(s.world, s.character);
   ck_assert_double_eq(origin.y, 0);
   for (uint32_t i = 0; i < island->free_count; i++) {
     const sbri_point *p = &sbri_positions(c)[i];
@@ -89,12 +89,12 @@ START_TEST(much_volume_comes_back_slowly)
     sbri_point *p = &sbri_positions(c)[i];
     p->y = 1 + 0.33f * (p->y - 1);
   }
-  double last = sbr_character_health(s.world, s.character, 0).volume_ratio;
+  double last = sbr_character_get_body_health(s.world, s.character, 0).volume_ratio;
   ck_assert_double_lt(last, 0.35);
   uint32_t slow = 0;
   for (int i = 0; i < 10 && last < 0.99; i++) {
     scene_ticks(&s, 1);
-    double now = sbr_character_health(s.world, s.character, 0).volume_ratio;
+    double now = sbr_character_get_body_health(s.world, s.character, 0).volume_ratio;
     ck_assert_double_le(now - last, 0.55);
     slow += now < 0.9;
     last = now;

@@ -59,8 +59,8 @@ START_TEST(poses_are_shown_by_the_distance_walked)
     max = fmaxf(max, head_angle(&s)), min = fminf(min, head_angle(&s));
     if (i < 120) continue;
     double s_in_cycle = fmod(s.state->distance_m, 0.2);
-    double share = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
-    double eased = share * share * (3 - 2 * share); /* both are turning points */
+    double fraction = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
+    double eased = fraction * fraction * (3 - 2 * fraction); /* both are turning points */
     ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * eased), 0.02f);
   }
   ck_assert_float_gt(max, 0.3f);

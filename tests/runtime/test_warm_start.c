@@ -10,8 +10,8 @@
 
 enum { CELLS = 16 };
 
-static void add_sheet(scene *s, uint32_t body, sbf_vec3 at, float side, bool held) {
-  (void)collision_sheet(s, body, at, side, CELLS, held);
+static void add_sheet(scene *s, uint32_t body, sbf_vec3 at, float side, bool pinned) {
+  (void)collision_sheet(s, body, at, side, CELLS, pinned);
   scene_body(s, body)->attributes.damping_ratio = 0.3f;
   scene_body(s, body)->attributes.friction = 0.5f;
   scene_body(s, body)->collision.outer_thickness = 0.005f;
@@ -19,7 +19,7 @@ static void add_sheet(scene *s, uint32_t body, sbf_vec3 at, float side, bool hel
 
 static void start(scene *s) {
   scene_start(s);
-  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
+  ck_assert(sbr_world_enable_body_contacts(s->world, 0, NULL) == SBF_OK);
 }
 
 /* ---- Of a scene ---- */
@@ -40,7 +40,7 @@ static bool are_same(const sbri_cached_contact *m, const sbri_contact *t) {
 }
 
 /* Steps a tick. The contacts cached before are then in `next_cached`. */
-static void go_on(scene *s, tally of[KINDS]) {
+static void advance(scene *s, tally of[KINDS]) {
   const sbri_body_contacts *all = s->world->body_contacts;
   uint32_t before = all->cached_count;
   scene_ticks(s, 1);
@@ -69,7 +69,7 @@ START_TEST(what_pushed_is_known_again)
   (void)collision_collider(&s, shape, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 20);
   tally of[KINDS] = {{0, 0}};
-  for (int i = 0; i < 30; i++) go_on(&s, of);
+  for (int i = 0; i < 30; i++) advance(&s, of);
   for (kind k = 0; k < KINDS; k++) {
     ck_assert_uint_ge(of[k].again, 30);
     ck_assert_uint_eq(of[k].known, of[k].again);

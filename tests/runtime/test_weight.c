@@ -27,8 +27,8 @@ static sbf_follower weight_of(uint32_t bone) {
 }
 
 /* A body of two bones, one above the other and somewhat ahead of it, and one that neither hangs on. A clip
- * throws the lower one by WAY along `way` from one tick to the next. */
-static void fill(sbf_asset *a, sbf_vec3 way) {
+ * throws the lower one by WAY along `direction` from one tick to the next. */
+static void fill(sbf_asset *a, sbf_vec3 direction) {
   float *thrown = sbf_asset_allocate(a, 3, sizeof *thrown);
   sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
   sbf_follower *follower = sbf_asset_allocate(a, 1, sizeof *follower);
@@ -38,16 +38,16 @@ static void fill(sbf_asset *a, sbf_vec3 way) {
     bones[i].head = sbri_vec3(i == 2 ? 1 : 0, i == 1 ? 0.4f : 0.1f, i == 1 ? 0.1f : 0);
     bones[i].length = LENGTH;
   }
-  thrown[0] = WAY * way.x, thrown[1] = 0.1f + WAY * way.y, thrown[2] = WAY * way.z;
+  thrown[0] = WAY * direction.x, thrown[1] = 0.1f + WAY * direction.y, thrown[2] = WAY * direction.z;
   *follower = weight_of(0);
   gait_stage_step_clip(a, 0, SBF_TRACK_PROPERTY_TRANSLATION, thrown, 3);
   a->bones = (sbf_bone_list){bones, BONES};
   a->followers = (sbf_follower_list){follower, 1};
 }
 
-static void begin(gait_stage *s, sbf_vec3 way, float tick_s, float scale) {
+static void begin(gait_stage *s, sbf_vec3 direction, float tick_s, float scale) {
   sbf_asset *asset = sbf_asset_create(NULL);
-  fill(asset, way);
+  fill(asset, direction);
   gait_stage_begin_scaled(s, asset, tick_s, scale);
   gait_stage_play(s);
 }
@@ -66,21 +66,21 @@ static double expected(double t, double h) {
 START_TEST(a_step_of_the_place_sinks_and_leans_it_exactly_at_any_tick)
 {
   static const int times_ms[] = {1, 4, 17, 33, 100, 250};
-  static const sbf_vec3 ways[] = {{0, 1, 0}, {0, 0, 1}, {0.6f, 0, -0.8f}};
+  static const sbf_vec3 directions[] = {{0, 1, 0}, {0, 0, 1}, {0.6f, 0, -0.8f}};
   for (size_t k = 0; k < sizeof times_ms / sizeof *times_ms; k++)
-    for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+    for (size_t w = 0; w < sizeof directions / sizeof *directions; w++) {
       gait_stage s;
       double h = 0.001 * times_ms[k], min = 0, max = 0;
-      begin(&s, ways[w], (float)h, 1);
+      begin(&s, directions[w], (float)h, 1);
       for (int i = 1; i * h < 2.5; i++) {
         gait_stage_ticks(&s, 1);
         double should = expected(i * h, h);
         sbf_vec3 turn = sbri_quat_log(s.pose[0].rotation);
         sbf_vec3 leans = sbri_vec3(-turn.z, 0, turn.x); /* where +Y goes */
-        double up = (double)(s.pose[0].position.y - 0.1f - WAY * ways[w].y);
-        ck_assert_double_eq_tol(up, (double)(LENGTH * ways[w].y) * should, 1e-4);
-        ck_assert_double_eq_tol((double)leans.x, (double)ways[w].x * should, 3e-4);
-        ck_assert_double_eq_tol((double)leans.z, (double)ways[w].z * should, 3e-4);
+        double up = (double)(s.pose[0].position.y - 0.1f - WAY * directions[w].y);
+        ck_assert_double_eq_tol(up, (double)(LENGTH * directions[w].y) * should, 1e-4);
+        ck_assert_double_eq_tol((double)leans.x, (double)directions[w].x * should, 3e-4);
+        ck_assert_double_eq_tol((double)leans.z, (double)directions[w].z * should, 3e-4);
         ck_assert_float_eq_tol(turn.y, 0, 1e-6f);
         ck_assert_double_lt(fabs(should), (double)LIMIT);
         min = should < min ? should : min, max = should > max ? should : max;
@@ -114,8 +114,8 @@ END_TEST
 START_TEST(a_larger_copy_moves_alike_and_a_placed_one_does_not)
 {
   gait_stage small, large;
-  sbf_vec3 way = {0, 0.8f, 0.6f};
-  begin(&small, way, 1.0f / 60, 1), begin(&large, way, 1.0f / 60, 3);
+  sbf_vec3 direction = {0, 0.8f, 0.6f};
+  begin(&small, direction, 1.0f / 60, 1), begin(&large, direction, 1.0f / 60, 3);
   for (int i = 0; i < 40; i++) {
     gait_stage_ticks(&small, 1), gait_stage_ticks(&large, 1);
     ck_assert_float_eq_tol(3 * small.pose[0].position.y, large.pose[0].position.y, 3e-4f);
@@ -125,7 +125,7 @@ START_TEST(a_larger_copy_moves_alike_and_a_placed_one_does_not)
   sbri_gait_pose(&small.rig, small.state, &small.input, true, small.pose);
   for (int i = 0; i < 20; i++) {
     gait_stage_ticks(&small, 1);
-    ck_assert_float_eq_tol(small.pose[0].position.y, 0.1f + WAY * way.y, 1e-6f);
+    ck_assert_float_eq_tol(small.pose[0].position.y, 0.1f + WAY * direction.y, 1e-6f);
     ck_assert_float_eq(small.pose[0].rotation.x, 0);
   }
   gait_stage_end(&small), gait_stage_end(&large);
@@ -135,8 +135,8 @@ END_TEST
 START_TEST(another_origin_changes_nothing)
 {
   gait_stage here, there;
-  sbf_vec3 shift = {3, -2, 1}, way = {0, 0.8f, 0.6f};
-  begin(&here, way, 1.0f / 60, 1), begin(&there, way, 1.0f / 60, 1);
+  sbf_vec3 shift = {3, -2, 1}, direction = {0, 0.8f, 0.6f};
+  begin(&here, direction, 1.0f / 60, 1), begin(&there, direction, 1.0f / 60, 1);
   for (int i = 0; i < 40; i++) {
     if (i == 8) {
       sbri_gait_rebase(&there.rig, there.state, shift);
@@ -166,8 +166,9 @@ static void begin_walk(gait_stage *s, bool weighs) {
 
 /* How far the body's up leans ahead, as it faces. */
 static float leans_ahead(const gait_stage *s, uint32_t body) {
-  sbf_quat turn = sbri_quat_multiply(s->pose[body].rotation, sbri_quat_conjugate(s->rig.rest[body].rotation));
-  return sbri_unheaded(s->state, sbri_rotate(turn, sbri_vec3(0, 1, 0))).z;
+  sbf_quat rotation =
+      sbri_quat_multiply(s->pose[body].rotation, sbri_quat_conjugate(s->rig.rest[body].rotation));
+  return sbri_unheaded(s->state, sbri_rotate(rotation, sbri_vec3(0, 1, 0))).z;
 }
 
 START_TEST(a_body_lags_as_it_starts_and_dives_as_it_stops_and_its_feet_stay)
@@ -205,7 +206,7 @@ START_TEST(it_leans_alike_whichever_way_it_faces)
   for (int k = 0; k < 2; k++) {
     gait_stage *s = &stages[k];
     begin(s, sbri_vec3(0, 0, 0), 1.0f / 60, 1);
-    sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), k ? 2.9f : 0);
+    sbri_gait_reset(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), k ? 2.9f : 0);
     sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
     s->input.turn = 1.7f;
   }
@@ -241,10 +242,10 @@ START_TEST(every_frame_rate_shows_the_same_motion)
     ck_assert_int_eq(sbr_model_create(asset, NULL, &model, &error), SBF_OK);
     ck_assert_int_eq(sbr_world_create(&definition, &world, &error), SBF_OK);
     ck_assert_int_eq(sbr_character_create(world, model, &standing, &character, &error), SBF_OK);
-    sbr_character_drive(world, character, 0.5f, 0, 0.2f);
+    sbr_character_set_drive(world, character, 0.5f, 0, 0.2f);
     for (int i = 0; i < rates[r] / 2; i++) sbr_world_step(world, 1.0 / rates[r]);
-    hashes[r] = sbr_world_state_hash(world);
-    sbr_character_bones(world, character, bones[r], 64);
+    hashes[r] = sbr_world_get_state_hash(world);
+    sbr_character_get_bones(world, character, bones[r], 64);
     for (uint32_t b = 0; b < asset->bones.count; b++)
       ck_assert_float_lt(sbri_length(sbri_sub(bones[r][b].position, bones[0][b].position)), 1e-5f);
     ck_assert_uint_eq(hashes[r], hashes[0]);

@@ -9,18 +9,18 @@ static float next(uint32_t *state) {
 START_TEST(one_lane_and_all_lanes_give_the_same_bits)
 {
   sbri_point points[TWIN_POINTS], wide[2 * TWIN_POINTS], scalar[2 * TWIN_POINTS];
-  uint32_t places[TWIN_POINTS], state = 7;
+  uint32_t indices[TWIN_POINTS], state = 7;
   for (int round = 0; round < 200; round++) {
     for (uint32_t i = 0; i < TWIN_POINTS; i++) {
       points[i] = (sbri_point){next(&state), next(&state), next(&state), 9};
-      places[i] = (uint32_t)((next(&state) + 1) * 0.5f * (TWIN_POINTS - 1));
+      indices[i] = (uint32_t)((next(&state) + 1) * 0.5f * (TWIN_POINTS - 1));
     }
-    twin_kernel(points, places, wide);
-    twin_scalar(points, places, scalar);
+    twin_kernel(points, indices, wide);
+    twin_scalar(points, indices, scalar);
     ck_assert_mem_eq(wide, scalar, sizeof wide);
     ck_assert_float_eq(wide[3].w, 0);
     ck_assert_float_eq(wide[TWIN_POINTS + 3].w, 9);
-    ck_assert_float_eq(wide[TWIN_POINTS + 3].x, points[places[3]].x);
+    ck_assert_float_eq(wide[TWIN_POINTS + 3].x, points[indices[3]].x);
   }
 }
 END_TEST

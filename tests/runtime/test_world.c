@@ -20,10 +20,10 @@ START_TEST(frames_add_up_to_ticks)
   scene s = walker();
   scene_start(&s);
   for (int i = 0; i < 60; i++) sbr_world_step(s.world, 1.0 / 60);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 60);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 60);
   for (int i = 0; i < 144; i++) sbr_world_step(s.world, 1.0 / 144);
-  ck_assert_uint_ge(sbr_world_ticks(s.world), 120);
-  ck_assert_uint_le(sbr_world_ticks(s.world), 121);
+  ck_assert_uint_ge(sbr_world_get_tick_count(s.world), 120);
+  ck_assert_uint_le(sbr_world_get_tick_count(s.world), 121);
   scene_free(&s);
 }
 END_TEST
@@ -33,12 +33,12 @@ START_TEST(a_hitch_is_cut_short)
   scene s = walker();
   scene_start(&s);
   sbr_world_step(s.world, 3600);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 15);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 15);
   sbr_world_step(s.world, NAN);
   sbr_world_step(s.world, -1);
   sbr_world_step(s.world, 0);
-  ck_assert_uint_eq(sbr_world_ticks(s.world), 15);
-  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert_uint_eq(sbr_world_get_tick_count(s.world), 15);
+  ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);
 }
 END_TEST
@@ -75,8 +75,8 @@ START_TEST(a_full_world_says_so)
   sbr_character_destroy(s.world, second);
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &third, &error), SBF_OK);
   ck_assert_uint_ne(third.value, second.value); /* the old handle names nothing now */
-  ck_assert_double_eq(sbr_character_health(s.world, second, 0).volume_ratio, 0);
-  ck_assert_uint_eq(sbr_character_skin(s.world, second, 0, NULL, NULL, NULL, 0), 0);
+  ck_assert_double_eq(sbr_character_get_body_health(s.world, second, 0).volume_ratio, 0);
+  ck_assert_uint_eq(sbr_character_get_skin(s.world, second, 0, NULL, NULL, NULL, 0), 0);
   scene_ticks(&s, 2);
   scene_free(&s);
 }
@@ -99,12 +99,12 @@ START_TEST(a_step_allocates_nothing)
   s.model_options.allocator = &allocator;
   scene_start(&s);
   sbf_vec3 positions[256], normals[256];
-  sbr_character_drive(s.world, s.character, 0.5f, 0, 0.3f);
+  sbr_character_set_drive(s.world, s.character, 0.5f, 0, 0.3f);
   size_t before = memory.calls;
   for (int i = 0; i < 1000; i++) {
     sbr_world_step(s.world, 1.0 / 50);
-    sbr_character_skin(s.world, s.character, 0, positions, normals, NULL, 256);
-    sbr_character_health(s.world, s.character, 0);
+    sbr_character_get_skin(s.world, s.character, 0, positions, normals, NULL, 256);
+    sbr_character_get_body_health(s.world, s.character, 0);
     if (i % 100 == 50) sbr_character_teleport(s.world, s.character, (sbr_double3){i, 0, 0}, 1);
   }
   ck_assert_uint_eq(memory.calls, before);

@@ -8,10 +8,10 @@
 
 enum { TWIN_POINTS = 64 };
 
-static inline void twin_kernel(const sbri_point *points, const uint32_t *places, sbri_point *results) {
+static inline void twin_kernel(const sbri_point *points, const uint32_t *indices, sbri_point *results) {
   for (int block = 0; block < TWIN_POINTS; block += SBRI_BLOCK)
     for (int lane = block; lane < block + SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_wide3 a = sbri_wide_load_points(points + lane), b = sbri_wide_gather(points, places + lane), r;
+      sbri_wide3 a = sbri_wide_load_points(points + lane), b = sbri_wide_gather(points, indices + lane), r;
       sbri_wide dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
       sbri_wide length = sbri_wide_sqrt(dx * dx + dy * dy + dz * dz + sbri_wide_all(1e-20f));
       r.x = a.x + dx / length;
@@ -19,15 +19,15 @@ static inline void twin_kernel(const sbri_point *points, const uint32_t *places,
       r.z = sbri_wide_select((a.z < b.z) & (a.x > b.y), a.z * dz, b.z - dy);
       if (sbri_mask_any(r.z > sbri_wide_all(1e6f))) r.z = sbri_wide_all(0);
       sbri_wide_store_points(results + lane, r);
-      sbri_wide4 q = sbri_wide_gather4(points, places + lane);
+      sbri_wide4 q = sbri_wide_gather4(points, indices + lane);
       const float *numbers = &points[0].x;
-      q.y = q.y + sbri_wide_gather_floats(numbers, places + lane);
+      q.y = q.y + sbri_wide_gather_floats(numbers, indices + lane);
       uint32_t own[SBRI_BLOCK];
       for (int i = 0; i < SBRI_LANES; i++) own[i] = (uint32_t)(TWIN_POINTS + lane + i);
       sbri_wide_scatter4(results, own, q);
     }
 }
 
-void twin_scalar(const sbri_point *points, const uint32_t *places, sbri_point *results);
+void twin_scalar(const sbri_point *points, const uint32_t *indices, sbri_point *results);
 
 #endif

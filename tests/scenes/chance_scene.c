@@ -47,12 +47,12 @@ static void add_springs(chance *c, scene *s, sbf_level *level, uint32_t points, 
 }
 
 static void add_pins(chance *c, scene *s, sbf_level *level, uint32_t points) {
-  uint32_t held[MAX_POINTS], count = 1 + roll(c, points / 2 + 1);
-  for (uint32_t i = 0; i < count; i++) held[i] = (i * 7 + 1) % points;
+  uint32_t pinned[MAX_POINTS], count = 1 + roll(c, points / 2 + 1);
+  for (uint32_t i = 0; i < count; i++) pinned[i] = (i * 7 + 1) % points;
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t j = 0; j < i; j++)
-      if (held[i] == held[j]) count = i;
-  scene_pin(s, level, likely(c, 2) ? 0 : -1, held, count);
+      if (pinned[i] == pinned[j]) count = i;
+  scene_pin(s, level, likely(c, 2) ? 0 : -1, pinned, count);
   if (!likely(c, 3)) return;
   sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at; /* goals */
   set->maximum = between(c, 0.05f, 1);
@@ -163,7 +163,7 @@ static void handle(chance *c, scene *s) {
   much = (sbf_vec3){times * much.x, times * much.y, times * much.z};
   uint32_t vertex = likely(c, 3) ? SBR_WHOLE_BODY : roll(c, 30);
   sbr_soft_hold hold = {.frequency_hz = between(c, 0, 100), .damping_ratio = between(c, 0, 10)};
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   hold.target = (sbr_double3){o.x + (double)turn.x, o.y + (double)turn.y, o.z + (double)turn.z};
   hold.max_force = likely(c, 2) ? times : 0;
   switch (roll(c, 5)) {
@@ -190,31 +190,31 @@ static void check_readings(const scene *s, uint32_t seed, int frame) {
   sbr_tetrahedron_state tetrahedra[256];
   sbr_pin_reaction pins[4];
   sbr_spring_state springs[256];
-  uint32_t count = sbr_character_tetrahedra(s->world, s->character, 0, tetrahedra, 256);
+  uint32_t count = sbr_character_get_tetrahedra(s->world, s->character, 0, tetrahedra, 256);
   float sum = 0;
   for (uint32_t i = 0; i < count && i < 256; i++)
     sum += 0 * (tetrahedra[i].stress[0] + tetrahedra[i].energy_density);
-  count = sbr_character_springs(s->world, s->character, 0, springs, 256);
+  count = sbr_character_get_springs(s->world, s->character, 0, springs, 256);
   for (uint32_t i = 0; i < count && i < 256; i++) sum += 0 * (springs[i].tension + springs[i].energy);
-  count = sbr_character_pin_reactions(s->world, s->character, 0, pins, 4);
+  count = sbr_character_get_pin_reactions(s->world, s->character, 0, pins, 4);
   for (uint32_t i = 0; i < count && i < 4; i++) sum += 0 * (pins[i].force.x + pins[i].torque.y);
   ck_assert_msg(sum == 0, "seed %u, frame %d: a reading is no number", seed, frame);
 }
 
 static void disturb(chance *c, scene *s) {
-  sbr_double3 place;
-  place.x = between(c, -2000, 2000), place.y = between(c, -1, 3), place.z = between(c, -50, 50);
+  sbr_double3 position;
+  position.x = between(c, -2000, 2000), position.y = between(c, -1, 3), position.z = between(c, -50, 50);
   sbf_vec3 wanted;
   switch (roll(c, 14)) {
   case 0:
-    sbr_character_teleport(s->world, s->character, place, between(c, -3, 3));
+    sbr_character_teleport(s->world, s->character, position, between(c, -3, 3));
     break;
   case 1:
     wanted = between3(c, -30, 30);
-    sbr_character_drive(s->world, s->character, wanted.x, wanted.y, wanted.z);
+    sbr_character_set_drive(s->world, s->character, wanted.x, wanted.y, wanted.z);
     break;
   case 2:
-    sbr_character_drive(s->world, s->character, 0, 0, 0);
+    sbr_character_set_drive(s->world, s->character, 0, 0, 0);
     break;
   case 3:
     if (likely(c, 4)) sbr_character_reset(s->world, s->character);
@@ -234,8 +234,8 @@ uint64_t chance_scene_run(uint32_t seed) {
   scene s = make(&c);
   sbf_diagnostic error = {0};
   if (sbr_model_create(s.asset, &s.model_options, &s.model, &error) != SBF_OK) {
-    bool told = strstr(error.message, "substeps") || strstr(error.message, "yield or tear");
-    ck_assert_msg(told, "seed %u: %s", seed, error.message);
+    bool is_reported = strstr(error.message, "substeps") || strstr(error.message, "yield or tear");
+    ck_assert_msg(is_reported, "seed %u: %s", seed, error.message);
     sbf_asset_free(s.asset);
     return 0;
   }
@@ -251,10 +251,11 @@ uint64_t chance_scene_run(uint32_t seed) {
       float sum = points[i].x + points[i].y + points[i].z;
       ck_assert_msg(sum - sum == 0, "seed %u, frame %d: point %u is no number", seed, f, i);
     }
-    ck_assert_msg(sbr_character_health(s.world, s.character, 0).finite, "seed %u, frame %d", seed, f);
+    ck_assert_msg(
+        sbr_character_get_body_health(s.world, s.character, 0).finite, "seed %u, frame %d", seed, f);
     if (f % 8 == 0) check_readings(&s, seed, f);
   }
-  uint64_t hash = sbr_world_state_hash(s.world);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
   scene_free(&s);
   return hash;
 }

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "model/bulk_check.h"
+#include "model/element_path.h"
 #include "model/ids.h"
-#include "model/place.h"
 
 enum { MIN_ITEMS = 7, FEW_CHILDREN = 2 };
 
@@ -61,13 +61,13 @@ static void fill_floats(filler *f, const sbfi_field *field, float *to, size_t co
     to[i] = any && i < sizeof odd / sizeof *odd ? odd[i] : random_float(f, field);
 }
 
-static const char *random_text(filler *f, const sbfi_place *place, const sbfi_field *field) {
+static const char *random_text(filler *f, const sbfi_element_path *path, const sbfi_field *field) {
   static const char *const ends[] = {"", " & <tag> \"quoted\" 'so' >",
       " \xc3\xa9\xe2\x82\xac\xf0\x9f\xa6\x8e", "\ttab\nline\r\nend ", " ]]> &amp; \xc2\x85\xe2\x80\xa8"};
   char text[160];
   const char *end = ends[random_below(f, sizeof ends / sizeof *ends)];
   if (field->type == SBFI_ID)
-    snprintf(text, sizeof text, "%s_%u%s", place->element->name, f->ids++, end);
+    snprintf(text, sizeof text, "%s_%u%s", path->element->name, f->ids++, end);
   else if (field->type == SBFI_TEXT)
     snprintf(text, sizeof text, "\n  <%s>\n\t%u%s\n", field->name, random_below(f, 1000), end);
   else
@@ -75,14 +75,14 @@ static const char *random_text(filler *f, const sbfi_place *place, const sbfi_fi
   return copy_text(f, text);
 }
 
-static int32_t random_ref(filler *f, const sbfi_place *place, const sbfi_field *field) {
-  uint32_t count = field->earlier ? place->index : sbfi_ref_count(f->asset, field);
+static int32_t random_ref(filler *f, const sbfi_element_path *path, const sbfi_field *field) {
+  uint32_t count = field->earlier ? path->index : sbfi_ref_count(f->asset, field);
   return count ? (int32_t)random_below(f, count) : SBF_NONE;
 }
 
-static int32_t random_enum(filler *f, const sbfi_place *place, const sbfi_field *field) {
-  if (place->field && place->field->by && strcmp(place->field->by, field->name) == 0)
-    return (int32_t)(place->index % field->value_count);
+static int32_t random_enum(filler *f, const sbfi_element_path *path, const sbfi_field *field) {
+  if (path->field && path->field->by && strcmp(path->field->by, field->name) == 0)
+    return (int32_t)(path->index % field->value_count);
   if (field->value_count == 1) return 0;
   uint32_t value = random_below(f, field->value_count - 1);
   return (int32_t)(value + (value >= field->default_integer));
@@ -90,28 +90,28 @@ static int32_t random_enum(filler *f, const sbfi_place *place, const sbfi_field 
 
 /* --- lists --- */
 
-static uint32_t pick_length(filler *f, const sbfi_place *place, const sbfi_field *field) {
-  if (field->index && sbfi_length_value(field->index, place) == 0) return 0;
+static uint32_t pick_length(filler *f, const sbfi_element_path *path, const sbfi_field *field) {
+  if (field->index && sbfi_length_value(field->index, path) == 0) return 0;
   if (!field->length_count) return f->options.items;
   uint64_t values[8];
   uint32_t count = 0;
   for (uint32_t i = 0; i < field->length_count; i++) {
-    values[count] = sbfi_length_value(&field->lengths[i], place);
+    values[count] = sbfi_length_value(&field->lengths[i], path);
     count += values[count] != 0;
   }
   return count ? (uint32_t)values[random_below(f, count)] : 0;
 }
 
 static void fill_integers(
-    filler *f, const sbfi_place *place, const sbfi_field *field, uint32_t *to, size_t count) {
+    filler *f, const sbfi_element_path *path, const sbfi_field *field, uint32_t *to, size_t count) {
   uint32_t low = field->has_range ? (uint32_t)field->min : 0, span = 5;
-  if (field->index) span = (uint32_t)sbfi_length_value(field->index, place);
+  if (field->index) span = (uint32_t)sbfi_length_value(field->index, path);
   for (size_t i = 0; i < count; i++) to[i] = low + random_below(f, span);
 }
 
 static void make_positive(
-    filler *f, const sbfi_place *place, const sbfi_field *field, sbf_uint4 *items, size_t count) {
-  sbfi_list positions = sbfi_term_list(&field->index->terms[0], place);
+    filler *f, const sbfi_element_path *path, const sbfi_field *field, sbf_uint4 *items, size_t count) {
+  sbfi_list positions = sbfi_term_list(&field->index->terms[0], path);
   for (size_t i = 0; i < count; i++)
     for (int tries = 0; sbfi_find_not_positive(&items[i], 1, positions.at) == 0; tries++) {
       uint32_t *p = items[i].at, kept = p[0];
@@ -122,22 +122,22 @@ static void make_positive(
     }
 }
 
-static void fill_list(filler *f, const sbfi_place *place, const sbfi_field *field, void *object) {
-  uint32_t count = pick_length(f, place, field);
+static void fill_list(filler *f, const sbfi_element_path *path, const sbfi_field *field, void *object) {
+  uint32_t count = pick_length(f, path, field);
   size_t scalars = (size_t)count * field->width;
   void *at = allocate(f, count, sbfi_item_size(field));
   if (!at) return;
   if (field->item == SBFI_ITEM_F32) fill_floats(f, field, at, scalars);
-  if (field->item == SBFI_ITEM_U32) fill_integers(f, place, field, at, scalars);
+  if (field->item == SBFI_ITEM_U32) fill_integers(f, path, field, at, scalars);
   if (field->item == SBFI_ITEM_U8)
     for (size_t i = 0; i < scalars; i++) ((uint8_t *)at)[i] = (uint8_t)random_below(f, 256);
-  if (field->positive) make_positive(f, place, field, at, count);
+  if (field->positive) make_positive(f, path, field, at, count);
   sbfi_set_list(object, field, at, count);
 }
 
 /* --- objects --- */
 
-static void fill_object(filler *f, const sbfi_place *place, void *object);
+static void fill_object(filler *f, const sbfi_element_path *path, void *object);
 
 static void make_children(filler *f, const sbfi_field *field, void *object) {
   uint32_t count = f->options.children;
@@ -149,8 +149,8 @@ static void make_children(filler *f, const sbfi_field *field, void *object) {
   sbfi_set_list(object, field, row, count);
 }
 
-static void fill_children(filler *f, const sbfi_place *place, const sbfi_field *field, void *object) {
-  if (field->type == SBFI_MANY && place->up) make_children(f, field, object);
+static void fill_children(filler *f, const sbfi_element_path *path, const sbfi_field *field, void *object) {
+  if (field->type == SBFI_MANY && path->up) make_children(f, field, object);
   if (field->type == SBFI_OPTIONAL) {
     void *child = allocate(f, 1, field->element->struct_size);
     if (child) sbfi_element_init(field->element, child);
@@ -158,7 +158,7 @@ static void fill_children(filler *f, const sbfi_place *place, const sbfi_field *
   }
   uint32_t count = sbfi_child_count(object, field);
   for (uint32_t i = 0; i < count && !f->failed; i++) {
-    sbfi_place child = sbfi_place_child(place, field, i);
+    sbfi_element_path child = sbfi_element_path_child(path, field, i);
     void *writable = (char *)object + field->offset;
     if (field->type != SBFI_ONE) memcpy(&writable, &child.object, sizeof writable);
     fill_object(f, &child, writable);
@@ -166,7 +166,7 @@ static void fill_children(filler *f, const sbfi_place *place, const sbfi_field *
   }
 }
 
-static void fill_field(filler *f, const sbfi_place *place, const sbfi_field *field, void *object) {
+static void fill_field(filler *f, const sbfi_element_path *path, const sbfi_field *field, void *object) {
   char *at = (char *)object + field->offset;
   switch (field->type) {
   case SBFI_BOOL:
@@ -189,28 +189,28 @@ static void fill_field(filler *f, const sbfi_place *place, const sbfi_field *fie
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID: /* one that has a default is the version: all fields are used */
-    sbfi_set_pointer(object, field, *field->default_text ? SBF_FORMAT_VERSION : random_text(f, place, field));
+    sbfi_set_pointer(object, field, *field->default_text ? SBF_FORMAT_VERSION : random_text(f, path, field));
     break;
   case SBFI_ENUM:
-    sbfi_set_integer(object, field, random_enum(f, place, field));
+    sbfi_set_integer(object, field, random_enum(f, path, field));
     break;
   case SBFI_REF:
-    sbfi_set_integer(object, field, random_ref(f, place, field));
+    sbfi_set_integer(object, field, random_ref(f, path, field));
     break;
   case SBFI_LIST:
-    fill_list(f, place, field, object);
+    fill_list(f, path, field, object);
     break;
   case SBFI_ONE:
   case SBFI_OPTIONAL:
   case SBFI_MANY:
-    fill_children(f, place, field, object);
+    fill_children(f, path, field, object);
     break;
   }
 }
 
-static void fill_object(filler *f, const sbfi_place *place, void *object) {
-  for (uint32_t i = 0; i < place->element->field_count && !f->failed; i++)
-    fill_field(f, place, &place->element->fields[i], object);
+static void fill_object(filler *f, const sbfi_element_path *path, void *object) {
+  for (uint32_t i = 0; i < path->element->field_count && !f->failed; i++)
+    fill_field(f, path, &path->element->fields[i], object);
 }
 
 sbf_asset *fill_asset(const fill_options *options) {
@@ -223,7 +223,7 @@ sbf_asset *fill_asset(const fill_options *options) {
   for (uint32_t i = 0; i < sbfi_asset_element.field_count; i++)
     if (sbfi_asset_element.fields[i].type == SBFI_MANY)
       make_children(&f, &sbfi_asset_element.fields[i], f.asset);
-  sbfi_place root = sbfi_place_root(f.asset);
+  sbfi_element_path root = sbfi_element_path_root(f.asset);
   fill_object(&f, &root, f.asset);
   if (!f.failed) return f.asset;
   sbf_asset_free(f.asset);
@@ -269,13 +269,13 @@ static bool is_default(const sbfi_field *field, const void *object) {
   }
 }
 
-static void search_object(search *s, const sbfi_place *place) {
-  if (place->element == s->element && !is_default(s->field, place->object)) s->found = true;
-  for (uint32_t i = 0; i < place->element->field_count && !s->found; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    uint32_t count = sbfi_child_count(place->object, field);
+static void search_object(search *s, const sbfi_element_path *path) {
+  if (path->element == s->element && !is_default(s->field, path->object)) s->found = true;
+  for (uint32_t i = 0; i < path->element->field_count && !s->found; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    uint32_t count = sbfi_child_count(path->object, field);
     for (uint32_t k = 0; k < count && !s->found; k++) {
-      sbfi_place child = sbfi_place_child(place, field, k);
+      sbfi_element_path child = sbfi_element_path_child(path, field, k);
       search_object(s, &child);
     }
   }
@@ -287,7 +287,8 @@ static bool has_choice(const sbfi_field *field) {
          !(field->type == SBFI_STRING && *field->default_text);
 }
 
-static bool element_is_filled(const sbfi_place *root, const sbfi_element *element, char *field, size_t size) {
+static bool element_is_filled(
+    const sbfi_element_path *root, const sbfi_element *element, char *field, size_t size) {
   for (uint32_t i = 0; i < element->field_count; i++) {
     search s = {element, &element->fields[i], false};
     if (has_choice(s.field)) {
@@ -303,6 +304,6 @@ static bool element_is_filled(const sbfi_place *root, const sbfi_element *elemen
 }
 
 bool fill_is_complete(const sbf_asset *asset, char *field, size_t size) {
-  sbfi_place root = sbfi_place_root(asset);
+  sbfi_element_path root = sbfi_element_path_root(asset);
   return element_is_filled(&root, &sbfi_asset_element, field, size);
 }

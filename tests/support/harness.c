@@ -48,9 +48,9 @@ const char *harness_scratch(const char *name) {
 }
 
 void harness_skip_case(const char *function, const char *format, ...) {
-  static bool told; /* each case is a process of its own, and may lack several things */
-  if (told) return;
-  told = true;
+  static bool is_reported; /* each case is a process of its own, and may lack several things */
+  if (is_reported) return;
+  is_reported = true;
   const char *ending = strrchr(function, '_'); /* Check appends _fn to what START_TEST names */
   int length = ending && strcmp(ending, "_fn") == 0 ? (int)(ending - function) : (int)strlen(function);
   char reason[600];

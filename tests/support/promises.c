@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "model/place.h"
+#include "model/element_path.h"
 
 enum { MESSAGE_BYTES = 768 };
 
@@ -17,10 +17,10 @@ typedef struct finder {
   char message[MESSAGE_BYTES]; /* "": nothing found */
 } finder;
 
-static void found(finder *f, const sbfi_place *place, const sbfi_field *field, const char *what) {
+static void found(finder *f, const sbfi_element_path *location, const sbfi_field *field, const char *what) {
   char path[256];
   if (f->message[0]) return;
-  sbfi_place_path(place, field, path, sizeof path);
+  sbfi_element_path_print(location, field, path, sizeof path);
   snprintf(f->message, sizeof f->message, "%s: %s", path, what);
 }
 
@@ -31,22 +31,22 @@ static bool in_range(const sbfi_field *field, double value) {
 }
 
 static void see_floats(
-    finder *f, const sbfi_place *place, const sbfi_field *field, const float *at, size_t n) {
+    finder *f, const sbfi_element_path *path, const sbfi_field *field, const float *at, size_t n) {
   for (size_t i = 0; i < n; i++) {
-    if (!isfinite(at[i])) found(f, place, field, "a number that is not finite");
-    if (!in_range(field, (double)at[i])) found(f, place, field, "a number out of its range");
+    if (!isfinite(at[i])) found(f, path, field, "a number that is not finite");
+    if (!in_range(field, (double)at[i])) found(f, path, field, "a number out of its range");
   }
 }
 
-static void see_text(finder *f, const sbfi_place *place, const sbfi_field *field) {
-  const char *text = sbfi_get_pointer(place->object, field);
+static void see_text(finder *f, const sbfi_element_path *path, const sbfi_field *field) {
+  const char *text = sbfi_get_pointer(path->object, field);
   if (!text) {
-    found(f, place, field, "a text that is NULL");
+    found(f, path, field, "a text that is NULL");
     return;
   }
-  if (sbfi_utf8_check(text, strlen(text)) != strlen(text)) found(f, place, field, "a text that is not UTF-8");
+  if (sbfi_utf8_check(text, strlen(text)) != strlen(text)) found(f, path, field, "a text that is not UTF-8");
   if (field->type != SBFI_ID) return;
-  if (!*text) found(f, place, field, "an id of nothing");
+  if (!*text) found(f, path, field, "an id of nothing");
   if (f->id_count == f->id_room) {
     f->id_room = f->id_room ? 2 * f->id_room : 64;
     f->ids = realloc(f->ids, f->id_room * sizeof *f->ids);
@@ -55,18 +55,18 @@ static void see_text(finder *f, const sbfi_place *place, const sbfi_field *field
   f->ids[f->id_count++] = text;
 }
 
-static void see_reference(finder *f, const sbfi_place *place, const sbfi_field *field) {
-  int32_t value = sbfi_get_integer(place->object, field);
+static void see_reference(finder *f, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t value = sbfi_get_integer(path->object, field);
   if (value == SBF_NONE) {
-    if (field->required) found(f, place, field, "a required reference to nothing");
+    if (field->required) found(f, path, field, "a required reference to nothing");
     return;
   }
   sbfi_list collection;
   memcpy(&collection.at, (const char *)f->asset + field->target, sizeof collection.at);
   memcpy(&collection.count, (const char *)f->asset + field->target + sizeof collection.at,
       sizeof collection.count);
-  if (value < 0 || (uint32_t)value >= collection.count) found(f, place, field, "a reference out of range");
-  if (field->earlier && value >= (int32_t)place->index) found(f, place, field, "a reference to a later item");
+  if (value < 0 || (uint32_t)value >= collection.count) found(f, path, field, "a reference out of range");
+  if (field->earlier && value >= (int32_t)path->index) found(f, path, field, "a reference to a later item");
 }
 
 static double orientation(const sbf_vec3 *p, const uint32_t *t) {
@@ -83,84 +83,84 @@ static double orientation(const sbf_vec3 *p, const uint32_t *t) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-static void see_indices(finder *f, const sbfi_place *place, const sbfi_field *field, sbfi_list list) {
+static void see_indices(finder *f, const sbfi_element_path *path, const sbfi_field *field, sbfi_list list) {
   const uint32_t *at = list.at;
-  uint64_t limit = sbfi_length_value(field->index, place);
+  uint64_t limit = sbfi_length_value(field->index, path);
   for (size_t i = 0; i < (size_t)list.count * field->width; i++)
     if (at[i] >= limit) {
-      found(f, place, field, "an index out of range");
+      found(f, path, field, "an index out of range");
       return;
     }
   if (!field->positive) return;
-  const sbf_vec3 *positions = sbfi_term_list(&field->index->terms[0], place).at;
+  const sbf_vec3 *positions = sbfi_term_list(&field->index->terms[0], path).at;
   for (uint32_t i = 0; i < list.count; i++)
     if (!(orientation(positions, at + 4 * (size_t)i) > 0))
-      found(f, place, field, "a tetrahedron without positive volume");
+      found(f, path, field, "a tetrahedron without positive volume");
 }
 
-static void see_list(finder *f, const sbfi_place *place, const sbfi_field *field) {
-  sbfi_list list = sbfi_get_list(place->object, field);
+static void see_list(finder *f, const sbfi_element_path *path, const sbfi_field *field) {
+  sbfi_list list = sbfi_get_list(path->object, field);
   size_t scalars = (size_t)list.count * field->width;
   bool length_allowed = field->length_count == 0;
   for (uint32_t i = 0; i < field->length_count; i++)
-    if (sbfi_length_value(&field->lengths[i], place) == list.count) length_allowed = true;
-  if (!length_allowed) found(f, place, field, "a list of a length that no rule allows");
+    if (sbfi_length_value(&field->lengths[i], path) == list.count) length_allowed = true;
+  if (!length_allowed) found(f, path, field, "a list of a length that no rule allows");
   if ((list.count == 0) != (list.at == NULL)) {
-    found(f, place, field, "a list that is NULL and not empty, or the reverse");
+    found(f, path, field, "a list that is NULL and not empty, or the reverse");
     return;
   }
-  if (field->item == SBFI_ITEM_F32) see_floats(f, place, field, list.at, scalars);
+  if (field->item == SBFI_ITEM_F32) see_floats(f, path, field, list.at, scalars);
   if (field->item != SBFI_ITEM_U32) return;
   for (size_t i = 0; i < scalars; i++)
-    if (!in_range(field, ((const uint32_t *)list.at)[i])) found(f, place, field, "a number out of its range");
-  if (field->index) see_indices(f, place, field, list);
+    if (!in_range(field, ((const uint32_t *)list.at)[i])) found(f, path, field, "a number out of its range");
+  if (field->index) see_indices(f, path, field, list);
 }
 
-static void see_integer(finder *f, const sbfi_place *place, const sbfi_field *field) {
-  int32_t value = sbfi_get_integer(place->object, field);
+static void see_integer(finder *f, const sbfi_element_path *path, const sbfi_field *field) {
+  int32_t value = sbfi_get_integer(path->object, field);
   double number = field->type == SBFI_INT ? (double)value : (double)(uint32_t)value;
-  if (!in_range(field, number)) found(f, place, field, "a number out of its range");
+  if (!in_range(field, number)) found(f, path, field, "a number out of its range");
 }
 
-static void see_object(finder *f, const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count && !f->message[0]; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    const char *at = (const char *)place->object + field->offset;
+static void see_object(finder *f, const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count && !f->message[0]; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    const char *at = (const char *)path->object + field->offset;
     switch (field->type) {
     case SBFI_BOOL:
-      if ((unsigned char)*at > 1) found(f, place, field, "a bool that is neither");
+      if ((unsigned char)*at > 1) found(f, path, field, "a bool that is neither");
       break;
     case SBFI_INT:
     case SBFI_UINT:
-      see_integer(f, place, field);
+      see_integer(f, path, field);
       break;
     case SBFI_FLOAT:
     case SBFI_VEC2:
     case SBFI_VEC3:
     case SBFI_VEC4:
     case SBFI_QUAT:
-      see_floats(f, place, field, (const float *)(const void *)at, field->width);
+      see_floats(f, path, field, (const float *)(const void *)at, field->width);
       break;
     case SBFI_STRING:
     case SBFI_TEXT:
     case SBFI_ID:
-      see_text(f, place, field);
+      see_text(f, path, field);
       break;
     case SBFI_ENUM:
-      if ((uint32_t)sbfi_get_integer(place->object, field) >= field->value_count)
-        found(f, place, field, "a word of no meaning");
+      if ((uint32_t)sbfi_get_integer(path->object, field) >= field->value_count)
+        found(f, path, field, "a word of no meaning");
       break;
     case SBFI_REF:
-      see_reference(f, place, field);
+      see_reference(f, path, field);
       break;
     case SBFI_LIST:
-      see_list(f, place, field);
+      see_list(f, path, field);
       break;
     case SBFI_ONE:
     case SBFI_OPTIONAL:
     case SBFI_MANY:
-      for (uint32_t k = 0; k < sbfi_child_count(place->object, field) && !f->message[0]; k++) {
-        sbfi_place child = sbfi_place_child(place, field, k);
+      for (uint32_t k = 0; k < sbfi_child_count(path->object, field) && !f->message[0]; k++) {
+        sbfi_element_path child = sbfi_element_path_child(path, field, k);
         see_object(f, &child);
       }
       break;
@@ -227,7 +227,7 @@ const char *promise_broken(const sbf_asset *asset) {
   if (!asset) return "there is no asset";
   uint32_t count = sbf_asset_check(asset, keep_first, &f, 0);
   if (count && !f.message[0]) snprintf(f.message, sizeof f.message, "a fault that was not told");
-  sbfi_place root = sbfi_place_root(asset);
+  sbfi_element_path root = sbfi_element_path_root(asset);
   if (!f.message[0]) see_object(&f, &root);
   if (!f.message[0]) see_ids(&f);
   if (!f.message[0]) see_model(&f);

@@ -94,7 +94,7 @@ static double weight_difference(const work *w, uint32_t a, uint32_t b) {
 }
 
 static const sbf_vec3 *sorting;
-static int compare_places(const void *a, const void *b) {
+static int compare_positions(const void *a, const void *b) {
   uint32_t i = *(const uint32_t *)a, j = *(const uint32_t *)b;
   int order = memcmp(&sorting[i], &sorting[j], sizeof *sorting);
   return order ? order : (i > j) - (i < j);
@@ -105,7 +105,7 @@ static void find_twins(work *w) {
   uint32_t *order = zeroed(w->count, sizeof *order);
   for (uint32_t v = 0; v < w->count; v++) order[v] = w->twins[v] = v;
   sorting = at;
-  qsort(order, w->count, sizeof *order, compare_places);
+  qsort(order, w->count, sizeof *order, compare_positions);
   for (uint32_t i = 0; i < w->count; i++)
     for (uint32_t j = i; j-- > 0 && memcmp(&at[order[i]], &at[order[j]], sizeof *at) == 0;)
       if (weight_difference(w, order[i], order[j]) <= 0.25) w->twins[order[i]] = order[j];
@@ -195,9 +195,9 @@ static void take_pose(work *w, skin_bend *r) {
   evaluate(w);
   r->poses++;
   for (uint32_t v = 0; v < w->count; v++) {
-    d3 off = sub(w->ours[v], w->lbs[v]), apart = sub(w->ours[v], w->ours[w->twins[v]]);
+    d3 off = sub(w->ours[v], w->lbs[v]), separation = sub(w->ours[v], w->ours[w->twins[v]]);
     r->lbs_distance = fmax(r->lbs_distance, sqrt(dot(off, off)) / w->size);
-    r->crack = fmax(r->crack, sqrt(dot(apart, apart)) / w->size);
+    r->crack = fmax(r->crack, sqrt(dot(separation, separation)) / w->size);
   }
   for (uint32_t i = 0; i < w->triangle_count; i++) {
     const uint32_t *t = w->triangles + 3 * (size_t)i;
@@ -249,8 +249,8 @@ void skin_bend_measure(const sbf_asset *asset, uint32_t mesh, double angle_rad, 
   w.count = at.count;
   *result = (skin_bend){.poses = 0};
   for (uint32_t v = 1; v < at.count; v++) {
-    d3 way = sub(of(at.at[v]), of(at.at[0]));
-    w.size = fmax(w.size, sqrt(dot(way, way)));
+    d3 displacement = sub(of(at.at[v]), of(at.at[0]));
+    w.size = fmax(w.size, sqrt(dot(displacement, displacement)));
   }
   w.bones = zeroed(asset->bones.count, sizeof *w.bones);
   w.ours = zeroed(w.count, sizeof *w.ours);
@@ -265,8 +265,8 @@ void skin_bend_measure(const sbf_asset *asset, uint32_t mesh, double angle_rad, 
   find_twins(&w);
   measure_rest(&w, result);
   for (uint32_t b = 0; b < asset->bones.count; b++)
-    for (int way = 0; asset->bones.at[b].parent >= 0 && way < 6; way++) {
-      bend(&w, b, way % 3, way < 3 ? angle_rad : -angle_rad);
+    for (int direction = 0; asset->bones.at[b].parent >= 0 && direction < 6; direction++) {
+      bend(&w, b, direction % 3, direction < 3 ? angle_rad : -angle_rad);
       take_pose(&w, result);
     }
   void *all[] = {w.bones, w.ours, w.lbs, w.sums, w.twins, w.alone, w.influences, w.triangles};

@@ -24,8 +24,8 @@ double skin_depth(const sbf_polygon_mesh *mesh, const sbf_vec3 *at, sbf_vec3 x, 
       float weights[3];
       angle += solid_angle(x, t[0], t[1], t[2]);
       if (c[0] == own || c[k - 1] == own || c[k] == own) continue;
-      sbri_triangle_nearest(x, t[0], t[1], t[2], weights);
-      double distance = (double)sbri_length(sbri_sub(x, sbri_triangle_place(weights, t[0], t[1], t[2])));
+      sbri_triangle_find_nearest(x, t[0], t[1], t[2], weights);
+      double distance = (double)sbri_length(sbri_sub(x, sbri_triangle_point(weights, t[0], t[1], t[2])));
       if (distance < nearest) nearest = distance;
     }
   return angle / 12.566370614359172 > (own == UINT32_MAX ? 0.5 : 1.5) ? nearest : 0;

@@ -20,7 +20,7 @@ static void teardown(void) {
 
 /* Distances 1..300 in a shuffled order: a multiplier prime to 300 visits each once. */
 static void spread_out(void) {
-  for (uint32_t i = 0; i < TICKS * POINTS; i++) is.places[i].y = (float)(1 + (7 * i) % (TICKS * POINTS));
+  for (uint32_t i = 0; i < TICKS * POINTS; i++) is.positions[i].y = (float)(1 + (7 * i) % (TICKS * POINTS));
 }
 
 START_TEST(each_measure_is_what_it_says)
@@ -42,7 +42,7 @@ START_TEST(equal_distances_and_none_have_one_value)
   tune_distances d;
   ck_assert(tune_distances_between(&is, &wanted, &d));
   ck_assert_double_eq(d.p99_m, 0);
-  for (uint32_t i = 0; i < TICKS * POINTS; i++) is.places[i].x = 2;
+  for (uint32_t i = 0; i < TICKS * POINTS; i++) is.positions[i].x = 2;
   ck_assert(tune_distances_between(&is, &wanted, &d));
   ck_assert_double_eq(d.p99_m, 2);
   ck_assert_double_eq(d.max_m, 2);
@@ -52,7 +52,7 @@ END_TEST
 START_TEST(what_is_no_number_is_infinitely_far_off)
 {
   tune_distances d;
-  for (uint32_t i = 0; i < 4; i++) is.places[70 * i].z = NAN; /* more than one of a hundred */
+  for (uint32_t i = 0; i < 4; i++) is.positions[70 * i].z = NAN; /* more than one of a hundred */
   ck_assert(tune_distances_between(&is, &wanted, &d));
   ck_assert(isinf(d.max_m) && isinf(d.p99_m) && isinf(d.rms_m));
 }

@@ -51,7 +51,7 @@ void rules_expect(const char *inside, const char *expected) {
   sbf_asset_free(asset);
 }
 
-sbf_asset *rules_expect_fix(const char *inside, const char *mended, const char *left) {
+sbf_asset *rules_expect_fix(const char *inside, const char *repaired, const char *left) {
   sbf_asset *asset = rules_load(inside, true), *fixed = NULL, *again = NULL;
   sbf_fix_options options = {.report = add_finding};
   sbf_fix_result result;
@@ -59,8 +59,8 @@ sbf_asset *rules_expect_fix(const char *inside, const char *mended, const char *
   *found = 0;
   sbf_status status = sbf_fix(asset, &options, &fixed, &result, &error);
   ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
-  ck_assert_str_eq(found, mended);
-  ck_assert_int_eq(result.mended > 0, *mended != 0);
+  ck_assert_str_eq(found, repaired);
+  ck_assert_int_eq(result.mended > 0, *repaired != 0);
   ck_assert_uint_eq(sbf_asset_check(fixed, NULL, NULL, 0), 0);
   ck_assert_str_eq(rules_findings(fixed, NULL), left);
   ck_assert_int_eq(sbf_fix(fixed, NULL, &again, &result, NULL), SBF_OK); /* once is enough */

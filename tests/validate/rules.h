@@ -16,9 +16,9 @@ sbf_asset *rules_load(const char *inside, bool mendable);
 /* What the rules report, in the form above. Valid until the next call. */
 const char *rules_findings(const sbf_asset *asset, const sbf_validate_options *options);
 
-/* Mends a document: `mended` is what that reports, `left` what the rules report of the result, which is
+/* Mends a document: `repaired` is what that reports, `left` what the rules report of the result, which is
  * returned for a closer look. */
-sbf_asset *rules_expect_fix(const char *inside, const char *mended, const char *left);
+sbf_asset *rules_expect_fix(const char *inside, const char *repaired, const char *left);
 
 /* A suite of tests in one case. */
 Suite *rules_suite(const char *name, const TTest *const *tests, size_t count);

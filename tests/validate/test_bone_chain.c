@@ -28,9 +28,9 @@ END_TEST
 START_TEST(test_distance_from_a_line)
 {
   sbf_asset *asset = rules_load(LEGS, false);
-  sbf_vec3 place = {0.1f, 7, 0.25f};
-  ck_assert(fabs(sbfi_distance_from_line(asset, LEFT, LEFT_FOOT, place) - 0.25) < 1e-6);
-  ck_assert(fabs(sbfi_distance_from_line(asset, LEFT, LEFT, place) - sqrt(6.5 * 6.5 + 0.0625)) < 1e-6);
+  sbf_vec3 position = {0.1f, 7, 0.25f};
+  ck_assert(fabs(sbfi_distance_from_line(asset, LEFT, LEFT_FOOT, position) - 0.25) < 1e-6);
+  ck_assert(fabs(sbfi_distance_from_line(asset, LEFT, LEFT, position) - sqrt(6.5 * 6.5 + 0.0625)) < 1e-6);
   sbf_asset_free(asset);
 }
 END_TEST

@@ -4,10 +4,10 @@
 #include "shapes.h"
 #include "validate/rules/convexity.h"
 
-static sbfi_hull_fault judge(const sbf_polygon_mesh *hull) {
+static sbfi_hull_fault check(const sbf_polygon_mesh *hull) {
   sbfi_arena arena;
   sbfi_arena_init(&arena, NULL, 0);
-  sbfi_hull_fault fault = sbfi_hull_judge(hull, &arena);
+  sbfi_hull_fault fault = sbfi_hull_check(hull, &arena);
   sbfi_arena_free(&arena);
   return fault;
 }
@@ -16,17 +16,17 @@ START_TEST(test_boxes)
 {
   sbf_asset *asset = sbf_asset_create(NULL);
   sbf_polygon_mesh cube = shape_cube(asset, 3, 2, (sbf_vec3){5, 5, 5});
-  ck_assert_int_eq(judge(&cube), SBFI_HULL_FAULT_NONE);
+  ck_assert_int_eq(check(&cube), SBFI_HULL_FAULT_NONE);
   sbf_vec3 *points = (sbf_vec3 *)(uintptr_t)cube.positions.at;
   sbf_vec3 kept = points[0];
   points[0] = (sbf_vec3){5, 5, 5}; /* a corner pushed to the middle */
-  ck_assert_int_eq(judge(&cube), SBFI_HULL_FAULT_CONCAVE);
+  ck_assert_int_eq(check(&cube), SBFI_HULL_FAULT_CONCAVE);
   points[0] = (sbf_vec3){kept.x + 1e-4f, kept.y, kept.z}; /* less than counts */
-  ck_assert_int_eq(judge(&cube), SBFI_HULL_FAULT_NONE);
+  ck_assert_int_eq(check(&cube), SBFI_HULL_FAULT_NONE);
   points[0] = kept;
   cube.polygon_sizes.count--;
   cube.polygon_points.count -= 4;
-  ck_assert_int_eq(judge(&cube), SBFI_HULL_FAULT_OPEN);
+  ck_assert_int_eq(check(&cube), SBFI_HULL_FAULT_OPEN);
   sbf_asset_free(asset);
 }
 END_TEST
@@ -42,9 +42,9 @@ START_TEST(test_large_hulls)
     float length = sqrtf(points[i].x * points[i].x + points[i].y * points[i].y + points[i].z * points[i].z);
     points[i] = (sbf_vec3){points[i].x / length, points[i].y / length, points[i].z / length};
   }
-  ck_assert_int_eq(judge(&ball), SBFI_HULL_FAULT_NONE);
+  ck_assert_int_eq(check(&ball), SBFI_HULL_FAULT_NONE);
   points[100] = (sbf_vec3){points[100].x * 0.9f, points[100].y * 0.9f, points[100].z * 0.9f};
-  ck_assert_int_eq(judge(&ball), SBFI_HULL_FAULT_CONCAVE);
+  ck_assert_int_eq(check(&ball), SBFI_HULL_FAULT_CONCAVE);
   sbf_asset_free(asset);
 }
 END_TEST

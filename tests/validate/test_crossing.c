@@ -32,12 +32,12 @@ static uint32_t crossing_count(const sbf_polygon_mesh *mesh) {
 }
 
 /* Triangles with points of their own. */
-static sbf_polygon_mesh soup(const float *places, uint32_t triangles) {
+static sbf_polygon_mesh soup(const float *positions, uint32_t triangles) {
   sbf_vec3 *points = sbf_asset_allocate(asset, 3 * triangles, sizeof *points);
   uint32_t *sizes = sbf_asset_allocate(asset, triangles, sizeof *sizes);
   uint32_t *corners = sbf_asset_allocate(asset, 3 * triangles, sizeof *corners);
   for (uint32_t i = 0; i < 3 * triangles; i++) {
-    points[i] = (sbf_vec3){places[3 * i], places[3 * i + 1], places[3 * i + 2]};
+    points[i] = (sbf_vec3){positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
     corners[i] = i;
     sizes[i / 3] = 3;
   }
@@ -60,7 +60,7 @@ END_TEST
 START_TEST(test_two_triangles)
 {
   static const struct {
-    float places[18];
+    float positions[18];
     uint32_t crossings;
   } cases[] = {
       {{0, 0, 0, 2, 0, 0, 0, 2, 0, 0.5f, 0.5f, -1, 0.5f, 0.5f, 1, 2, 2, 1},
@@ -74,7 +74,7 @@ START_TEST(test_two_triangles)
   };
   setup();
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    sbf_polygon_mesh mesh = soup(cases[i].places, 2);
+    sbf_polygon_mesh mesh = soup(cases[i].positions, 2);
     ck_assert_msg(crossing_count(&mesh) == cases[i].crossings, "case %zu", i);
   }
   teardown();
@@ -84,8 +84,8 @@ END_TEST
 START_TEST(test_one_polygon_does_not_cross_itself)
 {
   setup();
-  static const float places[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  sbf_polygon_mesh mesh = soup(places, 1);
+  static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  sbf_polygon_mesh mesh = soup(positions, 1);
   ck_assert_uint_eq(crossing_count(&mesh), 0);
   mesh.polygon_sizes.count = 0;
   mesh.polygon_points.count = 0;
@@ -118,17 +118,17 @@ static bool segment_pierces(const sbf_vec3 *t, sbf_vec3 from, sbf_vec3 to) {
 START_TEST(test_as_many_as_by_trying_all)
 {
   enum { TRIANGLES = 300 };
-  static float places[9 * TRIANGLES];
+  static float positions[9 * TRIANGLES];
   uint32_t seed = 7, expected = 0;
   setup();
   for (int i = 0; i < TRIANGLES; i++) {
     float middle[3];
     for (int k = 0; k < 3; k++) middle[k] = (float)((seed = seed * 1664525 + 1013904223) >> 8) / (1 << 24);
     for (int k = 0; k < 9; k++)
-      places[9 * i + k] =
+      positions[9 * i + k] =
           middle[k % 3] + 0.2f * (float)((seed = seed * 1664525 + 1013904223) >> 8) / (1 << 24);
   }
-  sbf_polygon_mesh mesh = soup(places, TRIANGLES);
+  sbf_polygon_mesh mesh = soup(positions, TRIANGLES);
   for (int i = 0; i < TRIANGLES; i++) {
     bool crosses = false;
     for (int j = i + 1; j < TRIANGLES && !crosses; j++)
@@ -148,15 +148,15 @@ END_TEST
 START_TEST(test_crowded)
 {
   enum { TRIANGLES = 3000 };
-  static float places[9 * TRIANGLES];
+  static float positions[9 * TRIANGLES];
   setup();
   for (int i = 0; i < TRIANGLES; i++) {
     double angle = 6.28318 * i / TRIANGLES, far = 1 + 0.1 * (i % 7);
     const double corners[9] = {far * cos(angle), far * sin(angle), 0.01 * (i % 5) - 1, -far * cos(angle),
         -far * sin(angle), -1, 0, 0, 1};
-    for (int k = 0; k < 9; k++) places[9 * i + k] = (float)corners[k];
+    for (int k = 0; k < 9; k++) positions[9 * i + k] = (float)corners[k];
   }
-  sbf_polygon_mesh mesh = soup(places, TRIANGLES);
+  sbf_polygon_mesh mesh = soup(positions, TRIANGLES);
   ck_assert_uint_gt(crossing_count(&mesh), 100);
   teardown();
 }

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "rules.h"
-#include "validate/mend/mending.h"
+#include "validate/repair/repair.h"
 
 START_TEST(test_nothing_to_do)
 {

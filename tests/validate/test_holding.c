@@ -25,8 +25,8 @@ START_TEST(test_the_strongest_pin_counts)
           false);
   uint8_t holds[4];
   sbfi_holds_of(&asset->soft_bodies.at[0].levels.at[0], holds);
-  ck_assert_int_eq(holds[0], SBFI_HELD_FAST);
-  ck_assert_int_eq(holds[1], SBFI_HELD_SOFTLY);
+  ck_assert_int_eq(holds[0], SBFI_PINNED);
+  ck_assert_int_eq(holds[1], SBFI_GOAL_PINNED);
   ck_assert_int_eq(holds[2], SBFI_FREE);
   ck_assert_int_eq(holds[3], SBFI_FREE);
   sbf_asset_free(asset);

@@ -2,13 +2,13 @@
 #include "rules.h"
 #include "small_asset.h"
 
-typedef struct told {
+typedef struct report {
   uint32_t count;
   sbf_diagnostic last;
-} told;
+} report;
 
 static void take(void *user, const sbf_diagnostic *d) {
-  told *t = user;
+  report *t = user;
   t->count++;
   t->last = *d;
 }
@@ -19,7 +19,7 @@ static void take(void *user, const sbf_diagnostic *d) {
 START_TEST(test_the_first_of_many_are_listed)
 {
   sbf_asset *asset = rules_load(MANY, false);
-  told t = {0};
+  report t = {0};
   sbf_validate_result result;
   sbf_validate_options options = {.report = take, .user = &t};
   ck_assert_int_eq(sbf_validate(asset, &options, &result, NULL), SBF_OK);
@@ -40,7 +40,7 @@ END_TEST
 START_TEST(test_messages_end_with_advice)
 {
   sbf_asset *asset = rules_load(BODY(""), false);
-  told t = {0};
+  report t = {0};
   sbf_validate_options options = {.report = take, .user = &t};
   ck_assert_int_eq(sbf_validate(asset, &options, NULL, NULL), SBF_OK);
   ck_assert_str_eq(t.last.message, "'B' has neither polygons nor a level: give it polygons or a level");
@@ -52,7 +52,7 @@ END_TEST
 START_TEST(test_an_older_caller)
 {
   sbf_asset *asset = rules_load(MANY, false);
-  told t = {0};
+  report t = {0};
   sbf_validate_options options = {.report = take, .user = &t, .repeats = 1};
   options.struct_size = offsetof(sbf_validate_options, folder); /* before there was a folder */
   ck_assert_int_eq(sbf_validate(asset, &options, NULL, NULL), SBF_OK);

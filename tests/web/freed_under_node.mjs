@@ -76,7 +76,7 @@ throws('a freed asset', TypeError, /this asset was freed/, () => all.asset.model
 throws('no model', TypeError, /asset\.model\(\)/, () => whole.world.add());
 throws('a model of another library', TypeError, /two libraries/, ((other) => () => other.world().add(whole.model))(await load()));
 for (const [what, call] of Object.entries({
-  mesh: () => whole.character.skin('body'), rigidBody: () => whole.character.push(999, [0, 0, 0], [0, 1, 0]), rung: () => whole.character.setRung(9),
+  mesh: () => whole.character.skin('body'), rigidBody: () => whole.character.push(999, [0, 0, 0], [0, 1, 0]), detailLevel: () => whole.character.setDetailLevel(9),
   ikChain: () => whole.character.reach(-1, [0, 0, 0]), clip: () => whole.character.play(5), rotation: () => whole.world.collider().move([0, 0, 0], [0, 0, 0]),
   scheme: () => whole.asset.model({ scheme: 'implicit' }),
 })) throws(what, TypeError, new RegExp(what), call);

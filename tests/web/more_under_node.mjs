@@ -22,7 +22,7 @@ expect(Math.abs(heights[0] - 0.05) < 1e-6 && Math.abs(heights[1] - 0.125) < 1e-6
 expect(Math.abs(normals[0] / normals[1] + 0.05) < 1e-6, `normals ${normals}`);
 const side = 81, hill = { kind: 'heights', columns: side, rows: side, cell: 0.1, x: -4, z: -4,
   heights: Float32Array.from({ length: side * side }, (_, i) => 0.3 * Math.exp(-(((i % side) * 0.1 - 4) ** 2 + (Math.floor(i / side) * 0.1 - 5.2) ** 2))) };
-const model = asset.model({ ladder: true }), uphill = sbfmt.world({ ground: hill }), climber = uphill.add(model);
+const model = asset.model({ detailLevels: true }), uphill = sbfmt.world({ ground: hill }), climber = uphill.add(model);
 climber.drive(0.3);
 for (let i = 0; i < 300; i++) uphill.step(1 / 60);
 const lowest = () => {
@@ -74,24 +74,24 @@ pushed.free();
 hands.free();
 
 // Rungs: named, changed by hand, and chosen by views.
-const kinds = model.rungs.map((one) => one.kind);
-expect(kinds[0] === 'soft' && kinds.at(-1) === 'away' && kinds.includes('bones'), `rungs ${kinds}`);
-expect(model.rungs.every((one, i) => !i || one.visits <= model.rungs[i - 1].visits), 'a coarser rung costs more');
-expect(asset.model().rungs.length === 1, 'without a ladder there is one rung');
+const kinds = model.detailLevels.map((one) => one.kind);
+expect(kinds[0] === 'soft' && kinds.at(-1) === 'away' && kinds.includes('bones'), `detailLevels ${kinds}`);
+expect(model.detailLevels.every((one, i) => !i || one.visits <= model.detailLevels[i - 1].visits), 'a coarser detailLevel costs more');
+expect(asset.model().detailLevels.length === 1, 'without a detailLevels there is one detailLevel');
 const world = sbfmt.world(), near = world.add(model), far = world.add(model, { position: [0, 0, 60] });
 for (const one of [near, far]) one.drive(0.25);
-near.setRung(1);
+near.setDetailLevel(1);
 for (let i = 0; i < 3; i++) world.step(1 / 60);
-expect(near.rung === 1 && near.fade > 0, `put on rung 1 it is on ${near.rung}, its skin at ${near.fade}`);
-near.setRung(null);
+expect(near.detailLevel === 1 && near.fade > 0, `put on detailLevel 1 it is on ${near.detailLevel}, its skin at ${near.fade}`);
+near.setDetailLevel(null);
 world.detail({ errorPx: 1, awayAfter: 0.5 });
 world.views([{ eye: [0, 0.5, -1.5], forward: [0, -0.1, 1], height: 0.8, ratio: 1.6, lines: 1080 }]);
 for (let i = 0; i < 120; i++) world.step(1 / 60);
-expect(near.rung === 0 && far.rung > 0, `chosen: near ${near.rung}, far ${far.rung}`);
-expect(near.errorPx > 0 && far.errorPx <= 1 && world.visits < 2 * model.rungs[0].visits, `off by ${near.errorPx} and ${far.errorPx} px, ${world.visits} visits`);
+expect(near.detailLevel === 0 && far.detailLevel > 0, `chosen: near ${near.detailLevel}, far ${far.detailLevel}`);
+expect(near.errorPx > 0 && far.errorPx <= 1 && world.visits < 2 * model.detailLevels[0].visits, `off by ${near.errorPx} and ${far.errorPx} px, ${world.visits} visits`);
 far.shown('never');
 for (let i = 0; i < 60; i++) world.step(1 / 60);
-expect(model.rungs[far.rung].kind === 'away', `hidden it is ${model.rungs[far.rung].kind}`);
+expect(model.detailLevels[far.detailLevel].kind === 'away', `hidden it is ${model.detailLevels[far.detailLevel].kind}`);
 throws(() => world.detail({ errorPx: -1 }), SbfmtError, 'an error below 0');
 throws(() => world.views(new Array(5).fill({})), TypeError, 'a fifth view');
 throws(() => far.shown('rarely'), TypeError, 'a way to be shown that there is not');

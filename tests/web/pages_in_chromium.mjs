@@ -17,9 +17,9 @@ for (const { name, page, frames, drive, levels, colors } of JSON.parse(pages)) {
   hashes[name] = await tab.evaluate(([count, way]) => viewer.hashAfter(count, way), [frames, drive]);
 
   // Every level that the file has can be chosen and stepped; the panel offers no other.
-  const { offered, rungs } = await tab.evaluate(() => {
+  const { offered, detailLevels } = await tab.evaluate(() => {
     const values = Array.from(document.querySelector('#level').options, (one) => one.value), number = /^\d+$/;
-    return { offered: values.filter((one) => number.test(one)).length, rungs: values.filter((one) => !number.test(one)) };
+    return { offered: values.filter((one) => number.test(one)).length, detailLevels: values.filter((one) => !number.test(one)) };
   });
   expect(offered === levels, `${name}: the panel offers ${offered} levels of ${levels}`);
   for (let level = 1; level < levels; level++) {
@@ -31,18 +31,18 @@ for (const { name, page, frames, drive, levels, colors } of JSON.parse(pages)) {
     });
     expect(went.level === level && went.valid, `${name}: at level ${level} ${JSON.stringify(went)}`);
   }
-  // And the rungs that the runtime makes of it, below those.
-  for (const rung of rungs) {
-    await tab.selectOption('#level', rung);
+  // And the detail levels that the runtime makes of it, below those.
+  for (const detailLevel of detailLevels) {
+    await tab.selectOption('#level', detailLevel);
     const went = await tab.evaluate(() => {
       for (let i = 0; i < 60; i++) viewer.step(1 / 60);
       viewer.draw();
-      return { kind: viewer.model.rungs[viewer.character.rung].kind, valid: viewer.character.health().valid };
+      return { kind: viewer.model.detailLevels[viewer.character.detailLevel].kind, valid: viewer.character.health().valid };
     });
-    expect(went.kind === rung && went.valid, `${name}: on the rung ${rung} ${JSON.stringify(went)}`);
+    expect(went.kind === detailLevel && went.valid, `${name}: on the detailLevel ${detailLevel} ${JSON.stringify(went)}`);
   }
-  const made = await tab.evaluate(() => (viewer.asset.bones.length ? viewer.asset.model({ ladder: true }).rungs : []).map(({ kind }) => kind).filter((kind) => /jiggle|bones/.test(kind)));
-  expect(String(rungs) === String(made), `${name}: the panel offers ${rungs}, the runtime has ${made}`);
+  const made = await tab.evaluate(() => (viewer.asset.bones.length ? viewer.asset.model({ detailLevels: true }).detailLevels : []).map(({ kind }) => kind).filter((kind) => /jiggle|bones/.test(kind)));
+  expect(String(detailLevels) === String(made), `${name}: the panel offers ${detailLevels}, the runtime has ${made}`);
 
   // What is inside can be shown if there is any of it, and only then.
   const inside = await tab.evaluate(() => {

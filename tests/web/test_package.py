@@ -34,7 +34,7 @@ const hash: string = world.stateHash();
 const field: Ground = { kind: 'heights', heights: new Float32Array(4), columns: 2, rows: 2, cell: 1 };
 world.detail({ errorPx: 1, budget: 500 });
 world.views([{ eye: [0, 1, -3], forward: [0, 0, 1], height: 0.8, ratio: 1.6, lines: sbfmt.groundAt(field, [0, 0]).heights.length }]);
-one.setRung(one.model.rungs.findIndex((rung) => rung.kind === 'bones'));
+one.setDetailLevel(one.model.detailLevels.findIndex((detailLevel) => detailLevel.kind === 'bones'));
 one.shown('always');
 world.record();
 const played: boolean = world.replay(world.recorded()).frame();

@@ -9,7 +9,7 @@ typedef struct hash {
   char text[SBFI_SHA256_TEXT_SIZE];
 } hash;
 
-static hash hash_of(const char *inside, bool (*keep)(void *user, const sbfi_place *child)) {
+static hash hash_of(const char *inside, bool (*keep)(void *user, const sbfi_element_path *child)) {
   hash h;
   sbf_diagnostic error;
   sbf_asset *asset = samples_load(samples_document(inside), &error);
@@ -35,7 +35,7 @@ START_TEST(test_it_is_the_hash_of_the_canonical_text)
   sbfi_sha256_init(&sha);
   sbfi_sha256_update(&sha, text, sizeof text - 1);
   sbfi_sha256_finish(&sha, digest);
-  sbfi_sha256_text(digest, expected.text);
+  sbfi_sha256_format(digest, expected.text);
   ck_assert_str_eq(hash_of(plain, NULL).text, expected.text);
 }
 END_TEST
@@ -61,7 +61,7 @@ START_TEST(test_what_is_source_does)
 }
 END_TEST
 
-static bool keep_no_clips(void *user, const sbfi_place *child) {
+static bool keep_no_clips(void *user, const sbfi_element_path *child) {
   (void)user;
   return strcmp(child->element->name, "clip") != 0;
 }

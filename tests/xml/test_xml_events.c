@@ -13,7 +13,7 @@ typedef struct record {
   size_t stop_after, calls;
 } record;
 
-static bool go_on(record *r) {
+static bool advance(record *r) {
   return ++r->calls != r->stop_after;
 }
 
@@ -29,19 +29,19 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
   }
   sbfi_text_char(&r->text, ':');
   sbfi_text_u32(&r->text, r->events.line);
-  return go_on(r);
+  return advance(r);
 }
 
 static bool on_text(void *user, const char *text, size_t length) {
   record *r = user;
   sbfi_text_append(&r->text, text, length);
-  return go_on(r);
+  return advance(r);
 }
 
 static bool on_end(void *user) {
   record *r = user;
   sbfi_text_char(&r->text, '/');
-  return go_on(r);
+  return advance(r);
 }
 
 static sbf_status parse(

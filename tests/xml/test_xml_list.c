@@ -14,12 +14,12 @@ static const sbfi_field bytes = {.name = "b", .type = SBFI_LIST, .item = SBFI_IT
 static sbfi_xml_fault read_in_pieces(
     sbfi_xml_list *list, const sbfi_field *field, const char *text, size_t piece) {
   sbfi_xml_list_begin(list, field);
-  size_t length = strlen(text), place;
+  size_t length = strlen(text), index;
   for (size_t i = 0; i < length; i += piece) {
     size_t size = length - i < piece ? length - i : piece;
     char *copy = malloc(size);
     memcpy(copy, text + i, size);
-    sbfi_xml_fault fault = sbfi_xml_list_add(list, copy, size, &place);
+    sbfi_xml_fault fault = sbfi_xml_list_add(list, copy, size, &index);
     free(copy);
     if (fault) return fault;
   }
@@ -101,16 +101,16 @@ END_TEST
 START_TEST(test_place_and_word_of_a_fault)
 {
   sbfi_xml_list list;
-  size_t place;
+  size_t index;
   sbfi_xml_list_init(&list, NULL, 100);
   sbfi_xml_list_begin(&list, &floats);
-  ck_assert_int_eq(sbfi_xml_list_add(&list, "1 2 zero 3 ", 11, &place), SBFI_XML_MALFORMED);
-  ck_assert_uint_eq(place, 4);
+  ck_assert_int_eq(sbfi_xml_list_add(&list, "1 2 zero 3 ", 11, &index), SBFI_XML_MALFORMED);
+  ck_assert_uint_eq(index, 4);
   ck_assert_str_eq(list.wrong, "zero");
   sbfi_xml_list_begin(&list, &floats);
-  ck_assert_int_eq(sbfi_xml_list_add(&list, "1 2 ze", 6, &place), SBFI_XML_FINE);
-  ck_assert_int_eq(sbfi_xml_list_add(&list, "ro 3 ", 5, &place), SBFI_XML_MALFORMED);
-  ck_assert_uint_eq(place, 0);
+  ck_assert_int_eq(sbfi_xml_list_add(&list, "1 2 ze", 6, &index), SBFI_XML_FINE);
+  ck_assert_int_eq(sbfi_xml_list_add(&list, "ro 3 ", 5, &index), SBFI_XML_MALFORMED);
+  ck_assert_uint_eq(index, 0);
   ck_assert_str_eq(list.wrong, "zero");
   sbfi_xml_list_free(&list);
 }

@@ -225,8 +225,8 @@ START_TEST(test_long_lists_and_texts)
 {
   enum { ITEMS = 1100000, ROW = 12 };
   static const char row[] = "0.5 -1.25 3 ";
-  size_t size = 0, room = (size_t)ITEMS * ROW + 200;
-  char *text = malloc(room);
+  size_t size = 0, capacity = (size_t)ITEMS * ROW + 200;
+  char *text = malloc(capacity);
   size += (size_t)sprintf(text, "<sbf version=\"1.0\"><soft_body id=\"a\"><interior>");
   for (int i = 0; i < ITEMS; i++, size += ROW) memcpy(text + size, row, ROW);
   size += (size_t)sprintf(text + size, "</interior></soft_body></sbf>");

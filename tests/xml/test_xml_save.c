@@ -81,12 +81,12 @@ START_TEST(test_memory_runs_out)
     harness_memory memory;
     harness_memory_init(&memory, SIZE_MAX);
     sbf_asset *asset = fill_asset(&(fill_options){.seed = 2, .allocator = &memory.allocator});
-    size_t held = memory.held_bytes;
+    size_t pinned = memory.held_bytes;
     ck_assert(harness_write(path, "old", 3));
     memory.allowed = memory.calls + allowed;
     sbf_diagnostic error = {0};
     sbf_status status = sbf_xml_save_file(asset, path, NULL, &error);
-    ck_assert_uint_eq(memory.held_bytes, held);
+    ck_assert_uint_eq(memory.held_bytes, pinned);
     char *bytes = harness_read(path, NULL);
     ck_assert_int_eq(strcmp(bytes, "old") == 0, status != SBF_OK);
     free(bytes);

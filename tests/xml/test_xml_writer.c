@@ -148,7 +148,7 @@ START_TEST(test_source_only)
 }
 END_TEST
 
-static bool keep_bodies(void *user, const sbfi_place *child) {
+static bool keep_bodies(void *user, const sbfi_element_path *child) {
   (*(int *)user)++;
   return child->up->up || strcmp(child->field->name, "soft_bodies") == 0;
 }

@@ -20,7 +20,7 @@ const chart_drive chart_usual_drive = {.speed = 0.5,
 
 static void walk(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_bundle *b = user;
-  if (tick == 0) sbr_character_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
+  if (tick == 0) sbr_character_set_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
 }
 
 /* The tick within a hop or turn, and how many have been before it. */
@@ -38,8 +38,8 @@ static beat beat_at(const uint32_t ticks[2], uint32_t tick) {
 static void hop(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   chart_bundle *b = user;
   beat now = beat_at(b->drive.hop_ticks, tick);
-  double share = now.tick / (double)now.ticks;
-  b->ground_m = 4 * b->hop_m * share * (1 - share);
+  double fraction = now.tick / (double)now.ticks;
+  b->ground_m = 4 * b->hop_m * fraction * (1 - fraction);
   if (tick == 0) sbr_character_wake(world, character);
 }
 
@@ -48,7 +48,7 @@ static void shake(void *user, sbr_world *world, sbr_character_id character, uint
   const chart_drive *d = &((const chart_bundle *)user)->drive;
   beat now = beat_at(d->turn_ticks, tick);
   if (now.tick == 0)
-    sbr_character_drive(world, character, 0, 0, now.number % 2 ? -d->turn_rad_s : d->turn_rad_s);
+    sbr_character_set_drive(world, character, 0, 0, now.number % 2 ? -d->turn_rad_s : d->turn_rad_s);
 }
 
 static void level_ground(void *user) {
@@ -101,8 +101,8 @@ static void say_motion(const chart_bundle *b, uint32_t number, char *text, size_
 
 sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, chart_bundle *bundle,
     chart_case *cases, sbf_diagnostic *error) {
-  static const chart_case kinds[CHART_BUNDLE_CASES] = {
-      {.name = "walk", .guide = walk}, {.name = "hop", .guide = hop}, {.name = "shake", .guide = shake}};
+  static const chart_case kinds[CHART_BUNDLE_CASES] = {{.name = "walk", .before_tick = walk},
+      {.name = "hop", .before_tick = hop}, {.name = "shake", .before_tick = shake}};
   char motion[96];
   sbf_asset_measures measures;
   bool soft = asset->soft_bodies.count > 0;

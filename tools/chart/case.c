@@ -22,7 +22,7 @@ static sbf_status make_spring(uint32_t number, chart_subject *subject, sbf_diagn
 /* Twenty masses: the lowest mode turns by 5 rad/s, the highest by 67. */
 static sbf_status make_chain(uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
   if (number) return SBF_OK;
-  return made(subject, chart_held_chain(20, 0.1f, 0.05f, 56), "springs", error);
+  return made(subject, chart_pinned_chain(20, 0.1f, 0.05f, 56), "springs", error);
 }
 
 /* Its spring turns by 100 rad/s, and stretches by 3 thousandths at most. */
@@ -33,7 +33,7 @@ static sbf_status make_pendulum(uint32_t number, chart_subject *subject, sbf_dia
 
 /* ---- Bodies of matter: as tetrahedra, as springs, as regions ---- */
 
-static const chart_matter FLESH_AT_REST = {1000, 1e5f, 0.4f, 1};
+static const chart_matter BODY_AT_REST = {1000, 1e5f, 0.4f, 1};
 static const chart_matter BAR_AT_REST = {1000, 1e6f, 0.4f, 1}, BAR_FREE = {1000, 1e6f, 0.4f, 0};
 static const chart_matter SOFT_BALL = {1000, 5e4f, 0.4f, 0.1f};
 
@@ -62,7 +62,7 @@ static sbf_status make_drop(uint32_t number, chart_subject *subject, sbf_diagnos
 }
 
 static sbf_status make_hung(uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
-  return number < 3 ? fill_model(number, chart_figure(&FLESH_AT_REST), 500, 0.1, subject, error) : SBF_OK;
+  return number < 3 ? fill_model(number, chart_figure(&BODY_AT_REST), 500, 0.1, subject, error) : SBF_OK;
 }
 
 /* A skin of springs about gas: 1 kPa above the outside, which the springs are not loaded for. */
@@ -209,7 +209,7 @@ chart_scene chart_scene_of(const chart_case *c, const sbf_asset *asset) {
       .ticks = c->ticks,
       .timed_ticks = c->timed_ticks,
       .watch = c->watch,
-      .guide = c->guide,
+      .before_tick = c->before_tick,
       .begin = c->begin,
       .user = c->user};
 }

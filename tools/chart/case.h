@@ -23,7 +23,8 @@ typedef struct chart_case {
   uint32_t timed_ticks;     /* of the motion's beginning that are timed; 0: all */
   const sbf_asset *given;   /* a character of a file, which stands in for `make`; its own gravity acts */
   const sbr_ground *ground; /* what it stands on; NULL: level */
-  void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each */
+  void (*before_tick)(
+      void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each */
   void (*begin)(void *user); /* as of a scene (watched_motion.h) */
   void *user;
   /* Makes the `number`-th body, from 0; asset NULL and SBF_OK: there are no more. */

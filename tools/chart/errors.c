@@ -26,7 +26,7 @@ double chart_extent_of(const chart_track *t, const sbf_vec3 *rest) {
   double sum = 0;
   for (uint32_t i = 0; i < t->ticks; i++)
     for (uint32_t k = 0; k < t->points; k++)
-      sum += square_between(t->places[(size_t)i * t->points + k], rest[k]);
+      sum += square_between(t->positions[(size_t)i * t->points + k], rest[k]);
   return sqrt(sum / ((double)t->ticks * t->points + 1e-9));
 }
 
@@ -34,7 +34,7 @@ static void compare_paths(const chart_track *t, const chart_track *r, double err
   size_t count = (size_t)t->ticks * t->points;
   double sum = 0, max = 0;
   for (size_t i = 0; i < count; i++) {
-    double off = square_between(t->places[i], r->places[i]);
+    double off = square_between(t->positions[i], r->positions[i]);
     sum += off;
     if (!(off <= max)) max = off;
   }
@@ -46,8 +46,8 @@ static double compare_rest(const chart_track *t, const chart_track *r, const sbf
   size_t last = (size_t)(t->ticks - 1) * t->points;
   double off = 0, moved = 0;
   for (size_t i = 0; i < t->points; i++) {
-    off += square_between(t->places[last + i], r->places[last + i]);
-    moved += square_between(r->places[last + i], rest[i]);
+    off += square_between(t->positions[last + i], r->positions[last + i]);
+    moved += square_between(r->positions[last + i], rest[i]);
   }
   return moved > 0 ? sqrt(off / moved) : NAN;
 }
@@ -73,7 +73,7 @@ static double compare_volumes(const chart_track *t, const chart_track *r) {
 
 static double signal_at(const chart_track *t, const chart_signal *s, uint32_t tick) {
   if (s->of_volume) return t->volume[tick];
-  sbf_vec3 p = t->places[(size_t)tick * t->points + s->point];
+  sbf_vec3 p = t->positions[(size_t)tick * t->points + s->point];
   return (double)(s->along == 0 ? p.x : s->along == 1 ? p.y : p.z);
 }
 

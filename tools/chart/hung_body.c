@@ -19,8 +19,8 @@ static const double SAG_M = 0.0015;
 /* Steps that stand for what is exact: the lowest mode turns far less in one. */
 static const double FINE_TURN = 0.1;
 /* A look each time the lowest mode has turned by so much, so often; and the most ticks. */
-static const double LOOK_TURN = 0.3;
-enum { LOOKS = 32, MAX_TICKS = 8000 };
+static const double VIEW_TURN = 0.3;
+enum { SAMPLES = 32, MAX_TICKS = 8000 };
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a body to chart");
@@ -40,21 +40,21 @@ static double load_end(sbf_asset *asset, double mass_ratio) {
   sbf_level *level = level_of(asset);
   uint32_t count = level->positions.count;
   float *masses = sbf_asset_allocate(asset, count, sizeof *masses);
-  uint8_t *held = calloc(count, 1);
+  uint8_t *pinned = calloc(count, 1);
   double more = 0, end = -INFINITY;
-  if (masses && held) {
-    sbf_level_held_points(level, held);
-    sbf_level_masses(&asset->soft_bodies.at[0], level, held, masses);
+  if (masses && pinned) {
+    sbf_level_held_points(level, pinned);
+    sbf_level_masses(&asset->soft_bodies.at[0], level, pinned, masses);
     for (uint32_t i = 0; i < count; i++) end = fmax(end, (double)level->positions.at[i].x);
     for (uint32_t i = 0; i < count; i++) {
-      if (held[i] || (double)level->positions.at[i].x < end - 1e-3) continue;
+      if (pinned[i] || (double)level->positions.at[i].x < end - 1e-3) continue;
       more += (mass_ratio - 1) * (double)masses[i];
       masses[i] *= (float)mass_ratio;
     }
     level->masses = (sbf_f32_list){masses, count};
   }
-  free(held);
-  return masses && held ? more : -1;
+  free(pinned);
+  return masses && pinned ? more : -1;
 }
 
 /* The sag per m/s^2 of a bar by Euler and Bernoulli, with that much more at its end. */
@@ -94,13 +94,13 @@ static sbf_status highest_of_network(const sbf_asset *asset, double *highest, sb
   float *masses = calloc(count, sizeof *masses), *factors = calloc(count, sizeof *factors);
   float *stiffness = calloc(springs + 1, sizeof *stiffness), *moduli = calloc(tetrahedra + 1, sizeof *moduli);
   float *ratios = calloc(tetrahedra + 1, sizeof *ratios);
-  uint8_t *held = calloc(count, 1);
+  uint8_t *pinned = calloc(count, 1);
   double *scratch = calloc(6 * (size_t)count, sizeof *scratch);
-  bool good = masses && factors && stiffness && moduli && ratios && held && scratch;
+  bool good = masses && factors && stiffness && moduli && ratios && pinned && scratch;
   if (good) {
-    sbf_level_held_points(level, held);
-    sbf_level_masses(is, level, held, masses);
-    for (uint32_t i = 0; i < count; i++) masses[i] = held[i] ? 0 : masses[i];
+    sbf_level_held_points(level, pinned);
+    sbf_level_masses(is, level, pinned, masses);
+    for (uint32_t i = 0; i < count; i++) masses[i] = pinned[i] ? 0 : masses[i];
     for (uint32_t i = 0; i < springs; i++) stiffness[i] = level->springs.at[0].stiffness.at[0];
     if (tetrahedra) sbf_level_moduli(is, level, factors, moduli);
     for (uint32_t i = 0; i < tetrahedra; i++) ratios[i] = is->attributes.poisson_ratio;
@@ -116,7 +116,7 @@ static sbf_status highest_of_network(const sbf_asset *asset, double *highest, sb
         .poisson_ratios = ratios};
     *highest = sbf_network_highest(&network, ITERATIONS, scratch);
   }
-  free(masses), free(factors), free(stiffness), free(moduli), free(ratios), free(held), free(scratch);
+  free(masses), free(factors), free(stiffness), free(moduli), free(ratios), free(pinned), free(scratch);
   return good ? SBF_OK : no_memory(error);
 }
 
@@ -134,7 +134,7 @@ static sbf_status highest_of_regions(
     ((sbf_soft_body *)(uintptr_t)asset->soft_bodies.at)->attributes.damping_ratio = 0;
     status = sbr_model_create(asset, &options, &model, error);
   }
-  if (status == SBF_OK) *highest = 2 * 60 * sbr_model_substeps(model) / MARGIN / sqrt(STIFFER);
+  if (status == SBF_OK) *highest = 2 * 60 * sbr_model_get_substeps(model) / MARGIN / sqrt(STIFFER);
   sbr_model_destroy(model);
   sbf_asset_free(asset);
   return status;
@@ -183,13 +183,13 @@ static bool fit_to(const double *x, uint32_t count, double every_s, fit *f) {
 typedef struct run {
   chart_motion motion;
   double every_s;
-  uint32_t ticks_a_look;
-  sbf_vec3 *places, *rest; /* (points) */
+  uint32_t ticks_per_sample;
+  sbf_vec3 *positions, *rest; /* (points) */
 } run;
 
 static void run_close(run *r) {
   chart_motion_close(&r->motion);
-  free(r->places), free(r->rest);
+  free(r->positions), free(r->rest);
 }
 
 static sbf_status run_open(
@@ -197,12 +197,14 @@ static sbf_status run_open(
   const double tick_s = turn / body->highest_rad_s;
   const sbf_level *level = level_of(body->asset);
   body->asset->environment.control_tick = (float)tick_s;
-  double apart = LOOK_TURN / (body->swings_rad_s * tick_s);
-  *r = (run){.ticks_a_look = apart < 1 ? 1 : apart > MAX_TICKS / LOOKS ? MAX_TICKS / LOOKS : (uint32_t)apart};
-  r->every_s = r->ticks_a_look * tick_s;
-  r->places = calloc(body->points, sizeof *r->places);
+  double separation = VIEW_TURN / (body->swings_rad_s * tick_s);
+  *r = (run){.ticks_per_sample = separation < 1                     ? 1
+                                 : separation > MAX_TICKS / SAMPLES ? MAX_TICKS / SAMPLES
+                                                                    : (uint32_t)separation};
+  r->every_s = r->ticks_per_sample * tick_s;
+  r->positions = calloc(body->points, sizeof *r->positions);
   r->rest = calloc(body->points, sizeof *r->rest);
-  if (!r->places || !r->rest) return no_memory(error);
+  if (!r->positions || !r->rest) return no_memory(error);
   for (uint32_t i = 0; i < body->points; i++) r->rest[i] = level->positions.at[i];
   const chart_scene scene = {.asset = body->asset,
       .has_gravity = true,
@@ -218,13 +220,13 @@ static sbf_status run_open(
 static double run_on(run *r, uint32_t points, const char **why) {
   chart_motion *m = &r->motion;
   double max = 0;
-  for (uint32_t t = 0; t < r->ticks_a_look; t++) sbr_world_tick(m->world);
-  sbr_body_health health = sbr_character_health(m->world, m->character, 0);
-  sbr_character_points(m->world, m->character, 0, r->places, points);
+  for (uint32_t t = 0; t < r->ticks_per_sample; t++) sbr_world_tick(m->world);
+  sbr_body_health health = sbr_character_get_body_health(m->world, m->character, 0);
+  sbr_character_get_points(m->world, m->character, 0, r->positions, points);
   for (uint32_t i = 0; i < points; i++) {
-    double x = (double)r->places[i].x - (double)r->rest[i].x,
-           y = (double)r->places[i].y - (double)r->rest[i].y;
-    double z = (double)r->places[i].z - (double)r->rest[i].z;
+    double x = (double)r->positions[i].x - (double)r->rest[i].x,
+           y = (double)r->positions[i].y - (double)r->rest[i].y;
+    double z = (double)r->positions[i].z - (double)r->rest[i].z;
     max = fmax(max, sqrt(x * x + y * y + z * z));
   }
   if (health.recoveries) *why = "lost its shape and was put back into it";
@@ -236,9 +238,9 @@ static double measured(const chart_hung_body *body, const run *r) {
   double x = 0;
   for (uint32_t i = 0; i < body->points; i++) {
     const double *s = &body->shape[3 * (size_t)i];
-    x += s[0] * ((double)r->places[i].x - (double)r->rest[i].x) +
-         s[1] * ((double)r->places[i].y - (double)r->rest[i].y) +
-         s[2] * ((double)r->places[i].z - (double)r->rest[i].z);
+    x += s[0] * ((double)r->positions[i].x - (double)r->rest[i].x) +
+         s[1] * ((double)r->positions[i].y - (double)r->rest[i].y) +
+         s[2] * ((double)r->positions[i].z - (double)r->rest[i].z);
   }
   return x;
 }
@@ -250,36 +252,36 @@ static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
   run r;
   const char *why = NULL;
   float *masses = calloc(body->points, sizeof *masses);
-  uint8_t *held = calloc(body->points, 1);
-  sbf_status status = masses && held ? SBF_OK : no_memory(error);
+  uint8_t *pinned = calloc(body->points, 1);
+  sbf_status status = masses && pinned ? SBF_OK : no_memory(error);
   if (status == SBF_OK) status = run_open(body, SBF_SCHEME_SYMPLECTIC, FINE_TURN, &r, error);
   if (status == SBF_OK) {
-    sbf_level_held_points(level_of(body->asset), held);
-    sbf_level_masses(&body->asset->soft_bodies.at[0], level_of(body->asset), held, masses);
-    for (uint32_t n = 0; n < LOOKS; n++) {
+    sbf_level_held_points(level_of(body->asset), pinned);
+    sbf_level_masses(&body->asset->soft_bodies.at[0], level_of(body->asset), pinned, masses);
+    for (uint32_t n = 0; n < SAMPLES; n++) {
       double max = run_on(&r, body->points, &why);
       if (!(max > body->farthest_m)) continue;
       body->farthest_m = max;
       for (uint32_t i = 0; i < body->points; i++) {
-        double kg = held[i] ? 0 : (double)masses[i];
-        body->shape[3 * (size_t)i] = kg * ((double)r.places[i].x - (double)r.rest[i].x);
-        body->shape[3 * (size_t)i + 1] = kg * ((double)r.places[i].y - (double)r.rest[i].y);
-        body->shape[3 * (size_t)i + 2] = kg * ((double)r.places[i].z - (double)r.rest[i].z);
+        double kg = pinned[i] ? 0 : (double)masses[i];
+        body->shape[3 * (size_t)i] = kg * ((double)r.positions[i].x - (double)r.rest[i].x);
+        body->shape[3 * (size_t)i + 1] = kg * ((double)r.positions[i].y - (double)r.rest[i].y);
+        body->shape[3 * (size_t)i + 2] = kg * ((double)r.positions[i].z - (double)r.rest[i].z);
       }
     }
     run_close(&r);
   }
-  free(masses), free(held);
+  free(masses), free(pinned);
   return status;
 }
 
 /* Runs it through all looks, and until as many ticks as a cell of one mass has are over; false where it is
  * dead. */
-static bool look(const chart_hung_body *body, run *r, double x[LOOKS], chart_verdict *v) {
+static bool check(const chart_hung_body *body, run *r, double x[SAMPLES], chart_verdict *v) {
   const char *why = NULL;
-  for (uint32_t n = 0; n < LOOKS || n * r->ticks_a_look < CHART_CELL_TICKS; n++) {
+  for (uint32_t n = 0; n < SAMPLES || n * r->ticks_per_sample < CHART_CELL_TICKS; n++) {
     double max = run_on(r, body->points, &why);
-    if (n < LOOKS) x[n] = measured(body, r);
+    if (n < SAMPLES) x[n] = measured(body, r);
     if (isfinite(max)) v->reached = fmax(v->reached, max / body->farthest_m);
     if (!why && v->reached * v->reached > CHART_GAIN) why = "more than ten times its energy";
     if (!why) continue;
@@ -292,12 +294,12 @@ static bool look(const chart_hung_body *body, run *r, double x[LOOKS], chart_ver
 
 static sbf_status take_rate(chart_hung_body *body, sbf_diagnostic *error) {
   run r;
-  double x[LOOKS];
+  double x[SAMPLES];
   fit f;
   chart_verdict v = {.outcome = CHART_SOUND};
   sbf_status status = run_open(body, SBF_SCHEME_SYMPLECTIC, FINE_TURN, &r, error);
   if (status != SBF_OK) return status;
-  bool good = look(body, &r, x, &v) && fit_to(x, LOOKS, r.every_s, &f);
+  bool good = check(body, &r, x, &v) && fit_to(x, SAMPLES, r.every_s, &f);
   run_close(&r);
   if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "a body to chart does not swing in fine steps");
   body->rate[0] = creal(f.rate), body->rate[1] = fabs(cimag(f.rate));
@@ -336,10 +338,10 @@ void chart_hung_body_free(chart_hung_body *body) {
   *body = (chart_hung_body){.asset = NULL};
 }
 
-sbf_status chart_hung_body_judge(const chart_hung_body *body, sbf_scheme scheme, double turn,
+sbf_status chart_hung_body_evaluate(const chart_hung_body *body, sbf_scheme scheme, double turn,
     chart_verdict *verdict, sbf_diagnostic *error) {
   run r;
-  double x[LOOKS];
+  double x[SAMPLES];
   fit f;
   sbf_diagnostic why;
   *verdict = (chart_verdict){.outcome = CHART_SOUND, .off = NAN};
@@ -352,9 +354,9 @@ sbf_status chart_hung_body_judge(const chart_hung_body *body, sbf_scheme scheme,
   if (status != SBF_OK) {
     verdict->outcome = CHART_REFUSED;
     snprintf(verdict->why, sizeof verdict->why, "%.90s", why.message);
-  } else if (look(body, &r, x, verdict)) {
+  } else if (check(body, &r, x, verdict)) {
     double complex exact = body->rate[0] + I * body->rate[1];
-    bool swings = fit_to(x, LOOKS, r.every_s, &f);
+    bool swings = fit_to(x, SAMPLES, r.every_s, &f);
     if (swings) verdict->off = cabs(creal(f.rate) + I * fabs(cimag(f.rate)) - exact) / cabs(exact);
     double hangs = swings ? fabs(f.rests_at / body->rests_at - 1) : 0;
     bool biased = !(verdict->off <= CHART_BIAS) || hangs > CHART_BIAS;

@@ -33,9 +33,9 @@ sbf_status chart_hung_body_make(chart_elastic elastic, double mass_ratio, double
     chart_hung_body *body, sbf_diagnostic *error);
 void chart_hung_body_free(chart_hung_body *body);
 
-/* One substep a tick of `turn` / highest_rad_s. As chart_cell_judge, of the lowest mode; it is biased as well
- * where it hangs off its rest by more than CHART_BIAS of its sag. */
-sbf_status chart_hung_body_judge(const chart_hung_body *body, sbf_scheme scheme, double turn,
+/* One substep a tick of `turn` / highest_rad_s. As chart_cell_evaluate, of the lowest mode; it is biased as
+ * well where it hangs off its rest by more than CHART_BIAS of its sag. */
+sbf_status chart_hung_body_evaluate(const chart_hung_body *body, sbf_scheme scheme, double turn,
     chart_verdict *verdict, sbf_diagnostic *error);
 
 #endif

@@ -39,7 +39,7 @@ static const char *compiler(void) {
 }
 
 chart_machine chart_this_machine(void) {
-  chart_machine m = {.lanes = sbr_lanes()};
+  chart_machine m = {.lanes = sbr_get_lane_count()};
   time_t now = time(NULL);
   struct tm day;
   snprintf(m.commit, sizeof m.commit, "%s", SBFMT_COMMIT);

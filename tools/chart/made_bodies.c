@@ -10,8 +10,8 @@ enum { MAX_POINTS = 4096 };
 typedef struct skin_draft {
   sbf_asset *asset;
   sbf_vec3 *points;
-  uint32_t *sizes, *corners, *held;
-  uint32_t point_count, polygon_count, corner_count, held_count;
+  uint32_t *sizes, *corners, *pinned;
+  uint32_t point_count, polygon_count, corner_count, pinned_count;
 } skin_draft;
 
 static bool begin(skin_draft *s) {
@@ -20,8 +20,8 @@ static bool begin(skin_draft *s) {
   s->points = sbf_asset_allocate(s->asset, MAX_POINTS, sizeof *s->points);
   s->sizes = sbf_asset_allocate(s->asset, 2 * MAX_POINTS, sizeof *s->sizes);
   s->corners = sbf_asset_allocate(s->asset, 8 * MAX_POINTS, sizeof *s->corners);
-  s->held = sbf_asset_allocate(s->asset, MAX_POINTS, sizeof *s->held);
-  if (s->points && s->sizes && s->corners && s->held) return true;
+  s->pinned = sbf_asset_allocate(s->asset, MAX_POINTS, sizeof *s->pinned);
+  if (s->points && s->sizes && s->corners && s->pinned) return true;
   sbf_asset_free(s->asset);
   return false;
 }
@@ -47,8 +47,8 @@ static sbf_asset *finish(skin_draft *s, const chart_matter *matter) {
   body->attributes.young_modulus = matter->young_modulus;
   body->attributes.poisson_ratio = matter->poisson_ratio;
   body->attributes.damping_ratio = matter->damping_ratio;
-  pins->points = (sbf_u32_list){s->held, s->held_count};
-  body->pins = (sbf_pin_set_list){pins, s->held_count ? 1 : 0};
+  pins->points = (sbf_u32_list){s->pinned, s->pinned_count};
+  body->pins = (sbf_pin_set_list){pins, s->pinned_count ? 1 : 0};
   s->asset->soft_bodies = (sbf_soft_body_list){body, 1};
   return s->asset;
 }
@@ -63,7 +63,7 @@ static uint32_t bar_point(skin_draft *s, uint32_t *numbers, const uint32_t at[3]
   if (*number) return *number - 1;
   s->points[s->point_count] = (sbf_vec3){
       (float)at[0] / ALONG, 0.2f * ((float)at[1] / ACROSS - 0.5f), 0.2f * ((float)at[2] / ACROSS - 0.5f)};
-  if (at[0] == 0) s->held[s->held_count++] = s->point_count;
+  if (at[0] == 0) s->pinned[s->pinned_count++] = s->point_count;
   *number = ++s->point_count;
   return *number - 1;
 }
@@ -94,9 +94,9 @@ sbf_asset *chart_bar(const chart_matter *matter) {
 
 /* ---- Ellipsoids ---- */
 
-/* Rings from the bottom to the top; points above `held_from` are held. */
+/* Rings from the bottom to the top; points above `pinned_from` are held. */
 static void add_ellipsoid(
-    skin_draft *s, sbf_vec3 middle, sbf_vec3 radii, uint32_t rings, uint32_t sides, float held_from) {
+    skin_draft *s, sbf_vec3 middle, sbf_vec3 radii, uint32_t rings, uint32_t sides, float pinned_from) {
   static const double pi = 3.14159265358979323846;
   uint32_t first = s->point_count;
   for (uint32_t r = 0; r <= rings; r++) {
@@ -105,7 +105,7 @@ static void add_ellipsoid(
       double turn = 2 * pi * k / sides;
       sbf_vec3 p = {middle.x + radii.x * (float)(wide * cos(turn)), middle.y - radii.y * (float)cos(up),
           middle.z + radii.z * (float)(wide * sin(turn))};
-      if (p.y > held_from) s->held[s->held_count++] = s->point_count;
+      if (p.y > pinned_from) s->pinned[s->pinned_count++] = s->point_count;
       s->points[s->point_count++] = p;
     }
   }

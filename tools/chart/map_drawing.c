@@ -19,8 +19,9 @@ static void write_boxes(FILE *to, const chart_map *map, uint32_t scheme) {
     const chart_verdict *row = &map->verdicts[((size_t)scheme * map->rows + r) * map->columns];
     double edges[2];
     for (int k = 0; k < 2; k++) {
-      double share = (r + (double)k) / map->rows;
-      edges[k] = a->logarithmic ? a->low * pow(a->high / a->low, share) : a->low + (a->high - a->low) * share;
+      double fraction = (r + (double)k) / map->rows;
+      edges[k] =
+          a->logarithmic ? a->low * pow(a->high / a->low, fraction) : a->low + (a->high - a->low) * fraction;
     }
     for (uint32_t c = 0, end; c < map->columns; c = end) {
       for (end = c + 1; end < map->columns && row[end].outcome == row[c].outcome;) end++;
@@ -41,8 +42,9 @@ static bool write_bound(FILE *to, const chart_map *map, uint32_t scheme) {
   bool some = false;
   fprintf(to, "$bound%u << EOD\n", (unsigned)scheme);
   for (int i = 0; i <= POINTS; i++) {
-    double share = (double)i * i / POINTS / POINTS; /* closer at the foot, where bounds bend */
-    double at = a->logarithmic ? a->low * pow(a->high / a->low, share) : a->low + (a->high - a->low) * share;
+    double fraction = (double)i * i / POINTS / POINTS; /* closer at the foot, where bounds bend */
+    double at =
+        a->logarithmic ? a->low * pow(a->high / a->low, fraction) : a->low + (a->high - a->low) * fraction;
     double damping = strcmp(a->name, "damping") == 0 ? at : chart_map_cell(map, scheme, 0, 0).damping;
     double bound = chart_stable_below(chart_map_schemes[scheme], damping);
     if (!(bound >= CHART_MAP_MIN_TURN && bound <= CHART_MAP_MAX_TURN)) continue;
@@ -99,7 +101,7 @@ static void write_legend(FILE *to, const chart_map *map) {
 }
 
 /* Panels stand side by side, with numbers along the outer ones alone. */
-static void write_place(FILE *to, uint32_t scheme) {
+static void write_position(FILE *to, uint32_t scheme) {
   uint32_t column = scheme % 3, row = scheme / 3;
   fprintf(to,
       "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen "
@@ -124,7 +126,7 @@ static void write_script(FILE *to, const chart_map *map, const chart_machine *ma
       machine->commit[0] ? machine->commit : "unknown", machine->date);
   for (uint32_t s = 0; s < CHART_MAP_SCHEMES; s++) {
     if (s == 0) write_legend(to, map);
-    write_place(to, s);
+    write_position(to, s);
     write_panel(to, map, s);
     if (s == 0) fprintf(to, "unset label\nunset object\nunset arrow\n");
   }

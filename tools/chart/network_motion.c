@@ -24,7 +24,7 @@ typedef struct network {
   bar *bars;
   cell *cells;
   double gravity[3];
-  double *places, *velocities, *moments, *begin, *sum; /* moments: accelerations; begin and sum: both */
+  double *positions, *velocities, *moments, *begin, *sum; /* moments: accelerations; begin and sum: both */
 } network;
 
 static void cross(const double a[3], const double b[3], double to[3]) {
@@ -77,7 +77,7 @@ static double pull_all(const network *n, const double *x, double *force) {
 }
 
 static void accelerate(network *n) {
-  pull_all(n, n->places, n->moments);
+  pull_all(n, n->positions, n->moments);
   for (size_t i = 0; i < n->point_count; i++)
     for (size_t k = 0; k < 3; k++) {
       double m = n->masses[i];
@@ -86,9 +86,9 @@ static void accelerate(network *n) {
 }
 
 static void step(network *n, double h) {
-  static const double share[4] = {0.5, 0.5, 1, 0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+  static const double fraction[4] = {0.5, 0.5, 1, 0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   size_t count = 3 * (size_t)n->point_count;
-  memcpy(n->begin, n->places, count * sizeof(double));
+  memcpy(n->begin, n->positions, count * sizeof(double));
   memcpy(n->begin + count, n->velocities, count * sizeof(double));
   memcpy(n->sum, n->begin, 2 * count * sizeof(double));
   for (int stage = 0; stage < 4; stage++) {
@@ -97,24 +97,24 @@ static void step(network *n, double h) {
       double v = n->velocities[i], a = n->moments[i];
       n->sum[i] += h * weight[stage] * v;
       n->sum[count + i] += h * weight[stage] * a;
-      n->places[i] = n->begin[i] + h * share[stage] * v;
-      n->velocities[i] = n->begin[count + i] + h * share[stage] * a;
+      n->positions[i] = n->begin[i] + h * fraction[stage] * v;
+      n->velocities[i] = n->begin[count + i] + h * fraction[stage] * a;
     }
   }
-  memcpy(n->places, n->sum, count * sizeof(double));
+  memcpy(n->positions, n->sum, count * sizeof(double));
   memcpy(n->velocities, n->sum + count, count * sizeof(double));
 }
 
-static void look(const network *n, chart_track *track, uint32_t tick) {
+static void check(const network *n, chart_track *track, uint32_t tick) {
   double kinetic = 0, weight = 0;
   for (size_t i = 0; i < n->point_count; i++) {
-    const double *x = n->places + 3 * i, *v = n->velocities + 3 * i;
-    track->places[(size_t)tick * n->point_count + i] = (sbf_vec3){(float)x[0], (float)x[1], (float)x[2]};
+    const double *x = n->positions + 3 * i, *v = n->velocities + 3 * i;
+    track->positions[(size_t)tick * n->point_count + i] = (sbf_vec3){(float)x[0], (float)x[1], (float)x[2]};
     kinetic += n->masses[i] * dot(v, v) / 2;
     weight -= n->masses[i] * dot(x, n->gravity);
   }
   track->kinetic_j[tick] = kinetic;
-  track->energy_j[tick] = kinetic + weight + pull_all(n, n->places, NULL);
+  track->energy_j[tick] = kinetic + weight + pull_all(n, n->positions, NULL);
   track->volume[tick] = 1;
   if (isfinite(kinetic)) return;
   track->sound = false;
@@ -192,34 +192,34 @@ static bool make_network(network *n, const sbf_asset *asset, sbf_vec3 gravity) {
   else
     n->cell_count = level->lattice.tetrahedra.count;
   size_t numbers = 3 * (size_t)count;
-  uint8_t *held = calloc(count, 1);
+  uint8_t *pinned = calloc(count, 1);
   float *masses = calloc(count, sizeof *masses);
   n->masses = calloc(count, sizeof(double));
   n->bars = calloc(n->bar_count + 1, sizeof(bar));
   n->cells = calloc(n->cell_count + 1, sizeof(cell));
-  n->places = calloc(numbers, sizeof(double)), n->velocities = calloc(numbers, sizeof(double));
+  n->positions = calloc(numbers, sizeof(double)), n->velocities = calloc(numbers, sizeof(double));
   n->moments = calloc(numbers, sizeof(double));
   n->begin = calloc(2 * numbers, sizeof(double)), n->sum = calloc(2 * numbers, sizeof(double));
-  bool good = held && masses && n->masses && n->bars && n->cells && n->places && n->velocities &&
+  bool good = pinned && masses && n->masses && n->bars && n->cells && n->positions && n->velocities &&
               n->moments && n->begin && n->sum;
   if (good) {
-    sbf_level_held_points(level, held);
-    sbf_level_masses(body, level, held, masses);
+    sbf_level_held_points(level, pinned);
+    sbf_level_masses(body, level, pinned, masses);
     for (uint32_t i = 0; i < count; i++) {
       sbf_vec3 p = level->positions.at[i];
-      n->masses[i] = held[i] ? 0 : (double)masses[i];
-      n->places[3 * (size_t)i] = (double)p.x, n->places[3 * (size_t)i + 1] = (double)p.y;
-      n->places[3 * (size_t)i + 2] = (double)p.z;
+      n->masses[i] = pinned[i] ? 0 : (double)masses[i];
+      n->positions[3 * (size_t)i] = (double)p.x, n->positions[3 * (size_t)i + 1] = (double)p.y;
+      n->positions[3 * (size_t)i + 2] = (double)p.z;
     }
     good = (!n->bar_count || add_bars(n, body, level)) && add_cells(n, body, level);
   }
-  free(held), free(masses);
+  free(pinned), free(masses);
   return good;
 }
 
 static void free_network(network *n) {
   free(n->masses), free(n->bars), free(n->cells);
-  free(n->places), free(n->velocities), free(n->moments), free(n->begin), free(n->sum);
+  free(n->positions), free(n->velocities), free(n->moments), free(n->begin), free(n->sum);
 }
 
 bool chart_network_move(const sbf_asset *asset, sbf_vec3 gravity, double tick_s, uint32_t steps,
@@ -228,7 +228,7 @@ bool chart_network_move(const sbf_asset *asset, sbf_vec3 gravity, double tick_s,
   bool good = make_network(&n, asset, gravity) && chart_track_make(track, ticks, n.point_count);
   for (uint32_t t = 0; good && t < ticks; t++) {
     for (uint32_t i = 0; i < steps; i++) step(&n, tick_s / steps);
-    look(&n, track, t);
+    check(&n, track, t);
   }
   free_network(&n);
   return good;

@@ -25,7 +25,7 @@ static void parent_of(const char *path, char *to, size_t size) {
   snprintf(to, size, "%.*s", length ? (int)length : 1, length ? path : ".");
 }
 
-sbf_status chart_place_check(const char *path, sbf_diagnostic *error) {
+sbf_status chart_check_writable(const char *path, sbf_diagnostic *error) {
   struct stat is;
   char parent[MAX_PATH];
   if (!*path || strlen(path) > sizeof parent - 8)
@@ -47,7 +47,7 @@ sbf_status chart_folder_check(const char *path, sbf_diagnostic *error) {
         error, SBF_CODE_IO_CANNOT_WRITE, path, "there is a file of that name: name a folder");
   if (stat(path, &is) == 0 && access(path, W_OK | X_OK) != 0)
     return cannot(error, path, "this folder cannot be written to");
-  return chart_place_check(path, error);
+  return chart_check_writable(path, error);
 }
 
 sbf_status chart_folder_begin(chart_folder *folder, const char *path, sbf_diagnostic *error) {

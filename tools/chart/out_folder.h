@@ -14,7 +14,7 @@ typedef struct chart_folder {
 
 /* Whether a file or folder could be made there, before any work is done: the folder that it is to be in is
  * there. */
-sbf_status chart_place_check(const char *path, sbf_diagnostic *error);
+sbf_status chart_check_writable(const char *path, sbf_diagnostic *error);
 /* Whether files could be put into that folder, which may be there or not. */
 sbf_status chart_folder_check(const char *path, sbf_diagnostic *error);
 

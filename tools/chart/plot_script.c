@@ -72,7 +72,7 @@ static bool has_failed(const plot *p, const chart_row *row) {
 }
 
 /* The place of its scheme among those that failed, from below; -1: it has none. */
-static int place_of(const plot *p, const char *scheme) {
+static int position_of(const plot *p, const char *scheme) {
   for (int i = 0; i < p->failing_count; i++)
     if (strcmp(p->lines[p->failing[i]].scheme, scheme) == 0) return i;
   return -1;
@@ -85,7 +85,7 @@ static void find_failing(plot *p) {
       const chart_row *row = &p->sheet->rows[i];
       some = some || (has_failed(p, row) && strcmp(row->scheme, p->lines[k].scheme) == 0);
     }
-    if (some && place_of(p, p->lines[k].scheme) < 0) p->failing[p->failing_count++] = k;
+    if (some && position_of(p, p->lines[k].scheme) < 0) p->failing[p->failing_count++] = k;
   }
 }
 
@@ -107,8 +107,8 @@ static void find_range(plot *p) {
   p->bottom = pow(10, floor(log10(low)) - 0.2);
   p->failed = p->top = pow(10, ceil(log10(high) + 0.1) + 0.1);
   if (p->failing_count) {
-    double share = STRIP * (p->failing_count + 1);
-    p->top = p->failed * pow(p->failed / p->bottom, share / (1 - share));
+    double fraction = STRIP * (p->failing_count + 1);
+    p->top = p->failed * pow(p->failed / p->bottom, fraction / (1 - fraction));
   }
   for (int k = 0; k < 2; k++) {
     if (!(p->dearest[k] > 0)) p->cheapest[k] = 1, p->dearest[k] = 10;
@@ -120,7 +120,7 @@ static void find_range(plot *p) {
 
 /* Where its failures are marked: in the strip on top, a line a scheme. */
 static double mark_at(const plot *p, const chart_row *row) {
-  return p->failed * pow(p->top / p->failed, (place_of(p, row->scheme) + 1.0) / (p->failing_count + 1.0));
+  return p->failed * pow(p->top / p->failed, (position_of(p, row->scheme) + 1.0) / (p->failing_count + 1.0));
 }
 
 static void write_data(FILE *to, const plot *p) {

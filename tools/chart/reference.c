@@ -9,7 +9,7 @@
 
 enum { MIN_SUBSTEPS = 32, MAX_SUBSTEPS = 1024 }; /* of what is swept; of the runtime */
 static const double TICK_S = 1.0 / 60;
-static const char MEND[] = "its matter folds up or its lattice is unsound";
+static const char BODY_ADVICE[] = "its matter folds up or its lattice is unsound";
 /* How far the two tracks of a reference may be apart, as a share of how far things move, for it to be left as
  * it is. */
 static const double CONVERGED = 0.001;
@@ -36,13 +36,13 @@ static sbf_status find_in_double(chart_truth *truth, const chart_case *charted, 
 }
 
 /* `hint`: what to do where it fails. */
-static sbf_status look(chart_track *track, const chart_scene *scene, sbf_scheme scheme, uint32_t substeps,
+static sbf_status check(chart_track *track, const chart_scene *scene, sbf_scheme scheme, uint32_t substeps,
     const char *hint, sbf_diagnostic *error) {
   chart_motion motion;
   const chart_setting setting = {.scheme = scheme, .substeps = substeps};
   sbf_status status = chart_motion_open(&motion, scene, &setting, error);
   motion.scene.stop_broken = true;
-  if (status == SBF_OK && !chart_motion_look(&motion, track)) status = no_memory(error);
+  if (status == SBF_OK && !chart_motion_sample(&motion, track)) status = no_memory(error);
   if (status == SBF_OK && !track->sound)
     status = fault_set(error, SBF_CODE_BAD_CALL, "the reference itself fails with %u substeps of %s, %s: %s",
         (unsigned)substeps, sbf_scheme_name(scheme), track->why, hint);
@@ -60,20 +60,20 @@ typedef struct reference_pair {
 } reference_pair;
 
 /* How far the two are apart, as a share of how far things move. */
-static double apart(const reference_pair *p, const chart_track *track, const double *errors) {
+static double separation(const reference_pair *p, const chart_track *track, const double *errors) {
   if (!(p->charted->axes & 1u << CHART_PATH)) return errors[CHART_SHAPE];
   double extent = chart_extent_of(track, p->rest);
   return extent > 0 ? errors[CHART_PATH] / extent : 0;
 }
 
 /* `first` is the first of them where it is there already; NULL: it is not. */
-static sbf_status look_at_both(const reference_pair *p, const chart_track *first, chart_track tracks[2],
+static sbf_status sample_both(const reference_pair *p, const chart_track *first, chart_track tracks[2],
     double *errors, const char *hint, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   for (int i = 0; i < 2; i++) chart_track_free(&tracks[i]);
   if (first && !chart_track_copy(&tracks[0], first)) status = no_memory(error);
   for (int i = first ? 1 : 0; status == SBF_OK && i < 2; i++)
-    status = look(&tracks[i], p->scene, p->schemes[i], p->substeps[i], hint, error);
+    status = check(&tracks[i], p->scene, p->schemes[i], p->substeps[i], hint, error);
   if (status == SBF_OK && !chart_errors_of(&tracks[0], &tracks[1], p->rest, TICK_S, &p->charted->signal,
                               p->charted->axes, errors))
     status = no_memory(error);
@@ -84,20 +84,21 @@ static sbf_status look_at_both(const reference_pair *p, const chart_track *first
  * then what was nearest is kept. `tracks` and `errors` are of `substeps`. */
 static sbf_status refine(
     reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
-  sbf_status status = look_at_both(p, NULL, tracks, errors, hint, error);
-  while ((status == SBF_OK ? apart(p, &tracks[1], errors) > CONVERGED : error->code == SBF_CODE_BAD_CALL) &&
-         2 * p->substeps[1] <= MAX_SUBSTEPS) {
+  sbf_status status = sample_both(p, NULL, tracks, errors, hint, error);
+  while (
+      (status == SBF_OK ? separation(p, &tracks[1], errors) > CONVERGED : error->code == SBF_CODE_BAD_CALL) &&
+      2 * p->substeps[1] <= MAX_SUBSTEPS) {
     reference_pair finer = *p;
     chart_track more[2] = {{.ticks = 0}, {.ticks = 0}};
     double finer_errors[CHART_AXIS_COUNT];
-    bool held = status == SBF_OK;
-    bool known = held && p->schemes[0] == p->schemes[1] && p->substeps[1] == 2 * p->substeps[0];
+    bool pinned = status == SBF_OK;
+    bool known = pinned && p->schemes[0] == p->schemes[1] && p->substeps[1] == 2 * p->substeps[0];
     for (int i = 0; i < 2; i++) finer.substeps[i] *= 2;
-    status = look_at_both(&finer, known ? &tracks[1] : NULL, more, finer_errors, hint, error);
-    bool nearer =
-        status == SBF_OK && (!held || apart(&finer, &more[1], finer_errors) < apart(p, &tracks[1], errors));
-    for (int i = 0; i < 2; i++) chart_track_free(nearer || !held ? &tracks[i] : &more[i]);
-    if (held && !nearer) return status == SBF_OK || error->code == SBF_CODE_BAD_CALL ? SBF_OK : status;
+    status = sample_both(&finer, known ? &tracks[1] : NULL, more, finer_errors, hint, error);
+    bool nearer = status == SBF_OK &&
+                  (!pinned || separation(&finer, &more[1], finer_errors) < separation(p, &tracks[1], errors));
+    for (int i = 0; i < 2; i++) chart_track_free(nearer || !pinned ? &tracks[i] : &more[i]);
+    if (pinned && !nearer) return status == SBF_OK || error->code == SBF_CODE_BAD_CALL ? SBF_OK : status;
     for (int i = 0; i < 2; i++) tracks[i] = more[i];
     memcpy(errors, finer_errors, sizeof finer_errors);
     *p = finer;
@@ -109,7 +110,7 @@ static sbf_status needed_substeps(const chart_scene *scene, uint32_t *substeps, 
   chart_motion motion;
   const chart_setting own = {.scheme = SBF_SCHEME_SYMPLECTIC};
   sbf_status status = chart_motion_open(&motion, scene, &own, error);
-  if (status == SBF_OK) *substeps = sbr_model_substeps(motion.model);
+  if (status == SBF_OK) *substeps = sbr_model_get_substeps(motion.model);
   chart_motion_close(&motion);
   return status;
 }
@@ -123,7 +124,7 @@ static sbf_status find_by_runtime(chart_truth *truth, const chart_case *charted,
   if (substeps > MAX_SUBSTEPS) substeps = MAX_SUBSTEPS;
   reference_pair pair = {
       charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN}, {substeps, substeps}};
-  if (status == SBF_OK) status = refine(&pair, tracks, truth->stated->errors, MEND, error);
+  if (status == SBF_OK) status = refine(&pair, tracks, truth->stated->errors, BODY_ADVICE, error);
   truth->other = tracks[0], truth->track = tracks[1];
   snprintf(truth->stated->what, sizeof truth->stated->what,
       "heun, and symplectic for heun's own rows, %u substeps a frame", (unsigned)pair.substeps[1]);
@@ -148,7 +149,7 @@ sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, 
   sbf_status status = needed_substeps(scene, &needed, error);
   reference_pair pair = {
       charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_SYMPLECTIC}, {needed, 2 * needed}};
-  if (status == SBF_OK) status = refine(&pair, tracks, stated->errors, MEND, error);
+  if (status == SBF_OK) status = refine(&pair, tracks, stated->errors, BODY_ADVICE, error);
   chart_track_free(&tracks[0]);
   truth->track = tracks[1];
   snprintf(stated->what, sizeof stated->what, "%u tetrahedra as they are, symplectic, %u substeps a frame",

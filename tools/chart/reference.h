@@ -28,7 +28,7 @@ sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, 
 void chart_truth_free(chart_truth *truth);
 
 static inline const chart_track *chart_truth_for(const chart_truth *truth, sbf_scheme scheme) {
-  return scheme == SBF_SCHEME_HEUN && truth->other.places ? &truth->other : &truth->track;
+  return scheme == SBF_SCHEME_HEUN && truth->other.positions ? &truth->other : &truth->track;
 }
 
 #endif

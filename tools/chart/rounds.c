@@ -37,7 +37,7 @@ static double time_of(const chart_timed *c) {
 }
 
 bool chart_time_in_turns(chart_timed *all, uint32_t count, uint32_t rounds,
-    void (*progress)(void *user, double share), void *user) {
+    void (*progress)(void *user, double fraction), void *user) {
   double *samples = calloc((size_t)count * rounds + 1, sizeof *samples);
   if (!samples) return false;
   for (uint32_t i = 0; i < count; i++) time_of(&all[i]);

@@ -25,6 +25,6 @@ typedef struct chart_timed {
 /* Runs all `rounds` times (at least 1), after one round that does not count. `progress` (may be NULL) is told
  * the share that is done. False where memory runs out. */
 bool chart_time_in_turns(chart_timed *all, uint32_t count, uint32_t rounds,
-    void (*progress)(void *user, double share), void *user);
+    void (*progress)(void *user, double fraction), void *user);
 
 #endif

@@ -6,11 +6,11 @@
 static const double MIN = 1e-12;
 
 chart_row *chart_sheet_add_row(chart_sheet *sheet) {
-  if (sheet->row_count == sheet->row_room) {
-    uint32_t room = sheet->row_room ? 2 * sheet->row_room : 32;
-    chart_row *more = realloc(sheet->rows, room * sizeof *more);
+  if (sheet->row_count == sheet->row_space) {
+    uint32_t capacity = sheet->row_space ? 2 * sheet->row_space : 32;
+    chart_row *more = realloc(sheet->rows, capacity * sizeof *more);
     if (!more) return NULL;
-    sheet->rows = more, sheet->row_room = room;
+    sheet->rows = more, sheet->row_space = capacity;
   }
   chart_row *row = &sheet->rows[sheet->row_count++];
   *row = (chart_row){.visits = NAN};

@@ -31,7 +31,7 @@ typedef struct chart_sheet {
   unsigned axes;
   uint32_t rounds;
   chart_row *rows;
-  uint32_t row_count, row_room;
+  uint32_t row_count, row_space;
   chart_reference *references;
   uint32_t reference_count;
 } chart_sheet;

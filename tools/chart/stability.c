@@ -74,7 +74,7 @@ static double frame_s(const chart_cell *cell, uint32_t frame, uint32_t *state) {
 /* How far its mass is above where it would rest, at the last tick's end: by its weight's energy, for points
  * are shown between two ticks where frames do not end with one. */
 static double height_of(const chart_motion *m, const chart_cell *cell, const sbr_body_health *health) {
-  double origin = sbr_character_origin(m->world, m->character).y;
+  double origin = sbr_character_get_origin(m->world, m->character).y;
   return health->potential_j / (-MASS_KG * (double)m->scene.gravity.y) - origin + 1 + cell->stretch;
 }
 
@@ -86,11 +86,11 @@ static void watch(chart_motion *m, const chart_cell *cell, chart_verdict *v) {
   while (tick < CHART_CELL_TICKS && v->outcome != CHART_DEAD) {
     sbf_vec3 points[2] = {{0, 0, 0}, {0, 0, 0}};
     sbr_world_step(m->world, frame_s(cell, frame++, &state));
-    uint64_t ran = sbr_world_ticks(m->world) - tick;
+    uint64_t ran = sbr_world_get_tick_count(m->world) - tick;
     if (!ran) continue;
     tick += ran;
-    sbr_character_points(m->world, m->character, 0, points, 2);
-    sbr_body_health health = sbr_character_health(m->world, m->character, 0);
+    sbr_character_get_points(m->world, m->character, 0, points, 2);
+    sbr_body_health health = sbr_character_get_body_health(m->world, m->character, 0);
     double next = height_of(m, cell, &health);
     double aside = hypot((double)points[1].x, (double)points[1].z);
     if (ran == 1 && isfinite(before)) take(&seen, before, now, next);
@@ -111,7 +111,7 @@ static void watch(chart_motion *m, const chart_cell *cell, chart_verdict *v) {
       isfinite(v->off) ? "decay or frequency off" : "no swing to be seen: it is at rest within two ticks");
 }
 
-sbf_status chart_cell_judge(const chart_cell *cell, chart_verdict *verdict, sbf_diagnostic *error) {
+sbf_status chart_cell_evaluate(const chart_cell *cell, chart_verdict *verdict, sbf_diagnostic *error) {
   double w = cell->turn / TICK_S;
   sbf_asset *asset = chart_mass_on_spring((float)MASS_KG, (float)(MASS_KG * w * w));
   *verdict = (chart_verdict){.outcome = CHART_SOUND, .off = NAN};

@@ -39,7 +39,7 @@ typedef struct chart_verdict {
 } chart_verdict;
 
 /* Failures are memory alone. */
-sbf_status chart_cell_judge(const chart_cell *cell, chart_verdict *verdict, sbf_diagnostic *error);
+sbf_status chart_cell_evaluate(const chart_cell *cell, chart_verdict *verdict, sbf_diagnostic *error);
 
 /* The w h below which the scheme's steps do not grow, in closed form, or the root of one (heun); INFINITY
  * where they never do, NAN where nothing is known (relaxation). */

@@ -60,8 +60,8 @@ const uint32_t chart_map_count = sizeof chart_map_axes / sizeof *chart_map_axes;
 const sbf_scheme chart_map_schemes[CHART_MAP_SCHEMES] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_RELAXATION};
 
-static double between(double low, double high, double share, bool logarithmic) {
-  return logarithmic ? low * pow(high / low, share) : low + (high - low) * share;
+static double between(double low, double high, double fraction, bool logarithmic) {
+  return logarithmic ? low * pow(high / low, fraction) : low + (high - low) * fraction;
 }
 
 chart_cell chart_map_cell(const chart_map *map, uint32_t scheme, uint32_t row, uint32_t column) {
@@ -107,14 +107,14 @@ static sbf_status fill_row(
   for (uint32_t c = 0; status == SBF_OK && c < map->columns; c++) {
     chart_cell cell = chart_map_cell(map, scheme, row, c);
     chart_verdict *verdict = verdict_at(map, scheme, row, c);
-    status = body ? chart_hung_body_judge(body, cell.scheme, cell.turn, verdict, error)
-                  : chart_cell_judge(&cell, verdict, error);
+    status = body ? chart_hung_body_evaluate(body, cell.scheme, cell.turn, verdict, error)
+                  : chart_cell_evaluate(&cell, verdict, error);
   }
   return status;
 }
 
 sbf_status chart_map_fill(chart_map *map, uint32_t number, uint32_t columns, uint32_t rows,
-    void (*progress)(const char *what, double share), sbf_diagnostic *error) {
+    void (*progress)(const char *what, double fraction), sbf_diagnostic *error) {
   const chart_map_axis *axis = &chart_map_axes[number];
   bool of_body = axis->kind != CHART_MAP_OF_ONE_MASS;
   sbf_status status = SBF_OK;

@@ -45,7 +45,7 @@ uint32_t chart_map_named(const char *name);
 /* Fills `map`; free its verdicts, also on failure. Columns and rows over 0, of which maps of bodies have
  * half; `progress` may be NULL. */
 sbf_status chart_map_fill(chart_map *map, uint32_t number, uint32_t columns, uint32_t rows,
-    void (*progress)(const char *what, double share), sbf_diagnostic *error);
+    void (*progress)(const char *what, double fraction), sbf_diagnostic *error);
 
 /* The cell that such a verdict is of. */
 chart_cell chart_map_cell(const chart_map *map, uint32_t scheme, uint32_t row, uint32_t column);

@@ -2,7 +2,7 @@
 
 /* A body of bare points with springs between, of which some are held. */
 static sbf_asset *make(const sbf_vec3 *points, uint32_t count, float mass_kg, const sbf_uint2 *ends,
-    uint32_t spring_count, float stiffness, const uint32_t *held, uint32_t held_count) {
+    uint32_t spring_count, float stiffness, const uint32_t *pinned, uint32_t pinned_count) {
   sbf_asset *asset = sbf_asset_create(NULL);
   if (!asset) return NULL;
   sbf_soft_body *body = sbf_asset_allocate(asset, 1, sizeof *body);
@@ -13,7 +13,7 @@ static sbf_asset *make(const sbf_vec3 *points, uint32_t count, float mass_kg, co
   float *masses = sbf_asset_allocate(asset, count, sizeof *masses);
   sbf_uint2 *springs = sbf_asset_allocate(asset, spring_count, sizeof *springs);
   float *strength = sbf_asset_allocate(asset, 1, sizeof *strength);
-  uint32_t *holds = sbf_asset_allocate(asset, held_count, sizeof *holds);
+  uint32_t *holds = sbf_asset_allocate(asset, pinned_count, sizeof *holds);
   if (!body || !level || !set || !pins || !positions || !masses || !springs || !strength || !holds) {
     sbf_asset_free(asset);
     return NULL;
@@ -21,13 +21,13 @@ static sbf_asset *make(const sbf_vec3 *points, uint32_t count, float mass_kg, co
   sbf_soft_body_init(body), sbf_level_init(level), sbf_spring_set_init(set), sbf_pin_set_init(pins);
   for (uint32_t i = 0; i < count; i++) positions[i] = points[i], masses[i] = mass_kg;
   for (uint32_t i = 0; i < spring_count; i++) springs[i] = ends[i];
-  for (uint32_t i = 0; i < held_count; i++) holds[i] = held[i], masses[held[i]] = 0;
+  for (uint32_t i = 0; i < pinned_count; i++) holds[i] = pinned[i], masses[pinned[i]] = 0;
   *strength = stiffness;
   body->id = "body";
   body->attributes.damping_ratio = 0;
   set->ends = (sbf_uint2_list){springs, spring_count};
   set->stiffness = (sbf_f32_list){strength, 1};
-  pins->points = (sbf_u32_list){holds, held_count};
+  pins->points = (sbf_u32_list){holds, pinned_count};
   level->positions = (sbf_vec3_list){positions, count};
   level->masses = (sbf_f32_list){masses, count};
   level->springs = (sbf_spring_set_list){set, 1};
@@ -42,7 +42,7 @@ sbf_asset *chart_mass_on_spring(float mass_kg, float stiffness) {
       &(uint32_t){0}, 1);
 }
 
-sbf_asset *chart_held_chain(uint32_t count, float length_m, float mass_kg, float stiffness) {
+sbf_asset *chart_pinned_chain(uint32_t count, float length_m, float mass_kg, float stiffness) {
   enum { MAX = 256 };
   sbf_vec3 points[MAX + 2];
   sbf_uint2 ends[MAX + 1];

@@ -17,7 +17,7 @@ typedef struct chart_subject {
 sbf_asset *chart_mass_on_spring(float mass_kg, float stiffness);
 
 /* `count` masses between two held points, one below the other, each `length_m` from the next. */
-sbf_asset *chart_held_chain(uint32_t count, float length_m, float mass_kg, float stiffness);
+sbf_asset *chart_pinned_chain(uint32_t count, float length_m, float mass_kg, float stiffness);
 
 /* `count` masses below one held point, each `length_m` from the next, the last of `end_kg`. */
 sbf_asset *chart_hung_chain(uint32_t count, float length_m, float mass_kg, float end_kg, float stiffness);

@@ -17,15 +17,15 @@ typedef struct sweep {
   const chart_effort *effort;
   chart_sheet *sheet;
   chart_motion *motions; /* (rows) */
-  uint32_t motion_room;
+  uint32_t motion_capacity;
 } sweep;
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a chart");
 }
 
-static void tell(const sweep *s, const char *what, double share) {
-  if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
+static void report(const sweep *s, const char *what, double fraction) {
+  if (s->effort->progress) s->effort->progress(s->effort->user, what, fraction);
 }
 
 static void to_pixels(const sweep *s, double errors[CHART_AXIS_COUNT]) {
@@ -35,11 +35,11 @@ static void to_pixels(const sweep *s, double errors[CHART_AXIS_COUNT]) {
   errors[CHART_MAX_PIXELS] = pixels * errors[CHART_FARTHEST];
 }
 
-static bool judge(
+static bool check(
     const sweep *s, chart_row *row, chart_motion *motion, const chart_truth *truth, const sbf_vec3 *rest) {
   chart_track track;
   const chart_track *reference = chart_truth_for(truth, row->setting.scheme);
-  if (!chart_motion_look(motion, &track)) return false;
+  if (!chart_motion_sample(motion, &track)) return false;
   unsigned asked = s->charted->axes;
   bool good = chart_errors_of(
       &track, reference, rest, TICK_S, &s->charted->signal, asked | 1u << CHART_PATH, row->errors);
@@ -59,10 +59,10 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
     const chart_setting *setting, const chart_truth *truth, const sbf_vec3 *rest, sbf_diagnostic *error) {
   chart_row *row = chart_sheet_add_row(s->sheet);
   if (!row) return no_memory(error);
-  if (s->sheet->row_room > s->motion_room) {
-    chart_motion *more = realloc(s->motions, s->sheet->row_room * sizeof *more);
+  if (s->sheet->row_space > s->motion_capacity) {
+    chart_motion *more = realloc(s->motions, s->sheet->row_space * sizeof *more);
     if (!more) return no_memory(error);
-    s->motions = more, s->motion_room = s->sheet->row_room;
+    s->motions = more, s->motion_capacity = s->sheet->row_space;
   }
   chart_motion *motion = &s->motions[s->sheet->row_count - 1];
   sbf_diagnostic why;
@@ -80,7 +80,7 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
     chart_motion_close(motion);
     return row->runs_us ? SBF_OK : no_memory(error);
   }
-  bool judged = row->runs_us && judge(s, row, motion, truth, rest);
+  bool judged = row->runs_us && check(s, row, motion, truth, rest);
   row->visits = motion->visits;
   return judged ? SBF_OK : no_memory(error);
 }
@@ -115,7 +115,7 @@ static sbf_status state_reference(
   *stated = chart_sheet_add_reference(s->sheet);
   if (!*stated) return no_memory(error);
   snprintf((*stated)->model, sizeof(*stated)->model, "%s", subject->model);
-  tell(s, "reference", 0);
+  report(s, "reference", 0);
   return SBF_OK;
 }
 
@@ -128,7 +128,7 @@ static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diag
   if (status == SBF_OK)
     status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->max_substeps, stated, error);
   if (status == SBF_OK) to_pixels(s, stated->errors);
-  tell(s, "errors", 0);
+  report(s, "errors", 0);
   if (status == SBF_OK) status = sweep_schemes(s, subject, &scene, &truth, rest, error);
   chart_truth_free(&truth);
   free(rest);
@@ -145,7 +145,7 @@ static sbf_status sweep_meshes(
   sbf_vec3 *rest = chart_motion_begins(&scene);
   sbf_status status = rest ? state_reference(s, &subjects[0], &stated, error) : no_memory(error);
   if (status == SBF_OK) status = chart_truth_find_mesh(&truth, s->charted, &scene, rest, stated, error);
-  tell(s, "errors", 0);
+  report(s, "errors", 0);
   for (uint32_t i = 1; status == SBF_OK && i < count; i++) {
     scene = chart_scene_of(s->charted, subjects[i].asset);
     status = add_row(s, &subjects[i], &scene, &own, &truth, rest, error);
@@ -155,8 +155,8 @@ static sbf_status sweep_meshes(
   return status;
 }
 
-static void tell_share(void *user, double share) {
-  tell(user, "times", share);
+static void report_fraction(void *user, double fraction) {
+  report(user, "times", fraction);
 }
 
 static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
@@ -167,7 +167,7 @@ static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
     if (!s->sheet->rows[i].refused)
       timed[count++] = (chart_timed){
           .run = chart_motion_run, .context = &s->motions[i], .times = s->sheet->rows[i].runs_us};
-  bool good = count == 0 || chart_time_in_turns(timed, count, rounds, tell_share, s);
+  bool good = count == 0 || chart_time_in_turns(timed, count, rounds, report_fraction, s);
   uint32_t next = 0;
   double us = 1e6 / (s->charted->timed_ticks ? s->charted->timed_ticks : s->charted->ticks);
   for (uint32_t i = 0; good && i < s->sheet->row_count; i++) {
@@ -208,7 +208,7 @@ sbf_status chart_sweep(
   }
   if (status == SBF_OK && charted->of_space) status = sweep_meshes(&s, subjects, count, error);
   if (status == SBF_OK) status = time_rows(&s, error);
-  for (uint32_t i = 0; i < sheet->row_count && i < s.motion_room; i++)
+  for (uint32_t i = 0; i < sheet->row_count && i < s.motion_capacity; i++)
     if (!sheet->rows[i].refused) chart_motion_close(&s.motions[i]);
   free(s.motions);
   for (uint32_t i = 0; i < MAX_SUBJECTS; i++) sbf_asset_free(subjects[i].asset);

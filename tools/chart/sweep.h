@@ -7,10 +7,10 @@
 #include "chart/sheet.h"
 
 typedef struct chart_effort {
-  uint32_t rounds;                                              /* that times are taken of */
-  double distance_m;                                            /* from which characters are looked at */
-  uint32_t max_substeps;                                        /* schemes get 1, 2, 4 and so on up to it */
-  void (*progress)(void *user, const char *what, double share); /* may be NULL */
+  uint32_t rounds;       /* that times are taken of */
+  double distance_m;     /* from which characters are looked at */
+  uint32_t max_substeps; /* schemes get 1, 2, 4 and so on up to it */
+  void (*progress)(void *user, const char *what, double fraction); /* may be NULL */
   void *user;
 } chart_effort;
 

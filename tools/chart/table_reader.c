@@ -13,7 +13,7 @@ typedef struct table {
   FILE *file;
   const char *path;
   char *head_text, *line;
-  size_t head_room, room;
+  size_t header_capacity, capacity;
   unsigned line_number;
   char *heads[MAX_COLUMNS], *fields[MAX_COLUMNS];
   int column_count;
@@ -52,7 +52,7 @@ static sbf_status table_open(table *t, const char *path, sbf_diagnostic *error) 
   *t = (table){.file = fopen(path, "r"), .path = path, .line_number = 1};
   if (!t->file)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_READ, path, "this table cannot be opened: is it there?");
-  if (getline(&t->head_text, &t->head_room, t->file) <= 0) return fault(t, error, "it is empty");
+  if (getline(&t->head_text, &t->header_capacity, t->file) <= 0) return fault(t, error, "it is empty");
   t->column_count = split(t->head_text, t->heads);
   return SBF_OK;
 }
@@ -60,7 +60,7 @@ static sbf_status table_open(table *t, const char *path, sbf_diagnostic *error) 
 /* The next line's fields; `*some` false at the end. */
 static sbf_status table_next(table *t, bool *some, sbf_diagnostic *error) {
   t->line_number++;
-  *some = getline(&t->line, &t->room, t->file) > 0;
+  *some = getline(&t->line, &t->capacity, t->file) > 0;
   if (*some && split(t->line, t->fields) != t->column_count)
     return fault(t, error, "it has not as many fields as the head has columns");
   return SBF_OK;

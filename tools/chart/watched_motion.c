@@ -38,9 +38,9 @@ sbf_status chart_motion_open(
   *m = (chart_motion){.scene = *scene, .scheme = setting->scheme};
   sbf_status status = create(m, setting, error);
   if (status != SBF_OK) return status;
-  m->begin_size = sbr_world_snapshot_size(m->world);
+  m->begin_size = sbr_world_get_snapshot_size(m->world);
   m->begin = malloc(m->begin_size);
-  if (m->begin && sbr_world_snapshot_save(m->world, m->begin, m->begin_size) == SBF_OK) return SBF_OK;
+  if (m->begin && sbr_world_save_snapshot(m->world, m->begin, m->begin_size) == SBF_OK) return SBF_OK;
   *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
   snprintf(error->message, sizeof error->message, "memory ran out for the beginning of a motion");
   return SBF_FAILED;
@@ -54,13 +54,13 @@ void chart_motion_close(chart_motion *m) {
 }
 
 static void advance(chart_motion *m, uint32_t tick) {
-  if (m->scene.guide) m->scene.guide(m->scene.user, m->world, m->character, tick);
+  if (m->scene.before_tick) m->scene.before_tick(m->scene.user, m->world, m->character, tick);
   sbr_world_tick(m->world);
 }
 
 void chart_motion_run(void *motion) {
   chart_motion *m = motion;
-  sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
+  sbr_world_restore_snapshot(m->world, m->begin, m->begin_size);
   uint32_t ticks = m->scene.timed_ticks ? m->scene.timed_ticks : m->scene.ticks;
   for (uint32_t t = 0; t < ticks; t++) advance(m, t);
 }
@@ -82,16 +82,16 @@ uint32_t chart_motion_points(const chart_scene *scene) {
   return count;
 }
 
-void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places) {
+void chart_motion_rest(const chart_scene *scene, sbf_vec3 *positions) {
   const sbf_vec3_list *list;
   for (uint32_t i = 0; (list = watched_list(scene, i)) != NULL; i++)
-    for (uint32_t k = 0; k < list->count; k++) *places++ = list->at[k];
+    for (uint32_t k = 0; k < list->count; k++) *positions++ = list->at[k];
 }
 
 sbf_vec3 *chart_motion_begins(const chart_scene *scene) {
-  sbf_vec3 *places = calloc((size_t)chart_motion_points(scene) + 1, sizeof *places);
-  if (places) chart_motion_rest(scene, places);
-  return places;
+  sbf_vec3 *positions = calloc((size_t)chart_motion_points(scene) + 1, sizeof *positions);
+  if (positions) chart_motion_rest(scene, positions);
+  return positions;
 }
 
 /* How often a substep of the scheme visits each element. */
@@ -112,7 +112,7 @@ double chart_body_visits(
   if (setting->step_error_m > 0 || (scheme == SBF_SCHEME_HEUN && !setting->substeps && !own->substeps))
     return NAN;
   return visits_a_substep(scheme, &body->levels.at[0]) * chart_elements_of(body) *
-         sbr_model_body_substeps(model, soft_body);
+         sbr_model_get_body_substeps(model, soft_body);
 }
 
 double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const chart_setting *setting) {
@@ -122,22 +122,22 @@ double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const cha
 }
 
 /* Relative to the character's origin, but for the skin: that is in world space, where it walks to. */
-static void read_places(const chart_motion *m, sbf_vec3 *places, uint32_t count) {
+static void read_positions(const chart_motion *m, sbf_vec3 *positions, uint32_t count) {
   const sbf_asset *asset = m->scene.asset;
   uint32_t at = 0;
   if (m->scene.watch == CHART_WATCH_POINTS) {
-    sbr_character_points(m->world, m->character, 0, places, count);
+    sbr_character_get_points(m->world, m->character, 0, positions, count);
     return;
   }
   for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SURFACE && i < asset->soft_bodies.count; i++)
-    at += sbr_character_surface(m->world, m->character, i, places + at, count - at);
+    at += sbr_character_get_surface(m->world, m->character, i, positions + at, count - at);
   if (m->scene.watch != CHART_WATCH_SKIN) return;
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    at += sbr_character_skin(m->world, m->character, i, places + at, NULL, NULL, count - at);
-  sbr_double3 origin = sbr_character_origin(m->world, m->character);
+    at += sbr_character_get_skin(m->world, m->character, i, positions + at, NULL, NULL, count - at);
+  sbr_double3 origin = sbr_character_get_origin(m->world, m->character);
   for (uint32_t i = 0; i < count; i++) {
-    places[i].x += (float)origin.x, places[i].y += (float)origin.y;
-    places[i].z += (float)origin.z;
+    positions[i].x += (float)origin.x, positions[i].y += (float)origin.y;
+    positions[i].z += (float)origin.z;
   }
 }
 
@@ -145,7 +145,7 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
   const char *why = NULL, *of = "";
   track->volume[tick] = 1;
   for (uint32_t i = 0; i < m->scene.asset->soft_bodies.count; i++) {
-    sbr_body_health h = sbr_character_health(m->world, m->character, i);
+    sbr_body_health h = sbr_character_get_body_health(m->world, m->character, i);
     const char *before = why;
     track->kinetic_j[tick] += h.kinetic_j;
     track->energy_j[tick] += h.kinetic_j + h.elastic_j + h.potential_j;
@@ -182,21 +182,21 @@ static double visits_until_now(const chart_motion *m) {
   const sbf_asset *asset = m->scene.asset;
   double sum = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
-    sum +=
-        sbr_character_passes(m->world, m->character, b) * visits_a_pass(m->scheme, &asset->soft_bodies.at[b]);
+    sum += sbr_character_get_element_visits(m->world, m->character, b) *
+           visits_a_pass(m->scheme, &asset->soft_bodies.at[b]);
   return sum;
 }
 
-bool chart_motion_look(chart_motion *m, chart_track *track) {
+bool chart_motion_sample(chart_motion *m, chart_track *track) {
   uint32_t count = chart_motion_points(&m->scene);
   if (!chart_track_make(track, m->scene.ticks, count)) return false;
-  sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
+  sbr_world_restore_snapshot(m->world, m->begin, m->begin_size);
   double before = visits_until_now(m);
   uint32_t ticks = 0;
   for (; ticks < m->scene.ticks && (track->sound || !m->scene.stop_broken); ticks++) {
-    if (m->scene.looked) m->scene.looked(m->scene.looked_user, sbr_model_substeps(m->model), ticks);
+    if (m->scene.looked) m->scene.looked(m->scene.looked_user, sbr_model_get_substeps(m->model), ticks);
     advance(m, ticks);
-    read_places(m, track->places + (size_t)ticks * count, count);
+    read_positions(m, track->positions + (size_t)ticks * count, count);
     read_health(m, track, ticks);
   }
   double visits = visits_until_now(m) - before;

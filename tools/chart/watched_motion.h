@@ -23,9 +23,11 @@ typedef struct chart_scene {
   uint32_t ticks;           /* of the world's 1/60 s */
   uint32_t timed_ticks;     /* of them that chart_motion_run runs; 0: all */
   chart_watch watch;
-  void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
-                                                                                              be NULL */
-  void (*begin)(void *user); /* before a character is made: puts back what `guide` changes; may be NULL */
+  void (*before_tick)(
+      void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
+                                                                              be NULL */
+  void (*begin)(
+      void *user); /* before a character is made: puts back what `before_tick` changes; may be NULL */
   void *user;
   /* Each tick as it is looked at, of a motion by so many substeps; may be NULL. */
   void (*looked)(void *looked_user, uint32_t substeps, uint32_t tick);
@@ -62,11 +64,11 @@ void chart_motion_close(chart_motion *m);
 void chart_motion_run(void *motion);
 
 /* From the beginning through all ticks, looking; counts `visits`; false where memory runs out. */
-bool chart_motion_look(chart_motion *m, chart_track *track);
+bool chart_motion_sample(chart_motion *m, chart_track *track);
 
 /* Where the points that are looked at are in the asset: (chart_motion_points) of them. */
 uint32_t chart_motion_points(const chart_scene *scene);
-void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places);
+void chart_motion_rest(const chart_scene *scene, sbf_vec3 *positions);
 sbf_vec3 *chart_motion_begins(const chart_scene *scene); /* the same: free() it; NULL: memory ran out */
 
 /* Elements that a tick will look at, as often as it does, of all bodies' finest levels at rest, before

@@ -13,7 +13,7 @@ sbf_vec3 draw_camera_eye(const draw_camera *camera) {
 }
 
 matrix4 draw_camera_view(const draw_camera *camera) {
-  return matrix4_look(draw_camera_eye(camera), draw_camera_back(camera), v3(0, 1, 0));
+  return matrix4_view(draw_camera_eye(camera), draw_camera_back(camera), v3(0, 1, 0));
 }
 
 matrix4 draw_camera_projection(const draw_camera *camera, float aspect, float reach) {

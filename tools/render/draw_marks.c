@@ -8,17 +8,17 @@ static const float rim_width = 2.4f; /* of both sides together */
 static const float lifted = 0.08f;   /* of a print's radius: so that the ground does not cut through it */
 
 /* A vertex of no triangle: the picture is framed so that it is in it. */
-static void keep_in_picture(draw_scene *scene, sbf_vec3 place) {
-  draw_scene_room room;
-  if (!draw_scene_make_room(scene, 1, 0, &room)) return;
-  *room.positions = place;
-  *room.normals = v3(0, 1, 0);
-  *room.colours = (draw_colour){0, 0, 0, 0};
+static void keep_in_picture(draw_scene *scene, sbf_vec3 position) {
+  draw_scene_space space;
+  if (!draw_scene_reserve(scene, 1, 0, &space)) return;
+  *space.positions = position;
+  *space.normals = v3(0, 1, 0);
+  *space.colours = (draw_colour){0, 0, 0, 0};
 }
 
 void draw_scene_add_mark(draw_scene *scene, const draw_line *mark) {
-  draw_line *place = draw_scene_list_push(scene, &scene->marks, 1, sizeof *place);
-  if (place) *place = *mark;
+  draw_line *stored = draw_scene_list_push(scene, &scene->marks, 1, sizeof *stored);
+  if (stored) *stored = *mark;
   keep_in_picture(scene, mark->from);
   keep_in_picture(scene, mark->to);
 }
@@ -27,12 +27,12 @@ static void push_ring(draw_scene *scene, draw_scene_list *list, sbf_vec3 centre,
     float radius, float width, draw_colour colour) {
   sbf_vec3 up = v3_unit(normal, v3(0, 1, 0)), right = v3_side(up), over = v3_cross(up, right);
   sbf_vec3 before = v3_add(centre, v3_scale(right, radius));
-  draw_line *place = draw_scene_list_push(scene, list, RING_SEGMENTS, sizeof *place);
-  for (int i = 1; place && i <= RING_SEGMENTS; i++) {
+  draw_line *stored = draw_scene_list_push(scene, list, RING_SEGMENTS, sizeof *stored);
+  for (int i = 1; stored && i <= RING_SEGMENTS; i++) {
     float angle = full_turn * (float)i / RING_SEGMENTS;
     sbf_vec3 out = v3_add(v3_scale(right, cosf(angle)), v3_scale(over, sinf(angle)));
     sbf_vec3 here = v3_add(centre, v3_scale(out, radius));
-    *place++ = (draw_line){before, here, colour, colour, width};
+    *stored++ = (draw_line){before, here, colour, colour, width};
     before = here;
   }
 }

@@ -11,7 +11,7 @@ matrix4 matrix4_product(const matrix4 *a, const matrix4 *b) {
   return product;
 }
 
-matrix4 matrix4_look(sbf_vec3 eye, sbf_vec3 back, sbf_vec3 up) {
+matrix4 matrix4_view(sbf_vec3 eye, sbf_vec3 back, sbf_vec3 up) {
   sbf_vec3 right = v3_unit(v3_cross(up, back), v3_side(back));
   sbf_vec3 over = v3_cross(back, right);
   return (matrix4){{right.x, over.x, back.x, 0, right.y, over.y, back.y, 0, right.z, over.z, back.z, 0,

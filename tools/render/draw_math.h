@@ -51,7 +51,7 @@ typedef struct matrix4 {
 } matrix4;
 
 matrix4 matrix4_product(const matrix4 *a, const matrix4 *b);
-matrix4 matrix4_look(
+matrix4 matrix4_view(
     sbf_vec3 eye, sbf_vec3 back, sbf_vec3 up); /* `back`: unit, from what is seen to the eye */
 matrix4 matrix4_perspective(
     float half_height, float aspect, float near, float far); /* tangent of half the angle */

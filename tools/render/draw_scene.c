@@ -85,29 +85,29 @@ void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t coun
     list->at = grown;
     list->capacity = capacity;
   }
-  void *place = (char *)list->at + list->count * item_size;
+  void *destination = (char *)list->at + list->count * item_size;
   list->count += count;
-  return place;
+  return destination;
 }
 
-bool draw_scene_make_room(
-    draw_scene *scene, uint32_t vertex_count, uint32_t triangle_count, draw_scene_room *room) {
+bool draw_scene_reserve(
+    draw_scene *scene, uint32_t vertex_count, uint32_t triangle_count, draw_scene_space *space) {
   size_t vertices = scene->positions.count, indices = scene->indices.count;
-  room->first_vertex = (uint32_t)vertices;
-  room->positions = room->normals = NULL;
-  room->colours = NULL;
-  room->uvs = NULL;
-  room->indices = NULL;
+  space->first_vertex = (uint32_t)vertices;
+  space->positions = space->normals = NULL;
+  space->colours = NULL;
+  space->uvs = NULL;
+  space->indices = NULL;
   if (vertices + vertex_count <= UINT32_MAX && triangle_count <= UINT32_MAX / 3) {
-    room->positions = draw_scene_list_push(scene, &scene->positions, vertex_count, sizeof(sbf_vec3));
-    room->normals = draw_scene_list_push(scene, &scene->normals, vertex_count, sizeof(sbf_vec3));
-    room->colours = draw_scene_list_push(scene, &scene->colours, vertex_count, sizeof(draw_colour));
-    room->uvs = draw_scene_list_push(scene, &scene->uvs, vertex_count, sizeof(sbf_vec2));
-    room->indices =
+    space->positions = draw_scene_list_push(scene, &scene->positions, vertex_count, sizeof(sbf_vec3));
+    space->normals = draw_scene_list_push(scene, &scene->normals, vertex_count, sizeof(sbf_vec3));
+    space->colours = draw_scene_list_push(scene, &scene->colours, vertex_count, sizeof(draw_colour));
+    space->uvs = draw_scene_list_push(scene, &scene->uvs, vertex_count, sizeof(sbf_vec2));
+    space->indices =
         draw_scene_list_push(scene, &scene->indices, 3 * (size_t)triangle_count, sizeof(uint32_t));
   }
-  if (room->positions && room->normals && room->colours && room->uvs && room->indices) {
-    memset(room->uvs, 0, vertex_count * sizeof *room->uvs);
+  if (space->positions && space->normals && space->colours && space->uvs && space->indices) {
+    memset(space->uvs, 0, vertex_count * sizeof *space->uvs);
     return true;
   }
   scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count = vertices;
@@ -116,19 +116,19 @@ bool draw_scene_make_room(
   return false;
 }
 
-static bool same_look(const draw_scene_part *a, const draw_scene_part *b) {
+static bool is_same_style(const draw_scene_part *a, const draw_scene_part *b) {
   return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow && a->image == b->image &&
          a->alpha == b->alpha && a->cutoff == b->cutoff && a->one_sided == b->one_sided;
 }
 
-void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint32_t vertex_count,
-    uint32_t index_count, const draw_scene_part *look) {
-  draw_scene_part part = *look;
+void draw_scene_close_part(draw_scene *scene, const draw_scene_space *space, uint32_t vertex_count,
+    uint32_t index_count, const draw_scene_part *style) {
+  draw_scene_part part = *style;
   box3 box = box3_empty();
-  part.first_index = (uint32_t)(room->indices - (uint32_t *)scene->indices.at);
+  part.first_index = (uint32_t)(space->indices - (uint32_t *)scene->indices.at);
   part.index_count = index_count;
   scene->indices.count = part.first_index + index_count;
-  for (uint32_t i = 0; i < vertex_count; i++) box3_add(&box, room->positions[i]);
+  for (uint32_t i = 0; i < vertex_count; i++) box3_add(&box, space->positions[i]);
   if (!box3_is_empty(&box)) {
     part.middle = v3_scale(v3_add(box.min, box.max), 0.5f);
     box3_add(&scene->bounds, box.min);
@@ -143,13 +143,13 @@ void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint3
    * apart, to be drawn in order. */
   draw_scene_part *last =
       scene->parts.count ? (draw_scene_part *)scene->parts.at + scene->parts.count - 1 : NULL;
-  if (last && same_look(last, &part) && part.alpha != DRAW_BLEND &&
+  if (last && is_same_style(last, &part) && part.alpha != DRAW_BLEND &&
       (part.transparency <= 0 || part.casts_shadow)) {
     last->index_count += index_count;
     return;
   }
-  draw_scene_part *place = draw_scene_list_push(scene, &scene->parts, 1, sizeof part);
-  if (place) *place = part;
+  draw_scene_part *position = draw_scene_list_push(scene, &scene->parts, 1, sizeof part);
+  if (position) *position = part;
 }
 
 void draw_scene_smooth_normals(const sbf_vec3 *positions, uint32_t vertex_count, const uint32_t *triangles,
@@ -168,33 +168,34 @@ static bool in_range(const uint32_t *triangle, uint32_t vertex_count) {
   return triangle[0] < vertex_count && triangle[1] < vertex_count && triangle[2] < vertex_count;
 }
 
-static sbf_vec3 placed(const draw_place *place, sbf_vec3 p) {
-  return place ? v3_add(v3_rotate(place->rotation, p), place->position) : p;
+static sbf_vec3 placed(const draw_transform *transform, sbf_vec3 p) {
+  return transform ? v3_add(v3_rotate(transform->rotation, p), transform->position) : p;
 }
 
-static sbf_vec3 turned(const draw_place *place, sbf_vec3 normal) {
-  return place ? v3_rotate(place->rotation, normal) : normal;
+static sbf_vec3 turned(const draw_transform *transform, sbf_vec3 normal) {
+  return transform ? v3_rotate(transform->rotation, normal) : normal;
 }
 
-static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
-  draw_scene_room room;
+static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *style) {
+  draw_scene_space space;
   uint32_t index_count = 0;
-  if (!draw_scene_make_room(scene, mesh->vertex_count, mesh->triangle_count, &room)) return;
+  if (!draw_scene_reserve(scene, mesh->vertex_count, mesh->triangle_count, &space)) return;
   for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-    room.positions[i] = placed(mesh->place, mesh->positions[i]);
-    room.colours[i] = mesh->colours ? mesh->colours[i] : mesh->colour;
+    space.positions[i] = placed(mesh->transform, mesh->positions[i]);
+    space.colours[i] = mesh->colours ? mesh->colours[i] : mesh->colour;
   }
   for (uint32_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
     if (!in_range(triangle, mesh->vertex_count)) continue;
-    for (int k = 0; k < 3; k++) room.indices[index_count++] = triangle[k];
+    for (int k = 0; k < 3; k++) space.indices[index_count++] = triangle[k];
   }
   if (mesh->normals)
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) room.normals[i] = turned(mesh->place, mesh->normals[i]);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+      space.normals[i] = turned(mesh->transform, mesh->normals[i]);
   else
-    draw_scene_smooth_normals(room.positions, mesh->vertex_count, room.indices, index_count, room.normals);
-  for (uint32_t i = 0; i < index_count; i++) room.indices[i] += room.first_vertex;
-  draw_scene_close_part(scene, &room, mesh->vertex_count, index_count, look);
+    draw_scene_smooth_normals(space.positions, mesh->vertex_count, space.indices, index_count, space.normals);
+  for (uint32_t i = 0; i < index_count; i++) space.indices[i] += space.first_vertex;
+  draw_scene_close_part(scene, &space, mesh->vertex_count, index_count, style);
 }
 
 /* Of the mesh's vertices, before it is placed; `indices`: room for all its triangles. */
@@ -214,63 +215,63 @@ static const sbf_vec3 *find_smooth_normals(draw_scene *scene, const draw_mesh *m
 
 /* Each corner a vertex of its own: for facets, hard edges, and where an image parts along lines that the
  * surface does not. */
-static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
-  draw_scene_room room;
+static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *style) {
+  draw_scene_space space;
   uint32_t count = 0;
   if (mesh->triangle_count > UINT32_MAX / 3 ||
-      !draw_scene_make_room(scene, 3 * mesh->triangle_count, mesh->triangle_count, &room)) {
+      !draw_scene_reserve(scene, 3 * mesh->triangle_count, mesh->triangle_count, &space)) {
     scene->failed = true;
     return;
   }
   const sbf_vec3 *normals = mesh->normals, *hard = mesh->flat ? NULL : mesh->corner_normals;
-  if (!mesh->flat && !normals && !hard) normals = find_smooth_normals(scene, mesh, room.indices);
+  if (!mesh->flat && !normals && !hard) normals = find_smooth_normals(scene, mesh, space.indices);
   bool facets = mesh->flat || (!normals && !hard);
   for (uint32_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
     if (!in_range(triangle, mesh->vertex_count)) continue;
     sbf_vec3 corner[3];
-    for (int k = 0; k < 3; k++) corner[k] = placed(mesh->place, mesh->positions[triangle[k]]);
+    for (int k = 0; k < 3; k++) corner[k] = placed(mesh->transform, mesh->positions[triangle[k]]);
     sbf_vec3 across = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
     sbf_vec3 of_facet = v3_unit(across, v3(0, 1, 0));
     for (int k = 0; k < 3; k++, count++) {
-      room.positions[count] = corner[k];
+      space.positions[count] = corner[k];
       if (facets)
-        room.normals[count] = of_facet;
+        space.normals[count] = of_facet;
       else
-        room.normals[count] =
-            turned(mesh->place, hard ? hard[3 * (size_t)t + (size_t)k] : normals[triangle[k]]);
-      room.colours[count] = mesh->corner_colours ? mesh->corner_colours[3 * (size_t)t + (size_t)k]
-                            : mesh->colours      ? mesh->colours[triangle[k]]
-                                                 : mesh->colour;
-      if (look->image) room.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
-      room.indices[count] = room.first_vertex + count;
+        space.normals[count] =
+            turned(mesh->transform, hard ? hard[3 * (size_t)t + (size_t)k] : normals[triangle[k]]);
+      space.colours[count] = mesh->corner_colours ? mesh->corner_colours[3 * (size_t)t + (size_t)k]
+                             : mesh->colours      ? mesh->colours[triangle[k]]
+                                                  : mesh->colour;
+      if (style->image) space.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
+      space.indices[count] = space.first_vertex + count;
     }
   }
   scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count =
-      room.first_vertex + (size_t)count;
-  draw_scene_close_part(scene, &room, count, count, look);
+      space.first_vertex + (size_t)count;
+  draw_scene_close_part(scene, &space, count, count, style);
 }
 
 void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
-  draw_scene_part look = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
+  draw_scene_part style = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
   if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
   if (mesh->transparency <= 0) { /* seen through, it shows its shape alone */
-    look.image = mesh->corner_uvs ? mesh->image : NULL;
-    look.alpha = mesh->alpha;
-    look.cutoff = mesh->cutoff;
-    look.one_sided = mesh->one_sided;
-    look.casts_shadow = look.casts_shadow && mesh->alpha != DRAW_BLEND;
+    style.image = mesh->corner_uvs ? mesh->image : NULL;
+    style.alpha = mesh->alpha;
+    style.cutoff = mesh->cutoff;
+    style.one_sided = mesh->one_sided;
+    style.casts_shadow = style.casts_shadow && mesh->alpha != DRAW_BLEND;
   }
-  if (mesh->flat || mesh->corner_normals || mesh->corner_colours || look.image)
-    add_corners(scene, mesh, &look);
+  if (mesh->flat || mesh->corner_normals || mesh->corner_colours || style.image)
+    add_corners(scene, mesh, &style);
   else
-    add_smooth(scene, mesh, &look);
+    add_smooth(scene, mesh, &style);
 }
 
 void draw_scene_add_line(draw_scene *scene, const draw_line *line) {
-  draw_line *place = draw_scene_list_push(scene, &scene->lines, 1, sizeof *place);
-  if (!place) return;
-  *place = *line;
+  draw_line *stored = draw_scene_list_push(scene, &scene->lines, 1, sizeof *stored);
+  if (!stored) return;
+  *stored = *line;
   box3_add(&scene->bounds, line->from);
   box3_add(&scene->bounds, line->to);
 }
@@ -281,14 +282,14 @@ void draw_scene_add_dot(draw_scene *scene, sbf_vec3 at, float width, draw_colour
 
 void draw_scene_add_lines(draw_scene *scene, const sbf_vec3 *positions, uint32_t position_count,
     const sbf_uint2 *ends, const draw_colour *colours, uint32_t line_count, draw_colour colour, float width) {
-  draw_line *place = draw_scene_list_push(scene, &scene->lines, line_count, sizeof *place);
-  if (!place) return;
+  draw_line *stored = draw_scene_list_push(scene, &scene->lines, line_count, sizeof *stored);
+  if (!stored) return;
   size_t added = 0;
   for (uint32_t i = 0; i < line_count; i++) {
     if (ends[i].at[0] >= position_count || ends[i].at[1] >= position_count) continue;
     draw_colour shown = colours ? colours[i] : colour;
     draw_line line = {positions[ends[i].at[0]], positions[ends[i].at[1]], shown, shown, width};
-    place[added++] = line;
+    stored[added++] = line;
     box3_add(&scene->bounds, line.from);
     box3_add(&scene->bounds, line.to);
   }

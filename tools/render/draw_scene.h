@@ -17,10 +17,10 @@ void draw_scene_clear(draw_scene *scene); /* empty again, the room kept */
 /* Adding cannot fail where it is called: what found no memory is left out, and painting then reports it. */
 
 /* Where a rigid thing is: rotated, then moved. */
-typedef struct draw_place {
+typedef struct draw_transform {
   sbf_quat rotation;
   sbf_vec3 position;
-} draw_place;
+} draw_transform;
 
 /* What the opacity of colours and images does: nothing, a hole below the cutoff, or a blend with what is
  * behind.
@@ -46,7 +46,7 @@ typedef struct draw_mesh {
   float transparency; /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
   bool flat;          /* facets keep their edges */
   bool no_shadow;
-  const draw_place *place; /* NULL: positions are in the world */
+  const draw_transform *transform; /* NULL: positions are in the world */
 } draw_mesh;
 
 #define DRAW_XRAY 0.75f /* transparency of a skin whose springs or bones are shown */
@@ -91,7 +91,7 @@ void draw_scene_add_bone(draw_scene *scene, sbf_vec3 head, sbf_vec3 tail, draw_c
 
 /* A convex hull: a veil of its colour, and lines along the edges where two facets really meet at an angle. */
 void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t vertex_count,
-    const uint32_t *triangles, uint32_t triangle_count, const draw_place *place, draw_colour colour);
+    const uint32_t *triangles, uint32_t triangle_count, const draw_transform *transform, draw_colour colour);
 
 /* Words in the lower left corner of the picture: what the colours mean, from the bottom up. Letters are those
  * of English without case, figures and + - % . , ' / = ( ) :, and anything else is a gap. */

@@ -54,19 +54,19 @@ void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t coun
 
 /* A solid part that throws a shadow, of `vertex_count` vertices and `triangle_count` triangles: where to
  * write them; the indices must be raised by `first_vertex`. False where there is no memory. */
-typedef struct draw_scene_room {
+typedef struct draw_scene_space {
   sbf_vec3 *positions, *normals;
   draw_colour *colours;
   sbf_vec2 *uvs; /* all 0 */
   uint32_t *indices;
   uint32_t first_vertex;
-} draw_scene_room;
-bool draw_scene_make_room(
-    draw_scene *scene, uint32_t vertex_count, uint32_t triangle_count, draw_scene_room *room);
+} draw_scene_space;
+bool draw_scene_reserve(
+    draw_scene *scene, uint32_t vertex_count, uint32_t triangle_count, draw_scene_space *space);
 
-/* Closes what draw_scene_make_room opened: `index_count` indices were written from room->indices on. */
-void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint32_t vertex_count,
-    uint32_t index_count, const draw_scene_part *look);
+/* Closes what draw_scene_reserve opened: `index_count` indices were written from room->indices on. */
+void draw_scene_close_part(draw_scene *scene, const draw_scene_space *space, uint32_t vertex_count,
+    uint32_t index_count, const draw_scene_part *style);
 
 void draw_scene_clear_ground(draw_scene *scene);
 
@@ -76,7 +76,8 @@ void draw_scene_smooth_normals(const sbf_vec3 *positions, uint32_t vertex_count,
 
 /* A pixel of a picture 720 high is one unit; in a smaller one no less than 0.7 pixels, so that words stay
  * legible. `width` and `height` are the picture's. */
-void draw_scene_place_overlay(draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height);
+void draw_scene_arrange_overlay(
+    draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height);
 
 /* Fills mark_rims. */
 void draw_scene_rim_marks(draw_scene *scene);

@@ -9,8 +9,8 @@ static float line_depth(const draw_line *line, sbf_vec3 eye, sbf_vec3 back) {
 
 /* Not a number goes to the front, where the painter leaves it out. */
 static unsigned bucket_of(float depth, float farthest, float scale) {
-  float place = (farthest - depth) * scale;
-  return place >= 0 && place < BUCKET_COUNT - 1 ? (unsigned)place : BUCKET_COUNT - 1;
+  float coordinate = (farthest - depth) * scale;
+  return coordinate >= 0 && coordinate < BUCKET_COUNT - 1 ? (unsigned)coordinate : BUCKET_COUNT - 1;
 }
 
 /* By counting, in slices of a thousandth of the depth there is: linear time, and lines in one slice keep

@@ -10,25 +10,25 @@ static const draw_scene_part solid = {.casts_shadow = true};
 
 void draw_scene_add_sphere(draw_scene *scene, sbf_vec3 centre, float radius, draw_colour colour) {
   enum { ROW = SPHERE_SEGMENTS + 1, VERTICES = (SPHERE_RINGS + 1) * ROW };
-  draw_scene_room room;
-  if (!draw_scene_make_room(scene, VERTICES, 2 * SPHERE_RINGS * SPHERE_SEGMENTS, &room)) return;
+  draw_scene_space space;
+  if (!draw_scene_reserve(scene, VERTICES, 2 * SPHERE_RINGS * SPHERE_SEGMENTS, &space)) return;
   uint32_t vertex = 0, index = 0;
   for (int ring = 0; ring <= SPHERE_RINGS; ring++)
     for (int segment = 0; segment <= SPHERE_SEGMENTS; segment++, vertex++) {
       float down = 0.5f * full_turn * (float)ring / SPHERE_RINGS;
       float around = full_turn * (float)segment / SPHERE_SEGMENTS;
       sbf_vec3 out = {sinf(down) * sinf(around), cosf(down), sinf(down) * cosf(around)};
-      room.positions[vertex] = v3_add(centre, v3_scale(out, radius));
-      room.normals[vertex] = out;
-      room.colours[vertex] = colour;
+      space.positions[vertex] = v3_add(centre, v3_scale(out, radius));
+      space.normals[vertex] = out;
+      space.colours[vertex] = colour;
     }
   for (uint32_t ring = 0; ring < SPHERE_RINGS; ring++)
     for (uint32_t segment = 0; segment < SPHERE_SEGMENTS; segment++) {
-      uint32_t a = room.first_vertex + ring * ROW + segment, b = a + ROW;
+      uint32_t a = space.first_vertex + ring * ROW + segment, b = a + ROW;
       const uint32_t two[6] = {a, b, b + 1, a, b + 1, a + 1};
-      for (int k = 0; k < 6; k++) room.indices[index++] = two[k];
+      for (int k = 0; k < 6; k++) space.indices[index++] = two[k];
     }
-  draw_scene_close_part(scene, &room, VERTICES, index, &solid);
+  draw_scene_close_part(scene, &space, VERTICES, index, &solid);
 }
 
 void draw_scene_add_bone(draw_scene *scene, sbf_vec3 head, sbf_vec3 tail, draw_colour colour) {
@@ -68,7 +68,7 @@ static uint32_t neighbour(const uint32_t *triangles, uint32_t triangle_count, ui
 }
 
 void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t vertex_count,
-    const uint32_t *triangles, uint32_t triangle_count, const draw_place *place, draw_colour colour) {
+    const uint32_t *triangles, uint32_t triangle_count, const draw_transform *transform, draw_colour colour) {
   const float same_plane = 0.9995f; /* cosine: facets that qhull cut from one polygon */
   draw_scene_add_mesh(scene, &(draw_mesh){.positions = positions,
                                  .vertex_count = vertex_count,
@@ -78,7 +78,7 @@ void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t 
                                  .transparency = 0.8f,
                                  .no_shadow = true,
                                  .flat = true,
-                                 .place = place});
+                                 .transform = transform});
   draw_colour edge = draw_colour_mix(colour, (draw_colour){20, 26, 40, 255}, 0.25f);
   for (uint32_t i = 0; i < 3 * triangle_count; i++)
     if (triangles[i] >= vertex_count) return;
@@ -91,9 +91,9 @@ void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t 
                                         facet_normal(positions, triangles + 3 * (size_t)other)) > same_plane)
         continue;
       sbf_vec3 a = positions[from], b = positions[to];
-      if (place) {
-        a = v3_add(v3_rotate(place->rotation, a), place->position);
-        b = v3_add(v3_rotate(place->rotation, b), place->position);
+      if (transform) {
+        a = v3_add(v3_rotate(transform->rotation, a), transform->position);
+        b = v3_add(v3_rotate(transform->rotation, b), transform->position);
       }
       draw_scene_add_line(scene, &(draw_line){a, b, edge, edge, 1.2f});
     }

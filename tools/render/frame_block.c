@@ -30,13 +30,13 @@ static float grid_cell(float size) {
 }
 
 void frame_block_fill(frame_block *frame, uint32_t width, uint32_t height, const draw_camera *camera,
-    const light_place *place, float ground_radius, bool bodies_shadow_bodies) {
+    const light_view *maps, float ground_radius, bool bodies_shadow_bodies) {
   float aspect = (float)width / (float)height, size = 2 * camera->distance * camera->half_height;
   matrix4 view = draw_camera_view(camera),
           projection = draw_camera_projection(camera, aspect, 12 * camera->distance * camera->half_height);
   frame->clip_from_world = matrix4_product(&projection, &view);
   const matrix4 half = {{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
-  frame->shadow_from_world = matrix4_product(&half, &place->shadow_clip_from_world);
+  frame->shadow_from_world = matrix4_product(&half, &maps->shadow_clip_from_world);
   set4(frame->eye, draw_camera_eye(camera), camera->distance);
   set4(frame->subject, camera->subject, ground_radius);
   set4(frame->key, frame_block_key(camera), bodies_shadow_bodies ? 1 : 0);
@@ -44,11 +44,11 @@ void frame_block_fill(frame_block *frame, uint32_t width, uint32_t height, const
   set4(frame->rim, towards(camera->home_yaw, 2.6f, 0.55f), 0);
   set4(frame->screen, v3((float)width, (float)height, 1 / (float)width), 1 / (float)height);
   set4(frame->floor_grid, v3(grid_cell(size), fmaxf(1, (float)height / 720), 0), 0);
-  set4(frame->ground_map, v3(place->min_x, place->min_z, 1 / place->ground_side),
-      place->ground_side / GROUND_MAP_SIDE);
-  set4(frame->heights, v3(place->low, place->high, 0), 0);
+  set4(frame->ground_map, v3(maps->min_x, maps->min_z, 1 / maps->ground_side),
+      maps->ground_side / GROUND_MAP_SIDE);
+  set4(frame->heights, v3(maps->low, maps->high, 0), 0);
   set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.07f * size), 0);
   /* A light 14 degrees across: the penumbra is that share of the way from what throws the shadow. */
-  float texel = 1.0f / SHADOW_MAP_SIDE, growth = 0.125f * place->shadow_depth / place->shadow_side;
-  set4(frame->shadow, v3(0.028f, growth, 1.5f * texel), 2.0f * texel * place->shadow_side);
+  float texel = 1.0f / SHADOW_MAP_SIDE, growth = 0.125f * maps->shadow_depth / maps->shadow_side;
+  set4(frame->shadow, v3(0.028f, growth, 1.5f * texel), 2.0f * texel * maps->shadow_side);
 }

@@ -20,7 +20,7 @@ void frame_block_begin(frame_block *frame);
 
 /* Of a picture of so many samples; the ground fades out at `ground_radius`. */
 void frame_block_fill(frame_block *frame, uint32_t width, uint32_t height, const draw_camera *camera,
-    const light_place *place, float ground_radius, bool bodies_shadow_bodies);
+    const light_view *maps, float ground_radius, bool bodies_shadow_bodies);
 
 /* Towards the key light. */
 sbf_vec3 frame_block_key(const draw_camera *camera);

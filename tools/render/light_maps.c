@@ -93,8 +93,8 @@ static float to_texel(float x, float texel) {
   return floorf(x / texel) * texel;
 }
 
-void light_maps_place(light_maps *maps, const box3 *casters, const box3 *ground, float ground_near,
-    sbf_vec3 to_key, light_place *place) {
+void light_maps_update_view(light_maps *maps, const box3 *casters, const box3 *ground, float ground_near,
+    sbf_vec3 to_key, light_view *projections) {
   box3 box = *casters;
   if (box3_is_empty(&box)) box = (box3){{-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}};
   sbf_vec3 middle = v3_scale(v3_add(box.min, box.max), 0.5f);
@@ -102,16 +102,16 @@ void light_maps_place(light_maps *maps, const box3 *casters, const box3 *ground,
 
   /* A square about the sphere around everything, seen along the light. */
   maps->shadow_side = grown(maps->shadow_side, 2.1f * radius);
-  place->shadow_side = maps->shadow_side;
-  float texel = place->shadow_side / SHADOW_MAP_SIDE, half = 0.5f * place->shadow_side;
-  matrix4 light = matrix4_look(v3(0, 0, 0), to_key, v3(0, 1, 0));
+  projections->shadow_side = maps->shadow_side;
+  float texel = projections->shadow_side / SHADOW_MAP_SIDE, half = 0.5f * projections->shadow_side;
+  matrix4 light = matrix4_view(v3(0, 0, 0), to_key, v3(0, 1, 0));
   sbf_vec3 at = {v3_dot(v3(light.at[0], light.at[4], light.at[8]), middle),
       v3_dot(v3(light.at[1], light.at[5], light.at[9]), middle), v3_dot(to_key, middle)};
   at.x = to_texel(at.x, texel), at.y = to_texel(at.y, texel);
-  place->shadow_depth = 2 * place->shadow_side;
-  matrix4 projection = matrix4_orthographic(
-      at.x - half, at.x + half, at.y - half, at.y + half, -at.z - half, -at.z - half + place->shadow_depth);
-  place->shadow_clip_from_world = matrix4_product(&projection, &light);
+  projections->shadow_depth = 2 * projections->shadow_side;
+  matrix4 projection = matrix4_orthographic(at.x - half, at.x + half, at.y - half, at.y + half, -at.z - half,
+      -at.z - half + projections->shadow_depth);
+  projections->shadow_clip_from_world = matrix4_product(&projection, &light);
 
   /* Straight from below: under the subject, where its shadow falls, and around, for it hides sky there too.
    */
@@ -123,13 +123,15 @@ void light_maps_place(light_maps *maps, const box3 *casters, const box3 *ground,
   float back = box.min.z + fminf(-to_key.z * cast, 0) - around,
         front = box.max.z + fmaxf(-to_key.z * cast, 0) + around;
   maps->ground_side = grown(maps->ground_side, fmaxf(right - left, front - back));
-  place->ground_side = maps->ground_side;
-  texel = place->ground_side / GROUND_MAP_SIDE;
-  place->min_x = to_texel(0.5f * (left + right - place->ground_side), texel);
-  place->min_z = to_texel(0.5f * (back + front - place->ground_side), texel);
-  place->low = fminf(box.min.y, box3_is_empty(ground) ? box.min.y : ground->min.y) - 0.01f * radius - 1e-4f;
-  place->high = fmaxf(box.max.y, box3_is_empty(ground) ? box.max.y : ground->max.y) + 0.01f * radius + 1e-4f;
-  float across = 2 / place->ground_side, up = 2 / (place->high - place->low);
-  place->heights_clip_from_world = (matrix4){{across, 0, 0, 0, 0, 0, up, 0, 0, across, 0, 0,
-      -across * place->min_x - 1, -across * place->min_z - 1, -up * place->low - 1, 1}};
+  projections->ground_side = maps->ground_side;
+  texel = projections->ground_side / GROUND_MAP_SIDE;
+  projections->min_x = to_texel(0.5f * (left + right - projections->ground_side), texel);
+  projections->min_z = to_texel(0.5f * (back + front - projections->ground_side), texel);
+  projections->low =
+      fminf(box.min.y, box3_is_empty(ground) ? box.min.y : ground->min.y) - 0.01f * radius - 1e-4f;
+  projections->high =
+      fmaxf(box.max.y, box3_is_empty(ground) ? box.max.y : ground->max.y) + 0.01f * radius + 1e-4f;
+  float across = 2 / projections->ground_side, up = 2 / (projections->high - projections->low);
+  projections->heights_clip_from_world = (matrix4){{across, 0, 0, 0, 0, 0, up, 0, 0, across, 0, 0,
+      -across * projections->min_x - 1, -across * projections->min_z - 1, -up * projections->low - 1, 1}};
 }

@@ -19,13 +19,13 @@ typedef struct light_maps {
 } light_maps;
 
 /* Where the maps lie, for one frame. */
-typedef struct light_place {
+typedef struct light_view {
   matrix4 shadow_clip_from_world;  /* to -1..1 */
   float shadow_side, shadow_depth; /* metres across, and along the light */
   matrix4 heights_clip_from_world; /* seen from below: x, z across; height as depth */
   float min_x, min_z, ground_side; /* metres */
   float low, high;                 /* heights at depth 0 and 1, metres */
-} light_place;
+} light_view;
 
 /* A picture of depths alone, and the frame to draw it by. */
 bool light_maps_make_depth(const gl_api *gl, GLsizei width, GLsizei height, GLuint *texture, GLuint *frame);
@@ -35,7 +35,7 @@ void light_maps_destroy(light_maps *maps, const gl_api *gl);
 
 /* Fits the maps to what throws shadows on a ground that lies within the box `ground` (may be empty) and, near
  * the casters, no lower than `ground_near`. */
-void light_maps_place(light_maps *maps, const box3 *casters, const box3 *ground, float ground_near,
-    sbf_vec3 to_key, light_place *place);
+void light_maps_update_view(light_maps *maps, const box3 *casters, const box3 *ground, float ground_near,
+    sbf_vec3 to_key, light_view *projections);
 
 #endif

@@ -75,9 +75,9 @@ static const char *strokes_of(char c) {
 }
 
 static void add_overlay_line(draw_scene *scene, sbf_vec2 from, sbf_vec2 to, draw_colour colour, float width) {
-  draw_line *place = draw_scene_list_push(scene, &scene->overlay, 1, sizeof *place);
+  draw_line *stored = draw_scene_list_push(scene, &scene->overlay, 1, sizeof *stored);
   float side = scene->overlay_from_top ? 1 : 0;
-  if (place) *place = (draw_line){{from.x, from.y, side}, {to.x, to.y, side}, colour, colour, width};
+  if (stored) *stored = (draw_line){{from.x, from.y, side}, {to.x, to.y, side}, colour, colour, width};
 }
 
 /* Draws one letter with its left foot at `at`, or only measures it where there is no scene; its width. */
@@ -151,7 +151,8 @@ void draw_scene_add_scale(
   }
 }
 
-void draw_scene_place_overlay(draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height) {
+void draw_scene_arrange_overlay(
+    draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height) {
   const draw_line *lines = scene->overlay.at;
   size_t count = scene->overlay.count;
   scene->placed_overlay.count = 0;

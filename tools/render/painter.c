@@ -150,7 +150,7 @@ static void paint_ground_light(const draw_painter *painter, const gl_api *gl) {
 }
 
 static void paint_maps(
-    draw_painter *painter, const gl_api *gl, const draw_scene *scene, const light_place *place) {
+    draw_painter *painter, const gl_api *gl, const draw_scene *scene, const light_view *projections) {
   const light_maps *maps = &painter->maps;
   gl->Enable(GL_DEPTH_TEST);
   gl->Disable(GL_BLEND);
@@ -158,13 +158,14 @@ static void paint_maps(
   gl->DepthFunc(GL_LESS);
   const mesh_parts parts = parts_of(painter, gl, scene);
   begin_depth_map(gl, maps->shadow_frame, SHADOW_MAP_SIDE, SHADOW_MAP_SIDE, 1);
-  mesh_parts_cast(&parts, &place->shadow_clip_from_world);
+  mesh_parts_cast(&parts, &projections->shadow_clip_from_world);
   begin_depth_map(gl, maps->lowest_frame, HEIGHT_MAP_SIDE, HEIGHT_MAP_SIDE, 1);
-  mesh_parts_cast(&parts, &place->heights_clip_from_world);
+  mesh_parts_cast(&parts, &projections->heights_clip_from_world);
   gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, place->heights_clip_from_world.at);
-  float range = place->high - place->low;
-  double level = scene->has_floor ? (scene->floor_height - place->low) / range : 0;
+  gl->UniformMatrix4fv(
+      painter->programs.map_from_world, 1, GL_FALSE, projections->heights_clip_from_world.at);
+  float range = projections->high - projections->low;
+  double level = scene->has_floor ? (scene->floor_height - projections->low) / range : 0;
   begin_depth_map(gl, maps->ground_frame, HEIGHT_MAP_SIDE, HEIGHT_MAP_SIDE, level);
   if (!scene->has_floor && painter->ground_indices) {
     gl->DepthFunc(GL_GREATER);
@@ -351,18 +352,18 @@ static sbf_status out_of_memory(sbf_diagnostic *diagnostic) {
 sbf_status draw_painter_paint(
     draw_painter *painter, draw_scene *scene, const draw_camera *camera, sbf_diagnostic *diagnostic) {
   const gl_api *gl = draw_canvas_gl(painter->canvas);
-  light_place place;
+  light_view maps;
   box3 ground = box3_empty();
   sbf_vec3 eye = draw_camera_eye(camera), back = draw_camera_back(camera);
   draw_scene_sort(scene, eye, back);
   draw_scene_rim_marks(scene);
-  draw_scene_place_overlay(
+  draw_scene_arrange_overlay(
       scene, camera, draw_canvas_width(painter->canvas), draw_canvas_height(painter->canvas));
   if (scene->failed) return out_of_memory(diagnostic);
   const box3 *casters = box3_is_empty(&scene->casters) ? &scene->bounds : &scene->casters;
   float ground_near = measure_ground(scene, casters, &ground);
   float ground_radius = fade_radius(scene, camera, &ground);
-  light_maps_place(&painter->maps, casters, &ground, ground_near, frame_block_key(camera), &place);
+  light_maps_update_view(&painter->maps, casters, &ground, ground_near, frame_block_key(camera), &maps);
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
   uint32_t scale = draw_canvas_bind(painter->canvas);
@@ -374,11 +375,11 @@ sbf_status draw_painter_paint(
   }
   /* What stands inside a veil is to be seen in full light. */
   frame_block_fill(&painter->frame, draw_canvas_width(painter->canvas) * scale,
-      draw_canvas_height(painter->canvas) * scale, camera, &place, ground_radius, scene->veil_count == 0);
+      draw_canvas_height(painter->canvas) * scale, camera, &maps, ground_radius, scene->veil_count == 0);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);
-  paint_maps(painter, gl, scene, &place);
+  paint_maps(painter, gl, scene, &maps);
   if (scene->sorted_lines.count) paint_line_layer(painter, gl, scene);
 
   draw_canvas_bind(painter->canvas);

@@ -18,9 +18,9 @@ draw_colour draw_colour_mix(draw_colour from, draw_colour to, float t) {
       mix_byte(from.a, to.a, t)};
 }
 
-const draw_spring_look *draw_spring_look_of(draw_spring_look_kind kind) {
+const draw_spring_style *draw_spring_style_of(draw_spring_style_kind kind) {
   /* Hues that stay apart for the common kinds of colour blindness, of like lightness. */
-  static const draw_spring_look looks[DRAW_SPRING_LOOK_COUNT] = {
+  static const draw_spring_style styles[DRAW_SPRING_STYLE_COUNT] = {
       {"structural", {24, 95, 200, 255}, 1.7f},
       {"shear", {238, 140, 20, 255}, 1.3f},
       {"flexion", {190, 60, 160, 255}, 1.3f},
@@ -28,7 +28,7 @@ const draw_spring_look *draw_spring_look_of(draw_spring_look_kind kind) {
       {"cross", {214, 48, 56, 255}, 1.7f},
   };
   unsigned index = (unsigned)kind;
-  return &looks[index < DRAW_SPRING_LOOK_COUNT ? index : 0];
+  return &styles[index < DRAW_SPRING_STYLE_COUNT ? index : 0];
 }
 
 draw_colour draw_colour_of_skin(void) {
@@ -103,8 +103,8 @@ void draw_colour_map_init_sequential(draw_colour_map *map) {
 
 draw_colour draw_colour_map_at(const draw_colour_map *map, float t) {
   if (t != t) return (draw_colour){255, 0, 255, 255};
-  float place = t > 0 ? (t < 1 ? t : 1) : 0;
-  return map->at[(int)(place * (DRAW_COLOUR_MAP_SIZE - 1) + 0.5f)];
+  float coordinate = t > 0 ? (t < 1 ? t : 1) : 0;
+  return map->at[(int)(coordinate * (DRAW_COLOUR_MAP_SIZE - 1) + 0.5f)];
 }
 
 draw_colour draw_colour_map_at_strain(const draw_colour_map *map, float strain, float full_strain) {

@@ -13,23 +13,23 @@ draw_colour draw_colour_mix(
     draw_colour from, draw_colour to, float t); /* plain blend of the stored values; t is clamped to 0..1 */
 
 /* Colour of the kind of a spring, and how wide a line shows it: thin where there are many. */
-typedef enum draw_spring_look_kind {
-  DRAW_SPRING_LOOK_STRUCTURAL,
-  DRAW_SPRING_LOOK_SHEAR,
-  DRAW_SPRING_LOOK_FLEXION,
-  DRAW_SPRING_LOOK_INTERNAL,
-  DRAW_SPRING_LOOK_CROSS, /* between two bodies */
-  DRAW_SPRING_LOOK_COUNT
-} draw_spring_look_kind;
+typedef enum draw_spring_style_kind {
+  DRAW_SPRING_STYLE_STRUCTURAL,
+  DRAW_SPRING_STYLE_SHEAR,
+  DRAW_SPRING_STYLE_FLEXION,
+  DRAW_SPRING_STYLE_INTERNAL,
+  DRAW_SPRING_STYLE_CROSS, /* between two bodies */
+  DRAW_SPRING_STYLE_COUNT
+} draw_spring_style_kind;
 
-typedef struct spring_look {
+typedef struct spring_style {
   const char *name;
   draw_colour colour;
   float width; /* as draw_line.width */
-} draw_spring_look;
+} draw_spring_style;
 
 /* Never NULL; a kind out of range gives that of structural springs. */
-const draw_spring_look *draw_spring_look_of(draw_spring_look_kind kind);
+const draw_spring_style *draw_spring_style_of(draw_spring_style_kind kind);
 
 /* Further colours of the house, so that every picture looks alike. */
 draw_colour draw_colour_of_skin(void); /* where the asset names none */

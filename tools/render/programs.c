@@ -50,8 +50,8 @@ static void bind_inputs(const gl_api *gl, GLuint program) {
       "lowest_heights", "open_sky", "veil_depths", "line_layer", "base_image"};
   gl->UseProgram(program);
   for (GLint unit = 0; unit < (GLint)(sizeof samplers / sizeof *samplers); unit++) {
-    GLint place = gl->GetUniformLocation(program, samplers[unit]);
-    if (place >= 0) gl->Uniform1i(place, unit);
+    GLint index = gl->GetUniformLocation(program, samplers[unit]);
+    if (index >= 0) gl->Uniform1i(index, unit);
   }
   GLuint block = gl->GetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) gl->UniformBlockBinding(program, block, 0);

@@ -9,11 +9,11 @@ void buffer_fill(const gl_api *gl, GLenum target, GLuint buffer, const void *ite
 }
 
 static void make_attribute(
-    const gl_api *gl, GLuint buffer, GLuint place, GLint size, GLenum type, GLsizei stride, size_t offset) {
+    const gl_api *gl, GLuint buffer, GLuint index, GLint size, GLenum type, GLsizei stride, size_t offset) {
   gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
-  gl->EnableVertexAttribArray(place);
+  gl->EnableVertexAttribArray(index);
   gl->VertexAttribPointer(
-      place, size, type, type == GL_UNSIGNED_BYTE, stride, (const void *)(uintptr_t)offset);
+      index, size, type, type == GL_UNSIGNED_BYTE, stride, (const void *)(uintptr_t)offset);
 }
 
 void mesh_buffers_create(mesh_buffers *made, const gl_api *gl, bool coloured) {
@@ -71,17 +71,18 @@ void line_buffers_destroy(const line_buffers *buffers, const gl_api *gl) {
 /* Corners 0 1 2 and 2 1 3 of every line, for as many as were ever shown. */
 bool line_buffers_grow(line_buffers *lines, const gl_api *gl, size_t line_count) {
   gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, lines->indices);
-  if (line_count <= lines->room) return true;
+  if (line_count <= lines->capacity) return true;
   if (line_count > UINT32_MAX / 6) return false;
-  size_t room = line_count + line_count / 2;
-  uint32_t *indices = room <= UINT32_MAX / 6 ? malloc(room * 6 * sizeof *indices) : NULL;
+  size_t capacity = line_count + line_count / 2;
+  uint32_t *indices = capacity <= UINT32_MAX / 6 ? malloc(capacity * 6 * sizeof *indices) : NULL;
   if (!indices) return false;
-  for (size_t i = 0; i < room; i++) {
+  for (size_t i = 0; i < capacity; i++) {
     static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
     for (int k = 0; k < 6; k++) indices[6 * i + k] = (uint32_t)(4 * i) + corners[k];
   }
-  gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(room * 6 * sizeof *indices), indices, GL_STATIC_DRAW);
+  gl->BufferData(
+      GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(capacity * 6 * sizeof *indices), indices, GL_STATIC_DRAW);
   free(indices);
-  lines->room = room;
+  lines->capacity = capacity;
   return true;
 }

@@ -13,7 +13,7 @@ typedef struct mesh_buffers {
 /* The same of lines, whose corners are the same however they lie. */
 typedef struct line_buffers {
   GLuint array, corners, indices;
-  size_t room; /* lines that `indices` has corners for */
+  size_t capacity; /* lines that `indices` has corners for */
 } line_buffers;
 
 /* Coloured ones have colours and places in an image too. */

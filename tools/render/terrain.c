@@ -20,12 +20,13 @@ static float height_at(const terrain_grid *grid, int axis, float along, float ac
   return axis == 0 ? grid->height(grid->user, along, across) : grid->height(grid->user, across, along);
 }
 
-static void add_terrain_line(terrain_grid *grid, int axis, float place) {
-  if (grid->counts[axis] < LINES_MAX) grid->lines[axis][grid->counts[axis]++] = place;
+static void add_terrain_line(terrain_grid *grid, int axis, float coordinate) {
+  if (grid->counts[axis] < LINES_MAX) grid->lines[axis][grid->counts[axis]++] = coordinate;
 }
 
 /* Halves the stretch until it is narrow; a slope has by then no difference left, a jump all of it. */
-static bool find_jump(const terrain_grid *grid, int axis, float from, float to, float across, float *place) {
+static bool find_jump(
+    const terrain_grid *grid, int axis, float from, float to, float across, float *position) {
   float a = height_at(grid, axis, from, across), b = height_at(grid, axis, to, across);
   float whole = fabsf(b - a);
   if (!(whole > 0.35f * (to - from))) return false;
@@ -36,44 +37,44 @@ static bool find_jump(const terrain_grid *grid, int axis, float from, float to, 
     else
       from = half, a = c;
   }
-  *place = 0.5f * (from + to);
+  *position = 0.5f * (from + to);
   return fabsf(b - a) > 0.5f * whole;
 }
 
 static void add_jump(terrain_grid *grid, int axis, float from, float to) {
-  float place;
+  float coordinate;
   for (int i = 0; i < PROBES; i++) {
     float across = grid->middle[1 - axis] + grid->radius * ((float)i / (PROBES - 1) - 0.5f);
-    if (!find_jump(grid, axis, from, to, across, &place)) continue;
+    if (!find_jump(grid, axis, from, to, across, &coordinate)) continue;
     float side = 1e-3f * grid->cell;
-    add_terrain_line(grid, axis, place - side);
-    add_terrain_line(grid, axis, place - side);
-    add_terrain_line(grid, axis, place + side);
-    add_terrain_line(grid, axis, place + side);
+    add_terrain_line(grid, axis, coordinate - side);
+    add_terrain_line(grid, axis, coordinate - side);
+    add_terrain_line(grid, axis, coordinate + side);
+    add_terrain_line(grid, axis, coordinate + side);
     return;
   }
 }
 
 /* Spacing 1 cell to 48 cells out, then 2 to 96, then 4. */
-static float next_line(const terrain_grid *grid, int axis, float place) {
-  float out = fabsf(place - grid->middle[axis]) / grid->cell;
+static float next_line(const terrain_grid *grid, int axis, float coordinate) {
+  float out = fabsf(coordinate - grid->middle[axis]) / grid->cell;
   float step = grid->cell * (out < 48 ? 1.0f : out < 96 ? 2.0f : 4.0f);
-  return (floorf(place / step + 0.001f) + 1) * step;
+  return (floorf(coordinate / step + 0.001f) + 1) * step;
 }
 
 static void lay_lines(terrain_grid *grid, int axis) {
   float end = grid->middle[axis] + grid->radius, coarse = 4 * grid->cell;
-  float place = floorf((grid->middle[axis] - grid->radius) / coarse) * coarse;
+  float coordinate = floorf((grid->middle[axis] - grid->radius) / coarse) * coarse;
   int jumps = 0;
   grid->counts[axis] = 0;
-  add_terrain_line(grid, axis, place);
-  while (place < end && grid->counts[axis] + 5 <= LINES_MAX) {
-    float next = next_line(grid, axis, place);
+  add_terrain_line(grid, axis, coordinate);
+  while (coordinate < end && grid->counts[axis] + 5 <= LINES_MAX) {
+    float next = next_line(grid, axis, coordinate);
     uint32_t before = grid->counts[axis];
-    if (jumps < JUMPS_MAX) add_jump(grid, axis, place, next);
+    if (jumps < JUMPS_MAX) add_jump(grid, axis, coordinate, next);
     jumps += grid->counts[axis] != before;
     add_terrain_line(grid, axis, next);
-    place = next;
+    coordinate = next;
   }
 }
 

@@ -11,11 +11,11 @@ double tune_distance_by(const tune_distances *distances, tune_by by) {
   return by == TUNE_BY_RMS ? distances->rms_m : by == TUNE_BY_P99 ? distances->p99_m : distances->max_m;
 }
 
-/* The value that would stand at `place` if they were sorted (Hoare, Algorithm 65: Find, 1961). */
-static float value_at(float *values, size_t count, size_t place) {
+/* The value that would stand at `index` if they were sorted (Hoare, Algorithm 65: Find, 1961). */
+static float value_at(float *values, size_t count, size_t index) {
   size_t low = 0, high = count - 1;
   while (low < high) {
-    float pivot = values[place];
+    float pivot = values[index];
     size_t i = low, j = high;
     for (;;) {
       while (values[i] < pivot) i++;
@@ -28,14 +28,14 @@ static float value_at(float *values, size_t count, size_t place) {
       j--;
       if (i > j) break;
     }
-    if (place <= j)
+    if (index <= j)
       high = j;
-    else if (place >= i)
+    else if (index >= i)
       low = i;
     else
       break;
   }
-  return values[place];
+  return values[index];
 }
 
 bool tune_distances_between(const chart_track *is, const chart_track *wanted, tune_distances *distances) {
@@ -46,7 +46,7 @@ bool tune_distances_between(const chart_track *is, const chart_track *wanted, tu
   float *squares = malloc(count * sizeof *squares);
   if (!squares) return false;
   for (size_t i = 0; i < count; i++) {
-    sbf_vec3 p = is->places[i], q = wanted->places[i];
+    sbf_vec3 p = is->positions[i], q = wanted->positions[i];
     double x = (double)p.x - (double)q.x, y = (double)p.y - (double)q.y, z = (double)p.z - (double)q.z;
     double square = x * x + y * y + z * z;
     /* What is no number is infinitely far off, and has a place in the order. */
@@ -55,10 +55,10 @@ bool tune_distances_between(const chart_track *is, const chart_track *wanted, tu
     max = fmax(max, square);
     squares[i] = (float)square;
   }
-  size_t place = (size_t)ceil(PERCENTILE * (double)count) - 1;
+  size_t index = (size_t)ceil(PERCENTILE * (double)count) - 1;
   distances->rms_m = sqrt(sum / (double)count);
   distances->max_m = sqrt(max);
-  distances->p99_m = fmin(sqrt((double)value_at(squares, count, place)), distances->max_m);
+  distances->p99_m = fmin(sqrt((double)value_at(squares, count, index)), distances->max_m);
   free(squares);
   return true;
 }

@@ -8,7 +8,7 @@
 
 /* Drives: that which it is tuned by, and another. Looks at the reference by so many times the substeps it
  * needs: once and twice, and 4 times where it is refined. */
-enum { DRIVES = 2, LOOKED_TICKS = 3, LOOKS = 3, REFINED_LOOKS = 7 };
+enum { DRIVES = 2, LOOKED_TICKS = 3, CHECKS = 3, REFINED_SAMPLES = 7 };
 /* Of what is tried, that which is sound to the end of a motion and not beaten there. */
 static const double LAST = 0.15;
 
@@ -29,7 +29,7 @@ sbf_status tune_forecast_make(
     chart_track track;
     chart_motion_run(&motion); /* what is used for the first time is slower */
     double begin = chart_now_s();
-    if (chart_motion_look(&motion, &track))
+    if (chart_motion_sample(&motion, &track))
       chart_track_free(&track);
     else
       status = fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
@@ -37,8 +37,8 @@ sbf_status tune_forecast_make(
     double visit_s = tick_s / fmax(chart_visits_of(motion.model, meshes->reference.asset, &setting), 1);
     for (uint32_t i = 0; i < planned->count; i++)
       if (!planned->at[i].refused) tried += planned->at[i].element_visits;
-    forecast->min_s = ticks * (DRIVES * LOOKS * tick_s + LAST * tried * visit_s);
-    forecast->max_s = ticks * (DRIVES * REFINED_LOOKS * tick_s + tried * visit_s);
+    forecast->min_s = ticks * (DRIVES * CHECKS * tick_s + LAST * tried * visit_s);
+    forecast->max_s = ticks * (DRIVES * REFINED_SAMPLES * tick_s + tried * visit_s);
   }
   chart_motion_close(&motion);
   return status;

@@ -23,25 +23,25 @@ static sbf_status no_memory(const sweep *s) {
   return fault_set(s->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a sweep");
 }
 
-static void tell(const sweep *s, const char *what, double share) {
-  if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
+static void report(const sweep *s, const char *what, double fraction) {
+  if (s->effort->progress) s->effort->progress(s->effort->user, what, fraction);
 }
 
 static tune_trial *add(sweep *s, uint32_t mesh, const chart_setting *setting) {
   tune_trials *t = s->to;
-  if (t->count == t->room) {
-    uint32_t room = t->room ? 2 * t->room : 32;
-    tune_trial *more = realloc(t->at, room * sizeof *more);
+  if (t->count == t->capacity) {
+    uint32_t capacity = t->capacity ? 2 * t->capacity : 32;
+    tune_trial *more = realloc(t->at, capacity * sizeof *more);
     if (!more) return NULL;
-    t->at = more, t->room = room;
+    t->at = more, t->capacity = capacity;
   }
   t->at[t->count] = (tune_trial){.mesh = mesh, .setting = *setting};
   return &t->at[t->count++];
 }
 
-static void keep_finding(void *user, const sbf_diagnostic *finding) {
+static void keep_finding(void *user, const sbf_diagnostic *diagnostic) {
   tune_trial *trial = user;
-  snprintf(trial->error.why, sizeof trial->error.why, "%.120s", finding->message);
+  snprintf(trial->error.why, sizeof trial->error.why, "%.120s", diagnostic->message);
 }
 
 /* What a tick of it costs, without a clock; false, with why, where the runtime refuses it. What it would call
@@ -56,11 +56,11 @@ static bool count_visits(const sweep *s, tune_trial *trial) {
     snprintf(trial->error.why, sizeof trial->error.why, "%.120s", why.message);
     return false;
   }
-  sbr_rung rung;
-  sbr_model_rungs(model, &rung, 1);
-  trial->visits = (double)rung.visits;
+  sbr_detail_level detail_level;
+  sbr_model_get_detail_levels(model, &detail_level, 1);
+  trial->visits = (double)detail_level.visits;
   trial->element_visits = chart_visits_of(model, asset, &trial->setting);
-  trial->refused = sbr_model_scheme_doubts(model, keep_finding, trial) > 0;
+  trial->refused = sbr_model_report_scheme_bias(model, keep_finding, trial) > 0;
   sbr_model_destroy(model);
   return true;
 }
@@ -167,7 +167,7 @@ static sbf_status hold_each(sweep *s, bool far) {
   sbf_status status = SBF_OK;
   for (uint32_t i = 0; i < t->count; i++) all += t->at[i].refused ? 0 : t->at[i].visits;
   for (uint32_t i = 0; status == SBF_OK && i < t->count && !t->at[i].refused; i++) {
-    tell(s, "errors", done / all);
+    report(s, "errors", done / all);
     done += t->at[i].visits;
     if (best <= s->effort->enough_m)
       t->at[i].dearer = true;
@@ -193,8 +193,8 @@ static sbf_status hold_all(sweep *s) {
   return SBF_BAD_INPUT;
 }
 
-static void tell_times(void *user, double share) {
-  tell(user, "times", share);
+static void report_times(void *user, double fraction) {
+  report(user, "times", fraction);
 }
 
 static sbf_status time_front(sweep *s) {
@@ -209,7 +209,7 @@ static sbf_status time_front(sweep *s) {
     timed[i] = (chart_timed){.run = chart_motion_run, .context = &motions[i]};
     status = chart_motion_open(&motions[i], &scene, &trial->setting, s->error);
   }
-  if (status == SBF_OK && !chart_time_in_turns(timed, t->front_count, s->effort->rounds, tell_times, s))
+  if (status == SBF_OK && !chart_time_in_turns(timed, t->front_count, s->effort->rounds, report_times, s))
     status = no_memory(s);
   for (uint32_t i = 0; status == SBF_OK && i < t->front_count; i++) {
     const double us = 1e6 / TIMED_TICKS;

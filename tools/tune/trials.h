@@ -12,7 +12,7 @@ typedef struct tune_trial {
   uint32_t mesh; /* number among the meshes */
   chart_setting setting;
   double element_visits; /* a tick; as the file states cost */
-  double visits;         /* as the runtime counts them to choose by: sbr_rung.visits */
+  double visits;         /* as the runtime counts them to choose by: sbr_detail_level.visits */
   tune_error error;
   tune_error other;        /* by the other drive, of those that are `driven_harder`, else zeros */
   tune_distances promised; /* of those: a quarter more than the larger of both drives, with what the
@@ -26,8 +26,8 @@ typedef struct tune_trial {
 
 typedef struct tune_trials {
   tune_trial *at;
-  uint32_t count, room; /* in order of visits; what is refused behind */
-  uint32_t *front;      /* numbers, the cheapest first */
+  uint32_t count, capacity; /* in order of visits; what is refused behind */
+  uint32_t *front;          /* numbers, the cheapest first */
   uint32_t front_count;
 } tune_trials;
 
@@ -36,7 +36,7 @@ typedef struct tune_effort {
   tune_by by;      /* the front is of these errors */
   double enough_m; /* nothing is tried any more once something promises this; 0: all is tried */
   uint32_t rounds; /* that times are the median of */
-  void (*progress)(void *user, const char *what, double share); /* may be NULL */
+  void (*progress)(void *user, const char *what, double fraction); /* may be NULL */
   void *user;
 } tune_effort;
 

@@ -81,7 +81,7 @@ static bool write_level(const writer *w, uint32_t body, uint32_t number, sbf_lev
   const tune_level *from = &w->levels[number];
   const tune_trial *trial = from->trial;
   double cost = chart_body_visits(w->models[number], from->mesh->asset, body, &trial->setting);
-  double share = trial->element_visits > 0 ? cost / trial->element_visits : 0;
+  double fraction = trial->element_visits > 0 ? cost / trial->element_visits : 0;
   char name[64];
   *level = from->mesh->asset->soft_bodies.at[body].levels.at[0];
   snprintf(name, sizeof name, number ? "tuned %u" : "tuned", (unsigned)number);
@@ -93,7 +93,7 @@ static bool write_level(const writer *w, uint32_t body, uint32_t number, sbf_lev
   level->simulation.motion_error = (float)trial->promised.max_m;
   level->simulation.motion_error_rms = (float)trial->promised.rms_m;
   level->simulation.cost = isfinite(cost) ? (float)cost : 0;
-  return level->name && mark(w, level) && state_time(w, level, share * trial->us.median);
+  return level->name && mark(w, level) && state_time(w, level, fraction * trial->us.median);
 }
 
 static bool write_body(const writer *w, uint32_t number, sbf_soft_body *body) {

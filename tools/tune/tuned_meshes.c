@@ -13,7 +13,7 @@ typedef struct maker {
   const tune_grid *grid;
   tune_meshes *to;
   sbf_diagnostic *error;
-  double done, share; /* of the progress: before this build, and its own */
+  double done, fraction; /* of the progress: before this build, and its own */
 } maker;
 
 static sbf_status no_memory(const maker *m) {
@@ -23,7 +23,7 @@ static sbf_status no_memory(const maker *m) {
 static bool build_progress(void *user, const char *pass, double done) {
   const maker *m = user;
   (void)pass;
-  if (m->grid->progress) m->grid->progress(m->grid->user, "lattices", m->done + m->share * done);
+  if (m->grid->progress) m->grid->progress(m->grid->user, "lattices", m->done + m->fraction * done);
   return true;
 }
 
@@ -227,12 +227,12 @@ static sbf_status add_lattices(maker *m) {
   memcpy(sizes, m->grid->sizes, sizeof sizes);
   for (uint32_t size = reference / 2, i = 0; !m->grid->size_count && i < 3; i++, size /= 4)
     if (size >= MIN_SIZE) sizes[count++] = size;
-  m->share = 1.0 / (1 + count);
+  m->fraction = 1.0 / (1 + count);
   m->done = 0;
   sbf_status status = build_lattice(m, reference, &m->to->reference);
   for (uint32_t i = 0; status == SBF_OK && m->to->reference.asset && i < count; i++) {
     tune_mesh *mesh = &m->to->at[m->to->count];
-    m->done = m->share * (1 + i);
+    m->done = m->fraction * (1 + i);
     status = build_lattice(m, sizes[i], mesh);
     if (mesh->asset) m->to->count++;
     if (status == SBF_OK && mesh->asset && !m->grid->calibrated_alone) status = add_twin(m, mesh);
@@ -242,7 +242,7 @@ static sbf_status add_lattices(maker *m) {
 
 sbf_status tune_meshes_make(
     const sbf_asset *asset, const tune_grid *grid, tune_meshes *meshes, sbf_diagnostic *error) {
-  maker m = {.grid = grid, .to = meshes, .error = error, .share = 1};
+  maker m = {.grid = grid, .to = meshes, .error = error, .fraction = 1};
   *meshes = (tune_meshes){.base = NULL};
   sbf_status status = make_base(&m, asset);
   if (status != SBF_OK || meshes->nothing_is_soft) return status;

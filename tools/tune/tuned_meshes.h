@@ -24,7 +24,7 @@ typedef struct tune_grid {
                             4000 and no fewer than 960 a body */
   bool coarse;           /* where `reference` is 0: a quarter of that */
   bool calibrated_alone; /* not as they are */
-  void (*progress)(void *user, const char *what, double share); /* may be NULL */
+  void (*progress)(void *user, const char *what, double fraction); /* may be NULL */
   void *user;
 } tune_grid;
 

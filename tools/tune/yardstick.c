@@ -27,14 +27,14 @@ double tune_size_of(const sbf_asset *asset) {
   return fmax(x, fmax(y, z));
 }
 
-typedef struct finding {
+typedef struct measurement {
   const tune_measure *measure;
   const char *motion;
   uint32_t ticks;
-} finding;
+} measurement;
 
 static void show(void *user, uint32_t substeps, uint32_t tick) {
-  const finding *f = user;
+  const measurement *f = user;
   f->measure->progress(f->measure->user, f->motion, substeps, (double)tick / f->ticks);
 }
 
@@ -57,7 +57,7 @@ static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
 /* SBF_OK with `unmeasured` said, where the reference does not hold. */
 static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *reference,
     const tune_measure *measure, sbf_diagnostic *error) {
-  finding f = {measure, yard->cases[number].name, yard->cases[number].ticks};
+  measurement f = {measure, yard->cases[number].name, yard->cases[number].ticks};
   chart_scene scene = chart_scene_of(&yard->cases[number], reference);
   if (measure->progress) scene.looked = show, scene.looked_user = &f;
   if (!yard->rest) yard->rest = chart_motion_begins(&scene);
@@ -98,7 +98,7 @@ static void fail(tune_error *is, const char *motion, const char *why) {
 }
 
 /* One motion more. */
-static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *asset,
+static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset *asset,
     const chart_setting *setting, bool far, tune_error *is, sbf_diagnostic *error) {
   const chart_case *motion_case = &yard->cases[number];
   chart_scene scene = chart_scene_of(motion_case, asset);
@@ -113,7 +113,7 @@ static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *
     fail(is, motion_case->name, refusal.message);
     return SBF_OK;
   }
-  bool good = chart_motion_look(&motion, &track);
+  bool good = chart_motion_sample(&motion, &track);
   chart_motion_close(&motion);
   if (good && !track.sound) fail(is, motion_case->name, track.why);
   /* What is inside out for a moment is drawn so, and `run` calls it not valid. */
@@ -140,7 +140,7 @@ sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asse
   *is = (tune_error){.sound = true, .min_volume = 1};
   for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
     int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
-    if (!yard->broken[number]) status = look(yard, number, asset, setting, bar && bar->far, is, error);
+    if (!yard->broken[number]) status = check(yard, number, asset, setting, bar && bar->far, is, error);
     is->beaten = bar && is->sound && i + 1 < CHART_BUNDLE_CASES &&
                  !(tune_distance_by(&is->off, bar->by) < bar->error_m);
   }

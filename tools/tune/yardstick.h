@@ -38,7 +38,7 @@ typedef struct tune_measure {
   tune_by by;               /* what an error is */
   bool may_be_empty;        /* no failure where nothing is measured by any motion */
   void (*progress)(
-      void *user, const char *motion, uint32_t substeps, double share); /* may be NULL: of one look
+      void *user, const char *motion, uint32_t substeps, double fraction); /* may be NULL: of one look
                                                                            at the reference */
   void *user;
 } tune_measure;

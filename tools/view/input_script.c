@@ -6,10 +6,10 @@
 
 enum { LONGEST = 1024 };
 
-static bool parse_place(const char *rest, input_line *line) {
+static bool parse_position(const char *rest, input_line *line) {
   char more;
-  return sscanf(rest, "%f %f %c", &line->share[0], &line->share[1], &more) == 2 && line->share[0] >= 0 &&
-         line->share[0] <= 1 && line->share[1] >= 0 && line->share[1] <= 1;
+  return sscanf(rest, "%f %f %c", &line->fraction[0], &line->fraction[1], &more) == 2 &&
+         line->fraction[0] >= 0 && line->fraction[0] <= 1 && line->fraction[1] >= 0 && line->fraction[1] <= 1;
 }
 
 /* What is wrong, or NULL. `rest`: what stands behind the word. */
@@ -24,7 +24,8 @@ static const char *parse_action(const sdl_api *sdl, const char *word, const char
   }
   if (strcmp(word, "press") == 0 || strcmp(word, "move") == 0) {
     line->kind = *word == 'p' ? INPUT_PRESS : INPUT_MOVE;
-    return parse_place(rest, line) ? NULL : "two shares of the window, 0 to 1, belong behind press and move";
+    return parse_position(rest, line) ? NULL
+                                      : "two shares of the window, 0 to 1, belong behind press and move";
   }
   if (strcmp(word, "release") == 0) {
     line->kind = INPUT_RELEASE;
@@ -110,9 +111,9 @@ static SDL_Event key_event(SDL_Keycode key, bool down) {
 
 static SDL_Event pointer_event(input_script *script, const window *w, const input_line *line) {
   int from[2], to[2];
-  window_place(w, script->pointer, &from[0], &from[1]);
-  if (line->kind != INPUT_RELEASE) memcpy(script->pointer, line->share, sizeof script->pointer);
-  window_place(w, script->pointer, &to[0], &to[1]);
+  window_position(w, script->pointer, &from[0], &from[1]);
+  if (line->kind != INPUT_RELEASE) memcpy(script->pointer, line->fraction, sizeof script->pointer);
+  window_position(w, script->pointer, &to[0], &to[1]);
   if (line->kind == INPUT_MOVE)
     return (SDL_Event){.motion = {.type = SDL_MOUSEMOTION,
                            .x = to[0],

@@ -29,7 +29,7 @@ typedef struct input_line {
   input_kind kind;
   SDL_Keycode key;
   bool down, up; /* of a key: either or both */
-  float share[2];
+  float fraction[2];
   int notches;
   char shot[INPUT_SHOT_PATH];
 } input_line;

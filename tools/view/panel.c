@@ -41,7 +41,7 @@ static void add_health(const viewer *v, draw_scene *scene) {
   const session *s = &v->st.s;
   double volume = 1, strain = 0;
   for (uint32_t i = 0; i < s->asset->soft_bodies.count; i++) {
-    sbr_body_health health = sbr_character_health(s->world, s->character, i);
+    sbr_body_health health = sbr_character_get_body_health(s->world, s->character, i);
     if (fabs((double)health.volume_ratio - 1) > fabs(volume - 1)) volume = (double)health.volume_ratio;
     strain = fmax(strain, (double)health.max_strain);
   }
@@ -52,7 +52,7 @@ static void add_health(const viewer *v, draw_scene *scene) {
     add(scene, NULL, "level's stated error: %.2f mm", 1000 * (double)error);
   else
     add(scene, NULL, "level's stated error: not measured");
-  add(scene, NULL, "walked: %.2f m", sbr_character_distance(s->world, s->character));
+  add(scene, NULL, "walked: %.2f m", sbr_character_get_distance(s->world, s->character));
 }
 
 static void add_figures(const viewer *v, draw_scene *scene) {
@@ -74,11 +74,11 @@ static void add_figures(const viewer *v, draw_scene *scene) {
       (unsigned)viewer_render_level_count(asset) - 1);
   add(scene, NULL, "F pace: %s", viewer_pace_name(v));
   add(scene, NULL, " ");
-  if (v->told.frames) {
-    double frames = v->told.frames;
-    add(scene, NULL, "physics: %.0f us a frame", 1e6 * v->told.physics_s / frames);
-    add(scene, NULL, "picture: %.1f ms a frame", 1e3 * v->told.picture_s / frames);
-    add(scene, NULL, "frames: %.0f /s", frames / fmax(v->told_s, 1e-9));
+  if (v->reported.frames) {
+    double frames = v->reported.frames;
+    add(scene, NULL, "physics: %.0f us a frame", 1e6 * v->reported.physics_s / frames);
+    add(scene, NULL, "picture: %.1f ms a frame", 1e3 * v->reported.picture_s / frames);
+    add(scene, NULL, "frames: %.0f /s", frames / fmax(v->reported_s, 1e-9));
   }
   add_health(v, scene);
 }

@@ -6,7 +6,7 @@
 #include "sbrun/rigid.h"
 
 static const float GRAVITY = 9.80665f;
-static const float BALL_SHARE = 0.07f, FINGER_SHARE = 0.04f; /* radii, of the character's size */
+static const float BALL_FRACTION = 0.07f, FINGER_FRACTION = 0.04f; /* radii, of the character's size */
 static const sbf_quat UNTURNED = {0, 0, 0, 1};
 
 static sbr_double3 to_world(sbf_vec3 v) {
@@ -16,7 +16,7 @@ static sbf_vec3 from_world(sbr_double3 v) {
   return v3((float)v.x, (float)v.y, (float)v.z);
 }
 static sbf_vec3 origin_of(const player *p) {
-  return from_world(sbr_character_origin(p->s->world, p->s->character));
+  return from_world(sbr_character_get_origin(p->s->world, p->s->character));
 }
 
 static sbf_status make_sphere(float radius, sbr_shape **shape, sbf_diagnostic *error) {
@@ -31,7 +31,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
 
 sbf_status player_open(player *p, session *s, float size, sbf_diagnostic *error) {
   const sbf_asset *asset = s->asset;
-  *p = (player){.s = s, .size = size, .pace = 0.5f, .held_rigid = -1};
+  *p = (player){.s = s, .size = size, .pace = 0.5f, .dragged_rigid = -1};
   p->rigid_of = malloc((asset->bones.count + 1u) * sizeof *p->rigid_of);
   p->bones = malloc((asset->bones.count + 1u) * sizeof *p->bones);
   if (!p->rigid_of || !p->bones) return out_of_memory(error);
@@ -39,10 +39,10 @@ sbf_status player_open(player *p, session *s, float size, sbf_diagnostic *error)
   for (uint32_t i = 0; i < asset->rigid_bodies.count; i++) {
     int32_t bone = asset->rigid_bodies.at[i].bone;
     if (bone >= 0) p->rigid_of[bone] = (int32_t)i;
-    p->mass += sbr_character_rigid_state(s->world, s->character, i).mass;
+    p->mass += sbr_character_get_rigid_state(s->world, s->character, i).mass;
   }
-  sbf_status status = make_sphere(BALL_SHARE * size, &p->ball, error);
-  return status == SBF_OK ? make_sphere(FINGER_SHARE * size, &p->fingertip, error) : status;
+  sbf_status status = make_sphere(BALL_FRACTION * size, &p->ball, error);
+  return status == SBF_OK ? make_sphere(FINGER_FRACTION * size, &p->fingertip, error) : status;
 }
 
 void player_close(player *p) {
@@ -61,7 +61,7 @@ static sbf_vec3 middle_of_points(const player *p) {
   sbf_vec3 sum = {0, 0, 0};
   uint32_t count = 0;
   for (uint32_t b = 0; b < p->s->asset->soft_bodies.count; b++) {
-    uint32_t here = sbr_character_points(p->s->world, p->s->character, b, points, MAX);
+    uint32_t here = sbr_character_get_points(p->s->world, p->s->character, b, points, MAX);
     for (uint32_t i = 0; i < here && i < MAX; i++, count++) sum = v3_add(sum, points[i]);
   }
   return v3_add(origin_of(p), v3_scale(sum, 1 / (float)(count ? count : 1)));
@@ -72,7 +72,7 @@ sbf_vec3 player_middle(const player *p) {
   uint32_t bones = asset->bones.count, count = 0;
   sbf_vec3 sum = {0, 0, 0};
   if (bones == 0) return middle_of_points(p);
-  sbr_character_bones(p->s->world, p->s->character, p->bones, bones);
+  sbr_character_get_bones(p->s->world, p->s->character, p->bones, bones);
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
     if (asset->soft_bodies.at[b].bone >= 0) {
       sum = v3_add(sum, p->bones[asset->soft_bodies.at[b].bone].position);
@@ -90,7 +90,7 @@ static sbf_vec3 center_of(const player *p, const sbr_rigid_state *state) {
 }
 
 static sbr_rigid_state state_of(const player *p, int32_t rigid) {
-  return sbr_character_rigid_state(p->s->world, p->s->character, (uint32_t)rigid);
+  return sbr_character_get_rigid_state(p->s->world, p->s->character, (uint32_t)rigid);
 }
 
 /* The rigid body that was hit, or whose bone carries the flesh that was; -1: none. */
@@ -100,7 +100,7 @@ static int32_t rigid_behind(const player *p, const sbr_hit *hit) {
   return bone >= 0 ? p->rigid_of[bone] : -1;
 }
 
-static bool place_sphere(player *p, const sbr_shape *shape, sbf_vec3 at, sbr_collider_id *collider) {
+static bool set_sphere(player *p, const sbr_shape *shape, sbf_vec3 at, sbr_collider_id *collider) {
   sbr_collider_definition definition = sbr_default_collider_definition();
   sbf_diagnostic error;
   definition.shape = shape;
@@ -108,23 +108,23 @@ static bool place_sphere(player *p, const sbr_shape *shape, sbf_vec3 at, sbr_col
   return sbr_collider_create(p->s->world, &definition, collider, &error) == SBF_OK;
 }
 
-bool player_grab(player *p, sbf_vec3 eye, sbf_vec3 way, float reach, sbf_vec3 *place) {
+bool player_grab(player *p, sbf_vec3 eye, sbf_vec3 direction, float reach, sbf_vec3 *position) {
   sbr_hit hit;
-  if (!sbr_world_ray(p->s->world, to_world(eye), way, (double)reach, UINT32_MAX, &hit) ||
+  if (!sbr_world_cast_ray(p->s->world, to_world(eye), direction, (double)reach, UINT32_MAX, &hit) ||
       hit.character.value == 0)
     return false;
   player_release(p);
-  *place = p->target = from_world(hit.position);
-  p->held_rigid = p->mass > 0 ? rigid_behind(p, &hit) : -1;
+  *position = p->target = from_world(hit.position);
+  p->dragged_rigid = p->mass > 0 ? rigid_behind(p, &hit) : -1;
   p->holds = true;
-  if (p->held_rigid < 0) {
-    if (!place_sphere(p, p->fingertip, p->target, &p->finger)) p->holds = false;
+  if (p->dragged_rigid < 0) {
+    if (!set_sphere(p, p->fingertip, p->target, &p->finger)) p->holds = false;
     return p->holds;
   }
   player_knock(p);
-  sbr_rigid_state state = state_of(p, p->held_rigid);
+  sbr_rigid_state state = state_of(p, p->dragged_rigid);
   sbf_quat q = state.frame.rotation, back = {-q.x, -q.y, -q.z, q.w};
-  p->held_local = v3_rotate(back, v3_sub(p->target, center_of(p, &state)));
+  p->dragged_local = v3_rotate(back, v3_sub(p->target, center_of(p, &state)));
   return true;
 }
 
@@ -140,7 +140,7 @@ void player_drag(player *p, sbf_vec3 target) {
 }
 
 void player_release(player *p) {
-  if (p->holds && p->held_rigid < 0) sbr_collider_destroy(p->s->world, p->finger);
+  if (p->holds && p->dragged_rigid < 0) sbr_collider_destroy(p->s->world, p->finger);
   p->holds = false;
 }
 
@@ -148,58 +148,59 @@ void player_release(player *p) {
  * this body alone can take, and most of the weight of all that hangs on it. */
 static void pull(player *p, float seconds) {
   if (!p->holds) return;
-  if (p->held_rigid < 0) {
+  if (p->dragged_rigid < 0) {
     sbr_collider_move(p->s->world, p->finger, to_world(p->target), UNTURNED);
     return;
   }
-  if (sbr_character_rigid_posture(p->s->world, p->s->character) != SBR_RIGID_FALLING) player_knock(p);
-  sbr_rigid_state state = state_of(p, p->held_rigid);
-  sbf_vec3 place = v3_add(center_of(p, &state), v3_rotate(state.frame.rotation, p->held_local));
-  sbf_vec3 wanted = v3_scale(v3_sub(p->target, place), 9);
+  if (sbr_character_get_posture(p->s->world, p->s->character) != SBR_POSTURE_FALLING) player_knock(p);
+  sbr_rigid_state state = state_of(p, p->dragged_rigid);
+  sbf_vec3 position = v3_add(center_of(p, &state), v3_rotate(state.frame.rotation, p->dragged_local));
+  sbf_vec3 wanted = v3_scale(v3_sub(p->target, position), 9);
   float fastest = 3 * sqrtf(GRAVITY * p->size), length = v3_length(wanted);
   if (length > fastest) wanted = v3_scale(wanted, fastest / length);
   sbf_vec3 impulse = v3_scale(v3_sub(wanted, state.velocity), 1.5f * state.mass);
   if (wanted.y > 0) impulse.y += 0.9f * p->mass * GRAVITY * seconds;
-  sbr_character_rigid_push(p->s->world, p->s->character, (uint32_t)p->held_rigid, to_world(place), impulse);
+  sbr_character_apply_rigid_impulse(
+      p->s->world, p->s->character, (uint32_t)p->dragged_rigid, to_world(position), impulse);
 }
 
 void player_knock(player *p) {
-  const sbr_rigid_fall fall = sbr_default_rigid_fall();
-  sbr_character_rigid_fall(p->s->world, p->s->character, &fall);
+  const sbr_fall_definition fall = sbr_default_fall_definition();
+  sbr_character_knock_over(p->s->world, p->s->character, &fall);
 }
 
 /* ---- Balls ---- */
 
 void player_throw(player *p, sbf_vec3 from) {
-  sbf_vec3 way = v3_sub(player_middle(p), from);
-  float seconds = v3_length(way) / (1.8f * sqrtf(GRAVITY * p->size));
-  player_ball one = {.place = from};
+  sbf_vec3 displacement = v3_sub(player_middle(p), from);
+  float seconds = v3_length(displacement) / (1.8f * sqrtf(GRAVITY * p->size));
+  player_ball one = {.position = from};
   if (!(seconds > 0)) return;
-  one.velocity = v3_scale(way, 1 / seconds);
+  one.velocity = v3_scale(displacement, 1 / seconds);
   one.velocity.y += 0.5f * GRAVITY * seconds;
   if (p->ball_count == PLAYER_BALLS) {
     sbr_collider_destroy(p->s->world, p->balls[0].collider);
     for (uint32_t i = 1; i < PLAYER_BALLS; i++) p->balls[i - 1] = p->balls[i];
     p->ball_count--;
   }
-  if (!place_sphere(p, p->ball, from, &one.collider)) return;
+  if (!set_sphere(p, p->ball, from, &one.collider)) return;
   p->balls[p->ball_count++] = one;
   p->thrown++;
 }
 
 float player_ball_radius(const player *p) {
-  return BALL_SHARE * p->size;
+  return BALL_FRACTION * p->size;
 }
 
 /* A ball that meets the character knocks it and comes back. */
-static void meet(player *p, player_ball *one, const sbr_hit *hit) {
+static void collide(player *p, player_ball *one, const sbr_hit *hit) {
   sbf_vec3 change = v3_scale(hit->normal, -1.4f * v3_dot(one->velocity, hit->normal));
   int32_t rigid = p->mass > 0 ? rigid_behind(p, hit) : -1;
   one->velocity = v3_add(one->velocity, change);
   p->hits++;
   if (rigid < 0) return;
   player_knock(p);
-  sbr_character_rigid_push(
+  sbr_character_apply_rigid_impulse(
       p->s->world, p->s->character, (uint32_t)rigid, hit->position, v3_scale(change, -0.03f * p->mass));
 }
 
@@ -207,27 +208,29 @@ static void fly(player *p, player_ball *one, float seconds) {
   float radius = player_ball_radius(p);
   sbr_hit hit;
   one->velocity.y -= GRAVITY * seconds;
-  sbf_vec3 way = v3_scale(one->velocity, seconds);
-  float length = v3_length(way);
+  sbf_vec3 displacement = v3_scale(one->velocity, seconds);
+  float length = v3_length(displacement);
   if (length > 1e-6f &&
-      sbr_world_ray(p->s->world, to_world(one->place), way, (double)(length + radius), UINT32_MAX, &hit) &&
+      sbr_world_cast_ray(
+          p->s->world, to_world(one->position), displacement, (double)(length + radius), UINT32_MAX, &hit) &&
       hit.character.value && v3_dot(hit.normal, one->velocity) < 0)
-    meet(p, one, &hit);
-  one->place = v3_add(one->place, v3_scale(one->velocity, seconds));
-  float min = ground_below(p, one->place) + radius;
-  if (one->place.y < min) {
-    one->place.y = min;
+    collide(p, one, &hit);
+  one->position = v3_add(one->position, v3_scale(one->velocity, seconds));
+  float min = ground_below(p, one->position) + radius;
+  if (one->position.y < min) {
+    one->position.y = min;
     one->velocity = v3(0.97f * one->velocity.x, 0.55f * fabsf(one->velocity.y), 0.97f * one->velocity.z);
   }
-  sbr_collider_move(p->s->world, one->collider, to_world(one->place), UNTURNED);
+  sbr_collider_move(p->s->world, one->collider, to_world(one->position), UNTURNED);
 }
 
 /* ---- Time ---- */
 
 bool player_step(player *p, double seconds) {
   if (p->steered && !p->s->recording.bytes) {
-    float speed = p->pace * p->size, way = p->forward < 0 ? 0.5f * p->forward : p->forward;
-    sbr_character_drive(p->s->world, p->s->character, way * speed, 0.5f * p->side * speed, 0.9f * p->turn);
+    float speed = p->pace * p->size, travel = p->forward < 0 ? 0.5f * p->forward : p->forward;
+    sbr_character_set_drive(
+        p->s->world, p->s->character, travel * speed, 0.5f * p->side * speed, 0.9f * p->turn);
     sbr_character_set_vertical_speed(p->s->world, p->s->character, 0.5f * p->up * speed);
   }
   pull(p, (float)seconds);

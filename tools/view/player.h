@@ -11,7 +11,7 @@ enum { PLAYER_BALLS = 6 };
 
 typedef struct player_ball {
   sbr_collider_id collider;
-  sbf_vec3 place, velocity; /* m, m/s */
+  sbf_vec3 position, velocity; /* m, m/s */
 } player_ball;
 
 typedef struct player {
@@ -27,9 +27,9 @@ typedef struct player {
   player_ball balls[PLAYER_BALLS];
   uint32_t ball_count, thrown, hits;
   bool holds;
-  int32_t held_rigid;  /* -1: nothing that could be pulled, a finger presses */
-  sbf_vec3 held_local; /* where it is held, from its centre of mass, in its own axes, m */
-  sbf_vec3 target;     /* where that is drawn to */
+  int32_t dragged_rigid;  /* -1: nothing that could be pulled, a finger presses */
+  sbf_vec3 dragged_local; /* where it is held, from its centre of mass, in its own axes, m */
+  sbf_vec3 target;        /* where that is drawn to */
   sbr_collider_id finger;
 } player;
 
@@ -42,7 +42,7 @@ sbf_vec3 player_middle(const player *p);
 
 /* Takes hold of the first thing on the way from `eye`, up to `reach` m; where on it, in *place. False: there
  * is none. */
-bool player_grab(player *p, sbf_vec3 eye, sbf_vec3 way, float reach, sbf_vec3 *place);
+bool player_grab(player *p, sbf_vec3 eye, sbf_vec3 direction, float reach, sbf_vec3 *position);
 void player_drag(player *p, sbf_vec3 target);
 void player_release(player *p);
 

@@ -6,7 +6,7 @@
 #include "view/viewer_choices.h"
 
 static const float PITCH_MIN = 0.02f, PITCH_MAX = 1.5f;
-static const float ROOM = 1.7f; /* as far again as would fill the picture */
+static const float FRAMING_MARGIN = 1.7f; /* as far again as would fill the picture */
 
 /* Keys that walk while they are down. */
 static const struct move {
@@ -34,14 +34,14 @@ static void frame_camera(viewer *v) {
   stage_show(st->stage, &st->s, st->scene);
   draw_scene_frame(st->scene, &st->camera, studio_aspect(st), st->yaw, st->pitch);
   st->framed = true;
-  v->home = st->camera.distance *= ROOM;
+  v->home = st->camera.distance *= FRAMING_MARGIN;
   box3 box = draw_scene_bounds(st->scene);
   if (box3_is_empty(&box)) box = (box3){{-0.3f, 0, -0.3f}, {0.3f, 0.6f, 0.3f}};
   v->size = fmaxf(v3_length(v3_sub(box.max, box.min)), 1e-3f);
   v->rise = 0.5f * (box.min.y + box.max.y);
 }
 
-static void look_at_it(viewer *v) {
+static void orbit_view(viewer *v) {
   v->st.camera.subject = player_middle(&v->p);
   v->st.camera.subject.y += v->rise;
 }
@@ -60,7 +60,7 @@ sbf_status viewer_begin(viewer *v, sbf_diagnostic *error) {
   v->p.pace = pace;
   v->p.thrown = thrown, v->p.hits = hits;
   if (first) v->rise -= player_middle(&v->p).y;
-  look_at_it(v);
+  orbit_view(v);
   return SBF_OK;
 }
 
@@ -77,11 +77,11 @@ static sbf_status restart(viewer *v, sbf_diagnostic *error) {
 
 /* ---- The camera ---- */
 
-static sbf_vec3 way_through(const viewer *v, const float share[2]) {
+static sbf_vec3 wait_fraction(const viewer *v, const float fraction[2]) {
   const draw_camera *camera = &v->st.camera;
   sbf_vec3 back = draw_camera_back(camera), right = v3_unit(v3_cross(v3(0, 1, 0), back), v3(1, 0, 0));
-  float across = (2 * share[0] - 1) * camera->half_height * studio_aspect(&v->st),
-        above = (1 - 2 * share[1]) * camera->half_height;
+  float across = (2 * fraction[0] - 1) * camera->half_height * studio_aspect(&v->st),
+        above = (1 - 2 * fraction[1]) * camera->half_height;
   return v3_sub(v3_add(v3_scale(right, across), v3_scale(v3_cross(back, right), above)), back);
 }
 
@@ -97,28 +97,28 @@ static void zoom(viewer *v, float factor) {
 
 static void follow(viewer *v, double seconds) {
   sbf_vec3 middle = player_middle(&v->p), *subject = &v->st.camera.subject;
-  float share = v->grabs ? 0 : 1 - expf(-4 * (float)seconds);
+  float fraction = v->grabs ? 0 : 1 - expf(-4 * (float)seconds);
   middle.y += v->rise;
   if (!isfinite(middle.x) || !isfinite(middle.y) || !isfinite(middle.z)) return;
-  *subject = v3_add(*subject, v3_scale(v3_sub(middle, *subject), share));
+  *subject = v3_add(*subject, v3_scale(v3_sub(middle, *subject), fraction));
 }
 
 /* ---- What happens to the window ---- */
 
 static void press(viewer *v, int x, int y) {
   draw_camera *camera = &v->st.camera;
-  sbf_vec3 eye = draw_camera_eye(camera), place;
-  window_share(&v->w, x, y, v->pointer);
-  v->grabs = player_grab(&v->p, eye, way_through(v, v->pointer), 8 * camera->distance, &place);
+  sbf_vec3 eye = draw_camera_eye(camera), position;
+  window_fraction(&v->w, x, y, v->pointer);
+  v->grabs = player_grab(&v->p, eye, wait_fraction(v, v->pointer), 8 * camera->distance, &position);
   v->orbits = !v->grabs;
-  if (v->grabs) v->depth = -v3_dot(v3_sub(place, eye), draw_camera_back(camera));
+  if (v->grabs) v->depth = -v3_dot(v3_sub(position, eye), draw_camera_back(camera));
 }
 
 static void move(viewer *v, const SDL_MouseMotionEvent *event) {
-  window_share(&v->w, event->x, event->y, v->pointer);
+  window_fraction(&v->w, event->x, event->y, v->pointer);
   if (v->grabs)
     player_drag(
-        &v->p, v3_add(draw_camera_eye(&v->st.camera), v3_scale(way_through(v, v->pointer), v->depth)));
+        &v->p, v3_add(draw_camera_eye(&v->st.camera), v3_scale(wait_fraction(v, v->pointer), v->depth)));
   else if (v->orbits)
     orbit(v, 0.007f * (float)event->xrel, 0.006f * (float)event->yrel);
 }
@@ -250,11 +250,11 @@ bool viewer_step(viewer *v, double seconds) {
   return more;
 }
 
-static void tell(viewer *v) {
+static void report(viewer *v) {
   double now = window_seconds(&v->w);
-  if (v->told.frames && now - v->costs.since_s < 0.5) return;
-  v->told = v->costs;
-  v->told_s = now - v->costs.since_s;
+  if (v->reported.frames && now - v->costs.since_s < 0.5) return;
+  v->reported = v->costs;
+  v->reported_s = now - v->costs.since_s;
   v->costs = (viewer_costs){.since_s = now};
 }
 
@@ -268,12 +268,12 @@ sbf_status viewer_draw(viewer *v, sbf_diagnostic *error) {
   stage_show(st->stage, &st->s, st->scene);
   for (uint32_t i = 0; i < v->p.ball_count; i++)
     draw_scene_add_sphere(
-        st->scene, v->p.balls[i].place, player_ball_radius(&v->p), draw_colour_rgb(0xcc291a));
+        st->scene, v->p.balls[i].position, player_ball_radius(&v->p), draw_colour_rgb(0xcc291a));
   panel_add(v, st->scene);
   status = draw_painter_paint(st->painter, st->scene, &st->camera, error);
   if (status == SBF_OK) draw_canvas_show(st->canvas);
   v->costs.picture_s += window_seconds(&v->w) - before;
   v->costs.frames++;
-  tell(v);
+  report(v);
   return status;
 }

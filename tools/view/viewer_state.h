@@ -22,14 +22,14 @@ typedef struct viewer {
   player p;
   cli_call *call;
   input_script input;
-  viewer_costs costs, told; /* being gathered; as shown */
-  double told_s;            /* how long that took */
-  float home;               /* m: of the camera at first */
-  float rise;               /* m: of the camera's subject above the character's middle */
-  float size;               /* m: of the character */
-  unsigned keys;            /* pressed, of those that walk */
-  int ground;               /* place among the grounds to choose from; -1: as the call says */
-  sbr_ground own_ground;    /* that one */
+  viewer_costs costs, reported; /* being gathered; as shown */
+  double reported_s;            /* how long that took */
+  float home;                   /* m: of the camera at first */
+  float rise;                   /* m: of the camera's subject above the character's middle */
+  float size;                   /* m: of the character */
+  unsigned keys;                /* pressed, of those that walk */
+  int ground;                   /* place among the grounds to choose from; -1: as the call says */
+  sbr_ground own_ground;        /* that one */
   viewer_panel panel;
   bool paused, quit, orbits, grabs;
   float depth;      /* m: of what is held, before the eye */

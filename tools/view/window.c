@@ -88,18 +88,18 @@ static void units(const window *w, float size[2]) {
   size[1] = (float)(high < 1 ? 1 : high);
 }
 
-void window_share(const window *w, int x, int y, float share[2]) {
+void window_fraction(const window *w, int x, int y, float fraction[2]) {
   float size[2];
   units(w, size);
-  share[0] = ((float)x + 0.5f) / size[0];
-  share[1] = ((float)y + 0.5f) / size[1];
+  fraction[0] = ((float)x + 0.5f) / size[0];
+  fraction[1] = ((float)y + 0.5f) / size[1];
 }
 
-void window_place(const window *w, const float share[2], int *x, int *y) {
+void window_position(const window *w, const float fraction[2], int *x, int *y) {
   float size[2];
   units(w, size);
-  *x = (int)floorf(share[0] * size[0]);
-  *y = (int)floorf(share[1] * size[1]);
+  *x = (int)floorf(fraction[0] * size[0]);
+  *y = (int)floorf(fraction[1] * size[1]);
 }
 
 double window_seconds(const window *w) {

@@ -21,9 +21,9 @@ void window_close(window *w);
 void window_pixels(const window *w, uint32_t *width, uint32_t *height);
 
 /* Where a place of the pointer is: shares of width and height, from the upper left corner. */
-void window_share(const window *w, int x, int y, float share[2]);
+void window_fraction(const window *w, int x, int y, float fraction[2]);
 /* The other way. */
-void window_place(const window *w, const float share[2], int *x, int *y);
+void window_position(const window *w, const float fraction[2], int *x, int *y);
 
 double window_seconds(const window *w); /* a clock */
 

@@ -131,20 +131,20 @@ const char *json_object_key_at(const json_t *object, size_t n, json_t **value) {
 
 typedef struct text {
   char *at;
-  size_t length, room;
+  size_t length, capacity;
   int failed;
 } text;
 
 static void add(text *t, const char *words, size_t length) {
-  if (t->length + length + 1 > t->room) {
-    size_t room = 2 * (t->length + length) + 256;
-    char *grown = realloc(t->at, room);
+  if (t->length + length + 1 > t->capacity) {
+    size_t capacity = 2 * (t->length + length) + 256;
+    char *grown = realloc(t->at, capacity);
     if (!grown) {
       t->failed = 1;
       return;
     }
     t->at = grown;
-    t->room = room;
+    t->capacity = capacity;
   }
   memcpy(t->at + t->length, words, length);
   t->length += length;

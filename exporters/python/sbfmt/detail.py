@@ -1,15 +1,15 @@
 """Levels of detail while the runtime runs, as sbrun/detail.h has them.
 
     from sbfmt import detail, runtime
-    model = runtime.Model(asset, ladder=True)
+    model = runtime.Model(asset, detail_levels=True)
     with runtime.World(runtime.flat(0.0), capacity=200) as world:
         detail.choose(world, error_px=0.5, budget_us=4000)
-        lizards = [world.add(model, position=(2 * i, 0, 0), rung=len(detail.rungs(model)) - 2) for i in range(200)]
+        lizards = [world.add(model, position=(2 * i, 0, 0), detail_level=len(detail.detail_levels(model)) - 2) for i in range(200)]
         detail.look(world, [detail.view(eye=(0, 1.7, -4), forward=(0, -0.1, 1))])
         world.step(1 / 60)
-        print(detail.visits(world), [detail.rung(lizard) for lizard in lizards])
+        print(detail.visits(world), [detail.detail_level(lizard) for lizard in lizards])
 
-Without `choose` the host puts characters on rungs itself, by `set_rung`.
+Without `choose` the host sets the levels of characters itself, by `set_detail_level`.
 """
 
 import collections
@@ -23,11 +23,11 @@ from .runtime import C, ERROR, Double3, Vec3, W, runtime_library
 
 KINDS = ("soft", "jiggle", "bones", "away")
 SHOWN = ("by_views", "always", "never")
-CHOSEN = 0xFFFFFFFF  # of set_rung: the world chooses
+CHOSEN = 0xFFFFFFFF  # of set_detail_level: the world chooses
 MOST_VIEWS = 4
 
-# What a character is on a rung: one of KINDS, the level of soft ones, metres that it may be off, visits of elements a tick, bytes that it holds.
-Rung = collections.namedtuple("Rung", "kind level error_m visits bytes")
+# What a character is on a detail level: one of KINDS, the level of soft ones, metres that it may be off, visits of elements a tick, bytes that it holds.
+DetailLevel = collections.namedtuple("DetailLevel", "kind level error_m visits bytes")
 
 
 class RungStruct(Structure):
@@ -44,19 +44,19 @@ class View(Structure):
 
 
 # Tests look that they are of the headers' size.
-STRUCTS = {"sbr_rung": RungStruct, "sbr_detail_definition": Definition, "sbr_view": View}
+STRUCTS = {"sbr_detail_level": RungStruct, "sbr_detail_definition": Definition, "sbr_view": View}
 
 CALLS = {
-    "sbr_model_rungs": (c_uint32, [c_void_p, POINTER(RungStruct), c_uint32]),
-    "sbr_character_rung": (c_uint32, [W, C]),
-    "sbr_character_set_rung": (None, [W, C, c_uint32]),
-    "sbr_character_fade": (c_float, [W, C]),
+    "sbr_model_get_detail_levels": (c_uint32, [c_void_p, POINTER(RungStruct), c_uint32]),
+    "sbr_character_get_detail_level": (c_uint32, [W, C]),
+    "sbr_character_set_detail_level": (None, [W, C, c_uint32]),
+    "sbr_character_get_detail_fade": (c_float, [W, C]),
     "sbr_default_detail_definition": (Definition, []),
-    "sbr_world_detail": (c_int, [W, POINTER(Definition), ERROR]),
-    "sbr_world_views": (None, [W, POINTER(View), c_uint32]),
-    "sbr_character_shown": (None, [W, C, c_int]),
-    "sbr_character_error_px": (c_float, [W, C]),
-    "sbr_world_visits": (c_double, [W]),
+    "sbr_world_select_detail_levels": (c_int, [W, POINTER(Definition), ERROR]),
+    "sbr_world_set_views": (None, [W, POINTER(View), c_uint32]),
+    "sbr_character_set_visibility": (None, [W, C, c_int]),
+    "sbr_character_get_error_px": (c_float, [W, C]),
+    "sbr_world_get_element_visits": (c_double, [W]),
 }
 
 
@@ -74,31 +74,31 @@ def _of(name, character, *arguments):
     return character.call(name, *arguments)
 
 
-def rungs(model):
-    """Rungs of a model, finest first; one alone where it was made without a ladder."""
-    count = _library().sbr_model_rungs(model.pointer, None, 0)
+def detail_levels(model):
+    """Levels of detail of a model, finest first; one alone where it was made without `detail_levels`."""
+    count = _library().sbr_model_get_detail_levels(model.pointer, None, 0)
     found = (RungStruct * count)()
-    _library().sbr_model_rungs(model.pointer, found, count)
-    return [Rung(KINDS[one.kind], one.level, one.error_m, one.visits, one.bytes) for one in found]
+    _library().sbr_model_get_detail_levels(model.pointer, found, count)
+    return [DetailLevel(KINDS[one.kind], one.level, one.error_m, one.visits, one.bytes) for one in found]
 
 
-def rung(character):
-    """The rung that the character is on, or begins to go over to in the next tick; from 0."""
-    return _of("sbr_character_rung", character)
+def detail_level(character):
+    """The detail level that the character is on, or begins to go over to in the next tick; from 0."""
+    return _of("sbr_character_get_detail_level", character)
 
 
-def set_rung(character, number):
-    """Puts it on a rung from the next tick on; CHOSEN: the world chooses again."""
-    _of("sbr_character_set_rung", character, number)
+def set_detail_level(character, number):
+    """Puts it on a detail level from the next tick on; CHOSEN: the world chooses again."""
+    _of("sbr_character_set_detail_level", character, number)
 
 
 def fade(character):
     """How far its skin still is from going over: from 1 to 0."""
-    return _of("sbr_character_fade", character)
+    return _of("sbr_character_get_detail_fade", character)
 
 
 def choose(world, **wanted):
-    """From now on the world chooses rungs: by error_px, budget_us, ns_per_visit, settle, stay_s, away_after_s."""
+    """From now on the world chooses detail levels: by error_px, budget_us, ns_per_visit, settle, stay_s, away_after_s."""
     definition = _library().sbr_default_detail_definition()
     known = {name for name, _ in Definition._fields_} - {"cookie"}
     for name, value in wanted.items():
@@ -106,7 +106,7 @@ def choose(world, **wanted):
             raise TypeError(f"choose() takes {', '.join(sorted(known))}, not {name!r}")
         setattr(definition, name, value)
     error = DiagnosticStruct()
-    check(_library().sbr_world_detail(world.pointer, byref(definition), byref(error)), error)
+    check(_library().sbr_world_select_detail_levels(world.pointer, byref(definition), byref(error)), error)
 
 
 def view(eye, forward, height=math.radians(60), ratio=16 / 9, lines=1080):
@@ -119,21 +119,21 @@ def look(world, views):
     """The views of the frames to come, at most MOST_VIEWS; without any nobody is seen."""
     if len(views) > MOST_VIEWS:
         raise ValueError(f"a world has at most {MOST_VIEWS} views, not {len(views)}")
-    _library().sbr_world_views(world.pointer, (View * len(views))(*views), len(views))
+    _library().sbr_world_set_views(world.pointer, (View * len(views))(*views), len(views))
 
 
 def show(character, shown):
     """What views cannot know, one of SHOWN: a mirror (always) or a wall (never)."""
     if shown not in SHOWN:
         raise ValueError(f"shown is one of {', '.join(SHOWN)}, not {shown!r}")
-    _of("sbr_character_shown", character, SHOWN.index(shown))
+    _of("sbr_character_set_visibility", character, SHOWN.index(shown))
 
 
 def error_px(character):
     """By how many pixels it is taken to be off now, at its worst place; 0: it is not seen."""
-    return _of("sbr_character_error_px", character)
+    return _of("sbr_character_get_error_px", character)
 
 
 def visits(world):
     """What all characters together were taken to cost in the last tick, visits of elements."""
-    return _library().sbr_world_visits(world.pointer)
+    return _library().sbr_world_get_element_visits(world.pointer)

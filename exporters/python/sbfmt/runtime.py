@@ -54,7 +54,7 @@ class Tasks(Structure):
 class ModelOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("level", c_uint32), ("scheme", c_int), ("substeps", c_uint32),
                 ("free", c_bool), ("has_gravity", c_bool), ("gravity", Vec3), ("tear_points", c_uint32), ("step_error_m", c_float),
-                ("instructions", c_int), ("rigid_substeps", c_uint32), ("ladder", c_bool),
+                ("instructions", c_int), ("rigid_substeps", c_uint32), ("detail_levels", c_bool),
                 ("rigid_coarse", c_bool)]
 
 
@@ -66,7 +66,7 @@ class WorldDefinition(Structure):
 
 class CharacterDefinition(Structure):
     _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool),
-                ("ground", Ground), ("rung", c_uint32)]
+                ("ground", Ground), ("detail_level", c_uint32)]
 
 
 class CharacterId(Structure):
@@ -101,36 +101,36 @@ CALLS = {
     "sbr_ground_flat": (Ground, [c_double]),
     "sbr_ground_mesh_create": (c_int, [c_void_p, FLOATS, c_uint32, POINTER(c_uint32), c_uint32, c_double, POINTER(c_void_p), ERROR]),
     "sbr_ground_mesh_destroy": (None, [c_void_p]),
-    "sbr_ground_of_mesh": (Ground, [c_void_p]),
+    "sbr_ground_from_mesh": (Ground, [c_void_p]),
     "sbr_model_create": (c_int, [c_void_p, POINTER(ModelOptions), POINTER(c_void_p), ERROR]),
     "sbr_model_destroy": (None, [c_void_p]),
-    "sbr_model_left_out": (c_uint32, [c_void_p, Report, c_void_p]),
-    "sbr_model_scheme_doubts": (c_uint32, [c_void_p, Report, c_void_p]),
+    "sbr_model_report_unsupported": (c_uint32, [c_void_p, Report, c_void_p]),
+    "sbr_model_report_scheme_bias": (c_uint32, [c_void_p, Report, c_void_p]),
     "sbr_default_world_definition": (WorldDefinition, []),
     "sbr_world_create": (c_int, [POINTER(WorldDefinition), POINTER(c_void_p), ERROR]),
     "sbr_world_destroy": (None, [W]),
     "sbr_world_step": (None, [W, c_double]),
-    "sbr_world_state_hash": (c_uint64, [W]),
-    "sbr_world_snapshot_size": (c_size_t, [W]),
-    "sbr_world_snapshot_save": (c_int, [W, c_void_p, c_size_t]),
-    "sbr_world_snapshot_restore": (c_int, [W, c_void_p, c_size_t]),
+    "sbr_world_get_state_hash": (c_uint64, [W]),
+    "sbr_world_get_snapshot_size": (c_size_t, [W]),
+    "sbr_world_save_snapshot": (c_int, [W, c_void_p, c_size_t]),
+    "sbr_world_restore_snapshot": (c_int, [W, c_void_p, c_size_t]),
     "sbr_default_character_definition": (CharacterDefinition, []),
     "sbr_character_create": (c_int, [W, c_void_p, POINTER(CharacterDefinition), POINTER(CharacterId), ERROR]),
-    "sbr_character_drive": (None, [W, C, c_float, c_float, c_float]),
+    "sbr_character_set_drive": (None, [W, C, c_float, c_float, c_float]),
     "sbr_character_set_vertical_speed": (None, [W, C, c_float]),
     "sbr_character_displace": (None, [W, C, Vec3, c_float]),
     "sbr_character_teleport": (None, [W, C, Double3, c_float]),
-    "sbr_character_play": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
-    "sbr_character_origin": (Double3, [W, C]),
-    "sbr_character_bones": (None, [W, C, POINTER(Transform), c_uint32]),
-    "sbr_character_bone_scales": (c_uint32, [W, C, POINTER(Vec3), c_uint32]),
-    "sbr_character_skin": (c_uint32, [W, C, c_uint32, FLOATS, FLOATS, FLOATS, c_uint32]),
-    "sbr_character_surface": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
-    "sbr_character_points": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
-    "sbr_character_torn_polygons": (c_uint32, [W, C, c_uint32, c_uint32, POINTER(c_uint8), c_uint32]),
-    "sbr_character_health": (BodyHealth, [W, C, c_uint32]),
-    "sbr_character_passes": (c_uint32, [W, C, c_uint32]),
-    "sbr_character_distance": (c_double, [W, C]),
+    "sbr_character_play_clip": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
+    "sbr_character_get_origin": (Double3, [W, C]),
+    "sbr_character_get_bones": (None, [W, C, POINTER(Transform), c_uint32]),
+    "sbr_character_get_bone_scales": (c_uint32, [W, C, POINTER(Vec3), c_uint32]),
+    "sbr_character_get_skin": (c_uint32, [W, C, c_uint32, FLOATS, FLOATS, FLOATS, c_uint32]),
+    "sbr_character_get_surface": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
+    "sbr_character_get_points": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
+    "sbr_character_get_torn_polygons": (c_uint32, [W, C, c_uint32, c_uint32, POINTER(c_uint8), c_uint32]),
+    "sbr_character_get_body_health": (BodyHealth, [W, C, c_uint32]),
+    "sbr_character_get_element_visits": (c_uint32, [W, C, c_uint32]),
+    "sbr_character_get_distance": (c_double, [W, C]),
 }
 
 
@@ -182,7 +182,7 @@ class GroundMesh:
 
     @property
     def ground(self):
-        return runtime_library().sbr_ground_of_mesh(self.pointer)
+        return runtime_library().sbr_ground_from_mesh(self.pointer)
 
     def height_at(self, x, z):
         """m."""
@@ -192,14 +192,14 @@ class GroundMesh:
 # ---- Models and worlds ----
 
 class Model:
-    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs; `ladder`: with all
-    rungs that it has (sbfmt.detail)."""
+    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs; `detail_levels`: with all
+    levels that it has (sbfmt.detail)."""
 
-    def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None, ladder=False):
+    def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None, detail_levels=False):
         if scheme not in SCHEMES:
             raise ValueError(f"scheme is one of {', '.join(SCHEMES)}, not {scheme!r}")
         options = ModelOptions(struct_size=ctypes.sizeof(ModelOptions), level=level, scheme=SCHEMES.index(scheme), substeps=substeps,
-                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))), ladder=ladder)
+                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))), detail_levels=detail_levels)
         made, error = c_void_p(), DiagnosticStruct()
         check(runtime_library().sbr_model_create(asset.pointer, byref(options), byref(made), byref(error)), error)
         self.asset, self.pointer = asset, made.value
@@ -213,11 +213,11 @@ class Model:
 
     def left_out(self):
         """What of the asset the runtime neither moves nor lets act: a list of Diagnostic."""
-        return self._findings(runtime_library().sbr_model_left_out)
+        return self._findings(runtime_library().sbr_model_report_unsupported)
 
     def scheme_doubts(self):
         """Bodies whose scheme is known to be off the energy by more than a tenth: a list of Diagnostic."""
-        return self._findings(runtime_library().sbr_model_scheme_doubts)
+        return self._findings(runtime_library().sbr_model_report_scheme_bias)
 
 
 class World:
@@ -247,11 +247,11 @@ class World:
         self._finalizer()
         self.pointer, self.characters, self.models = None, [], []
 
-    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False, rung=0):
-        """A character; the height of its position counts from the ground. Who is far off begins on a coarse rung (detail.py)."""
+    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False, detail_level=0):
+        """A character; the height of its position counts from the ground. Who is far off begins on a coarse detail level (detail.py)."""
         definition = runtime_library().sbr_default_character_definition()
         definition.position, definition.heading = Double3(*position), heading
-        definition.scale, definition.hold, definition.rung = scale, hold, rung
+        definition.scale, definition.hold, definition.detail_level = scale, hold, detail_level
         made, error = CharacterId(), DiagnosticStruct()
         check(runtime_library().sbr_character_create(self.pointer, model.pointer, byref(definition), byref(made), byref(error)), error)
         self.models.append(model)
@@ -262,18 +262,18 @@ class World:
         runtime_library().sbr_world_step(self.pointer, seconds)
 
     def state_hash(self):
-        return runtime_library().sbr_world_state_hash(self.pointer)
+        return runtime_library().sbr_world_get_state_hash(self.pointer)
 
     def snapshot(self):
         """All that can change, as bytes for `restore`."""
-        size = runtime_library().sbr_world_snapshot_size(self.pointer)
+        size = runtime_library().sbr_world_get_snapshot_size(self.pointer)
         kept = ctypes.create_string_buffer(size)
-        runtime_library().sbr_world_snapshot_save(self.pointer, kept, size)
+        runtime_library().sbr_world_save_snapshot(self.pointer, kept, size)
         return kept
 
     def restore(self, kept):
         """Back to a snapshot of this world with the same characters; False where it is of another."""
-        return runtime_library().sbr_world_snapshot_restore(self.pointer, kept, len(kept)) == 0
+        return runtime_library().sbr_world_restore_snapshot(self.pointer, kept, len(kept)) == 0
 
 
 class Character:
@@ -287,7 +287,7 @@ class Character:
 
     def drive(self, forward=0.0, sideways=0.0, turn=0.0, up=0.0):
         """Wanted speeds, m/s and rad/s; left is positive; up of what swims or flies."""
-        self.call("sbr_character_drive", forward, sideways, turn)
+        self.call("sbr_character_set_drive", forward, sideways, turn)
         self.call("sbr_character_set_vertical_speed", up)
 
     def displace(self, by, turn=0.0):
@@ -299,17 +299,17 @@ class Character:
 
     def play(self, clip, layer=0, weight=1.0, fade=0.0, speed=1.0, start=0.0):
         """Plays a clip of the asset by its number; NONE fades the layer out."""
-        self.call("sbr_character_play", layer, clip, byref(ClipPlay(weight, fade, speed, start, NONE)))
+        self.call("sbr_character_play_clip", layer, clip, byref(ClipPlay(weight, fade, speed, start, NONE)))
 
     @property
     def origin(self):
-        found = self.call("sbr_character_origin")
+        found = self.call("sbr_character_get_origin")
         return (found.x, found.y, found.z)
 
     @property
     def distance(self):
         """m travelled."""
-        return self.call("sbr_character_distance")
+        return self.call("sbr_character_get_distance")
 
     def read(self, name, number, *more):
         count = self.call(name, number, None, *more, 0)
@@ -319,38 +319,38 @@ class Character:
 
     def skin(self, render_mesh):
         """Vertices of a render mesh, three floats each."""
-        return self.read("sbr_character_skin", render_mesh, None, None)
+        return self.read("sbr_character_get_skin", render_mesh, None, None)
 
     def surface(self, soft_body):
         """Vertices of a soft body's surface, three floats each."""
-        return self.read("sbr_character_surface", soft_body)
+        return self.read("sbr_character_get_surface", soft_body)
 
     def points(self, soft_body):
         """Points of a soft body's simulated level, three floats each."""
-        return self.read("sbr_character_points", soft_body)
+        return self.read("sbr_character_get_points", soft_body)
 
     def torn(self, render_mesh):
         """For each polygon of a render mesh whether it spans a tear, and is not to be drawn."""
-        count = self.call("sbr_character_torn_polygons", render_mesh, 0, None, 0)
+        count = self.call("sbr_character_get_torn_polygons", render_mesh, 0, None, 0)
         found = (c_uint8 * count)()
-        self.call("sbr_character_torn_polygons", render_mesh, 0, found, count)
+        self.call("sbr_character_get_torn_polygons", render_mesh, 0, found, count)
         return found
 
     def bones(self, count):
         """The first `count` bones of the asset: an array of Transform."""
         found = (Transform * count)()
-        self.call("sbr_character_bones", found, count)
+        self.call("sbr_character_get_bones", found, count)
         return found
 
     def bone_scales(self, count):
         """How the first `count` bones are scaled along their own axes: an array of 3 numbers each."""
         found = (Vec3 * count)()
-        self.call("sbr_character_bone_scales", found, count)
+        self.call("sbr_character_get_bone_scales", found, count)
         return found
 
     def health(self, soft_body):
-        return self.call("sbr_character_health", soft_body)
+        return self.call("sbr_character_get_body_health", soft_body)
 
     def passes(self, soft_body):
         """How often all elements of a soft body have been looked at: what its motion costs, on any machine."""
-        return self.call("sbr_character_passes", soft_body)
+        return self.call("sbr_character_get_element_visits", soft_body)

@@ -61,18 +61,18 @@ STRUCTS = {"sbr_soft_motion": MotionStruct, "sbr_soft_hold": HoldStruct, "sbr_pi
 
 BODY, VERTEX = c_uint32, c_uint32
 CALLS = {
-    "sbr_character_soft_motion": (MotionStruct, [W, C, BODY]),
+    "sbr_character_get_soft_motion": (MotionStruct, [W, C, BODY]),
     "sbr_character_set_soft_velocity": (c_int, [W, C, BODY, Vec3, Vec3, ERROR]),
     "sbr_character_apply_soft_impulse": (c_int, [W, C, BODY, VERTEX, Vec3, ERROR]),
     "sbr_character_apply_soft_force": (c_int, [W, C, BODY, VERTEX, Vec3, c_float, ERROR]),
     "sbr_default_soft_hold": (HoldStruct, []),
     "sbr_character_hold_vertex": (c_int, [W, C, BODY, VERTEX, POINTER(HoldStruct), ERROR]),
     "sbr_character_release_vertex": (c_bool, [W, C, BODY, VERTEX]),
-    "sbr_character_hold_force": (Vec3, [W, C, BODY, VERTEX]),
-    "sbr_character_nearest_vertex": (c_uint32, [W, C, BODY, Double3]),
-    "sbr_character_pin_reactions": (c_uint32, [W, C, BODY, POINTER(PinReactionStruct), c_uint32]),
-    "sbr_character_tetrahedra": (c_uint32, [W, C, BODY, POINTER(Tetrahedron), c_uint32]),
-    "sbr_character_springs": (c_uint32, [W, C, BODY, POINTER(Spring), c_uint32]),
+    "sbr_character_get_hold_force": (Vec3, [W, C, BODY, VERTEX]),
+    "sbr_character_find_nearest_vertex": (c_uint32, [W, C, BODY, Double3]),
+    "sbr_character_get_pin_reactions": (c_uint32, [W, C, BODY, POINTER(PinReactionStruct), c_uint32]),
+    "sbr_character_get_tetrahedra": (c_uint32, [W, C, BODY, POINTER(Tetrahedron), c_uint32]),
+    "sbr_character_get_springs": (c_uint32, [W, C, BODY, POINTER(Spring), c_uint32]),
 }
 
 
@@ -108,7 +108,7 @@ def _numbers(vector):
 
 def motion(character, body):
     """Mass and rigid motion of a body's free points; zeros where it is not simulated."""
-    found = _ask("sbr_character_soft_motion", character, body)
+    found = _ask("sbr_character_get_soft_motion", character, body)
     return Motion(found.mass, _numbers(found.center), _numbers(found.velocity), _numbers(found.angular_velocity))
 
 
@@ -142,25 +142,25 @@ def release(character, body, vertex):
 
 def hold_force(character, body, vertex):
     """Force on a held vertex in N, mean of the last tick."""
-    return _numbers(_ask("sbr_character_hold_force", character, body, vertex))
+    return _numbers(_ask("sbr_character_get_hold_force", character, body, vertex))
 
 
 def nearest_vertex(character, body, position):
     """Vertex of the body's surface nearest to a position (world, m); WHOLE_BODY where it has none."""
-    return _ask("sbr_character_nearest_vertex", character, body, Double3(*position))
+    return _ask("sbr_character_find_nearest_vertex", character, body, Double3(*position))
 
 
 def pin_reactions(character, body):
     """What each pin set of the simulated level exerts on the body: a list of PinReaction."""
     return [PinReaction(one.pin_set, one.bone, one.rigid_body, one.points, _numbers(one.about), _numbers(one.force), _numbers(one.torque))
-            for one in _list("sbr_character_pin_reactions", PinReactionStruct, character, body)]
+            for one in _list("sbr_character_get_pin_reactions", PinReactionStruct, character, body)]
 
 
 def tetrahedra(character, body):
     """Stress, energy and volume of the simulated level's tetrahedra: an array of Tetrahedron, empty where it has none."""
-    return _list("sbr_character_tetrahedra", Tetrahedron, character, body)
+    return _list("sbr_character_get_tetrahedra", Tetrahedron, character, body)
 
 
 def springs(character, body):
     """Tension and energy of the simulated level's springs: an array of Spring, empty where it has none."""
-    return _list("sbr_character_springs", Spring, character, body)
+    return _list("sbr_character_get_springs", Spring, character, body)

@@ -132,28 +132,28 @@ static sbfi_carried written(const sbfi_carrier *c, const choice *chosen, sbfi_d3
   float weights[4];
   for (int k = 0; k < 3; k++) weights[k] = (float)chosen->weights[k];
   weights[3] = (float)(1.0 - weights[0] - weights[1] - weights[2]);
-  sbfi_d3 place = {0, 0, 0};
+  sbfi_d3 point = {0, 0, 0};
   for (int k = 0; k < 4; k++) {
     carried.points.at[k] = chosen->points[k];
-    place = sbfi_d3_add(place, sbfi_d3_scale(at_rest(c, chosen->points[k]), weights[k]));
+    point = sbfi_d3_add(point, sbfi_d3_scale(at_rest(c, chosen->points[k]), weights[k]));
   }
   carried.weights = (sbf_vec4){weights[0], weights[1], weights[2], weights[3]};
-  carried.error = (float)sbfi_d3_length(sbfi_d3_sub(place, position));
+  carried.error = (float)sbfi_d3_length(sbfi_d3_sub(point, position));
   return carried;
 }
 
 /* As near to the position as weights in bounds reach from the middle of the four points. */
 static sbfi_carried carried_bounded(const sbfi_carrier *c, const choice *chosen, sbfi_d3 position) {
   choice near = *chosen;
-  double share = 1;
+  double fraction = 1;
   for (int k = 0; k < 4 && c->use == SBFI_CARRIES_VERTICES; k++) {
     double off = chosen->weights[k] - 0.25;
     double bound = (off < 0 ? SBFI_MIN_CARRIED : SBFI_MAX_CARRIED) - 0.25;
-    if (fabs(off) * share > fabs(bound)) share = bound / off;
+    if (fabs(off) * fraction > fabs(bound)) fraction = bound / off;
   }
-  for (int k = 0; k < 4; k++) near.weights[k] = 0.25 + share * (chosen->weights[k] - 0.25);
+  for (int k = 0; k < 4; k++) near.weights[k] = 0.25 + fraction * (chosen->weights[k] - 0.25);
   sbfi_carried carried = written(c, &near, position);
-  carried.beyond = share < 1;
+  carried.beyond = fraction < 1;
   return carried;
 }
 
@@ -163,8 +163,8 @@ static sbfi_carried carried_alone(uint32_t point, double error) {
 
 static double point_distance(const void *user, uint32_t point, const double position[3]) {
   const sbfi_carrier *c = user;
-  sbfi_d3 way = sbfi_d3_sub(at_rest(c, point), (sbfi_d3){position[0], position[1], position[2]});
-  return sbfi_d3_dot(way, way);
+  sbfi_d3 displacement = sbfi_d3_sub(at_rest(c, point), (sbfi_d3){position[0], position[1], position[2]});
+  return sbfi_d3_dot(displacement, displacement);
 }
 
 static sbfi_carried carry_by_points(const sbfi_carrier *c, sbf_vec3 position) {
@@ -248,7 +248,7 @@ static void try_neighbours(const sbfi_carrier *c, uint32_t tetrahedron, sbfi_d3 
   neighbour_search n = {c, position, INFINITY, best};
   if (c->use == SBFI_CARRIES_LOADS) return;
   const sbf_uint4 corners = c->level->lattice.tetrahedra.at[tetrahedron];
-  for (int k = 0; k < 4; k++) sbfi_tetrahedra_about(&c->lattice, corners.at[k], try_neighbour, &n);
+  for (int k = 0; k < 4; k++) sbfi_find_tetrahedra_about(&c->lattice, corners.at[k], try_neighbour, &n);
 }
 
 /* The four of the level's first `count` extremes with the smallest weights, where those are smaller than the

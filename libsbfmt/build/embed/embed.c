@@ -9,13 +9,13 @@
 #include "build/sections/section_frame.h"
 
 /* One body's share in one vertex. */
-typedef struct share {
+typedef struct weighted_point {
   uint32_t vertex, body;
   float blend;
   const sbfi_mix *mix; /* by which the body carries it; NULL: by its carrier */
-} share;
+} weighted_point;
 
-static bool is_beside(const share *s) {
+static bool is_beside(const weighted_point *s) {
   return s->mix && s->mix->beside;
 }
 
@@ -33,8 +33,8 @@ typedef struct work {
   uint32_t *bone_sections; /* (bones) the body cut along the bone; SBFI_NO_INDEX: none */
   uint8_t *sectioned;      /* (render meshes) the skin has authored sections */
   const sbfi_sections *sections;
-  sbfi_array shares;     /* of the mesh at hand, in vertex order */
-  sbfi_far_vertices far; /* of it */
+  sbfi_array contributions; /* of the mesh at hand, in vertex order */
+  sbfi_far_vertices far;    /* of it */
 } work;
 
 static bool index_bodies(work *w) {
@@ -103,24 +103,24 @@ static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely
 }
 
 /* Adds a body's share, joined with what it has in that vertex already; `begin` is the vertex's first. */
-static bool add_share(
+static bool add_contribution(
     work *w, size_t begin, uint32_t vertex, uint32_t body, float blend, const sbfi_mix *mix) {
-  share *shares = w->shares.at;
-  for (size_t i = begin; i < w->shares.count; i++) {
-    if (shares[i].body != body || is_beside(&shares[i]) || (mix && mix->beside)) continue;
-    shares[i].blend += blend;
+  weighted_point *contributions = w->contributions.at;
+  for (size_t i = begin; i < w->contributions.count; i++) {
+    if (contributions[i].body != body || is_beside(&contributions[i]) || (mix && mix->beside)) continue;
+    contributions[i].blend += blend;
     return true;
   }
-  return sbfi_array_append(&w->shares, &(share){vertex, body, blend, mix}, 1);
+  return sbfi_array_append(&w->contributions, &(weighted_point){vertex, body, blend, mix}, 1);
 }
 
 /* `mixes`: of each weight its place among those of the sections that the skin was cut into; NULL: it was not.
  */
-static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin, const uint32_t *mixes,
-    sbfi_progress progress) {
+static bool distribute_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin,
+    const uint32_t *mixes, sbfi_progress progress) {
   uint32_t influence = 0;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
-    size_t begin = w->shares.count;
+    size_t begin = w->contributions.count;
     double sum = 0;
     if (!sbfi_progress_step(progress, v, mesh->mesh.positions.count)) return false;
     for (uint32_t end = influence + skin->influence_counts.at[v]; influence < end; influence++) {
@@ -131,13 +131,13 @@ static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *
       if (body == SBFI_NO_INDEX || w->finest[body] == SBFI_NO_INDEX || !(weight > 0)) continue;
       uint32_t number = mixes ? mixes[influence] : SBFI_NO_INDEX;
       const sbfi_mix *mix = number != SBFI_NO_INDEX ? &w->sections->mixes[number] : NULL;
-      if (!add_share(w, begin, v, body, weight, mix)) return false;
+      if (!add_contribution(w, begin, v, body, weight, mix)) return false;
       sum += weight;
     }
-    share *shares = w->shares.at;
-    for (size_t i = begin; i < w->shares.count; i++) {
-      double blend = shares[i].blend / sum;
-      shares[i].blend = blend < 1 ? (float)blend : 1;
+    weighted_point *contributions = w->contributions.at;
+    for (size_t i = begin; i < w->contributions.count; i++) {
+      double blend = contributions[i].blend / sum;
+      contributions[i].blend = blend < 1 ? (float)blend : 1;
     }
   }
   return true;
@@ -159,7 +159,7 @@ static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
   return SBFI_NO_INDEX;
 }
 
-static bool share_whole(work *w, const sbf_render_mesh *mesh, sbfi_progress progress) {
+static bool distribute_whole(work *w, const sbf_render_mesh *mesh, sbfi_progress progress) {
   uint32_t own = find_body_of(w, mesh), likely = own;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
     sbf_vec3 position = mesh->mesh.positions.at[v];
@@ -170,7 +170,8 @@ static bool share_whole(work *w, const sbf_render_mesh *mesh, sbfi_progress prog
       likely = choose_on_bone(w, w->bone_bodies[mesh->bone], position);
     else
       likely = choose_nearest(w, position, likely);
-    if (likely != SBFI_NO_INDEX && !sbfi_array_append(&w->shares, &(share){v, likely, 1, NULL}, 1))
+    if (likely != SBFI_NO_INDEX &&
+        !sbfi_array_append(&w->contributions, &(weighted_point){v, likely, 1, NULL}, 1))
       return false;
   }
   return true;
@@ -187,7 +188,7 @@ static sbfi_progress part_of(sbfi_progress progress, uint32_t number, uint32_t c
   return sbfi_progress_part(progress, (double)number / count, (number + 1.0) / count);
 }
 
-/* Gives the level one more embedding. The list has room: see make_room. */
+/* Gives the level one more embedding. The list has room: see reserve. */
 static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t derivation) {
   sbf_embedding *list = (sbf_embedding *)(uintptr_t)level->embeddings.at;
   sbf_embedding *embedding = &list[level->embeddings.count++];
@@ -198,7 +199,7 @@ static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t deri
 }
 
 /* Room for an embedding of each mesh and of the surface, in memory that may be written to. */
-static bool make_room(const work *w, sbf_level *level) {
+static bool reserve(const work *w, sbf_level *level) {
   uint32_t count = level->embeddings.count;
   sbf_embedding *list =
       sbf_asset_allocate(w->asset, (size_t)count + 2 * w->asset->render_meshes.count + 1, sizeof *list);
@@ -215,8 +216,8 @@ static sbfi_carried carried_mixed(const sbfi_mix *mix) {
 }
 
 /* Attaches to the body's bone what the level's own points are too far from to carry in place. */
-static bool attach_to_bone(
-    const work *w, uint32_t target, const sbf_vec3_list *positions, const share *list, sbfi_array *items) {
+static bool attach_to_bone(const work *w, uint32_t target, const sbf_vec3_list *positions,
+    const weighted_point *list, sbfi_array *items) {
   sbf_level *level = w->targets[target].level;
   const sbf_soft_body *body = &w->asset->soft_bodies.at[w->targets[target].body];
   sbfi_carried *carried = items->at;
@@ -243,7 +244,7 @@ static bool follows_bone(const sbf_soft_body *body, const sbf_level *level) {
 }
 
 /* How the target's level carries each vertex of `list`. */
-static bool carry_all(work *w, uint32_t target, const sbf_vec3_list *positions, const share *list,
+static bool carry_all(work *w, uint32_t target, const sbf_vec3_list *positions, const weighted_point *list,
     uint32_t count, sbfi_array *items, sbfi_progress progress) {
   const sbfi_embed_target *to = &w->targets[target];
   for (uint32_t i = 0; i < count; i++) {
@@ -271,7 +272,7 @@ static bool note_carried(work *w, uint32_t target, uint32_t vertex, const sbfi_c
 
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
 static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
-    const share *list, uint32_t count, bool count_it, sbfi_progress progress) {
+    const weighted_point *list, uint32_t count, bool count_it, sbfi_progress progress) {
   sbf_level *level = w->targets[target].level;
   bool whole = count == positions->count, blended = false;
   for (uint32_t i = 0; i < count; i++) blended |= list[i].blend != 1;
@@ -303,11 +304,11 @@ static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_li
 
 /* The same; what rigid bones have beside the body's own share goes to an embedding of its own, since none
  * names a vertex twice. The list comes back with that part last. */
-static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions, share *list,
-    uint32_t count, bool count_it, sbfi_progress progress) {
+static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
+    weighted_point *list, uint32_t count, bool count_it, sbfi_progress progress) {
   const sbf_level *level = w->targets[target].level;
   if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
-  share *beside = sbfi_arena_allocate(w->scratch, count, sizeof *beside);
+  weighted_point *beside = sbfi_arena_allocate(w->scratch, count, sizeof *beside);
   uint32_t own = 0, others = 0;
   if (!beside) return false;
   for (uint32_t i = 0; i < count; i++)
@@ -322,14 +323,14 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
 
 /* Hands the shares of a mesh to their bodies' levels, body by body. */
 static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi_progress progress) {
-  uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->shares.count;
-  const share *shares = w->shares.at;
+  uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->contributions.count;
+  const weighted_point *contributions = w->contributions.at;
   uint32_t *begins = sbfi_arena_allocate(w->scratch, (size_t)bodies + 2, sizeof *begins);
-  share *sorted = sbfi_arena_allocate(w->scratch, (size_t)count + 1, sizeof *sorted);
+  weighted_point *sorted = sbfi_arena_allocate(w->scratch, (size_t)count + 1, sizeof *sorted);
   if (!begins || !sorted) return false;
-  for (uint32_t i = 0; i < count; i++) begins[shares[i].body + 2]++;
+  for (uint32_t i = 0; i < count; i++) begins[contributions[i].body + 2]++;
   for (uint32_t b = 0; b < bodies; b++) begins[b + 2] += begins[b + 1];
-  for (uint32_t i = 0; i < count; i++) sorted[begins[shares[i].body + 1]++] = shares[i];
+  for (uint32_t i = 0; i < count; i++) sorted[begins[contributions[i].body + 1]++] = contributions[i];
   for (uint32_t t = 0; t < w->target_count; t++) {
     uint32_t body = w->targets[t].body;
     if (!embed_in(w, t, mesh, positions, sorted + begins[body], begins[body + 1] - begins[body],
@@ -337,7 +338,7 @@ static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi
       return false;
   }
   for (uint32_t i = 0; i < count; i++)
-    w->report->vertices += i == 0 || shares[i].vertex != shares[i - 1].vertex;
+    w->report->vertices += i == 0 || contributions[i].vertex != contributions[i - 1].vertex;
   return true;
 }
 
@@ -345,9 +346,9 @@ static bool embed_surfaces(work *w, sbfi_progress progress) {
   for (uint32_t t = 0; t < w->target_count; t++) {
     sbfi_progress part = part_of(progress, t, w->target_count);
     const sbf_vec3_list *positions = &w->asset->soft_bodies.at[w->targets[t].body].surface.positions;
-    share *all = sbfi_arena_allocate(w->scratch, (size_t)positions->count + 1, sizeof *all);
+    weighted_point *all = sbfi_arena_allocate(w->scratch, (size_t)positions->count + 1, sizeof *all);
     if (!all) return false;
-    for (uint32_t v = 0; v < positions->count; v++) all[v] = (share){v, 0, 1, NULL};
+    for (uint32_t v = 0; v < positions->count; v++) all[v] = (weighted_point){v, 0, 1, NULL};
     if (!embed_in(w, t, SBF_NONE, positions, all, positions->count, false, part)) return false;
   }
   return true;
@@ -362,27 +363,28 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
     mixes = w->sections->mixes_of_blends[number];
   }
   if (mesh->mesh.positions.count == 0) return true;
-  w->shares.count = 0;
+  w->contributions.count = 0;
   uint32_t flat_before = w->report->flat;
   w->far = (sbfi_far_vertices){.mesh = mesh};
   /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
   bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
   sbfi_progress sharing = sbfi_progress_part(progress, 0, 0.3);
   bool by_bones = by_skin && !mixes && !w->sectioned[number];
-  if (!by_bones && !(by_skin ? share_by_skin(w, mesh, skin, mixes, sharing) : share_whole(w, mesh, sharing)))
+  if (!by_bones &&
+      !(by_skin ? distribute_by_skin(w, mesh, skin, mixes, sharing) : distribute_whole(w, mesh, sharing)))
     return false;
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
     return false;
-  sbf_diagnostic finding;
-  if (w->shares.count == 0) {
-    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_NO_BODY,
+  sbf_diagnostic diagnostic;
+  if (w->contributions.count == 0) {
+    sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_NO_BODY,
         "no soft body carries render mesh \"%s\": give its bones (or one above them) a section", mesh->name);
-    sbfi_report(reporter, &finding);
+    sbfi_report(reporter, &diagnostic);
   } else if (w->report->flat > flat_before) {
-    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FLAT,
+    sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_FLAT,
         "%u vertices of render mesh \"%s\" lie off a flat body and are carried at its surface",
         (unsigned)(w->report->flat - flat_before), mesh->name);
-    sbfi_report(reporter, &finding);
+    sbfi_report(reporter, &diagnostic);
   }
   sbfi_far_vertices_report(&w->far, w->asset, reporter);
   return true;
@@ -400,11 +402,11 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
       .scratch = scratch};
   *report = (sbfi_embed_report){0, 0, 0};
   if (target_count == 0) return true;
-  sbfi_array_init(&w.shares, &scratch->allocator, sizeof(share));
+  sbfi_array_init(&w.contributions, &scratch->allocator, sizeof(weighted_point));
   w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);
   bool good = w.carriers && index_bodies(&w);
   for (uint32_t t = 0; good && t < target_count; t++)
-    good = sbfi_progress_say(progress, 0.2 * t / target_count) && make_room(&w, targets[t].level) &&
+    good = sbfi_progress_say(progress, 0.2 * t / target_count) && reserve(&w, targets[t].level) &&
            sbfi_carrier_make(&w.carriers[t], SBFI_CARRIES_VERTICES, &asset->soft_bodies.at[targets[t].body],
                targets[t].level, targets[t].interior, targets[t].frame, scratch);
   good = good && embed_surfaces(&w, sbfi_progress_part(progress, 0.2, 0.4));
@@ -412,6 +414,6 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   for (uint32_t m = 0; good && m < meshes; m++)
     good = embed_mesh(
         &w, m, reporter, sbfi_progress_part(progress, 0.4 + 0.6 * m / meshes, 0.4 + 0.6 * (m + 1) / meshes));
-  sbfi_array_free(&w.shares);
+  sbfi_array_free(&w.contributions);
   return good;
 }

@@ -4,7 +4,7 @@
 
 enum { IN_POLYGON = 1, COUNTED = 2 };
 
-static bool look_at_polygons(sbfi_far_vertices *to, sbfi_arena *arena) {
+static bool visit_polygons(sbfi_far_vertices *to, sbfi_arena *arena) {
   const sbf_polygon_mesh *mesh = &to->mesh->mesh;
   to->known = sbfi_arena_allocate(arena, mesh->positions.count, 1);
   for (uint32_t i = 0; to->known && i < mesh->polygon_points.count; i++)
@@ -14,7 +14,7 @@ static bool look_at_polygons(sbfi_far_vertices *to, sbfi_arena *arena) {
 
 bool sbfi_far_vertices_add(
     sbfi_far_vertices *to, uint32_t vertex, double outside_m, uint32_t body, sbfi_arena *arena) {
-  if (!to->known && !look_at_polygons(to, arena)) return false;
+  if (!to->known && !visit_polygons(to, arena)) return false;
   if (outside_m > to->farthest_m) {
     to->farthest_m = outside_m;
     to->body = body;
@@ -38,7 +38,7 @@ static void list_vertices(const sbfi_far_vertices *of, char *text, size_t size) 
 
 void sbfi_far_vertices_report(const sbfi_far_vertices *of, const sbf_asset *asset, sbfi_reporter *reporter) {
   char vertices[128];
-  sbf_diagnostic finding;
+  sbf_diagnostic diagnostic;
   const char *what_next = of->in_polygons == of->count ? "give a smaller cell"
                           : of->in_polygons ? "some are in no polygon, take those out of the source; "
                                               "for the others give a smaller cell"
@@ -47,11 +47,11 @@ void sbfi_far_vertices_report(const sbfi_far_vertices *of, const sbf_asset *asse
                               : "they are in no polygon and never seen, take them out of the source";
   if (of->count == 0) return;
   list_vertices(of, vertices, sizeof vertices);
-  sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FAR,
+  sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_FAR,
       "%s of render mesh \"%s\" lie%s farther than a cell outside the lattice that carries %s, up to %.3g m "
       "from "
       "that of soft body \"%s\": %s",
       vertices, of->mesh->name, of->count == 1 ? "s" : "", of->count == 1 ? "it" : "them", of->farthest_m,
       asset->soft_bodies.at[of->body].name, what_next);
-  sbfi_report(reporter, &finding);
+  sbfi_report(reporter, &diagnostic);
 }

@@ -25,16 +25,16 @@ void sbfi_point_rings_begin(
 bool sbfi_point_rings_widen(sbfi_point_rings *rings) {
   uint32_t before = rings->count;
   while (rings->widened < before && !rings->full)
-    sbfi_tetrahedra_about(rings->finder, rings->points[rings->widened++], take_corners, rings);
+    sbfi_find_tetrahedra_about(rings->finder, rings->points[rings->widened++], take_corners, rings);
   return rings->count > before && !rings->full;
 }
 
 /* Squared, times what all have in common: from a point, from the line through two, from the plane of three.
  */
 static double distance2(const sbfi_d3 *from, int count, sbfi_d3 point) {
-  sbfi_d3 way = sbfi_d3_sub(point, from[0]);
-  if (count == 1) return sbfi_d3_dot(way, way);
-  sbfi_d3 off = sbfi_d3_cross(sbfi_d3_sub(from[1], from[0]), way);
+  sbfi_d3 displacement = sbfi_d3_sub(point, from[0]);
+  if (count == 1) return sbfi_d3_dot(displacement, displacement);
+  sbfi_d3 off = sbfi_d3_cross(sbfi_d3_sub(from[1], from[0]), displacement);
   if (count == 2) return sbfi_d3_dot(off, off);
   double height = sbfi_d3_dot(off, sbfi_d3_sub(from[2], from[0]));
   return height * height;

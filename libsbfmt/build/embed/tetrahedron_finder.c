@@ -42,8 +42,8 @@ static sbfi_d3 middle_of(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron)
   return sbfi_d3_scale(sum, 0.25);
 }
 
-static uint32_t bin_along(const sbfi_tetrahedron_finder *f, double place, double origin, int axis) {
-  double bin = (place - origin) / f->width;
+static uint32_t bin_along(const sbfi_tetrahedron_finder *f, double coordinate, double origin, int axis) {
+  double bin = (coordinate - origin) / f->width;
   if (!(bin > 0)) return 0;
   return bin < f->counts[axis] - 1 ? (uint32_t)bin : f->counts[axis] - 1;
 }
@@ -64,8 +64,8 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width
     low = (sbfi_d3){fmin(low.x, m.x), fmin(low.y, m.y), fmin(low.z, m.z)};
     high = (sbfi_d3){fmax(high.x, m.x), fmax(high.y, m.y), fmax(high.z, m.z)};
     for (int k = 0; k < 4; k++) {
-      sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(f->positions[f->tetrahedra[t].at[k]]), m);
-      double way2 = sbfi_d3_dot(way, way);
+      sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(f->positions[f->tetrahedra[t].at[k]]), m);
+      double way2 = sbfi_d3_dot(displacement, displacement);
       if (way2 > radius2) radius2 = way2;
       spread += way2;
     }
@@ -112,9 +112,9 @@ bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec
   for (size_t b = 2; b < bins + 2; b++) finder->begins[b] += finder->begins[b - 1];
   for (uint32_t t = 0; t < count; t++) {
     sbfi_d3 middle = middle_of(finder, t);
-    uint32_t place = finder->begins[bin_of(finder, middle) + 1]++;
-    finder->items[place] = t;
-    finder->middles[place] = sbfi_d3_rounded(sbfi_d3_sub(middle, finder->origin));
+    uint32_t index = finder->begins[bin_of(finder, middle) + 1]++;
+    finder->items[index] = t;
+    finder->middles[index] = sbfi_d3_rounded(sbfi_d3_sub(middle, finder->origin));
   }
   return !prepare || solve_all(finder, count, arena);
 }
@@ -122,10 +122,10 @@ bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec
 /* The bins that may hold middles within `reach` of the point. */
 static void bins_around(
     const sbfi_tetrahedron_finder *f, sbfi_d3 at, double reach, uint32_t first[3], uint32_t last[3]) {
-  const double place[3] = {at.x, at.y, at.z}, origin[3] = {f->origin.x, f->origin.y, f->origin.z};
+  const double position[3] = {at.x, at.y, at.z}, origin[3] = {f->origin.x, f->origin.y, f->origin.z};
   for (int k = 0; k < 3; k++) {
-    first[k] = bin_along(f, place[k] - reach, origin[k], k);
-    last[k] = bin_along(f, place[k] + reach, origin[k], k);
+    first[k] = bin_along(f, position[k] - reach, origin[k], k);
+    last[k] = bin_along(f, position[k] + reach, origin[k], k);
   }
 }
 
@@ -142,8 +142,8 @@ struct search {
 
 /* From a place to the nearest of a bin's, along one axis, both from the origin. The outermost bins hold
  * nothing that lies farther out. */
-static double gap_to_bin(double place, uint32_t bin, double width) {
-  double below = bin * width - place, above = place - (bin + 1.0) * width;
+static double gap_to_bin(double coordinate, uint32_t bin, double width) {
+  double below = bin * width - coordinate, above = coordinate - (bin + 1.0) * width;
   return below > 0 ? below : above > 0 ? above : 0;
 }
 
@@ -166,8 +166,8 @@ static void visit_within(search *s, double within, visitor *visit) {
       uint32_t begin = f->begins[row + bin_along(f, s->at.x - along, f->origin.x, 0)];
       uint32_t end = f->begins[row + bin_along(f, s->at.x + along, f->origin.x, 0) + 1];
       for (uint32_t i = begin; i < end; i++) {
-        sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(f->middles[i]), at);
-        double middle2 = sbfi_d3_dot(way, way);
+        sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(f->middles[i]), at);
+        double middle2 = sbfi_d3_dot(displacement, displacement);
         if (middle2 <= s->within2) visit(s, f->items[i], middle2);
       }
     }
@@ -186,7 +186,7 @@ static bool any_below(const double weights[4], double limit) {
   return weights[0] < limit || weights[1] < limit || weights[2] < limit || weights[3] < limit;
 }
 
-static void look_inside(search *s, uint32_t tetrahedron, double middle2) {
+static void find_inside(search *s, uint32_t tetrahedron, double middle2) {
   const sbfi_tetrahedron_finder *f = s->finder;
   sbfi_solved_tetrahedron now;
   double weights[4];
@@ -229,13 +229,13 @@ static double distance_to(
 }
 
 /* The middle nearest to the point, for a first distance. */
-static void look_for_middle(search *s, uint32_t tetrahedron, double middle2) {
+static void find_middle(search *s, uint32_t tetrahedron, double middle2) {
   if (middle2 == s->within2 && tetrahedron > s->best) return;
   s->within2 = middle2;
   s->best = tetrahedron;
 }
 
-static void look_near(search *s, uint32_t tetrahedron, double middle2) {
+static void find_nearby(search *s, uint32_t tetrahedron, double middle2) {
   const sbfi_tetrahedron_finder *f = s->finder;
   sbfi_solved_tetrahedron now;
   double weights[4];
@@ -257,7 +257,7 @@ static double within_of_size(const sbfi_tetrahedron_finder *f, double size) {
   return f->spread * sqrt(size > 0.25 ? size - 0.25 : 0) * (1 + 1e-9) + f->rounding;
 }
 
-static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
+static void find_small(search *s, uint32_t tetrahedron, double middle2) {
   const sbfi_tetrahedron_finder *f = s->finder;
   sbfi_solved_tetrahedron now;
   double weights[4], size = 0;
@@ -276,19 +276,18 @@ static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
 
 sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *finder, sbf_vec3 point) {
   search s = {finder, sbfi_d3_of(point), 0, UINT32_MAX, INFINITY, 0, INFINITY};
-  visit_within(&s, finder->radius, look_inside);
+  visit_within(&s, finder->radius, find_inside);
   if (s.best != UINT32_MAX) return (sbfi_found_tetrahedron){s.best, 0};
-  for (double reach = finder->radius; s.best == UINT32_MAX; reach *= 2)
-    visit_within(&s, reach, look_for_middle);
+  for (double reach = finder->radius; s.best == UINT32_MAX; reach *= 2) visit_within(&s, reach, find_middle);
   s.distance = distance_to(finder, s.best, s.at, NULL);
   /* What is nearer has its middle within that way and a radius. */
-  visit_within(&s, s.distance + finder->radius, look_near);
+  visit_within(&s, s.distance + finder->radius, find_nearby);
   s.max = s.distance + finder->radius / 2;
   /* The nearest itself first: few others have smaller weights, and of those alone the distance is asked. */
   uint32_t nearest = s.best;
   s.best = UINT32_MAX;
-  look_for_small(&s, nearest, 0);
-  visit_within(&s, fmin(s.max + finder->radius, within_of_size(finder, s.size)), look_for_small);
+  find_small(&s, nearest, 0);
+  visit_within(&s, fmin(s.max + finder->radius, within_of_size(finder, s.size)), find_small);
   return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : nearest, s.distance};
 }
 
@@ -299,7 +298,7 @@ typedef struct corner_search {
   void *user;
 } corner_search;
 
-static void look_for_corner(search *s, uint32_t tetrahedron, double middle2) {
+static void find_corner(search *s, uint32_t tetrahedron, double middle2) {
   const corner_search *c = (const corner_search *)s;
   const uint32_t *at = s->finder->tetrahedra[tetrahedron].at;
   (void)middle2;
@@ -307,8 +306,8 @@ static void look_for_corner(search *s, uint32_t tetrahedron, double middle2) {
     c->visit(c->user, tetrahedron);
 }
 
-void sbfi_tetrahedra_about(
+void sbfi_find_tetrahedra_about(
     const sbfi_tetrahedron_finder *finder, uint32_t corner, sbfi_tetrahedron_visitor *visit, void *user) {
   corner_search c = {{.finder = finder, .at = sbfi_d3_of(finder->positions[corner])}, corner, visit, user};
-  visit_within(&c.s, finder->radius, look_for_corner);
+  visit_within(&c.s, finder->radius, find_corner);
 }

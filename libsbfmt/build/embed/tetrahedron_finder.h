@@ -50,7 +50,7 @@ bool sbfi_tetrahedron_weigh(
 typedef void sbfi_tetrahedron_visitor(void *user, uint32_t tetrahedron);
 
 /* Calls for each tetrahedron that has the point of that number as a corner. */
-void sbfi_tetrahedra_about(
+void sbfi_find_tetrahedra_about(
     const sbfi_tetrahedron_finder *finder, uint32_t corner, sbfi_tetrahedron_visitor *visit, void *user);
 
 #endif

@@ -20,7 +20,7 @@ static uint32_t spread(uint32_t x) {
   return (x | x << 2) & 0x09249249u;
 }
 
-static uint32_t place_on_curve(const sbfi_box *box, const sbfi_box *all) {
+static uint32_t curve_index(const sbfi_box *box, const sbfi_box *all) {
   uint32_t code = 0;
   for (int k = 0; k < 3; k++) {
     double size = (double)all->high[k] - all->low[k];
@@ -39,7 +39,7 @@ static bool sort_items(sbfi_box_tree *tree, const sbfi_box *boxes, const sbfi_bo
   uint32_t *other = sbfi_arena_allocate(arena, count, sizeof *other);
   if (!codes || !other) return false;
   for (uint32_t i = 0; i < count; i++) {
-    codes[i] = place_on_curve(&boxes[i], all);
+    codes[i] = curve_index(&boxes[i], all);
     tree->items[i] = i;
   }
   for (int shift = 0; shift < 3 * CURVE_BITS; shift += 8) {
@@ -128,15 +128,15 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
   return nearest;
 }
 
-/* Factor of `way` at which the ray enters the box; negative where it passes by. */
-static double enter(const sbfi_box *box, const double origin[3], const double way[3]) {
+/* Factor of `direction` at which the ray enters the box; negative where it passes by. */
+static double enter(const sbfi_box *box, const double origin[3], const double direction[3]) {
   double near = 0, far = INFINITY;
   for (int k = 0; k < 3; k++) {
-    if (way[k] == 0) {
+    if (direction[k] == 0) {
       if (origin[k] < box->low[k] || origin[k] > box->high[k]) return -1;
       continue;
     }
-    double a = (box->low[k] - origin[k]) / way[k], b = (box->high[k] - origin[k]) / way[k];
+    double a = (box->low[k] - origin[k]) / direction[k], b = (box->high[k] - origin[k]) / direction[k];
     if (a > b) {
       double swap = a;
       a = b;
@@ -148,13 +148,14 @@ static double enter(const sbfi_box *box, const double origin[3], const double wa
   return near <= far ? near : -1;
 }
 
-uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double way[3],
-    double max, double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
+uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double direction[3],
+    double max,
+    double (*intersect)(const void *user, uint32_t item, const double origin[3], const double direction[3]),
     const void *user) {
   uint32_t waiting[MAX_DEPTH], waiting_count = 0, first = UINT32_MAX;
   double entries[MAX_DEPTH], min = max;
   if (tree->node_count > 0) {
-    entries[0] = enter(&tree->nodes[0].box, origin, way);
+    entries[0] = enter(&tree->nodes[0].box, origin, direction);
     waiting_count = entries[0] >= 0;
     waiting[0] = 0;
   }
@@ -163,15 +164,15 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
     if (entries[waiting_count] > min) continue;
     for (uint32_t i = 0; i < node->count; i++) {
       uint32_t item = tree->items[node->first + i];
-      double t = meet(user, item, origin, way);
+      double t = intersect(user, item, origin, direction);
       if (t < 0 || t > min || (t == min && item > first)) continue;
       min = t;
       first = item;
     }
     if (node->count > 0) continue;
     /* The child that the ray enters first is looked at first, so it goes on the stack last. */
-    double left = enter(&tree->nodes[node->first].box, origin, way);
-    double right = enter(&tree->nodes[node->first + 1].box, origin, way);
+    double left = enter(&tree->nodes[node->first].box, origin, direction);
+    double right = enter(&tree->nodes[node->first + 1].box, origin, direction);
     bool right_first = right < left;
     for (int k = 0; k < 2; k++) {
       bool is_right = (k == 1) == right_first;
@@ -184,7 +185,7 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
   return first;
 }
 
-static bool touch(const sbfi_box *a, const sbfi_box *b) {
+static bool overlaps(const sbfi_box *a, const sbfi_box *b) {
   for (int k = 0; k < 3; k++)
     if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) return false;
   return true;
@@ -196,7 +197,7 @@ void sbfi_box_tree_visit(
   if (tree->node_count > 0) waiting[waiting_count++] = 0;
   while (waiting_count > 0) {
     const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];
-    if (!touch(&node->box, box)) continue;
+    if (!overlaps(&node->box, box)) continue;
     for (uint32_t i = 0; i < node->count; i++)
       if (!visit(user, tree->items[node->first + i])) return;
     if (node->count > 0) continue;

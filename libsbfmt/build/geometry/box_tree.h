@@ -35,11 +35,13 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
     double (*distance)(const void *user, uint32_t item, const double point[3]), const void *user,
     double *min);
 
-/* The item that the ray from `origin` along `way` meets first, the lowest number of several: `meet` gives the
- * factor of `way` at which it meets an item, or a negative number. UINT32_MAX: none up to the factor `most`.
+/* The item that the ray from `origin` along `direction` meets first, the lowest number of several:
+ * `intersect` gives the factor of `direction` at which it meets an item, or a negative number. UINT32_MAX:
+ * none up to the factor `most`.
  */
-uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double way[3],
-    double max, double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
+uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double direction[3],
+    double max,
+    double (*intersect)(const void *user, uint32_t item, const double origin[3], const double direction[3]),
     const void *user);
 
 /* Hands over the items of all leaves that touch the box, until `visit` is false. */

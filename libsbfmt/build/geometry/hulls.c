@@ -9,7 +9,7 @@
 
 #include "mechanics/polygon.h"
 
-static const double flat_share = 1e-4;
+static const double flat_fraction = 1e-4;
 
 /* The point farthest from what `from` measures; its distance in `*farthest`. */
 static uint32_t find_farthest(const sbf_vec3 *points, uint32_t count, sbfi_d3 base, sbfi_d3 direction,
@@ -17,10 +17,10 @@ static uint32_t find_farthest(const sbf_vec3 *points, uint32_t count, sbfi_d3 ba
   uint32_t found = 0;
   *farthest = -1;
   for (uint32_t i = 0; i < count; i++) {
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(points[i]), base);
-    double distance = sbfi_d3_length(way);                                        /* from a point */
-    if (dimension == 1) distance = sbfi_d3_length(sbfi_d3_cross(way, direction)); /* from a line */
-    if (dimension == 2) distance = fabs(sbfi_d3_dot(way, direction));             /* from a plane */
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(points[i]), base);
+    double distance = sbfi_d3_length(displacement);                                        /* from a point */
+    if (dimension == 1) distance = sbfi_d3_length(sbfi_d3_cross(displacement, direction)); /* from a line */
+    if (dimension == 2) distance = fabs(sbfi_d3_dot(displacement, direction));             /* from a plane */
     if (distance > *farthest) {
       *farthest = distance;
       found = i;
@@ -36,10 +36,10 @@ static bool is_flat(const sbf_vec3 *points, uint32_t count) {
   sbfi_d3 b = sbfi_d3_of(points[find_farthest(points, count, a, none, 0, &extent)]);
   sbfi_d3 line = sbfi_d3_normal(sbfi_d3_sub(b, a));
   sbfi_d3 c = sbfi_d3_of(points[find_farthest(points, count, a, line, 1, &distance)]);
-  if (!(distance > flat_share * extent)) return true;
+  if (!(distance > flat_fraction * extent)) return true;
   sbfi_d3 plane = sbfi_d3_normal(sbfi_d3_cross(line, sbfi_d3_sub(c, a)));
   find_farthest(points, count, a, plane, 2, &distance);
-  return !(distance > flat_share * extent);
+  return !(distance > flat_fraction * extent);
 }
 
 /* A polygon while the hull is put in order. */
@@ -113,25 +113,25 @@ static sbfi_hull_outcome take_guarded(
 
 static bool write_hull(const ring_list *rings, const sbf_vec3 *points, uint32_t count, sbf_asset *asset,
     sbf_polygon_mesh *hull, sbfi_arena *scratch) {
-  uint32_t *places = sbfi_arena_allocate(scratch, count, sizeof *places);
+  uint32_t *indices = sbfi_arena_allocate(scratch, count, sizeof *indices);
   uint32_t *sizes = sbf_asset_allocate(asset, rings->count, sizeof *sizes);
   uint32_t *corners = sbf_asset_allocate(asset, rings->corner_count, sizeof *corners);
-  if (!places || !sizes || !corners) return false;
+  if (!indices || !sizes || !corners) return false;
   for (uint32_t r = 0; r < rings->count; r++)
-    for (uint32_t k = 0; k < rings->at[r].size; k++) places[rings->at[r].corners[k]] = 1;
+    for (uint32_t k = 0; k < rings->at[r].size; k++) indices[rings->at[r].corners[k]] = 1;
   uint32_t point_count = 0, corner_count = 0;
-  for (uint32_t i = 0; i < count; i++) point_count += places[i];
+  for (uint32_t i = 0; i < count; i++) point_count += indices[i];
   sbf_vec3 *positions = sbf_asset_allocate(asset, point_count, sizeof *positions);
   if (!positions) return false;
   point_count = 0;
   for (uint32_t i = 0; i < count; i++) {
-    if (!places[i]) continue;
+    if (!indices[i]) continue;
     positions[point_count] = points[i];
-    places[i] = point_count++;
+    indices[i] = point_count++;
   }
   for (uint32_t r = 0; r < rings->count; r++) {
     sizes[r] = rings->at[r].size;
-    for (uint32_t k = 0; k < sizes[r]; k++) corners[corner_count++] = places[rings->at[r].corners[k]];
+    for (uint32_t k = 0; k < sizes[r]; k++) corners[corner_count++] = indices[rings->at[r].corners[k]];
   }
   sbf_polygon_mesh_init(hull);
   hull->target = SBF_MESH_TARGET_COLLISION_DETECTION;

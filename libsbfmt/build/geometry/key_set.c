@@ -37,11 +37,11 @@ sbfi_key sbfi_key_sorted(sbfi_key key, int count) {
   return key;
 }
 
-sbfi_key sbfi_key_of_place(sbf_vec3 place) {
+sbfi_key sbfi_key_of_position(sbf_vec3 position) {
   sbfi_key key = {{0, 0, 0, 0}};
-  place.x += 0.0f; /* -0 becomes 0 */
-  place.y += 0.0f;
-  place.z += 0.0f;
-  memcpy(key.at, &place, sizeof place);
+  position.x += 0.0f; /* -0 becomes 0 */
+  position.y += 0.0f;
+  position.z += 0.0f;
+  memcpy(key.at, &position, sizeof position);
   return key;
 }

@@ -24,6 +24,6 @@ uint32_t *sbfi_key_set_find(sbfi_key_set *set, sbfi_key key);
 sbfi_key sbfi_key_sorted(sbfi_key key, int count);
 
 /* Places in space are equal where their numbers are; 0 and -0 are. */
-sbfi_key sbfi_key_of_place(sbf_vec3 place);
+sbfi_key sbfi_key_of_position(sbf_vec3 position);
 
 #endif

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-double sbfi_line_distance(const sbfi_farthest_line *line, sbf_vec3 place) {
-  double d[3] = {
-      (double)place.x - line->from[0], (double)place.y - line->from[1], (double)place.z - line->from[2]};
+double sbfi_line_distance(const sbfi_farthest_line *line, sbf_vec3 position) {
+  double d[3] = {(double)position.x - line->from[0], (double)position.y - line->from[1],
+      (double)position.z - line->from[2]};
   double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   double dot = d[0] * line->along[0] + d[1] * line->along[1] + d[2] * line->along[2];
   return sqrt(fmax(0, square - dot * dot));
@@ -23,8 +23,8 @@ static uint32_t farthest(const sbfi_farthest_line *line, const sbf_vec3 *positio
   return best;
 }
 
-static void begin_at(sbfi_farthest_line *line, sbf_vec3 place) {
-  line->from[0] = place.x, line->from[1] = place.y, line->from[2] = place.z;
+static void begin_at(sbfi_farthest_line *line, sbf_vec3 position) {
+  line->from[0] = position.x, line->from[1] = position.y, line->from[2] = position.z;
 }
 
 sbfi_farthest_line sbfi_farthest_line_of(const sbf_vec3 *positions, const uint32_t *list, uint32_t count) {

@@ -15,6 +15,6 @@ typedef struct sbfi_farthest_line {
 sbfi_farthest_line sbfi_farthest_line_of(const sbf_vec3 *positions, const uint32_t *list, uint32_t count);
 
 /* Distance of a place from the line, or where it has no length from its point, m. */
-double sbfi_line_distance(const sbfi_farthest_line *line, sbf_vec3 place);
+double sbfi_line_distance(const sbfi_farthest_line *line, sbf_vec3 position);
 
 #endif

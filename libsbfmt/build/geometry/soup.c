@@ -43,15 +43,16 @@ static bool weld(work *w, const sbf_vec3_list *from, uint32_t *new_from_old) {
   for (uint32_t i = 0; i < from->count; i++) {
     /* Adding nothing makes a zero of either sign the same. */
     const sbf_vec3 p = {from->at[i].x + 0.0f, from->at[i].y + 0.0f, from->at[i].z + 0.0f};
-    const sbfi_d3 place = sbfi_d3_of(p);
+    const sbfi_d3 position = sbfi_d3_of(p);
     uint32_t bits[3];
     memcpy(bits, &p, sizeof bits);
     size_t slot = (size_t)mixed(mixed((uint64_t)bits[0] << 32 | bits[1]) + bits[2]) & (size - 1);
-    while (slots[slot] != SBFI_NO_INDEX && memcmp(&w->soup->points[slots[slot]], &place, sizeof place) != 0)
+    while (slots[slot] != SBFI_NO_INDEX &&
+           memcmp(&w->soup->points[slots[slot]], &position, sizeof position) != 0)
       slot = (slot + 1) & (size - 1);
     if (slots[slot] == SBFI_NO_INDEX) {
       slots[slot] = w->soup->point_count;
-      w->soup->points[w->soup->point_count++] = place;
+      w->soup->points[w->soup->point_count++] = position;
     }
     new_from_old[i] = slots[slot];
   }
@@ -166,11 +167,11 @@ static bool turn_patches(work *w) {
 /* After the turning: the sides keep their triangles, but not their places in them. Returns by how many uses
  * the sides are out of balance. */
 static uint32_t balance_sides(const work *w) {
-  static const uint32_t places[3] = {2, 1, 0};
+  static const uint32_t indices[3] = {2, 1, 0};
   const sbfi_soup *soup = w->soup;
   uint32_t missing = 0;
   for (uint32_t use = 0; use < 3 * soup->triangle_count; use++) {
-    uint32_t now = w->turned[use / 3] ? use / 3 * 3 + places[use % 3] : use;
+    uint32_t now = w->turned[use / 3] ? use / 3 * 3 + indices[use % 3] : use;
     side *s = &w->sides[w->side_of[use]];
     s->ends[0] = soup->triangles[now / 3][now % 3];
     s->ends[1] = soup->triangles[now / 3][(now + 1) % 3];

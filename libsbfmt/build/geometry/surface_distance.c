@@ -5,7 +5,7 @@
 #include "build/geometry/triangle_cover.h"
 
 enum { MAX_HALVINGS = 6 };
-static const double MIN_SHARE = 1e-5, SLACK = 1.05;
+static const double MIN_FRACTION = 1e-5, SLACK = 1.05;
 
 typedef struct comparison {
   const sbfi_triangle_tree *to;
@@ -31,9 +31,9 @@ static double square_from(const comparison *c, const double at[3], uint32_t tria
 
 /* Distance to the surface. `*triangle` is one that is likely near, and becomes the nearest. */
 static double nearest(const comparison *c, const double at[3], uint32_t *triangle) {
-  sbf_vec3 place = {(float)at[0], (float)at[1], (float)at[2]};
+  sbf_vec3 position = {(float)at[0], (float)at[1], (float)at[2]};
   double squared = square_from(c, at, *triangle);
-  uint32_t found = sbfi_triangle_tree_nearest(c->to, place, &squared);
+  uint32_t found = sbfi_triangle_tree_nearest(c->to, position, &squared);
   if (found != UINT32_MAX) *triangle = found;
   return sqrt(squared);
 }
@@ -48,7 +48,7 @@ static double farthest_corner(const comparison *c, const double corners[3][3], u
   return sqrt(max);
 }
 
-static void look(comparison *c, const double corners[3][3], uint32_t *near, int halvings) {
+static void check(comparison *c, const double corners[3][3], uint32_t *near, int halvings) {
   double middle[3], sides[3][3], reach = 0;
   for (int k = 0; k < 3; k++) middle[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
   for (int k = 0; k < 3; k++) {
@@ -77,7 +77,7 @@ static void look(comparison *c, const double corners[3][3], uint32_t *near, int 
       part[1][axis] = k < 3 ? sides[k][axis] : sides[1][axis];
       part[2][axis] = k < 3 ? sides[(k + 2) % 3][axis] : sides[2][axis];
     }
-    look(c, (const double(*)[3])part, near, halvings - 1);
+    check(c, (const double(*)[3])part, near, halvings - 1);
   }
 }
 
@@ -108,7 +108,7 @@ static bool compare(comparison *c, const sbfi_triangle_tree *from, sbfi_progress
       for (int k = 0; k < 3; k++) load(from->positions[from->triangles[t].points[k]], corners[k]);
       if (pass == 1) {
         if (!has_area((const double(*)[3])corners)) continue;
-        look(c, (const double(*)[3])corners, &near, MAX_HALVINGS);
+        check(c, (const double(*)[3])corners, &near, MAX_HALVINGS);
         continue;
       }
       double far = nearest(c, corners[t % 3], &near);
@@ -124,7 +124,7 @@ bool sbfi_surface_distance(
   const sbfi_box *box = &a->tree.nodes[0].box;
   double low[3], high[3];
   for (int k = 0; k < 3; k++) low[k] = (double)box->low[k], high[k] = (double)box->high[k];
-  comparison c = {.to = b, .no_less = MIN_SHARE * distance_of(low, high)};
+  comparison c = {.to = b, .no_less = MIN_FRACTION * distance_of(low, high)};
   if (!compare(&c, a, sbfi_progress_part(progress, 0, 0.5))) return false;
   c.to = a;
   if (!compare(&c, b, sbfi_progress_part(progress, 0.5, 1))) return false;

@@ -28,9 +28,9 @@ static double dot(const double a[3], const double b[3]) {
 }
 
 static void into_frame(const plane_frame *f, const double from[3], double to[3]) {
-  double way[3];
-  for (int k = 0; k < 3; k++) way[k] = from[k] - f->origin[k];
-  for (int k = 0; k < 3; k++) to[k] = dot(f->axes[k], way);
+  double direction[3];
+  for (int k = 0; k < 3; k++) direction[k] = from[k] - f->origin[k];
+  for (int k = 0; k < 3; k++) to[k] = dot(f->axes[k], direction);
 }
 
 static bool make_frame(plane_frame *f, const double corners[3][3]) {
@@ -69,9 +69,9 @@ static void cut(outline *o, const double a[2], const double b[2]) {
       kept.count++;
     }
     if ((here > 0 && next < 0) || (here < 0 && next > 0)) {
-      double share = here / (here - next);
+      double fraction = here / (here - next);
       if (kept.count >= MAX_CORNERS) continue;
-      for (int k = 0; k < 3; k++) kept.at[kept.count][k] = p[k] + share * (q[k] - p[k]);
+      for (int k = 0; k < 3; k++) kept.at[kept.count][k] = p[k] + fraction * (q[k] - p[k]);
       kept.count++;
     }
   }

@@ -20,14 +20,14 @@ static void load(sbf_vec3 from, double to[3]) {
   to[0] = from.x, to[1] = from.y, to[2] = from.z;
 }
 
-/* Nearest point of the side a b: the share of b goes to `share`; returns the squared distance. */
-static double closest_on_side(const double a[3], const double b[3], const double point[3], double *share) {
-  double side[3], way[3], left[3];
+/* Nearest point of the side a b: the share of b goes to `fraction`; returns the squared distance. */
+static double closest_on_side(const double a[3], const double b[3], const double point[3], double *fraction) {
+  double side[3], direction[3], left[3];
   minus(b, a, side);
-  minus(point, a, way);
-  double squared = dot(side, side), t = squared > 0 ? dot(way, side) / squared : 0;
-  *share = t < 0 ? 0 : t > 1 ? 1 : t;
-  for (int k = 0; k < 3; k++) left[k] = way[k] - *share * side[k];
+  minus(point, a, direction);
+  double squared = dot(side, side), t = squared > 0 ? dot(direction, side) / squared : 0;
+  *fraction = t < 0 ? 0 : t > 1 ? 1 : t;
+  for (int k = 0; k < 3; k++) left[k] = direction[k] - *fraction * side[k];
   return dot(left, left);
 }
 
@@ -52,11 +52,11 @@ double sbfi_triangle_closest(
   const double *corners[3] = {a, b, c};
   double best = INFINITY;
   for (int k = 0; k < 3; k++) {
-    double share, d = closest_on_side(corners[k], corners[(k + 1) % 3], point, &share);
+    double fraction, d = closest_on_side(corners[k], corners[(k + 1) % 3], point, &fraction);
     if (!(d < best)) continue;
     best = d;
-    weights[k] = 1 - share;
-    weights[(k + 1) % 3] = share;
+    weights[k] = 1 - fraction;
+    weights[(k + 1) % 3] = fraction;
     weights[(k + 2) % 3] = 0;
   }
   return best;
@@ -73,18 +73,19 @@ static double distance(const void *user, uint32_t triangle, const double point[3
 }
 
 /* Möller and Trumbore's test, both sides. */
-static double meet(const void *user, uint32_t triangle, const double origin[3], const double way[3]) {
+static double collide(
+    const void *user, uint32_t triangle, const double origin[3], const double direction[3]) {
   double corners[3][3], ab[3], ac[3], to_origin[3], p[3], q[3];
   load_corners(user, triangle, corners);
   minus(corners[1], corners[0], ab);
   minus(corners[2], corners[0], ac);
   minus(origin, corners[0], to_origin);
-  cross(way, ac, p);
+  cross(direction, ac, p);
   double determinant = dot(ab, p);
   if (determinant == 0) return -1;
   double u = dot(to_origin, p) / determinant;
   cross(to_origin, ab, q);
-  double v = dot(way, q) / determinant, slack = 1e-9; /* so that no ray slips between two triangles */
+  double v = dot(direction, q) / determinant, slack = 1e-9; /* so that no ray slips between two triangles */
   if (u < -slack || v < -slack || u + v > 1 + slack) return -1;
   return dot(ac, q) / determinant;
 }
@@ -104,11 +105,11 @@ bool sbfi_triangle_tree_build(sbfi_triangle_tree *tree, const sbf_polygon_mesh *
       tree->triangles[triangle] = (sbfi_triangle){{corners[0], corners[k - 1], corners[k]}, p};
       for (int c = 0; c < 3; c++) {
         sbf_vec3 at = tree->positions[tree->triangles[triangle].points[c]];
-        const float place[3] = {at.x, at.y, at.z};
+        const float position[3] = {at.x, at.y, at.z};
         for (int axis = 0; axis < 3; axis++) {
           float *low = &boxes[triangle].low[axis], *high = &boxes[triangle].high[axis];
-          if (c == 0 || place[axis] < *low) *low = place[axis];
-          if (c == 0 || place[axis] > *high) *high = place[axis];
+          if (c == 0 || position[axis] < *low) *low = position[axis];
+          if (c == 0 || position[axis] > *high) *high = position[axis];
         }
       }
     }
@@ -124,9 +125,9 @@ uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 poi
 
 uint32_t sbfi_triangle_tree_pierced(
     const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double max) {
-  double from[3], to[3], way[3];
+  double from[3], to[3], direction[3];
   load(origin, from);
   load(point, to);
-  minus(to, from, way);
-  return sbfi_box_tree_pierced(&tree->tree, from, way, max, meet, tree);
+  minus(to, from, direction);
+  return sbfi_box_tree_pierced(&tree->tree, from, direction, max, collide, tree);
 }

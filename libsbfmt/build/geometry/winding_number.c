@@ -34,11 +34,11 @@ static double half_angle(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 point
 /* Sums of a node from its children or triangles: the middle still times the weight. Children stand behind
  * their parents, so one walk from the end meets them first. */
 static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sbfi_box_node *from,
-    uint32_t place, double *weights) {
+    uint32_t index, double *weights) {
   sbfi_d3 moment = {0, 0, 0};
-  sbfi_winding_node *to = &w->nodes[place];
+  sbfi_winding_node *to = &w->nodes[index];
   *to = (sbfi_winding_node){.first = from->first, .count = from->count};
-  weights[place] = 0;
+  weights[index] = 0;
   for (uint32_t i = 0; i < from->count; i++) {
     sbfi_d3 corners[3];
     corners_of(soup, w->triangles[from->first + i], corners);
@@ -46,16 +46,16 @@ static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sb
     double size = sbfi_d3_length(area);
     to->area = sbfi_d3_add(to->area, sbfi_d3_scale(area, 0.5));
     moment = sbfi_d3_add(moment, sbfi_d3_scale(sum, size / 3));
-    weights[place] += size;
+    weights[index] += size;
   }
   for (uint32_t child = from->first; from->count == 0 && child < from->first + 2; child++) {
     to->area = sbfi_d3_add(to->area, w->nodes[child].area);
     moment = sbfi_d3_add(moment, sbfi_d3_scale(w->nodes[child].middle, weights[child]));
-    weights[place] += weights[child];
+    weights[index] += weights[child];
   }
   sbfi_d3 low = {from->box.low[0], from->box.low[1], from->box.low[2]};
   sbfi_d3 high = {from->box.high[0], from->box.high[1], from->box.high[2]};
-  to->middle = weights[place] > 0 ? sbfi_d3_scale(moment, 1 / weights[place])
+  to->middle = weights[index] > 0 ? sbfi_d3_scale(moment, 1 / weights[index])
                                   : sbfi_d3_scale(sbfi_d3_add(low, high), 0.5);
   /* The farthest corner of the box. */
   sbfi_d3 reach = {fmax(high.x - to->middle.x, to->middle.x - low.x),
@@ -107,10 +107,10 @@ static double number_of(const sbfi_soup *soup, const sbfi_winding_tree *tree, sb
   if (tree->node_count > 0) waiting[waiting_count++] = 0;
   while (waiting_count > 0) {
     const sbfi_winding_node *node = &tree->nodes[waiting[--waiting_count]];
-    sbfi_d3 way = sbfi_d3_sub(node->middle, point);
-    double squared = sbfi_d3_dot(way, way);
+    sbfi_d3 displacement = sbfi_d3_sub(node->middle, point);
+    double squared = sbfi_d3_dot(displacement, displacement);
     if (squared > node->far2) {
-      dipoles += sbfi_d3_dot(node->area, way) / (squared * sqrt(squared));
+      dipoles += sbfi_d3_dot(node->area, displacement) / (squared * sqrt(squared));
     } else if (node->count > 0) {
       for (uint32_t i = 0; i < node->count; i++)
         halves += half_angle(soup, tree->triangles[node->first + i], point);

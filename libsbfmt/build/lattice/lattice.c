@@ -10,14 +10,15 @@
 
 /* Where the surface cuts an edge with unlike ends: of several places that nearest to the outer end, so that
  * all of the surface is in. */
-static void place_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
+static void lay_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
   const sbfi_lattice_crossing *at = crossings->at;
   for (size_t i = 0; i < crossings->count; i++) {
     size_t slot = sbfi_lattice_cuts_slot(cuts, at[i].edge);
     if (cuts->edges[slot] != at[i].edge) continue;
-    float *share = &cuts->shares[slot];
+    float *fraction = &cuts->fractions[slot];
     bool outwards = inside[at[i].edge >> 3] & SBFI_LATTICE_INSIDE;
-    if (*share < 0 || (outwards ? at[i].share > *share : at[i].share < *share)) *share = at[i].share;
+    if (*fraction < 0 || (outwards ? at[i].fraction > *fraction : at[i].fraction < *fraction))
+      *fraction = at[i].fraction;
   }
 }
 
@@ -26,17 +27,18 @@ static float bisect(const sbfi_lattice_grid *grid, const sbfi_winding *winding, 
   enum { ROUNDS = 12 };
   double low = 0, high = 1;
   int32_t at[3];
-  const int *way = sbfi_lattice_ways[edge & 7];
-  sbfi_lattice_coordinates(grid, edge >> 3, at);
+  const int *direction = sbfi_lattice_directions[edge & 7];
+  sbfi_lattice_compute_coordinates(grid, edge >> 3, at);
   for (int round = 0; round < ROUNDS; round++) {
-    double share = (low + high) / 2;
-    sbfi_d3 place = {at[0] + share * way[0], at[1] + share * way[1], at[2] + share * way[2]};
-    sbfi_d3 point = sbfi_lattice_place(grid, place);
+    double fraction = (low + high) / 2;
+    sbfi_d3 position = {
+        at[0] + fraction * direction[0], at[1] + fraction * direction[1], at[2] + fraction * direction[2]};
+    sbfi_d3 point = sbfi_lattice_position(grid, position);
     if (sbfi_winding_inside(sbfi_winding_of_closed(winding, point), sbfi_winding_of_caps(winding, point)) ==
         inside)
-      low = share;
+      low = fraction;
     else
-      high = share;
+      high = fraction;
   }
   return (float)((low + high) / 2);
 }
@@ -45,8 +47,8 @@ static uint32_t bisect_cuts(const sbfi_lattice_grid *grid, const sbfi_winding *w
     sbfi_lattice_cuts *cuts) {
   uint32_t count = 0;
   for (size_t s = 0; s < cuts->slot_count; s++) {
-    if (cuts->edges[s] == UINT32_MAX || cuts->shares[s] >= 0) continue;
-    cuts->shares[s] = bisect(grid, winding, cuts->edges[s], inside[cuts->edges[s] >> 3] != 0);
+    if (cuts->edges[s] == UINT32_MAX || cuts->fractions[s] >= 0) continue;
+    cuts->fractions[s] = bisect(grid, winding, cuts->edges[s], inside[cuts->edges[s] >> 3] != 0);
     count++;
   }
   return count;
@@ -58,9 +60,10 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
     if (cuts->edges[s] == UINT32_MAX) continue;
     uint32_t edge = cuts->edges[s], owner = edge >> 3;
     uint32_t other = (uint32_t)((int64_t)owner + grid->steps[sbfi_lattice_kind(grid, owner)][edge & 7]);
-    float min = (float)sbfi_lattice_min_share((int)(edge & 7)), share = cuts->shares[s];
-    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < min ? min : share;
-    if (inside[other] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < 0 || share > 1 - min ? 1 - min : share;
+    float min = (float)sbfi_lattice_min_fraction((int)(edge & 7)), fraction = cuts->fractions[s];
+    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->fractions[s] = fraction < min ? min : fraction;
+    if (inside[other] & SBFI_LATTICE_FORCED)
+      cuts->fractions[s] = fraction < 0 || fraction > 1 - min ? 1 - min : fraction;
   }
 }
 
@@ -69,7 +72,7 @@ static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sb
     const sbfi_array *crossings, uint8_t *inside, sbfi_arena *scratch) {
   sbfi_lattice_cuts cuts;
   if (!sbfi_lattice_cuts_find(&cuts, grid, inside, scratch)) return false;
-  place_cuts(crossings, inside, &cuts);
+  lay_cuts(crossings, inside, &cuts);
   if (lattice->forced_count > 0) widen_forced(grid, inside, &cuts);
   lattice->dim_count = bisect_cuts(grid, winding, inside, &cuts);
   for (uint32_t n = 0; n < grid->node_count && lattice->forced_count > 0; n++)

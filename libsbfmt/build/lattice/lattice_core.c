@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double near_share = 0.25, reach_share = 1.5;
+static const double near_fraction = 0.25, reach_fraction = 1.5;
 
 typedef struct ranked {
   double key;
@@ -62,7 +62,7 @@ bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint3
   qsort(deepest, count, sizeof *deepest, by_key);
   for (uint32_t n = 0; n < count; n++) {
     uint32_t middle = deepest[n].point;
-    double radius = sqrt(depths2[middle]), reach = reach_share * radius;
+    double radius = sqrt(depths2[middle]), reach = reach_fraction * radius;
     double at = component(points[middle], axis);
     if (near[middle] || radius <= min_m) continue;
     uint32_t low = 0, high = count;
@@ -78,7 +78,7 @@ bool sbfi_lattice_thickness(const sbf_vec3 *points, const double *depths2, uint3
       double squared = squared_between(points[i], points[middle]);
       if (squared > reach * reach) continue;
       thickness[i] = fmaxf(thickness[i], (float)radius);
-      if (squared <= near_share * near_share * radius * radius) near[i] = 1;
+      if (squared <= near_fraction * near_fraction * radius * radius) near[i] = 1;
     }
   }
   return true;

@@ -15,23 +15,23 @@ typedef struct work {
   bool is_cap, good;
 } work;
 
-static void add(work *w, int way, const int32_t at[3], double share) {
+static void add(work *w, int direction, const int32_t at[3], double fraction) {
   uint32_t node = sbfi_lattice_node(w->grid, at[0], at[1], at[2]);
-  sbfi_lattice_crossing crossing = {8 * node + (uint32_t)way, (float)share};
-  w->cut[node] |= (uint8_t)(1u << way);
+  sbfi_lattice_crossing crossing = {8 * node + (uint32_t)direction, (float)fraction};
+  w->cut[node] |= (uint8_t)(1u << direction);
   if (!w->is_cap && !sbfi_array_append(w->crossings, &crossing, 1)) w->good = false;
 }
 
-/* A cut of the line at `place` along it; `base` is a node of the line with `along` 0 or 1. */
-static void add_on_line(work *w, int way, const int32_t base[3], double step, double place) {
-  int32_t at[3], steps = (int32_t)floor(place / step);
-  double share = place / step - steps;
-  for (int k = 0; k < 3; k++) at[k] = base[k] + steps * sbfi_lattice_ways[way][k];
-  add(w, way, at, share);
-  if (share >= at_node && share <= 1 - at_node) return;
-  int32_t other = share < at_node ? -1 : 1;
-  for (int k = 0; k < 3; k++) at[k] += other * sbfi_lattice_ways[way][k];
-  add(w, way, at, share < at_node ? 1 : 0);
+/* A cut of the line at `coordinate` along it; `base` is a node of the line with `along` 0 or 1. */
+static void add_on_line(work *w, int direction, const int32_t base[3], double step, double coordinate) {
+  int32_t at[3], steps = (int32_t)floor(coordinate / step);
+  double fraction = coordinate / step - steps;
+  for (int k = 0; k < 3; k++) at[k] = base[k] + steps * sbfi_lattice_directions[direction][k];
+  add(w, direction, at, fraction);
+  if (fraction >= at_node && fraction <= 1 - at_node) return;
+  int32_t other = fraction < at_node ? -1 : 1;
+  for (int k = 0; k < 3; k++) at[k] += other * sbfi_lattice_directions[direction][k];
+  add(w, direction, at, fraction < at_node ? 1 : 0);
 }
 
 /* On which side of a triangle's side, as seen along the line, (u, v) lies. The ends are taken in the order of
@@ -44,12 +44,12 @@ static double side_of(const work *w, int from, int to, double u, double v) {
 }
 
 /* Where the triangle cuts the line at (u, v), if it does. */
-static bool meet(const work *w, double u, double v, double *place) {
+static bool collide(const work *w, double u, double v, double *position) {
   double c = side_of(w, 0, 1, u, v), a = side_of(w, 1, 2, u, v), b = side_of(w, 2, 0, u, v);
   bool within = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
   double sum = a + b + c;
   if (!within || fabs(sum) <= w->min_area) return false;
-  *place = (a * w->along[0] + b * w->along[1] + c * w->along[2]) / sum;
+  *position = (a * w->along[0] + b * w->along[1] + c * w->along[2]) / sum;
   return true;
 }
 
@@ -72,10 +72,10 @@ static int32_t first_from(double min, int32_t remainder) {
 }
 
 /* All lines of one way whose (u, v) have the remainder. */
-static void cross_lines(work *w, int way, int32_t remainder) {
-  bool is_long = way < SBFI_LATTICE_LONG_EDGES;
-  const int *go = sbfi_lattice_ways[way];
-  double u_min = min_of(w->across, 0), u_max = max_of(w->across, 0), place;
+static void cross_lines(work *w, int direction, int32_t remainder) {
+  bool is_long = direction < SBFI_LATTICE_LONG_EDGES;
+  const int *go = sbfi_lattice_directions[direction];
+  double u_min = min_of(w->across, 0), u_max = max_of(w->across, 0), coordinate;
   int32_t u_first = first_from(u_min, remainder);
   if (u_first > u_max) return;
   double v_min = min_of(w->across, 1), v_max = max_of(w->across, 1);
@@ -83,41 +83,41 @@ static void cross_lines(work *w, int way, int32_t remainder) {
   w->min_area = 1e-9 * (u_max - u_min) * (v_max - v_min);
   for (int32_t v = v_first; v <= v_max; v += 2) {
     for (int32_t u = u_first; u <= u_max; u += 2) {
-      if (!meet(w, u, v, &place)) continue;
+      if (!collide(w, u, v, &coordinate)) continue;
       if (is_long) {
         int32_t base[3];
-        base[way] = remainder;
-        base[(way + 1) % 3] = u;
-        base[(way + 2) % 3] = v;
-        add_on_line(w, way, base, 2, place - remainder);
+        base[direction] = remainder;
+        base[(direction + 1) % 3] = u;
+        base[(direction + 2) % 3] = v;
+        add_on_line(w, direction, base, 2, coordinate - remainder);
       } else {
         /* u and v are x and y where the line passes z = 0. */
-        int32_t steps = (int32_t)floor(place);
+        int32_t steps = (int32_t)floor(coordinate);
         const int32_t base[3] = {u + steps * go[0], v + steps * go[1], steps};
-        add_on_line(w, way, base, 1, place - steps);
+        add_on_line(w, direction, base, 1, coordinate - steps);
       }
     }
   }
 }
 
 static void cross_triangle(work *w) {
-  for (int way = 0; way < SBFI_LATTICE_LONG_EDGES; way++) {
+  for (int direction = 0; direction < SBFI_LATTICE_LONG_EDGES; direction++) {
     for (int k = 0; k < 3; k++) {
-      w->along[k] = w->at[k][way];
-      w->across[k][0] = w->at[k][(way + 1) % 3];
-      w->across[k][1] = w->at[k][(way + 2) % 3];
+      w->along[k] = w->at[k][direction];
+      w->across[k][0] = w->at[k][(direction + 1) % 3];
+      w->across[k][1] = w->at[k][(direction + 2) % 3];
     }
-    cross_lines(w, way, 0);
-    cross_lines(w, way, 1);
+    cross_lines(w, direction, 0);
+    cross_lines(w, direction, 1);
   }
-  for (int way = SBFI_LATTICE_LONG_EDGES; way < SBFI_LATTICE_EDGES; way++) {
-    const int *go = sbfi_lattice_ways[way];
+  for (int direction = SBFI_LATTICE_LONG_EDGES; direction < SBFI_LATTICE_EDGES; direction++) {
+    const int *go = sbfi_lattice_directions[direction];
     for (int k = 0; k < 3; k++) {
       w->along[k] = w->at[k][2];
       w->across[k][0] = w->at[k][0] - go[0] * w->at[k][2];
       w->across[k][1] = w->at[k][1] - go[1] * w->at[k][2];
     }
-    cross_lines(w, way, 0);
+    cross_lines(w, direction, 0);
   }
 }
 

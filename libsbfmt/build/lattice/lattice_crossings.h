@@ -8,7 +8,7 @@
 /* Number of an edge: 8 * node that owns it + which of the node's seven. */
 typedef struct sbfi_lattice_crossing {
   uint32_t edge;
-  float share; /* of the way from the owner to the other end */
+  float fraction; /* of the way from the owner to the other end */
 } sbfi_lattice_crossing;
 
 /* Appends every cut of a triangle of the surface and an edge to `crossings` (items of that type), and sets

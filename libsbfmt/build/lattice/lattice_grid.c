@@ -1,6 +1,6 @@
 #include "build/lattice/lattice_grid.h"
 
-const int sbfi_lattice_ways[SBFI_LATTICE_EDGES][3] = {
+const int sbfi_lattice_directions[SBFI_LATTICE_EDGES][3] = {
     {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}};
 
 static const double max_nodes = 1 << 28, border = 2;
@@ -26,17 +26,17 @@ bool sbfi_lattice_grid_fit(sbfi_lattice_grid *grid, sbfi_d3 low, sbfi_d3 high, d
     grid->steps[kind][1] = y;
     grid->steps[kind][2] = z;
     for (int k = SBFI_LATTICE_LONG_EDGES; k < SBFI_LATTICE_EDGES; k++) {
-      const int *way = sbfi_lattice_ways[k];
+      const int *direction = sbfi_lattice_directions[k];
       if (kind == 0)
-        grid->steps[kind][k] = row + (way[0] < 0 ? -1 : 0) + (way[1] < 0 ? -y : 0);
+        grid->steps[kind][k] = row + (direction[0] < 0 ? -1 : 0) + (direction[1] < 0 ? -y : 0);
       else
-        grid->steps[kind][k] = z - row + (way[0] > 0 ? 1 : 0) + (way[1] > 0 ? y : 0);
+        grid->steps[kind][k] = z - row + (direction[0] > 0 ? 1 : 0) + (direction[1] > 0 ? y : 0);
     }
   }
   return true;
 }
 
-void sbfi_lattice_coordinates(const sbfi_lattice_grid *grid, uint32_t node, int32_t at[3]) {
+void sbfi_lattice_compute_coordinates(const sbfi_lattice_grid *grid, uint32_t node, int32_t at[3]) {
   uint32_t row = node / grid->counts[0], x = node % grid->counts[0], kind = row & 1;
   at[0] = (int32_t)(2 * x + kind);
   at[1] = (int32_t)(2 * (row / 2 % grid->counts[1]) + kind);

@@ -11,7 +11,7 @@
 enum { SBFI_LATTICE_EDGES = 7, SBFI_LATTICE_LONG_EDGES = 3 };
 
 /* The four ways of the short edges in x and y; all go up in z. */
-extern const int sbfi_lattice_ways[SBFI_LATTICE_EDGES][3];
+extern const int sbfi_lattice_directions[SBFI_LATTICE_EDGES][3];
 
 typedef struct sbfi_lattice_grid {
   double cell;         /* m, a cube's edge */
@@ -35,7 +35,7 @@ static inline uint32_t sbfi_lattice_row(const sbfi_lattice_grid *g, int32_t y, i
 static inline uint32_t sbfi_lattice_node(const sbfi_lattice_grid *g, int32_t x, int32_t y, int32_t z) {
   return sbfi_lattice_row(g, y, z) * g->counts[0] + ((uint32_t)x >> 1);
 }
-void sbfi_lattice_coordinates(const sbfi_lattice_grid *grid, uint32_t node, int32_t at[3]);
+void sbfi_lattice_compute_coordinates(const sbfi_lattice_grid *grid, uint32_t node, int32_t at[3]);
 
 /* Corner (0) or middle (1). */
 static inline uint32_t sbfi_lattice_kind(const sbfi_lattice_grid *g, uint32_t node) {
@@ -50,7 +50,7 @@ static inline uint32_t sbfi_lattice_neighbour(const sbfi_lattice_grid *g, uint32
   return (uint32_t)((int64_t)node - g->steps[edge < SBFI_LATTICE_LONG_EDGES ? kind : !kind][edge]);
 }
 
-static inline sbfi_d3 sbfi_lattice_place(const sbfi_lattice_grid *g, sbfi_d3 coordinates) {
+static inline sbfi_d3 sbfi_lattice_position(const sbfi_lattice_grid *g, sbfi_d3 coordinates) {
   return sbfi_d3_add(g->origin, sbfi_d3_scale(coordinates, g->cell / 2));
 }
 

@@ -8,15 +8,16 @@ enum { AROUND = 2 * SBFI_LATTICE_EDGES };
 
 /* Which of the fourteen neighbours of a node an edge joins to which. */
 static void join_neighbours(uint16_t joined[AROUND]) {
-  int places[AROUND][3];
+  int indices[AROUND][3];
   for (int a = 0; a < AROUND; a++)
     for (int k = 0; k < 3; k++)
-      places[a][k] = (a < SBFI_LATTICE_EDGES ? 1 : -1) * sbfi_lattice_ways[a % SBFI_LATTICE_EDGES][k];
+      indices[a][k] = (a < SBFI_LATTICE_EDGES ? 1 : -1) * sbfi_lattice_directions[a % SBFI_LATTICE_EDGES][k];
   for (int a = 0; a < AROUND; a++) {
     joined[a] = 0;
     for (int b = 0; b < AROUND; b++) {
       int squared = 0;
-      for (int k = 0; k < 3; k++) squared += (places[a][k] - places[b][k]) * (places[a][k] - places[b][k]);
+      for (int k = 0; k < 3; k++)
+        squared += (indices[a][k] - indices[b][k]) * (indices[a][k] - indices[b][k]);
       if (squared == 3 || squared == 4) joined[a] |= (uint16_t)(1 << b);
     }
   }

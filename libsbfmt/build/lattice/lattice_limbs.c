@@ -13,7 +13,7 @@ static const float min_part = 1e-3f; /* of an edge; less is a touch */
 static int compare(const void *a, const void *b) {
   const sbfi_lattice_crossing *x = a, *y = b;
   if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
-  return x->share < y->share ? -1 : x->share > y->share;
+  return x->fraction < y->fraction ? -1 : x->fraction > y->fraction;
 }
 
 static uint32_t other_end(const sbfi_lattice_grid *grid, uint32_t edge) {
@@ -39,13 +39,15 @@ static bool sort_crossings(const sbfi_lattice_grid *grid, const sbfi_array *from
 }
 
 static bool is_inside(
-    const sbfi_lattice_grid *grid, const sbfi_winding *winding, uint32_t edge, double share) {
+    const sbfi_lattice_grid *grid, const sbfi_winding *winding, uint32_t edge, double fraction) {
   int32_t at[3];
-  const int *way = sbfi_lattice_ways[edge & 7];
-  sbfi_lattice_coordinates(grid, edge >> 3, at);
-  sbfi_d3 place = sbfi_lattice_place(
-      grid, (sbfi_d3){at[0] + share * way[0], at[1] + share * way[1], at[2] + share * way[2]});
-  return sbfi_winding_inside(sbfi_winding_of_closed(winding, place), sbfi_winding_of_caps(winding, place));
+  const int *direction = sbfi_lattice_directions[edge & 7];
+  sbfi_lattice_compute_coordinates(grid, edge >> 3, at);
+  sbfi_d3 position =
+      sbfi_lattice_position(grid, (sbfi_d3){at[0] + fraction * direction[0], at[1] + fraction * direction[1],
+                                      at[2] + fraction * direction[2]});
+  return sbfi_winding_inside(
+      sbfi_winding_of_closed(winding, position), sbfi_winding_of_caps(winding, position));
 }
 
 /* Whether of the fourteen neighbours' bits in the mask one's are as asked. */
@@ -78,8 +80,8 @@ static void add_weak(candidates *c, const sbfi_lattice_grid *grid, const sbfi_ar
     uint32_t owner = at[i].edge >> 3, other = other_end(grid, at[i].edge);
     bool first = c->inside[owner] & SBFI_LATTICE_INSIDE, second = c->inside[other] & SBFI_LATTICE_INSIDE;
     if (first == second) continue;
-    double share = first ? at[i].share : 1 - at[i].share;
-    if (share < sbfi_lattice_min_share((int)(at[i].edge & 7))) add(c, first ? owner : other, WEAK);
+    double fraction = first ? at[i].fraction : 1 - at[i].fraction;
+    if (fraction < sbfi_lattice_min_fraction((int)(at[i].edge & 7))) add(c, first ? owner : other, WEAK);
   }
 }
 
@@ -90,7 +92,7 @@ static bool add_slipped(candidates *c, const sbfi_lattice_grid *grid, const sbfi
   if (!sort_crossings(grid, crossings, c->inside, &at, &count, scratch)) return false;
   for (size_t i = 0, end; i < count; i = end) {
     for (end = i + 1; end < count && at[end].edge == at[i].edge;) end++;
-    float low = at[i].share, high = at[end - 1].share, middle = (low + high) / 2;
+    float low = at[i].fraction, high = at[end - 1].fraction, middle = (low + high) / 2;
     uint32_t node = middle < 0.5f ? at[i].edge >> 3 : other_end(grid, at[i].edge);
     if (high - low < min_part || (c->inside[node] & CANDIDATE)) continue;
     if (is_inside(grid, winding, at[i].edge, middle)) add(c, node, 0);

@@ -38,7 +38,7 @@ static bool find_runs(runs *r, sbfi_arena *arena) {
 }
 
 /* Joins the runs of a row with those of the row that its edges of one way lead to, `shift` nodes aside. */
-static void join_rows(runs *r, uint32_t row, uint32_t other, int64_t shift, int way) {
+static void join_rows(runs *r, uint32_t row, uint32_t other, int64_t shift, int direction) {
   uint32_t a = r->row_begins[row], a_end = r->row_begins[row + 1];
   uint32_t b = r->row_begins[other], b_end = r->row_begins[other + 1];
   while (a < a_end && b < b_end) {
@@ -48,7 +48,7 @@ static void join_rows(runs *r, uint32_t row, uint32_t other, int64_t shift, int 
     int64_t low = begin > other_begin ? begin : other_begin, high = end < other_end ? end : other_end;
     if (low < high && sbfi_set_root(r->parents, a) != sbfi_set_root(r->parents, b)) {
       for (int64_t n = low; n < high; n++) {
-        if (r->cut[n] >> way & 1) continue;
+        if (r->cut[n] >> direction & 1) continue;
         sbfi_sets_join(r->parents, a, b);
         break;
       }
@@ -63,26 +63,26 @@ static void join_all(runs *r) {
   int64_t length = g->counts[0];
   for (uint32_t row = 0; row < r->row_count; row++) {
     uint32_t kind = row & 1, y = row / 2 % g->counts[1];
-    for (int way = 1; way < SBFI_LATTICE_EDGES; way++) {
+    for (int direction = 1; direction < SBFI_LATTICE_EDGES; direction++) {
       /* Where the edges of the row's first node lead, as a row and a place in it. */
-      int go_y = sbfi_lattice_ways[way][1];
-      bool is_long = way < SBFI_LATTICE_LONG_EDGES;
-      if (is_long ? way == 1 && y + 1 >= g->counts[1]
+      int go_y = sbfi_lattice_directions[direction][1];
+      bool is_long = direction < SBFI_LATTICE_LONG_EDGES;
+      if (is_long ? direction == 1 && y + 1 >= g->counts[1]
                   : (kind == 0 && go_y < 0 && y == 0) || (kind == 1 && go_y > 0 && y + 1 >= g->counts[1]))
         continue;
       int64_t aside = 0;
-      if (!is_long) aside = sbfi_lattice_ways[way][0] < 0 ? -(kind == 0) : kind == 1;
-      int64_t step = g->steps[kind][way] - aside, other = row + step / length;
+      if (!is_long) aside = sbfi_lattice_directions[direction][0] < 0 ? -(kind == 0) : kind == 1;
+      int64_t step = g->steps[kind][direction] - aside, other = row + step / length;
       if (other >= r->row_count) continue;
-      join_rows(r, row, (uint32_t)other, step + aside, way);
+      join_rows(r, row, (uint32_t)other, step + aside, direction);
     }
   }
 }
 
-static sbfi_d3 place_of(const sbfi_lattice_grid *grid, uint32_t node) {
+static sbfi_d3 position_of(const sbfi_lattice_grid *grid, uint32_t node) {
   int32_t at[3];
-  sbfi_lattice_coordinates(grid, node, at);
-  return sbfi_lattice_place(grid, (sbfi_d3){at[0], at[1], at[2]});
+  sbfi_lattice_compute_coordinates(grid, node, at);
+  return sbfi_lattice_position(grid, (sbfi_d3){at[0], at[1], at[2]});
 }
 
 /* One evaluation for each set of runs: in the middle of its longest. */
@@ -100,7 +100,7 @@ static bool wind_runs(runs *r, const sbfi_winding *winding, sbfi_arena *arena) {
     uint32_t root = sbfi_set_root(r->parents, i), run = longest[root];
     uint32_t middle = r->begins[run] + (r->begins[run + 1] - r->begins[run]) / 2;
     r->windings[i] =
-        root == i ? sbfi_winding_of_closed(winding, place_of(r->grid, middle)) : r->windings[root];
+        root == i ? sbfi_winding_of_closed(winding, position_of(r->grid, middle)) : r->windings[root];
   }
   return true;
 }
@@ -139,9 +139,9 @@ bool sbfi_lattice_signs(const sbfi_lattice_grid *grid, const sbfi_winding *windi
   double reach = reach_of_caps(winding->soup, &middle);
   for (uint32_t i = 0; i < r.run_count; i++) {
     for (uint32_t n = r.begins[i]; n < r.begins[i + 1]; n++) {
-      sbfi_d3 place = place_of(grid, n), way = sbfi_d3_sub(place, middle);
-      if (sbfi_d3_dot(way, way) > reach) continue;
-      inside[n] = sbfi_winding_inside(r.windings[i], sbfi_winding_of_caps(winding, place));
+      sbfi_d3 position = position_of(grid, n), displacement = sbfi_d3_sub(position, middle);
+      if (sbfi_d3_dot(displacement, displacement) > reach) continue;
+      inside[n] = sbfi_winding_inside(r.windings[i], sbfi_winding_of_caps(winding, position));
     }
   }
   return true;

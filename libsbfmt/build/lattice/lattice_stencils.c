@@ -6,19 +6,19 @@ typedef struct spot {
 
 typedef struct work {
   const uint32_t *nodes;
-  const sbfi_d3 (*places)[4];
+  const sbfi_d3 (*locations)[4];
   sbfi_stencil_piece *pieces;
   int count;
 } work;
 
-static sbfi_d3 place(const work *w, spot s) {
-  return w->places[s.i][s.j];
+static sbfi_d3 position(const work *w, spot s) {
+  return w->locations[s.i][s.j];
 }
 
 static double volume(const work *w, const spot s[4]) {
-  sbfi_d3 origin = place(w, s[0]);
-  return sbfi_d3_dot(sbfi_d3_sub(place(w, s[1]), origin),
-      sbfi_d3_cross(sbfi_d3_sub(place(w, s[2]), origin), sbfi_d3_sub(place(w, s[3]), origin)));
+  sbfi_d3 origin = position(w, s[0]);
+  return sbfi_d3_dot(sbfi_d3_sub(position(w, s[1]), origin),
+      sbfi_d3_cross(sbfi_d3_sub(position(w, s[2]), origin), sbfi_d3_sub(position(w, s[3]), origin)));
 }
 
 static void add(work *w, spot a, spot b, spot c, spot d) {
@@ -47,8 +47,8 @@ static spot cut(uint8_t i, uint8_t j) {
 }
 
 static double squared(const work *w, spot a, spot b) {
-  sbfi_d3 way = sbfi_d3_sub(place(w, a), place(w, b));
-  return sbfi_d3_dot(way, way);
+  sbfi_d3 displacement = sbfi_d3_sub(position(w, a), position(w, b));
+  return sbfi_d3_dot(displacement, displacement);
 }
 
 /* Of the quad that corner `out` leaves of the face a b out: whether its diagonal starts at a, rather than at
@@ -80,7 +80,7 @@ static double worst_shape(const work *w) {
   double worst = INFINITY;
   for (int p = 0; p < w->count; p++) {
     sbfi_d3 at[4], normals[4];
-    for (int k = 0; k < 4; k++) at[k] = w->places[w->pieces[p].at[k][0]][w->pieces[p].at[k][1]];
+    for (int k = 0; k < 4; k++) at[k] = w->locations[w->pieces[p].at[k][0]][w->pieces[p].at[k][1]];
     for (int f = 0; f < 4; f++) {
       sbfi_d3 from = at[faces[f][0]];
       normals[f] = sbfi_d3_normal(
@@ -114,8 +114,8 @@ static void cut_wedge(work *w, const uint8_t in[2], const uint8_t out[2]) {
 }
 
 int sbfi_stencil_apply(const sbfi_stencil_corner corners[4], const uint32_t nodes[4],
-    const sbfi_d3 places[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MAX]) {
-  work w = {.nodes = nodes, .places = places, .pieces = pieces};
+    const sbfi_d3 positions[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MAX]) {
+  work w = {.nodes = nodes, .locations = positions, .pieces = pieces};
   uint8_t in[4], out[4], on[4];
   int in_count = 0, out_count = 0, on_count = 0;
   for (uint8_t i = 0; i < 4; i++) {

@@ -20,13 +20,13 @@ typedef struct sbfi_stencil_piece {
 enum { SBFI_STENCIL_MAX = 3 };
 
 /* Cuts the tetrahedron whose edges 0-1 and 2-3 are long ones. At least one corner is inside and at least one
- * outside. `nodes` number the corners alike in all tetrahedra; `places` has the corners' and the cuts'
+ * outside. `nodes` number the corners alike in all tetrahedra; `positions` has the corners' and the cuts'
  * places. Writes the pieces and returns how many.
  *
  * Where a face is cut to a quad, its diagonal hangs on the face alone, so that both neighbours agree: from
  * the inner corner on the cut short edge to the cut on the long one; where both cut edges are short, the
  * shorter diagonal, of equal ones that from the lower node. */
 int sbfi_stencil_apply(const sbfi_stencil_corner corners[4], const uint32_t nodes[4],
-    const sbfi_d3 places[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MAX]);
+    const sbfi_d3 positions[4][4], sbfi_stencil_piece pieces[SBFI_STENCIL_MAX]);
 
 #endif

@@ -11,8 +11,8 @@ static const double warp_long = 0.28, warp_short = 0.40, short_length = 0.866025
 
 static const uint32_t NONE = UINT32_MAX;
 
-double sbfi_lattice_min_share(int way) {
-  return (way < SBFI_LATTICE_LONG_EDGES ? warp_long : warp_short) + 1e-3;
+double sbfi_lattice_min_fraction(int direction) {
+  return (direction < SBFI_LATTICE_LONG_EDGES ? warp_long : warp_short) + 1e-3;
 }
 
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge) {
@@ -41,7 +41,7 @@ static size_t visit_cuts(const sbfi_lattice_grid *grid, const uint8_t *inside, s
         if (!cuts->slot_count) continue;
         size_t slot = sbfi_lattice_cuts_slot(cuts, 8 * n + k);
         cuts->edges[slot] = 8 * n + k;
-        cuts->shares[slot] = -1;
+        cuts->fractions[slot] = -1;
       }
     }
   }
@@ -54,9 +54,9 @@ bool sbfi_lattice_cuts_find(
   size_t count = visit_cuts(grid, inside, cuts), slots = 16;
   while (slots < 2 * count) slots *= 2;
   cuts->edges = sbfi_arena_allocate(arena, slots, sizeof *cuts->edges);
-  cuts->shares = sbfi_arena_allocate(arena, slots, sizeof *cuts->shares);
+  cuts->fractions = sbfi_arena_allocate(arena, slots, sizeof *cuts->fractions);
   cuts->points = sbfi_arena_allocate(arena, slots, sizeof *cuts->points);
-  if (!cuts->edges || !cuts->shares || !cuts->points) return false;
+  if (!cuts->edges || !cuts->fractions || !cuts->points) return false;
   memset(cuts->edges, 0xff, slots * sizeof *cuts->edges);
   memset(cuts->points, 0xff, slots * sizeof *cuts->points);
   cuts->slot_count = slots;
@@ -90,7 +90,7 @@ static uint32_t add_point(work *w, sbfi_d3 at) {
 
 static sbfi_d3 coordinates(const work *w, uint32_t node) {
   int32_t at[3];
-  sbfi_lattice_coordinates(w->grid, node, at);
+  sbfi_lattice_compute_coordinates(w->grid, node, at);
   return (sbfi_d3){at[0], at[1], at[2]};
 }
 
@@ -98,24 +98,25 @@ static sbfi_d3 coordinates(const work *w, uint32_t node) {
 static void warp(work *w, uint32_t node) {
   double nearest = 2;
   int best = -1;
-  double best_share = 0;
+  double best_fraction = 0;
   for (int edge = 0; edge < 2 * SBFI_LATTICE_EDGES; edge++) {
     uint32_t other = sbfi_lattice_neighbour(w->grid, node, edge);
-    int way = edge % SBFI_LATTICE_EDGES;
+    int direction = edge % SBFI_LATTICE_EDGES;
     if ((w->states[other] & STATE) == ON || ((w->states[node] ^ w->states[other]) & STATE) == 0) continue;
-    size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * (edge == way ? node : other) + (uint32_t)way);
-    double share = edge == way ? w->cuts->shares[slot] : 1 - w->cuts->shares[slot];
-    bool is_long = way < SBFI_LATTICE_LONG_EDGES;
-    double distance = is_long ? share : share * short_length;
-    if (share >= (is_long ? warp_long : warp_short) || distance >= nearest) continue;
+    size_t slot =
+        sbfi_lattice_cuts_slot(w->cuts, 8 * (edge == direction ? node : other) + (uint32_t)direction);
+    double fraction = edge == direction ? w->cuts->fractions[slot] : 1 - w->cuts->fractions[slot];
+    bool is_long = direction < SBFI_LATTICE_LONG_EDGES;
+    double distance = is_long ? fraction : fraction * short_length;
+    if (fraction >= (is_long ? warp_long : warp_short) || distance >= nearest) continue;
     nearest = distance;
     best = edge;
-    best_share = share;
+    best_fraction = fraction;
   }
   if (best < 0) return;
   sbfi_d3 from = coordinates(w, node), to = coordinates(w, sbfi_lattice_neighbour(w->grid, node, best));
   w->states[node] = ON;
-  w->node_points[node] = add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), best_share)));
+  w->node_points[node] = add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), best_fraction)));
 }
 
 static void warp_all(work *w) {
@@ -137,14 +138,14 @@ static uint32_t node_point(work *w, uint32_t node) {
   return w->node_points[node];
 }
 
-/* The point on the edge between two nodes, of which `way` and `forward` say how it lies. */
-static uint32_t cut_point(work *w, uint32_t owner, uint32_t way) {
-  size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * owner + way);
+/* The point on the edge between two nodes, of which `direction` and `forward` say how it lies. */
+static uint32_t cut_point(work *w, uint32_t owner, uint32_t direction) {
+  size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * owner + direction);
   if (w->cuts->points[slot] == NONE) {
     sbfi_d3 from = coordinates(w, owner),
-            to = coordinates(w, sbfi_lattice_neighbour(w->grid, owner, (int)way));
+            to = coordinates(w, sbfi_lattice_neighbour(w->grid, owner, (int)direction));
     w->cuts->points[slot] =
-        add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), w->cuts->shares[slot])));
+        add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), w->cuts->fractions[slot])));
   }
   return w->cuts->points[slot];
 }
@@ -162,7 +163,7 @@ static void add(work *w, const uint32_t points[4]) {
   if (!sbfi_array_append(&w->tetrahedra, points, 1)) w->good = false;
 }
 
-static const sbfi_d3 *place(const work *w, uint32_t point) {
+static const sbfi_d3 *position(const work *w, uint32_t point) {
   return (const sbfi_d3 *)w->points.at + point;
 }
 
@@ -170,7 +171,7 @@ static const sbfi_d3 *place(const work *w, uint32_t point) {
 static void fill_cut(work *w, const uint32_t nodes[4]) {
   sbfi_stencil_corner corners[4];
   uint32_t names[4][4];
-  sbfi_d3 places[4][4];
+  sbfi_d3 positions[4][4];
   for (int i = 0; i < 4; i++) {
     uint8_t state = w->states[nodes[i]] & STATE;
     corners[i] = state == ON ? SBFI_STENCIL_ON : state == INSIDE ? SBFI_STENCIL_INSIDE : SBFI_STENCIL_OUTSIDE;
@@ -184,12 +185,12 @@ static void fill_cut(work *w, const uint32_t nodes[4]) {
   if (!w->good) return;
   for (int i = 0; i < 4; i++) {
     if (corners[i] == SBFI_STENCIL_OUTSIDE) continue;
-    places[i][i] = *place(w, names[i][i]);
+    positions[i][i] = *position(w, names[i][i]);
     for (int j = 0; j < 4 && corners[i] == SBFI_STENCIL_INSIDE; j++)
-      if (corners[j] == SBFI_STENCIL_OUTSIDE) places[i][j] = places[j][i] = *place(w, names[i][j]);
+      if (corners[j] == SBFI_STENCIL_OUTSIDE) positions[i][j] = positions[j][i] = *position(w, names[i][j]);
   }
   sbfi_stencil_piece pieces[SBFI_STENCIL_MAX];
-  int count = sbfi_stencil_apply(corners, nodes, (const sbfi_d3(*)[4])places, pieces);
+  int count = sbfi_stencil_apply(corners, nodes, (const sbfi_d3(*)[4])positions, pieces);
   for (int p = 0; p < count; p++) {
     uint32_t points[4];
     for (int k = 0; k < 4; k++) points[k] = names[pieces[p].at[k][0]][pieces[p].at[k][1]];
@@ -230,10 +231,10 @@ static void fill_all(work *w) {
   for (uint32_t row = 1; row < rows && w->good; row += 2) {
     if (!is_inner_row(g, row)) continue;
     for (uint32_t n = row * length + 1; n + 1 < (row + 1) * length; n++) {
-      for (int way = 0; way < 3; way++) {
-        uint32_t other = (uint32_t)((int64_t)n + steps[way]);
+      for (int direction = 0; direction < 3; direction++) {
+        uint32_t other = (uint32_t)((int64_t)n + steps[direction]);
         uint32_t ring[4];
-        for (int k = 0; k < 4; k++) ring[k] = (uint32_t)((int64_t)n + rings[way][k]);
+        for (int k = 0; k < 4; k++) ring[k] = (uint32_t)((int64_t)n + rings[direction][k]);
         for (int k = 0; k < 4; k++) fill(w, n, other, ring[k], ring[(k + 1) & 3]);
       }
     }
@@ -263,19 +264,19 @@ static bool hand_over(work *w, sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_ar
   if (!made->at || !made->positions || !rounded || !new_from_old) return false;
   memset(new_from_old, 0xff, point_count * sizeof *new_from_old);
   for (size_t i = 0; i < point_count; i++)
-    rounded[i] = sbfi_d3_rounded(sbfi_lattice_place(w->grid, points[i]));
+    rounded[i] = sbfi_d3_rounded(sbfi_lattice_position(w->grid, points[i]));
   for (size_t t = 0; t < count; t++) {
     if (!is_positive(rounded, from[t].at)) {
       made->flat_count++;
       continue;
     }
     for (int k = 0; k < 4; k++) {
-      uint32_t *place = &new_from_old[from[t].at[k]];
-      if (*place == NONE) {
-        *place = made->point_count;
+      uint32_t *slots = &new_from_old[from[t].at[k]];
+      if (*slots == NONE) {
+        *slots = made->point_count;
         made->positions[made->point_count++] = rounded[from[t].at[k]];
       }
-      made->at[made->count].at[k] = *place;
+      made->at[made->count].at[k] = *slots;
     }
     made->count++;
   }

@@ -12,7 +12,7 @@
 /* The edges that have one end inside and one outside, and where the surface cuts each. */
 typedef struct sbfi_lattice_cuts {
   uint32_t *edges;  /* (slot_count) 8 * node + which, as in lattice_crossings.h; UINT32_MAX: free */
-  float *shares;    /* (slot_count) of the way from the edge's owner, 0..1 */
+  float *fractions; /* (slot_count) of the way from the edge's owner, 0..1 */
   uint32_t *points; /* (slot_count) points made of them, for the stuffing's own use */
   size_t slot_count, count;
 } sbfi_lattice_cuts;
@@ -22,7 +22,7 @@ bool sbfi_lattice_cuts_find(
     sbfi_lattice_cuts *cuts, const sbfi_lattice_grid *grid, const uint8_t *inside, sbfi_arena *arena);
 
 /* The share of an edge of the way, from a node, within which a cut warps that node; a little more. */
-double sbfi_lattice_min_share(int way);
+double sbfi_lattice_min_fraction(int direction);
 
 /* The edge's slot, or where it would be. */
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge);

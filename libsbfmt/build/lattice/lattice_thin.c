@@ -8,12 +8,13 @@
 
 enum { MAX_SAMPLES = 2000 };
 
-/* Distance along `way` (a unit vector) from `from` to the triangle's plane. */
-static double distance_to(const sbfi_triangle_tree *tree, uint32_t triangle, sbfi_d3 from, sbfi_d3 way) {
+/* Distance along `direction` (a unit vector) from `from` to the triangle's plane. */
+static double distance_to(
+    const sbfi_triangle_tree *tree, uint32_t triangle, sbfi_d3 from, sbfi_d3 direction) {
   sbfi_d3 c[3];
   for (int k = 0; k < 3; k++) c[k] = sbfi_d3_of(tree->positions[tree->triangles[triangle].points[k]]);
   sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(c[1], c[0]), sbfi_d3_sub(c[2], c[0]));
-  double slope = sbfi_d3_dot(normal, way);
+  double slope = sbfi_d3_dot(normal, direction);
   return slope != 0 ? sbfi_d3_dot(normal, sbfi_d3_sub(c[0], from)) / slope : INFINITY;
 }
 
@@ -32,13 +33,13 @@ bool sbfi_lattice_thinness(
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->positions.at[i]), sbfi_d3_scale(inwards, 1e-3 * limit));
     sbf_vec3 start = sbfi_d3_rounded(from), end = sbfi_d3_rounded(sbfi_d3_add(from, inwards));
     /* What is farther is neither thin nor the least. */
-    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->min));
+    uint32_t hits = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->min));
     thinness->sample_count++;
-    if (met == UINT32_MAX) continue;
-    double way = distance_to(&tree, met, from, inwards) + 1e-3 * limit;
-    if (!(way > 0)) continue;
-    if (way < thinness->min) thinness->min = way;
-    thinness->thin_count += way < limit;
+    if (hits == UINT32_MAX) continue;
+    double travel = distance_to(&tree, hits, from, inwards) + 1e-3 * limit;
+    if (!(travel > 0)) continue;
+    if (travel < thinness->min) thinness->min = travel;
+    thinness->thin_count += travel < limit;
   }
   return true;
 }

@@ -32,16 +32,16 @@ static size_t list_pairs(const sbf_level *level, sbf_uint2 *pairs) {
 /* Sum over regions and their points of a |r|^2, a the point's mass shared among its regions, kg m^2; all
  * regions' points are in `points`, as many in each as `sizes` says. */
 static double spread_of(const sbf_level *level, const uint32_t *sizes, uint32_t region_count,
-    const uint32_t *points, const float *masses, const uint32_t *uses, double *weights, sbfi_d3 *places) {
+    const uint32_t *points, const float *masses, const uint32_t *uses, double *weights, sbfi_d3 *positions) {
   double sum = 0;
   for (uint32_t r = 0; r < region_count; points += sizes[r++]) {
     for (uint32_t i = 0; i < sizes[r]; i++) {
       weights[i] = (double)masses[points[i]] / uses[points[i]];
-      places[i] = sbfi_d3_of(level->positions.at[points[i]]);
+      positions[i] = sbfi_d3_of(level->positions.at[points[i]]);
     }
-    sbfi_d3 center = sbfi_region_center(weights, places, sizes[r]);
+    sbfi_d3 center = sbfi_region_center(weights, positions, sizes[r]);
     for (uint32_t i = 0; i < sizes[r]; i++) {
-      sbfi_d3 off = sbfi_d3_sub(places[i], center);
+      sbfi_d3 off = sbfi_d3_sub(positions[i], center);
       sum += weights[i] * sbfi_d3_dot(off, off);
     }
   }
@@ -69,10 +69,10 @@ bool sbfi_region_level_make(
     uses[points[i]]++;
   }
   double *weights = sbfi_arena_allocate(scratch, max, sizeof *weights);
-  sbfi_d3 *places = sbfi_arena_allocate(scratch, max, sizeof *places);
-  if (!weights || !places) return false;
+  sbfi_d3 *positions = sbfi_arena_allocate(scratch, max, sizeof *positions);
+  if (!weights || !positions) return false;
   double mass = sbf_level_masses(body, level, NULL, masses);
-  double spread = spread_of(level, sizes, region_count, points, masses, uses, weights, places) / 3;
+  double spread = spread_of(level, sizes, region_count, points, masses, uses, weights, positions) / 3;
   double square = (double)body->attributes.young_modulus / (double)body->attributes.density * mass / spread;
   sbf_shape_regions_init(regions);
   if (square > 0 && square < 1e12) regions->stiffness = (float)sqrt(square);

@@ -9,18 +9,18 @@
 
 /* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
  */
-static const double lean_share = 2e-3, fall_tolerance = 1e-4;
+static const double lean_fraction = 2e-3, fall_tolerance = 1e-4;
 /* Of the one factor for all, from means over the surface. Beyond, a crumb may have made the mean: it hangs on
  * nothing, as in a lattice of a surface with holes, and gives without end. One of the level's is left out by
  * taking the median point; one of the reference's leaves nothing to fit to. */
 static const double min_whole = 0.0625, max_whole = 4;
 /* Of the factor of the median point then, in so many bisections, and of the mean square of what the
  * reference's points give, below which one says nothing. */
-static const double min_median = 1.0 / 64, max_median = 64, still_share = 1e-4;
+static const double min_median = 1.0 / 64, max_median = 64, still_fraction = 1e-4;
 enum { MEDIAN_STEPS = 24 };
 
 /* Of the modulus of each tetrahedron: more than twice would shorten the time step for little. */
-static const sbfi_factor_bounds lattice_bounds = {.min = 0.125, .max = 2, .share = 1e-3, .rounds = 25};
+static const sbfi_factor_bounds lattice_bounds = {.min = 0.125, .max = 2, .fraction = 1e-3, .rounds = 25};
 enum { ROUGH_ROUNDS = 12 };
 
 /* Of a rough reference. */
@@ -49,13 +49,14 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
     if (!sbfi_progress_say(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
     r->gives[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
     if (!r->gives[l] ||
-        !sbfi_level_lean(&r->statics, &linear, l, lean_share, r->gives[l], &r->frequencies[l], scratch))
+        !sbfi_level_lean(&r->statics, &linear, l, lean_fraction, r->gives[l], &r->frequencies[l], scratch))
       return SBFI_LATTICE_NO_MEMORY;
     r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
     r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
   }
   for (uint32_t k = 0; k < SBFI_TWISTS && r->sound && use->twists; k++)
-    if (!sbfi_level_twist_frequency(&r->statics, &linear, k, lean_share, &r->twist_frequencies[k], scratch))
+    if (!sbfi_level_twist_frequency(
+            &r->statics, &linear, k, lean_fraction, &r->twist_frequencies[k], scratch))
       return SBFI_LATTICE_NO_MEMORY;
   r->has_twists = r->sound && use->twists;
   if (r->sound && use->pushes) {
@@ -156,8 +157,8 @@ static bool find_yieldings(work *w) {
   size_t numbers = 3 * (size_t)w->body->surface.positions.count + 1;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
     w->gives[l] = sbfi_arena_allocate(w->scratch, numbers, sizeof(double));
-    if (!w->gives[l] ||
-        !sbfi_level_lean(&w->statics, &w->linear, l, lean_share, w->gives[l], &w->frequencies[l], w->scratch))
+    if (!w->gives[l] || !sbfi_level_lean(&w->statics, &w->linear, l, lean_fraction, w->gives[l],
+                            &w->frequencies[l], w->scratch))
       return false;
     w->yieldings[l] = sbfi_level_yielding(&w->statics, l, w->gives[l]);
   }
@@ -185,7 +186,7 @@ static double wanted_yielding(const work *w, uint32_t load) {
 static double min_to_bear(const work *w) {
   sbf_attributes matter = w->body->attributes;
   double stated = (double)matter.young_modulus;
-  if (w->statics.held || !is_sparse(w) || !(stated > 0)) return 0;
+  if (w->statics.is_pinned || !is_sparse(w) || !(stated > 0)) return 0;
   matter.young_modulus = 0;
   return fmin(sbfi_bearing_modulus(&matter, &w->body->surface.positions) / stated, 1);
 }
@@ -218,7 +219,7 @@ static double mean_square(const work *w) {
  * where the surface says nothing. By bisection of the factor's logarithm. */
 static double median_excess(const work *w) {
   uint32_t points = w->body->surface.positions.count;
-  double low = min_median, high = max_median, hardly = still_share * mean_square(w);
+  double low = min_median, high = max_median, hardly = still_fraction * mean_square(w);
   for (int step = 0; step < MEDIAN_STEPS; step++) {
     double middle = sqrt(low * high), below = 0, above = 0;
     for (uint32_t i = 0; i < points; i++) {
@@ -266,7 +267,7 @@ static bool find_twists(work *w, double factor) {
     const double *wanted = w->r->works.gives[push];
     double along = 0, square = 0;
     sbfi_level_push(&w->statics, &w->r->works.pushes, push, forces);
-    sbfi_linear_statics_solve(&w->linear, forces, lean_share, moved);
+    sbfi_linear_statics_solve(&w->linear, forces, lean_fraction, moved);
     sbfi_level_carry(&w->statics, moved, gives);
     for (size_t i = 0; i < 3 * points; i++) {
       along += (double)w->r->statics.areas[i / 3] * gives[i] * wanted[i];
@@ -281,7 +282,8 @@ static bool find_twists(work *w, double factor) {
 static bool find_slow_twists(work *w, double factor) {
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
     double own, wanted = w->r->twist_frequencies[k];
-    if (!sbfi_level_twist_frequency(&w->statics, &w->linear, k, lean_share, &own, w->scratch)) return false;
+    if (!sbfi_level_twist_frequency(&w->statics, &w->linear, k, lean_fraction, &own, w->scratch))
+      return false;
     if (own > 0 && wanted > 0) w->c->twist_errors[k] = wanted * wanted / (own * own) / factor - 1;
   }
   return true;
@@ -467,7 +469,7 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
   double factor = 1;
   springs &= level->model == SBF_ELASTIC_MODEL_SPRINGS;
   if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
-  bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.held == w->r->statics.held;
+  bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.is_pinned == w->r->statics.is_pinned;
   w->c->unsettled = w->statics.turns;
   if (gives && !w->c->unsettled) {
     uint32_t load = softest(w->r);

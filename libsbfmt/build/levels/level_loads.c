@@ -37,12 +37,12 @@ static sbfi_d3 solve3(const double m[6], sbfi_d3 r) {
 
 /* The rigid motion nearest to a field over weighted places. */
 static rigid nearest_rigid(
-    const sbf_vec3 *places, const float *weights, const double *field, uint32_t count) {
+    const sbf_vec3 *positions, const float *weights, const double *field, uint32_t count) {
   rigid motion = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   double sum = 0, tensor[6] = {0};
   for (uint32_t i = 0; i < count; i++) {
     sum += weights[i];
-    motion.middle = sbfi_d3_add(motion.middle, sbfi_d3_scale(sbfi_d3_of(places[i]), weights[i]));
+    motion.middle = sbfi_d3_add(motion.middle, sbfi_d3_scale(sbfi_d3_of(positions[i]), weights[i]));
     motion.v = sbfi_d3_add(
         motion.v, sbfi_d3_scale((sbfi_d3){field[3 * i], field[3 * i + 1], field[3 * i + 2]}, weights[i]));
   }
@@ -51,7 +51,7 @@ static rigid nearest_rigid(
   motion.v = sbfi_d3_scale(motion.v, 1 / sum);
   sbfi_d3 moment = {0, 0, 0};
   for (uint32_t i = 0; i < count; i++) {
-    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(places[i]), motion.middle);
+    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(positions[i]), motion.middle);
     sbfi_d3 u = {field[3 * i] - motion.v.x, field[3 * i + 1] - motion.v.y, field[3 * i + 2] - motion.v.z};
     double m = weights[i];
     moment = sbfi_d3_add(moment, sbfi_d3_scale(sbfi_d3_cross(r, u), m));
@@ -63,9 +63,9 @@ static rigid nearest_rigid(
   return motion;
 }
 
-static void take_off(const rigid *motion, const sbf_vec3 *places, double *field, uint32_t count) {
+static void take_off(const rigid *motion, const sbf_vec3 *positions, double *field, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
-    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(places[i]), motion->middle);
+    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(positions[i]), motion->middle);
     sbfi_d3 u = sbfi_d3_add(motion->v, sbfi_d3_cross(motion->w, r));
     field[3 * i] -= u.x, field[3 * i + 1] -= u.y, field[3 * i + 2] -= u.z;
   }
@@ -73,15 +73,15 @@ static void take_off(const rigid *motion, const sbf_vec3 *places, double *field,
 
 /* Acceleration of load number `load`, of size 1, at a place, along which axis. */
 static int axis_of(const sbfi_level_statics *s, uint32_t load) {
-  if (s->held) return (int)load;
+  if (s->is_pinned) return (int)load;
   return (int)(load < SBFI_BENDS ? load / 2 : load - SBFI_BENDS);
 }
-static double strength(const sbfi_level_statics *s, uint32_t load, sbf_vec3 place) {
-  if (s->held) return 1;
+static double strength(const sbfi_level_statics *s, uint32_t load, sbf_vec3 position) {
+  if (s->is_pinned) return 1;
   bool bends = load < SBFI_BENDS;
   int along = bends ? (axis_of(s, load) + 1 + (int)(load % 2)) % 3 : axis_of(s, load);
   double half = (s->high[along] - s->low[along]) / 2;
-  double q = half > 0 ? (component(place, along) - s->low[along]) / half - 1 : 0;
+  double q = half > 0 ? (component(position, along) - s->low[along]) / half - 1 : 0;
   return bends ? q * q : q;
 }
 
@@ -96,13 +96,13 @@ static void balance(const sbf_spring_network *n, double *forces) {
   for (size_t i = 0; i < 3 * (size_t)n->point_count; i++) forces[i] *= n->masses[i / 3];
 }
 
-void sbfi_level_forces(const sbfi_level_statics *s, uint32_t load, double size, double *forces) {
+void sbfi_level_compute_forces(const sbfi_level_statics *s, uint32_t load, double size, double *forces) {
   const sbf_spring_network *n = &s->network;
   memset(forces, 0, 3 * (size_t)n->point_count * sizeof *forces);
   for (uint32_t i = 0; i < n->point_count; i++)
     forces[3 * (size_t)i + (size_t)axis_of(s, load)] =
         n->masses[i] * size * strength(s, load, n->positions[i]);
-  if (!s->held) balance(n, forces);
+  if (!s->is_pinned) balance(n, forces);
 }
 
 static bool is_loose(const sbfi_level_statics *s, uint32_t vertex) {
@@ -130,8 +130,8 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
     double max = 0;
     uint32_t next = UINT32_MAX;
     for (uint32_t i = 0; i < points->count; i++) {
-      sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(points->at[i]), sbfi_d3_of(points->at[middle]));
-      double squared = sbfi_d3_dot(way, way);
+      sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(points->at[i]), sbfi_d3_of(points->at[middle]));
+      double squared = sbfi_d3_dot(displacement, displacement);
       if (squared < nearest2[i]) {
         nearest2[i] = squared;
         made->patches[i] = made->patch_count;
@@ -149,7 +149,7 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
 }
 
 /* A direction for a patch in a push, by chance but always the same. */
-static sbfi_d3 way_of(uint32_t push, uint32_t patch) {
+static sbfi_d3 find_displacement(uint32_t push, uint32_t patch) {
   uint32_t h = (patch + 1) * 2654435761u + (push + 1) * 2246822519u;
   h = (h ^ h >> 15) * 3266489917u;
   h ^= h >> 13;
@@ -158,11 +158,11 @@ static sbfi_d3 way_of(uint32_t push, uint32_t patch) {
 }
 
 /* A twist's force on a piece of the surface of 1 m^2. */
-static sbfi_d3 twist_of(const sbfi_level_statics *s, uint32_t axis, sbf_vec3 place) {
-  const double from[3] = {place.x, place.y, place.z};
+static sbfi_d3 twist_of(const sbfi_level_statics *s, uint32_t axis, sbf_vec3 position) {
+  const double from[3] = {position.x, position.y, position.z};
   double q[3], arm = 1;
   for (int k = 0; k < 3; k++) q[k] = from[k] - (s->low[k] + s->high[k]) / 2;
-  if (!s->held) arm = q[axis] / s->size;
+  if (!s->is_pinned) arm = q[axis] / s->size;
   uint32_t b = (axis + 1) % 3, c = (axis + 2) % 3;
   double force[3] = {0};
   force[b] = -arm * q[c] / (s->size * s->size);
@@ -179,16 +179,17 @@ void sbfi_level_push(
     double weights[4];
     if (patch == UINT32_MAX) continue;
     bool twists = push >= SBFI_PUSHES - SBFI_TWISTS;
-    sbfi_d3 way = twists ? twist_of(s, push - (SBFI_PUSHES - SBFI_TWISTS), s->body->surface.positions.at[i])
-                         : way_of(push, patch);
-    sbfi_d3 part = sbfi_d3_scale(way, twists ? s->areas[i] : s->areas[i] / pushes->areas[patch]);
+    sbfi_d3 displacement =
+        twists ? twist_of(s, push - (SBFI_PUSHES - SBFI_TWISTS), s->body->surface.positions.at[i])
+               : find_displacement(push, patch);
+    sbfi_d3 part = sbfi_d3_scale(displacement, twists ? s->areas[i] : s->areas[i] / pushes->areas[patch]);
     load_weights(s->carried[i].weights, weights);
     for (int k = 0; k < 4; k++) {
       double *to = forces + 3 * (size_t)s->carried[i].points.at[k];
       to[0] += weights[k] * part.x, to[1] += weights[k] * part.y, to[2] += weights[k] * part.z;
     }
   }
-  if (!s->held) balance(n, forces);
+  if (!s->is_pinned) balance(n, forces);
 }
 
 /* ---- Answers ---- */
@@ -214,7 +215,7 @@ void sbfi_level_carry(const sbfi_level_statics *s, const double *moved, double *
       displacements[3 * (size_t)i + k] = sum;
     }
   }
-  if (s->held) return;
+  if (s->is_pinned) return;
   rigid motion = nearest_rigid(surface->at, s->areas, displacements, surface->count);
   take_off(&motion, surface->at, displacements, surface->count);
 }
@@ -224,9 +225,9 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   const sbf_spring_network *n = &s->network;
   size_t numbers = 3 * (size_t)n->point_count;
   double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
-  double *places = sbfi_arena_allocate(scratch, numbers + 1, sizeof *places);
-  if (!forces || !places) return false;
-  sbfi_level_forces(s, load, size, forces);
+  double *positions = sbfi_arena_allocate(scratch, numbers + 1, sizeof *positions);
+  if (!forces || !positions) return false;
+  sbfi_level_compute_forces(s, load, size, forces);
   sbfi_static_problem problem = {.network = n,
       .forces = forces,
       .tolerance = tolerance,
@@ -235,29 +236,29 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
           (uint32_t)fmin(MAX_PRODUCTS, 1 + MAX_VISITS / (1.0 + n->spring_count + n->tetrahedron_count)),
       .progress = progress};
   sbfi_static_outcome outcome;
-  sbfi_static_start(n, places);
-  if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator) || outcome.ended) return false;
+  sbfi_static_start(n, positions);
+  if (!sbfi_static_solve(&problem, positions, &outcome, &scratch->allocator) || outcome.ended) return false;
   *converged = outcome.residual <= 10 * tolerance;
-  for (size_t i = 0; i < numbers; i++) places[i] -= component(n->positions[i / 3], (int)(i % 3));
-  sbfi_level_carry(s, places, displacements);
+  for (size_t i = 0; i < numbers; i++) positions[i] -= component(n->positions[i / 3], (int)(i % 3));
+  sbfi_level_carry(s, positions, displacements);
   return true;
 }
 
-bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t load, double share,
+bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t load, double fraction,
     double *displacements, double *frequency, sbfi_arena *scratch) {
   size_t numbers = 3 * (size_t)s->network.point_count;
   double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(scratch, numbers + 1, sizeof *moved);
   if (!forces || !moved) return false;
-  sbfi_level_forces(s, load, 1, forces);
-  sbfi_linear_statics_solve(linear, forces, share, moved);
+  sbfi_level_compute_forces(s, load, 1, forces);
+  sbfi_linear_statics_solve(linear, forces, fraction, moved);
   *frequency = quotient(&s->network, forces, moved);
   sbfi_level_carry(s, moved, displacements);
   return true;
 }
 
 bool sbfi_level_twist_frequency(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t axis,
-    double share, double *frequency, sbfi_arena *scratch) {
+    double fraction, double *frequency, sbfi_arena *scratch) {
   const sbf_spring_network *n = &s->network;
   double *forces = sbfi_arena_allocate(scratch, 3 * (size_t)n->point_count + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(scratch, 3 * (size_t)n->point_count + 1, sizeof *moved);
@@ -267,8 +268,8 @@ bool sbfi_level_twist_frequency(const sbfi_level_statics *s, sbfi_linear_statics
     double *at = forces + 3 * (size_t)i;
     at[0] = force.x, at[1] = force.y, at[2] = force.z;
   }
-  if (!s->held) balance(n, forces);
-  sbfi_linear_statics_solve(linear, forces, share, moved);
+  if (!s->is_pinned) balance(n, forces);
+  sbfi_linear_statics_solve(linear, forces, fraction, moved);
   *frequency = quotient(n, forces, moved);
   return true;
 }

@@ -17,7 +17,7 @@
 #include "mechanics/linear_statics.h"
 
 /* The forces (3 x level points) N of load number `load` of `size` m/s^2. */
-void sbfi_level_forces(const sbfi_level_statics *statics, uint32_t load, double size, double *forces);
+void sbfi_level_compute_forces(const sbfi_level_statics *statics, uint32_t load, double size, double *forces);
 
 enum { SBFI_PUSHED_PATCHES = 24, SBFI_TWISTS = 3, SBFI_PUSHES = 6 + SBFI_TWISTS };
 
@@ -37,9 +37,9 @@ void sbfi_level_push(
 
 /* Rayleigh's quotient, rad/s, of the displacements under angular acceleration about the middle's axis `axis`
  * (0 to 2); where nothing holds the body, the more the farther along the axis, opposite on the two sides.
- * Solved within the relative error `share`; 0: it does not move. False where memory runs out. */
+ * Solved within the relative error `fraction`; 0: it does not move. False where memory runs out. */
 bool sbfi_level_twist_frequency(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t axis,
-    double share, double *frequency, sbfi_arena *scratch);
+    double fraction, double *frequency, sbfi_arena *scratch);
 
 /* Displacements of the surface's points (3 * surface points, m) under load number `load` of `size` m/s^2,
  * with large strains as they are, until all but `tolerance` of the load is balanced; what takes more than
@@ -47,11 +47,11 @@ bool sbfi_level_twist_frequency(const sbfi_level_statics *statics, sbfi_linear_s
 bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double size, double tolerance,
     double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch);
 
-/* The same for small strains, under 1 m/s^2 and in m for that, right to `share`. `*frequency` rad/s is
+/* The same for small strains, under 1 m/s^2 and in m for that, right to `fraction`. `*frequency` rad/s is
  * Rayleigh's quotient of the displacements: little above the lowest mode's, where the load is one that the
  * mode gives to. */
 bool sbfi_level_lean(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t load,
-    double share, double *displacements, double *frequency, sbfi_arena *scratch);
+    double fraction, double *displacements, double *frequency, sbfi_arena *scratch);
 
 /* Displacements of the surface's points (3 x surface points, m) where the level's are displaced so (3 x level
  * points, m); what is rigid in them is left out where nothing holds the body. */

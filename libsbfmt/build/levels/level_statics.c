@@ -98,7 +98,7 @@ static bool take_anchors(sbfi_level_statics *s, const float *masses, sbfi_arena 
     }
   }
   s->network.anchors = any ? anchors : NULL;
-  s->held |= any;
+  s->is_pinned |= any;
   return true;
 }
 
@@ -141,22 +141,22 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   uint32_t count = level->positions.count;
   *statics = (sbfi_level_statics){
       .body = body, .level = level, .network = {.point_count = count, .positions = level->positions.at}};
-  uint8_t *held = sbfi_arena_allocate(arena, (size_t)count + 1, 1);
+  uint8_t *pinned = sbfi_arena_allocate(arena, (size_t)count + 1, 1);
   float *masses = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *masses);
-  if (!held || !masses) return false;
-  statics->held = sbf_level_held_points(level, held) > 0;
-  statics->mass = sbf_level_masses(body, level, held, masses);
+  if (!pinned || !masses) return false;
+  statics->is_pinned = sbf_level_held_points(level, pinned) > 0;
+  statics->mass = sbf_level_masses(body, level, pinned, masses);
   statics->network.masses = masses;
   if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||
       !take_anchors(statics, masses, arena) || !carry_surface(statics, interior, arena))
     return false;
   double loose_kg;
-  if (!sbfi_loose_pieces_hold(&statics->network, statics->held, masses, &loose_kg, arena) ||
+  if (!sbfi_loose_pieces_hold(&statics->network, statics->is_pinned, masses, &loose_kg, arena) ||
       !sbfi_pieces_turn(&statics->network, statics->size, &statics->turns, arena))
     return false;
   statics->mass -= loose_kg;
-  if (!statics->held && !add_tethers(statics, arena)) return false;
-  statics->load_count = statics->held ? SBFI_HELD_LOADS : SBFI_FREE_LOADS;
+  if (!statics->is_pinned && !add_tethers(statics, arena)) return false;
+  statics->load_count = statics->is_pinned ? SBFI_PINNED_LOADS : SBFI_FREE_LOADS;
   return true;
 }
 

@@ -7,7 +7,7 @@
 
 /* Gravity along three axes; of a body that nothing holds, six ways to bend it and three to stretch it. */
 enum {
-  SBFI_HELD_LOADS = 3,
+  SBFI_PINNED_LOADS = 3,
   SBFI_BENDS = 6,
   SBFI_FREE_LOADS = SBFI_BENDS + 3,
   SBFI_MAX_LOADS = SBFI_FREE_LOADS
@@ -17,7 +17,7 @@ typedef struct sbfi_level_statics {
   const sbf_soft_body *body;
   const sbf_level *level;
   sbf_spring_network network;
-  bool held;
+  bool is_pinned;
   bool turns; /* about the points that hold it, all of it or a piece: what its statics says means nothing */
   uint32_t load_count;
   sbfi_carrier carrier;

@@ -9,7 +9,7 @@
 enum { ROUNDS = 4, SMOOTHINGS = 3 };
 static const double least_factor = 0.125, most_factor = 2, max_change = 2;
 /* How exactly pushes are solved, and what counts as no work: shares of the whole, and of the mean point's. */
-static const double push_share = 5e-3, no_work = 1e-6;
+static const double push_fraction = 5e-3, no_work = 1e-6;
 
 /* Adds each element's work in the displacements, times `scale`, to its corners. */
 static void add_works(
@@ -37,19 +37,20 @@ bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, s
   double *forces = sbfi_arena_allocate(arena, numbers + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(arena, numbers + 1, sizeof *moved);
   *works = (sbfi_push_works){0};
-  works->shares = sbfi_arena_allocate(arena, (size_t)s->network.point_count + 1, sizeof *works->shares);
-  if (!forces || !moved || !works->shares || !sbfi_level_pushes_make(&works->pushes, s, arena)) return false;
+  works->fractions = sbfi_arena_allocate(arena, (size_t)s->network.point_count + 1, sizeof *works->fractions);
+  if (!forces || !moved || !works->fractions || !sbfi_level_pushes_make(&works->pushes, s, arena))
+    return false;
   for (uint32_t push = 0; push < SBFI_PUSHES; push++) {
     if (!sbfi_progress_say(progress, (double)push / SBFI_PUSHES)) return false;
     memset(moved, 0, numbers * sizeof *moved);
     sbfi_level_push(s, &works->pushes, push, forces);
-    sbfi_linear_statics_solve(linear, forces, push_share, moved);
+    sbfi_linear_statics_solve(linear, forces, push_fraction, moved);
     works->totals[push] = sbfi_dot(forces, moved, numbers);
     works->gives[push] =
         sbfi_arena_allocate(arena, (size_t)s->body->surface.positions.count + 1, 3 * sizeof(double));
     if (!works->gives[push]) return false;
     sbfi_level_carry(s, moved, works->gives[push]);
-    if (works->totals[push] > 0) add_works(linear, moved, 1 / works->totals[push], works->shares);
+    if (works->totals[push] > 0) add_works(linear, moved, 1 / works->totals[push], works->fractions);
   }
   return true;
 }
@@ -88,12 +89,12 @@ static void smooth(const work *w, double *values) {
 static void map_works(const work *w, const sbfi_level_statics *of) {
   const sbf_spring_network *n = &of->network;
   for (uint32_t i = 0; i < n->point_count; i++) {
-    if (!(w->works->shares[i] > 0)) continue;
+    if (!(w->works->fractions[i] > 0)) continue;
     sbfi_carried by = sbfi_carrier_carry(&w->statics->carrier, n->positions[i], UINT32_MAX);
     double weights[4] = {by.weights.x, by.weights.y, by.weights.z, by.weights.w}, sum = 0;
     for (int k = 0; k < 4; k++) sum += weights[k] = fmax(weights[k], 0);
     for (int k = 0; k < 4 && sum > 0; k++)
-      w->wanted[by.points.at[k]] += w->works->shares[i] * weights[k] / sum;
+      w->wanted[by.points.at[k]] += w->works->fractions[i] * weights[k] / sum;
   }
 }
 
@@ -140,7 +141,7 @@ bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, co
       if (!sbfi_progress_say(progress, (round + (double)push / SBFI_PUSHES) / ROUNDS)) return false;
       if (!(works->totals[push] > 0)) continue;
       sbfi_level_push(statics, &works->pushes, push, w.forces);
-      sbfi_linear_statics_solve(linear, w.forces, push_share, w.moved[push]);
+      sbfi_linear_statics_solve(linear, w.forces, push_fraction, w.moved[push]);
       add_works(linear, w.moved[push], 1 / works->totals[push], w.own);
     }
     smooth(&w, w.own);

@@ -14,7 +14,7 @@
 typedef struct sbfi_push_works {
   sbfi_level_pushes pushes;
   double totals[SBFI_PUSHES]; /* J, of each push */
-  double *shares;             /* (level points) their parts of the totals, all pushes together */
+  double *fractions;          /* (level points) their parts of the totals, all pushes together */
   double *gives[SBFI_PUSHES]; /* (3 x surface points) m */
 } sbfi_push_works;
 

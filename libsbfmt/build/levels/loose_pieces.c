@@ -3,7 +3,7 @@
 #include "base/union_find.h"
 #include "build/geometry/line_width.h"
 
-static const double held_width = 1e-4;
+static const double min_width = 1e-4;
 
 static void join(const sbf_spring_network *network, uint32_t *parents) {
   sbfi_sets_begin(parents, network->point_count);
@@ -19,7 +19,7 @@ static bool holds_point(const sbf_spring_network *network, uint32_t point) {
 }
 
 bool sbfi_loose_pieces_hold(
-    const sbf_spring_network *network, bool held, float *masses, double *loose_kg, sbfi_arena *scratch) {
+    const sbf_spring_network *network, bool pinned, float *masses, double *loose_kg, sbfi_arena *scratch) {
   uint32_t points = network->point_count, heaviest = 0;
   uint32_t *parents = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *parents);
   double *weights = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *weights);
@@ -35,7 +35,7 @@ bool sbfi_loose_pieces_hold(
   }
   for (uint32_t i = 0; i < points; i++) {
     uint32_t piece = sbfi_set_root(parents, i);
-    if (held ? holds[piece] : piece == heaviest) continue;
+    if (pinned ? holds[piece] : piece == heaviest) continue;
     *loose_kg += (double)masses[i];
     masses[i] = 0;
   }
@@ -66,7 +66,7 @@ bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *tu
   for (uint32_t i = 0, from = 0; i < points; from = ends[i++]) {
     uint32_t count = ends[i] - from;
     if (!moves[i] || count == 0) continue;
-    *turn |= sbfi_farthest_line_of(network->positions, holding + from, count).width <= held_width * size_m;
+    *turn |= sbfi_farthest_line_of(network->positions, holding + from, count).width <= min_width * size_m;
   }
   return true;
 }

@@ -7,10 +7,10 @@
 #include "sbfmt/mechanics.h"
 
 /* Takes the masses (point_count), which are the network's own, off every piece that nothing holds, so that it
- * counts as held where it is; where nothing is `held` at all, off every piece but the heaviest. `*loose_kg`
+ * counts as held where it is; where nothing is `pinned` at all, off every piece but the heaviest. `*loose_kg`
  * receives what that took. False where memory runs out. */
 bool sbfi_loose_pieces_hold(
-    const sbf_spring_network *network, bool held, float *masses, double *loose_kg, sbfi_arena *scratch);
+    const sbf_spring_network *network, bool pinned, float *masses, double *loose_kg, sbfi_arena *scratch);
 
 /* Whether a piece with some free point is held at points of one line alone, within 1e-4 of `size_m`, or at
  * one: it turns about them, and no load that is not balanced about them finds an answer. Pieces that nothing

@@ -5,11 +5,11 @@
 
 #include "build/levels/stiffness_descent.h"
 
-static const double solve_share = 2e-3;
+static const double solve_fraction = 2e-3;
 /* Both factors stay between these, and so does each spring's own: what springs lack of a matter's stiffness
  * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. A
  * point that is held four times as tightly doubles the substeps at most. */
-static const double least_factor = 0.125, most_factor = 16, max_raise = 4, move_share = 1e-3;
+static const double least_factor = 0.125, most_factor = 16, max_raise = 4, move_fraction = 1e-3;
 enum { MAX_ROUNDS = 25 };
 /* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
  * step: finer ones are left to each spring by itself. */
@@ -58,7 +58,7 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
     if (!w->gives[load]) continue;
     bool is_long = load == 0 || s->network.point_count > MAX_TRIED_POINTS;
     if (is_long && !sbfi_progress_say(w->progress, 0)) return false;
-    if (!sbfi_level_lean(s, w->linear, load, solve_share, w->moved, &frequency, w->scratch)) return false;
+    if (!sbfi_level_lean(s, w->linear, load, solve_fraction, w->moved, &frequency, w->scratch)) return false;
     for (size_t i = 0; i < 3 * (size_t)s->body->surface.positions.count; i++) {
       double area = s->areas[i / 3];
       sums[0] += area * w->moved[i] * w->moved[i];
@@ -111,10 +111,10 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
       sbfi_arena_allocate(scratch, (size_t)statics->body->surface.positions.count + 1, 3 * sizeof *w.moved);
   if (!w.stated || !w.moved || !try_ratio(&w, 1, &best)) return false;
   *factors = (sbfi_spring_factors){.before = best.as_is};
-  int ways = statics->network.point_count > MAX_TRIED_POINTS ? 0 : 2;
-  for (int way = 0; way < ways; way++)
+  int directions = statics->network.point_count > MAX_TRIED_POINTS ? 0 : 2;
+  for (int direction = 0; direction < directions; direction++)
     for (;;) {
-      double ratio = way ? best.ratio / step : best.ratio * step;
+      double ratio = direction ? best.ratio / step : best.ratio * step;
       if (ratio > max_ratio || ratio < 1 / max_ratio) break;
       if (!try_ratio(&w, ratio, &tried)) return false;
       if (tried.left >= best.left) break;
@@ -122,7 +122,7 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
     }
   factors->by_kind = best.left;
   set_stiffness(&w, best.inner * best.ratio, best.inner);
-  const sbfi_factor_bounds bounds = {least_factor, most_factor, max_raise, move_share, MAX_ROUNDS};
+  const sbfi_factor_bounds bounds = {least_factor, most_factor, max_raise, move_fraction, MAX_ROUNDS};
   if (!sbfi_stiffness_descent(statics, linear, w.stated, wanted, &bounds, &factors->after,
           sbfi_progress_part(progress, 0.2, 1), scratch))
     return false;

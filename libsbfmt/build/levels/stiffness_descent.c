@@ -6,7 +6,7 @@
 #include "mechanics/network.h"
 #include "mechanics/vector.h"
 
-static const double adjoint_share = 10; /* of how exactly displacements are solved */
+static const double adjoint_fraction = 10; /* of how exactly displacements are solved */
 /* By so much more than itself a factor grows in a round, or shrinks. */
 static const double first_step = 0.2, min_step = 1e-3, max_step = 1.5, longer = 1.2, shorter = 0.5;
 static const double smoothing = 0.1; /* of the way, each round */
@@ -29,8 +29,8 @@ typedef struct work {
   double *moved[MAX_WANTED], *adjoint[MAX_WANTED]; /* (3 x level points) */
   double *factors, *gradient, *before, *steps;     /* (elements) */
   float *best;                                     /* (elements) */
-  double *held_by;                                 /* (level points) N/m, its springs added up */
-  double max_held;                                 /* N/m per kg */
+  double *pinned_by;                               /* (level points) N/m, its springs added up */
+  double max_pinned;                               /* N/m per kg */
   double *sums, *counts;                           /* (level points) of smoothing */
   double visits;                                   /* of blocks of the matrix, so far */
   sbfi_progress progress;                          /* of this round */
@@ -58,7 +58,7 @@ static const double *wanted_of(const work *w, uint32_t load) {
 static void set_forces(const work *w, uint32_t load) {
   uint32_t gravities = w->statics->load_count;
   if (load < gravities)
-    sbfi_level_forces(w->statics, load, 1, w->forces);
+    sbfi_level_compute_forces(w->statics, load, 1, w->forces);
   else
     sbfi_level_push(w->statics, w->wanted->pushes, load - gravities, w->forces);
 }
@@ -84,15 +84,15 @@ static bool reserve(work *w, sbfi_arena *arena) {
   for (int i = 0; i < 4; i++)
     if (!(*of_elements[i] = sbfi_arena_allocate(arena, elements, sizeof(double)))) return false;
   w->best = sbfi_arena_allocate(arena, elements, sizeof *w->best);
-  w->held_by = sbfi_arena_allocate(arena, points, sizeof *w->held_by);
+  w->pinned_by = sbfi_arena_allocate(arena, points, sizeof *w->pinned_by);
   w->sums = sbfi_arena_allocate(arena, points, sizeof *w->sums);
   w->counts = sbfi_arena_allocate(arena, points, sizeof *w->counts);
-  return w->best && w->held_by;
+  return w->best && w->pinned_by;
 }
 
-static void solve(work *w, double share, double *displacements) {
+static void solve(work *w, double fraction, double *displacements) {
   const sbfi_block_matrix *matrix = &w->linear->stiffness.matrix;
-  uint32_t steps = sbfi_linear_statics_solve(w->linear, w->forces, share, displacements);
+  uint32_t steps = sbfi_linear_statics_solve(w->linear, w->forces, fraction, displacements);
   w->visits += (steps + 1.0) * matrix->begins[matrix->row_count];
 }
 
@@ -106,7 +106,7 @@ static double mismatch(work *w, uint32_t load) {
   for (size_t i = 0; wanted && i < 3 * surface; i++) size += s->areas[i / 3] * wanted[i] * wanted[i];
   if (!(size > 0)) return -1;
   set_forces(w, load);
-  solve(w, w->bounds->share, w->moved[load]);
+  solve(w, w->bounds->fraction, w->moved[load]);
   sbfi_level_carry(s, w->moved[load], w->off);
   memset(w->forces, 0, numbers * sizeof *w->forces);
   for (size_t i = 0; i < surface; i++) {
@@ -172,7 +172,7 @@ static double evaluate(work *w, bool gradient) {
     sum += left;
     loads++;
     if (!gradient) continue;
-    solve(w, adjoint_share * w->bounds->share, w->adjoint[load]);
+    solve(w, adjoint_fraction * w->bounds->fraction, w->adjoint[load]);
     if (w->springs)
       add_gradient_of_springs(w, load);
     else
@@ -181,22 +181,22 @@ static double evaluate(work *w, bool gradient) {
   return loads ? sqrt(sum / loads) : 0;
 }
 
-static void add_held(const work *w, const float *stiffness) {
+static void add_pinned(const work *w, const float *stiffness) {
   const sbf_spring_network *n = &w->statics->network;
-  memset(w->held_by, 0, n->point_count * sizeof *w->held_by);
+  memset(w->pinned_by, 0, n->point_count * sizeof *w->pinned_by);
   for (uint32_t i = 0; i < n->spring_count; i++)
-    for (int end = 0; end < 2; end++) w->held_by[n->ends[i].at[end]] += (double)stiffness[i];
+    for (int end = 0; end < 2; end++) w->pinned_by[n->ends[i].at[end]] += (double)stiffness[i];
 }
 
 /* Holds springs' factors down where they would hold a point too tightly. */
 static void slacken(const work *w) {
   const sbf_spring_network *n = &w->statics->network;
-  add_held(w, w->values);
+  add_pinned(w, w->values);
   for (uint32_t i = 0; i < n->spring_count; i++) {
     double over = 1;
     for (int end = 0; end < 2; end++) {
       uint32_t point = n->ends[i].at[end];
-      if (n->masses[point] > 0) over = fmax(over, w->held_by[point] / (n->masses[point] * w->max_held));
+      if (n->masses[point] > 0) over = fmax(over, w->pinned_by[point] / (n->masses[point] * w->max_pinned));
     }
     if (!(over > 1)) continue;
     w->factors[i] = fmax(w->factors[i] / over, w->bounds->min);
@@ -258,7 +258,7 @@ static void find_factors(const work *w) {
 bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
     const sbfi_wanted *wanted, double *left, sbfi_arena *scratch) {
   /* Nothing of the level is written to here. */
-  static const sbfi_factor_bounds exact = {.share = 1e-3};
+  static const sbfi_factor_bounds exact = {.fraction = 1e-3};
   work w = begin((sbfi_level_statics *)(uintptr_t)statics, linear, wanted);
   w.bounds = &exact;
   if (!reserve_points(&w, false, scratch)) return false;
@@ -280,9 +280,10 @@ bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *li
   w.stated = stated;
   w.bounds = bounds;
   if (!reserve(&w, scratch)) return false;
-  if (w.springs) add_held(&w, stated);
+  if (w.springs) add_pinned(&w, stated);
   for (uint32_t i = 0; i < n->point_count; i++)
-    if (n->masses[i] > 0) w.max_held = fmax(w.max_held, bounds->max_raise * w.held_by[i] / n->masses[i]);
+    if (n->masses[i] > 0)
+      w.max_pinned = fmax(w.max_pinned, bounds->max_raise * w.pinned_by[i] / n->masses[i]);
   find_factors(&w);
   uint32_t rounds = rounds_of(&w);
   *left = INFINITY;

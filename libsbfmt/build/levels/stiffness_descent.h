@@ -24,7 +24,7 @@ typedef struct sbfi_factor_bounds {
   double min, max;
   double max_raise; /* of springs: none holds a point by more than this many times what the most tightly held
                         point for its mass was: the highest frequency grows by its root at most */
-  double share;     /* displacements are solved right to that */
+  double fraction;  /* displacements are solved right to that */
   uint32_t rounds;  /* fewer of them where there are many points, that no body takes many seconds */
 } sbfi_factor_bounds;
 

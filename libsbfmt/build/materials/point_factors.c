@@ -5,11 +5,11 @@
 
 #include "build/geometry/triangle_tree.h"
 
-typedef struct places {
+typedef struct point_set {
   const sbf_soft_body *body;
   sbfi_triangle_tree surface;
   sbfi_box_tree interior;
-} places;
+} point_set;
 
 static void load(sbf_vec3 from, double to[3]) {
   to[0] = from.x, to[1] = from.y, to[2] = from.z;
@@ -17,12 +17,12 @@ static void load(sbf_vec3 from, double to[3]) {
 
 static double interior_distance(const void *user, uint32_t item, const double point[3]) {
   double at[3], sum = 0;
-  load(((const places *)user)->body->interior.at[item], at);
+  load(((const point_set *)user)->body->interior.at[item], at);
   for (int k = 0; k < 3; k++) sum += (at[k] - point[k]) * (at[k] - point[k]);
   return sum;
 }
 
-static bool find_places(places *p, sbfi_arena *scratch) {
+static bool find_positions(point_set *p, sbfi_arena *scratch) {
   const sbf_vec3_list *interior = &p->body->interior;
   sbfi_box *boxes = sbfi_arena_allocate(scratch, (size_t)interior->count + 1, sizeof *boxes);
   if (!boxes || !sbfi_triangle_tree_build(&p->surface, &p->body->surface, scratch)) return false;
@@ -39,12 +39,12 @@ typedef struct sources {
   double weights[3];
 } sources;
 
-static sources sources_of(const places *p, sbf_vec3 place) {
+static sources sources_of(const point_set *p, sbf_vec3 position) {
   const sbf_polygon_mesh *mesh = &p->body->surface;
   sources found = {{0, 0, 0}, {1, 0, 0}};
   double at[3], corners[3][3], min = INFINITY;
-  load(place, at);
-  uint32_t triangle = sbfi_triangle_tree_nearest(&p->surface, place, &min);
+  load(position, at);
+  uint32_t triangle = sbfi_triangle_tree_nearest(&p->surface, position, &min);
   uint32_t inside = p->interior.item_count
                         ? sbfi_box_tree_nearest(&p->interior, at, interior_distance, p, &min)
                         : UINT32_MAX;
@@ -60,14 +60,14 @@ static sources sources_of(const places *p, sbf_vec3 place) {
 
 bool sbfi_point_factors(const sbf_soft_body *body, const sbf_level *level, sbf_weight_property property,
     sbfi_arena *scratch, float **factors) {
-  places p = {.body = body};
+  point_set p = {.body = body};
   uint32_t maps = 0;
   *factors = NULL;
   for (uint32_t m = 0; m < body->weight_maps.count; m++)
     maps += body->weight_maps.at[m].property == property && body->weight_maps.at[m].values.count > 0;
   if (maps == 0) return true;
   float *made = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, sizeof *made);
-  if (!made || !find_places(&p, scratch)) return false;
+  if (!made || !find_positions(&p, scratch)) return false;
   for (uint32_t i = 0; i < level->positions.count; i++) {
     sources from = sources_of(&p, level->positions.at[i]);
     made[i] = 1;

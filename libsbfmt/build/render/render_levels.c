@@ -32,9 +32,9 @@ typedef struct leveller {
  * is asked before. */
 static bool has_memory_for(const sbfi_wedges *wedges, const sbf_allocator *allocator) {
   size_t bytes = 192 * (size_t)wedges->count + 96 * (size_t)wedges->triangle_count + 4096;
-  void *room = sbfi_allocate(allocator, bytes);
-  sbfi_free(allocator, room, bytes);
-  return room != NULL;
+  void *buffer = sbfi_allocate(allocator, bytes);
+  sbfi_free(allocator, buffer, bytes);
+  return buffer != NULL;
 }
 
 static bool simplify(leveller *l, int rule, uint32_t target, simplified *made) {
@@ -43,8 +43,8 @@ static bool simplify(leveller *l, int rule, uint32_t target, simplified *made) {
   size_t corner_count = 3 * (size_t)wedges->triangle_count;
   *made = (simplified){wedges, sbfi_arena_allocate(l->scratch, corner_count + 1, sizeof(uint32_t)), 0};
   if (!made->triangles || !has_memory_for(wedges, &l->scratch->allocator)) return false;
-  size_t count = meshopt_simplify(made->triangles, wedges->triangles, corner_count, &wedges->places[0].x,
-      wedges->count, sizeof *wedges->places, 3 * (size_t)target, 1e6f, 0, NULL);
+  size_t count = meshopt_simplify(made->triangles, wedges->triangles, corner_count, &wedges->positions[0].x,
+      wedges->count, sizeof *wedges->positions, 3 * (size_t)target, 1e6f, 0, NULL);
   meshopt_optimizeVertexCache(made->triangles, made->triangles, count, wedges->count);
   made->triangle_count = (uint32_t)(count / 3);
   return true;

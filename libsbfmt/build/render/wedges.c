@@ -50,16 +50,16 @@ static sbfi_key key_of_color(const void *user, uint32_t corner) {
 }
 
 static sbfi_key key_of_normal(const void *user, uint32_t corner) {
-  sbfi_key place = sbfi_key_of_place(((const sbf_vec3 *)user)[corner]);
-  return (sbfi_key){{0, place.at[0], place.at[1], place.at[2]}};
+  sbfi_key position = sbfi_key_of_position(((const sbf_vec3 *)user)[corner]);
+  return (sbfi_key){{0, position.at[0], position.at[1], position.at[2]}};
 }
 
 static bool split_by_coordinates(splitting *s, const sbf_render_mesh *mesh, const sbf_uv_set *set) {
   sbf_vec2 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
   if (!of_corner) return false;
   for (uint32_t c = 0; c < s->corner_count; c++) {
-    uint32_t place = set->corners.count ? set->corners.at[c] : mesh->mesh.polygon_points.at[c];
-    if (place < set->coordinates.count) of_corner[c] = set->coordinates.at[place];
+    uint32_t index = set->corners.count ? set->corners.at[c] : mesh->mesh.polygon_points.at[c];
+    if (index < set->coordinates.count) of_corner[c] = set->coordinates.at[index];
   }
   return split(s, key_of_coordinates, of_corner);
 }
@@ -139,13 +139,13 @@ static bool list_wedges(
   uint32_t corner_count = mesh->mesh.polygon_points.count;
   wedges->corners = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->corners);
   wedges->slots = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->slots);
-  wedges->places = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->places);
-  if (!wedges->corners || !wedges->slots || !wedges->places) return false;
+  wedges->positions = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->positions);
+  if (!wedges->corners || !wedges->slots || !wedges->positions) return false;
   for (uint32_t c = corner_count; c-- > 0;) {
     uint32_t wedge = wedges->of_corner[c];
     wedges->corners[wedge] = c;
     wedges->slots[wedge] = slots[c];
-    wedges->places[wedge] = mesh->mesh.positions.at[mesh->mesh.polygon_points.at[c]];
+    wedges->positions[wedge] = mesh->mesh.positions.at[mesh->mesh.polygon_points.at[c]];
   }
   return true;
 }

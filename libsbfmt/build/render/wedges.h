@@ -16,7 +16,7 @@ typedef struct sbfi_wedges {
   uint32_t *of_corner; /* (corners of the mesh) */
   uint32_t *corners;   /* (count) the first corner of each */
   uint32_t *slots;     /* (count) material slot of its polygons */
-  sbf_vec3 *places;    /* (count) */
+  sbf_vec3 *positions; /* (count) */
   uint32_t count;
   uint32_t *triangles; /* (3 * triangle_count) wedges: polygons as fans from their first corners, less what
                           names a point twice */

@@ -162,13 +162,14 @@ static bool correct_point(const clusters *c, const sbfi_blend_surface *coarse, c
   uint32_t triangles = s->begins[point + 1] - s->begins[point];
   bool any = false;
   if (is_fixed(s, point) || triangles == 0) return true;
-  double share = 1.0 / (3.0 * triangles);
+  double fraction = 1.0 / (3.0 * triangles);
   for (uint32_t i = s->begins[point]; i < s->begins[point + 1]; i++)
     for (int k = 0; k < 3; k++) {
       uint32_t cluster = (uint32_t)c->of_point[s->triangles[s->at_point[i]][k]];
       if (!coarse->changed[cluster]) continue;
       any = true;
-      if (!add_row(sum, &coarse->rows[cluster], share) || !add_row(sum, &old[cluster], -share)) return false;
+      if (!add_row(sum, &coarse->rows[cluster], fraction) || !add_row(sum, &old[cluster], -fraction))
+        return false;
     }
   if (!any) return true;
   s->changed[point] = 1;

@@ -112,18 +112,19 @@ static sbfi_d3 turned(const double m[3][3], sbfi_d3 p) {
 
 /* Twice the vector area of the triangle with its corners moved by shares of a turn. */
 static sbfi_d3 moved_normal(
-    const sbfi_blend_joint *c, int pose, const sbfi_d3 corners[3], const double shares[3]) {
+    const sbfi_blend_joint *c, int pose, const sbfi_d3 corners[3], const double fractions[3]) {
   sbfi_d3 at[3];
   for (int k = 0; k < 3; k++)
     at[k] = sbfi_d3_add(
-        corners[k], sbfi_d3_scale(turned(c->turns[pose], sbfi_d3_sub(corners[k], c->head)), shares[k]));
+        corners[k], sbfi_d3_scale(turned(c->turns[pose], sbfi_d3_sub(corners[k], c->head)), fractions[k]));
   return sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
 }
 
 /* Whether a normal lies against what the turn, by its shares at the corners, makes of the one at rest. */
 static bool is_flipped(
-    const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double shares[3]) {
-  sbfi_d3 turn = sbfi_d3_scale(turned(c->turns[pose], rest), (shares[0] + shares[1] + shares[2]) / 3);
+    const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double fractions[3]) {
+  sbfi_d3 turn =
+      sbfi_d3_scale(turned(c->turns[pose], rest), (fractions[0] + fractions[1] + fractions[2]) / 3);
   return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
 }
 
@@ -257,7 +258,7 @@ static void drop_negligible(sbfi_blend_row *r) {
   r->count = kept;
 }
 
-static bool make_room(sbfi_blend_row *r, uint32_t count, sbfi_arena *arena) {
+static bool reserve(sbfi_blend_row *r, uint32_t count, sbfi_arena *arena) {
   if (r->capacity >= count) return true;
   uint32_t capacity = 2 * count;
   sbfi_blend_weight *grown = sbfi_arena_allocate(arena, capacity, sizeof *grown);
@@ -300,7 +301,7 @@ static bool contract(work *w, uint32_t triangle, double stretch) {
     sbfi_blend_row *to = &w->s->rows[points[k]];
     w->fixed[points[k]] -= is_fixed[k];
     if (is_fixed[k]) continue;
-    if (!make_room(to, w->open.count, w->arena)) return false;
+    if (!reserve(to, w->open.count, w->arena)) return false;
     to->count = w->open.count;
     for (uint32_t i = 0; i < w->open.count; i++) {
       double mean = 0;

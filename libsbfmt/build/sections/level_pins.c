@@ -38,7 +38,7 @@ static bool copy_set(sbf_pin_set *to, const sbf_pin_set *from, const sbf_level *
 }
 
 static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const sbf_level *level,
-    const uint8_t *held, sbf_asset *asset, sbfi_arena *scratch) {
+    const uint8_t *pinned, sbf_asset *asset, sbfi_arena *scratch) {
   const sbf_polygon_mesh *hull = asset->rigid_bodies.at[from->rigid_body].hull;
   uint32_t max = from->rule == SBF_ATTACHMENT_RULE_EXPLICIT ? from->points.count : level->positions.count;
   uint32_t *found = sbfi_arena_allocate(scratch, (size_t)max + 1, sizeof *found), count = 0;
@@ -50,7 +50,7 @@ static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const
     }
   } else if (hull) {
     for (uint32_t i = 0; i < max; i++)
-      if (!held[i] && sbfi_hull_contains(hull, level->positions.at[i])) found[count++] = i;
+      if (!pinned[i] && sbfi_hull_contains(hull, level->positions.at[i])) found[count++] = i;
   }
   uint32_t *points = count ? sbf_asset_allocate(asset, count, sizeof *points) : NULL;
   if (count && !points) return false;
@@ -89,8 +89,8 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
   uint32_t kept = level->pins.count, count = kept;
   size_t max = (size_t)kept + body->pins.count + body->attachments.count + 1;
   sbf_pin_set *sets = sbf_asset_allocate(asset, max, sizeof *sets);
-  uint8_t *held = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
-  if (!sets || !held) return false;
+  uint8_t *pinned = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
+  if (!sets || !pinned) return false;
   if (kept) memcpy(sets, level->pins.at, kept * sizeof *sets);
   for (uint32_t i = 0; i < body->pins.count; i++)
     if (!copy_set(&sets[count++], &body->pins.at[i], level, asset)) return false;
@@ -100,8 +100,9 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
     return false;
   for (uint32_t i = 0; i < body->attachments.count; i++) {
     level->pins = (sbf_pin_set_list){sets, count};
-    sbf_level_held_points(level, held);
-    if (!expand_attachment(&sets[count], &body->attachments.at[i], level, held, asset, scratch)) return false;
+    sbf_level_held_points(level, pinned);
+    if (!expand_attachment(&sets[count], &body->attachments.at[i], level, pinned, asset, scratch))
+      return false;
     count += sets[count].points.count > 0;
   }
   for (uint32_t i = kept; i < count; i++) sets[i].derived = derivation;

@@ -17,7 +17,7 @@ typedef struct work {
   uint32_t *begins; /* (points + 1) */
   uint32_t side_count;
   uint32_t *path;                      /* points of the loop under way */
-  uint32_t *place;                     /* (points) in the path, from 1; 0: not in it */
+  uint32_t *index;                     /* (points) in the path, from 1; 0: not in it */
   sbfi_array positions, sizes, points; /* the mesh to come */
 } work;
 
@@ -45,8 +45,8 @@ static bool collect_sides(work *w, const sbf_polygon_mesh *mesh) {
   memcpy(next, w->begins, ((size_t)t.point_count + 1) * sizeof *next);
   w->sides = sbfi_arena_allocate(w->arena, (size_t)w->side_count + 1, sizeof *w->sides);
   w->path = sbfi_arena_allocate(w->arena, (size_t)w->side_count + 2, sizeof *w->path);
-  w->place = sbfi_arena_allocate(w->arena, (size_t)t.point_count + 1, sizeof *w->place);
-  if (!w->sides || !w->path || !w->place) return false;
+  w->index = sbfi_arena_allocate(w->arena, (size_t)t.point_count + 1, sizeof *w->index);
+  if (!w->sides || !w->path || !w->index) return false;
   for (uint32_t e = 0; e < t.edge_count; e++)
     for (int32_t k = passes[e]; k != 0; k += k > 0 ? -1 : 1) {
       uint32_t from = t.edges[e].at[k > 0 ? 0 : 1], to = t.edges[e].at[k > 0 ? 1 : 0];
@@ -85,26 +85,26 @@ static side *next_side(work *w, uint32_t from) {
 static bool follow(work *w, uint32_t start, sbfi_caps *caps) {
   uint32_t length = 0;
   w->path[length++] = start;
-  w->place[start] = length;
+  w->index[start] = length;
   while (length) {
     uint32_t at = w->path[length - 1];
     side *next = next_side(w, at);
     if (!next) { /* a dead end: the side that led here is in no loop */
-      w->place[at] = 0;
+      w->index[at] = 0;
       caps->left_sides += --length > 0;
       continue;
     }
     next->used = true;
     uint32_t to = next->to;
-    if (!w->place[to]) {
+    if (!w->index[to]) {
       w->path[length++] = to;
-      w->place[to] = length;
+      w->index[to] = length;
       continue;
     }
-    uint32_t begin = w->place[to] - 1, count = length - begin;
+    uint32_t begin = w->index[to] - 1, count = length - begin;
     if (count >= 3) caps->loops++;
     if (count >= 3 && !close_loop(w, w->path + begin, count)) return false;
-    while (length > begin + 1) w->place[w->path[--length]] = 0;
+    while (length > begin + 1) w->index[w->path[--length]] = 0;
   }
   return true;
 }

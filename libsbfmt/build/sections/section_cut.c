@@ -107,7 +107,7 @@ static void begin_at_border(sbfi_section_cutter *c, uint32_t bone) {
 
 /* Spreads the reach along edges: a queue of points whose reach has grown. */
 static void spread(sbfi_section_cutter *c) {
-  uint32_t room = c->t->point_count + 1, head = 0, tail = 0;
+  uint32_t capacity = c->t->point_count + 1, head = 0, tail = 0;
   for (uint32_t i = 0; i < c->reached_count; i++) {
     uint32_t p = c->reached[i];
     c->queued[p] = c->reach[p] > 0;
@@ -115,7 +115,7 @@ static void spread(sbfi_section_cutter *c) {
   }
   while (head != tail) {
     uint32_t p = c->queue[head];
-    head = head + 1 < room ? head + 1 : 0;
+    head = head + 1 < capacity ? head + 1 : 0;
     c->queued[p] = 0;
     for (uint32_t i = c->t->point_edge_begins[p]; i < c->t->point_edge_begins[p + 1]; i++) {
       uint32_t edge = c->t->point_edges[i], other = sbfi_edge_other(c->t, edge, p);
@@ -125,7 +125,7 @@ static void spread(sbfi_section_cutter *c) {
       if (left <= 0 || c->queued[other]) continue;
       c->queued[other] = 1;
       c->queue[tail] = other;
-      tail = tail + 1 < room ? tail + 1 : 0;
+      tail = tail + 1 < capacity ? tail + 1 : 0;
     }
   }
 }

@@ -31,22 +31,22 @@ static uint32_t count_mix_points(const work *w) {
 
 /* At the corners of a regular tetrahedron: what lies within reach of the middle has weights from -0.5 to 1.
  */
-static void place_corners(sbf_vec3 positions[SBFI_FRAME_POINTS], sbfi_d3 middle, double reach) {
+static void position_corners(sbf_vec3 positions[SBFI_FRAME_POINTS], sbfi_d3 middle, double reach) {
   static const double corners[SBFI_FRAME_POINTS][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   static const double root_of_three = 1.7320508075688772;
   for (int k = 0; k < SBFI_FRAME_POINTS; k++) {
-    sbfi_d3 way = {corners[k][0], corners[k][1], corners[k][2]};
-    positions[k] = sbfi_d3_rounded(sbfi_d3_add(middle, sbfi_d3_scale(way, reach / root_of_three)));
+    sbfi_d3 direction = {corners[k][0], corners[k][1], corners[k][2]};
+    positions[k] = sbfi_d3_rounded(sbfi_d3_add(middle, sbfi_d3_scale(direction, reach / root_of_three)));
   }
 }
 
-static void place_mixes(work *w, sbf_vec3 *positions) {
+static void set_mixes(work *w, sbf_vec3 *positions) {
   uint32_t next = SBFI_FRAME_POINTS;
   for (uint32_t i = 0; i < w->sections->mix_count; i++) {
     sbfi_mix *mix = &w->sections->mixes[i];
     if (mix->section != w->section) continue;
     for (uint32_t k = 0; k < mix->count; k++) {
-      positions[next] = mix->place;
+      positions[next] = mix->position;
       w->bones[next] = mix->bones[k];
       mix->points[k] = w->old_count + next++;
     }
@@ -74,9 +74,9 @@ static bool add_points(work *w) {
   const sbf_soft_body *body = &w->sections->bodies[w->section];
   sbf_vec3 *added = append_points(w->level, w->new_count, w->asset);
   if (!added) return false;
-  place_corners(added, sbfi_section_middle(body), w->sections->reaches_m[w->section]);
+  position_corners(added, sbfi_section_middle(body), w->sections->reaches_m[w->section]);
   for (int k = 0; k < SBFI_FRAME_POINTS; k++) w->bones[k] = (uint32_t)body->bone;
-  place_mixes(w, added);
+  set_mixes(w, added);
   return true;
 }
 
@@ -84,8 +84,8 @@ static bool add_points(work *w) {
 static bool add_pins(work *w, int32_t derivation, sbfi_arena *scratch) {
   uint32_t bone_count = w->asset->bones.count, sets_count = w->level->pins.count;
   uint32_t *counts = sbfi_arena_allocate(scratch, (size_t)bone_count + 1, sizeof *counts);
-  uint32_t *places = sbfi_arena_allocate(scratch, w->new_count, sizeof *places);
-  if (!counts || !places) return false;
+  uint32_t *indices = sbfi_arena_allocate(scratch, w->new_count, sizeof *indices);
+  if (!counts || !indices) return false;
   for (uint32_t i = 0; i < w->new_count; i++) counts[w->bones[i]]++;
   for (uint32_t b = 0; b < bone_count; b++) sets_count += counts[b] > 0;
   sbf_pin_set *sets = sbf_asset_allocate(w->asset, sets_count, sizeof *sets);
@@ -95,9 +95,9 @@ static bool add_pins(work *w, int32_t derivation, sbfi_arena *scratch) {
   for (uint32_t b = 0; b < bone_count; b++) {
     uint32_t count = 0;
     for (uint32_t i = 0; counts[b] && i < w->new_count; i++)
-      if (w->bones[i] == b) places[count++] = w->old_count + i;
+      if (w->bones[i] == b) indices[count++] = w->old_count + i;
     if (count == 0) continue;
-    if (!sbfi_bone_pins_make(&sets[next], "frame", w->level, (int32_t)b, places, count, w->asset))
+    if (!sbfi_bone_pins_make(&sets[next], "frame", w->level, (int32_t)b, indices, count, w->asset))
       return false;
     sets[next++].derived = derivation;
   }
@@ -121,7 +121,7 @@ bool sbfi_bone_frame_add(sbf_level *level, int32_t bone, sbfi_d3 middle, double 
   *first = level->positions.count;
   sbf_vec3 *added = append_points(level, SBFI_FRAME_POINTS, asset);
   if (!added) return false;
-  place_corners(added, middle, reach);
+  position_corners(added, middle, reach);
   if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return true; /* its points move as one piece */
   sbf_pin_set *sets = sbf_asset_allocate(asset, (size_t)sets_count + 1, sizeof *sets);
   if (!sets) return false;

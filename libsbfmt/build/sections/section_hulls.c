@@ -61,9 +61,9 @@ static bool has_authored_body(const hull_list *list, int32_t bone) {
 }
 
 static void report_flat(const char *what, const char *name, sbfi_reporter *reporter) {
-  sbf_diagnostic finding;
-  sbfi_diagnose(&finding, SBF_CODE_HULL_FLAT, "%s \"%s\" is flat: it gets no convex hull", what, name);
-  sbfi_report(reporter, &finding);
+  sbf_diagnostic diagnostic;
+  sbfi_diagnose(&diagnostic, SBF_CODE_HULL_FLAT, "%s \"%s\" is flat: it gets no convex hull", what, name);
+  sbfi_report(reporter, &diagnostic);
 }
 
 /* Surface points of all sections of a bone, one section after the other. */

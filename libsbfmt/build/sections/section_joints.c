@@ -21,7 +21,7 @@ sbf_frame sbfi_bone_joint_frame(const sbf_bone *bone, const sbf_rigid_body *body
   return frame;
 }
 
-static bool is_held(const sbf_asset *asset, uint32_t authored, int32_t body) {
+static bool is_point_pinned(const sbf_asset *asset, uint32_t authored, int32_t body) {
   for (uint32_t j = 0; j < authored; j++)
     if (asset->joints.at[j].body_b == body) return true;
   return false;
@@ -54,7 +54,8 @@ bool sbfi_section_joints_make(sbf_asset *asset, int32_t derivation, sbfi_ids *id
     if (asset->soft_bodies.at[i].derived != SBF_NONE && asset->soft_bodies.at[i].bone != SBF_NONE)
       is_cut[asset->soft_bodies.at[i].bone] = 1;
   for (uint32_t b = 0; b < bones; b++) {
-    if (!is_cut[b] || body_of_bone[b] == SBF_NONE || is_held(asset, authored, body_of_bone[b])) continue;
+    if (!is_cut[b] || body_of_bone[b] == SBF_NONE || is_point_pinned(asset, authored, body_of_bone[b]))
+      continue;
     int32_t above = asset->bones.at[b].parent;
     while (above != SBF_NONE && body_of_bone[above] == SBF_NONE) above = asset->bones.at[above].parent;
     if (above == SBF_NONE) continue;

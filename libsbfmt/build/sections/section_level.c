@@ -14,7 +14,7 @@ enum { USUAL_ELEMENTS = 160 };
 /* Of the area to the power of 3/2: a limb ten thousand times as long as thick still has more. */
 static const double MIN_VOLUME = 0.002;
 /* Of the stiffness of a point's springs, added up, that of its goal. */
-static const double GOAL_SHARE = 1.0 / 12;
+static const double GOAL_FRACTION = 1.0 / 12;
 
 typedef struct work {
   sbf_level *level;
@@ -26,10 +26,10 @@ typedef struct work {
   sbfi_lattice lattice;
   uint32_t point_count;
   sbfi_spring_list springs;
-  float *volumes; /* (point_count) a quarter of each tetrahedron's */
-  double volume;  /* of all */
-  uint8_t *held;  /* (point_count) fast, by the bone's core or by the author */
-  uint8_t *taken; /* (point_count) the author's pins have it */
+  float *volumes;  /* (point_count) a quarter of each tetrahedron's */
+  double volume;   /* of all */
+  uint8_t *pinned; /* (point_count) fast, by the bone's core or by the author */
+  uint8_t *taken;  /* (point_count) the author's pins have it */
 } work;
 
 static double volume_of(const work *w, sbf_uint4 at) {
@@ -89,18 +89,18 @@ static bool hold_core(work *w) {
   spread_greatest(w, depths2, near);
   spread_greatest(w, near, around);
   for (uint32_t i = 0; i < w->point_count; i++)
-    w->held[i] = w->held[i] || (!w->taken[i] && depths2[i] >= around[i] / 4);
+    w->pinned[i] = w->pinned[i] || (!w->taken[i] && depths2[i] >= around[i] / 4);
   return true;
 }
 
 /* What the author painted goes before all else. */
 static bool hold_painted(work *w) {
-  w->held = sbfi_arena_allocate(w->scratch, w->point_count, 1);
+  w->pinned = sbfi_arena_allocate(w->scratch, w->point_count, 1);
   w->taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
-  if (!w->held || !w->taken) return false;
+  if (!w->pinned || !w->taken) return false;
   if (!sbfi_lattice_pins_carry(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
     return false;
-  if (w->level->pins.count) sbf_level_held_points(w->level, w->held);
+  if (w->level->pins.count) sbf_level_held_points(w->level, w->pinned);
   for (uint32_t i = 0; i < w->level->pins.count; i++) w->counts->pins += w->level->pins.at[i].points.count;
   return true;
 }
@@ -109,7 +109,7 @@ static bool pin_core(work *w, sbf_pin_set *set) {
   uint32_t *core = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *core), count = 0;
   if (!core) return false;
   for (uint32_t i = 0; i < w->point_count; i++)
-    if (w->held[i] && !w->taken[i]) core[count++] = i;
+    if (w->pinned[i] && !w->taken[i]) core[count++] = i;
   if (!sbfi_bone_pins_make(set, "interior", w->level, w->body->bone, core, count, w->asset)) return false;
   w->counts->pins += count;
   return true;
@@ -123,7 +123,7 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   for (uint32_t s = 0; s < w->springs.count; s++)
     for (int end = 0; end < 2; end++) sums[w->springs.at[s].at[end]] += (double)stiffness[s];
   for (uint32_t i = 0; i < w->point_count; i++) {
-    if (w->held[i] || w->taken[i]) continue;
+    if (w->pinned[i] || w->taken[i]) continue;
     points[count++] = i;
     greatest = fmax(greatest, sums[i]);
   }
@@ -133,7 +133,7 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   /* A weight of 1 would hold fast: the greatest is a half. */
   for (uint32_t i = 0; i < count; i++) weights[i] = (float)(0.5 * sums[points[i]] / greatest);
   set->weights = (sbf_f32_list){count ? weights : NULL, count};
-  set->stiffness = (float)(2 * GOAL_SHARE * greatest);
+  set->stiffness = (float)(2 * GOAL_FRACTION * greatest);
   w->counts->pins += count;
   return true;
 }
@@ -144,8 +144,8 @@ static bool add_pins(work *w, const float *stiffness) {
   if (!sets) return false;
   if (count) memcpy(sets, w->level->pins.at, count * sizeof *sets);
   for (uint32_t i = 0; i < w->point_count; i++) {
-    core_count += w->held[i] && !w->taken[i];
-    free_count += !w->held[i] && !w->taken[i];
+    core_count += w->pinned[i] && !w->taken[i];
+    free_count += !w->pinned[i] && !w->taken[i];
   }
   if (core_count && !pin_core(w, &sets[count++])) return false;
   if (free_count && !pin_shape(w, &sets[count++], stiffness)) return false;
@@ -164,7 +164,7 @@ static bool weigh(work *w) {
   double ratio = measures.volume / w->volume, density = w->body->attributes.density;
   if (measures.sheet || !(ratio > 0.5 && ratio < 2)) ratio = 1;
   for (uint32_t i = 0; i < w->point_count; i++)
-    masses[i] = w->held[i] ? 0 : (float)(density * ratio * (double)w->volumes[i]);
+    masses[i] = w->pinned[i] ? 0 : (float)(density * ratio * (double)w->volumes[i]);
   w->level->masses = (sbf_f32_list){masses, w->point_count};
   return true;
 }
@@ -180,7 +180,7 @@ static bool add_springs(work *w) {
   sbf_stiffness_of_network(SBF_STIFFNESS_VOLUME * (double)w->body->attributes.young_modulus,
       w->level->positions.at, w->point_count, w->volumes, w->springs.at, w->springs.count, sums, all);
   for (uint32_t s = 0; s < w->springs.count; s++) {
-    if (w->held[w->springs.at[s].at[0]] && w->held[w->springs.at[s].at[1]]) continue;
+    if (w->pinned[w->springs.at[s].at[0]] && w->pinned[w->springs.at[s].at[1]]) continue;
     ends[kept] = w->springs.at[s];
     stiffness[kept++] = all[s];
   }

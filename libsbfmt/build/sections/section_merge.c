@@ -63,9 +63,9 @@ static void measure_shared(const work *w, uint32_t bone) {
   for (uint32_t e = 0; e < w->t->edge_count; e++) {
     const uint32_t *at = &w->t->edge_polygons[w->t->edge_polygon_begins[e]];
     uint32_t count = w->t->edge_polygon_begins[e + 1] - w->t->edge_polygon_begins[e];
-    bool touches = false;
-    for (uint32_t i = 0; i < count; i++) touches = touches || w->labels[at[i]] == bone;
-    for (uint32_t i = 0; touches && i < count; i++)
+    bool is_touching = false;
+    for (uint32_t i = 0; i < count; i++) is_touching = is_touching || w->labels[at[i]] == bone;
+    for (uint32_t i = 0; is_touching && i < count; i++)
       if (w->labels[at[i]] != bone && w->labels[at[i]] != SBFI_NO_INDEX)
         w->shared[w->labels[at[i]]] += length_of(w, e);
   }
@@ -85,13 +85,13 @@ static uint32_t find_taker(const work *w, uint32_t bone) {
 }
 
 static void hand_over(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *reporter) {
-  sbf_diagnostic finding;
-  sbfi_diagnose(&finding, SBF_CODE_SECTION_MERGED,
+  sbf_diagnostic diagnostic;
+  sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_MERGED,
       "what bone \"%s\" holds, %u polygons of %.3g m^2 behind a cut of %.3g m, is too little for a section "
       "and goes to \"%s\"",
       w->asset->bones.at[bone].name, (unsigned)w->parts[bone].polygons, w->parts[bone].area,
       w->parts[bone].border, w->asset->bones.at[to].name);
-  sbfi_report(reporter, &finding);
+  sbfi_report(reporter, &diagnostic);
   for (uint32_t p = 0; p < w->t->polygon_count; p++)
     if (w->labels[p] == bone) w->labels[p] = to;
   for (uint32_t b = 0; b < w->asset->bones.count; b++)

@@ -16,7 +16,7 @@ static int32_t foot_of(const sbf_asset *asset, int32_t bone) {
 }
 
 /* Share of a point that a foot and what hangs on it hold. */
-static float held_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot) {
+static float pinned_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot) {
   float sum = 0;
   for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
     if (feet[skin->holds[h].bone] == foot) sum += skin->holds[h].weight;
@@ -26,7 +26,7 @@ static float held_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t 
 /* Copies of a point's holds those of a foot to `holds`. Returns the next free place. */
 static uint32_t keep_own(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot,
     sbfi_hold *holds, uint32_t next) {
-  float sum = held_by(skin, feet, point, foot);
+  float sum = pinned_by(skin, feet, point, foot);
   for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
     if (feet[skin->holds[h].bone] == foot)
       holds[next++] = (sbfi_hold){skin->holds[h].bone, skin->holds[h].weight / sum};
@@ -49,7 +49,7 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
     foot_of_point[p] = SBF_NONE;
     for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++) {
       int32_t foot = feet[skin->holds[h].bone];
-      if (foot != SBF_NONE && held_by(skin, feet, p, foot) > 0.5f) foot_of_point[p] = foot;
+      if (foot != SBF_NONE && pinned_by(skin, feet, p, foot) > 0.5f) foot_of_point[p] = foot;
     }
     if (foot_of_point[p] == SBF_NONE) continue;
     float *low = &range[foot_of_point[p]][0], *high = &range[foot_of_point[p]][1];

@@ -19,10 +19,10 @@
 
 static const float SINGLE_WEIGHT = 0.98f; /* of a point that one bone holds */
 
-typedef struct share {
+typedef struct weighted_point {
   uint32_t bone, mix;
   float weight;
-} share;
+} weighted_point;
 
 typedef struct work {
   sbf_asset *asset;
@@ -33,22 +33,22 @@ typedef struct work {
   int32_t derivation;
   sbfi_skin_union skin;
   sbfi_topology t;
-  uint32_t *labels;       /* (polygons) */
-  uint32_t *owners;       /* (bones) */
-  uint8_t *rigid;         /* (bones) its part is no section */
-  uint32_t *share_begins; /* (points + 1) */
-  share *shares;          /* what sections have of each point */
+  uint32_t *labels;              /* (polygons) */
+  uint32_t *owners;              /* (bones) */
+  uint8_t *rigid;                /* (bones) its part is no section */
+  uint32_t *contribution_begins; /* (points + 1) */
+  weighted_point *contributions; /* what sections have of each point */
   sbfi_array mixes;
   uint32_t guessed_count; /* sections of which nobody says what they are made of */
   float min_guess, max_guess;
 } work;
 
 static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) {
-  sbf_diagnostic finding;
-  sbfi_diagnose(&finding, code,
+  sbf_diagnostic diagnostic;
+  sbfi_diagnose(&diagnostic, code,
       "%u sides of polygons of the section on bone \"%s\" lie where several sheets meet: it stays open there",
       (unsigned)sides, w->asset->bones.at[bone].name);
-  sbfi_report(w->reporter, &finding);
+  sbfi_report(w->reporter, &diagnostic);
 }
 
 /* What the author says of the sections on a bone: by name, or of all; NULL: nothing. */
@@ -196,32 +196,32 @@ static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
 }
 
 static void report_guesses(const work *w) {
-  sbf_diagnostic finding;
+  sbf_diagnostic diagnostic;
   char range[64] = "";
   if (w->guessed_count == 0) return;
   if (w->max_guess > w->min_guess) snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->min_guess);
-  sbfi_diagnose(&finding, SBF_CODE_MATERIAL_GUESSED,
+  sbfi_diagnose(&diagnostic, SBF_CODE_MATERIAL_GUESSED,
       "no material is given for %u section%s cut from skins: %s%.6g kPa, which bear their weight, are taken; "
       "give one, as by --material flesh",
       (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->max_guess);
-  sbfi_report(w->reporter, &finding);
+  sbfi_report(w->reporter, &diagnostic);
 }
 
 /* Where no smoothing helps, as on triangles that are as good as flat, a note says so. */
 static bool smooth_blends(work *w) {
   uint32_t left;
-  sbf_diagnostic finding;
+  sbf_diagnostic diagnostic;
   const sbfi_skin_union authored = w->skin;
   uint8_t *soles = sbfi_arena_allocate(w->scratch, (size_t)w->skin.mesh.positions.count + 1, 1);
   if (!soles || !sbfi_soles_gather(&w->skin, w->asset, soles, w->scratch)) return false;
   if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soles, &left, w->scratch))
     return false;
   if (left == 0) return true;
-  sbfi_diagnose(&finding, SBF_CODE_SECTION_STRETCHED,
+  sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_STRETCHED,
       "%u triangles of the skin still stretch to more than twice their area where a joint bends by 60 "
       "degrees",
       (unsigned)left);
-  sbfi_report(w->reporter, &finding);
+  sbfi_report(w->reporter, &diagnostic);
   return true;
 }
 
@@ -240,7 +240,7 @@ static uint32_t section_on(const work *w, uint32_t bone) {
  * bone is all. */
 static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint32_t *number) {
   sbfi_mix mix = {
-      .section = section_on(w, owner), .place = w->skin.mesh.positions.at[point], .beside = beside};
+      .section = section_on(w, owner), .position = w->skin.mesh.positions.at[point], .beside = beside};
   bool foreign = beside;
   float sum = 0;
   for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++) {
@@ -265,40 +265,42 @@ static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint3
 }
 
 /* The share of rigid bones joins the section with the greatest one; without any the skin moves the point. */
-static bool share_rest(work *w, uint32_t point, uint32_t begin, uint32_t *next) {
+static bool distribute_rest(work *w, uint32_t point, uint32_t begin, uint32_t *next) {
   uint32_t max = begin;
   float rest = 0;
   for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++)
     if (is_rigid(w, w->skin.holds[h].bone)) rest += w->skin.holds[h].weight;
   for (uint32_t i = begin; i < *next; i++)
-    if (w->shares[i].weight > w->shares[max].weight) max = i;
+    if (w->contributions[i].weight > w->contributions[max].weight) max = i;
   if (*next == begin || !(rest > 0)) return true;
-  share *beside = &w->shares[(*next)++];
-  *beside = (share){.bone = w->shares[max].bone, .weight = rest};
+  weighted_point *beside = &w->contributions[(*next)++];
+  *beside = (weighted_point){.bone = w->contributions[max].bone, .weight = rest};
   return make_mix(w, point, beside->bone, true, &beside->mix);
 }
 
 /* What each section has of each point. */
-static bool share_points(work *w) {
+static bool distribute_points(work *w) {
   uint32_t points = w->skin.mesh.positions.count;
-  w->share_begins = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *w->share_begins);
-  w->shares = sbfi_arena_allocate(w->scratch, (size_t)w->skin.hold_begins[points] + 1, sizeof *w->shares);
-  if (!w->share_begins || !w->shares) return false;
+  w->contribution_begins =
+      sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *w->contribution_begins);
+  w->contributions =
+      sbfi_arena_allocate(w->scratch, (size_t)w->skin.hold_begins[points] + 1, sizeof *w->contributions);
+  if (!w->contribution_begins || !w->contributions) return false;
   uint32_t next = 0;
   for (uint32_t p = 0; p < points; p++) {
-    uint32_t begin = w->share_begins[p] = next;
+    uint32_t begin = w->contribution_begins[p] = next;
     for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++) {
       uint32_t owner = w->owners[w->skin.holds[h].bone], at = begin;
       if (owner == SBFI_NO_INDEX || w->rigid[owner]) continue;
-      while (at < next && w->shares[at].bone != owner) at++;
-      if (at == next) w->shares[next++].bone = owner;
-      w->shares[at].weight += w->skin.holds[h].weight;
+      while (at < next && w->contributions[at].bone != owner) at++;
+      if (at == next) w->contributions[next++].bone = owner;
+      w->contributions[at].weight += w->skin.holds[h].weight;
     }
     for (uint32_t i = begin; i < next; i++)
-      if (!make_mix(w, p, w->shares[i].bone, false, &w->shares[i].mix)) return false;
-    if (!share_rest(w, p, begin, &next)) return false;
+      if (!make_mix(w, p, w->contributions[i].bone, false, &w->contributions[i].mix)) return false;
+    if (!distribute_rest(w, p, begin, &next)) return false;
   }
-  w->share_begins[points] = next;
+  w->contribution_begins[points] = next;
   return true;
 }
 
@@ -308,18 +310,18 @@ static bool make_blends(work *w, uint32_t mesh, sbf_skin *skin) {
   uint32_t vertices = w->asset->render_meshes.at[mesh].mesh.positions.count, total = 0, next = 0;
   if (!points) return true;
   for (uint32_t v = 0; v < vertices; v++)
-    total += w->share_begins[points[v] + 1] - w->share_begins[points[v]];
+    total += w->contribution_begins[points[v] + 1] - w->contribution_begins[points[v]];
   uint32_t *counts = sbfi_arena_allocate(w->scratch, (size_t)vertices + 1, sizeof *counts);
   uint32_t *bones = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *bones);
   float *weights = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *weights);
   uint32_t *mixes = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *mixes);
   if (!counts || !bones || !weights || !mixes) return false;
   for (uint32_t v = 0; v < vertices; v++) {
-    counts[v] = w->share_begins[points[v] + 1] - w->share_begins[points[v]];
-    for (uint32_t i = w->share_begins[points[v]]; i < w->share_begins[points[v] + 1]; i++) {
-      bones[next] = w->shares[i].bone;
-      weights[next] = w->shares[i].weight;
-      mixes[next++] = w->shares[i].mix;
+    counts[v] = w->contribution_begins[points[v] + 1] - w->contribution_begins[points[v]];
+    for (uint32_t i = w->contribution_begins[points[v]]; i < w->contribution_begins[points[v] + 1]; i++) {
+      bones[next] = w->contributions[i].bone;
+      weights[next] = w->contributions[i].weight;
+      mixes[next++] = w->contributions[i].mix;
     }
   }
   sbf_skin_init(skin);
@@ -332,7 +334,7 @@ static bool make_blends(work *w, uint32_t mesh, sbf_skin *skin) {
 
 static bool make_all_blends(work *w) {
   sbfi_array_init(&w->mixes, &w->scratch->allocator, sizeof(sbfi_mix));
-  bool good = share_points(w);
+  bool good = distribute_points(w);
   for (uint32_t m = 0; good && m < w->asset->render_meshes.count; m++)
     good = make_blends(w, m, &w->made->blends[m]);
   w->made->mix_count = (uint32_t)w->mixes.count;
@@ -425,16 +427,16 @@ bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, s
 }
 
 /* Share of the points that one bone alone holds. */
-static double single_share(const work *w) {
-  uint32_t held = 0, single = 0;
+static double single_fraction(const work *w) {
+  uint32_t pinned = 0, single = 0;
   for (uint32_t p = 0; p < w->skin.mesh.positions.count; p++) {
     float max = 0;
     for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++)
       max = fmaxf(max, w->skin.holds[h].weight);
-    held += max > 0;
+    pinned += max > 0;
     single += max >= SINGLE_WEIGHT;
   }
-  return held ? (double)single / held : 0;
+  return pinned ? (double)single / pinned : 0;
 }
 
 static bool measure_parts(work *w, sbfi_skin_parts *to) {
@@ -468,7 +470,7 @@ bool sbfi_skin_parts_measure(sbfi_skin_parts *to, const sbf_asset *asset, sbfi_a
   if (!wanted) return true;
   to->at = sbfi_arena_allocate(scratch, (size_t)asset->bones.count + 1, sizeof *to->at);
   to->owners = w.owners;
-  to->single_share = single_share(&w);
+  to->single_fraction = single_fraction(&w);
   return to->at && measure_parts(&w, to);
 }
 

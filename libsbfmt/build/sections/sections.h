@@ -11,7 +11,7 @@
  * of the section's own bone and of those, so that it moves as skinning moves it. */
 typedef struct sbfi_mix {
   uint32_t section; /* which of the sections */
-  sbf_vec3 place;
+  sbf_vec3 position;
   uint32_t count; /* of bones, up to four: those with the greatest weights */
   uint32_t bones[4];
   float weights[4];   /* summing to one */
@@ -65,7 +65,7 @@ typedef struct sbfi_skin_part {
 typedef struct sbfi_skin_parts {
   sbfi_skin_part *at;     /* (bones); NULL: nothing is to be cut */
   const uint32_t *owners; /* (bones) as sbfi_section_owners_find gives them */
-  double single_share;    /* 0..1, of the points that have weights: one bone alone holds them */
+  double single_fraction; /* 0..1, of the points that have weights: one bone alone holds them */
 } sbfi_skin_parts;
 
 /* Memory of `scratch`; false where it runs out. */

@@ -30,15 +30,15 @@ typedef struct work {
 /* A mesh whose vertices are all points of one body is that body's picture and moves with it. */
 static bool is_body(const sbf_render_mesh *mesh, const sbf_soft_body *body, bool *is, sbfi_arena *arena) {
   const sbf_vec3_list *points = &body->surface.positions, *vertices = &mesh->mesh.positions;
-  sbfi_key_set places;
+  sbfi_key_set positions;
   *is = false;
   if (points->count == 0) return true;
-  if (!sbfi_key_set_init(&places, points->count, arena)) return false;
+  if (!sbfi_key_set_init(&positions, points->count, arena)) return false;
   for (uint32_t i = 0; i < points->count; i++)
-    *sbfi_key_set_find(&places, sbfi_key_of_place(points->at[i])) = 0;
+    *sbfi_key_set_find(&positions, sbfi_key_of_position(points->at[i])) = 0;
   *is = true;
   for (uint32_t v = 0; *is && v < vertices->count; v++)
-    *is = *sbfi_key_set_find(&places, sbfi_key_of_place(vertices->at[v])) == 0;
+    *is = *sbfi_key_set_find(&positions, sbfi_key_of_position(vertices->at[v])) == 0;
   return true;
 }
 
@@ -103,23 +103,23 @@ static double difference(const work *w, uint32_t a, uint32_t b) {
   return sum / 2;
 }
 
-static size_t slot_of(const work *w, sbf_vec3 place) {
+static size_t slot_of(const work *w, sbf_vec3 position) {
   uint32_t bits[3];
-  memcpy(bits, &place, sizeof bits);
+  memcpy(bits, &position, sizeof bits);
   uint64_t mixed = bits[0] * UINT64_C(0x9e3779b97f4a7c15) ^ bits[1] * UINT64_C(0xc2b2ae3d27d4eb4f) ^
                    bits[2] * UINT64_C(0x165667b19e3779f9);
   return (size_t)(mixed ^ mixed >> 29 ^ mixed >> 47) & (w->slot_count - 1);
 }
 
-static uint32_t find_point(work *w, uint32_t vertex, sbf_vec3 place) {
-  place = (sbf_vec3){place.x + 0, place.y + 0, place.z + 0}; /* of -0 and 0, 0 */
-  size_t slot = slot_of(w, place);
+static uint32_t find_point(work *w, uint32_t vertex, sbf_vec3 position) {
+  position = (sbf_vec3){position.x + 0, position.y + 0, position.z + 0}; /* of -0 and 0, 0 */
+  size_t slot = slot_of(w, position);
   for (uint32_t p = w->slots[slot]; p != SBFI_NO_INDEX; p = w->next[p])
-    if (memcmp(&w->positions[p], &place, sizeof place) == 0 &&
+    if (memcmp(&w->positions[p], &position, sizeof position) == 0 &&
         difference(w, vertex, w->firsts[p]) <= MAX_DIFFERENCE)
       return p;
   uint32_t made = w->point_count++;
-  w->positions[made] = place;
+  w->positions[made] = position;
   w->firsts[made] = vertex;
   w->next[made] = w->slots[slot];
   w->slots[slot] = made;

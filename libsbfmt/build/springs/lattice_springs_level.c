@@ -13,7 +13,7 @@ typedef struct work {
   const sbf_soft_body *body;
   sbf_asset *asset;
   sbfi_arena *scratch;
-  uint8_t *held;    /* (points) */
+  uint8_t *pinned;  /* (points) */
   float *energies;  /* (points) J, a quarter of modulus times volume of each tetrahedron */
   float *stiffness; /* (sides) N/m */
   float *damping;   /* (points) factors on the body's; NULL: none is stated */
@@ -43,7 +43,7 @@ static bool state_masses(const work *w) {
   uint32_t count = w->level->positions.count;
   float *masses = sbf_asset_allocate(w->asset, count, sizeof *masses);
   if (!masses) return false;
-  sbf_level_masses(w->body, w->level, w->held, masses);
+  sbf_level_masses(w->body, w->level, w->pinned, masses);
   w->level->masses = (sbf_f32_list){masses, count};
   return true;
 }
@@ -58,7 +58,7 @@ static bool add_set(const work *w, int32_t derivation, uint32_t *inert) {
   if (!set || !ends || !stiffness || (w->damping && !damping)) return false;
   for (uint32_t s = 0; s < count; s++) {
     const uint32_t *at = w->sides.at[s].at;
-    if (w->held[at[0]] && w->held[at[1]]) continue;
+    if (w->pinned[at[0]] && w->pinned[at[1]]) continue;
     ends[kept] = w->sides.at[s];
     if (damping) damping[kept] = damping_s * w->stiffness[s] * (w->damping[at[0]] + w->damping[at[1]]) / 2;
     stiffness[kept++] = w->stiffness[s];
@@ -78,10 +78,10 @@ bool sbfi_lattice_springs_level_make(sbf_level *level, const sbf_soft_body *body
     sbf_asset *asset, uint32_t *inert, sbfi_progress progress, sbfi_arena *scratch) {
   work w = {.level = level, .body = body, .asset = asset, .scratch = scratch};
   sbf_tetrahedron_mesh *lattice = &level->lattice;
-  w.held = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
-  if (!w.held || !sbfi_springs_sides(&w.sides, lattice->tetrahedra.at, lattice->tetrahedra.count, scratch))
+  w.pinned = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
+  if (!w.pinned || !sbfi_springs_sides(&w.sides, lattice->tetrahedra.at, lattice->tetrahedra.count, scratch))
     return false;
-  sbf_level_held_points(level, w.held);
+  sbf_level_held_points(level, w.pinned);
   w.stiffness = sbfi_arena_allocate(scratch, (size_t)w.sides.count + 1, sizeof *w.stiffness);
   if (!w.stiffness || !find_energies(&w) || !state_masses(&w)) return false;
   if (body->attributes.stiffness_damping > 0 &&

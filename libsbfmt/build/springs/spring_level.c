@@ -26,10 +26,10 @@ typedef struct work {
   float *damping;            /* (point_count) factors on stiffness_damping; NULL: none is stated */
   sbfi_spring_list internal; /* the interior's, then those of the author's points */
   uint32_t surface_count, source_count, point_count;
-  uint8_t *held; /* (point_count) */
+  uint8_t *pinned; /* (point_count) */
 } work;
 
-static bool place_points(work *w) {
+static bool set_points(work *w) {
   const sbf_vec3_list *surface = &w->body->surface.positions, *authored = &w->body->interior;
   size_t count = (size_t)surface->count + authored->count + w->interior.point_count;
   if (count >= UINT32_MAX) return false;
@@ -74,61 +74,62 @@ static bool join_authored(work *w) {
   return good;
 }
 
-static bool is_core_held(const work *w) {
+static bool is_core_pinned(const work *w) {
   return w->body->bone != SBF_NONE && w->interior.point_count > 0;
 }
 
 /* Shares of the matter at all points of a body whose interior is free; see spring_level.h. Points in no
  * polygon count as the mean of the polygons' corners. */
-static void share_by_pyramids(const work *w, float *shares) {
+static void distribute_by_pyramids(const work *w, float *fractions) {
   const sbf_polygon_mesh *mesh = &w->body->surface;
   const uint32_t *corners = mesh->polygon_points.at;
   uint32_t used = 0;
   double sum = 0, at_corners = 0;
-  memset(shares, 0, w->point_count * sizeof *shares);
+  memset(fractions, 0, w->point_count * sizeof *fractions);
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
     uint32_t size = mesh->polygon_sizes.at[p], own = w->interior.polygon_points[p];
     sbfi_d3 middle = sbfi_polygon_middle(mesh->positions.at, corners, size);
     double area = sbfi_d3_length(sbfi_polygon_area(mesh->positions.at, corners, size, middle));
-    if (own != SBFI_NO_INDEX) shares[w->source_count + own] += (float)(0.25 * area);
-    shares[w->source_count] += (float)((own != SBFI_NO_INDEX ? 0.2 : 0.25) * area);
+    if (own != SBFI_NO_INDEX) fractions[w->source_count + own] += (float)(0.25 * area);
+    fractions[w->source_count] += (float)((own != SBFI_NO_INDEX ? 0.2 : 0.25) * area);
     float corner = (float)((own != SBFI_NO_INDEX ? 0.55 : 0.75) * area / size);
-    for (uint32_t k = 0; k < size; k++) shares[corners[k]] += corner;
+    for (uint32_t k = 0; k < size; k++) fractions[corners[k]] += corner;
   }
   for (uint32_t i = 0; i < w->surface_count; i++) {
-    at_corners += shares[i];
-    used += shares[i] > 0;
+    at_corners += fractions[i];
+    used += fractions[i] > 0;
   }
   float mean = used ? (float)(at_corners / used) : 1;
   for (uint32_t i = 0; i < w->point_count; i++) {
-    if (!(shares[i] > 0)) shares[i] = mean;
-    sum += shares[i];
+    if (!(fractions[i] > 0)) fractions[i] = mean;
+    sum += fractions[i];
   }
-  for (uint32_t i = 0; i < w->point_count; i++) shares[i] = (float)(shares[i] / sum);
+  for (uint32_t i = 0; i < w->point_count; i++) fractions[i] = (float)(fractions[i] / sum);
 }
 
 /* Shares of the matter at all points of a body with a lattice inside; see spring_level.h. Nodes have four
  * fifths of it at most. */
-static void share_by_lattice(const work *w, float *shares) {
+static void distribute_by_lattice(const work *w, float *fractions) {
   sbf_level surface;
   sbf_level_init(&surface);
   surface.positions = w->body->surface.positions;
   double node = w->cell * w->cell * w->cell / 2, volume = w->measures.volume,
          max = 0.97 / w->interior.point_count;
-  double share = volume > 0 && node / volume < max ? node / volume : max;
-  sbf_level_shares(w->body, &surface, NULL, shares);
-  for (uint32_t i = w->surface_count; i < w->source_count; i++) shares[i] = 1.0f / (float)w->source_count;
-  for (uint32_t i = 0; i < w->source_count; i++) shares[i] *= (float)(1 - share * w->interior.point_count);
-  for (uint32_t i = w->source_count; i < w->point_count; i++) shares[i] = (float)share;
+  double fraction = volume > 0 && node / volume < max ? node / volume : max;
+  sbf_level_shares(w->body, &surface, NULL, fractions);
+  for (uint32_t i = w->surface_count; i < w->source_count; i++) fractions[i] = 1.0f / (float)w->source_count;
+  for (uint32_t i = 0; i < w->source_count; i++)
+    fractions[i] *= (float)(1 - fraction * w->interior.point_count);
+  for (uint32_t i = w->source_count; i < w->point_count; i++) fractions[i] = (float)fraction;
 }
 
 static float *make_volumes(const work *w, bool pyramids) {
   float *volumes = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *volumes);
   if (!volumes) return NULL;
   if (w->cell > 0) {
-    share_by_lattice(w, volumes);
+    distribute_by_lattice(w, volumes);
   } else if (pyramids) {
-    share_by_pyramids(w, volumes);
+    distribute_by_pyramids(w, volumes);
   } else {
     sbf_level surface;
     sbf_level_init(&surface);
@@ -152,7 +153,7 @@ static bool make_network(const work *w, double modulus, const float *volumes, co
 }
 
 /* Anchored springs by the pyramids; those between two free points, an author's, as a network of their own. */
-static bool make_internal_of_held_core(const work *w, const float *volumes, float *stiffness) {
+static bool make_internal_of_pinned_core(const work *w, const float *volumes, float *stiffness) {
   uint32_t count = w->internal.count, free_count = 0;
   double modulus = w->body->attributes.young_modulus;
   double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 9 * sizeof *sums);
@@ -162,14 +163,14 @@ static bool make_internal_of_held_core(const work *w, const float *volumes, floa
   if (!sums || !free_ends || !free_stiffness || !normals) return false;
   sbf_surface_point_normals(&w->body->surface, normals);
   sbf_stiffness_of_anchors(modulus, w->measures.depth, normals, w->level->positions.at, w->point_count,
-      volumes, w->held, w->internal.at, count, sums, stiffness);
+      volumes, w->pinned, w->internal.at, count, sums, stiffness);
   for (uint32_t s = 0; s < count; s++)
-    if (!w->held[w->internal.at[s].at[0]] && !w->held[w->internal.at[s].at[1]])
+    if (!w->pinned[w->internal.at[s].at[0]] && !w->pinned[w->internal.at[s].at[1]])
       free_ends[free_count++] = w->internal.at[s];
   if (!make_network(w, SBF_STIFFNESS_ANCHOR * modulus, volumes, free_ends, free_count, free_stiffness))
     return false;
   for (uint32_t s = 0, next = 0; s < count; s++)
-    if (!w->held[w->internal.at[s].at[0]] && !w->held[w->internal.at[s].at[1]])
+    if (!w->pinned[w->internal.at[s].at[0]] && !w->pinned[w->internal.at[s].at[1]])
       stiffness[s] = free_stiffness[next++];
   return true;
 }
@@ -208,14 +209,14 @@ static bool make_stiffness(const work *w, float *stiffness) {
   if (w->measures.sheet) constant = SBF_STIFFNESS_SHEET;
   if (!make_network(w, constant * modulus, volumes, ends, count, stiffness)) return false;
   if (w->internal.count == 0) return true;
-  if (is_core_held(w)) return make_internal_of_held_core(w, volumes, stiffness + count);
+  if (is_core_pinned(w)) return make_internal_of_pinned_core(w, volumes, stiffness + count);
   if (w->interior.point_count) volumes = make_volumes(w, true);
   return volumes && make_network(w, SBF_STIFFNESS_ANCHOR * modulus, volumes, w->internal.at,
                         w->internal.count, stiffness + count);
 }
 
 static bool is_inert(const work *w, sbf_uint2 ends) {
-  return w->held[ends.at[0]] && w->held[ends.at[1]];
+  return w->pinned[ends.at[0]] && w->pinned[ends.at[1]];
 }
 
 /* Between two points in one place there is nothing to be stretched: no format or scheme has a use for it. */
@@ -296,10 +297,10 @@ static bool state_masses(work *w) {
   if (!masses) return false;
   double sum = 0;
   if (w->cell > 0)
-    share_by_lattice(w, masses);
+    distribute_by_lattice(w, masses);
   else
-    share_by_pyramids(w, masses);
-  for (uint32_t i = 0; i < w->point_count; i++) sum += masses[i] = w->held[i] ? 0 : masses[i];
+    distribute_by_pyramids(w, masses);
+  for (uint32_t i = 0; i < w->point_count; i++) sum += masses[i] = w->pinned[i] ? 0 : masses[i];
   for (uint32_t i = 0; i < w->point_count && sum > 0; i++)
     masses[i] = (float)(masses[i] / sum * w->measures.mass);
   sbfi_level_weigh(w->body, w->level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
@@ -363,15 +364,15 @@ bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const s
   sbf_body_measure(body, &w.measures);
   if (!level->name || !sbfi_topology_build(&topology, &body->surface, scratch)) return false;
   if (!sbfi_springs_surface(&w.surface, &body->surface, &topology, recipe->flexion, scratch)) return false;
-  if (!make_interior(&w) || !place_points(&w) || !join_authored(&w) || !map_interior(&w, map)) return false;
-  uint32_t to_bone = is_core_held(&w) ? w.deep_count : 0;
+  if (!make_interior(&w) || !set_points(&w) || !join_authored(&w) || !map_interior(&w, map)) return false;
+  uint32_t to_bone = is_core_pinned(&w) ? w.deep_count : 0;
   uint32_t *core = sbfi_arena_allocate(scratch, (size_t)to_bone + 1, sizeof *core);
   if (!core) return false;
   for (uint32_t i = 0; i < to_bone; i++) core[i] = w.source_count + i;
   if (!sbfi_level_pins_make(level, body, recipe->derivation, asset, core, to_bone, scratch)) return false;
-  w.held = sbfi_arena_allocate(scratch, w.point_count, 1);
-  if (!w.held) return false;
-  sbf_level_held_points(level, w.held);
+  w.pinned = sbfi_arena_allocate(scratch, w.point_count, 1);
+  if (!w.pinned) return false;
+  sbf_level_held_points(level, w.pinned);
   if (w.interior.point_count && (!to_bone || w.cell > 0) && w.measures.mass > 0 && !state_masses(&w))
     return false;
   counts->interior_points = w.interior.point_count;

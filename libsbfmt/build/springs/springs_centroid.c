@@ -44,17 +44,17 @@ bool sbfi_springs_centroid(
     uint32_t size = mesh->polygon_sizes.at[p];
     interior->polygon_points[p] = SBFI_NO_INDEX;
     if (size == 3 && !with_triangles) continue;
-    uint32_t place = interior->point_count++;
+    uint32_t index = interior->point_count++;
     sum = (sbf_vec3){0, 0, 0};
     for (uint32_t k = 0; k < size; k++) {
       sum = plus(sum, mesh->positions.at[corners[k]]);
       if (last_polygons[corners[k]] == p + 1) continue;
       last_polygons[corners[k]] = p + 1;
-      springs->at[springs->count++] = (sbf_uint2){{centre + place, corners[k]}};
+      springs->at[springs->count++] = (sbf_uint2){{centre + index, corners[k]}};
     }
-    springs->at[springs->count++] = (sbf_uint2){{centre + place, centre}};
-    interior->points[place] = over(plus(sum, interior->points[0]), (float)(size + 1));
-    interior->polygon_points[p] = place;
+    springs->at[springs->count++] = (sbf_uint2){{centre + index, centre}};
+    interior->points[index] = over(plus(sum, interior->points[0]), (float)(size + 1));
+    interior->polygon_points[p] = index;
   }
   return true;
 }

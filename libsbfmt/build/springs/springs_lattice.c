@@ -10,7 +10,7 @@
 #include "build/springs/springs.h"
 
 /* A node nearer to a cut than this share of an edge is left out: its springs would be short and stiff. */
-static const double min_share = 0.25;
+static const double min_fraction = 0.25;
 /* In cells: how far a surface point looks for nodes, and how far where it finds none. */
 static const double near_reach = 1.25, far_reach = 2.5;
 enum { MAX_OF_A_POINT = 4, MAX_HALVINGS = 4 };
@@ -27,10 +27,10 @@ typedef struct work {
   sbfi_arena *arena;
 } work;
 
-static sbf_vec3 place_of(const work *w, uint32_t node) {
+static sbf_vec3 position_of(const work *w, uint32_t node) {
   int32_t at[3];
-  sbfi_lattice_coordinates(&w->grid, node, at);
-  return sbfi_d3_rounded(sbfi_lattice_place(&w->grid, (sbfi_d3){at[0], at[1], at[2]}));
+  sbfi_lattice_compute_coordinates(&w->grid, node, at);
+  return sbfi_d3_rounded(sbfi_lattice_position(&w->grid, (sbfi_d3){at[0], at[1], at[2]}));
 }
 
 static bool find_nodes(work *w, const sbfi_winding *winding, sbfi_array *crossings) {
@@ -45,8 +45,8 @@ static bool find_nodes(work *w, const sbfi_winding *winding, sbfi_array *crossin
   for (size_t i = 0; i < crossings->count; i++) {
     uint32_t owner = at[i].edge >> 3;
     int32_t step = w->grid.steps[sbfi_lattice_kind(&w->grid, owner)][at[i].edge & 7];
-    if (at[i].share < min_share) w->inside[owner] = 0;
-    if (at[i].share > 1 - min_share) w->inside[(int64_t)owner + step] = 0;
+    if (at[i].fraction < min_fraction) w->inside[owner] = 0;
+    if (at[i].fraction > 1 - min_fraction) w->inside[(int64_t)owner + step] = 0;
   }
   for (uint32_t n = 0; n < count; n++) w->count += w->inside[n];
   return true;
@@ -66,7 +66,7 @@ static bool number_nodes(work *w, sbfi_lattice_interior *interior) {
     if (!w->inside[n]) continue;
     if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.2, 0.5), next, w->count)) return false;
     depths[next] = INFINITY;
-    sbfi_triangle_tree_nearest(&w->tree, place_of(w, n), &depths[next]);
+    sbfi_triangle_tree_nearest(&w->tree, position_of(w, n), &depths[next]);
     if (depths[next] > deepest) deepest = depths[next];
     found[next++] = n;
   }
@@ -75,7 +75,7 @@ static bool number_nodes(work *w, sbfi_lattice_interior *interior) {
       if ((depths[i] >= deepest / 4) != (round == 0)) continue;
       w->points[found[i]] = interior->point_count;
       w->nodes[interior->point_count] = found[i];
-      interior->points[interior->point_count++] = place_of(w, found[i]);
+      interior->points[interior->point_count++] = position_of(w, found[i]);
     }
     if (round == 0) interior->deep_count = interior->point_count;
   }
@@ -98,10 +98,10 @@ static bool join_nodes(const work *w, uint32_t first, sbfi_array *springs) {
 /* Whether the way from the node to the surface's point meets nothing before it. */
 static bool is_clear(const work *w, sbf_vec3 node, sbf_vec3 point) {
   double corners[3][3], at[3] = {point.x, point.y, point.z}, unused[3];
-  uint32_t met = sbfi_triangle_tree_pierced(&w->tree, node, point, INFINITY);
-  if (met == UINT32_MAX) return true;
+  uint32_t hits = sbfi_triangle_tree_pierced(&w->tree, node, point, INFINITY);
+  if (hits == UINT32_MAX) return true;
   for (int k = 0; k < 3; k++) {
-    sbf_vec3 p = w->tree.positions[w->tree.triangles[met].points[k]];
+    sbf_vec3 p = w->tree.positions[w->tree.triangles[hits].points[k]];
     corners[k][0] = p.x, corners[k][1] = p.y, corners[k][2] = p.z;
   }
   double near = 1e-4 * w->grid.cell;
@@ -123,13 +123,13 @@ static int compare(const void *a, const void *b) {
 static uint32_t find_near(
     const work *w, const sbf_vec3 *interior, sbf_vec3 point, double reach, neighbour *near, uint32_t max) {
   sbfi_d3 at = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(point), w->grid.origin), 2 / w->grid.cell);
-  const double place[3] = {at.x, at.y, at.z};
+  const double position[3] = {at.x, at.y, at.z};
   int32_t low[3], high[3];
   uint32_t count = 0;
   for (int k = 0; k < 3; k++) {
     int32_t last = 2 * (int32_t)w->grid.counts[k] - 1;
-    low[k] = (int32_t)ceil(place[k] - 2 * reach);
-    high[k] = (int32_t)floor(place[k] + 2 * reach);
+    low[k] = (int32_t)ceil(position[k] - 2 * reach);
+    high[k] = (int32_t)floor(position[k] + 2 * reach);
     if (low[k] < 0) low[k] = 0;
     if (high[k] > last) high[k] = last;
   }
@@ -138,10 +138,10 @@ static uint32_t find_near(
       for (int32_t x = low[0] + ((low[0] ^ z) & 1); x <= high[0]; x += 2) {
         uint32_t i = w->points[sbfi_lattice_node(&w->grid, x, y, z)];
         if (i == SBFI_NO_INDEX || count == max) continue;
-        sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(interior[i]), sbfi_d3_of(point));
+        sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(interior[i]), sbfi_d3_of(point));
         double limit = reach * w->grid.cell;
-        if (sbfi_d3_dot(way, way) > limit * limit) continue;
-        near[count++] = (neighbour){sbfi_d3_dot(way, way), i};
+        if (sbfi_d3_dot(displacement, displacement) > limit * limit) continue;
+        near[count++] = (neighbour){sbfi_d3_dot(displacement, displacement), i};
       }
     }
   }

@@ -5,7 +5,7 @@
 #include "mechanics/vector.h"
 
 enum { MAX_MATCHED = 64, STEPS = 200 };
-static const double short_share = 0.5, min_share = 0.05;
+static const double short_fraction = 0.5, min_fraction = 0.05;
 
 typedef struct work {
   const sbf_vec3 *positions;
@@ -42,8 +42,8 @@ static bool index_springs(work *w, sbfi_arena *arena) {
 static void match(const work *w, uint32_t point, double energy, double *parts) {
   const uint32_t *springs = w->springs + w->begins[point];
   uint32_t count = w->begins[point + 1] - w->begins[point];
-  double shares[MAX_MATCHED], fitted[MAX_MATCHED], meet[MAX_MATCHED][MAX_MATCHED];
-  sbfi_d3 ways[MAX_MATCHED];
+  double fractions[MAX_MATCHED], fitted[MAX_MATCHED], intersect[MAX_MATCHED][MAX_MATCHED];
+  sbfi_d3 directions[MAX_MATCHED];
   if (!(w->sums[point] > 0)) return;
   if (count > MAX_MATCHED) {
     for (uint32_t i = 0; i < count; i++)
@@ -52,12 +52,12 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
   }
   for (uint32_t i = 0; i < count; i++) {
     const uint32_t *ends = w->ends[springs[i]].at;
-    ways[i] =
+    directions[i] =
         sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(w->positions[ends[1]]), sbfi_d3_of(w->positions[ends[0]])));
-    fitted[i] = shares[i] = w->lengths[springs[i]] / w->sums[point];
+    fitted[i] = fractions[i] = w->lengths[springs[i]] / w->sums[point];
     for (uint32_t k = 0; k < i; k++) {
-      double cosine = sbfi_d3_dot(ways[i], ways[k]);
-      meet[i][k] = meet[k][i] = cosine * cosine * cosine * cosine;
+      double cosine = sbfi_d3_dot(directions[i], directions[k]);
+      intersect[i][k] = intersect[k][i] = cosine * cosine * cosine * cosine;
     }
   }
   /* In shares of 15 mu V: isotropic matter meets every direction as 3 mu V. All springs step at once, so that
@@ -65,16 +65,16 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
   double steepest = 1, next[MAX_MATCHED];
   for (uint32_t i = 0; i < count; i++) {
     double row = 1;
-    for (uint32_t k = 0; k < count; k++) row += k != i ? meet[i][k] : 0;
+    for (uint32_t k = 0; k < count; k++) row += k != i ? intersect[i][k] : 0;
     steepest = fmax(steepest, row);
   }
   for (int step = 0; step < STEPS; step++) {
     double moved = 0;
     for (uint32_t i = 0; i < count; i++) {
       double missing = 3.0 / 15 - fitted[i];
-      for (uint32_t k = 0; k < count; k++) missing -= k != i ? meet[i][k] * fitted[k] : 0;
-      next[i] = fmax(fitted[i] + missing / steepest, min_share * shares[i]);
-      if (!(shares[i] > 0)) next[i] = 0;
+      for (uint32_t k = 0; k < count; k++) missing -= k != i ? intersect[i][k] * fitted[k] : 0;
+      next[i] = fmax(fitted[i] + missing / steepest, min_fraction * fractions[i]);
+      if (!(fractions[i] > 0)) next[i] = 0;
       moved = fmax(moved, fabs(next[i] - fitted[i]));
     }
     memcpy(fitted, next, count * sizeof *fitted);
@@ -99,7 +99,7 @@ bool sbfi_springs_matched(double modulus, const sbf_vec3 *positions, uint32_t po
     uint32_t a = ends[s].at[0], b = ends[s].at[1];
     double length = w.lengths[s];
     double count = w.begins[a + 1] - w.begins[a] + w.begins[b + 1] - w.begins[b];
-    double counted = fmax(length, short_share * (w.sums[a] + w.sums[b]) / count);
+    double counted = fmax(length, short_fraction * (w.sums[a] + w.sums[b]) / count);
     stiffness[s] = length > 0 ? (float)(parts[s] / (length * counted)) : 0;
   }
   return true;

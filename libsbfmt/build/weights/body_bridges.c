@@ -14,8 +14,8 @@ static void join_neighbours(const bridge_search *b) {
   const sbfi_body_grid *g = b->grid;
   sbfi_sets_begin(b->parents, g->cell_count);
   for (uint32_t cell = 0; cell < g->cell_count; cell++)
-    for (int way = SBFI_BODY_WAYS / 2; way < SBFI_BODY_WAYS; way++) {
-      int32_t other = g->cell_of_box[(int64_t)g->box_of_cell[cell] + g->steps[way]];
+    for (int direction = SBFI_BODY_DIRECTIONS / 2; direction < SBFI_BODY_DIRECTIONS; direction++) {
+      int32_t other = g->cell_of_box[(int64_t)g->box_of_cell[cell] + g->steps[direction]];
       if (other != SBF_NONE) sbfi_sets_join(b->parents, cell, (uint32_t)other);
     }
 }
@@ -38,8 +38,8 @@ static bool flood(bridge_search *b, sbfi_arena *arena) {
     if (b->nearest[box] != UINT32_MAX) queue[count++] = box;
   }
   for (uint32_t next = 0; next < count; next++)
-    for (int way = 0; way < SBFI_BODY_WAYS; way++) {
-      int64_t box = (int64_t)queue[next] + g->steps[way];
+    for (int direction = 0; direction < SBFI_BODY_DIRECTIONS; direction++) {
+      int64_t box = (int64_t)queue[next] + g->steps[direction];
       if (box < 0 || box >= g->box_count || b->nearest[box] != UINT32_MAX) continue;
       b->nearest[box] = b->nearest[queue[next]];
       queue[count++] = (uint32_t)box;
@@ -64,15 +64,15 @@ static int compare_ends(const void *left, const void *right) {
 static bool find_candidates(bridge_search *b, sbfi_array *candidates) {
   const sbfi_body_grid *g = b->grid;
   for (uint32_t box = 0; box < g->box_count; box++)
-    for (int way = SBFI_BODY_WAYS / 2; way < SBFI_BODY_WAYS; way++) {
-      int64_t other = (int64_t)box + g->steps[way];
+    for (int direction = SBFI_BODY_DIRECTIONS / 2; direction < SBFI_BODY_DIRECTIONS; direction++) {
+      int64_t other = (int64_t)box + g->steps[direction];
       if (other < 0 || other >= g->box_count) continue;
       uint32_t from = b->nearest[box], to = b->nearest[other];
       if (from == to || sbfi_set_root(b->parents, from) == sbfi_set_root(b->parents, to)) continue;
-      sbfi_d3 apart = sbfi_d3_sub(
+      sbfi_d3 separation = sbfi_d3_sub(
           sbfi_body_box_middle(g, g->box_of_cell[from]), sbfi_body_box_middle(g, g->box_of_cell[to]));
-      sbfi_body_bridge bridge = {
-          from < to ? from : to, from < to ? to : from, (float)(sbfi_d3_length(apart) * SBFI_BODY_CELLS)};
+      sbfi_body_bridge bridge = {from < to ? from : to, from < to ? to : from,
+          (float)(sbfi_d3_length(separation) * SBFI_BODY_CELLS)};
       if (!sbfi_array_append(candidates, &bridge, 1)) return false;
     }
   qsort(candidates->at, candidates->count, sizeof(sbfi_body_bridge), compare_bridges);

@@ -21,8 +21,8 @@ uint32_t sbfi_body_box_at(const sbfi_body_grid *g, sbfi_d3 point) {
   const double at[3] = {point.x, point.y, point.z};
   uint32_t box = 0;
   for (int k = 2; k >= 0; k--) {
-    double place = floor(at[k] * SBFI_BODY_CELLS) + 1, max = g->counts[k] - 2;
-    box = box * g->counts[k] + (uint32_t)(place < 1 ? 1 : place > max ? max : place);
+    double coordinate = floor(at[k] * SBFI_BODY_CELLS) + 1, max = g->counts[k] - 2;
+    box = box * g->counts[k] + (uint32_t)(coordinate < 1 ? 1 : coordinate > max ? max : coordinate);
   }
   return box;
 }
@@ -32,7 +32,7 @@ static void mark_block(const marking *m, const uint32_t low[3], const uint32_t h
   sbfi_d3 middle = {(low[0] + high[0]) / 2.0 - 1, (low[1] + high[1]) / 2.0 - 1, (low[2] + high[2]) / 2.0 - 1};
   sbfi_d3 half = {(high[0] - low[0]) / 2.0, (high[1] - low[1]) / 2.0, (high[2] - low[2]) / 2.0};
   double cell = 1.0 / SBFI_BODY_CELLS;
-  if (!sbfi_box_meets_triangle(sbfi_d3_scale(middle, cell), sbfi_d3_scale(half, cell), m->corners)) return;
+  if (!sbfi_box_overlaps_triangle(sbfi_d3_scale(middle, cell), sbfi_d3_scale(half, cell), m->corners)) return;
   const uint32_t *counts = m->grid->counts;
   if (high[0] - low[0] == 1 && high[1] - low[1] == 1 && high[2] - low[2] == 1) {
     m->marks[(low[2] * counts[1] + low[1]) * counts[0] + low[0]] |= m->mark;
@@ -145,13 +145,13 @@ static void lay_out(sbfi_body_grid *g, const sbfi_weight_mesh *mesh) {
     g->counts[k] = (uint32_t)fmin(floor(sides[k] * SBFI_BODY_CELLS) + 1, SBFI_BODY_CELLS) + 2;
     g->box_count *= g->counts[k];
   }
-  int way = 0;
+  int direction = 0;
   for (int z = -1; z <= 1; z++)
     for (int y = -1; y <= 1; y++)
       for (int x = -1; x <= 1; x++) {
         if (!x && !y && !z) continue;
-        g->steps[way] = (z * (int32_t)g->counts[1] + y) * (int32_t)g->counts[0] + x;
-        g->lengths[way++] = (float)sqrt((double)(x * x + y * y + z * z));
+        g->steps[direction] = (z * (int32_t)g->counts[1] + y) * (int32_t)g->counts[0] + x;
+        g->lengths[direction++] = (float)sqrt((double)(x * x + y * y + z * z));
       }
 }
 

@@ -5,7 +5,10 @@
 
 #include "build/weights/body_rays.h"
 
-enum { SBFI_BODY_CELLS = 64, SBFI_BODY_WAYS = 26 }; /* cells along the longest side; neighbours of a cell */
+enum {
+  SBFI_BODY_CELLS = 64,
+  SBFI_BODY_DIRECTIONS = 26
+}; /* cells along the longest side; neighbours of a cell */
 
 /* A straight path over cells outside the body; each stands once for either direction. */
 typedef struct sbfi_body_bridge {
@@ -21,8 +24,9 @@ typedef struct sbfi_body_grid {
   uint32_t cell_count;
   sbfi_body_bridge *bridges; /* (bridge_count) ascending by `from`; none until body_bridges.h makes them */
   uint32_t bridge_count;
-  int32_t steps[SBFI_BODY_WAYS]; /* to a box's neighbours; the first half leads back, the second ahead */
-  float lengths[SBFI_BODY_WAYS]; /* in cells */
+  int32_t
+      steps[SBFI_BODY_DIRECTIONS]; /* to a box's neighbours; the first half leads back, the second ahead */
+  float lengths[SBFI_BODY_DIRECTIONS]; /* in cells */
 } sbfi_body_grid;
 
 /* False where memory runs out. */

@@ -86,9 +86,9 @@ static uint32_t expand(sbfi_body_paths *p, uint32_t cell) {
   const sbfi_body_grid *g = p->grid;
   uint32_t added = 0, low = 0, high = g->bridge_count;
   int64_t box = g->box_of_cell[cell];
-  for (int way = 0; way < SBFI_BODY_WAYS; way++) {
-    int32_t other = g->cell_of_box[box + g->steps[way]];
-    if (other != SBF_NONE) added += improve(p, (uint32_t)other, p->distances[cell] + g->lengths[way]);
+  for (int direction = 0; direction < SBFI_BODY_DIRECTIONS; direction++) {
+    int32_t other = g->cell_of_box[box + g->steps[direction]];
+    if (other != SBF_NONE) added += improve(p, (uint32_t)other, p->distances[cell] + g->lengths[direction]);
   }
   while (low < high) {
     uint32_t middle = (low + high) / 2;

@@ -30,18 +30,18 @@ static double first_hit(const sbfi_triangle_tree *tree, sbfi_d3 from, sbfi_d3 di
   return t > 0 ? t : 0;
 }
 
-double sbfi_body_way_out(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direction) {
+double sbfi_body_exit_distance(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direction) {
   uint32_t hit;
-  double way = first_hit(&rays->tree, from, direction, &hit);
-  if (!isfinite(way) || !sbfi_body_holds(rays, from)) return way;
+  double travel = first_hit(&rays->tree, from, direction, &hit);
+  if (!isfinite(travel) || !sbfi_body_holds(rays, from)) return travel;
   for (int passed = 0; passed < MAX_PASSED; passed++) {
-    sbfi_d3 behind = sbfi_d3_add(from, sbfi_d3_scale(direction, way + STEP));
+    sbfi_d3 behind = sbfi_d3_add(from, sbfi_d3_scale(direction, travel + STEP));
     double next = first_hit(&rays->tree, behind, direction, &hit);
     sbfi_d3 between = sbfi_d3_add(behind, sbfi_d3_scale(direction, next / 2));
     if (!isfinite(next) || (next > STEP && !sbfi_body_holds(rays, between))) break;
-    way += STEP + next;
+    travel += STEP + next;
   }
-  return way;
+  return travel;
 }
 
 /* How often a ray crosses a shell, and where first. */
@@ -54,18 +54,18 @@ static double shell_end(
     const sbfi_body_rays *rays, const sbfi_weight_mesh *mesh, sbfi_d3 from, sbfi_d3 direction) {
   shell_crossing shells[MAX_PASSED];
   int count = 0;
-  double way = 0, nearest = INFINITY, end = 0;
+  double travel = 0, nearest = INFINITY, end = 0;
   for (int passed = 0; passed < MAX_PASSED; passed++) {
     uint32_t hit;
-    way += first_hit(&rays->tree, sbfi_d3_add(from, sbfi_d3_scale(direction, way)), direction, &hit);
+    travel += first_hit(&rays->tree, sbfi_d3_add(from, sbfi_d3_scale(direction, travel)), direction, &hit);
     if (hit == UINT32_MAX) break;
     uint32_t shell = mesh->shell_of_site[rays->tree.triangles[hit].points[0]];
     int k = 0;
     while (k < count && shells[k].shell != shell) k++;
-    if (k == count) shells[count++] = (shell_crossing){shell, 0, way};
+    if (k == count) shells[count++] = (shell_crossing){shell, 0, travel};
     shells[k].count++;
-    nearest = fmin(nearest, way);
-    way += STEP;
+    nearest = fmin(nearest, travel);
+    travel += STEP;
   }
   /* Inside what is crossed an odd number of times. */
   for (int k = 0; k < count; k++)

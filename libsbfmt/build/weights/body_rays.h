@@ -20,7 +20,7 @@ bool sbfi_body_holds(const sbfi_body_rays *rays, sbfi_d3 point);
 
 /* Distance from a point along a direction of unit length to where the ray leaves the body, through shells
  * that lie within each other; from outside, to the surface. INFINITY: it meets none. */
-double sbfi_body_way_out(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direction);
+double sbfi_body_exit_distance(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 direction);
 
 /* Distance along a direction of unit length to the far side of the shells that hold the point; to the first
  * surface where none does. INFINITY: the ray meets none. */

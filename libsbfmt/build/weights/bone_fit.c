@@ -18,12 +18,12 @@ static int compare_measured(const void *left, const void *right) {
 }
 
 /* The value below which a share of the area lies. */
-static double at_share(const measured *sorted, uint32_t count, double share) {
+static double at_fraction(const measured *sorted, uint32_t count, double fraction) {
   double all = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) all += sorted[i].area;
   for (uint32_t i = 0; i < count; i++) {
     sum += sorted[i].area;
-    if (sum >= share * all) return sorted[i].value;
+    if (sum >= fraction * all) return sorted[i].value;
   }
   return 0;
 }
@@ -33,14 +33,14 @@ static double coordinate(sbfi_d3 p, int axis) {
 }
 
 /* The longest side of the surface, and of the bones. */
-static double extent_of_surface(const sbfi_weight_mesh *mesh, measured *room) {
+static double extent_of_surface(const sbfi_weight_mesh *mesh, measured *buffer) {
   double longest = 0;
   for (int axis = 0; axis < 3; axis++) {
     for (uint32_t i = 0; i < mesh->site_count; i++)
-      room[i] = (measured){coordinate(sbfi_d3_of(mesh->sites[i]), axis), mesh->areas[i]};
-    qsort(room, mesh->site_count, sizeof *room, compare_measured);
-    longest =
-        fmax(longest, at_share(room, mesh->site_count, 1 - TAIL) - at_share(room, mesh->site_count, TAIL));
+      buffer[i] = (measured){coordinate(sbfi_d3_of(mesh->sites[i]), axis), mesh->areas[i]};
+    qsort(buffer, mesh->site_count, sizeof *buffer, compare_measured);
+    longest = fmax(longest,
+        at_fraction(buffer, mesh->site_count, 1 - TAIL) - at_fraction(buffer, mesh->site_count, TAIL));
   }
   return longest;
 }
@@ -60,7 +60,7 @@ static double extent_of_bones(const sbfi_bone_segment *segments, uint32_t bone_c
   return longest;
 }
 
-static double share_inside(
+static double inside_fraction(
     const sbfi_body_rays *rays, const sbfi_bone_segment *segments, uint32_t bone_count) {
   double inside = 0, all = 0;
   for (uint32_t b = 0; b < bone_count; b++) {
@@ -78,29 +78,29 @@ static double share_inside(
 /* How far the surface is from its bones, by half of how thick the body is there. Where no ray meets a far
  * side there is no thickness. */
 static double median_distance(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
-    const sbfi_nearest_bone *nearest, measured *room) {
+    const sbfi_nearest_bone *nearest, measured *buffer) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     sbfi_d3 inwards = sbfi_d3_scale(mesh->normals[i], -1);
     if (sbfi_d3_length(inwards) == 0) continue;
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->sites[i]), sbfi_d3_scale(inwards, BELOW));
-    double thickness = sbfi_body_way_out(rays, from, inwards);
+    double thickness = sbfi_body_exit_distance(rays, from, inwards);
     if (!isfinite(thickness) || !(thickness > BELOW)) continue;
-    room[count++] = (measured){2 * (double)nearest[i].distance / thickness, mesh->areas[i]};
+    buffer[count++] = (measured){2 * (double)nearest[i].distance / thickness, mesh->areas[i]};
   }
-  qsort(room, count, sizeof *room, compare_measured);
-  return at_share(room, count, 0.5);
+  qsort(buffer, count, sizeof *buffer, compare_measured);
+  return at_fraction(buffer, count, 0.5);
 }
 
 bool sbfi_bone_fit_measure(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
     const sbfi_bone_segment *segments, uint32_t bone_count, const sbfi_nearest_bone *nearest,
     sbfi_weights_figures *figures, sbfi_arena *arena) {
-  measured *room = sbfi_arena_allocate(arena, mesh->site_count, sizeof *room);
-  if (!room) return false;
-  double surface = extent_of_surface(mesh, room);
-  figures->inside = share_inside(rays, segments, bone_count);
+  measured *buffer = sbfi_arena_allocate(arena, mesh->site_count, sizeof *buffer);
+  if (!buffer) return false;
+  double surface = extent_of_surface(mesh, buffer);
+  figures->inside = inside_fraction(rays, segments, bone_count);
   figures->bone_extent = surface > 0 ? extent_of_bones(segments, bone_count) / surface : 1;
-  figures->median_distance = median_distance(mesh, rays, nearest, room);
+  figures->median_distance = median_distance(mesh, rays, nearest, buffer);
   for (uint32_t b = 0; b < bone_count; b++) figures->deforming_count += segments[b].is_deforming;
   return true;
 }

@@ -2,7 +2,7 @@
 
 /* Nearer to its carrier, in units of the longest side, a limb needs no link; a shell is the limb's where it
  * holds an eighth of it. */
-static const double BESIDE = 0.01, HELD_SHARE = 0.125;
+static const double BESIDE = 0.01, PINNED_FRACTION = 0.125;
 
 bool sbfi_bone_links_make(sbfi_bone_links *l, uint32_t bone_count, sbfi_arena *arena) {
   *l = (sbfi_bone_links){.segments = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *l->segments),
@@ -37,5 +37,5 @@ void sbfi_bone_links_find(
 
 bool sbfi_bone_link_counts(
     const sbfi_bone_links *l, uint32_t link, const sbfi_bone_reach *reach, uint32_t shell) {
-  return (double)sbfi_bone_share_in(reach, l->limbs[link], shell) <= HELD_SHARE;
+  return (double)sbfi_bone_fraction_in(reach, l->limbs[link], shell) <= PINNED_FRACTION;
 }

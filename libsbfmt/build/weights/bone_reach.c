@@ -7,7 +7,7 @@
 enum { RAYS_AT = 3, RAYS_ROUND = 8, RAYS = RAYS_AT * RAYS_ROUND, SAMPLES = 16 };
 /* A shell is a bone's where it holds an eighth of it; a bone without a next one keeps its own thickness where
  * it is so much thicker than its chain, as heads are. */
-static const double HELD_SHARE = 0.125, THICK_LEAF = 1.5;
+static const double PINNED_FRACTION = 0.125, THICK_LEAF = 1.5;
 
 static int compare_numbers(const void *left, const void *right) {
   double a = *(const double *)left, b = *(const double *)right;
@@ -19,7 +19,7 @@ static int compare_numbers(const void *left, const void *right) {
 static double thickness_of(const sbfi_body_rays *rays, const sbfi_bone_segment *bone) {
   /* Eight ways round the circle. */
   static const double root = 0.70710678118654752440;
-  const double ways[RAYS_ROUND][2] = {
+  const double directions[RAYS_ROUND][2] = {
       {1, 0}, {root, root}, {0, 1}, {-root, root}, {-1, 0}, {-root, -root}, {0, -1}, {root, -root}};
   sbfi_d3 along = sbfi_d3_sub(bone->tail, bone->head), axis = sbfi_d3_normal(along);
   if (sbfi_d3_length(axis) == 0) axis = (sbfi_d3){0, 1, 0};
@@ -30,8 +30,9 @@ static double thickness_of(const sbfi_body_rays *rays, const sbfi_bone_segment *
   for (int at = 1; at <= RAYS_AT; at++) {
     sbfi_d3 from = sbfi_d3_add(bone->head, sbfi_d3_scale(along, at / (RAYS_AT + 1.0)));
     for (int round = 0; round < RAYS_ROUND; round++) {
-      sbfi_d3 way = sbfi_d3_add(sbfi_d3_scale(x, ways[round][0]), sbfi_d3_scale(y, ways[round][1]));
-      double hit = sbfi_body_way_out(rays, from, way);
+      sbfi_d3 direction =
+          sbfi_d3_add(sbfi_d3_scale(x, directions[round][0]), sbfi_d3_scale(y, directions[round][1]));
+      double hit = sbfi_body_exit_distance(rays, from, direction);
       if (isfinite(hit)) found[count++] = hit;
     }
   }
@@ -100,9 +101,9 @@ static bool find_thickness(sbfi_bone_reach *r, const sbfi_weights_input *in, con
   if (!bones || !chain_of || !r->thickness) return false;
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
-    bool goes_on = parent != SBF_NONE && segments[parent].is_deforming &&
-                   count_children(in, segments, (uint32_t)parent) == 1;
-    chain_of[i] = goes_on ? chain_of[parent] : i;
+    bool continues = parent != SBF_NONE && segments[parent].is_deforming &&
+                     count_children(in, segments, (uint32_t)parent) == 1;
+    chain_of[i] = continues ? chain_of[parent] : i;
     if (!segments[i].is_deforming) continue;
     r->thickness[i] = thickness_of(rays, &segments[i]);
     double length = sbfi_d3_length(sbfi_d3_sub(segments[i].tail, segments[i].head));
@@ -132,7 +133,7 @@ static bool may_hold(const sbfi_shell *shell, const sbfi_bone_segment *bone) {
 }
 
 /* Share of a bone's length inside a closed surface, or what its caps close. */
-static double share_inside(
+static double inside_fraction(
     const sbfi_winding *winding, const sbfi_shell *shell, const sbfi_bone_segment *bone) {
   uint32_t inside = 0;
   for (uint32_t i = 0; i < SAMPLES; i++) {
@@ -144,21 +145,22 @@ static double share_inside(
   return (double)inside / SAMPLES;
 }
 
-static int compare_shares(const void *left, const void *right) {
-  const sbfi_bone_share *a = left, *b = right;
+static int compare_fractions(const void *left, const void *right) {
+  const sbfi_bone_fraction *a = left, *b = right;
   if (a->bone != b->bone) return a->bone < b->bone ? -1 : 1;
   return a->shell < b->shell ? -1 : a->shell > b->shell;
 }
 
-static bool shares_of_shell(sbfi_bone_reach *r, sbfi_array *shares, uint32_t s, const sbfi_weights_input *in,
-    const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments, const uint32_t *sizes) {
+static bool fractions_of_shell(sbfi_bone_reach *r, sbfi_array *contributions, uint32_t s,
+    const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
+    const uint32_t *sizes) {
   const sbfi_shell *shell = &mesh->shells[s];
   bool is_wanted = false, good = true;
   for (uint32_t b = 0; b < in->bone_count; b++)
     is_wanted |= segments[b].is_deforming && may_hold(shell, &segments[b]);
   if (!is_wanted || shell->triangle_count < 4) return true;
   sbfi_arena scratch;
-  sbfi_arena_init(&scratch, &shares->allocator, 0);
+  sbfi_arena_init(&scratch, &contributions->allocator, 0);
   sbf_polygon_mesh surface;
   sbfi_soup soup;
   sbfi_winding winding;
@@ -166,41 +168,42 @@ static bool shares_of_shell(sbfi_bone_reach *r, sbfi_array *shares, uint32_t s, 
          sbfi_soup_make(&soup, &surface, &scratch) && sbfi_winding_make(&winding, &soup, &scratch);
   for (uint32_t b = 0; good && b < in->bone_count; b++) {
     if (!segments[b].is_deforming || !may_hold(shell, &segments[b])) continue;
-    sbfi_bone_share share = {b, s, (float)share_inside(&winding, shell, &segments[b])};
-    r->shell_holds_bone[s] |= (double)share.share > HELD_SHARE;
-    good = share.share <= 0 || sbfi_array_append(shares, &share, 1);
+    sbfi_bone_fraction length_fraction = {b, s, (float)inside_fraction(&winding, shell, &segments[b])};
+    r->shell_holds_bone[s] |= (double)length_fraction.fraction > PINNED_FRACTION;
+    good = length_fraction.fraction <= 0 || sbfi_array_append(contributions, &length_fraction, 1);
   }
   sbfi_arena_free(&scratch);
   return good;
 }
 
-static bool find_shares(sbfi_bone_reach *r, const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
+static bool find_fractions(sbfi_bone_reach *r, const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena) {
-  sbfi_array shares;
-  sbfi_array_init(&shares, &arena->allocator, sizeof(sbfi_bone_share));
+  sbfi_array contributions;
+  sbfi_array_init(&contributions, &arena->allocator, sizeof(sbfi_bone_fraction));
   r->shell_holds_bone = sbfi_arena_allocate(arena, mesh->shell_count, sizeof *r->shell_holds_bone);
   bool good = r->shell_holds_bone != NULL;
   for (uint32_t s = 0; good && s < mesh->shell_count; s++)
-    good = shares_of_shell(r, &shares, s, in, mesh, segments, sizes);
-  r->share_count = (uint32_t)shares.count;
-  if (good && shares.count) {
-    qsort(shares.at, shares.count, sizeof(sbfi_bone_share), compare_shares);
-    r->shares = sbfi_arena_copy(arena, shares.at, shares.count, sizeof(sbfi_bone_share));
-    good = r->shares != NULL;
+    good = fractions_of_shell(r, &contributions, s, in, mesh, segments, sizes);
+  r->fraction_count = (uint32_t)contributions.count;
+  if (good && contributions.count) {
+    qsort(contributions.at, contributions.count, sizeof(sbfi_bone_fraction), compare_fractions);
+    r->fractions = sbfi_arena_copy(arena, contributions.at, contributions.count, sizeof(sbfi_bone_fraction));
+    good = r->fractions != NULL;
   }
-  sbfi_array_free(&shares);
+  sbfi_array_free(&contributions);
   return good;
 }
 
 bool sbfi_bone_reach_find(sbfi_bone_reach *r, const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_rays *rays, const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena) {
   *r = (sbfi_bone_reach){0};
-  return find_thickness(r, in, rays, segments, arena) && find_shares(r, in, mesh, segments, sizes, arena);
+  return find_thickness(r, in, rays, segments, arena) && find_fractions(r, in, mesh, segments, sizes, arena);
 }
 
-float sbfi_bone_share_in(const sbfi_bone_reach *r, uint32_t bone, uint32_t shell) {
-  const sbfi_bone_share wanted = {bone, shell, 0};
-  const sbfi_bone_share *found =
-      r->share_count ? bsearch(&wanted, r->shares, r->share_count, sizeof *r->shares, compare_shares) : NULL;
-  return found ? found->share : 0;
+float sbfi_bone_fraction_in(const sbfi_bone_reach *r, uint32_t bone, uint32_t shell) {
+  const sbfi_bone_fraction wanted = {bone, shell, 0};
+  const sbfi_bone_fraction *found = r->fraction_count ? bsearch(&wanted, r->fractions, r->fraction_count,
+                                                            sizeof *r->fractions, compare_fractions)
+                                                      : NULL;
+  return found ? found->fraction : 0;
 }

@@ -7,15 +7,15 @@
 
 /* A bone's share of length within a shell that is closed enough to have an inside; ascending by bone, then
  * shell. */
-typedef struct sbfi_bone_share {
+typedef struct sbfi_bone_fraction {
   uint32_t bone, shell;
-  float share; /* above 0, up to 1 */
-} sbfi_bone_share;
+  float fraction; /* above 0, up to 1 */
+} sbfi_bone_fraction;
 
 typedef struct sbfi_bone_reach {
-  double *thickness;       /* (bone_count) radius of the body around each bone */
-  sbfi_bone_share *shares; /* (share_count) */
-  uint32_t share_count;
+  double *thickness;             /* (bone_count) radius of the body around each bone */
+  sbfi_bone_fraction *fractions; /* (fraction_count) */
+  uint32_t fraction_count;
   bool *shell_holds_bone; /* (shell_count) holds more than an eighth of some bone */
 } sbfi_bone_reach;
 
@@ -24,6 +24,6 @@ bool sbfi_bone_reach_find(sbfi_bone_reach *reach, const sbfi_weights_input *in, 
     const sbfi_body_rays *rays, const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena);
 
 /* Share of a bone's length within a shell; 0 for a shell without an inside. */
-float sbfi_bone_share_in(const sbfi_bone_reach *reach, uint32_t bone, uint32_t shell);
+float sbfi_bone_fraction_in(const sbfi_bone_reach *reach, uint32_t bone, uint32_t shell);
 
 #endif

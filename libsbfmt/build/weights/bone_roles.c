@@ -6,7 +6,7 @@
 
 /* In units of the longest side: how far outside a joint aims rather than holds; how near two are one place.
  */
-static const double OUTSIDE = 0.05, SAME_PLACE = 0.002;
+static const double OUTSIDE = 0.05, SAME_POSITION = 0.002;
 
 enum { NAME_SIZE = 64 };
 
@@ -61,9 +61,9 @@ static bool is_outside(const sbfi_body_rays *rays, sbfi_d3 at) {
 static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, uint32_t bone) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
     if (i == bone || (int32_t)i == in->bones[bone].parent || is_on_root(in, i)) continue;
-    sbfi_d3 apart = sbfi_d3_sub(
-        sbfi_weight_mesh_place(mesh, in->bones[i].head), sbfi_weight_mesh_place(mesh, in->bones[bone].head));
-    if (sbfi_d3_length(apart) < SAME_PLACE) return true;
+    sbfi_d3 separation = sbfi_d3_sub(sbfi_weight_mesh_position(mesh, in->bones[i].head),
+        sbfi_weight_mesh_position(mesh, in->bones[bone].head));
+    if (sbfi_d3_length(separation) < SAME_POSITION) return true;
   }
   return false;
 }
@@ -95,9 +95,9 @@ static void drop_helper_trees(
     if (root == skeleton || (i == root && !has_child(in, i))) continue;
     for (uint32_t k = 0; k < in->bone_count && !is_helper; k++) {
       if (root_of(in, k) != skeleton) continue;
-      sbfi_d3 apart = sbfi_d3_sub(
-          sbfi_weight_mesh_place(mesh, in->bones[i].head), sbfi_weight_mesh_place(mesh, in->bones[k].head));
-      is_helper = sbfi_d3_length(apart) < SAME_PLACE;
+      sbfi_d3 separation = sbfi_d3_sub(sbfi_weight_mesh_position(mesh, in->bones[i].head),
+          sbfi_weight_mesh_position(mesh, in->bones[k].head));
+      is_helper = sbfi_d3_length(separation) < SAME_POSITION;
     }
     for (uint32_t k = root; is_helper && k < in->bone_count; k++)
       if (root_of(in, k) == root) is_deforming[k] = false;
@@ -127,7 +127,7 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
     take_letters(in->bones[i].name, letters);
     bool is_control = is_control_name(letters);
     if (!is_control && is_on_root(in, i) && !has_child(in, i))
-      is_control = (rays && is_outside(rays, sbfi_weight_mesh_place(mesh, in->bones[i].head))) ||
+      is_control = (rays && is_outside(rays, sbfi_weight_mesh_position(mesh, in->bones[i].head))) ||
                    pulls_another(in, mesh, i);
     if (is_control || is_frame_name(letters) || sbfi_bone_is_end(in, i) ||
         (is_on_root(in, i) && strstr(letters, "root")))

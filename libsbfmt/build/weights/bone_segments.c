@@ -4,7 +4,7 @@
 
 /* Cosine of the angle within which a bone points at its child; distance within which a joint lies on the axis
  * of a bone without children; how far such a bone goes towards the skin; how near another bone it ends. */
-static const double ALIGNED = 0.9, STRAIGHT = 0.995, ON_AXIS = 0.02, WAY_OUT = 0.9, CLEARANCE = 0.07,
+static const double ALIGNED = 0.9, STRAIGHT = 0.995, ON_AXIS = 0.02, EXIT_DISTANCE = 0.9, CLEARANCE = 0.07,
                     PASSING = 0.6;
 static const double TINY = 1e-6;
 
@@ -21,8 +21,8 @@ sbfi_d3 sbfi_segment_nearest(const sbfi_bone_segment *s, sbfi_d3 point) {
 }
 
 double sbfi_segment_distance2(const sbfi_bone_segment *s, sbfi_d3 point) {
-  sbfi_d3 apart = sbfi_d3_sub(point, sbfi_segment_nearest(s, point));
-  return sbfi_d3_dot(apart, apart);
+  sbfi_d3 separation = sbfi_d3_sub(point, sbfi_segment_nearest(s, point));
+  return sbfi_d3_dot(separation, separation);
 }
 
 /* The child that continues each bone: the nearest on its axis, else the one best aligned. The first bones of
@@ -31,10 +31,10 @@ static void find_next(const sbfi_weights_input *in, sbfi_bone_segment *segments,
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
     if (parent == SBF_NONE || !segments[i].is_deforming) continue;
-    sbfi_d3 way = sbfi_d3_sub(segments[i].head, segments[parent].head);
-    double length = sbfi_d3_length(way);
+    sbfi_d3 displacement = sbfi_d3_sub(segments[i].head, segments[parent].head);
+    double length = sbfi_d3_length(displacement);
     if (length < TINY) continue;
-    double cosine = sbfi_d3_dot(way, axis_of(in->bones[parent].rotation)) / length;
+    double cosine = sbfi_d3_dot(displacement, axis_of(in->bones[parent].rotation)) / length;
     if (cosine <= STRAIGHT && segments[i].side != segments[parent].side) continue;
     double score = cosine > ALIGNED ? 2 + 1 / (1 + length) : cosine;
     if (segments[parent].next != SBF_NONE && score <= fit[parent]) continue;
@@ -97,16 +97,16 @@ static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *
   double stated = in->bones[bone].length * mesh->scale, joint = INFINITY;
   if (stated > TINY) return stated;
   for (uint32_t i = 0; i < in->bone_count; i++) {
-    sbfi_d3 way = sbfi_d3_sub(segments[i].head, segments[bone].head);
-    double along = sbfi_d3_dot(way, axis);
-    sbfi_d3 aside = sbfi_d3_sub(way, sbfi_d3_scale(axis, along));
+    sbfi_d3 displacement = sbfi_d3_sub(segments[i].head, segments[bone].head);
+    double along = sbfi_d3_dot(displacement, axis);
+    sbfi_d3 aside = sbfi_d3_sub(displacement, sbfi_d3_scale(axis, along));
     if (along > ON_AXIS && along < joint && sbfi_body_holds(rays, segments[i].head) &&
         sbfi_d3_length(aside) < ON_AXIS && !hangs_beside(in, segments, i, bone))
       joint = along;
   }
   double out = sbfi_body_shell_end(rays, mesh, segments[bone].head, axis);
   if (!isfinite(out)) out = length_inside(rays, segments[bone].head, axis);
-  return joint < out + ON_AXIS ? joint : WAY_OUT * out;
+  return joint < out + ON_AXIS ? joint : EXIT_DISTANCE * out;
 }
 
 /* Where a rig marks the end of a bone, or SBF_NONE. */
@@ -134,7 +134,7 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
   if (!heads || !fit || !is_deforming) return false;
   sbfi_bone_roles_find(in, mesh, rays, is_deforming);
   for (uint32_t i = 0; i < in->bone_count; i++) {
-    heads[i] = sbfi_weight_mesh_place(mesh, in->bones[i].head);
+    heads[i] = sbfi_weight_mesh_position(mesh, in->bones[i].head);
     segments[i] = (sbfi_bone_segment){
         .head = heads[i], .tail = heads[i], .next = SBF_NONE, .is_deforming = is_deforming[i]};
   }

@@ -5,6 +5,6 @@
 #include "mechanics/vector.h"
 
 /* By separating axes (Akenine-Moller 2001); touching counts. */
-bool sbfi_box_meets_triangle(sbfi_d3 middle, sbfi_d3 half, const sbfi_d3 corners[3]);
+bool sbfi_box_overlaps_triangle(sbfi_d3 middle, sbfi_d3 half, const sbfi_d3 corners[3]);
 
 #endif

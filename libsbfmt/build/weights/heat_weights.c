@@ -129,15 +129,15 @@ static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const ui
 
 /* Takes a weight in among the greatest of a site; of equals the first stays before. */
 static void insert(sbfi_site_weights *to, uint32_t bone, float weight) {
-  int place = SBFI_SITE_BONES;
-  while (place > 0 && weight > to->weights[place - 1]) place--;
-  if (place == SBFI_SITE_BONES) return;
-  for (int k = SBFI_SITE_BONES - 1; k > place; k--) {
+  int index = SBFI_SITE_BONES;
+  while (index > 0 && weight > to->weights[index - 1]) index--;
+  if (index == SBFI_SITE_BONES) return;
+  for (int k = SBFI_SITE_BONES - 1; k > index; k--) {
     to->bones[k] = to->bones[k - 1];
     to->weights[k] = to->weights[k - 1];
   }
-  to->bones[place] = bone;
-  to->weights[place] = weight;
+  to->bones[index] = bone;
+  to->weights[index] = weight;
 }
 
 bool sbfi_heat_weights_solve(const sbfi_weight_mesh *mesh, const sbfi_nearest_bone *nearest,

@@ -6,20 +6,22 @@
 /* Paths from cell to cell are longer than straight ones by up to an eleventh. Distances are divided by the
  * root of the body's radius plus this; a shell that holds less than a quarter of a bone is up to eleven times
  * as far from it. */
-static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, SHARE_WHOLE = 0.25, SHELL_PENALTY = 10, TIE = 1e-5;
+static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, WHOLE_FRACTION = 0.25, SHELL_PENALTY = 10, TIE = 1e-5;
 /* Relative differences: of straight distances to one joint, and of distances that count as even there. */
 static const double AT_JOINT = 1e-4, NEARLY = 0.1;
 
 /* Factors of the distance from one bone to each shell. */
-static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t *next_share,
+static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t *next_fraction,
     uint32_t shell_count, double *factors) {
   for (uint32_t s = 0; s < shell_count; s++) factors[s] = reach->shell_holds_bone[s] ? 1 + SHELL_PENALTY : 1;
-  while (*next_share < reach->share_count && reach->shares[*next_share].bone < bone) (*next_share)++;
-  for (; *next_share < reach->share_count && reach->shares[*next_share].bone == bone; (*next_share)++) {
-    const sbfi_bone_share *share = &reach->shares[*next_share];
-    if (!reach->shell_holds_bone[share->shell]) continue;
-    double held = fmin(1, (double)share->share / SHARE_WHOLE);
-    factors[share->shell] = 1 + SHELL_PENALTY * (1 - held);
+  while (*next_fraction < reach->fraction_count && reach->fractions[*next_fraction].bone < bone)
+    (*next_fraction)++;
+  for (; *next_fraction < reach->fraction_count && reach->fractions[*next_fraction].bone == bone;
+       (*next_fraction)++) {
+    const sbfi_bone_fraction *length_fraction = &reach->fractions[*next_fraction];
+    if (!reach->shell_holds_bone[length_fraction->shell]) continue;
+    double limited = fmin(1, (double)length_fraction->fraction / WHOLE_FRACTION);
+    factors[length_fraction->shell] = 1 + SHELL_PENALTY * (1 - limited);
   }
 }
 
@@ -102,11 +104,11 @@ bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mes
     min[i] = INFINITY;
     cells[i] = grid->cell_of_box[sbfi_body_box_at(grid, sbfi_d3_of(mesh->sites[i]))];
   }
-  uint32_t next_share = 0;
+  uint32_t next_fraction = 0;
   for (uint32_t b = 0; b < in->bone_count; b++) {
     if (!segments[b].is_deforming) continue;
     find_links(&search, in, segments, b);
-    shell_factors(reach, b, &next_share, mesh->shell_count, search.shell_factors);
+    shell_factors(reach, b, &next_fraction, mesh->shell_count, search.shell_factors);
     sbfi_body_paths_from(&paths, search.links.segments, search.links.count + 1);
     for (uint32_t i = 0; i < mesh->site_count; i++) {
       sbfi_d3 at = sbfi_d3_of(mesh->sites[i]);

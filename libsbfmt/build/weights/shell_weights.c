@@ -63,8 +63,8 @@ static void normalise(sbfi_site_weights *w) {
 
 static double site_distance(const void *user, uint32_t site, const double point[3]) {
   const sbf_vec3 *sites = user;
-  sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(sites[site]), (sbfi_d3){point[0], point[1], point[2]});
-  return sbfi_d3_dot(apart, apart);
+  sbfi_d3 separation = sbfi_d3_sub(sbfi_d3_of(sites[site]), (sbfi_d3){point[0], point[1], point[2]});
+  return sbfi_d3_dot(separation, separation);
 }
 
 /* Whether a mesh consists of many parts, as machines and jointed dolls do, and no skin over them. */
@@ -84,15 +84,15 @@ static bool is_machine(const sbfi_weight_mesh *mesh) {
  * head. */
 static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
     sbfi_site_weights *weights, sbfi_arena *arena) {
-  sbf_vec3 *places = sbfi_arena_allocate(arena, mesh->site_count, sizeof *places);
+  sbf_vec3 *positions = sbfi_arena_allocate(arena, mesh->site_count, sizeof *positions);
   uint32_t *sites = sbfi_arena_allocate(arena, mesh->site_count, sizeof *sites), count = 0;
   sbfi_box *boxes = sbfi_arena_allocate(arena, mesh->site_count, sizeof *boxes);
-  if (!places || !sites || !boxes) return false;
+  if (!positions || !sites || !boxes) return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     if (!reach->shell_holds_bone[mesh->shell_of_site[i]]) continue;
     sbf_vec3 at = mesh->sites[i];
     boxes[count] = (sbfi_box){{at.x, at.y, at.z}, {at.x, at.y, at.z}};
-    places[count] = at;
+    positions[count] = at;
     sites[count++] = i;
   }
   sbfi_box_tree tree;
@@ -104,7 +104,7 @@ static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reac
     double nearest = INFINITY;
     sbf_vec3 at = mesh->sites[i];
     uint32_t found = sbfi_box_tree_nearest(
-        &tree, (double[]){(double)at.x, (double)at.y, (double)at.z}, site_distance, places, &nearest);
+        &tree, (double[]){(double)at.x, (double)at.y, (double)at.z}, site_distance, positions, &nearest);
     if (found != UINT32_MAX) weights[i] = weights[sites[found]];
   }
   return true;
@@ -121,7 +121,7 @@ static void drop_sides(const sbfi_bone_segment *segments, double *sums, uint32_t
 
 /* The bone with the greatest weight over a shell, by area, and its share of all. */
 static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const sbfi_bone_segment *segments,
-    const sbfi_site_weights *weights, double *sums, uint32_t bone_count, double *share) {
+    const sbfi_site_weights *weights, double *sums, uint32_t bone_count, double *fraction) {
   const uint32_t *sites = mesh->sites_by_shell + mesh->shells[shell].first_site;
   double whole = 0;
   memset(sums, 0, bone_count * sizeof *sums);
@@ -135,7 +135,7 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
   uint32_t best = 0;
   for (uint32_t b = 1; b < bone_count; b++)
     if (sums[b] > sums[best]) best = b;
-  *share = whole > 0 ? sums[best] / whole : 0;
+  *fraction = whole > 0 ? sums[best] / whole : 0;
   return best;
 }
 
@@ -192,13 +192,13 @@ static uint32_t bone_of_axle(const sbfi_shell *shell, sbfi_d3 middle, const sbfi
     uint32_t bone_count, uint32_t bone) {
   const sbfi_bone_segment *leading = &segments[bone];
   sbfi_d3 sides = sbfi_d3_sub(shell->high, shell->low), along = sbfi_d3_sub(leading->tail, leading->head);
-  const double side[3] = {sides.x, sides.y, sides.z}, way[3] = {along.x, along.y, along.z};
+  const double side[3] = {sides.x, sides.y, sides.z}, direction[3] = {along.x, along.y, along.z};
   const double head[3] = {leading->head.x, leading->head.y, leading->head.z};
   const double low[3] = {shell->low.x, shell->low.y, shell->low.z};
   int axis = side[0] >= side[1] && side[0] >= side[2] ? 0 : side[1] >= side[2] ? 1 : 2;
   uint32_t best = UINT32_MAX;
   double nearest = INFINITY;
-  if (fabs(way[axis]) > ACROSS * sbfi_d3_length(along)) return UINT32_MAX;
+  if (fabs(direction[axis]) > ACROSS * sbfi_d3_length(along)) return UINT32_MAX;
   for (int k = 0; k < 3; k++) {
     if (k != axis && ELONGATED * side[k] > side[axis]) return UINT32_MAX;
     if (head[k] < low[k] || head[k] > low[k] + side[k]) return UINT32_MAX;
@@ -241,7 +241,7 @@ static void give_to_last_bones(const sbfi_weight_mesh *mesh, const sbfi_bone_seg
 static bool stiffen_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     uint32_t bone_count, sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
   bool all = is_machine(mesh);
-  double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), share;
+  double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), fraction;
   uint32_t *leaders = sbfi_arena_allocate(arena, (size_t)mesh->shell_count + 1, sizeof *leaders);
   if (!sums || !leaders) return false;
   figures->shell_count = mesh->shell_count;
@@ -249,8 +249,8 @@ static bool stiffen_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_segment
     const sbfi_shell *shell = &mesh->shells[s];
     leaders[s] = UINT32_MAX;
     if (shell->size >= MIDDLING && !all) continue;
-    uint32_t bone = leading_bone(mesh, s, segments, weights, sums, bone_count, &share);
-    if (shell->size >= SMALL && share <= CLEAR_LEAD && !all) continue;
+    uint32_t bone = leading_bone(mesh, s, segments, weights, sums, bone_count, &fraction);
+    if (shell->size >= SMALL && fraction <= CLEAR_LEAD && !all) continue;
     sbfi_d3 middle;
     if (middle_of(mesh, shell, &middle)) {
       uint32_t other = bone_of_hinge(shell, middle, segments, bone_count);

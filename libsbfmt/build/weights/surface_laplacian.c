@@ -51,8 +51,9 @@ static bool add_triangles(const sbfi_weight_mesh *m, sbfi_array *entries) {
 static double distance_to_other(const void *user, uint32_t site, const double point[3]) {
   const other_shells *of = user;
   if (of->mesh->shell_of_site[site] == of->shell) return INFINITY;
-  sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(of->mesh->sites[site]), (sbfi_d3){point[0], point[1], point[2]});
-  return sbfi_d3_dot(apart, apart);
+  sbfi_d3 separation =
+      sbfi_d3_sub(sbfi_d3_of(of->mesh->sites[site]), (sbfi_d3){point[0], point[1], point[2]});
+  return sbfi_d3_dot(separation, separation);
 }
 
 static bool tie_shells(const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_arena *arena) {

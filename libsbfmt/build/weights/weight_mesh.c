@@ -39,9 +39,9 @@ static bool find_shells(
   uint32_t *parents = sbfi_arena_allocate(arena, m->site_count, sizeof *parents);
   m->shell_of_site = sbfi_arena_allocate(arena, m->site_count, sizeof *m->shell_of_site);
   m->sites_by_shell = sbfi_arena_allocate(arena, m->site_count, sizeof *m->sites_by_shell);
-  m->place_of_site = sbfi_arena_allocate(arena, m->site_count, sizeof *m->place_of_site);
+  m->index_of_site = sbfi_arena_allocate(arena, m->site_count, sizeof *m->index_of_site);
   m->shells = sbfi_arena_allocate(arena, m->site_count, sizeof *m->shells);
-  if (!parents || !m->shell_of_site || !m->sites_by_shell || !m->place_of_site || !m->shells) return false;
+  if (!parents || !m->shell_of_site || !m->sites_by_shell || !m->index_of_site || !m->shells) return false;
   sbfi_sets_begin(parents, m->site_count);
   for (uint32_t t = 0; t < count; t++)
     for (int k = 1; k < 3; k++) sbfi_sets_join(parents, triangles[t][0], triangles[t][k]);
@@ -63,8 +63,8 @@ static bool find_shells(
   uint32_t *next = parents; /* done with */
   for (uint32_t s = 0; s < m->shell_count; s++) next[s] = m->shells[s].first_site;
   for (uint32_t i = 0; i < m->site_count; i++) {
-    m->place_of_site[i] = next[m->shell_of_site[i]]++;
-    m->sites_by_shell[m->place_of_site[i]] = i;
+    m->index_of_site[i] = next[m->shell_of_site[i]]++;
+    m->sites_by_shell[m->index_of_site[i]] = i;
   }
   return true;
 }
@@ -117,12 +117,12 @@ static bool find_normals(sbfi_weight_mesh *m, sbfi_arena *arena) {
 
 static double site_distance(const void *user, uint32_t site, const double point[3]) {
   const sbfi_weight_mesh *m = user;
-  sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(m->sites[site]), (sbfi_d3){point[0], point[1], point[2]});
-  return sbfi_d3_dot(apart, apart);
+  sbfi_d3 separation = sbfi_d3_sub(sbfi_d3_of(m->sites[site]), (sbfi_d3){point[0], point[1], point[2]});
+  return sbfi_d3_dot(separation, separation);
 }
 
 /* Points in no triangle follow the nearest site. */
-static bool place_loose_points(sbfi_weight_mesh *m, const sbfi_weights_input *in, sbfi_arena *arena) {
+static bool position_loose_points(sbfi_weight_mesh *m, const sbfi_weights_input *in, sbfi_arena *arena) {
   sbfi_box_tree tree = {0};
   for (uint32_t i = 0; i < in->point_count; i++) {
     if (m->site_of_point[i] != UINT32_MAX) continue;
@@ -135,7 +135,7 @@ static bool place_loose_points(sbfi_weight_mesh *m, const sbfi_weights_input *in
       }
       if (!sbfi_box_tree_build(&tree, boxes, m->site_count, arena)) return false;
     }
-    sbfi_d3 at = sbfi_weight_mesh_place(m, in->points[i]);
+    sbfi_d3 at = sbfi_weight_mesh_position(m, in->points[i]);
     double nearest = INFINITY;
     uint32_t site = sbfi_box_tree_nearest(&tree, (double[]){at.x, at.y, at.z}, site_distance, m, &nearest);
     m->site_of_point[i] = site == UINT32_MAX ? 0 : site;
@@ -156,7 +156,7 @@ sbfi_weight_mesh_result sbfi_weight_mesh_make(
   if (count < 4) return SBFI_WEIGHT_MESH_TOO_SMALL;
   bool good = find_shells(m, (const uint32_t(*)[3])triangles, count, arena) &&
               order_triangles(m, (const uint32_t(*)[3])triangles, count, arena) && find_normals(m, arena) &&
-              place_loose_points(m, in, arena);
+              position_loose_points(m, in, arena);
   return good ? SBFI_WEIGHT_MESH_GOOD : SBFI_WEIGHT_MESH_NO_MEMORY;
 }
 
@@ -182,7 +182,7 @@ bool sbfi_weight_mesh_shell(const sbfi_weight_mesh *m, uint32_t shell, const uin
   if (!sites || !corners) return false;
   for (uint32_t i = 0; i < s->site_count; i++) sites[i] = m->sites[m->sites_by_shell[s->first_site + i]];
   for (uint32_t i = 0; i < 3 * s->triangle_count; i++)
-    corners[i] = m->place_of_site[m->triangles[s->first_triangle + i / 3][i % 3]] - s->first_site;
+    corners[i] = m->index_of_site[m->triangles[s->first_triangle + i / 3][i % 3]] - s->first_site;
   *surface = surface_of(sites, s->site_count, corners, s->triangle_count, sizes);
   return true;
 }

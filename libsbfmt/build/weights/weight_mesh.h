@@ -24,7 +24,7 @@ typedef struct sbfi_weight_mesh {
   uint32_t (*triangles)[3]; /* (triangle_count) shell after shell; closed shells face outwards */
   uint32_t *shell_of_site;  /* (site_count) */
   uint32_t *sites_by_shell; /* (site_count) ascending within a shell */
-  uint32_t *place_of_site;  /* (site_count) in sites_by_shell */
+  uint32_t *index_of_site;  /* (site_count) in sites_by_shell */
   double *areas;            /* (site_count) a third of the triangles around */
   sbfi_d3 *normals;   /* (site_count) of unit length, out of closed shells; 0 where triangles cancel out */
   sbfi_shell *shells; /* (shell_count) numbered by first point */
@@ -43,7 +43,7 @@ sbfi_weight_mesh_result sbfi_weight_mesh_make(
     sbfi_weight_mesh *mesh, const sbfi_weights_input *in, sbfi_arena *arena);
 
 /* A point of asset space in the mesh's units. */
-static inline sbfi_d3 sbfi_weight_mesh_place(const sbfi_weight_mesh *mesh, sbf_vec3 point) {
+static inline sbfi_d3 sbfi_weight_mesh_position(const sbfi_weight_mesh *mesh, sbf_vec3 point) {
   return sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(point), mesh->low), mesh->scale);
 }
 

@@ -44,7 +44,7 @@ static void find_first(keyed_point *keyed, uint32_t count, uint32_t *first) {
 
 /* Joins points of one triangle, and those of triangles with a common edge. */
 static bool join_pieces(
-    const sbfi_weights_input *in, const uint32_t *place, uint32_t *pieces, sbfi_arena *arena) {
+    const sbfi_weights_input *in, const uint32_t *slots, uint32_t *pieces, sbfi_arena *arena) {
   edge *edges = sbfi_arena_allocate(arena, 3 * (size_t)in->triangle_count, sizeof *edges);
   size_t count = 0;
   if (!edges) return false;
@@ -53,9 +53,9 @@ static bool join_pieces(
     for (int k = 0; k < 3; k++) {
       uint32_t a = in->triangles[t][k], b = in->triangles[t][(k + 1) % 3];
       sbfi_sets_join(pieces, a, b);
-      if (place[a] == place[b]) continue;
-      bool ascending = place[a] < place[b];
-      edges[count++] = (edge){place[ascending ? a : b], place[ascending ? b : a], a};
+      if (slots[a] == slots[b]) continue;
+      bool ascending = slots[a] < slots[b];
+      edges[count++] = (edge){slots[ascending ? a : b], slots[ascending ? b : a], a};
     }
   qsort(edges, count, sizeof *edges, compare_edges);
   for (size_t i = 1; i < count; i++)
@@ -77,7 +77,7 @@ bool sbfi_weight_sites_find(sbfi_weight_mesh *m, const sbfi_weights_input *in, s
   for (uint32_t i = 0; i < in->point_count; i++) {
     m->site_of_point[i] = UINT32_MAX;
     if (!is_used[i]) continue;
-    sbfi_d3 at = sbfi_d3_scale(sbfi_weight_mesh_place(m, in->points[i]), 1 / JOIN_DISTANCE);
+    sbfi_d3 at = sbfi_d3_scale(sbfi_weight_mesh_position(m, in->points[i]), 1 / JOIN_DISTANCE);
     keyed[count++] = (keyed_point){
         {(int32_t)floor(at.x + 0.5), (int32_t)floor(at.y + 0.5), (int32_t)floor(at.z + 0.5)}, i};
   }
@@ -92,7 +92,7 @@ bool sbfi_weight_sites_find(sbfi_weight_mesh *m, const sbfi_weights_input *in, s
     if (!is_used[i]) continue;
     if (first[i] == i) {
       m->site_of_point[i] = m->site_count;
-      m->sites[m->site_count++] = sbfi_d3_rounded(sbfi_weight_mesh_place(m, in->points[i]));
+      m->sites[m->site_count++] = sbfi_d3_rounded(sbfi_weight_mesh_position(m, in->points[i]));
     } else {
       m->site_of_point[i] = m->site_of_point[first[i]];
     }

@@ -31,7 +31,7 @@ typedef struct controller {
 
 typedef struct items {
   void *at;
-  int count, room;
+  int count, capacity;
 } items;
 
 typedef struct document {
@@ -42,15 +42,15 @@ typedef struct document {
 } document;
 
 static void *push(document *d, items *list, size_t size) {
-  if (list->count == list->room) {
-    int room = list->room ? 2 * list->room : 64;
-    void *grown = room < INT32_MAX / 4 ? realloc(list->at, (size_t)room * size) : NULL;
+  if (list->count == list->capacity) {
+    int capacity = list->capacity ? 2 * list->capacity : 64;
+    void *grown = capacity < INT32_MAX / 4 ? realloc(list->at, (size_t)capacity * size) : NULL;
     if (!grown) {
       d->out_of_memory = true;
       return NULL;
     }
     list->at = grown;
-    list->room = room;
+    list->capacity = capacity;
   }
   return memset((char *)list->at + (size_t)list->count++ * size, 0, size);
 }
@@ -232,18 +232,18 @@ static bool is_named_elsewhere(const document *d, span name, int joint) {
 
 typedef struct output {
   char *at;
-  size_t size, room;
+  size_t size, capacity;
   bool failed;
 } output;
 
 static void append(output *o, span text) {
-  if (o->size + text.length > o->room) {
-    size_t room = 2 * (o->size + text.length);
-    char *grown = realloc(o->at, room);
+  if (o->size + text.length > o->capacity) {
+    size_t capacity = 2 * (o->size + text.length);
+    char *grown = realloc(o->at, capacity);
     o->failed = o->failed || !grown;
     if (!grown) return;
     o->at = grown;
-    o->room = room;
+    o->capacity = capacity;
   }
   if (text.length) memcpy(o->at + o->size, text.at, text.length);
   o->size += text.length;

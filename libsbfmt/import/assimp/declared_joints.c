@@ -19,13 +19,13 @@ typedef struct search {
 
 static void add(search *s, const struct aiNode *node) {
   declared_joints *to = s->to;
-  if (to->count == to->room) {
-    size_t room = to->room ? 2 * to->room : 64;
-    const struct aiNode **grown = realloc(to->nodes, room * sizeof(struct aiNode *));
+  if (to->count == to->capacity) {
+    size_t capacity = to->capacity ? 2 * to->capacity : 64;
+    const struct aiNode **grown = realloc(to->nodes, capacity * sizeof(struct aiNode *));
     s->good = s->good && grown;
     if (!grown) return;
     to->nodes = grown;
-    to->room = room;
+    to->capacity = capacity;
   }
   to->nodes[to->count++] = node;
 }

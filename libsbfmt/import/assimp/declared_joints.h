@@ -9,7 +9,7 @@
 
 typedef struct declared_joints {
   const struct aiNode **nodes;
-  size_t count, room;
+  size_t count, capacity;
 } declared_joints;
 
 /* The nodes that the glTF or Collada file `path` declares to be joints. None where the scene has a mesh, in

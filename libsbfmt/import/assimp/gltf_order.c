@@ -84,52 +84,52 @@ static bool rank(uint32_t *source, unsigned count) {
   uint32_t end = 0;
   for (unsigned i = 0; i < count; i++)
     if (source[i] != unused && source[i] >= end) end = source[i] + 1;
-  uint32_t *place = malloc(((size_t)end + 1) * sizeof *place), next = 0;
-  if (!place) return false;
-  for (uint32_t s = 0; s < end; s++) place[s] = unused;
+  uint32_t *slots = malloc(((size_t)end + 1) * sizeof *slots), next = 0;
+  if (!slots) return false;
+  for (uint32_t s = 0; s < end; s++) slots[s] = unused;
   for (unsigned i = 0; i < count; i++)
-    if (source[i] != unused) place[source[i]] = i;
+    if (source[i] != unused) slots[source[i]] = i;
   bool once = true; /* two vertices of one number: not what assimp does */
-  for (unsigned i = 0; i < count; i++) once = once && (source[i] == unused || place[source[i]] == i);
+  for (unsigned i = 0; i < count; i++) once = once && (source[i] == unused || slots[source[i]] == i);
   for (uint32_t s = 0; s < end; s++)
-    if (place[s] != unused) source[place[s]] = next++;
+    if (slots[s] != unused) source[slots[s]] = next++;
   for (unsigned i = 0; i < count; i++)
     if (source[i] == unused) source[i] = next++;
-  free(place);
+  free(slots);
   return once;
 }
 
-static bool reorder(void *items, size_t width, const uint32_t *place, unsigned count) {
+static bool reorder(void *items, size_t width, const uint32_t *slots, unsigned count) {
   uint8_t *from = items, *to = from ? malloc(count * width) : NULL;
   if (!from) return true;
   if (!to) return false;
-  for (unsigned i = 0; i < count; i++) memcpy(to + place[i] * width, from + i * width, width);
+  for (unsigned i = 0; i < count; i++) memcpy(to + slots[i] * width, from + i * width, width);
   memcpy(from, to, count * width);
   free(to);
   return true;
 }
 
-static void apply(struct aiMesh *mesh, const uint32_t *place) {
+static void apply(struct aiMesh *mesh, const uint32_t *slots) {
   unsigned n = mesh->mNumVertices;
-  bool good = reorder(mesh->mVertices, sizeof *mesh->mVertices, place, n) &&
-              reorder(mesh->mNormals, sizeof *mesh->mNormals, place, n) &&
-              reorder(mesh->mTangents, sizeof *mesh->mTangents, place, n) &&
-              reorder(mesh->mBitangents, sizeof *mesh->mBitangents, place, n);
+  bool good = reorder(mesh->mVertices, sizeof *mesh->mVertices, slots, n) &&
+              reorder(mesh->mNormals, sizeof *mesh->mNormals, slots, n) &&
+              reorder(mesh->mTangents, sizeof *mesh->mTangents, slots, n) &&
+              reorder(mesh->mBitangents, sizeof *mesh->mBitangents, slots, n);
   for (unsigned i = 0; good && i < AI_MAX_NUMBER_OF_TEXTURECOORDS; i++)
-    good = reorder(mesh->mTextureCoords[i], sizeof *mesh->mTextureCoords[i], place, n);
+    good = reorder(mesh->mTextureCoords[i], sizeof *mesh->mTextureCoords[i], slots, n);
   for (unsigned i = 0; good && i < AI_MAX_NUMBER_OF_COLOR_SETS; i++)
-    good = reorder(mesh->mColors[i], sizeof *mesh->mColors[i], place, n);
+    good = reorder(mesh->mColors[i], sizeof *mesh->mColors[i], slots, n);
   for (unsigned i = 0; good && i < mesh->mNumAnimMeshes; i++)
     if (mesh->mAnimMeshes[i]->mNumVertices == n)
-      good = reorder(mesh->mAnimMeshes[i]->mVertices, sizeof *mesh->mAnimMeshes[i]->mVertices, place, n);
+      good = reorder(mesh->mAnimMeshes[i]->mVertices, sizeof *mesh->mAnimMeshes[i]->mVertices, slots, n);
   if (!good) abort(); /* half of a mesh in another order: the parent reports that the importer broke down */
   for (unsigned f = 0; f < mesh->mNumFaces; f++)
     for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; k++)
-      mesh->mFaces[f].mIndices[k] = place[mesh->mFaces[f].mIndices[k]];
+      mesh->mFaces[f].mIndices[k] = slots[mesh->mFaces[f].mIndices[k]];
   for (unsigned b = 0; b < mesh->mNumBones; b++)
     for (unsigned k = 0; k < mesh->mBones[b]->mNumWeights; k++) {
       unsigned *vertex = &mesh->mBones[b]->mWeights[k].mVertexId;
-      if (*vertex < n) *vertex = place[*vertex];
+      if (*vertex < n) *vertex = slots[*vertex];
     }
 }
 

@@ -8,9 +8,9 @@
 #include "import/convert/main_bones.h"
 #include "mechanics/extent.h"
 
-static const double TOUCHES = 0.005; /* of the skins' size: what is closer touches */
-static const double MAX_SIZE = 1.5;  /* times the skins' size: larger is the scene around the character */
-static const double SOLE = 0.03;     /* of the skins' size: what ends there is what it stands on */
+static const double CONTACT_DISTANCE = 0.005; /* of the skins' size: what is closer touches */
+static const double MAX_SIZE = 1.5; /* times the skins' size: larger is the scene around the character */
+static const double SOLE = 0.03;    /* of the skins' size: what ends there is what it stands on */
 
 /* A surface with bones. */
 typedef struct holder {
@@ -63,13 +63,13 @@ static void vote(work *w, int32_t bone) {
 /* The triangle of `on` that the point lies on, or that the edge from it pierces; UINT32_MAX: none. */
 static uint32_t find_touched(
     const work *w, const sbfi_triangle_tree *on, const sbf_vec3 *point, const sbf_vec3 *edge_end) {
-  double distance2 = pow(TOUCHES * w->size, 2);
+  double distance2 = pow(CONTACT_DISTANCE * w->size, 2);
   uint32_t found = sbfi_triangle_tree_nearest(on, *point, &distance2);
   return found == UINT32_MAX ? sbfi_triangle_tree_pierced(on, *point, *edge_end, 1) : found;
 }
 
 /* Corners of either surface that touch the other vote for the holder's bone there. */
-static void vote_where_they_touch(work *w, const sbfi_triangle_tree *object, const holder *h) {
+static void vote_at_contacts(work *w, const sbfi_triangle_tree *object, const holder *h) {
   for (uint32_t i = 0; i < 3 * object->triangle_count; i++) {
     const uint32_t *corners = object->triangles[i / 3].points;
     uint32_t found = find_touched(
@@ -90,7 +90,7 @@ static bool find_bone(work *w, const sbf_polygon_mesh *object, int32_t *bone) {
   sbfi_triangle_tree tree;
   if (!sbfi_triangle_tree_build(&tree, object, &w->c->scratch)) return false;
   memset(w->votes, 0, bones * sizeof *w->votes);
-  for (uint32_t h = 0; h < w->holder_count; h++) vote_where_they_touch(w, &tree, &w->holders[h]);
+  for (uint32_t h = 0; h < w->holder_count; h++) vote_at_contacts(w, &tree, &w->holders[h]);
   *bone = SBF_NONE;
   for (uint32_t b = 0; b < bones; b++)
     if (w->votes[b] > max) max = w->votes[b], *bone = (int32_t)b;

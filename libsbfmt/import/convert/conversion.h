@@ -1,4 +1,4 @@
-/* A scene on its way to an asset: what the passes of the conversion share. */
+/* State of a conversion from scenes to an asset, shared by its passes. */
 #ifndef SBFI_CONVERSION_H
 #define SBFI_CONVERSION_H
 
@@ -7,7 +7,7 @@
 #include "import/scene/scene.h"
 #include "sbfmt/convert.h"
 
-/* Ids already given. */
+/* Set of used ids. */
 typedef struct sbfi_id_set {
   sbfi_array slots; /* const char *, open addressing; capacity a power of two */
   uint32_t used;
@@ -15,24 +15,24 @@ typedef struct sbfi_id_set {
 
 typedef struct sbfi_conversion {
   const sbfi_scene *scene; /* the meshes */
-  const sbfi_scene *rig;   /* the bones: the same scene where it has its own; NULL where there are none */
+  const sbfi_scene *rig;   /* source of the bones: the same scene if it has bones; NULL if there are none */
   sbfi_matrix to_asset, rig_to_asset;
-  double lift_m; /* by which the asset was moved up from where these matrices put it */
+  double lift_m; /* height by which the asset was raised, m */
   sbf_asset *asset;
   sbfi_arena scratch;
   sbfi_id_set ids;
-  int32_t *bone_of_node;              /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
-  uint32_t *node_of_bone;             /* (asset->bones.count) */
-  int32_t *bone_of_mesh;              /* (scene->mesh_count) bone that carries each mesh, or SBF_NONE */
-  const char **name_of_mesh;          /* (scene->mesh_count) what the section is called */
-  struct sbfi_locomotion *locomotion; /* how it moves, and why; NULL until judged */
-  bool keep_misfit; /* it fails, and the asset shows why: the caller of the library gets it */
+  int32_t *bone_of_node;     /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
+  uint32_t *node_of_bone;    /* (asset->bones.count) */
+  int32_t *bone_of_mesh;     /* (scene->mesh_count) bone that each mesh is attached to, or SBF_NONE */
+  const char **name_of_mesh; /* (scene->mesh_count) name of the section */
+  struct sbfi_locomotion *locomotion; /* locomotion and its reasons; NULL until sbfi_evaluate_gait */
+  bool keep_misfit;                   /* return the asset even if conversion fails, to show why */
   const sbf_convert_options *options;
   sbfi_reporter reporter;
   sbf_diagnostic *error;
 } sbfi_conversion;
 
-/* Makes an asset of scenes that have been read: `rig` is the same scene, another, or NULL. */
+/* Converts scenes to an asset. `rig` is the same scene, another one, or NULL. */
 sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
 
@@ -41,27 +41,26 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
-/* After the meshes: how the character moves (c->locomotion), by its shape, its names and its clips, or as the
- * caller says. */
+/* After meshes: determines locomotion (c->locomotion) from shape, names and clips, or from the caller's
+ * options. */
 sbf_status sbfi_evaluate_gait(sbfi_conversion *c);
-/* After the meshes: turns what would walk sideways or backwards so that it looks along +Z. */
+/* After meshes: rotates a character that would walk sideways or backwards so that it faces +Z. */
 sbf_status sbfi_face_ahead(sbfi_conversion *c);
-/* After the gait: moves what walks onto y = 0. */
+/* After the gait: moves walking characters onto y = 0. */
 sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
-/* After the meshes and the ground: a rigid body for each bone that carries sections, joints between those. */
+/* After meshes and ground: creates a rigid body for each bone with sections, and joints between them. */
 sbf_status sbfi_convert_joints(sbfi_conversion *c);
-/* After the ground: the rig's animations, as tracks of bones. */
+/* After ground: converts the rig's animations to tracks of bones. */
 sbf_status sbfi_convert_clips(sbfi_conversion *c);
-/* After the meshes: lengths of bones that end in nothing but a section or a part of a skin. */
+/* After meshes: measures the length of leaf bones by their sections or skin. */
 sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);
 
-/* An id that no other object has: kind and name with what an id may not hold replaced, numbered where taken.
- */
+/* Creates a unique id from kind and name: replaces invalid characters and appends a number if it is taken. */
 const char *sbfi_new_id(sbfi_conversion *c, const char *kind, const char *name);
-/* Takes an id that an object has already, and that stays as long as the conversion; false: memory ran out. */
+/* Reserves an existing id; `id` must outlive the conversion. False if memory runs out. */
 bool sbfi_claim_id(sbfi_conversion *c, const char *id);
 
-/* Whether these are a section's: one that is seen shares its points with the mesh that shows it. */
+/* Whether the points belong to a section. A visible section shares its points with its render mesh. */
 bool sbfi_is_of_section(const sbf_asset *a, const sbf_vec3_list points);
 
 void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...)

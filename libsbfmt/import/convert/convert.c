@@ -1,4 +1,4 @@
-/* The order of a conversion: scenes are read, turned into asset space, made into an asset, and built. */
+/* Conversion in order: reads scenes, transforms them to asset space, makes an asset and builds it. */
 #include "sbfmt/convert.h"
 
 #include <float.h>
@@ -24,14 +24,14 @@
 #include "mechanics/plausible_size.h"
 #include "model/options.h"
 
-/* File axes and unit to asset space; the caller's word counts more than the file's. */
+/* Matrix from file axes and unit to asset space. Options override the file. */
 static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_options *options) {
   sbfi_matrix m = scene->axes;
   if (options->up) {
     static const sbfi_matrix z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
     m = options->up == 'z' ? z_up : sbfi_matrix_identity();
   }
-  if (options->forward) { /* up stays, forward becomes +Z, and +X is what is left */
+  if (options->forward) { /* keeps up, maps forward to +Z and completes with +X */
     double forward[3] = {0, 0, 0};
     forward[options->forward[strlen(options->forward) - 1] - 'x'] = options->forward[0] == '-' ? -1 : 1;
     for (int k = 0; k < 3; k++) {
@@ -59,7 +59,7 @@ static sbf_status hash_file(sbfi_conversion *c, const char *path, char text[SBFI
   sbfi_sha256_init(&hash);
   sbfi_sha256_update(&hash, content.at, content.size);
   sbfi_sha256_finish(&hash, digest);
-  sbfi_sha256_text(digest, text);
+  sbfi_sha256_format(digest, text);
   sbfi_file_content_free(&content);
   return SBF_OK;
 }
@@ -93,7 +93,7 @@ static void pass_on_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
   for (uint32_t i = 0; i < scene->warning_count; i++) sbfi_report(&c->reporter, &scene->warnings[i]);
 }
 
-/* A file of tetrahedra: no rig, no materials, one body. */
+/* Converts a tetrahedral mesh: no rig, no materials, one body. */
 static sbf_status run_tet_passes(sbfi_conversion *c, const sbfi_tet_mesh *tets) {
   sbf_status status = describe_sources(c);
   return status == SBF_OK ? sbfi_convert_tets(c, tets, c->asset->info.title) : status;
@@ -104,8 +104,8 @@ static sbf_status run_paper_passes(sbfi_conversion *c, const sbfi_paper_model *p
   return status == SBF_OK ? sbfi_convert_paper(c, paper, c->asset->info.title) : status;
 }
 
-/* What assimp does not hand on is which corners shared a vertex in the file: points that an author had in one
- * place on purpose cannot be told from those, so the number is said. */
+/* Reports the number of merged vertices. assimp does not tell which corners shared a vertex, so points that
+ * are separate on purpose cannot be told apart. */
 static void say_joined(sbfi_conversion *c) {
   uint64_t vertices = 0, points = 0;
   for (uint32_t i = 0; i < c->scene->mesh_count; i++) {
@@ -160,7 +160,7 @@ static double extent_of_bones(const sbf_bone_list *bones) {
   return extent;
 }
 
-/* Motion capture is in whatever its studio measured, and of people. */
+/* Checks the size of a skeleton without meshes. Motion capture files use many units and contain people. */
 static void check_bones_size(sbfi_conversion *c) {
   static const double tallest = 3, usual = 1.75; /* m */
   double size = extent_of_bones(&c->asset->bones);
@@ -171,7 +171,8 @@ static void check_bones_size(sbfi_conversion *c) {
       size, c->scene->unit_m, c->scene->unit_m * usual / size, usual, c->scene->unit_m);
 }
 
-/* Forms and files are often wrong about their unit; whoever states one has looked. */
+/* Warns about an implausible size, because files often have a wrong unit. A unit given by the user is
+ * trusted. */
 static void check_size(sbfi_conversion *c) {
   double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
   if (c->options->unit_m > 0) return;
@@ -186,7 +187,7 @@ static void check_size(sbfi_conversion *c) {
       size * scale, unit_m);
 }
 
-/* A scene in the pose its skin was bound in, which is an asset's rest pose. */
+/* Reads a scene in its bind pose, which becomes the asset's rest pose. */
 static sbf_status read_scene(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
   sbf_status status = sbfi_scene_read(scene, path, options, error);
@@ -195,7 +196,8 @@ static sbf_status read_scene(
   return sbfi_scene_fail(scene, error, status);
 }
 
-/* What was read: scenes; or tetrahedra or a model of the 2012 dialect, then the scene only names the file. */
+/* Input: scenes, or tetrahedra, or a model of the 2012 dialect. In the last two cases the scene only names
+ * the file. */
 typedef struct readings {
   const sbfi_scene *scene, *rig;
   const sbfi_tet_mesh *tets;
@@ -250,7 +252,7 @@ sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   return convert_readings(&(readings){.scene = scene, .rig = rig}, options, asset, error);
 }
 
-/* A file without a scene: of tetrahedra, or of the 2012 dialect. */
+/* Converts a file without a scene: tetrahedra or the 2012 dialect. */
 static sbf_status convert_other_file(const char *input, bool is_paper, const sbf_convert_options *options,
     sbf_asset **asset, sbf_diagnostic *error) {
   sbfi_scene scene;

@@ -13,9 +13,9 @@
 
 /* What differs from rest, or from the first key, by no more is rounding: of the skeleton's size, of a
  * quaternion's components, of a scale. */
-static const double SAME_PLACE = 1e-6, SAME_TURN = 5e-6, SAME_SCALE = 1e-4;
+static const double SAME_POSITION = 1e-6, SAME_TURN = 5e-6, SAME_SCALE = 1e-4;
 /* From the last keys to the first: what is no jump, rad and a share of the size; and steps between keys. */
-static const double LOOP_TURN = 0.2, LOOP_WAY = 0.05, LOOP_STEPS = 1.5;
+static const double LOOP_TURN = 0.2, LOOP_DISTANCE = 0.05, LOOP_STEPS = 1.5;
 
 typedef struct clip_work {
   sbfi_conversion *c;
@@ -23,7 +23,7 @@ typedef struct clip_work {
   const sbfi_scene_clip *clip;
   const sbfi_scene_channel **channel_of; /* (nodes) of the clip at hand */
   bool *used;                            /* (nodes) the channel moves a bone */
-  uint32_t *way, *seen;                  /* (nodes) scratch */
+  uint32_t *path, *seen;                 /* (nodes) scratch */
   double size;                           /* m, of the skeleton */
   uint32_t lost_bones;                   /* whose keys cannot be told */
 } clip_work;
@@ -122,9 +122,9 @@ static bool gather_links(clip_work *w, uint32_t bone, link_list *links) {
   } else {
     sbfi_matrix frame;
     for (int32_t n = (int32_t)c->node_of_bone[parent]; n != top; n = w->rig->nodes[n].parent)
-      w->way[depth++] = (uint32_t)n;
+      w->path[depth++] = (uint32_t)n;
     while (depth)
-      if (!add_node(w, links, w->way[--depth], true)) return false;
+      if (!add_node(w, links, w->path[--depth], true)) return false;
     if (!frame_in_node(w, (uint32_t)parent, &frame) || !sbfi_matrix_invert(&frame, &frame)) return false;
     add_still(links, &frame);
   }
@@ -223,7 +223,7 @@ static bool convert_bone(clip_work *w, uint32_t bone, sbf_track *tracks, uint32_
       lift_root(&t[SBFI_RAW_POSITION], w->c->lift_m, rest.position);
     good =
         add_track(w, bone, SBF_TRACK_PROPERTY_TRANSLATION, &t[SBFI_RAW_POSITION], rest.position,
-            SAME_PLACE * w->size, tracks, count) &&
+            SAME_POSITION * w->size, tracks, count) &&
         add_track(w, bone, SBF_TRACK_PROPERTY_ROTATION, &t[SBFI_RAW_ROTATION], rest.rotation, SAME_TURN,
             tracks, count) &&
         add_track(w, bone, SBF_TRACK_PROPERTY_SCALE, &t[SBFI_RAW_SCALE], no_scale, SAME_SCALE, tracks, count);
@@ -271,7 +271,7 @@ static bool ends_as_it_begins(const clip_work *w, const sbf_track_list *tracks) 
     const sbf_track *track = &tracks->at[i];
     uint32_t last = track->times.count ? track->times.count - 1 : 0;
     if (last == 0 || track->property == SBF_TRACK_PROPERTY_SCALE) continue;
-    double max = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_WAY * w->size;
+    double max = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_DISTANCE * w->size;
     for (uint32_t k = 0; k < last; k++) max = fmax(max, LOOP_STEPS * step_between(track, k, k + 1));
     if (step_between(track, last, 0) > max) return false;
   }
@@ -330,9 +330,9 @@ sbf_status sbfi_convert_clips(sbfi_conversion *c) {
   sbf_clip *clips = sbfi_convert_allocate(c, rig->clip_count, sizeof *clips);
   w.channel_of = sbfi_arena_allocate(&c->scratch, rig->node_count, sizeof *w.channel_of);
   w.used = sbfi_arena_allocate(&c->scratch, rig->node_count, sizeof *w.used);
-  w.way = sbfi_arena_allocate(&c->scratch, rig->node_count, sizeof *w.way);
+  w.path = sbfi_arena_allocate(&c->scratch, rig->node_count, sizeof *w.path);
   w.seen = sbfi_arena_allocate(&c->scratch, rig->node_count, sizeof *w.seen);
-  if (!clips || !w.channel_of || !w.used || !w.way || !w.seen) return sbfi_convert_no_memory(c);
+  if (!clips || !w.channel_of || !w.used || !w.path || !w.seen) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < rig->clip_count; i++) {
     w.clip = &rig->clips[i];
     sbf_status status = convert_clip(&w, &clips[i]);

@@ -42,7 +42,7 @@ static void turn_asset(uint32_t quarters, const sbf_asset *a) {
 }
 
 sbf_status sbfi_face_ahead(sbfi_conversion *c) {
-  static const char *const ways[4] = {"+Z", "+X", "-Z", "-X"};
+  static const char *const directions[4] = {"+Z", "+X", "-Z", "-X"};
   uint32_t quarters = 0;
   if (c->asset->bones.count == 0) return SBF_OK;
   const sbfi_locomotion *moves = c->locomotion;
@@ -55,6 +55,7 @@ sbf_status sbfi_face_ahead(sbfi_conversion *c) {
   turn_matrix(quarters, &c->to_asset);
   turn_matrix(quarters, &c->rig_to_asset);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_FACING,
-      "the character looks along %s and not along +Z, which is ahead: all of it was turned", ways[quarters]);
+      "the character looks along %s and not along +Z, which is ahead: all of it was turned",
+      directions[quarters]);
   return SBF_OK;
 }

@@ -8,35 +8,36 @@
 #include "build/sections/sections.h"
 #include "import/convert/conversion.h"
 
-typedef struct body_place {
+typedef struct body_center {
   double sum[3];
   uint32_t corners, first_section, section_count;
   bool of_skin; /* no section, but points of a skin */
-} body_place;
+} body_center;
 
 /* Centres are means over polygon corners: a stray point in no polygon does not pull at them. */
-static void add_section(body_place *place, const sbf_soft_body *section, uint32_t number) {
+static void add_section(body_center *center, const sbf_soft_body *section, uint32_t number) {
   const sbf_polygon_mesh *mesh = &section->surface;
-  if (place->section_count++ == 0) place->first_section = number;
+  if (center->section_count++ == 0) center->first_section = number;
   for (uint32_t k = 0; k < mesh->polygon_points.count; k++) {
     sbf_vec3 p = mesh->positions.at[mesh->polygon_points.at[k]];
-    place->sum[0] += (double)p.x;
-    place->sum[1] += (double)p.y;
-    place->sum[2] += (double)p.z;
+    center->sum[0] += (double)p.x;
+    center->sum[1] += (double)p.y;
+    center->sum[2] += (double)p.z;
   }
-  place->corners += mesh->polygon_points.count;
+  center->corners += mesh->polygon_points.count;
 }
 
-static bool fill_rigid_body(sbfi_conversion *c, int32_t bone, const body_place *place, sbf_rigid_body *body) {
+static bool fill_rigid_body(
+    sbfi_conversion *c, int32_t bone, const body_center *center, sbf_rigid_body *body) {
   const sbf_soft_body *section =
-      place->section_count ? &c->asset->soft_bodies.at[place->first_section] : NULL;
-  double scale = place->corners ? 1.0 / place->corners : 0;
+      center->section_count ? &c->asset->soft_bodies.at[center->first_section] : NULL;
+  double scale = center->corners ? 1.0 / center->corners : 0;
   sbf_rigid_body_init(body);
   body->name = c->asset->bones.at[bone].name;
   body->id = sbfi_new_id(c, "rigid", body->name);
   body->bone = bone;
   body->center = (sbf_vec3){
-      (float)(place->sum[0] * scale), (float)(place->sum[1] * scale), (float)(place->sum[2] * scale)};
+      (float)(center->sum[0] * scale), (float)(center->sum[1] * scale), (float)(center->sum[2] * scale)};
   if (section) {
     body->density = section->attributes.density;
     body->friction = section->attributes.friction;
@@ -84,7 +85,7 @@ static bool fill_joint(
 }
 
 /* The points of a skin go to the bones that hold most of them, or to those whose sections will have them. */
-static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_place *places) {
+static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_center *centers) {
   const sbf_skin *skin = mesh->skin;
   uint32_t at = 0;
   for (uint32_t i = 0; skin && i < skin->influence_counts.count; at += skin->influence_counts.at[i++]) {
@@ -93,44 +94,44 @@ static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_p
       if (skin->weights.at[s] > skin->weights.at[max]) max = s;
     if (skin->influence_counts.at[i] == 0) continue;
     uint32_t bone = skin->bones.at[max];
-    body_place *place = &places[owners ? owners[bone] : bone];
-    if (place->section_count) continue;
+    body_center *center = &centers[owners ? owners[bone] : bone];
+    if (center->section_count) continue;
     sbf_vec3 p = mesh->mesh.positions.at[i];
-    place->sum[0] += (double)p.x;
-    place->sum[1] += (double)p.y;
-    place->sum[2] += (double)p.z;
-    place->corners++;
-    place->of_skin = true;
+    center->sum[0] += (double)p.x;
+    center->sum[1] += (double)p.y;
+    center->sum[2] += (double)p.z;
+    center->corners++;
+    center->of_skin = true;
   }
 }
 
-static void add_head(const sbf_bone *bone, body_place *place) {
-  *place = (body_place){{(double)bone->head.x, (double)bone->head.y, (double)bone->head.z}, 1, 0, 0, true};
+static void add_head(const sbf_bone *bone, body_center *center) {
+  *center = (body_center){{(double)bone->head.x, (double)bone->head.y, (double)bone->head.z}, 1, 0, 0, true};
 }
 
 /* What hangs on a bone that holds nothing, as legs on the hips of many rigs, turns against that bone. */
-static void add_tops(const sbf_bone_list *bones, body_place *places, uint8_t *below_one) {
+static void add_tops(const sbf_bone_list *bones, body_center *centers, uint8_t *below_one) {
   for (uint32_t i = 0; i < bones->count; i++) {
     int32_t above = bones->at[i].parent;
     if (above == SBF_NONE) continue;
-    below_one[i] = below_one[above] || places[above].section_count || places[above].of_skin;
-    if (places[i].of_skin && !below_one[i]) add_head(&bones->at[above], &places[above]);
+    below_one[i] = below_one[above] || centers[above].section_count || centers[above].of_skin;
+    if (centers[i].of_skin && !below_one[i]) add_head(&bones->at[above], &centers[above]);
   }
 }
 
 /* Bones that have no section but hold a skin, at the mean of its points: of those skins that a build cuts,
  * the bones whose sections it makes. */
-static bool add_skins(sbfi_conversion *c, body_place *places) {
+static bool add_skins(sbfi_conversion *c, body_center *centers) {
   const uint32_t *owners;
   uint8_t *below_one = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, 1);
   if (!below_one || !sbfi_section_owners_find(&owners, c->asset, &c->scratch)) return false;
   if (!owners && c->options->limits == SBF_CONVERT_LIMITS_NONE)
     return true; /* sections have what was stated */
   for (uint32_t m = 0; m < c->asset->render_meshes.count; m++)
-    add_skin(&c->asset->render_meshes.at[m], owners, places);
+    add_skin(&c->asset->render_meshes.at[m], owners, centers);
   for (uint32_t i = 0; owners && i < c->asset->bones.count; i++)
-    if (owners[i] == i && !places[i].of_skin) add_head(&c->asset->bones.at[i], &places[i]);
-  if (owners) add_tops(&c->asset->bones, places, below_one);
+    if (owners[i] == i && !centers[i].of_skin) add_head(&c->asset->bones.at[i], &centers[i]);
+  if (owners) add_tops(&c->asset->bones, centers, below_one);
   return true;
 }
 
@@ -147,14 +148,14 @@ sbf_status sbfi_convert_joints(sbfi_conversion *c) {
   const sbf_soft_body_list sections = c->asset->soft_bodies;
   bool of_skin = limits_known(c);
   if (bones.count == 0 || (sections.count == 0 && !of_skin)) return SBF_OK;
-  body_place *places = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *places);
+  body_center *centers = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *centers);
   int32_t *body_of_bone = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *body_of_bone);
-  if (!places || !body_of_bone) return sbfi_convert_no_memory(c);
+  if (!centers || !body_of_bone) return sbfi_convert_no_memory(c);
   for (uint32_t s = 0; s < sections.count; s++)
-    if (sections.at[s].bone >= 0) add_section(&places[sections.at[s].bone], &sections.at[s], s);
-  if (of_skin && !add_skins(c, places)) return sbfi_convert_no_memory(c);
+    if (sections.at[s].bone >= 0) add_section(&centers[sections.at[s].bone], &sections.at[s], s);
+  if (of_skin && !add_skins(c, centers)) return sbfi_convert_no_memory(c);
   uint32_t count = 0, joint_count = 0;
-  for (uint32_t i = 0; i < bones.count; i++) count += places[i].section_count > 0 || places[i].of_skin;
+  for (uint32_t i = 0; i < bones.count; i++) count += centers[i].section_count > 0 || centers[i].of_skin;
   if (count == 0) return SBF_OK;
   sbf_rigid_body *bodies = sbfi_convert_allocate(c, count, sizeof *bodies);
   sbf_joint *joints = sbfi_convert_allocate(c, count, sizeof *joints);
@@ -164,9 +165,9 @@ sbf_status sbfi_convert_joints(sbfi_conversion *c) {
     /* What hangs on a bone without sections of its own hangs on the nearest body above. */
     int32_t above = bones.at[i].parent >= 0 ? body_of_bone[bones.at[i].parent] : SBF_NONE;
     body_of_bone[i] = above;
-    if (places[i].section_count == 0 && !places[i].of_skin) continue;
+    if (centers[i].section_count == 0 && !centers[i].of_skin) continue;
     body_of_bone[i] = (int32_t)count;
-    if (!fill_rigid_body(c, (int32_t)i, &places[i], &bodies[count])) return sbfi_convert_no_memory(c);
+    if (!fill_rigid_body(c, (int32_t)i, &centers[i], &bodies[count])) return sbfi_convert_no_memory(c);
     if (above >= 0 && !fill_joint(c, above, (int32_t)count, bodies, &joints[joint_count++]))
       return sbfi_convert_no_memory(c);
     count++;

@@ -1,7 +1,6 @@
-/* Meshes of the scene to soft bodies and render meshes.
- *
- * A mesh without a skin is a section (or, without a rig, a body of its own): its points and polygons become
- * the body's surface, in source order. It is also drawn, unless a skin hides all of it. */
+/* Converts the scene's meshes to soft bodies and render meshes. A mesh without a skin becomes a section (or,
+ * without a rig, a body): its points and polygons become the body's surface, in source order. It is also
+ * drawn unless a skin hides it completely. */
 #include <math.h>
 #include <string.h>
 
@@ -17,16 +16,15 @@
 
 typedef struct geometry {
   sbf_polygon_mesh mesh;
-  uint32_t *
-      corner_order; /* (corner_count) scene's corner at each corner: differs where a mirror turned polygons */
+  uint32_t *corner_order; /* (corner_count) scene corner of each corner; differs if polygons were flipped */
   sbfi_matrix to_asset;
-  bool turned;  /* it was drawn inside out */
+  bool turned;  /* its polygons were flipped because it was inside out */
   bool is_flat; /* none of its polygons has an area */
 } geometry;
 
-/* Rest positions of a skinned mesh's points: sum of weight * joint * bind, as at run time. A point without
- * weights stays in the shape that it was bound in. */
-static sbf_status place_skinned(
+/* Rest positions of a skinned mesh: the sum of weight * joint * bind, as at run time. A point without weights
+ * keeps its bind position. */
+static sbf_status position_skinned(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbfi_matrix *unskinned, sbf_vec3 *positions) {
   sbfi_matrix *joints = sbfi_arena_allocate(&c->scratch, mesh->joint_count, sizeof *joints);
   if (!joints) return sbfi_convert_no_memory(c);
@@ -53,11 +51,11 @@ static sbf_status place_skinned(
   return SBF_OK;
 }
 
-/* Below this share of area^1.5 a volume is that of a sheet's two sides (a sphere has 0.094). */
+/* Minimum volume as a fraction of area^1.5; below it the surface is the two sides of a sheet. A sphere has
+ * 0.094. */
 static const double MIN_VOLUME = 1e-3;
 
-/* Whether a surface encloses its volume from the wrong side: closed, its polygons of one mind, all inwards.
- */
+/* Whether a surface is inside out: closed, consistently oriented and inward facing. */
 static sbf_status find_inside_out(sbfi_conversion *c, const sbf_polygon_mesh *mesh, bool *inside_out) {
   sbfi_arena scratch;
   sbfi_topology t;
@@ -87,18 +85,18 @@ static void write_polygons(
   }
 }
 
-/* Below this share of its extent squared an area is none: points that were in a line, rounded. */
+/* Minimum area as a fraction of the squared extent; below it the points are collinear up to rounding. */
 static const double MIN_AREA = 1e-7;
 
-/* All polygons are lines or points: there is nothing to see, and nothing that could have a mass. */
+/* Whether all polygons are degenerate: nothing to draw and no mass. */
 static bool has_no_area(const sbf_polygon_mesh *mesh) {
   sbf_surface_measures measures;
   sbf_surface_measure(mesh, NULL, &measures);
   return mesh->polygon_sizes.count && measures.area <= MIN_AREA * pow(sbfi_extent(mesh->positions), 2);
 }
 
-/* Points and polygons in asset space, counter-clockwise from outside: a mirroring transform turns every
- * polygon round, and so does a closed surface that was drawn inside out. */
+/* Transforms points and polygons to asset space, counter-clockwise from outside. Flips polygons under a
+ * mirroring transform and on inside-out closed surfaces. */
 static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *mesh, geometry *g) {
   sbf_vec3 *positions = sbfi_convert_allocate(c, mesh->point_count, sizeof *positions);
   uint32_t *sizes = sbfi_convert_allocate(c, mesh->polygon_count, sizeof *sizes);
@@ -106,11 +104,11 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   g->corner_order = sbfi_arena_allocate(&c->scratch, mesh->corner_count, sizeof *g->corner_order);
   if ((mesh->point_count && !positions) || (mesh->corner_count && (!sizes || !points || !g->corner_order)))
     return sbfi_convert_no_memory(c);
-  sbfi_matrix place = sbfi_scene_mesh_world(c->scene, mesh);
-  g->to_asset = sbfi_matrix_multiply(&c->to_asset, &place);
+  sbfi_matrix transform = sbfi_scene_mesh_world(c->scene, mesh);
+  g->to_asset = sbfi_matrix_multiply(&c->to_asset, &transform);
   for (uint32_t i = 0; i < mesh->point_count; i++)
     positions[i] = sbfi_transform_point(&g->to_asset, mesh->points[i]);
-  sbf_status status = mesh->joint_count ? place_skinned(c, mesh, &g->to_asset, positions) : SBF_OK;
+  sbf_status status = mesh->joint_count ? position_skinned(c, mesh, &g->to_asset, positions) : SBF_OK;
   bool mirrored = sbfi_matrix_determinant(&g->to_asset) < 0;
   write_polygons(mesh, mirrored, sizes, points, g->corner_order);
   sbf_polygon_mesh_init(&g->mesh);
@@ -134,7 +132,7 @@ static sbf_status copy_sources(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
   return SBF_OK;
 }
 
-/* Normals turn with the inverse transpose, up to length: the cofactor matrix. */
+/* Transforms a normal by the cofactor matrix: the inverse transpose up to length. */
 static sbf_vec3 transform_normal(const sbfi_matrix *m, sbf_vec3 n) {
   double out[3], v[3] = {n.x, n.y, n.z}, squared = 0, sign = sbfi_matrix_determinant(m) < 0 ? -1 : 1;
   for (int r = 0; r < 3; r++) {
@@ -151,7 +149,7 @@ static sbf_vec3 transform_normal(const sbfi_matrix *m, sbf_vec3 n) {
                    : (sbf_vec3){0, 1, 0};
 }
 
-/* Indices of a corner attribute in the asset's corner order; false where some corner has none of it. */
+/* Reorders the indices of a corner attribute to the asset's corners; false if a corner has none. */
 static bool reorder_corners(const int32_t *from, const uint32_t *order, uint32_t count, uint32_t *to) {
   for (uint32_t i = 0; i < count; i++) {
     if (from[order[i]] < 0) return false;
@@ -160,7 +158,7 @@ static bool reorder_corners(const int32_t *from, const uint32_t *order, uint32_t
   return true;
 }
 
-/* Whether normals point to the back of their polygons, on the whole. */
+/* Whether most normals point to the back of their polygons. */
 static bool point_backwards(const sbf_polygon_mesh *mesh, const sbf_vec3 *normals, const uint32_t *corners) {
   double sum = 0;
   for (uint32_t p = 0, at = 0; p < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[p++]) {
@@ -196,7 +194,7 @@ static sbf_status convert_uvs(
   if (!sets) return sbfi_convert_no_memory(c);
   uint32_t count = 0, first = sbfi_first_uv_set(c, mesh);
   for (uint32_t i = 0; i < mesh->uv_set_count; i++) {
-    uint32_t s = i == 0 ? first : i - (i <= first); /* that one, then the others in their order */
+    uint32_t s = i == 0 ? first : i - (i <= first); /* the chosen one first, then the others in order */
     const sbfi_scene_uvs *from = &mesh->uv_sets[s];
     if (from->count == 0) continue;
     uint32_t *corners = sbfi_convert_allocate(c, mesh->corner_count, sizeof *corners);
@@ -220,7 +218,7 @@ static sbf_status convert_uvs(
   return SBF_OK;
 }
 
-/* Slots in the order in which the polygons first use their materials. */
+/* Creates material slots in the order in which polygons use them. */
 static sbf_status convert_slots(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *render) {
   if (mesh->polygon_count == 0 || c->scene->material_count == 0) return SBF_OK;
   int32_t *slot_of = sbfi_arena_allocate(&c->scratch, c->scene->material_count + 1, sizeof *slot_of);
@@ -243,7 +241,7 @@ static sbf_status convert_slots(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
   return SBF_OK;
 }
 
-/* Exporters round weights; where this much of them is missing, they named joints that are not there. */
+/* Exporters round weights. A smaller sum means that weights of unknown joints are missing. */
 static const double MIN_WEIGHT_SUM = 0.9;
 
 static void report_weights(
@@ -261,7 +259,7 @@ static void report_weights(
         name, lost, MIN_WEIGHT_SUM);
 }
 
-/* Weights on bones, those of a point summing to one; a point without weights follows the mesh's own place. */
+/* Converts weights to bones; they sum to 1 at each point. A point without weights follows the mesh's node. */
 static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *render) {
   uint32_t total = mesh->skin_starts[mesh->point_count];
   sbf_skin *skin = sbfi_convert_allocate(c, 1, sizeof *skin);
@@ -330,13 +328,13 @@ static sbf_status convert_shapes(
 }
 
 static sbf_status fill_render_mesh(
-    sbfi_conversion *c, uint32_t place, const geometry *g, sbf_render_mesh *render) {
-  const sbfi_scene_mesh *mesh = &c->scene->meshes[place];
+    sbfi_conversion *c, uint32_t index, const geometry *g, sbf_render_mesh *render) {
+  const sbfi_scene_mesh *mesh = &c->scene->meshes[index];
   sbf_render_mesh_init(render);
-  render->id = sbfi_new_id(c, "mesh", c->name_of_mesh[place]);
-  render->name = sbf_asset_copy_text(c->asset, c->name_of_mesh[place]);
+  render->id = sbfi_new_id(c, "mesh", c->name_of_mesh[index]);
+  render->name = sbf_asset_copy_text(c->asset, c->name_of_mesh[index]);
   if (!render->id || !render->name) return sbfi_convert_no_memory(c);
-  render->bone = c->bone_of_mesh[place];
+  render->bone = c->bone_of_mesh[index];
   render->mesh = g->mesh;
   render->mesh.target = SBF_MESH_TARGET_RENDERING;
   sbf_status status = copy_sources(c, mesh, &render->source_points);
@@ -352,23 +350,23 @@ static sbf_status fill_render_mesh(
 }
 
 static sbf_status fill_body(
-    sbfi_conversion *c, uint32_t place, bool skinned, const geometry *g, sbf_soft_body *body) {
+    sbfi_conversion *c, uint32_t index, bool skinned, const geometry *g, sbf_soft_body *body) {
   sbf_soft_body_init(body);
-  body->id = sbfi_new_id(c, "body", c->name_of_mesh[place]);
-  body->name = sbf_asset_copy_text(c->asset, c->name_of_mesh[place]);
+  body->id = sbfi_new_id(c, "body", c->name_of_mesh[index]);
+  body->name = sbf_asset_copy_text(c->asset, c->name_of_mesh[index]);
   if (!body->id || !body->name) return sbfi_convert_no_memory(c);
-  body->bone = skinned ? SBF_NONE : c->bone_of_mesh[place];
+  body->bone = skinned ? SBF_NONE : c->bone_of_mesh[index];
   body->surface = g->mesh;
   body->surface.target = SBF_MESH_TARGET_SURFACE;
   bool flat = sbfi_flat_body_weigh(body);
-  if (body->bone != SBF_NONE) { /* flesh on a bone: as drawn when it stands, and of constant volume */
+  if (body->bone != SBF_NONE) { /* soft tissue on a bone keeps its shape when standing and its volume */
     body->attributes.sag_free = true;
     if (!flat) body->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
   }
-  return copy_sources(c, &c->scene->meshes[place], &body->source_points);
+  return copy_sources(c, &c->scene->meshes[index], &body->source_points);
 }
 
-/* Objects without a bone get one by what they touch; pinned ones are held already. */
+/* Attaches objects without a bone to the bone of what they touch, unless they are pinned. */
 static sbf_status attach_loose(
     sbfi_conversion *c, const geometry *geometries, const sbf_render_mesh *skins, uint32_t skin_count) {
   uint32_t count = c->scene->mesh_count;

@@ -74,18 +74,18 @@ static bool fill_set(
   const float *weights = weights_of(c, mesh, pin->group);
   uint32_t *points = sbfi_convert_allocate(c, (size_t)mesh->point_count + 1, sizeof *points);
   float *goals = sbfi_convert_allocate(c, (size_t)mesh->point_count + 1, sizeof *goals);
-  uint32_t count = 0, held = 0;
+  uint32_t count = 0, pinned = 0;
   sbf_pin_set_init(set);
   set->name = sbf_asset_copy_text(c->asset, pin->group);
   if (!weights || !points || !goals || !set->name) return false;
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     if (!(weights[i] > 0)) continue;
     goals[count] = (double)weights[i] > fast ? 1 : sbfi_goal_weight((double)weights[i]);
-    held += goals[count] >= 1;
+    pinned += goals[count] >= 1;
     points[count++] = i;
   }
   set->points = (sbf_u32_list){count ? points : NULL, count};
-  if (held < count) set->weights = (sbf_f32_list){goals, count};
+  if (pinned < count) set->weights = (sbf_f32_list){goals, count};
   set->minimum = sbfi_goal_weight(o->goal_minimum);
   set->maximum = o->goal_maximum > 0 ? sbfi_goal_weight(o->goal_maximum) : 1;
   set->stiffness = (float)o->goal_stiffness;

@@ -45,15 +45,15 @@ static sbfi_d3 direction_of(const sbfi_skeleton_draft *s, const sbfi_bone_draft 
 /* Places of the bones in an order in which parents stand first, the file's own order otherwise. */
 static bool order_bones(sbfi_conversion *c, const sbfi_skeleton_draft *s, uint32_t *old_from_new) {
   bool *placed = sbfi_arena_allocate(&c->scratch, s->count, sizeof *placed);
-  uint32_t *way = sbfi_arena_allocate(&c->scratch, s->count, sizeof *way), count = 0;
-  if (!placed || !way) return false;
+  uint32_t *path = sbfi_arena_allocate(&c->scratch, s->count, sizeof *path), count = 0;
+  if (!placed || !path) return false;
   for (uint32_t i = 0; i < s->count; i++) {
     uint32_t depth = 0;
     for (int32_t bone = (int32_t)i; bone != SBF_NONE && !placed[bone]; bone = s->bones[bone].parent)
-      way[depth++] = (uint32_t)bone;
+      path[depth++] = (uint32_t)bone;
     while (depth) {
-      placed[way[--depth]] = true;
-      old_from_new[count++] = way[depth];
+      placed[path[--depth]] = true;
+      old_from_new[count++] = path[depth];
     }
   }
   return true;

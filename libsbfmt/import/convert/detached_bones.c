@@ -31,10 +31,10 @@ static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
   for (uint32_t i = 0; i < s->count; i++) {
     if (!is_tip(s, i) || hangs_below(s, (int32_t)i, (int32_t)bone)) continue;
     const sbfi_bone_draft *tip = &s->bones[i];
-    sbfi_d3 way = sbfi_d3_sub(s->bones[bone].head, tip->head);
-    double length = sbfi_d3_length(way);
+    sbfi_d3 displacement = sbfi_d3_sub(s->bones[bone].head, tip->head);
+    double length = sbfi_d3_length(displacement);
     double before = sbfi_d3_length(sbfi_d3_sub(tip->head, s->bones[tip->parent].head));
-    if (sbfi_d3_dot(sbfi_d3_normal(way), sbfi_d3_normal(tip->y)) <= SBFI_STRAIGHT) continue;
+    if (sbfi_d3_dot(sbfi_d3_normal(displacement), sbfi_d3_normal(tip->y)) <= SBFI_STRAIGHT) continue;
     if (length > LONGEST_TIP * before || (best != SBF_NONE && length >= nearest)) continue;
     best = (int32_t)i;
     nearest = length;

@@ -8,7 +8,7 @@
 
 /* Flesh around a bone hangs on it all along: it has to bear what lies between bone and skin alone, and a
  * quarter of strain there still looks as it was drawn. */
-static const double MAX_FLESH_STRAIN = 0.25;
+static const double MAX_TISSUE_STRAIN = 0.25;
 
 /* What a guess is about, and how it went. */
 typedef struct guesses {
@@ -25,7 +25,7 @@ static void guess(guesses *made, sbf_attributes *attributes, double modulus) {
 
 void sbfi_guess_moduli(sbfi_conversion *c) {
   const sbf_soft_body_list *bodies = &c->asset->soft_bodies;
-  double flesh = (double)sbf_material_find("flesh")->young_modulus;
+  double soft_tissue = (double)sbf_material_find("flesh")->young_modulus;
   guesses sections = {0}, standing = {0};
   for (uint32_t i = 0; i < bodies->count; i++) {
     sbf_soft_body *body =
@@ -36,7 +36,7 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
     double density = (double)body->attributes.density;
     if (body->bone != SBF_NONE) {
       guess(&sections, &body->attributes,
-          sbfi_modulus_to_bear(flesh, density, measures.depth, MAX_FLESH_STRAIN));
+          sbfi_modulus_to_bear(soft_tissue, density, measures.depth, MAX_TISSUE_STRAIN));
       continue;
     }
     double modulus = sbfi_standing_modulus(&body->attributes, &body->surface);

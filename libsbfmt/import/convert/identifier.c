@@ -31,12 +31,12 @@ static bool grow(sbfi_id_set *set) {
 }
 
 /* Room for one more. */
-static bool make_room(sbfi_id_set *set) {
+static bool reserve(sbfi_id_set *set) {
   return 2 * (size_t)(set->used + 1) <= set->slots.count || grow(set);
 }
 
 bool sbfi_claim_id(sbfi_conversion *c, const char *id) {
-  if (!make_room(&c->ids)) return false;
+  if (!reserve(&c->ids)) return false;
   const char **slot = find_slot(&c->ids, id);
   c->ids.used += *slot == NULL;
   *slot = id;
@@ -45,7 +45,7 @@ bool sbfi_claim_id(sbfi_conversion *c, const char *id) {
 
 const char *sbfi_new_id(sbfi_conversion *c, const char *kind, const char *name) {
   sbfi_id_set *set = &c->ids;
-  if (!make_room(set)) return NULL;
+  if (!reserve(set)) return NULL;
   size_t size = strlen(kind) + strlen(name) + 16;
   char *id = sbfi_convert_allocate(c, size, 1);
   if (!id) return NULL;

@@ -34,7 +34,7 @@ static const double LOW_LEG = 0.1;           /* of the size, above the ground */
 static const double ALIKE = 0.15;            /* of the sum, by which left and right differ at most */
 static const double NEAR_TWIN = 0.04;        /* of the size */
 static const double PROP_AREA = 0.3;         /* of the skin's: of all objects on bones at most */
-static const double HARD_SHARE = 0.5;        /* of a part's area of hard materials */
+static const double HARD_FRACTION = 0.5;     /* of a part's area of hard materials */
 
 /* Why a part is rigid. */
 typedef enum reason {
@@ -223,7 +223,7 @@ static reason by_kind(const work *w, uint32_t bone) {
   sbfi_name_says says = say(asset, (int32_t)bone);
   const part *p = &w->parts[bone];
   if (says == SBFI_SAYS_PROP || says == SBFI_SAYS_MACHINE) return PROP;
-  if (p->hard_area > HARD_SHARE * p->area) return HARD_MATERIAL;
+  if (p->hard_area > HARD_FRACTION * p->area) return HARD_MATERIAL;
   if (says == SBFI_SAYS_FACE || is_face(asset, (int32_t)bone)) return FACE;
   if (says == SBFI_SAYS_LIMB || is_lower_leg(w, (int32_t)bone)) return LIMB;
   if (p->area < MIN_AREA * w->area) return SMALL;
@@ -240,12 +240,12 @@ static bool is_called_machine(const work *w) {
 
 static bool is_machine(const work *w) {
   double joined = w->joining_area / w->area;
-  if (w->skin.single_share >= MACHINE_SINGLE && joined < MACHINE_JOINED) return true;
-  if (w->skin.single_share >= PIECES_SINGLE && joined < PIECES_JOINED) return true;
+  if (w->skin.single_fraction >= MACHINE_SINGLE && joined < MACHINE_JOINED) return true;
+  if (w->skin.single_fraction >= PIECES_SINGLE && joined < PIECES_JOINED) return true;
   return is_called_machine(w);
 }
 
-static void judge_thickness(work *w) {
+static void check_thickness(work *w) {
   for (uint32_t b = 0; b < w->asset->bones.count; b++)
     if (is_part(w, b) && w->parts[b].why == SOFT) w->thickest = fmax(w->thickest, w->parts[b].thickness);
   double bound = fmin(MIN_THICKNESS * w->size, SLENDER_THICKNESS * w->thickest);
@@ -439,7 +439,7 @@ static sbf_status decide(work *w) {
   bool machine = is_machine(w);
   join_twins(w);
   for (uint32_t b = 0; b < w->asset->bones.count; b++) w->parts[b].why = machine ? MACHINE : by_kind(w, b);
-  judge_thickness(w);
+  check_thickness(w);
   keep_largest(w);
   sbf_status status = take_wishes(w, o->soft, o->soft_count, SOFT);
   if (status == SBF_OK) status = take_wishes(w, o->rigid, o->rigid_count, ASKED);

@@ -10,7 +10,7 @@ static const double NEAR_LIMB = 0.04;   /* of the size: from its skin to that of
 static const double NEAR_ANY = 0.02;    /* the same to a bone that is not the last of a limb */
 static const double NEAR_TARGET = 0.04; /* of the size: from a target to the skin it belongs to */
 static const double FAR_END = 0.5;      /* of the last bone's reach: a target is beyond */
-enum { MAX_HELD = 2, STEPS = 1500 };    /* bones with skin of a detached one; points compared of one bone */
+enum { MAX_PINNED = 2, STEPS = 1500 };  /* bones with skin of a detached one; points compared of one bone */
 
 typedef struct skin_points {
   sbfi_d3 *at;
@@ -124,8 +124,8 @@ static int32_t nearest_bone(
   for (uint32_t i = 0; i < all->count; i++) {
     if (!hangs_below(s, all->bone[i], (int32_t)bone) || asked++ % step) continue;
     for (uint32_t k = 0; k < all->count; k++) {
-      sbfi_d3 way = sbfi_d3_sub(all->at[k], all->at[i]);
-      double squared = sbfi_d3_dot(way, way);
+      sbfi_d3 displacement = sbfi_d3_sub(all->at[k], all->at[i]);
+      double squared = sbfi_d3_dot(displacement, displacement);
       if (squared >= nearest || !takes_part(s, all->bone[k], bone)) continue;
       nearest = squared;
       best = all->bone[k];
@@ -169,8 +169,8 @@ static int32_t find_target_limb(const sbfi_skeleton_draft *s, const skin_points 
   for (uint32_t k = 0; k < all->count; k++)
     if (all->bone[k] == best)
       reach = fmax(reach, sbfi_d3_length(sbfi_d3_sub(all->at[k], s->bones[best].head)));
-  double way = sbfi_d3_length(sbfi_d3_sub(s->bones[bone].head, s->bones[best].head));
-  return way > FAR_END * reach ? best : SBF_NONE;
+  double travel = sbfi_d3_length(sbfi_d3_sub(s->bones[bone].head, s->bones[best].head));
+  return travel > FAR_END * reach ? best : SBF_NONE;
 }
 
 bool sbfi_find_neighbors(sbfi_conversion *c, sbfi_skeleton_draft *s) {
@@ -183,7 +183,7 @@ bool sbfi_find_neighbors(sbfi_conversion *c, sbfi_skeleton_draft *s) {
     uint32_t holding = count_holding(s, i);
     if (holding == 0 && s->bones[i].below == 0)
       s->bones[i].neighbor = find_target_limb(s, &all, i);
-    else if (holding && s->bones[i].points && holding <= MAX_HELD)
+    else if (holding && s->bones[i].points && holding <= MAX_PINNED)
       s->bones[i].neighbor = find_neighbor(c, s, &all, i, border);
   }
   return true;

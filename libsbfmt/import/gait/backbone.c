@@ -3,10 +3,10 @@
 
 static const double MIN_SPAN = 0.35; /* of the length: a shorter way is no backbone */
 
-typedef struct way_down {
+typedef struct bone_chain_path {
   double length; /* m, to the far end of the longest way down */
   int32_t next;  /* the child on it, or SBF_NONE */
-} way_down;
+} bone_chain_path;
 
 static bool is_named_mouth(const sbfi_rig_view *view, uint32_t bone) {
   return sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)bone)->name) >> SBFI_WORD_MOUTH & 1;
@@ -25,8 +25,8 @@ static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candida
 }
 
 /* The two longest ways down from each bone of the middle; the bone through which the longest way leads. */
-static int32_t find_ways(
-    const sbfi_rig_view *view, const bool *candidates, way_down *first, way_down *second) {
+static int32_t find_directions(
+    const sbfi_rig_view *view, const bool *candidates, bone_chain_path *first, bone_chain_path *second) {
   const sbfi_gait_draft *d = &view->draft;
   double longest = 0;
   int32_t top = SBF_NONE;
@@ -39,8 +39,8 @@ static int32_t find_ways(
       top = (int32_t)i;
     }
     if (bone->parent == SBF_NONE) continue;
-    way_down down = {first[i].length + sbfi_draft_distance(d, bone->parent, (int32_t)i), (int32_t)i};
-    way_down *one = &first[bone->parent], *two = &second[bone->parent];
+    bone_chain_path down = {first[i].length + sbfi_draft_distance(d, bone->parent, (int32_t)i), (int32_t)i};
+    bone_chain_path *one = &first[bone->parent], *two = &second[bone->parent];
     if (one->next == SBF_NONE || down.length > one->length) {
       *two = *one;
       *one = down;
@@ -53,15 +53,15 @@ static int32_t find_ways(
 
 /* Whether the way, as it was found, begins with the tail: a bone named as the head says so, else the end that
  * is farther back. */
-static bool begins_with_tail(const sbfi_rig_view *view, const uint32_t *way, uint32_t count) {
+static bool begins_with_tail(const sbfi_rig_view *view, const uint32_t *path, uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
-    bool first = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)way[i])->name) >> SBFI_WORD_HEAD & 1;
-    uint32_t opposite = way[count - 1 - i];
+    bool first = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)path[i])->name) >> SBFI_WORD_HEAD & 1;
+    uint32_t opposite = path[count - 1 - i];
     bool last = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)opposite)->name) >> SBFI_WORD_HEAD & 1;
     if (first != last) return last;
   }
-  return (double)sbfi_draft_head(&view->draft, (int32_t)way[0]).z <
-         (double)sbfi_draft_head(&view->draft, (int32_t)way[count - 1]).z;
+  return (double)sbfi_draft_head(&view->draft, (int32_t)path[0]).z <
+         (double)sbfi_draft_head(&view->draft, (int32_t)path[count - 1]).z;
 }
 
 static void reverse(uint32_t *bones, uint32_t count) {
@@ -73,7 +73,7 @@ static void reverse(uint32_t *bones, uint32_t count) {
 }
 
 typedef struct backbone_work {
-  way_down *first, *second;
+  bone_chain_path *first, *second;
   bool *candidates;
   uint32_t *bones, count;
 } backbone_work;
@@ -101,7 +101,7 @@ static bool is_between(const sbfi_rig_view *view, const backbone_work *w, int32_
 /* Along the hierarchy, whatever the body's shape: up one way to the top and down the other. */
 static void list_bones(const sbfi_rig_view *view, bool askew, backbone_work *w) {
   find_candidates(view, askew, w->candidates);
-  int32_t top = find_ways(view, w->candidates, w->first, w->second);
+  int32_t top = find_directions(view, w->candidates, w->first, w->second);
   if (top == SBF_NONE) return;
   for (int32_t bone = w->second[top].next; bone != SBF_NONE; bone = w->first[bone].next)
     if (view->holds[bone]) w->bones[w->count++] = (uint32_t)bone;

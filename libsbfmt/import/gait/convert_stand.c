@@ -14,10 +14,10 @@ static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t
   if (!s.bones) return false;
   for (uint32_t i = 0; i < s.count; i++) {
     const sbf_bone *bone = &bones->at[i];
-    const double turn[4] = {(double)bone->rotation.x, (double)bone->rotation.y, (double)bone->rotation.z,
+    const double rotation[4] = {(double)bone->rotation.x, (double)bone->rotation.y, (double)bone->rotation.z,
         (double)bone->rotation.w};
     double along[3];
-    sbfi_turn_vector(turn, (const double[3]){0, 1, 0}, along);
+    sbfi_turn_vector(rotation, (const double[3]){0, 1, 0}, along);
     s.bones[i] = (sbfi_bone_draft){.parent = bone->parent,
         .head = sbfi_d3_of(bone->head),
         .y = {along[0], along[1], along[2]},

@@ -6,8 +6,9 @@
 #include "import/gait/gait_draft.h"
 #include "motion/carried_motion.h"
 
-static const double PAIR_SHARE = 0.1; /* of the height: from where its twin is mirrored to a leg, at most */
-static const double DOUBT = 0.25;     /* by how much looking aside must be the better guess */
+static const double PAIR_FRACTION =
+    0.1; /* of the height: from where its twin is mirrored to a leg, at most */
+static const double SIDEWAYS_MARGIN = 0.25; /* by how much looking aside must be the better guess */
 
 /* Above 0: the legs named left are on the left; below 0: on the right. */
 static int ask_names(const sbfi_gait_draft *d) {
@@ -23,14 +24,14 @@ static double rate_sides(const sbfi_gait_draft *d) {
   double sum = abs(ask_names(d));
   for (uint32_t l = 0; l < d->leg_count; l++) {
     sbf_vec3 here = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[l]));
-    double nearest = PAIR_SHARE * d->height;
+    double nearest = PAIR_FRACTION * d->height;
     for (uint32_t k = 0; k < d->leg_count; k++) {
       sbf_vec3 there = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[k]));
       double x = (double)here.x + (double)there.x, y = (double)here.y - (double)there.y;
       double z = (double)here.z - (double)there.z;
       if (d->legs[k].side != d->legs[l].side) nearest = fmin(nearest, sqrt(x * x + y * y + z * z));
     }
-    sum += 1 - nearest / (PAIR_SHARE * d->height);
+    sum += 1 - nearest / (PAIR_FRACTION * d->height);
   }
   return sum;
 }
@@ -60,7 +61,7 @@ bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *tu
     if (!sbfi_draft_shapes(&seen[t], scratch) || !sbfi_draft_legs(&seen[t], scratch)) return false;
     rates[t] = rate_sides(&seen[t]);
   }
-  uint32_t side = rates[1] > rates[0] + DOUBT;
+  uint32_t side = rates[1] > rates[0] + SIDEWAYS_MARGIN;
   int names = ask_names(&seen[side]);
   double feet = ask_feet(&seen[side]);
   bool backwards = side ? names < 0 || (names == 0 && feet < 0) : names < 0 && feet < 0;

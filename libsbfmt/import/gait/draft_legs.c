@@ -9,13 +9,13 @@
 
 #include "import/gait/gait_draft.h"
 
-static const double GROUND_SHARE = 0.05; /* of the height: a leg ends no higher above the ground */
-static const double LIFTED_SHARE = 0.2;  /* the same of the twin of a leg, in a rig bound in mid stride */
-static const double FOOT_SHARE = 0.02;   /* of the height: what stands as low as the leg's lowest point */
-static const double HIP_SHARE = 0.05;    /* of the height: a leg begins higher than that above its sole */
-static const double MIN_SEGMENT = 0.05;  /* share of the reach that thigh and shin have at least */
-static const double LONG_FOOT = 0.25;    /* share of the reach: a foot so long leans over its toe, */
-static const double HIGH_ANKLE = 0.7;    /* where its ankle is so high, in shares of the hip's height */
+static const double GROUND_FRACTION = 0.05; /* of the height: a leg ends no higher above the ground */
+static const double LIFTED_FRACTION = 0.2;  /* the same of the twin of a leg, in a rig bound in mid stride */
+static const double FOOT_FRACTION = 0.02;   /* of the height: what stands as low as the leg's lowest point */
+static const double HIP_FRACTION = 0.05;    /* of the height: a leg begins higher than that above its sole */
+static const double MIN_SEGMENT = 0.05;     /* share of the reach that thigh and shin have at least */
+static const double LONG_FOOT = 0.25;       /* share of the reach: a foot so long leans over its toe, */
+static const double HIGH_ANKLE = 0.7;       /* where its ankle is so high, in shares of the hip's height */
 
 /* The child by which the ground is reached; the longer way where several reach it. */
 static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
@@ -50,41 +50,41 @@ static bool is_long_foot(const sbfi_gait_draft *d, const sbfi_leg_draft *leg, in
 }
 
 /* Thigh, shin and foot among the bones of a way down; false where it has none. */
-static bool choose_bones(const sbfi_gait_draft *d, const int32_t *way, uint32_t count, sbfi_leg_draft *leg) {
+static bool choose_bones(const sbfi_gait_draft *d, const int32_t *path, uint32_t count, sbfi_leg_draft *leg) {
   leg->reach = 0;
   for (uint32_t i = 0; i + 2 < count; i++) {
-    double thigh = sbfi_draft_distance(d, way[i], way[i + 1]);
-    double shin = sbfi_draft_distance(d, way[i + 1], way[i + 2]), reach = thigh + shin;
+    double thigh = sbfi_draft_distance(d, path[i], path[i + 1]);
+    double shin = sbfi_draft_distance(d, path[i + 1], path[i + 2]), reach = thigh + shin;
     if (fmin(thigh, shin) < MIN_SEGMENT * reach || reach < leg->reach) continue;
-    leg->upper = way[i];
-    leg->lower = way[i + 1];
-    leg->end = way[i + 2];
+    leg->upper = path[i];
+    leg->lower = path[i + 1];
+    leg->end = path[i + 2];
     leg->reach = reach;
-    leg->toe = i + 3 < count && is_long_foot(d, leg, way[i + 3]) ? way[i + 3] : SBF_NONE;
+    leg->toe = i + 3 < count && is_long_foot(d, leg, path[i + 3]) ? path[i + 3] : SBF_NONE;
   }
   if (leg->reach > 0) return true;
   if (count < 2) return false;
-  leg->upper = way[count - 2]; /* a peg: one bone swings the foot */
+  leg->upper = path[count - 2]; /* a peg: one bone swings the foot */
   leg->lower = SBF_NONE;
-  leg->end = way[count - 1];
+  leg->end = path[count - 1];
   leg->reach = sbfi_draft_distance(d, leg->upper, leg->end);
   return leg->reach > 0;
 }
 
-static bool take_leg(sbfi_gait_draft *d, int32_t limb, double ground_share, int32_t *way) {
+static bool take_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, int32_t *path) {
   const sbfi_bone_shape *shape = &d->shapes[limb];
   uint32_t count = 0;
-  if (shape->low_below > d->ground + ground_share * d->height) return false;
-  if ((double)sbfi_draft_bone(d, limb)->head.y < shape->low_below + HIP_SHARE * d->height) return false;
+  if (shape->low_below > d->ground + ground_fraction * d->height) return false;
+  if ((double)sbfi_draft_bone(d, limb)->head.y < shape->low_below + HIP_FRACTION * d->height) return false;
   for (int32_t bone = limb; bone != SBF_NONE; bone = next_down(d, bone)) {
-    way[count++] = bone;
-    if (d->shapes[bone].low <= shape->low_below + FOOT_SHARE * d->height) break;
+    path[count++] = bone;
+    if (d->shapes[bone].low <= shape->low_below + FOOT_FRACTION * d->height) break;
   }
-  int32_t mark = count == 2 ? ankle_mark(d, way[1]) : SBF_NONE;
-  if (mark != SBF_NONE) way[count++] = mark;
+  int32_t mark = count == 2 ? ankle_mark(d, path[1]) : SBF_NONE;
+  if (mark != SBF_NONE) path[count++] = mark;
   sbfi_leg_draft *leg = &d->legs[d->leg_count];
   *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side, .toe = SBF_NONE};
-  return choose_bones(d, way, count, leg);
+  return choose_bones(d, path, count, leg);
 }
 
 /* Hips and chest: the bones on which the hindmost and the foremost legs hang. One of them serves as hips. */
@@ -117,7 +117,7 @@ static bool begins_limb(const sbfi_gait_draft *d, int32_t bone) {
 
 /* A rig bound in mid stride has a foot in the air: a limb is a leg too that hangs on the same bone as a leg
  * of the other side without a twin, and is made as that one. */
-static void take_lifted(sbfi_gait_draft *d, int32_t *way) {
+static void take_lifted(sbfi_gait_draft *d, int32_t *path) {
   uint32_t sides[2] = {0, 0}, grounded = d->leg_count;
   for (uint32_t l = 0; l < grounded; l++) sides[d->legs[l].side > 0]++;
   if (sides[0] == sides[1]) return;
@@ -132,7 +132,7 @@ static void take_lifted(sbfi_gait_draft *d, int32_t *way) {
                            count_bearing(d, other) == count_bearing(d, (int32_t)i));
     }
     for (uint32_t l = 0; l < grounded; l++) alike = alike && d->legs[l].limb != (int32_t)i;
-    if (!alike || !take_leg(d, (int32_t)i, LIFTED_SHARE, way)) continue;
+    if (!alike || !take_leg(d, (int32_t)i, LIFTED_FRACTION, path)) continue;
     d->leg_count++;
     sides[poorer > 0]++;
   }
@@ -140,12 +140,12 @@ static void take_lifted(sbfi_gait_draft *d, int32_t *way) {
 
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch) {
   uint32_t count = d->asset->bones.count;
-  int32_t *way = sbfi_arena_allocate(scratch, count, sizeof *way);
+  int32_t *path = sbfi_arena_allocate(scratch, count, sizeof *path);
   d->legs = sbfi_arena_allocate(scratch, count, sizeof *d->legs);
-  if (!way || !d->legs) return false;
+  if (!path || !d->legs) return false;
   for (uint32_t i = 0; i < count; i++)
-    if (begins_limb(d, (int32_t)i) && take_leg(d, (int32_t)i, GROUND_SHARE, way)) d->leg_count++;
-  take_lifted(d, way);
+    if (begins_limb(d, (int32_t)i) && take_leg(d, (int32_t)i, GROUND_FRACTION, path)) d->leg_count++;
+  take_lifted(d, path);
   find_girdles(d);
   return true;
 }

@@ -6,8 +6,8 @@
 #include "import/gait/gait_draft.h"
 #include "model/bone_ends.h"
 
-static const double SIDE_SHARE = 0.02;  /* of the height: what is nearer to x = 0 is in the middle */
-static const double FLAT_SHARE = 0.006; /* the same of the greatest extent, for what is flat */
+static const double SIDE_FRACTION = 0.02;  /* of the height: what is nearer to x = 0 is in the middle */
+static const double FLAT_FRACTION = 0.006; /* the same of the greatest extent, for what is flat */
 
 double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b) {
   const sbf_vec3 p = sbfi_draft_bone(d, a)->head, q = sbfi_draft_bone(d, b)->head;
@@ -102,7 +102,7 @@ static void widen(sbfi_bone_shape *shape, double min_x, double max_x) {
 /* Children stand behind their parents: each is done when its parent's turn comes. */
 static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
   double extent = fmax(e->high[0] - e->low[0], e->high[2] - e->low[2]);
-  double margin = fmax(SIDE_SHARE * d->height, FLAT_SHARE * extent);
+  double margin = fmax(SIDE_FRACTION * d->height, FLAT_FRACTION * extent);
   for (uint32_t i = d->asset->bones.count; i-- > 0;) {
     sbfi_bone_shape *shape = &d->shapes[i];
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);

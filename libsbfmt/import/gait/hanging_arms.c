@@ -16,24 +16,24 @@ static void head_of(const sbfi_rig_view *view, int32_t bone, double to[3]) {
   to[2] = (double)head.z;
 }
 
-static bool direction(const double from[3], const double to[3], double way[3]) {
+static bool direction(const double from[3], const double to[3], double heading[3]) {
   double length = 0;
   for (int k = 0; k < 3; k++) {
-    way[k] = to[k] - from[k];
-    length += way[k] * way[k];
+    heading[k] = to[k] - from[k];
+    length += heading[k] * heading[k];
   }
   length = sqrt(length);
-  for (int k = 0; k < 3 && length > 0; k++) way[k] /= length;
+  for (int k = 0; k < 3 && length > 0; k++) heading[k] /= length;
   return length > 0;
 }
 
-static void turn_about(const double axis[3], double angle, double turn[4]) {
-  for (int k = 0; k < 3; k++) turn[k] = axis[k] * sin(angle / 2);
-  turn[3] = cos(angle / 2);
+static void turn_about(const double axis[3], double angle, double rotation[4]) {
+  for (int k = 0; k < 3; k++) rotation[k] = axis[k] * sin(angle / 2);
+  rotation[3] = cos(angle / 2);
 }
 
-static void set_turn(sbfi_pose_draft *pose, int32_t bone, const double turn[4]) {
-  for (int k = 0; k < 4; k++) pose->turns[bone][k] = turn[k];
+static void set_turn(sbfi_pose_draft *pose, int32_t bone, const double rotation[4]) {
+  for (int k = 0; k < 4; k++) pose->turns[bone][k] = rotation[k];
   pose->turned[bone] = true;
 }
 
@@ -121,28 +121,28 @@ static void curl_fingers(
     if (sbfi_draft_bone(d, bone)->parent != hand || !d->shapes[i].bears) continue;
     for (int joint = 0; joint < 3 && bone != SBF_NONE; joint++) {
       int32_t next = thickest_child(view, bone, &length);
-      double from[3], to[3], way[3];
+      double from[3], to[3], heading[3];
       if (next == SBF_NONE && joint == 0) break;
       if (next != SBF_NONE) {
         head_of(view, bone, from);
         head_of(view, next, to);
-        if (!direction(from, to, way)) break;
-        if (way[0] * along[0] + way[1] * along[1] + way[2] * along[2] < STRAIGHT) break;
+        if (!direction(from, to, heading)) break;
+        if (heading[0] * along[0] + heading[1] * along[1] + heading[2] * along[2] < STRAIGHT) break;
       }
       double size = sqrt(along[0] * along[0] + along[2] * along[2]);
       if (!(size > 0.5)) break;
       /* From the finger's direction down: along x (0, -1, 0). */
       const double axis[3] = {along[2] / size, 0, -along[0] / size};
-      double turn[4];
-      turn_about(axis, FINGER[joint] * DEGREE, turn);
-      set_turn(pose, bone, turn);
+      double rotation[4];
+      turn_about(axis, FINGER[joint] * DEGREE, rotation);
+      set_turn(pose, bone, rotation);
       bone = next;
     }
   }
 }
 
 static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose_draft *pose) {
-  double shoulder[3], elbow[3], wrist[3], upper[3], lower[3], turn[4], bend[4];
+  double shoulder[3], elbow[3], wrist[3], upper[3], lower[3], rotation[4], bend[4];
   head_of(view, arm->upper, shoulder);
   head_of(view, arm->lower, elbow);
   if (!direction(shoulder, elbow, upper) || -upper[1] > sin(ENOUGH * DEGREE)) return false;
@@ -151,8 +151,8 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
       cos(DOWN * DEGREE) * sin(AHEAD * DEGREE) + sin(AHEAD * DEGREE) * 0.5};
   double zero[3] = {0, 0, 0}, target[3];
   direction(zero, wanted, target);
-  sbfi_turn_between(upper, target, turn);
-  set_turn(pose, arm->upper, turn);
+  sbfi_turn_between(upper, target, rotation);
+  set_turn(pose, arm->upper, rotation);
   double bent = 0;
   bool has_hand = arm->hand != SBF_NONE;
   if (has_hand) {
@@ -169,7 +169,7 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
     const double hinge[3] = {
         target[0] * target[0] - 1, target[0] * target[1], target[0] * target[2]}; /* -X across the arm */
     direction(zero, hinge, ahead);
-    sbfi_turn_undo(turn, undo);
+    sbfi_turn_undo(rotation, undo);
     sbfi_turn_vector(undo, ahead, axis);
     turn_about(axis, (ELBOW - bent) * DEGREE, bend);
     set_turn(pose, arm->lower, bend);

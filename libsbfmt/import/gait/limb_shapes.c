@@ -5,10 +5,10 @@
 #include "mechanics/symmetric_eigen.h"
 
 enum { SECTORS = 12, MIN_ROUND_POINTS = 12, MIN_LOOP = 8 };
-static const double TWINS = 0.12;       /* share of the size within which extents mirror */
-static const double TWINS_APART = 0.4;  /* the same of limbs in different poses, made of the same */
-static const double ROUND_EXTENT = 0.8; /* of a disc's height and length, the smaller by the greater */
-static const double ROUND_RADIUS = 0.8; /* of a disc's radii by sector, the least by the greatest */
+static const double TWINS = 0.12;          /* share of the size within which extents mirror */
+static const double TWIN_SEPARATION = 0.4; /* the same of limbs in different poses, made of the same */
+static const double ROUND_EXTENT = 0.8;    /* of a disc's height and length, the smaller by the greater */
+static const double ROUND_RADIUS = 0.8;    /* of a disc's radii by sector, the least by the greatest */
 
 static void take_point(double low[3], double high[3], sbf_vec3 point) {
   const double p[3] = {(double)point.x, (double)point.y, (double)point.z};
@@ -40,7 +40,7 @@ static void measure_own(
     for (int r = 0; r < 3; r++)
       for (int k = 0; k < 3; k++) spread[3 * r + k] += d[r] * d[k];
   }
-  sbfi_symmetric_eigen(3, spread, axes);
+  sbfi_symmetric_compute_eigen(3, spread, axes);
   for (int k = 0; k < 3; k++) extent[k] = sqrt(fmax(0, spread[4 * k]));
   for (int a = 0; a < 2; a++)
     for (int b = 0; b < 2 - a; b++)
@@ -137,7 +137,7 @@ static void find_twins(const sbfi_rig_points *points, sbfi_limb_shape *limbs, ui
   for (int k = 0; k < 3; k++) size = fmax(size, points->high[k] - points->low[k]);
   for (int alike = 0; alike < 2; alike++)
     for (uint32_t a = 0; a < count; a++) {
-      double within = (alike ? TWINS_APART : TWINS) * size;
+      double within = (alike ? TWIN_SEPARATION : TWINS) * size;
       if (limbs[a].twin != SBF_NONE) continue;
       int32_t b = nearest_twin(limbs, count, a, within, alike);
       if (b == SBF_NONE || nearest_twin(limbs, count, (uint32_t)b, within, alike) != (int32_t)a) continue;

@@ -104,7 +104,7 @@ static bool hovers(const evaluation *j) {
 }
 
 /* A long body without wings swims through the air as it does through water: its height tells nothing. */
-static void score_place(evaluation *j) {
+static void score_position(evaluation *j) {
   double low = j->points.low[1];
   if (hovers(j) && (j->wings || !j->is_row))
     add(j, SBFI_LOCOMOTION_FLY, 2.5, "it has no legs and hovers above y = 0");
@@ -308,7 +308,7 @@ static void decide(const evaluation *j) {
 
 /* Points, sides and limbs, seen from `turns` quarters; `mirrored`: points of limbs that have a
  * twin; those of wheels count thrice, for a car mirrors both ways. */
-static bool look(evaluation *j, uint32_t turns, sbfi_arena *scratch, uint32_t *mirrored) {
+static bool check(evaluation *j, uint32_t turns, sbfi_arena *scratch, uint32_t *mirrored) {
   uint32_t bones = j->draft.asset->bones.count;
   j->draft.turns = turns;
   if (!sbfi_gather_points(j->draft.asset, turns, scratch, &j->points)) return false;
@@ -323,15 +323,15 @@ static bool look(evaluation *j, uint32_t turns, sbfi_arena *scratch, uint32_t *m
 }
 
 /* What mirrors both ways, as a crab or a tank, looks the way that gives more of its limbs a twin. */
-static bool look_ahead(evaluation *j, sbfi_arena *scratch) {
+static bool predict(evaluation *j, sbfi_arena *scratch) {
   uint32_t mirrored, others;
   bool clear;
   if (!sbfi_gather_points(j->draft.asset, 0, scratch, &j->points)) return false;
   uint32_t turns = sbfi_mirror_turns(j->draft.asset, &j->points, &clear);
-  if (!look(j, turns, scratch, &mirrored)) return false;
+  if (!check(j, turns, scratch, &mirrored)) return false;
   if (clear) return true;
   evaluation other = {.draft = {.asset = j->draft.asset}, .found = j->found};
-  if (!look(&other, !turns, scratch, &others)) return false;
+  if (!check(&other, !turns, scratch, &others)) return false;
   if (others > 2 * mirrored) *j = other;
   return true;
 }
@@ -343,7 +343,7 @@ bool sbfi_find_locomotion(
   *found = (sbfi_locomotion){.kind = SBFI_LOCOMOTION_NONE, .second = SBFI_LOCOMOTION_WALK};
   if (asset->bones.count == 0) return true;
   uint32_t *holds = sbfi_arena_allocate(scratch, asset->bones.count, sizeof *holds);
-  if (!holds || !look_ahead(&j, scratch)) return false;
+  if (!holds || !predict(&j, scratch)) return false;
   for (uint32_t i = 0; i < j.points.count; i++) j.holding += holds[j.points.bone[i]]++ == 0;
   j.width = j.points.high[0] - j.points.low[0];
   j.height = j.points.high[1] - j.points.low[1];
@@ -354,7 +354,7 @@ bool sbfi_find_locomotion(
   if (j.draft.has_mesh) { /* bare bones tell no more than their names do */
     score_wings(&j);
     score_body(&j, holds);
-    score_place(&j);
+    score_position(&j);
     score_wheels(&j);
   }
   score_size(&j);

@@ -54,7 +54,7 @@ static uint32_t option_arguments(sbfi_span option) {
 }
 
 /* `-o` and `-s` in v upwards, to glTF's transform, where v goes downwards. */
-static void place_image(sbfi_scene_uv_transform *uv, const float offset[3], const float scale[3]) {
+static void resolve_image(sbfi_scene_uv_transform *uv, const float offset[3], const float scale[3]) {
   *uv = (sbfi_scene_uv_transform){
       .offset = {offset[0], 1 - scale[1] - offset[1]}, .scale = {scale[0], scale[1]}};
 }
@@ -63,7 +63,7 @@ static void place_image(sbfi_scene_uv_transform *uv, const float offset[3], cons
 static sbfi_span read_options(sbfi_span rest, sbfi_scene_uv_transform *uv) {
   float offset[3] = {0, 0, 0}, scale[3] = {1, 1, 1}, ignored[3];
   for (;;) {
-    place_image(uv, offset, scale);
+    resolve_image(uv, offset, scale);
     rest = sbfi_span_trim(rest);
     if (!rest.length || *rest.at != '-') return rest;
     sbfi_span after = rest, option, word;

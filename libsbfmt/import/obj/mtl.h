@@ -13,7 +13,7 @@
 bool sbfi_mtl_read(sbfi_scene *scene, const char *bytes, size_t size, const sbfi_name_table *names,
     sbfi_scene_material *materials, bool *described, sbfi_array *images);
 
-/* What a material is that no library describes. */
+/* Default of a material that no library describes. */
 sbfi_scene_material sbfi_mtl_default(const char *name);
 
 #endif

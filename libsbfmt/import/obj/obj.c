@@ -24,8 +24,8 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while the OBJ file was read");
 }
 
-/* Reads the library `name`, which stands beside the OBJ file, and is small and a regular file: a name in a
- * hostile OBJ could lead anywhere. False where memory runs out. */
+/* Reads the library `name` from the folder of the OBJ file. Accepts only small regular files, because the
+ * name may come from a hostile file. False if memory runs out. */
 static bool read_library(materials *m, sbfi_span name, bool *found) {
   char path[4096];
   sbfi_file file;
@@ -41,7 +41,7 @@ static bool read_library(materials *m, sbfi_span name, bool *found) {
          sbfi_mtl_read(m->scene, bytes, size, &m->text->materials, m->at, m->described, &m->images);
 }
 
-/* One line may name several libraries, or one whose name holds blanks: the whole is tried first. */
+/* A line may name several libraries, or one with spaces in its name: the whole line is tried first. */
 static bool read_libraries_of_line(materials *m, sbfi_span line) {
   bool found;
   if (!read_library(m, line, &found)) return false;

@@ -10,12 +10,12 @@
 #include "import/obj/obj_text.h"
 #include "import/scene/scene.h"
 
-/* Fills a scene that sbfi_scene_init made; reads the .mtl files beside it. Leaves the scene to the caller to
- * free on failure. `allocator` (may be NULL) gives the scratch memory. */
+/* Fills a scene made by sbfi_scene_init; reads .mtl files beside the OBJ file. On failure the caller frees
+ * the scene. `allocator` (may be NULL) is used for scratch memory. */
 sbf_status sbfi_obj_read(
     sbfi_scene *scene, const char *bytes, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error);
 
-/* Text that was read to nodes and meshes; materials are numbered as in the text. */
+/* Converts the lists of an OBJ text to nodes and meshes. Keeps the text's material indices. */
 sbf_status sbfi_obj_divide(
     sbfi_scene *scene, const sbfi_obj_text *text, const sbf_allocator *allocator, sbf_diagnostic *error);
 

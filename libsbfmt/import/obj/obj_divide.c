@@ -1,10 +1,10 @@
-/* Divides what an OBJ file holds into meshes, by its objects and groups. */
+/* Divides the content of an OBJ file into meshes by its objects and groups. */
 #include <string.h>
 
 #include "base/diagnostic.h"
 #include "import/obj/obj.h"
 
-/* Numbers of a list that each mesh uses, ascending: those of mesh m are items[starts[m]] to items[starts[m +
+/* Indices of a list that each mesh uses, ascending: those of mesh m are items[starts[m]] to items[starts[m +
  * 1]]. */
 typedef struct gathered {
   uint32_t *starts, *items;
@@ -18,14 +18,14 @@ typedef struct division {
   const sbfi_obj_polygon *polygons;
   const sbfi_obj_corner *corners;
   sbfi_span *names;        /* (mesh_count) */
-  int32_t *run_meshes;     /* (runs) mesh of each run, SBF_NONE where it has no polygon */
+  int32_t *run_meshes;     /* (runs) mesh of each run, SBF_NONE for a run without polygons */
   uint32_t *mesh_starts;   /* (mesh_count + 1) into polygon_order */
   uint32_t *polygon_order; /* (polygon_count) polygons of each mesh in the file's order */
-  uint32_t *local;         /* (the longest list) place in a mesh of an item of the file */
+  uint32_t *local;         /* (longest list) index in a mesh of an item of the file */
   gathered kinds[SBFI_OBJ_KINDS];
 } division;
 
-static void *room(division *d, size_t count, size_t size) {
+static void *allocate(division *d, size_t count, size_t size) {
   return sbfi_arena_allocate(&d->scratch, count ? count : 1, size);
 }
 
@@ -44,19 +44,19 @@ static sbfi_span file_stem(const char *path) {
   return (sbfi_span){first, dot && dot > first ? (size_t)(dot - first) : strlen(first)};
 }
 
-/* Makes a mesh of each line o, or of each name of g, that has polygons; key 0 is what stands before them. */
+/* Numbers the meshes: one per `o` line or per `g` name with polygons. Key 0 is the part before them. */
 static bool number_meshes(division *d) {
   const sbfi_obj_text *text = d->text;
   const sbfi_obj_run *runs = text->runs.at;
   bool by_object = text->objects.count > 0;
   const sbfi_array *keys = by_object ? &text->objects : &text->groups.names;
   size_t key_count = keys->count + 1, run_count = text->runs.count;
-  uint32_t *counts = room(d, key_count, sizeof *counts);
-  int32_t *mesh_of_key = room(d, key_count, sizeof *mesh_of_key);
-  d->run_meshes = room(d, run_count, sizeof *d->run_meshes);
-  d->names = room(d, key_count, sizeof *d->names);
-  d->mesh_starts = room(d, key_count + 1, sizeof *d->mesh_starts);
-  d->polygon_order = room(d, d->polygon_count, sizeof *d->polygon_order);
+  uint32_t *counts = allocate(d, key_count, sizeof *counts);
+  int32_t *mesh_of_key = allocate(d, key_count, sizeof *mesh_of_key);
+  d->run_meshes = allocate(d, run_count, sizeof *d->run_meshes);
+  d->names = allocate(d, key_count, sizeof *d->names);
+  d->mesh_starts = allocate(d, key_count + 1, sizeof *d->mesh_starts);
+  d->polygon_order = allocate(d, d->polygon_count, sizeof *d->polygon_order);
   if (!counts || !mesh_of_key || !d->run_meshes || !d->names || !d->mesh_starts || !d->polygon_order)
     return false;
   for (size_t run = 0; run < run_count; run++)
@@ -99,7 +99,7 @@ static void visit_used(const division *d, uint32_t kind, uint32_t *marks,
 typedef struct usage {
   uint32_t *mesh_counts; /* items of each mesh */
   uint32_t *users;       /* meshes of each item, then where its next mesh goes in item_meshes */
-  uint32_t *first;       /* the first mesh of each item + 1, 0 for none; NULL where it is not asked */
+  uint32_t *first;       /* first mesh of each item, 1-based, 0: none; NULL: not needed */
   uint32_t *item_meshes; /* the meshes of each item, item after item */
 } usage;
 
@@ -115,8 +115,8 @@ static void note_use(void *state, uint32_t mesh, uint32_t item) {
   u->item_meshes[u->users[item]++] = mesh;
 }
 
-/* A point no polygon uses goes with the next used point of its block of v lines, else with the one before,
- * else to the mesh whose lines surround it. Returns how many belong nowhere. */
+/* Assigns a point without polygons to the mesh of the next used point of its block of v lines, else of the
+ * previous one, else to the mesh whose lines surround it. Returns the number of points without a mesh. */
 static uint32_t adopt_unused(const division *d, uint32_t point_count, usage *u) {
   const sbfi_obj_block *blocks = d->text->blocks.at;
   uint32_t left_out = 0;
@@ -148,15 +148,15 @@ static uint32_t adopt_unused(const division *d, uint32_t point_count, usage *u) 
   return left_out;
 }
 
-/* Which items each mesh uses, ascending: two counting sorts, by item and then back by mesh. */
+/* Finds the items that each mesh uses, ascending: two counting sorts, by item and then by mesh. */
 static bool gather(division *d, uint32_t kind, uint32_t item_count, uint32_t *left_out) {
   bool points = kind == SBFI_OBJ_POINT;
-  uint32_t *marks = room(d, item_count, sizeof *marks);
-  uint32_t *unused = points ? room(d, item_count, sizeof *unused) : NULL;
-  usage u = {room(d, d->mesh_count, sizeof(uint32_t)), room(d, item_count, sizeof(uint32_t)),
-      points ? room(d, item_count, sizeof(uint32_t)) : NULL, NULL};
+  uint32_t *marks = allocate(d, item_count, sizeof *marks);
+  uint32_t *unused = points ? allocate(d, item_count, sizeof *unused) : NULL;
+  usage u = {allocate(d, d->mesh_count, sizeof(uint32_t)), allocate(d, item_count, sizeof(uint32_t)),
+      points ? allocate(d, item_count, sizeof(uint32_t)) : NULL, NULL};
   gathered *out = &d->kinds[kind];
-  out->starts = room(d, (size_t)d->mesh_count + 1, sizeof(uint32_t));
+  out->starts = allocate(d, (size_t)d->mesh_count + 1, sizeof(uint32_t));
   if (!marks || (points && (!unused || !u.first)) || !u.mesh_counts || !u.users || !out->starts) return false;
 
   visit_used(d, kind, marks, count_use, &u);
@@ -167,8 +167,8 @@ static bool gather(division *d, uint32_t kind, uint32_t item_count, uint32_t *le
   for (uint32_t mesh = 0; mesh < d->mesh_count; mesh++)
     out->starts[mesh + 1] = out->starts[mesh] + u.mesh_counts[mesh];
   uint32_t total = out->starts[d->mesh_count], sum = 0;
-  u.item_meshes = room(d, total, sizeof(uint32_t));
-  out->items = room(d, total, sizeof(uint32_t));
+  u.item_meshes = allocate(d, total, sizeof(uint32_t));
+  out->items = allocate(d, total, sizeof(uint32_t));
   if (!u.item_meshes || !out->items) return false;
 
   for (uint32_t item = 0; item < item_count; item++) {
@@ -180,24 +180,24 @@ static bool gather(division *d, uint32_t kind, uint32_t item_count, uint32_t *le
   visit_used(d, kind, marks, note_use, &u);
   for (uint32_t p = 0; points && p < item_count; p++)
     if (unused[p] && u.first[p]) note_use(&u, u.first[p] - 1, p);
-  /* users[item] is now where the item's meshes end. */
+  /* users[item] is now the end of the item's meshes */
   memcpy(u.mesh_counts, out->starts, d->mesh_count * sizeof(uint32_t));
   for (uint32_t item = 0, k = 0; item < item_count; item++)
     for (; k < u.users[item]; k++) out->items[u.mesh_counts[u.item_meshes[k]]++] = item;
   return true;
 }
 
-static void *arena_room(division *d, size_t count, size_t size) {
+static void *arena_allocate(division *d, size_t count, size_t size) {
   return sbfi_arena_allocate(&d->scene->arena, count ? count : 1, size);
 }
 
-/* The mesh's own list of an attribute of its corners, which refer to it. */
+/* Copies the entries of a corner attribute that the mesh uses, and renumbers its corners. */
 static bool take_corners(
     division *d, uint32_t mesh, uint32_t kind, uint32_t corner_count, int32_t **indices) {
   const gathered *g = &d->kinds[kind];
   for (uint32_t k = g->starts[mesh]; k < g->starts[mesh + 1]; k++)
     d->local[g->items[k]] = k - g->starts[mesh];
-  int32_t *to = *indices = arena_room(d, corner_count, sizeof *to);
+  int32_t *to = *indices = arena_allocate(d, corner_count, sizeof *to);
   if (!to) return false;
   for (uint32_t k = d->mesh_starts[mesh]; k < d->mesh_starts[mesh + 1]; k++) {
     uint32_t polygon = d->polygon_order[k], end = corner_end(d, polygon);
@@ -211,8 +211,8 @@ static bool take_corners(
 
 static bool make_polygons(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   to->polygon_count = d->mesh_starts[mesh + 1] - d->mesh_starts[mesh];
-  uint32_t *starts = arena_room(d, (size_t)to->polygon_count + 1, sizeof *starts);
-  int32_t *materials = arena_room(d, to->polygon_count, sizeof *materials), *points;
+  uint32_t *starts = arena_allocate(d, (size_t)to->polygon_count + 1, sizeof *starts);
+  int32_t *materials = arena_allocate(d, to->polygon_count, sizeof *materials), *points;
   if (!starts || !materials) return false;
   for (uint32_t i = 0; i < to->polygon_count; i++) {
     uint32_t polygon = d->polygon_order[d->mesh_starts[mesh] + i];
@@ -231,7 +231,7 @@ static bool make_points(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   const gathered *g = &d->kinds[SBFI_OBJ_POINT];
   const sbf_vec3 *all = d->text->points.at;
   uint32_t first = g->starts[mesh], count = g->starts[mesh + 1] - first;
-  sbf_vec3 *points = arena_room(d, count, sizeof *points);
+  sbf_vec3 *points = arena_allocate(d, count, sizeof *points);
   uint32_t *sources = sbfi_arena_copy(&d->scene->arena, g->items + first, count, sizeof *sources);
   if (!points || !sources) return false;
   for (uint32_t i = 0; i < count; i++) points[i] = all[sources[i]];
@@ -246,7 +246,7 @@ static bool make_normals(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   const sbf_vec3 *all = d->text->normals.at;
   uint32_t first = g->starts[mesh], count = g->starts[mesh + 1] - first;
   if (!count) return true;
-  sbf_vec3 *normals = arena_room(d, count, sizeof *normals);
+  sbf_vec3 *normals = arena_allocate(d, count, sizeof *normals);
   int32_t *corners;
   if (!normals || !take_corners(d, mesh, SBFI_OBJ_NORMAL, to->corner_count, &corners)) return false;
   for (uint32_t i = 0; i < count; i++) normals[i] = all[g->items[first + i]];
@@ -261,8 +261,8 @@ static bool make_uvs(division *d, uint32_t mesh, sbfi_scene_mesh *to) {
   const sbf_vec2 *all = d->text->uvs.at;
   uint32_t first = g->starts[mesh], count = g->starts[mesh + 1] - first;
   if (!count) return true;
-  sbfi_scene_uvs *set = arena_room(d, 1, sizeof *set);
-  sbf_vec2 *uvs = arena_room(d, count, sizeof *uvs);
+  sbfi_scene_uvs *set = arena_allocate(d, 1, sizeof *set);
+  sbf_vec2 *uvs = arena_allocate(d, count, sizeof *uvs);
   int32_t *corners;
   if (!set || !uvs || !take_corners(d, mesh, SBFI_OBJ_UV, to->corner_count, &corners)) return false;
   for (uint32_t i = 0; i < count; i++) uvs[i] = all[g->items[first + i]];
@@ -279,14 +279,14 @@ static bool divide(division *d) {
   uint32_t longest = 0, left_out = 0;
   for (uint32_t kind = 0; kind < SBFI_OBJ_KINDS; kind++)
     if (counts[kind] > longest) longest = counts[kind];
-  d->local = room(d, longest, sizeof *d->local);
+  d->local = allocate(d, longest, sizeof *d->local);
   if (!d->local || !number_meshes(d)) return false;
   for (uint32_t kind = 0; kind < SBFI_OBJ_KINDS; kind++)
     if (!gather(d, kind, counts[kind], &left_out)) return false;
 
   sbfi_scene *scene = d->scene;
-  sbfi_scene_node *nodes = arena_room(d, d->mesh_count, sizeof *nodes);
-  sbfi_scene_mesh *meshes = arena_room(d, d->mesh_count, sizeof *meshes);
+  sbfi_scene_node *nodes = arena_allocate(d, d->mesh_count, sizeof *nodes);
+  sbfi_scene_mesh *meshes = arena_allocate(d, d->mesh_count, sizeof *meshes);
   if (!nodes || !meshes) return false;
   for (uint32_t mesh = 0; mesh < d->mesh_count; mesh++) {
     sbfi_scene_mesh *to = &meshes[mesh];

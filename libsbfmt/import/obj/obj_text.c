@@ -21,7 +21,7 @@ typedef struct reader {
   char line_end; /* '\n', or '\r' in a file that has no other */
   uint32_t line;
   int32_t material;
-  bool in_points; /* the statement before was v, or one that does not end a block */
+  bool in_points; /* the previous statement was v, or one that does not end a block */
   sbf_diagnostic *error;
 } reader;
 
@@ -45,7 +45,7 @@ static sbf_status too_many(reader *r) {
       r->line);
 }
 
-/* As sbfi_array_push for one item, without clearing it: these lists take millions. */
+/* Like sbfi_array_push for one item, but does not zero it: these lists have millions of items. */
 static void *push(sbfi_array *array) {
   if (array->count == array->capacity && !sbfi_array_reserve(array, array->count + 1)) return NULL;
   return (char *)array->at + array->count++ * array->item_size;
@@ -55,7 +55,7 @@ static bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/* Past the end of line that a backslash at `at` continues over; NULL if it does not stand before one. */
+/* If a backslash at `at` continues the line, returns the beginning of the next line; else NULL. */
 static const char *continuation(const reader *r, const char *at) {
   at++;
   if (at < r->end && *at == '\r' && r->line_end == '\n') at++;
@@ -85,7 +85,8 @@ static bool at_word_end(const reader *r) {
   return r->at == r->end || *r->at == r->line_end || is_blank(*r->at) || *r->at == '\\';
 }
 
-/* To the line's end; a comment is never continued, as paths in comments may end with a backslash. */
+/* Finds the end of a line. Comments are never continued, because paths in comments may end with a backslash.
+ */
 static const char *find_line_end(const reader *r) {
   if (r->at >= r->end) return r->end;
   const char *found = memchr(r->at, r->line_end, (size_t)(r->end - r->at));
@@ -104,7 +105,7 @@ static void skip_statement(reader *r) {
   }
 }
 
-/* The rest of the line without blanks at its ends: names may hold blanks inside. */
+/* Reads a name: the rest of the line without blanks at its ends. Names may contain blanks. */
 static sbfi_span read_name(reader *r) {
   while (r->at < r->end && *r->at != r->line_end && is_blank(*r->at)) r->at++;
   const char *stop = find_line_end(r), *last = stop;
@@ -120,7 +121,7 @@ static uint32_t word_length(const reader *r) {
   return (uint32_t)(at - r->at);
 }
 
-static bool looks_not_finite(sbfi_span word) {
+static bool is_not_finite_text(sbfi_span word) {
   for (size_t i = 0; i + 3 <= word.length; i++) {
     char a = (char)(word.at[i] | 0x20), b = (char)(word.at[i + 1] | 0x20), c = (char)(word.at[i + 2] | 0x20);
     if ((a == 'n' && b == 'a' && c == 'n') || (a == 'i' && b == 'n' && (c == 'f' || c == 'd'))) return true;
@@ -130,7 +131,7 @@ static bool looks_not_finite(sbfi_span word) {
 
 static sbf_status number_refused(reader *r, sbfi_number_status status, const char *keyword) {
   sbfi_span word = {r->at, word_length(r)};
-  if (status == SBFI_NUMBER_OUT_OF_RANGE || looks_not_finite(word))
+  if (status == SBFI_NUMBER_OUT_OF_RANGE || is_not_finite_text(word))
     return located(r,
         sbfi_diagnose(r->error, SBF_CODE_IMPORT_NOT_FINITE,
             "\"%s\" in a line \"%s\" is no finite number of single precision: export the file again",
@@ -142,7 +143,7 @@ static sbf_status number_refused(reader *r, sbfi_number_status status, const cha
       r->line);
 }
 
-/* Up to `wanted` numbers, `needed` of them at least; the others are 0. */
+/* Reads up to `wanted` numbers, at least `needed`; missing ones are 0. */
 static sbf_status read_numbers(
     reader *r, const char *keyword, float *values, uint32_t needed, uint32_t wanted) {
   for (uint32_t i = 0; i < wanted; i++) {
@@ -284,9 +285,9 @@ static sbf_status read_corner(reader *r) {
         r->line);
   }
   if (r->text->corners.count >= INT32_MAX - 1) return too_many(r);
-  sbfi_obj_corner *place = push(&r->text->corners);
-  if (!place) return out_of_memory(r);
-  *place = corner;
+  sbfi_obj_corner *position = push(&r->text->corners);
+  if (!position) return out_of_memory(r);
+  *position = corner;
   return SBF_OK;
 }
 
@@ -357,7 +358,7 @@ static sbf_status read_library(reader *r) {
   return sbfi_array_append(&r->text->libraries, &name, 1) ? SBF_OK : out_of_memory(r);
 }
 
-/* Statements that say nothing about a polygon mesh that we keep: smoothing groups are in the normals. */
+/* Statements without effect on the polygon mesh. Smoothing groups are already in the normals. */
 static bool is_silent(sbfi_span word) {
   static const char *const silent[] = {
       "s", "vp", "mg", "lod", "bevel", "c_interp", "d_interp", "usemap", "maplib", "shadow_obj", "trace_obj"};

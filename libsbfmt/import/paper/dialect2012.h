@@ -88,7 +88,7 @@ typedef struct sbfi_paper_table {
 bool sbfi_paper_table_make(
     sbfi_conversion *c, sbfi_paper_table *table, const sbfi_array *ids, const char *what);
 bool sbfi_paper_find(
-    sbfi_conversion *c, const sbfi_paper_table *table, uint32_t id, const char *what, uint32_t *place);
+    sbfi_conversion *c, const sbfi_paper_table *table, uint32_t id, const char *what, uint32_t *slots);
 
 /* The status that goes with c->error after one of the two has failed. */
 static inline sbf_status sbfi_paper_fault(const sbfi_conversion *c) {

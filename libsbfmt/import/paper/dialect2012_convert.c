@@ -24,11 +24,11 @@ static corner_counts count_corners(const sbfi_paper_surface *surface) {
 }
 
 /* Places that the corners name by `id_of`, which all of them do. */
-static uint32_t *named_places(sbfi_conversion *c, const sbfi_paper_surface *surface, const sbfi_array *ids,
+static uint32_t *named_indices(sbfi_conversion *c, const sbfi_paper_surface *surface, const sbfi_array *ids,
     size_t id_offset, const char *what) {
-  uint32_t *places = sbfi_convert_allocate(c, surface->corners.count, sizeof *places);
+  uint32_t *indices = sbfi_convert_allocate(c, surface->corners.count, sizeof *indices);
   sbfi_paper_table table;
-  if (!places) {
+  if (!indices) {
     sbfi_convert_no_memory(c);
     return NULL;
   }
@@ -36,9 +36,9 @@ static uint32_t *named_places(sbfi_conversion *c, const sbfi_paper_surface *surf
   for (size_t i = 0; i < surface->corners.count; i++) {
     uint32_t id;
     memcpy(&id, (const char *)surface->corners.at + i * sizeof(sbfi_paper_corner) + id_offset, sizeof id);
-    if (!sbfi_paper_find(c, &table, id, what, &places[i])) return NULL;
+    if (!sbfi_paper_find(c, &table, id, what, &indices[i])) return NULL;
   }
-  return places;
+  return indices;
 }
 
 static sbf_vec3 turn(const sbfi_matrix *m, sbf_vec3 v) {
@@ -49,10 +49,10 @@ static sbf_vec3 turn(const sbfi_matrix *m, sbf_vec3 v) {
 
 static sbf_status fill_normals(sbfi_conversion *c, const sbfi_paper_surface *surface, sbf_render_mesh *mesh) {
   uint32_t count = (uint32_t)surface->normals.values.count;
-  uint32_t *places =
-      named_places(c, surface, &surface->normals.ids, offsetof(sbfi_paper_corner, normal), "normals");
+  uint32_t *indices =
+      named_indices(c, surface, &surface->normals.ids, offsetof(sbfi_paper_corner, normal), "normals");
   sbf_vec3 *normals = sbfi_convert_allocate(c, count, sizeof *normals);
-  if (!places) return sbfi_paper_fault(c);
+  if (!indices) return sbfi_paper_fault(c);
   if (!normals) return sbfi_convert_no_memory(c);
   /* Axes turn normals, the unit must not stretch them. */
   sbfi_matrix axes = c->to_asset;
@@ -62,7 +62,7 @@ static sbf_status fill_normals(sbfi_conversion *c, const sbfi_paper_surface *sur
   const sbf_vec3 *from = surface->normals.values.at;
   for (uint32_t i = 0; i < count; i++) normals[i] = turn(&axes, from[i]);
   mesh->normals = (sbf_vec3_list){normals, count};
-  mesh->normal_corners = (sbf_u32_list){places, (uint32_t)surface->corners.count};
+  mesh->normal_corners = (sbf_u32_list){indices, (uint32_t)surface->corners.count};
   return SBF_OK;
 }
 
@@ -70,15 +70,15 @@ static sbf_status fill_coordinates(
     sbfi_conversion *c, const sbfi_paper_surface *surface, sbf_render_mesh *mesh) {
   uint32_t count = (uint32_t)surface->coordinates.values.count;
   sbf_uv_set *set = sbfi_convert_allocate(c, 1, sizeof *set);
-  uint32_t *places = named_places(
+  uint32_t *indices = named_indices(
       c, surface, &surface->coordinates.ids, offsetof(sbfi_paper_corner, coordinate), "texture coordinates");
   sbf_vec2 *coordinates = sbfi_convert_allocate(c, count, sizeof *coordinates);
-  if (!places) return sbfi_paper_fault(c);
+  if (!indices) return sbfi_paper_fault(c);
   if (!set || !coordinates) return sbfi_convert_no_memory(c);
   memcpy(coordinates, surface->coordinates.values.at, count * sizeof *coordinates);
   sbf_uv_set_init(set);
   set->coordinates = (sbf_vec2_list){coordinates, count};
-  set->corners = (sbf_u32_list){places, (uint32_t)surface->corners.count};
+  set->corners = (sbf_u32_list){indices, (uint32_t)surface->corners.count};
   mesh->uv_sets = (sbf_uv_set_list){set, 1};
   return SBF_OK;
 }
@@ -117,12 +117,12 @@ static sbf_status fill_tet_mesh(sbfi_conversion *c, const sbfi_paper_body *from,
   if (!sbfi_array_append(&mesh->points, from->lattice.values.at, from->lattice.values.count) ||
       !sbfi_array_push(&mesh->tetrahedra, from->tetrahedron_ids.count))
     return sbfi_convert_no_memory(c);
-  uint32_t *places = mesh->tetrahedra.at;
+  uint32_t *indices = mesh->tetrahedra.at;
   const uint32_t *ids = from->nodes.at;
   for (size_t i = 0; i < from->nodes.count; i++)
-    if (!sbfi_paper_find(c, &table, ids[i], "vertices of the lattice", &places[i]))
+    if (!sbfi_paper_find(c, &table, ids[i], "vertices of the lattice", &indices[i]))
       return sbfi_paper_fault(c);
-  return sbfi_tet_mesh_mend(mesh, c->scene->file, c->error);
+  return sbfi_tet_mesh_repair(mesh, c->scene->file, c->error);
 }
 
 /* `nodes`: places of each tetrahedron's four, as the file has them. */
@@ -140,12 +140,12 @@ static sbf_status fill_embedding(sbfi_conversion *c, const sbfi_paper_body *from
     return sbfi_paper_fault(c);
   const sbfi_paper_carried *carried = from->carried.at;
   for (uint32_t i = 0; i < count; i++) {
-    uint32_t place;
+    uint32_t index;
     if (!sbfi_paper_find(c, &vertex_table, carried[i].vertex, "vertices", &vertices[i]) ||
-        !sbfi_paper_find(c, &tetrahedron_table, carried[i].tetrahedron, "tetrahedra", &place))
+        !sbfi_paper_find(c, &tetrahedron_table, carried[i].tetrahedron, "tetrahedra", &index))
       return sbfi_paper_fault(c);
     const float *v = carried[i].weights;
-    for (int k = 0; k < 4; k++) points[i].at[k] = new_from_old[nodes[place].at[k]];
+    for (int k = 0; k < 4; k++) points[i].at[k] = new_from_old[nodes[index].at[k]];
     weights[i] = (sbf_vec4){v[0], v[1], v[2], (float)(1.0 - (double)v[0] - (double)v[1] - (double)v[2])};
   }
   sbf_embedding_init(embedding);
@@ -241,14 +241,14 @@ static sbf_status fill_attachments(sbfi_conversion *c, sbf_soft_body *body) {
 
 static sbf_status convert_body(sbfi_conversion *c, const sbfi_paper_body *from, const char *name,
     sbf_soft_body *body, sbf_render_mesh *mesh) {
-  int32_t place = (int32_t)c->asset->render_meshes.count;
+  int32_t index = (int32_t)c->asset->render_meshes.count;
   bool has_mesh = from->surface.vertices.values.count > 0;
   sbf_status status = SBF_OK;
   if (has_mesh) {
     status = fill_render_mesh(c, &from->surface, name, mesh);
     c->asset->render_meshes.count++;
   }
-  if (status == SBF_OK) status = fill_lattice(c, from, name, has_mesh ? place : SBF_NONE, body);
+  if (status == SBF_OK) status = fill_lattice(c, from, name, has_mesh ? index : SBF_NONE, body);
   if (status == SBF_OK) status = fill_attributes(c, from, body);
   return status == SBF_OK ? fill_attachments(c, body) : status;
 }

@@ -26,16 +26,16 @@ bool sbfi_paper_table_make(
 }
 
 bool sbfi_paper_find(
-    sbfi_conversion *c, const sbfi_paper_table *table, uint32_t id, const char *what, uint32_t *place) {
+    sbfi_conversion *c, const sbfi_paper_table *table, uint32_t id, const char *what, uint32_t *slots) {
   if (!table->sorted && id >= 1 && id <= table->count) {
-    *place = id - 1;
+    *slots = id - 1;
     return true;
   }
   uint32_t low = 0, high = table->sorted ? table->count : 0;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2, found = (uint32_t)(table->sorted[middle] >> 32);
     if (found == id) {
-      *place = (uint32_t)table->sorted[middle];
+      *slots = (uint32_t)table->sorted[middle];
       return true;
     }
     if (found < id)

@@ -9,7 +9,7 @@
 #include "model/schema.h"
 #include "xml/xml_events.h"
 
-typedef enum place {
+typedef enum location {
   OUTSIDE,
   MODEL,
   SOFT_BODY,
@@ -40,13 +40,13 @@ typedef enum place {
   LIMITS,
   LIMIT,
   PASSED_OVER
-} place;
+} location;
 
 /* What may stand where, and what it then is. Joints and attributes have names of their own. */
 static const struct {
-  place inside;
+  location inside;
   const char *name;
-  place is;
+  location is;
 } steps[] = {
     {OUTSIDE, "model", MODEL},
     {MODEL, "soft_body", SOFT_BODY},
@@ -86,7 +86,7 @@ enum { DEEPEST = 16, NUMBER_TEXT = 64 };
 typedef struct paper_reader {
   sbfi_paper_model *model;
   sbfi_xml_events events;
-  place stack[DEEPEST];
+  location stack[DEEPEST];
   uint32_t depth, passed_over_depth; /* passed over: elements inside one that is */
   sbfi_paper_body *body;
   uint32_t nodes_of_tetrahedron;
@@ -259,7 +259,7 @@ static bool begin_tetrahedron(paper_reader *r, attribute_list attributes) {
   return id && read_id(r, attributes, "id", (uint32_t)r->body->tetrahedron_ids.count, id);
 }
 
-static bool begin(paper_reader *r, place is, attribute_list attributes) {
+static bool begin(paper_reader *r, location is, attribute_list attributes) {
   static const char *const xyz[3] = {"x", "y", "z"}, *const uv[2] = {"u", "v"};
   switch (is) {
   case SOFT_BODY:
@@ -298,8 +298,8 @@ static void pass_over(paper_reader *r, const char *name) {
   }
 }
 
-static place step_to(paper_reader *r, const char *name) {
-  place inside = r->depth ? r->stack[r->depth - 1] : OUTSIDE;
+static location step_to(paper_reader *r, const char *name) {
+  location inside = r->depth ? r->stack[r->depth - 1] : OUTSIDE;
   for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
     if (steps[i].inside == inside && strcmp(steps[i].name, name) == 0) return steps[i].is;
   if (inside == ATTRIBUTES)
@@ -331,7 +331,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *at,
     r->passed_over_depth++;
     return true;
   }
-  place is = step_to(r, name);
+  location is = step_to(r, name);
   int kind = is == JOINT ? joint_kind(name) : 0;
   if (r->depth == 0 && is != MODEL)
     return fail(r, SBF_CODE_IO_UNKNOWN_FORMAT, "the root is <%.64s>, not <model>", name);
@@ -374,7 +374,7 @@ static bool on_end(void *user) {
     r->passed_over_depth--;
     return true;
   }
-  place was = r->stack[--r->depth];
+  location was = r->stack[--r->depth];
   if (was == TETRAHEDRON && r->nodes_of_tetrahedron != 4)
     return fail(r, SBF_CODE_WRONG_LENGTH, "a tetrahedron has %u nodes, not four", r->nodes_of_tetrahedron);
   if (was == FACE) {

@@ -40,7 +40,7 @@ typedef struct bone_line {
 
 typedef struct candidate {
   sbfi_matrix m;
-  double share, score; /* inside; less what its distance from the surface takes */
+  double fraction, score; /* inside; less what its distance from the surface takes */
 } candidate;
 
 typedef struct search {
@@ -80,7 +80,7 @@ static double inside_of_line(const search *s, const sbfi_matrix *back, const bon
 }
 
 /* Stops where less than `least` can be inside. */
-static double share_inside(const search *s, const sbfi_matrix *m, double min) {
+static double inside_fraction(const search *s, const sbfi_matrix *m, double min) {
   sbfi_matrix back;
   double sum = 0, left = s->total;
   if (!sbfi_matrix_invert(m, &back)) return 0;
@@ -93,9 +93,9 @@ static double share_inside(const search *s, const sbfi_matrix *m, double min) {
 }
 
 static double distance_to_line(const bone_line *line, sbfi_d3 p) {
-  sbfi_d3 along = sbfi_d3_sub(line->to, line->from), way = sbfi_d3_sub(p, line->from);
-  double t = fmin(fmax(sbfi_d3_dot(way, along) / sbfi_d3_dot(along, along), 0), 1);
-  return sbfi_d3_length(sbfi_d3_sub(way, sbfi_d3_scale(along, t)));
+  sbfi_d3 along = sbfi_d3_sub(line->to, line->from), displacement = sbfi_d3_sub(p, line->from);
+  double t = fmin(fmax(sbfi_d3_dot(displacement, along) / sbfi_d3_dot(along, along), 0), 1);
+  return sbfi_d3_length(sbfi_d3_sub(displacement, sbfi_d3_scale(along, t)));
 }
 
 /* Mean distance of the input's points to the nearest bone, as a share of its longest side. It tells the front
@@ -118,8 +118,8 @@ static double distance_to_bones(const search *s, const sbfi_matrix *m) {
 static candidate evaluate(const search *s, const sbfi_matrix *m, double min) {
   candidate c = {*m, 0, -INFINITY};
   if (!sbfi_alignment_allowed(s->r, m)) return c;
-  c.share = share_inside(s, m, min);
-  if (c.share >= min) c.score = c.share - NEARNESS * distance_to_bones(s, m);
+  c.fraction = inside_fraction(s, m, min);
+  if (c.fraction >= min) c.score = c.fraction - NEARNESS * distance_to_bones(s, m);
   return c;
 }
 
@@ -223,8 +223,8 @@ static void choose(search *s) {
     uint32_t rarity = i / ROTATIONS;
     if (!(plain->score > max - REACH) || rarity_of(&plain->m) != rarity) continue;
     candidate better = refined(s, *plain);
-    if (better.share < GOOD) better = *plain;
-    if (better.score < max + by[rarity] + (rarity && better.share < GOOD ? POSED : 0)) continue;
+    if (better.fraction < GOOD) better = *plain;
+    if (better.score < max + by[rarity] + (rarity && better.fraction < GOOD ? POSED : 0)) continue;
     max = better.score;
     s->best = better.score >= plain->score + BETTER ? better : *plain;
   }
@@ -273,7 +273,7 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
     for (uint32_t k = 0; k < PER_BONE; k++) {
       double *distance = &distances[s->lines[i].bone];
       sbfi_d3 p = along(&s->lines[i], k);
-      sbfi_surface_place near;
+      sbfi_surface_location near;
       if (!is_inside(s, sbfi_similarity_apply(&back, p)) &&
           sbfi_surface_nearest(&finder, p, NULL, 1e30, &near))
         *distance = fmax(*distance, near.distance);
@@ -333,7 +333,7 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
       "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
       "--unit, --up and --forward",
-      100 * s->best.share, outside);
+      100 * s->best.fraction, outside);
 }
 
 /* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
@@ -356,7 +356,7 @@ static void scale_rig(sbfi_rigging *r) {
 }
 
 /* Share of the input's points that lie farther from every bone than any part of a body is thick. */
-static double share_uncovered(const search *s) {
+static double uncovered_fraction(const search *s) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
   double size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
   uint32_t samples = points.count < SURFACE_SAMPLES ? points.count : SURFACE_SAMPLES, far = 0;
@@ -380,16 +380,16 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
   const sbf_bone *before = sbfi_arena_copy(arena, bones, list.count, sizeof *bones);
   const sbfi_scene *scene = r->rig.scene, *rig = c->rig;
   char turned[300];
-  double share = s->best.share;
-  *matched = share >= GOOD;
-  if (*matched || share < MIN_TRUNK) return SBF_OK;
+  double fraction = s->best.fraction;
+  *matched = fraction >= GOOD;
+  if (*matched || fraction < MIN_TRUNK) return SBF_OK;
   r->alignment.to_asset = s->best.m;
   s->line_count = 0;
-  s->total = s->best.share = 0;
+  s->total = s->best.fraction = 0;
   if (!before || !sbfi_align_limbs(r, &s->winding, turned, sizeof turned) || !make_lines(s, arena))
     return sbfi_convert_no_memory(c);
-  s->best.share = share_inside(s, &s->best.m, 0);
-  if (turned[0] && s->best.share >= MIN_TURNED && share_uncovered(s) <= MAX_UNCOVERED) {
+  s->best.fraction = inside_fraction(s, &s->best.m, 0);
+  if (turned[0] && s->best.fraction >= MIN_TURNED && uncovered_fraction(s) <= MAX_UNCOVERED) {
     sbfi_convert_warn(c, SBF_CODE_RIG_ALIGNED,
         "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
         "hangs on it",
@@ -402,7 +402,7 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
   c->rig = rig;
   s->line_count = 0;
   s->total = 0;
-  s->best.share = share;
+  s->best.fraction = fraction;
   return make_lines(s, arena) ? SBF_OK : sbfi_convert_no_memory(c);
 }
 
@@ -435,8 +435,8 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
               sbfi_winding_make(&s.winding, &s.soup, &scratch) && make_lines(&s, &scratch);
   sbf_status status = good ? SBF_OK : sbfi_convert_no_memory(r->c);
   if (good && s.line_count) {
-    s.best.share = share_inside(&s, &s.best.m, 0);
-    s.best.score = s.best.share - NEARNESS * distance_to_bones(&s, &s.best.m);
+    s.best.fraction = inside_fraction(&s, &s.best.m, 0);
+    s.best.score = s.best.fraction - NEARNESS * distance_to_bones(&s, &s.best.m);
     bool matched = false;
     if (is_long(&s)) status = match_limbs(r, &s, &scratch, &matched);
     if (status == SBF_OK && !matched && is_stated) {
@@ -445,10 +445,10 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
       if (status == SBF_OK && !matched) status = match_limbs_otherwise(r, &s, &scratch, &matched);
     }
     r->alignment.to_asset = s.best.m;
-    r->alignment.inside = s.best.share;
-    if (s.best.share >= SBFI_MIN_BONES_INSIDE) scale_rig(r);
+    r->alignment.inside = s.best.fraction;
+    if (s.best.fraction >= SBFI_MIN_BONES_INSIDE) scale_rig(r);
     r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
-    if (status == SBF_OK && s.best.share < SBFI_MIN_BONES_INSIDE) status = refuse(&s, &scratch);
+    if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE) status = refuse(&s, &scratch);
   }
   sbfi_arena_free(&scratch);
   return status;

@@ -33,10 +33,10 @@ typedef struct limbs {
   double length, all; /* of its bones; of all bones */
 } limbs;
 
-static sbfi_d3 turned(const double turn[4], sbfi_d3 about, sbfi_d3 p) {
-  sbfi_d3 way = sbfi_d3_sub(p, about);
+static sbfi_d3 turned(const double rotation[4], sbfi_d3 about, sbfi_d3 p) {
+  sbfi_d3 displacement = sbfi_d3_sub(p, about);
   double to[3];
-  sbfi_turn_vector(turn, (const double[3]){way.x, way.y, way.z}, to);
+  sbfi_turn_vector(rotation, (const double[3]){displacement.x, displacement.y, displacement.z}, to);
   return sbfi_d3_add(about, (sbfi_d3){to[0], to[1], to[2]});
 }
 
@@ -50,7 +50,7 @@ static sbfi_d3 head_of(const limbs *l, uint32_t bone) {
 }
 
 /* Share of the limb's length inside, turned about its first joint. */
-static double share_inside(const limbs *l, uint32_t first, const double turn[4]) {
+static double inside_fraction(const limbs *l, uint32_t first, const double rotation[4]) {
   double inside = 0;
   for (uint32_t b = first + 1; b < l->bone_count; b++) {
     if (!l->below[b]) continue;
@@ -58,7 +58,7 @@ static double share_inside(const limbs *l, uint32_t first, const double turn[4])
     double length = sbfi_d3_length(along);
     for (int k = 0; k < PER_BONE; k++) {
       sbfi_d3 at = sbfi_d3_add(from, sbfi_d3_scale(along, (k + 0.5) / PER_BONE));
-      inside += length / PER_BONE * is_inside(l, turned(turn, head_of(l, first), at));
+      inside += length / PER_BONE * is_inside(l, turned(rotation, head_of(l, first), at));
     }
   }
   return inside / l->length;
@@ -72,11 +72,11 @@ static bool take_limb(limbs *l, uint32_t first, sbfi_d3 *direction) {
     int32_t parent = l->bones[b].parent;
     l->below[b] = b == first || (parent != SBF_NONE && l->below[parent]);
     if (!l->below[b] || b == first) continue;
-    sbfi_d3 way = sbfi_d3_sub(head_of(l, b), head_of(l, first));
+    sbfi_d3 displacement = sbfi_d3_sub(head_of(l, b), head_of(l, first));
     l->length += sbfi_d3_length(sbfi_d3_sub(head_of(l, b), head_of(l, (uint32_t)parent)));
-    if (sbfi_d3_length(way) <= farthest) continue;
-    farthest = sbfi_d3_length(way);
-    *direction = sbfi_d3_scale(way, 1 / farthest);
+    if (sbfi_d3_length(displacement) <= farthest) continue;
+    farthest = sbfi_d3_length(displacement);
+    *direction = sbfi_d3_scale(displacement, 1 / farthest);
   }
   return farthest > 0 && l->bones[first].parent != SBF_NONE && l->length <= LIMB * l->all;
 }
@@ -107,51 +107,51 @@ static sbfi_d3 spread(uint32_t number) {
   return (sbfi_d3){radius * x, height, radius * z};
 }
 
-static void turn_to(sbfi_d3 from, sbfi_d3 to, double turn[4]) {
-  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, turn);
+static void turn_to(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
+  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
 /* Of all directions the nearest that is nearly as good as the best; then the best of those around it. */
-static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, double turn[4]) {
-  double shares[DIRECTIONS], max = 0, nearest = -1;
+static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, double rotation[4]) {
+  double fractions[DIRECTIONS], max = 0, nearest = -1;
   sbfi_d3 chosen = direction;
   for (uint32_t i = 0; i < DIRECTIONS; i++) {
     sbfi_d3 to = spread(i);
-    shares[i] = 0;
+    fractions[i] = 0;
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
-    turn_to(direction, to, turn);
-    shares[i] = share_inside(l, first, turn);
-    max = fmax(max, shares[i]);
+    turn_to(direction, to, rotation);
+    fractions[i] = inside_fraction(l, first, rotation);
+    max = fmax(max, fractions[i]);
   }
   for (uint32_t i = 0; i < DIRECTIONS; i++) {
     double cosine = sbfi_d3_dot(spread(i), direction);
-    if (cosine < FARTHEST || shares[i] < max - NEARLY || cosine <= nearest) continue;
+    if (cosine < FARTHEST || fractions[i] < max - NEARLY || cosine <= nearest) continue;
     nearest = cosine;
     chosen = spread(i);
   }
-  turn_to(direction, chosen, turn);
-  double best = share_inside(l, first, turn), step = 0.08;
+  turn_to(direction, chosen, rotation);
+  double best = inside_fraction(l, first, rotation), step = 0.08;
   for (int i = 0; i < REFINED; i++, step *= 0.85) {
     sbfi_d3 aside = spread((uint32_t)(i * 173) % DIRECTIONS);
     sbfi_d3 to = sbfi_d3_normal(sbfi_d3_add(chosen, sbfi_d3_scale(aside, step)));
     double other[4];
     turn_to(direction, to, other);
-    double share = share_inside(l, first, other);
-    if (share <= best) continue;
-    best = share;
+    double fraction = inside_fraction(l, first, other);
+    if (fraction <= best) continue;
+    best = fraction;
     chosen = to;
-    memcpy(turn, other, sizeof other);
+    memcpy(rotation, other, sizeof other);
   }
   return best;
 }
 
 /* --- The turn in bones and nodes ----------------------------------------------------------------------- */
 
-static sbfi_matrix matrix_of(const double turn[4], sbfi_d3 about) {
+static sbfi_matrix matrix_of(const double rotation[4], sbfi_d3 about) {
   sbfi_matrix m = sbfi_matrix_identity();
   for (int k = 0; k < 3; k++) {
     double to[3];
-    sbfi_turn_vector(turn, (const double[3]){k == 0, k == 1, k == 2}, to);
+    sbfi_turn_vector(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
     for (int row = 0; row < 3; row++) m.at[row][k] = to[row];
   }
   sbfi_d3 moved = sbfi_d3_sub(about, sbfi_similarity_apply(&m, about));
@@ -159,15 +159,15 @@ static sbfi_matrix matrix_of(const double turn[4], sbfi_d3 about) {
   return m;
 }
 
-static void turn_bones(limbs *l, uint32_t first, const double turn[4]) {
+static void turn_bones(limbs *l, uint32_t first, const double orientation[4]) {
   sbfi_d3 about = head_of(l, first);
   for (uint32_t b = first; b < l->bone_count; b++) {
     if (!l->below[b]) continue;
     sbf_quat *q = &l->bones[b].rotation;
     double rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
-    sbfi_turn_product(turn, rotation, rotation);
+    sbfi_turn_product(orientation, rotation, rotation);
     *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
-    l->bones[b].head = sbfi_d3_rounded(turned(turn, about, head_of(l, b)));
+    l->bones[b].head = sbfi_d3_rounded(turned(orientation, about, head_of(l, b)));
   }
 }
 
@@ -218,14 +218,14 @@ bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, 
   for (uint32_t b = 0; b < l.bone_count; b++) {
     static const double none[4] = {0, 0, 0, 1};
     sbfi_d3 direction = {0, 0, 0};
-    double turn[4];
+    double rotation[4];
     if (!take_limb(&l, b, &direction) || !is_sided(&l, b)) continue;
-    double before = share_inside(&l, b, none);
+    double before = inside_fraction(&l, b, none);
     if (before >= GOOD || !is_inside(&l, head_of(&l, b))) continue;
-    if (find_turn(&l, b, direction, turn) < before + GAIN) continue;
-    sbfi_matrix matrix = matrix_of(turn, head_of(&l, b));
+    if (find_turn(&l, b, direction, rotation) < before + GAIN) continue;
+    sbfi_matrix matrix = matrix_of(rotation, head_of(&l, b));
     turn_nodes(&l, b, &matrix, nodes);
-    turn_bones(&l, b, turn);
+    turn_bones(&l, b, rotation);
     size_t used = strlen(text);
     if (used + 60 < size) snprintf(text + used, size - used, "%s'%.40s'", used ? ", " : "", l.bones[b].name);
   }

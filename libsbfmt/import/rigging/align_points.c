@@ -18,7 +18,7 @@ enum {
   FIRST_SAMPLES = 16,
   SECOND_SAMPLES = 64,
   FITTED_SAMPLES = 512,
-  SHARE_SAMPLES = 2000,
+  MATCH_SAMPLES = 2000,
   SEED_TRIANGLES = 48,
   SEED_CANDIDATES = 400
 };
@@ -29,9 +29,9 @@ static const double TOLERANCE = 1e-4;
 static const double BETTER = 5e-3;
 /* Of the rig's size, by which objects together lie nearer to their namesakes where a mirror image is meant.
  */
-static const double NAMES_APART = 0.05;
+static const double NAME_DISTANCE = 0.05;
 /* The least share of points that says anything. */
-static const double MIN_SHARE = 0.1;
+static const double MIN_FRACTION = 0.1;
 
 typedef struct search {
   const sbfi_rigging *r;
@@ -39,7 +39,7 @@ typedef struct search {
   uint32_t samples[SAMPLES], sample_count;
   double quantum; /* of the input's numbers, in its own unit: decimals of its text */
   sbfi_matrix best;
-  double best_share;
+  double best_fraction;
 } search;
 
 /* The step in which a text wrote its numbers, where all are whole multiples of one; else 0. */
@@ -67,7 +67,7 @@ double sbfi_input_quantum(const sbfi_rigging *r) {
   return find_quantum(r->input.mesh.positions);
 }
 
-static double share_of(const search *s, const sbfi_matrix *m, uint32_t from, uint32_t to) {
+static double fraction_of(const search *s, const sbfi_matrix *m, uint32_t from, uint32_t to) {
   double within = sbfi_match_tolerance(s->r, sbfi_similarity_scale(m), s->quantum);
   uint32_t hits = 0;
   for (uint32_t i = from; i < to; i++) {
@@ -97,15 +97,15 @@ static void consider(search *s, const sbfi_matrix *m) {
   if (!sbfi_alignment_allowed(s->r, m)) return;
   uint32_t first = s->sample_count < FIRST_SAMPLES ? s->sample_count : FIRST_SAMPLES;
   uint32_t second = s->sample_count < SECOND_SAMPLES ? s->sample_count : SECOND_SAMPLES;
-  double share = share_of(s, m, 0, first);
-  if (!(share > 0.4 * s->best_share)) return;
-  share = (share * first + share_of(s, m, first, second) * (second - first)) / second;
-  if (!(share > 0.7 * s->best_share) || share < 0.5 * MIN_SHARE) return;
-  share = (share * second + share_of(s, m, second, s->sample_count) * (s->sample_count - second)) /
-          s->sample_count;
-  if (share < s->best_share + BETTER) return;
+  double fraction = fraction_of(s, m, 0, first);
+  if (!(fraction > 0.4 * s->best_fraction)) return;
+  fraction = (fraction * first + fraction_of(s, m, first, second) * (second - first)) / second;
+  if (!(fraction > 0.7 * s->best_fraction) || fraction < 0.5 * MIN_FRACTION) return;
+  fraction = (fraction * second + fraction_of(s, m, second, s->sample_count) * (s->sample_count - second)) /
+             s->sample_count;
+  if (fraction < s->best_fraction + BETTER) return;
   s->best = *m;
-  s->best_share = share;
+  s->best_fraction = fraction;
 }
 
 /* Steps of the golden ratio: early ones are spread as well. */
@@ -201,7 +201,7 @@ static bool consider_triangles(search *s, sbfi_arena *arena) {
   double *worths = sbfi_arena_allocate(arena, input.count + 1, sizeof *worths);
   if (!worths) return false;
   for (uint32_t i = 0; i < input.count; i++) worths[i] = worth(&rig, &input.triangles[i]);
-  for (uint32_t turn = 0; turn < SEED_TRIANGLES && s->best_share < 0.999; turn++) {
+  for (uint32_t turn = 0; turn < SEED_TRIANGLES && s->best_fraction < 0.999; turn++) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < input.count; i++)
       if (worths[i] > worths[best]) best = i;
@@ -251,8 +251,8 @@ static void try_mirrors(search *s, pairs *p) {
   sbfi_matrix from = s->best;
   find_pairs(s, &from, count, p);
   uint32_t max = p->count;
-  double apart = sbfi_names_apart(s->r, &from), near = NAMES_APART * s->r->rig.size;
-  for (int i = 0; i < 6 && (max < count || apart > near); i++) {
+  double separation = sbfi_names_distance(s->r, &from), near = NAME_DISTANCE * s->r->rig.size;
+  for (int i = 0; i < 6 && (max < count || separation > near); i++) {
     sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
@@ -260,10 +260,10 @@ static void try_mirrors(search *s, pairs *p) {
     if (!sbfi_alignment_allowed(s->r, &m)) continue;
     find_pairs(s, &m, count, p);
     if (p->count < max) continue;
-    double named = sbfi_names_apart(s->r, &m);
-    if (p->count == max && named > apart - near) continue;
+    double named = sbfi_names_distance(s->r, &m);
+    if (p->count == max && named > separation - near) continue;
     max = p->count;
-    apart = named;
+    separation = named;
     s->best = m;
   }
 }
@@ -292,7 +292,7 @@ static void fit(search *s, pairs *p) {
   }
 }
 
-static bool refine(search *s, sbfi_arena *arena, double *share) {
+static bool refine(search *s, sbfi_arena *arena, double *fraction) {
   uint32_t count = s->r->input.mesh.positions.count;
   pairs p = {sbfi_arena_allocate(arena, count, sizeof *p.from),
       sbfi_arena_allocate(arena, count, sizeof *p.to), 0, 0};
@@ -300,9 +300,9 @@ static bool refine(search *s, sbfi_arena *arena, double *share) {
   try_mirrors(s, &p);
   bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* and right: it stays */
   if (!is_stated) fit(s, &p);
-  uint32_t samples = count < SHARE_SAMPLES ? count : SHARE_SAMPLES;
+  uint32_t samples = count < MATCH_SAMPLES ? count : MATCH_SAMPLES;
   find_pairs(s, &s->best, samples, &p);
-  *share = (double)p.count / samples;
+  *fraction = (double)p.count / samples;
   return true;
 }
 
@@ -317,10 +317,10 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found) {
   take_samples(&s);
   if (good) {
     consider(&s, &r->c->to_asset);
-    if (s.best_share < 0.999) consider_usual(&s);
-    if (s.best_share < 0.999) consider_boxes(&s);
-    if (s.best_share < 0.999) good = consider_triangles(&s, &scratch);
-    *found = good && s.best_share >= MIN_SHARE;
+    if (s.best_fraction < 0.999) consider_usual(&s);
+    if (s.best_fraction < 0.999) consider_boxes(&s);
+    if (s.best_fraction < 0.999) good = consider_triangles(&s, &scratch);
+    *found = good && s.best_fraction >= MIN_FRACTION;
     if (*found) good = refine(&s, &scratch, &r->alignment.matched);
     if (*found) r->alignment.to_asset = s.best;
     r->alignment.is_stated = memcmp(&r->alignment.to_asset, &r->c->to_asset, sizeof s.best) == 0;

@@ -36,9 +36,9 @@ static uint32_t sample(const sbfi_scene_surface *s, uint32_t i) {
   return (uint32_t)((double)s->mesh.positions.count * fmod(0.5 + i * 0.6180339887498949, 1.0));
 }
 
-static double distance_to(const sbfi_surface_finder *to, sbfi_d3 place, double within) {
-  sbfi_surface_place near;
-  return sbfi_surface_nearest(to, place, NULL, within, &near) ? near.distance : within;
+static double distance_to(const sbfi_surface_finder *to, sbfi_d3 position, double within) {
+  sbfi_surface_location near;
+  return sbfi_surface_nearest(to, position, NULL, within, &near) ? near.distance : within;
 }
 
 /* Mean distance of the samples, as a share of the rig's size. */
@@ -98,7 +98,7 @@ static sbfi_matrix drawn(const search *s, sbfi_matrix m) {
   for (int pass = 0; pass < PASSES; pass++) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < SAMPLES; i++) {
-      sbfi_surface_place near;
+      sbfi_surface_location near;
       sbfi_d3 p = sbfi_d3_of(s->r->input.mesh.positions.at[sample(&s->r->input, i)]);
       double within = FARTHEST / (1 + pass) * s->r->rig.size;
       if (!sbfi_surface_nearest(&s->rig, sbfi_similarity_apply(&m, p), NULL, within, &near)) continue;

@@ -90,15 +90,15 @@ static bool faces_away(const carrying *c, uint32_t mesh) {
   double sum = 0;
   uint32_t from = c->moved->mesh_starts[mesh], to = c->moved->mesh_starts[mesh + 1];
   for (uint32_t i = from; i < to; i += 1 + (to - from) / 500) {
-    sbfi_surface_place near;
-    sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[i]);
-    if (sbfi_surface_nearest(&c->finder, place, NULL, FARTHEST * c->r->rig.size, &near))
+    sbfi_surface_location near;
+    sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[i]);
+    if (sbfi_surface_nearest(&c->finder, position, NULL, FARTHEST * c->r->rig.size, &near))
       sum += sbfi_d3_dot(sbfi_surface_normal(&c->r->rig, &near), sbfi_d3_of(c->moved->normals[i]));
   }
   return sum < 0;
 }
 
-static void blend(const carrying *c, const sbfi_surface_place *at, sbfi_influences *to) {
+static void blend(const carrying *c, const sbfi_surface_location *at, sbfi_influences *to) {
   *to = (sbfi_influences){0};
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *from = &c->r->rig_weights[at->points[k]];
@@ -110,17 +110,17 @@ static void blend(const carrying *c, const sbfi_surface_place *at, sbfi_influenc
 
 static void carry_point(carrying *c, uint32_t point, double sign) {
   double size = c->r->rig.size;
-  sbfi_surface_place near, facing;
-  sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[point]);
+  sbfi_surface_location near, facing;
+  sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[point]);
   sbfi_d3 normal = sbfi_d3_scale(sbfi_d3_of(c->moved->normals[point]), sign);
   c->distances[point] = INFINITY;
   c->nearest[point] = SBF_NONE;
-  if (!sbfi_surface_nearest(&c->finder, place, NULL, size, &near)) return;
+  if (!sbfi_surface_nearest(&c->finder, position, NULL, size, &near)) return;
   c->distances[point] = (float)near.distance;
   c->nearest[point] = c->rigid[near.points[0]];
   double within = fmin(FARTHEST * size, near.distance + DETOUR * size);
   if (near.distance > within ||
-      !sbfi_surface_nearest(&c->finder, place, &normal, within * (1 + 1e-9), &facing))
+      !sbfi_surface_nearest(&c->finder, position, &normal, within * (1 + 1e-9), &facing))
     return;
   blend(c, &facing, &c->r->weights[point]);
   if (c->r->weights[point].at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
@@ -202,11 +202,11 @@ static uint32_t strongest(const sbfi_influences *of) {
   return of->at[best].node;
 }
 
-static void touch(const carrying *c, uint32_t point, piece *to) {
-  sbfi_surface_place near;
-  sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[point]);
+static void overlaps(const carrying *c, uint32_t point, piece *to) {
+  sbfi_surface_location near;
+  sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[point]);
   if (c->distances[point] > to->nearest + (float)(TOUCHING * c->r->rig.size)) return;
-  if (!sbfi_surface_nearest(&c->finder, place, NULL, c->r->rig.size, &near)) return;
+  if (!sbfi_surface_nearest(&c->finder, position, NULL, c->r->rig.size, &near)) return;
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *from = &c->r->rig_weights[near.points[k]];
     for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from->at[i].weight > 0; i++)
@@ -226,7 +226,7 @@ static bool attach_pieces(carrying *c) {
   }
   for (uint32_t i = 0; i < count; i++) {
     piece *p = &pieces[c->pieces[i]];
-    if (p->weighted < MIN_CARRIED * p->points) touch(c, i, p);
+    if (p->weighted < MIN_CARRIED * p->points) overlaps(c, i, p);
   }
   for (uint32_t i = 0; i < count; i++) {
     const piece *p = &pieces[c->pieces[i]];
@@ -272,7 +272,7 @@ static bool stiffen_pieces(carrying *c) {
 
 /* --- All of it ----------------------------------------------------------------------------------------- */
 
-static double share_of_weighted(const sbfi_rigging *r) {
+static double weighted_fraction(const sbfi_rigging *r) {
   uint32_t count = r->input.mesh.positions.count, weighted = 0;
   for (uint32_t i = 0; i < count; i++) weighted += r->sources[i] != SBFI_WEIGHTS_NONE;
   return count ? (double)weighted / count : 0;
@@ -289,7 +289,7 @@ static void carry_objects(carrying *c) {
   }
 }
 
-bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *share) {
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *fraction) {
   sbfi_arena scratch;
   uint32_t count = moved->mesh.positions.count;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
@@ -304,10 +304,10 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
                        ? (int32_t)r->weights[i].at[0].node
                        : SBF_NONE;
   if (good) carry_objects(&c);
-  *share = good ? share_of_weighted(r) : 0;
-  if (good && *share >= min)
+  *fraction = good ? weighted_fraction(r) : 0;
+  if (good && *fraction >= min)
     good = stiffen_pieces(&c) && attach_pieces(&c) && drop_outliers(&c) && spread(&c);
-  for (uint32_t i = 0; *share < min && i < count; i++)
+  for (uint32_t i = 0; *fraction < min && i < count; i++)
     if (r->sources[i] == SBFI_WEIGHTS_CARRIED) {
       r->sources[i] = SBFI_WEIGHTS_NONE;
       r->weights[i] = (sbfi_influences){0};

@@ -64,7 +64,7 @@ static shape shape_of(const sbfi_scene_surface *surface, const sbf_vec3 *positio
     for (int j = k; j < 3; j++, at++)
       moments[3 * k + j] = moments[3 * j + k] =
           sums[at] / sums[0] - sums[1 + k] * sums[1 + j] / (sums[0] * sums[0]);
-  sbfi_symmetric_eigen(3, moments, vectors);
+  sbfi_symmetric_compute_eigen(3, moments, vectors);
   double min = fmin(moments[0], fmin(moments[4], moments[8]));
   double max = fmax(moments[0], fmax(moments[4], moments[8]));
   double trace = moments[0] + moments[4] + moments[8];
@@ -141,7 +141,7 @@ static void keep(search *s, sbfi_clip_moment pose) {
 }
 
 /* Frames that are more alike than those before and after. */
-static void look_at_clip(search *s, const sbfi_scene_clip *clip, double step) {
+static void measure_clip(search *s, const sbfi_scene_clip *clip, double step) {
   double before = INFINITY, here = INFINITY;
   uint32_t frames = (uint32_t)((double)clip->duration_s / step) + 1;
   for (uint32_t i = 0; i <= frames; i++) {
@@ -176,7 +176,7 @@ static void refine(search *s, sbfi_clip_moment *pose, double step) {
   }
 }
 
-static bool make_room(search *s) {
+static bool reserve(search *s) {
   sbfi_arena *arena = &s->r->c->scratch;
   size_t nodes = s->r->rig.scene->node_count, points = s->r->rig.mesh.positions.count;
   s->nodes = sbfi_arena_allocate(arena, nodes + 1, sizeof *s->nodes);
@@ -194,10 +194,10 @@ bool sbfi_clip_moments_find(
   *count = 0;
   for (uint32_t i = 0; i < rig->clip_count; i++) frames += (double)rig->clips[i].duration_s / FRAME + 1;
   if (!(frames > 0) || !(input > 0) || fabs(input - own) > SAME_COUNT * own) return true;
-  if (!make_room(&s)) return false;
+  if (!reserve(&s)) return false;
   double step = FRAME * fmax(1, frames * r->rig.mesh.positions.count / MAX_POINTS);
   s.input = shape_of(&r->input, r->input.mesh.positions.at);
-  for (uint32_t i = 0; i < rig->clip_count; i++) look_at_clip(&s, &rig->clips[i], step);
+  for (uint32_t i = 0; i < rig->clip_count; i++) measure_clip(&s, &rig->clips[i], step);
   search sorted = {.count = 0};
   for (uint32_t i = 0; i < s.count; i++) {
     sbfi_clip_moment between = s.best[i];
@@ -211,7 +211,7 @@ bool sbfi_clip_moments_find(
 
 const sbfi_matrix *sbfi_clip_moment_worlds(const sbfi_rigging *r, const sbfi_clip_moment *pose) {
   search s = {.r = r};
-  if (!make_room(&s)) return NULL;
+  if (!reserve(&s)) return NULL;
   pose_at(&s, pose->clip, pose->time_s);
   return s.worlds;
 }

@@ -5,7 +5,7 @@
 
 #include "base/union_find.h"
 
-static void *room(const sbfi_rigging *r, size_t count, size_t size) {
+static void *allocate(const sbfi_rigging *r, size_t count, size_t size) {
   return sbfi_arena_allocate(&r->c->scratch, count + 1, size);
 }
 
@@ -57,7 +57,7 @@ static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
   size_t total = 0, count = 0;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
     total += is_piece(r, m) ? scene->meshes[m].corner_count : 0;
-  side *sides = room(r, total, sizeof *sides);
+  side *sides = allocate(r, total, sizeof *sides);
   if (!sides) return false;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
     if (is_piece(r, m)) count += add_sides(&scene->meshes[m], m, sides + count);
@@ -76,7 +76,7 @@ static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
   return true;
 }
 
-static void join_those_by_place(const sbfi_rigging *r, uint32_t *sets) {
+static void join_those_by_position(const sbfi_rigging *r, uint32_t *sets) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     for (uint32_t k = 0; is_piece(r, m) && r->lies_on[m] == r->carriers[m] && k < m; k++)
       if (is_piece(r, k) && r->lies_on[k] == r->lies_on[m]) sbfi_sets_join(sets, k, m);
@@ -142,15 +142,15 @@ static bool is_of(const joining *j, uint32_t mesh) {
 static bool join_points(joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].point_count : 0;
-  piece_point *all = room(j->r, total, sizeof *all);
-  const piece_point **first = room(j->r, total, sizeof *first);
-  uint32_t *number_of = room(j->r, total, sizeof *number_of);
-  sbf_vec3 *points = room(j->r, total, sizeof *points);
-  uint32_t *sources = room(j->r, total, sizeof *sources), at = 0;
+  piece_point *all = allocate(j->r, total, sizeof *all);
+  const piece_point **first = allocate(j->r, total, sizeof *first);
+  uint32_t *number_of = allocate(j->r, total, sizeof *number_of);
+  sbf_vec3 *points = allocate(j->r, total, sizeof *points);
+  uint32_t *sources = allocate(j->r, total, sizeof *sources), at = 0;
   if (!all || !first || !number_of || !points || !sources) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     if (!is_of(j, m)) continue;
-    j->points[m] = room(j->r, j->meshes[m].point_count, sizeof *j->points[m]);
+    j->points[m] = allocate(j->r, j->meshes[m].point_count, sizeof *j->points[m]);
     if (!j->points[m]) return false;
     for (uint32_t i = 0; i < j->meshes[m].point_count; i++)
       all[at++] = (piece_point){j->meshes[m].points[i], j->meshes[m].point_sources[i], m, i, 0};
@@ -181,9 +181,9 @@ static void copy_corners(const int32_t *from, uint32_t count, uint32_t offset, i
 }
 
 static bool join_polygons(const joining *j, sbfi_scene_mesh *to) {
-  uint32_t *starts = room(j->r, (size_t)to->polygon_count + 1, sizeof *starts);
-  int32_t *materials = room(j->r, to->polygon_count, sizeof *materials);
-  uint32_t *corners = room(j->r, to->corner_count, sizeof *corners), polygon = 0, corner = 0;
+  uint32_t *starts = allocate(j->r, (size_t)to->polygon_count + 1, sizeof *starts);
+  int32_t *materials = allocate(j->r, to->polygon_count, sizeof *materials);
+  uint32_t *corners = allocate(j->r, to->corner_count, sizeof *corners), polygon = 0, corner = 0;
   if (!starts || !materials || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_mesh *from = &j->meshes[m];
@@ -203,8 +203,8 @@ static bool join_polygons(const joining *j, sbfi_scene_mesh *to) {
 static bool join_normals(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].normal_count : 0;
-  sbf_vec3 *normals = room(j->r, total, sizeof *normals);
-  int32_t *corners = room(j->r, to->corner_count, sizeof *corners);
+  sbf_vec3 *normals = allocate(j->r, total, sizeof *normals);
+  int32_t *corners = allocate(j->r, to->corner_count, sizeof *corners);
   if (!normals || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_mesh *from = &j->meshes[m];
@@ -223,8 +223,8 @@ static bool join_normals(const joining *j, sbfi_scene_mesh *to) {
 static bool join_colors(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].color_count : 0;
-  sbf_vec4 *colors = room(j->r, total, sizeof *colors);
-  int32_t *corners = room(j->r, to->corner_count, sizeof *corners);
+  sbf_vec4 *colors = allocate(j->r, total, sizeof *colors);
+  int32_t *corners = allocate(j->r, to->corner_count, sizeof *corners);
   if (!colors || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_mesh *from = &j->meshes[m];
@@ -245,9 +245,9 @@ static bool join_uvs(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++)
     total += is_of(j, m) && j->meshes[m].uv_set_count ? j->meshes[m].uv_sets[0].count : 0;
-  sbfi_scene_uvs *set = room(j->r, 1, sizeof *set);
-  sbf_vec2 *uvs = room(j->r, total, sizeof *uvs);
-  int32_t *corners = room(j->r, to->corner_count, sizeof *corners);
+  sbfi_scene_uvs *set = allocate(j->r, 1, sizeof *set);
+  sbf_vec2 *uvs = allocate(j->r, total, sizeof *uvs);
+  int32_t *corners = allocate(j->r, to->corner_count, sizeof *corners);
   if (!set || !uvs || !corners) return false;
   for (uint32_t m = 0; m < j->mesh_count; m++) {
     const sbfi_scene_uvs *from = j->meshes[m].uv_set_count ? j->meshes[m].uv_sets : NULL;
@@ -278,13 +278,13 @@ static bool join_set(joining *j, sbfi_scene_mesh *to) {
 bool sbfi_join_pieces(
     const sbfi_rigging *r, sbfi_scene_node *nodes, sbfi_scene_mesh *meshes, uint32_t *count) {
   uint32_t mesh_count = *count, kept = 0;
-  uint32_t *sets = room(r, mesh_count, sizeof *sets), *sizes = room(r, mesh_count, sizeof *sizes);
+  uint32_t *sets = allocate(r, mesh_count, sizeof *sets), *sizes = allocate(r, mesh_count, sizeof *sizes);
   sbfi_scene_mesh *before = sbfi_arena_copy(&r->c->scratch, meshes, mesh_count, sizeof *before);
-  uint32_t **points = room(r, mesh_count, sizeof *points);
+  uint32_t **points = allocate(r, mesh_count, sizeof *points);
   if (!sets || !sizes || !before || !points) return false;
   sbfi_sets_begin(sets, mesh_count);
   if (!join_along_borders(r, sets)) return false;
-  join_those_by_place(r, sets);
+  join_those_by_position(r, sets);
   for (uint32_t m = 0; m < mesh_count; m++) sizes[sets[m] = sbfi_set_root(sets, m)]++;
   for (uint32_t m = 0; m < mesh_count; m++) {
     if (sets[m] != m) continue;

@@ -41,11 +41,11 @@ static int32_t find_namesake(
     int score = name_score(object, rig->nodes[rig->meshes[i].node].name, rig->meshes[i].name);
     if (score == 0 || score < best_score) continue;
     middle_of(&r->rig, i, &same, there);
-    double apart = hypot(hypot(here[0] - there[0], here[1] - there[1]), here[2] - there[2]);
-    if (score == best_score && apart >= *distance) continue;
+    double separation = hypot(hypot(here[0] - there[0], here[1] - there[1]), here[2] - there[2]);
+    if (score == best_score && separation >= *distance) continue;
     best = (int32_t)i;
     best_score = score;
-    *distance = apart;
+    *distance = separation;
   }
   return best;
 }
@@ -78,7 +78,7 @@ static void weigh_by_bones(sbfi_rigging *r) {
   }
 }
 
-double sbfi_names_apart(const sbfi_rigging *r, const sbfi_matrix *to_asset) {
+double sbfi_names_distance(const sbfi_rigging *r, const sbfi_matrix *to_asset) {
   double sum = 0, distance;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (find_namesake(r, m, to_asset, &distance) != SBF_NONE) sum += distance;

@@ -26,8 +26,8 @@ static double score(const matching *m, uint32_t candidate) {
   for (uint32_t i = a->neighbour_starts[m->point]; i < a->neighbour_starts[m->point + 1]; i++) {
     sbfi_d3 to = sbfi_d3_of(a->mesh.positions.at[a->neighbours[i]]);
     for (uint32_t k = b->neighbour_starts[candidate]; k < b->neighbour_starts[candidate + 1]; k++) {
-      sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(b->mesh.positions.at[b->neighbours[k]]), to);
-      if (sbfi_d3_dot(apart, apart) > squared) continue;
+      sbfi_d3 separation = sbfi_d3_sub(sbfi_d3_of(b->mesh.positions.at[b->neighbours[k]]), to);
+      if (sbfi_d3_dot(separation, separation) > squared) continue;
       same += 1;
       break;
     }
@@ -50,12 +50,12 @@ static void weigh_candidate(void *user, uint32_t candidate) {
 
 static uint32_t find_match(matching *m, uint32_t point) {
   double distance;
-  sbfi_d3 place = sbfi_d3_of(m->moved->mesh.positions.at[point]);
+  sbfi_d3 position = sbfi_d3_of(m->moved->mesh.positions.at[point]);
   m->point = point;
-  m->best = sbfi_point_nearest(&m->finder, place, m->within, &distance);
+  m->best = sbfi_point_nearest(&m->finder, position, m->within, &distance);
   m->best_score = -1;
   if (m->best != UINT32_MAX)
-    sbfi_points_near(&m->finder, place, distance + 0.02 * m->within, weigh_candidate, m);
+    sbfi_find_points_near(&m->finder, position, distance + 0.02 * m->within, weigh_candidate, m);
   if (m->best != UINT32_MAX) m->used[m->best]++;
   return m->best;
 }
@@ -96,7 +96,7 @@ static bool faces_away(
   return sum < 0;
 }
 
-bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved) {
+bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   uint32_t count = r->input.mesh.positions.count;

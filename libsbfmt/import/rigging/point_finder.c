@@ -10,14 +10,15 @@ bool sbfi_point_finder_make(
   return sbfi_box_tree_build(&finder->tree, boxes, count, arena);
 }
 
-static double squared_distance(const void *user, uint32_t item, const double place[3]) {
+static double squared_distance(const void *user, uint32_t item, const double position[3]) {
   const sbf_vec3 *p = &((const sbf_vec3 *)user)[item];
-  double x = (double)p->x - place[0], y = (double)p->y - place[1], z = (double)p->z - place[2];
+  double x = (double)p->x - position[0], y = (double)p->y - position[1], z = (double)p->z - position[2];
   return x * x + y * y + z * z;
 }
 
-uint32_t sbfi_point_nearest(const sbfi_point_finder *finder, sbfi_d3 place, double within, double *distance) {
-  const double at[3] = {place.x, place.y, place.z};
+uint32_t sbfi_point_nearest(
+    const sbfi_point_finder *finder, sbfi_d3 position, double within, double *distance) {
+  const double at[3] = {position.x, position.y, position.z};
   double min = within * within * (1 + 1e-12);
   uint32_t found = sbfi_box_tree_nearest(&finder->tree, at, squared_distance, finder->points, &min);
   if (distance) *distance = sqrt(min);
@@ -26,24 +27,25 @@ uint32_t sbfi_point_nearest(const sbfi_point_finder *finder, sbfi_d3 place, doub
 
 typedef struct near_points {
   const sbfi_point_finder *finder;
-  double place[3], within;
+  double position[3], within;
   void (*visit)(void *user, uint32_t point);
   void *user;
 } near_points;
 
 static bool visit_near(void *user, uint32_t item) {
   const near_points *n = user;
-  if (squared_distance(n->finder->points, item, n->place) <= n->within * n->within) n->visit(n->user, item);
+  if (squared_distance(n->finder->points, item, n->position) <= n->within * n->within)
+    n->visit(n->user, item);
   return true;
 }
 
-void sbfi_points_near(const sbfi_point_finder *finder, sbfi_d3 place, double within,
+void sbfi_find_points_near(const sbfi_point_finder *finder, sbfi_d3 position, double within,
     void (*visit)(void *user, uint32_t point), void *user) {
-  near_points n = {finder, {place.x, place.y, place.z}, within, visit, user};
+  near_points n = {finder, {position.x, position.y, position.z}, within, visit, user};
   sbfi_box box;
   for (int k = 0; k < 3; k++) {
-    box.low[k] = nextafterf((float)(n.place[k] - within), -INFINITY);
-    box.high[k] = nextafterf((float)(n.place[k] + within), INFINITY);
+    box.low[k] = nextafterf((float)(n.position[k] - within), -INFINITY);
+    box.high[k] = nextafterf((float)(n.position[k] + within), INFINITY);
   }
   sbfi_box_tree_visit(&finder->tree, &box, visit_near, &n);
 }

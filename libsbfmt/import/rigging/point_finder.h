@@ -16,10 +16,11 @@ bool sbfi_point_finder_make(
 
 /* The nearest point no farther than `within`, the first of several; UINT32_MAX: none. `*distance` may be
  * NULL. */
-uint32_t sbfi_point_nearest(const sbfi_point_finder *finder, sbfi_d3 place, double within, double *distance);
+uint32_t sbfi_point_nearest(
+    const sbfi_point_finder *finder, sbfi_d3 position, double within, double *distance);
 
 /* Hands over every point no farther than `within`. */
-void sbfi_points_near(const sbfi_point_finder *finder, sbfi_d3 place, double within,
+void sbfi_find_points_near(const sbfi_point_finder *finder, sbfi_d3 position, double within,
     void (*visit)(void *user, uint32_t point), void *user);
 
 #endif

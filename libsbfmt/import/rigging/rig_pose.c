@@ -16,7 +16,7 @@ static void find_motions(const sbfi_rigging *r, const sbfi_matrix *worlds, sbfi_
   }
 }
 
-static sbfi_matrix *room_for_motions(const sbfi_rigging *r) {
+static sbfi_matrix *reserve_motions(const sbfi_rigging *r) {
   return sbfi_arena_allocate(&r->c->scratch, (size_t)r->rig.scene->node_count + 1, sizeof(sbfi_matrix));
 }
 
@@ -55,7 +55,7 @@ void sbfi_pose_positions(
 }
 
 bool sbfi_pose_surface(const sbfi_rigging *r, const sbfi_matrix *worlds, sbfi_scene_surface *posed) {
-  sbfi_matrix *motions = room_for_motions(r);
+  sbfi_matrix *motions = reserve_motions(r);
   sbf_vec3 *positions =
       sbfi_arena_allocate(&r->c->scratch, (size_t)r->rig.mesh.positions.count + 1, sizeof *positions);
   if (!motions || !positions) return false;
@@ -123,7 +123,7 @@ static bool undo_shapes(const sbfi_matrix *back, sbfi_scene_mesh *to, sbfi_arena
 bool sbfi_pose_undo(const sbfi_rigging *r, uint32_t mesh, const sbfi_matrix *to_asset, sbfi_scene_mesh *to) {
   sbfi_arena *arena = &r->c->scratch;
   sbfi_matrix from_asset;
-  sbfi_matrix *motions = room_for_motions(r);
+  sbfi_matrix *motions = reserve_motions(r);
   sbfi_matrix *own = sbfi_arena_allocate(arena, (size_t)to->point_count + 1, sizeof *own);
   sbfi_matrix *back = sbfi_arena_allocate(arena, (size_t)to->point_count + 1, sizeof *back);
   sbf_vec3 *points = sbfi_arena_allocate(arena, (size_t)to->point_count + 1, sizeof *points);

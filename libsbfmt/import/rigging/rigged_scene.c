@@ -5,15 +5,15 @@
 #include "import/rigging/join_pieces.h"
 #include "import/rigging/rig_pose.h"
 
-static void *room(const sbfi_rigging *r, size_t count, size_t size) {
+static void *allocate(const sbfi_rigging *r, size_t count, size_t size) {
   return sbfi_arena_allocate(&r->c->scratch, count + 1, size);
 }
 
 /* The space of an input mesh in that of the rig's nodes. */
-static bool place_of(const sbfi_rigging *r, const sbfi_scene_mesh *mesh, sbfi_matrix *world) {
-  sbfi_matrix from_asset, place = sbfi_scene_mesh_world(r->input.scene, mesh);
+static bool position_of(const sbfi_rigging *r, const sbfi_scene_mesh *mesh, sbfi_matrix *world) {
+  sbfi_matrix from_asset, transform = sbfi_scene_mesh_world(r->input.scene, mesh);
   if (!sbfi_matrix_invert(&r->c->rig_to_asset, &from_asset)) return false;
-  *world = sbfi_matrix_multiply(&r->alignment.to_asset, &place);
+  *world = sbfi_matrix_multiply(&r->alignment.to_asset, &transform);
   *world = sbfi_matrix_multiply(&from_asset, world);
   return true;
 }
@@ -22,7 +22,7 @@ static void add_node(const sbfi_rigging *r, uint32_t mesh, sbfi_scene_node *node
   sbfi_scene_node *node = &nodes[at];
   sbfi_matrix to_parent;
   *node = (sbfi_scene_node){.name = r->names[mesh], .parent = r->carriers[mesh]};
-  if (!place_of(r, &r->input.scene->meshes[mesh], &node->world)) node->world = sbfi_matrix_identity();
+  if (!position_of(r, &r->input.scene->meshes[mesh], &node->world)) node->world = sbfi_matrix_identity();
   node->local = node->world;
   if (node->parent == SBF_NONE) return;
   if (sbfi_matrix_invert(&nodes[node->parent].world, &to_parent))
@@ -37,11 +37,11 @@ static bool add_skin(
     const sbfi_rigging *r, uint32_t mesh, const sbfi_scene_node *nodes, sbfi_scene_mesh *to) {
   const sbfi_influences *weights = r->weights + r->input.mesh_starts[mesh];
   uint32_t node_count = r->rig.scene->node_count, total = 0;
-  uint32_t *joint_of_node = room(r, node_count, sizeof *joint_of_node); /* + 1 */
-  sbfi_scene_joint *joints = room(r, node_count, sizeof *joints);
-  uint32_t *starts = room(r, (size_t)to->point_count + 1, sizeof *starts);
-  uint32_t *skin_joints = room(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_joints);
-  float *skin_weights = room(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_weights);
+  uint32_t *joint_of_node = allocate(r, node_count, sizeof *joint_of_node); /* + 1 */
+  sbfi_scene_joint *joints = allocate(r, node_count, sizeof *joints);
+  uint32_t *starts = allocate(r, (size_t)to->point_count + 1, sizeof *starts);
+  uint32_t *skin_joints = allocate(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_joints);
+  float *skin_weights = allocate(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_weights);
   if (!joint_of_node || !joints || !starts || !skin_joints || !skin_weights) return false;
   for (uint32_t i = 0; i < to->point_count; i++)
     for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++)
@@ -83,10 +83,10 @@ static void turn_corners(const sbfi_scene_mesh *mesh, const void *from, void *to
 }
 
 static bool turn_polygons(const sbfi_rigging *r, sbfi_scene_mesh *mesh) {
-  uint32_t *points = room(r, mesh->corner_count, sizeof *points);
-  int32_t *normals = room(r, mesh->corner_count, sizeof *normals);
-  uint32_t *vertices = room(r, mesh->corner_count, sizeof *vertices);
-  sbfi_scene_uvs *sets = room(r, mesh->uv_set_count, sizeof *sets);
+  uint32_t *points = allocate(r, mesh->corner_count, sizeof *points);
+  int32_t *normals = allocate(r, mesh->corner_count, sizeof *normals);
+  uint32_t *vertices = allocate(r, mesh->corner_count, sizeof *vertices);
+  sbfi_scene_uvs *sets = allocate(r, mesh->uv_set_count, sizeof *sets);
   if (!points || !normals || !vertices || !sets) return false;
   turn_corners(mesh, mesh->corner_points, points);
   mesh->corner_points = points;
@@ -95,7 +95,7 @@ static bool turn_polygons(const sbfi_rigging *r, sbfi_scene_mesh *mesh) {
   if (mesh->corner_vertices) turn_corners(mesh, mesh->corner_vertices, vertices);
   if (mesh->corner_vertices) mesh->corner_vertices = vertices;
   for (uint32_t s = 0; s < mesh->uv_set_count; s++) {
-    int32_t *corners = room(r, mesh->corner_count, sizeof *corners);
+    int32_t *corners = allocate(r, mesh->corner_count, sizeof *corners);
     if (!corners) return false;
     turn_corners(mesh, mesh->uv_sets[s].corner, corners);
     sets[s] = mesh->uv_sets[s];
@@ -115,10 +115,10 @@ bool sbfi_rigged_scene_take(const sbfi_rigging *r) {
   sbfi_conversion *c = r->c;
   const sbfi_scene *input = r->input.scene, *rig = r->rig.scene;
   uint32_t mesh_count = input->mesh_count, node_count = rig->node_count;
-  sbfi_scene *scene = room(r, 1, sizeof *scene);
-  sbfi_scene_node *nodes = room(r, (size_t)node_count + mesh_count, sizeof *nodes);
+  sbfi_scene *scene = allocate(r, 1, sizeof *scene);
+  sbfi_scene_node *nodes = allocate(r, (size_t)node_count + mesh_count, sizeof *nodes);
   sbfi_scene_mesh *meshes = sbfi_arena_copy(&c->scratch, input->meshes, mesh_count, sizeof *meshes);
-  int32_t *bone_of_node = room(r, (size_t)node_count + mesh_count, sizeof *bone_of_node);
+  int32_t *bone_of_node = allocate(r, (size_t)node_count + mesh_count, sizeof *bone_of_node);
   if (!scene || !nodes || !meshes || !bone_of_node) return false;
   memcpy(nodes, rig->nodes, node_count * sizeof *nodes);
   memcpy(bone_of_node, c->bone_of_node, node_count * sizeof *bone_of_node);

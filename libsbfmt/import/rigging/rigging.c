@@ -109,8 +109,8 @@ static int32_t nearest_bone(const sbf_asset *asset, sbfi_d3 p) {
         2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z + q.w * q.x)};
     sbfi_d3 from_head = sbfi_d3_sub(p, sbfi_d3_of(bone->head));
     double along = fmin(fmax(sbfi_d3_dot(from_head, axis), 0), (double)bone->length);
-    sbfi_d3 apart = sbfi_d3_sub(from_head, sbfi_d3_scale(axis, along));
-    double squared = sbfi_d3_dot(apart, apart);
+    sbfi_d3 separation = sbfi_d3_sub(from_head, sbfi_d3_scale(axis, along));
+    double squared = sbfi_d3_dot(separation, separation);
     if (squared > best_squared) continue;
     best_squared = squared;
     best = (int32_t)i;
@@ -245,12 +245,12 @@ static sbf_status refuse_match(const sbfi_rigging *r) {
       count_open(r), r->input.mesh.positions.count, r->input.scene->file, r->rig.scene->file);
 }
 
-static sbf_status refuse_transfer(const sbfi_rigging *r, double share) {
+static sbf_status refuse_transfer(const sbfi_rigging *r, double fraction) {
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
       "--weights transfer: only %.0f %% of the points of %s lie beside a surface of %s that has weights; "
       "give "
       "the rig of this character, or --weights compute",
-      100 * share, r->input.scene->file, r->rig.scene->file);
+      100 * fraction, r->input.scene->file, r->rig.scene->file);
 }
 
 /* From the bones, where nothing else gives weights. The alignment is found before. */
@@ -262,12 +262,12 @@ static sbf_status weigh_rest(sbfi_rigging *r, const sbfi_scene_surface *moved, w
 /* By nearness, where the input is like the rig's mesh or it is asked for. */
 static sbf_status weigh_beside(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
-  double share = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_BESIDE;
+  double fraction = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_BESIDE;
   if ((mode != MODE_ANY && mode != MODE_TRANSFER) || (mode == MODE_ANY && !alike) || !count_open(r))
     return SBF_OK;
-  if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, min, &share))
+  if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, min, &fraction))
     return sbfi_convert_no_memory(r->c);
-  return mode == MODE_TRANSFER && share < min ? refuse_transfer(r, share) : SBF_OK;
+  return mode == MODE_TRANSFER && fraction < min ? refuse_transfer(r, fraction) : SBF_OK;
 }
 
 static bool has_named_objects(const sbfi_rigging *r) {
@@ -314,7 +314,7 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
 static sbf_status weigh_objects(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool by_points, bool alike) {
   if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->weights);
-  if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, moved))
+  if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_position(r, moved))
     return sbfi_convert_no_memory(r->c);
   if (mode == MODE_MATCH && count_open(r) > (1 - MIN_MATCHED) * r->input.mesh.positions.count)
     return refuse_match(r);
@@ -347,7 +347,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
 }
 
 /* --weights where there is nothing to choose from. */
-static sbf_status refuse_way(const sbfi_conversion *c) {
+static sbf_status refuse_method(const sbfi_conversion *c) {
   return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
       c->rig ? "--weights %s is for a skeleton in another file: %s has one of its own"
              : "--weights %s says which bones move the points, and there are no bones in %s: give --rig FILE",
@@ -357,7 +357,7 @@ static sbf_status refuse_way(const sbfi_conversion *c) {
 sbf_status sbfi_rig_input(sbfi_conversion *c) {
   weights_mode mode = mode_of(c->options->weights);
   bool own_rig = c->rig == c->scene;
-  if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_way(c);
+  if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_method(c);
   if (c->options->shell_count && (!c->rig || own_rig))
     return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
         "'%s' cannot be given to a bone: that is for a skeleton in another file, --rig FILE",

@@ -107,7 +107,7 @@ static void rotation_of_sums(double s[3][3], sbfi_matrix *m) {
   double vectors[16];
   for (int r = 0; r < 4; r++)
     for (int k = 0; k < r; k++) n[4 * r + k] = n[4 * k + r];
-  sbfi_symmetric_eigen(4, n, vectors);
+  sbfi_symmetric_compute_eigen(4, n, vectors);
   int best = 0;
   for (int k = 1; k < 4; k++)
     if (n[5 * k] > n[5 * best]) best = k;

@@ -11,11 +11,11 @@ typedef struct sbfi_surface_finder {
   sbfi_triangle_tree tree;
 } sbfi_surface_finder;
 
-typedef struct sbfi_surface_place {
+typedef struct sbfi_surface_location {
   uint32_t points[3];
   double weights[3]; /* of those points, summing to 1 */
   double distance;
-} sbfi_surface_place;
+} sbfi_surface_location;
 
 /* `surface` must outlive it. False where memory runs out. */
 bool sbfi_surface_finder_make(
@@ -23,10 +23,10 @@ bool sbfi_surface_finder_make(
 
 /* The nearest place no farther than `within`; with a `normal` (unit length) the nearest whose normal is less
  * than 60 degrees from it. False: there is none. */
-bool sbfi_surface_nearest(const sbfi_surface_finder *finder, sbfi_d3 place, const sbfi_d3 *normal,
-    double within, sbfi_surface_place *found);
+bool sbfi_surface_nearest(const sbfi_surface_finder *finder, sbfi_d3 position, const sbfi_d3 *normal,
+    double within, sbfi_surface_location *found);
 
-sbfi_d3 sbfi_surface_point(const sbfi_scene_surface *surface, const sbfi_surface_place *place);
-sbfi_d3 sbfi_surface_normal(const sbfi_scene_surface *surface, const sbfi_surface_place *place);
+sbfi_d3 sbfi_surface_point(const sbfi_scene_surface *surface, const sbfi_surface_location *location);
+sbfi_d3 sbfi_surface_normal(const sbfi_scene_surface *surface, const sbfi_surface_location *location);
 
 #endif

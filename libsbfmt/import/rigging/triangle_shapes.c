@@ -24,8 +24,8 @@ static bool shape_of(const sbf_vec3 *at, const uint32_t points[3], sbfi_shaped_t
   if (!(longest > 0)) return false;
   *to = (sbfi_shaped_triangle){{points[order[0]], points[order[1]], points[order[2]]},
       (float)(middle / longest), (float)(shortest / longest), (float)longest};
-  static const double apart = 8e-3, flat = 0.02;
-  return longest - middle > apart * longest && middle - shortest > apart * longest &&
+  static const double separation = 8e-3, flat = 0.02;
+  return longest - middle > separation * longest && middle - shortest > separation * longest &&
          middle + shortest - longest > flat * longest;
 }
 

@@ -11,7 +11,7 @@
 void sbfi_weigh_by_name(sbfi_rigging *r);
 /* How far objects lie from the rig's meshes that they are named as, laid over the rig by that transform: the
  * sum of the distances of their middles, m. */
-double sbfi_names_apart(const sbfi_rigging *r, const sbfi_matrix *to_asset);
+double sbfi_names_distance(const sbfi_rigging *r, const sbfi_matrix *to_asset);
 /* By order of the caller: objects, or shells of them (pieces that share no point), that a bone is to move,
  * and only that. After those by name. IMPORT_PIN_UNKNOWN: there is no such object, shell or bone. */
 sbf_status sbfi_weigh_shells(sbfi_rigging *r);
@@ -19,12 +19,12 @@ sbf_status sbfi_weigh_shells(sbfi_rigging *r);
 void sbfi_weigh_by_own_skin(sbfi_rigging *r);
 
 /* By place: points that lie on points of the rig's meshes. `moved` is the input in asset space. */
-bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved);
+bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved);
 
 /* By nearness: the other points, from the surface of the rig's meshes beside them. `*share` is that of all
  * points which then have weights; where it is below `least` the input is no mesh like the rig's, and nothing
  * changes. */
-bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *share);
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *fraction);
 
 /* From the bones alone (build/weights): the other points of objects that no node carries. */
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved);

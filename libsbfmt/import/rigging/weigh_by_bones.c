@@ -75,7 +75,7 @@ static bool is_beside_bones(const sbf_bone_list bones, const box *object, double
 }
 
 /* Several characters in one input: the rig is that of one. */
-static void report_apart(const sbfi_rigging *r, const sbfi_scene_surface *moved) {
+static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *moved) {
   const sbf_bone_list bones = r->c->asset->bones;
   const sbfi_d3 min = {-INFINITY, -INFINITY, -INFINITY}, max = {INFINITY, INFINITY, INFINITY};
   box rig = {max, min};
@@ -107,8 +107,8 @@ static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *co
   char names[200] = "";
   double idle = 0, last = INFINITY;
   for (uint32_t b = 0; b < computed->bone_count; b++) idle += (double)computed->idle_lengths[b];
-  double inside = fmin(r->alignment.inside, computed->figures.inside), share = inside * (1 - idle);
-  if (!(inside > 0) || share >= SBFI_MIN_BONES_INSIDE) return SBF_OK;
+  double inside = fmin(r->alignment.inside, computed->figures.inside), fraction = inside * (1 - idle);
+  if (!(inside > 0) || fraction >= SBFI_MIN_BONES_INSIDE) return SBF_OK;
   for (int n = 0; n < NAMED; n++) { /* the longest first; of equals the first alone */
     uint32_t best = UINT32_MAX;
     for (uint32_t b = 0; b < computed->bone_count; b++) {
@@ -127,7 +127,7 @@ static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *co
       "only %.0f %% of the bones' length lies inside the mesh near some of its surface; %.0f %% lie deep "
       "inside, where "
       "other bones are nearer to all of it: %s; give this character's rig, or --unit, --up and --forward",
-      100 * share, 100 * idle, names);
+      100 * fraction, 100 * idle, names);
 }
 
 /* Several bones reach over most of their body; a few may not, but then lie in its middle. A rig of another
@@ -232,7 +232,7 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
         "--shell gives one to another",
         in.bone_count, computed.figures.rigid_shell_count, computed.figures.shell_count,
         computed.figures.unused_bone_count);
-  if (status == SBF_OK) report_apart(r, moved);
+  if (status == SBF_OK) report_separated(r, moved);
   sbfi_weights_free(&computed);
   return status;
 }

@@ -71,25 +71,25 @@ static char *field_text(sbfi_arena *arena, sbfi_span field, bool quoted) {
   return text;
 }
 
-static sbf_status read_header(sbfi_weights_rows *to, sbfi_span line, int places[COLUMNS]) {
+static sbf_status read_header(sbfi_weights_rows *to, sbfi_span line, int indices[COLUMNS]) {
   bool first = true, quoted;
   sbfi_span field;
   if (sbfi_span_begins(line, "\xef\xbb\xbf")) line = (sbfi_span){line.at + 3, line.length - 3};
-  for (int k = 0; k < COLUMNS; k++) places[k] = -1;
+  for (int k = 0; k < COLUMNS; k++) indices[k] = -1;
   for (int at = 0; next_field(&line, &first, &field, &quoted); at++)
     for (int k = 0; k < COLUMNS; k++)
-      if (sbfi_span_is(field, COLUMN_NAMES[k])) places[k] = at;
+      if (sbfi_span_is(field, COLUMN_NAMES[k])) indices[k] = at;
   for (int k = 0; k < COLUMNS; k++)
-    if (places[k] < 0)
+    if (indices[k] < 0)
       return sbfi_weights_rows_fail(
           to, 1, "no column is called '%s': the first line names vertex, bone and weight", COLUMN_NAMES[k]);
   return SBF_OK;
 }
 
 sbf_status sbfi_weights_rows_csv(sbfi_weights_rows *to, sbfi_span text) {
-  int places[COLUMNS];
+  int indices[COLUMNS];
   sbfi_span line;
-  sbf_status status = sbfi_span_next_line(&text, &line) ? read_header(to, line, places)
+  sbf_status status = sbfi_span_next_line(&text, &line) ? read_header(to, line, indices)
                                                         : sbfi_weights_rows_fail(to, 1, "the file is empty");
   for (uint32_t number = 2; status == SBF_OK && sbfi_span_next_line(&text, &line); number++) {
     sbfi_span fields[COLUMNS] = {{0}}, field;
@@ -97,7 +97,7 @@ sbf_status sbfi_weights_rows_csv(sbfi_weights_rows *to, sbfi_span text) {
     if (!sbfi_span_trim(line).length) continue;
     for (int at = 0; next_field(&line, &first, &field, &quoted); at++)
       for (int k = 0; k < COLUMNS; k++) {
-        if (places[k] != at) continue;
+        if (indices[k] != at) continue;
         fields[k] = field;
         if (k == COLUMN_BONE) is_bone_quoted = quoted;
       }

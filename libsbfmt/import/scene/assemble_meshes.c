@@ -32,7 +32,7 @@ typedef struct joining {
   sbfi_row_table table, classes;
 } joining;
 
-static void *room(joining *j, size_t count, size_t size) {
+static void *allocate(joining *j, size_t count, size_t size) {
   return sbfi_arena_allocate(&j->assembly->scene->arena, count ? count : 1, size);
 }
 
@@ -91,9 +91,9 @@ static bool count_parts(joining *j) {
 /* Lines and points, which have one or two corners, are left out. */
 static bool join_polygons(joining *j) {
   sbfi_scene_mesh *to = j->to;
-  uint32_t *starts = room(j, (size_t)to->polygon_count + 1, sizeof *starts);
-  int32_t *materials = room(j, to->polygon_count, sizeof *materials);
-  uint32_t *vertices = room(j, to->corner_count, sizeof *vertices);
+  uint32_t *starts = allocate(j, (size_t)to->polygon_count + 1, sizeof *starts);
+  int32_t *materials = allocate(j, to->polygon_count, sizeof *materials);
+  uint32_t *vertices = allocate(j, to->corner_count, sizeof *vertices);
   if (!starts || !materials || !vertices) return false;
   uint32_t polygon = 0, corner = 0;
   for (uint32_t i = 0; i < j->part_count; i++) {
@@ -164,17 +164,18 @@ static uint32_t tidy(influence *list, uint32_t count) {
   return kept;
 }
 
-/* Calls for every weight above 0, parts and bones in order: `place` is counted up, or filled and moved on. */
-static void visit_weights(joining *j, uint32_t *const *joint_of_bone, uint32_t *places, influence *list) {
+/* Calls for every weight above 0, parts and bones in order: `indices` is counted up, or filled and moved on.
+ */
+static void visit_weights(joining *j, uint32_t *const *joint_of_bone, uint32_t *indices, influence *list) {
   for (uint32_t i = 0; i < j->part_count; i++)
     for (uint32_t b = 0; b < j->parts[i]->bone_count; b++) {
       const sbfi_raw_bone *bone = &j->parts[i]->bones[b];
       if (joint_of_bone[i][b] == NO_JOINT) continue;
       for (uint32_t k = 0; k < bone->weight_count; k++) {
         if (!(bone->weights[k] > 0)) continue;
-        uint32_t *place = &places[j->part_vertices[i] + bone->vertices[k]];
-        if (list) list[*place] = (influence){joint_of_bone[i][b], bone->weights[k]};
-        ++*place;
+        uint32_t *slots = &indices[j->part_vertices[i] + bone->vertices[k]];
+        if (list) list[*slots] = (influence){joint_of_bone[i][b], bone->weights[k]};
+        ++*slots;
       }
     }
 }
@@ -267,7 +268,7 @@ static int64_t class_of(joining *j, const sbfi_raw_mesh *part, uint32_t part_ver
 /* Numbers the points in the order of their first vertices. */
 static bool weld(joining *j) {
   sbfi_scene_mesh *to = j->to;
-  uint32_t *points = room(j, j->vertex_count, sizeof *points);
+  uint32_t *points = allocate(j, j->vertex_count, sizeof *points);
   uint32_t *sources = scratch(j, j->vertex_count, sizeof *sources);
   if (!points || !sources) return false;
   for (uint32_t i = 0; i < j->part_count; i++)
@@ -285,8 +286,8 @@ static bool weld(joining *j) {
     }
   to->vertex_points = points;
   to->point_sources = sbfi_arena_copy(&j->assembly->scene->arena, sources, to->point_count, sizeof *sources);
-  sbf_vec3 *positions = room(j, to->point_count, sizeof *positions);
-  uint32_t *corners = room(j, to->corner_count, sizeof *corners);
+  sbf_vec3 *positions = allocate(j, to->point_count, sizeof *positions);
+  uint32_t *corners = allocate(j, to->corner_count, sizeof *corners);
   if (!to->point_sources || !positions || !corners) return false;
   for (uint32_t i = 0, p = 0; i < j->part_count; i++)
     for (; p < to->point_count && sources[p] < j->part_vertices[i + 1]; p++)
@@ -300,14 +301,14 @@ static bool weld(joining *j) {
 static bool take_skin(joining *j) {
   sbfi_scene_mesh *to = j->to;
   if (!to->joint_count) return true;
-  uint32_t *starts = room(j, (size_t)to->point_count + 1, sizeof *starts);
+  uint32_t *starts = allocate(j, (size_t)to->point_count + 1, sizeof *starts);
   if (!starts) return false;
   for (uint32_t p = 0; p < to->point_count; p++) {
     uint32_t v = to->point_sources[p];
     starts[p + 1] = starts[p] + j->influence_starts[v + 1] - j->influence_starts[v];
   }
-  uint32_t *joints = room(j, starts[to->point_count], sizeof *joints);
-  float *weights = room(j, starts[to->point_count], sizeof *weights);
+  uint32_t *joints = allocate(j, starts[to->point_count], sizeof *joints);
+  float *weights = allocate(j, starts[to->point_count], sizeof *weights);
   if (!joints || !weights) return false;
   for (uint32_t p = 0, k = 0; p < to->point_count; p++) {
     uint32_t v = to->point_sources[p];
@@ -339,12 +340,12 @@ static const sbfi_raw_mesh *part_of(const joining *j, uint32_t vertex, uint32_t 
 static bool take_shapes(joining *j) {
   sbfi_scene_mesh *to = j->to;
   if (!j->shape_count) return true;
-  sbfi_scene_shape *shapes = room(j, j->shape_count, sizeof *shapes);
+  sbfi_scene_shape *shapes = allocate(j, j->shape_count, sizeof *shapes);
   if (!shapes) return false;
   for (uint32_t s = 0; s < j->shape_count; s++) {
     uint32_t i = 0, v;
     while (s >= j->parts[i]->shape_count) i++;
-    sbf_vec3 *delta = room(j, to->point_count, sizeof *delta);
+    sbf_vec3 *delta = allocate(j, to->point_count, sizeof *delta);
     shapes[s].name = sbfi_scene_string(j->assembly->scene, j->parts[i]->shapes[s].name);
     shapes[s].weight = j->parts[i]->shapes[s].weight;
     shapes[s].delta = delta;
@@ -367,7 +368,7 @@ static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const
     if (strcmp(groups[g].name, name) == 0) return &groups[g];
   sbfi_scene_group *group = &groups[j->to->group_count];
   group->name = name;
-  group->weights = room(j, j->to->point_count, sizeof *group->weights);
+  group->weights = allocate(j, j->to->point_count, sizeof *group->weights);
   if (!group->weights) return NULL;
   j->to->group_count++;
   return group;
@@ -376,7 +377,7 @@ static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const
 /* What bones without a node say of the points; of vertices welded to one, the greatest. */
 static bool take_groups(joining *j) {
   if (!j->nodeless_count) return true;
-  sbfi_scene_group *groups = room(j, j->nodeless_count, sizeof *groups);
+  sbfi_scene_group *groups = allocate(j, j->nodeless_count, sizeof *groups);
   if (!groups) return false;
   for (uint32_t i = 0; i < j->part_count; i++)
     for (uint32_t b = 0; b < j->parts[i]->bone_count; b++) {
@@ -417,7 +418,7 @@ static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t widt
     uint32_t *count, int32_t **corner_values) {
   sbfi_scene_mesh *to = j->to;
   int32_t *value_of_vertex = scratch(j, j->vertex_count, sizeof *value_of_vertex);
-  *corner_values = room(j, to->corner_count, sizeof **corner_values);
+  *corner_values = allocate(j, to->corner_count, sizeof **corner_values);
   if (!value_of_vertex || !*corner_values) return false;
   sbfi_row_table_clear(&j->table);
   for (uint32_t i = 0; i < j->part_count; i++) {
@@ -434,7 +435,7 @@ static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t widt
     (*corner_values)[c] = value_of_vertex[to->corner_vertices[c]];
   const sbfi_row *rows = j->table.rows.at;
   *count = (uint32_t)j->table.rows.count;
-  *values = room(j, *count, width * sizeof(float));
+  *values = allocate(j, *count, width * sizeof(float));
   for (uint32_t i = 0; *values && i < *count; i++)
     memcpy(*values + (size_t)i * width, rows[i].at, width * sizeof(float));
   return *values != NULL;
@@ -460,7 +461,7 @@ static bool take_attributes(joining *j) {
     to->corner_colors = corners;
   }
   if (!j->uv_set_count) return true;
-  sbfi_scene_uvs *sets = room(j, j->uv_set_count, sizeof *sets);
+  sbfi_scene_uvs *sets = allocate(j, j->uv_set_count, sizeof *sets);
   if (!sets) return false;
   for (uint32_t set = 0; set < j->uv_set_count; set++) {
     if (!take_attribute(j, uvs_of, set, 2, &values, &sets[set].count, &corners)) return false;

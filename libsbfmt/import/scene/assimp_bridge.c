@@ -18,11 +18,12 @@ enum { PATH_SIZE = 4096 };
 
 /* Places of the helper relative to the folder of the program or library: beside it, an installed tree (bin,
  * or lib with or without the machine's name), a build tree. */
-static const char *const places[] = {"", "/../libexec/sbfmt", "/../../libexec/sbfmt", "/../libsbfmt", "/.."};
+static const char *const positions[] = {
+    "", "/../libexec/sbfmt", "/../../libexec/sbfmt", "/../libsbfmt", "/.."};
 
-static bool look_from(const char *folder, char *to, size_t size) {
-  for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-    int length = snprintf(to, size, "%s%s/%s", folder, places[i], helper_name);
+static bool find_from(const char *folder, char *to, size_t size) {
+  for (size_t i = 0; i < sizeof positions / sizeof *positions; i++) {
+    int length = snprintf(to, size, "%s%s/%s", folder, positions[i], helper_name);
     if (length > 0 && (size_t)length < size && sbfi_is_program(to)) return true;
   }
   return false;
@@ -47,10 +48,10 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
     return SBF_OK;
   }
   char folder[PATH_SIZE];
-  if (sbfi_library_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
-  if (sbfi_program_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
+  if (sbfi_library_folder(folder, sizeof folder) && find_from(folder, to, size)) return SBF_OK;
+  if (sbfi_program_folder(folder, sizeof folder) && find_from(folder, to, size)) return SBF_OK;
 #ifdef SBFMT_LIBEXEC_FOLDER
-  if (look_from(SBFMT_LIBEXEC_FOLDER, to, size)) return SBF_OK;
+  if (find_from(SBFMT_LIBEXEC_FOLDER, to, size)) return SBF_OK;
 #endif
   return sbfi_diagnose(error, SBF_CODE_IMPORT_HELPER_MISSING,
       "the program %s, which reads this form, lies neither beside this program or library nor in the libexec "
@@ -84,7 +85,7 @@ static double time_limit_s(const sbfi_scene_options *options, uint64_t size_byte
   return by_size < 120 ? by_size : 120;
 }
 
-static sbf_status judge_exit(const sbfi_process_result *result, sbf_diagnostic *error) {
+static sbf_status check_exit(const sbfi_process_result *result, sbf_diagnostic *error) {
   char words[200];
   last_words(result->error_tail, words, sizeof words);
   switch (result->exit_status) {
@@ -104,11 +105,11 @@ static sbf_status judge_exit(const sbfi_process_result *result, sbf_diagnostic *
   }
 }
 
-static sbf_status judge_end(const sbfi_process_result *result, sbf_diagnostic *error) {
+static sbf_status check_end(const sbfi_process_result *result, sbf_diagnostic *error) {
   char how[128];
   switch (result->end) {
   case SBFI_PROCESS_EXITED:
-    return judge_exit(result, error);
+    return check_exit(result, error);
   case SBFI_PROCESS_TIMED_OUT:
   case SBFI_PROCESS_CPU_LIMIT:
     return limit_reached(error, "time");
@@ -181,7 +182,7 @@ sbf_status sbfi_assimp_read(
   sbfi_process_result result;
   status = sbfi_process_run(arguments, &limits, options->allocator, &result, error);
   if (status) return status;
-  status = judge_end(&result, error);
+  status = check_end(&result, error);
   if (!status) status = sbfi_assimp_take(scene, result.output, result.output_size, options->allocator, error);
   sbfi_process_result_free(&result);
   return status;

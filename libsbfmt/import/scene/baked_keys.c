@@ -6,12 +6,12 @@
 #include "import/scene/trs.h"
 #include "motion/turn.h"
 
-typedef struct place {
+typedef struct location {
   uint32_t next[SBFI_LONGEST_CHAIN][SBFI_RAW_TRACKS]; /* the first key of each track after the time at hand */
-} place;
+} location;
 
 /* The next time at which any track has a key; the tracks ascend. False at the end. */
-static bool next_time(const sbfi_link *links, uint32_t count, place *p, float *time) {
+static bool next_time(const sbfi_link *links, uint32_t count, location *p, float *time) {
   bool found = false;
   for (uint32_t i = 0; i < count; i++)
     for (int k = 0; k < SBFI_RAW_TRACKS; k++) {
@@ -79,7 +79,7 @@ static bool keep_track(sbfi_arena *arena, uint32_t count, const float *times, co
 bool sbfi_bake_keys(
     const sbfi_link *links, uint32_t count, sbfi_arena *arena, sbfi_arena *scratch, sbfi_keys *to) {
   *to = (sbfi_keys){0};
-  place p = {{{0}}};
+  location p = {{{0}}};
   uint32_t key_count = 0;
   float time;
   sbfi_trs rest[SBFI_LONGEST_CHAIN];
@@ -92,7 +92,7 @@ bool sbfi_bake_keys(
   float *rotations = sbfi_arena_allocate(scratch, key_count, 4 * sizeof *rotations);
   float *scales = sbfi_arena_allocate(scratch, key_count, 3 * sizeof *scales);
   if (!times || !positions || !rotations || !scales) return false;
-  p = (place){{{0}}};
+  p = (location){{{0}}};
   for (uint32_t key = 0; next_time(links, count, &p, &time); key++) {
     sbfi_matrix product = link_at(&links[0], &rest[0], p.next[0], time);
     for (uint32_t i = 1; i < count; i++) {

@@ -52,7 +52,7 @@ static bool view_skin(
   return true;
 }
 
-static void place_corner(const skin_view *view, const sbfi_matrix *m, int corner, double to[3]) {
+static void set_corner(const skin_view *view, const sbfi_matrix *m, int corner, double to[3]) {
   double at[3];
   for (int k = 0; k < 3; k++) at[k] = corner >> k & 1 ? view->high[k] : view->low[k];
   for (int r = 0; r < 3; r++)
@@ -66,8 +66,8 @@ static double length_between(const double a[3], const double b[3]) {
 static double placed_size(const skin_view *view, const sbfi_matrix *m) {
   double size = 0, a[3], b[3];
   for (int corner = 0; corner < CORNERS / 2; corner++) {
-    place_corner(view, m, corner, a);
-    place_corner(view, m, CORNERS - 1 - corner, b);
+    set_corner(view, m, corner, a);
+    set_corner(view, m, CORNERS - 1 - corner, b);
     size = fmax(size, length_between(a, b));
   }
   return size;
@@ -75,13 +75,13 @@ static double placed_size(const skin_view *view, const sbfi_matrix *m) {
 
 /* How far two placements put a corner of the mesh's box apart at most, as a part of the size in the first. */
 static double difference(const skin_view *view, const sbfi_matrix *one, const sbfi_matrix *other) {
-  double apart = 0, size = placed_size(view, one), a[3], b[3];
+  double separation = 0, size = placed_size(view, one), a[3], b[3];
   for (int corner = 0; corner < CORNERS; corner++) {
-    place_corner(view, one, corner, a);
-    place_corner(view, other, corner, b);
-    apart = fmax(apart, length_between(a, b));
+    set_corner(view, one, corner, a);
+    set_corner(view, other, corner, b);
+    separation = fmax(separation, length_between(a, b));
   }
-  return apart > 0 ? apart / size : 0;
+  return separation > 0 ? separation / size : 0;
 }
 
 /* The placement that holds for more than half of the weight (Boyer and Moore 1981), NULL where none does. A
@@ -189,10 +189,10 @@ static const sbfi_matrix *nearest_suggestion(
   double min = NEAR_PLACEMENT, size = cbrt(fabs(determinant(placement)));
   for (int i = 0; i < SUGGESTIONS; i++) {
     double ratio = cbrt(fabs(determinant(&suggested[i]))) / size,
-           apart = difference(view, placement, &suggested[i]);
-    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(apart < min)) continue;
+           separation = difference(view, placement, &suggested[i]);
+    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(separation < min)) continue;
     best = &suggested[i];
-    min = apart;
+    min = separation;
   }
   return best;
 }
@@ -246,7 +246,7 @@ static bool list_skins(sharing *s, sbfi_arena *scratch) {
 }
 
 /* From the first skin outwards: each next one stands so that a joint they share has one world. */
-static void place_sharing(sharing *s, uint32_t first) {
+static void reuse_bind_pose(sharing *s, uint32_t first) {
   uint32_t count = 1;
   s->queue[0] = first;
   s->placed[first] = true;
@@ -273,7 +273,7 @@ static void place_sharing(sharing *s, uint32_t first) {
 }
 
 /* The skin of a group that says most: by points; the group is found again from it. */
-static bool place_groups(sharing *s, sbfi_arena *scratch) {
+static bool pose_groups(sharing *s, sbfi_arena *scratch) {
   const sbfi_scene *scene = s->scene;
   const sbfi_matrix *hint = NULL;
   uint32_t *order = sbfi_arena_allocate(scratch, (size_t)scene->mesh_count + 1, sizeof *order);
@@ -298,7 +298,7 @@ static bool place_groups(sharing *s, sbfi_arena *scratch) {
     const sbfi_matrix *agreed = majority(&view);
     s->spaces[order[i]] = agreed ? *agreed : placement_of_frame(scene, &view, hint);
     hint = &s->spaces[order[i]];
-    place_sharing(s, order[i]);
+    reuse_bind_pose(s, order[i]);
   }
   return true;
 }
@@ -308,7 +308,7 @@ bool sbfi_bind_spaces(const sbfi_scene *scene, sbfi_matrix *spaces) {
   sbfi_arena scratch;
   for (uint32_t m = 0; m < scene->mesh_count; m++) spaces[m] = scene->nodes[scene->meshes[m].node].world;
   sbfi_arena_init(&scratch, &scene->arena.allocator, 0);
-  bool good = list_skins(&s, &scratch) && place_groups(&s, &scratch);
+  bool good = list_skins(&s, &scratch) && pose_groups(&s, &scratch);
   sbfi_arena_free(&scratch);
   return good;
 }

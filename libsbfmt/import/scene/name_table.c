@@ -25,9 +25,9 @@ static uint32_t *slot_of(const sbfi_name_table *table, sbfi_span name) {
   uint32_t *slots = table->slots.at;
   const sbfi_span *names = table->names.at;
   size_t mask = table->slots.count - 1;
-  for (size_t place = hash(name) & mask;; place = (place + 1) & mask) {
-    if (slots[place] == 0) return &slots[place];
-    if (sbfi_span_equal(names[slots[place] - 1], name)) return &slots[place];
+  for (size_t index = hash(name) & mask;; index = (index + 1) & mask) {
+    if (slots[index] == 0) return &slots[index];
+    if (sbfi_span_equal(names[slots[index] - 1], name)) return &slots[index];
   }
 }
 

@@ -39,8 +39,8 @@ static uint32_t *slot_of(const sbfi_row_table *table, const sbfi_row *row) {
   uint32_t *slots = table->slots.at;
   const sbfi_row *rows = table->rows.at;
   size_t mask = table->slots.count - 1;
-  for (size_t place = hash(row) & mask;; place = (place + 1) & mask)
-    if (slots[place] == 0 || memcmp(&rows[slots[place] - 1], row, sizeof *row) == 0) return &slots[place];
+  for (size_t index = hash(row) & mask;; index = (index + 1) & mask)
+    if (slots[index] == 0 || memcmp(&rows[slots[index] - 1], row, sizeof *row) == 0) return &slots[index];
 }
 
 static bool grow(sbfi_row_table *table) {

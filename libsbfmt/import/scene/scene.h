@@ -157,14 +157,14 @@ typedef struct sbfi_scene_clip {
 
 typedef struct sbfi_scene {
   sbfi_arena arena;
-  const char *file;      /* as the caller named it, as text that may stand in a message or an asset */
-  const char *path;      /* the same, byte for byte */
+  const char *file;      /* file name as the caller gave it, as valid text for messages and assets */
+  const char *path;      /* the same, unchanged bytes */
   const char *format;    /* "obj", or assimp's name of the format in lower case, as "fbx", "glb", "bvh" */
   const char *generator; /* the program that wrote it, "" where not known */
 
-  double unit_m; /* metres in one unit of the file; 1 where it does not say */
+  double unit_m; /* metres per unit of the file; 1 if not stated */
   bool unit_known;
-  sbfi_matrix axes; /* file axes to +Y up, +Z forward; identity where it does not say */
+  sbfi_matrix axes; /* file axes to +Y up, +Z forward; identity if not stated */
   bool axes_known;  /* scene to asset space is axes, times unit_m */
 
   uint32_t node_count, mesh_count, material_count, image_count, clip_count, warning_count;
@@ -175,7 +175,7 @@ typedef struct sbfi_scene {
   const sbfi_scene_material *materials;
   const sbfi_scene_image *images;
   const sbfi_scene_clip *clips;
-  sbf_diagnostic *warnings; /* in the order found; what goes beyond SBFI_SCENE_WARNINGS is only counted */
+  sbf_diagnostic *warnings; /* in the order found; warnings beyond SBFI_SCENE_WARNINGS are only counted */
   uint32_t warnings_left_out;
 } sbfi_scene;
 
@@ -190,8 +190,8 @@ typedef struct sbfi_scene_options {
   size_t helper_memory_limit_bytes; /* 0: 8 GiB */
 } sbfi_scene_options;
 
-/* Reads a file of any form known: .obj by our own reader, all else by assimp. On failure the
- * scene is empty and `*error` (may be NULL) says why. `options` may be NULL. */
+/* Reads a file of a supported format: .obj by the own reader, others by assimp. On failure the scene is empty
+ * and `*error` (may be NULL) says why. `options` may be NULL. */
 sbf_status sbfi_scene_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error);
 
@@ -211,18 +211,18 @@ bool sbfi_scene_init(
 bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* A copy in the arena, NUL-terminated: what is not UTF-8, and control characters, become U+FFFD. NULL where
+/* Copies text to the arena, NUL-terminated. Invalid UTF-8 and control characters become U+FFFD. NULL if
  * memory runs out. */
 const char *sbfi_scene_string(sbfi_scene *scene, sbfi_span text);
 
-/* Where a mesh's points are in the scene at rest, mesh to scene: the world of its node, which for a skinned
- * mesh is ignored: there the product of the first joint's world and its bind matrix. */
+/* Matrix from mesh to scene at rest: the world matrix of its node. For a skinned mesh that is ignored: the
+ * first joint's world matrix times its bind matrix. */
 sbfi_matrix sbfi_scene_mesh_world(const sbfi_scene *scene, const sbfi_scene_mesh *mesh);
 
-/* Sets the worlds of nodes from their locals; parents stand first. */
+/* Computes world matrices from local ones; parents must come first. */
 void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count);
 
-/* Frees the scene, names the file in `*error` and gives `status` back: how an importer fails. */
+/* Frees the scene, adds the file name to `*error` and returns `status`. */
 sbf_status sbfi_scene_fail(sbfi_scene *scene, sbf_diagnostic *error, sbf_status status);
 
 sbfi_matrix sbfi_matrix_identity(void);

@@ -15,7 +15,7 @@ static uint32_t nodes_of_type(uint32_t type) {
 
 typedef struct numbered {
   uint64_t number;
-  uint32_t place;
+  uint32_t index;
 } numbered;
 
 typedef struct gmsh {
@@ -31,7 +31,7 @@ static int compare_numbers(const void *a, const void *b) {
   return x->number < y->number ? -1 : x->number > y->number;
 }
 
-static bool place_of(gmsh *g, uint64_t number, uint32_t *place) {
+static bool position_of(gmsh *g, uint64_t number, uint32_t *slots) {
   numbered wanted = {number, 0};
   const numbered *found =
       g->numbers.count ? bsearch(&wanted, g->numbers.at, g->numbers.count, sizeof(numbered), compare_numbers)
@@ -39,7 +39,7 @@ static bool place_of(gmsh *g, uint64_t number, uint32_t *place) {
   if (!found)
     return sbfi_word_fail(g->r, SBF_CODE_IMPORT_INDEX, "an element names node %llu, which is not there",
         (unsigned long long)number);
-  *place = found->place;
+  *slots = found->index;
   return true;
 }
 
@@ -68,7 +68,7 @@ static bool check_count(gmsh *g, uint64_t count, uint32_t min_bytes, const char 
       (unsigned long long)count, what);
 }
 
-static bool read_place(gmsh *g, sbf_vec3 *point) {
+static bool read_position(gmsh *g, sbf_vec3 *point) {
   float *out[3] = {&point->x, &point->y, &point->z};
   for (int k = 0; k < 3; k++) {
     double wide;
@@ -97,7 +97,8 @@ static bool read_nodes_plain(gmsh *g) {
   if (g->binary) sbfi_word_line(g->r, &rest);
   for (uint32_t i = 0; i < count; i++) {
     sbf_vec3 *point = sbfi_word_push(g->r, &g->mesh->points, 1);
-    if (!point || !read_u32(g, &number, "a node's number") || !add_number(g, number) || !read_place(g, point))
+    if (!point || !read_u32(g, &number, "a node's number") || !add_number(g, number) ||
+        !read_position(g, point))
       return false;
   }
   return true;
@@ -123,7 +124,7 @@ static bool read_nodes_blocks(gmsh *g) {
       if (!read_wide(g, &number, "a node's number") || !add_number(g, number)) return false;
     for (uint64_t i = 0; i < count; i++) {
       sbf_vec3 *point = sbfi_word_push(g->r, &g->mesh->points, 1);
-      if (!point || !read_place(g, point)) return false;
+      if (!point || !read_position(g, point)) return false;
     }
   }
   return true;
@@ -135,15 +136,15 @@ static bool read_element_nodes(gmsh *g, uint32_t type, uint32_t count) {
   for (uint32_t k = 0; k < count; k++) {
     uint64_t number;
     if (!read_wide(g, &number, "an element's node")) return false;
-    if (type == GMSH_TETRAHEDRON && !place_of(g, number, &tetrahedron.at[k])) return false;
+    if (type == GMSH_TETRAHEDRON && !position_of(g, number, &tetrahedron.at[k])) return false;
   }
   if (type != GMSH_TETRAHEDRON) {
     g->mesh->passed_over++;
     return true;
   }
-  sbf_uint4 *place = sbfi_word_push(g->r, &g->mesh->tetrahedra, 1);
-  if (place) *place = tetrahedron;
-  return place != NULL;
+  sbf_uint4 *position = sbfi_word_push(g->r, &g->mesh->tetrahedra, 1);
+  if (position) *position = tetrahedron;
+  return position != NULL;
 }
 
 static bool unknown_type(gmsh *g, uint32_t type) {

@@ -84,7 +84,7 @@ static double volume_of(const sbf_vec3 *points, const uint32_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-static sbf_status mend(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *path, sbf_diagnostic *error) {
+static sbf_status repair(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *path, sbf_diagnostic *error) {
   sbf_uint4 *tetrahedra = mesh->tetrahedra.at;
   size_t kept = 0;
   for (size_t i = 0; i < mesh->tetrahedra.count; i++) {
@@ -122,13 +122,13 @@ static sbf_status mend(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *pat
   return status;
 }
 
-sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
+sbf_status sbfi_tet_mesh_repair(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
   sbfi_arena scratch;
   sbfi_key_set known;
   sbfi_arena_init(&scratch, &mesh->allocator, 0);
   sbf_status status =
       sbfi_key_set_init(&known, mesh->tetrahedra.count + 1, &scratch)
-          ? mend(mesh, &known, path, error)
+          ? repair(mesh, &known, path, error)
           : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while %s was read", path);
   sbfi_arena_free(&scratch);
   return status;
@@ -145,7 +145,7 @@ static bool is_pair(const char *path) {
 }
 
 static sbf_status end(sbfi_tet_mesh *mesh, sbf_status status, const char *path, sbf_diagnostic *error) {
-  if (status == SBF_OK) status = sbfi_tet_mesh_mend(mesh, path, error);
+  if (status == SBF_OK) status = sbfi_tet_mesh_repair(mesh, path, error);
   if (status != SBF_OK) sbfi_tet_mesh_free(mesh);
   return status;
 }

@@ -32,7 +32,7 @@ void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh);
 
 /* Checks every index, turns what is listed the other way round, leaves out what is flat or
  * repeats another; an error where nothing is left. `path` is the file's, for messages. */
-sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error);
+sbf_status sbfi_tet_mesh_repair(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error);
 
 /* Triangles that bound the tetrahedra, each once, facing outwards, in the order of the tetrahedra: appended
  * to an array of uint32_t, three each. False where memory runs out. */

@@ -9,13 +9,13 @@
 
 enum { VTU_TETRAHEDRON = 10 };
 enum { POINTS, CONNECTIVITY, OFFSETS, TYPES, ARRAYS };
-typedef enum place { OUTSIDE, IN_FILE, IN_GRID, IN_PIECE, IN_POINTS, IN_CELLS, IN_ARRAY } place;
+typedef enum location { OUTSIDE, IN_FILE, IN_GRID, IN_PIECE, IN_POINTS, IN_CELLS, IN_ARRAY } location;
 
 typedef struct vtu {
   sbfi_word_reader *r;
   sbfi_tet_mesh *mesh;
   sbfi_xml_events events;
-  place at, array_in;
+  location at, array_in;
   uint32_t passed_over; /* depth below an element that is not read */
   sbfi_vtu_coding coding;
   sbfi_vtu_array arrays[ARRAYS], *open;
@@ -206,7 +206,7 @@ static bool on_end(void *user) {
   if (v->at == IN_PIECE) clear_arrays(v);
   v->at = v->at == IN_ARRAY                         ? v->array_in
           : v->at == IN_POINTS || v->at == IN_CELLS ? IN_PIECE
-                                                    : (place)(v->at - 1);
+                                                    : (location)(v->at - 1);
   return good;
 }
 

@@ -33,7 +33,7 @@ typedef struct byte_source {
 /* Decodes a piece; a new base64 text may begin where one has ended. False where it is none. */
 static bool decode_some(byte_source *s, size_t length) {
   size_t size, kept = s->decoded.count;
-  if (!sbfi_word_push(s->r, &s->decoded, SBFI_BASE64_ROOM(length))) return false;
+  if (!sbfi_word_push(s->r, &s->decoded, SBFI_BASE64_CAPACITY(length))) return false;
   size_t taken =
       sbfi_base64_read(&s->base64, s->from.at + s->read, length, (uint8_t *)s->decoded.at + kept, &size);
   s->decoded.count = kept + size;
@@ -104,10 +104,10 @@ static bool inflate_block(sbfi_word_reader *r, sbfi_vtu_coding *c, const uint8_t
     uint64_t stored_size, sbfi_array *to, uint64_t size) {
   if (size / MAX_INFLATION > stored_size)
     return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "a compressed block claims more bytes than it can hold");
-  uint8_t *place = sbfi_word_push(r, to, (size_t)size);
-  if (!place) return false;
-  switch (
-      sbfi_packed_inflate(&c->coder, stored, (size_t)stored_size, SBFI_FILTER_NONE, 0, place, (size_t)size)) {
+  uint8_t *destination = sbfi_word_push(r, to, (size_t)size);
+  if (!destination) return false;
+  switch (sbfi_packed_inflate(
+      &c->coder, stored, (size_t)stored_size, SBFI_FILTER_NONE, 0, destination, (size_t)size)) {
   case SBFI_CODED:
     return true;
   case SBFI_CODED_NO_MEMORY:
@@ -150,9 +150,9 @@ static bool copy_plain(byte_source *s, sbfi_vtu_coding *c, sbfi_array *to) {
   uint64_t size = header_word(c, head, 0);
   if (size > SBFI_VTU_ARRAY_BYTES) return too_large(s->r, size);
   head = need(s, word + size);
-  uint8_t *place = head && size ? sbfi_word_push(s->r, to, (size_t)size) : NULL;
-  if (place) memcpy(place, head + word, (size_t)size);
-  return head && (place || size == 0);
+  uint8_t *destination = head && size ? sbfi_word_push(s->r, to, (size_t)size) : NULL;
+  if (destination) memcpy(destination, head + word, (size_t)size);
+  return head && (destination || size == 0);
 }
 
 /* The array's bytes as VTK had them in memory. */
@@ -207,9 +207,9 @@ static bool take_text(sbfi_word_reader *r, const sbfi_vtu_array *from, sbfi_arra
     const char *end = words.end;
     while (words.at < end && sbfi_is_space(*words.at)) words.line += *words.at++ == '\n';
     if (words.at == end) return true;
-    void *place = sbfi_word_push(&words, to, 1);
-    if (!place || !(floats ? sbfi_word_f32(&words, place, "a number of the points")
-                           : sbfi_word_u32(&words, place, "a number of the cells"))) {
+    void *destination = sbfi_word_push(&words, to, 1);
+    if (!destination || !(floats ? sbfi_word_f32(&words, destination, "a number of the points")
+                                 : sbfi_word_u32(&words, destination, "a number of the cells"))) {
       r->status = words.status;
       return false;
     }
@@ -229,12 +229,13 @@ static bool take_numbers(
   if (good && bytes.count % size)
     good = sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX, "an array's bytes are no whole count of its numbers");
   size_t count = good ? bytes.count / size : 0;
-  char *place = count ? sbfi_word_push(r, to, count) : NULL; /* items of four bytes, float or uint32_t */
-  good = good && (place || count == 0);
+  char *destination =
+      count ? sbfi_word_push(r, to, count) : NULL; /* items of four bytes, float or uint32_t */
+  good = good && (destination || count == 0);
   for (size_t i = 0; good && i < count; i++) {
     uint64_t bits = load((const uint8_t *)bytes.at + i * size, size, c->swap_bytes);
-    good = floats ? one_float(r, from->type, bits, (float *)(void *)place + i)
-                  : one_index(r, from->type, bits, (uint32_t *)(void *)place + i);
+    good = floats ? one_float(r, from->type, bits, (float *)(void *)destination + i)
+                  : one_index(r, from->type, bits, (uint32_t *)(void *)destination + i);
   }
   sbfi_array_free(&bytes);
   return good;

@@ -117,7 +117,7 @@ bool sbfi_binary_f64(sbfi_word_reader *r, double *value, const char *what) {
 }
 
 void *sbfi_word_push(sbfi_word_reader *r, sbfi_array *array, size_t count) {
-  void *place = sbfi_array_push(array, count);
-  if (!place) sbfi_word_fail(r, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", r->file);
-  return place;
+  void *destination = sbfi_array_push(array, count);
+  if (!destination) sbfi_word_fail(r, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", r->file);
+  return destination;
 }

@@ -84,15 +84,15 @@ typedef struct sbf_asset_measures {
 } sbf_asset_measures;
 SBF_API void sbf_asset_measure(const sbf_asset *asset, sbf_asset_measures *measures);
 
-/* Marks the points of a level that a pin holds fast (weight 1 within the set's minimum and maximum): `held`
+/* Marks the points of a level that a pin holds fast (weight 1 within the set's minimum and maximum): `pinned`
  * (level->positions.count) receives 1 or 0. Returns how many are held. */
-SBF_API uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *held);
+SBF_API uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *pinned);
 
 /* Shares of the body's matter, (level->positions.count), summing to 1 over the points that are not held; held
- * points have none, `held` NULL: none is. By tributary area; a point without area (inside, or in no polygon)
- * counts as the mean of those with. */
+ * points have none, `pinned` NULL: none is. By tributary area; a point without area (inside, or in no
+ * polygon) counts as the mean of those with. */
 SBF_API void sbf_level_shares(
-    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *shares);
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *fractions);
 
 /* Masses in kg, (level->positions.count), and their sum; 0 at held points. Stated masses of the level as they
  * are; else of tetrahedra a quarter of density times rest volume to each point; else the body's mass by
@@ -100,7 +100,7 @@ SBF_API void sbf_level_shares(
  * weight map of the density, which a density for each tetrahedron has in it already. A mass that the body
  * states rescales all to that sum. */
 SBF_API double sbf_level_masses(
-    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses);
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *masses);
 
 /* ---- Tetrahedra: shape -------------------------------------------------------------------------------- */
 
@@ -160,12 +160,12 @@ SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions,
  * sbf_stiffness_of_network.
  *
  * `modulus` is E in Pa; `normals` (point_count) need be right at free points only, where (0, 0, 0) shares the
- * trace evenly; `held` (point_count) marks the anchors. Springs that do not join a held to a free point get
+ * trace evenly; `pinned` (point_count) marks the anchors. Springs that do not join a held to a free point get
  * 0. `scratch` is (3 * point_count). */
 #define SBF_STIFFNESS_ANCHOR 2.0
 #define SBF_STIFFNESS_MEMBRANE 4.0
 SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *normals,
-    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
+    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *pinned,
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness);
 
 /* Stiffness of every spring of a level, set after set: what the sets state, and for sets that state nothing

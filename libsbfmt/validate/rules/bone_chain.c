@@ -7,11 +7,11 @@ bool sbfi_bone_hangs_on(const sbf_asset *asset, int32_t bone, int32_t above) {
   return bone >= 0;
 }
 
-double sbfi_distance_from_line(const sbf_asset *asset, int32_t root, int32_t end, sbf_vec3 place) {
+double sbfi_distance_from_line(const sbf_asset *asset, int32_t root, int32_t end, sbf_vec3 position) {
   sbfi_d3 from = sbfi_d3_of(asset->bones.at[root].head);
   sbfi_d3 along = sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(asset->bones.at[end].head), from));
-  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(place), from);
-  return sbfi_d3_length(sbfi_d3_sub(way, sbfi_d3_scale(along, sbfi_d3_dot(way, along))));
+  sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(position), from);
+  return sbfi_d3_length(sbfi_d3_sub(displacement, sbfi_d3_scale(along, sbfi_d3_dot(displacement, along))));
 }
 
 sbfi_bone_run sbfi_bone_run_of(const sbf_asset *asset, int32_t root, int32_t end) {

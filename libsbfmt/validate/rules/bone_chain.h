@@ -18,6 +18,6 @@ sbfi_bone_run sbfi_bone_run_of(const sbf_asset *asset, int32_t root, int32_t end
 
 /* Distance in metres of a place from the line through the heads of two bones; from the head where they are
  * in one place. */
-double sbfi_distance_from_line(const sbf_asset *asset, int32_t root, int32_t end, sbf_vec3 place);
+double sbfi_distance_from_line(const sbf_asset *asset, int32_t root, int32_t end, sbf_vec3 position);
 
 #endif

@@ -20,12 +20,12 @@ static void add_kind(kind *kinds, uint32_t *count, const kind *one) {
 static void check_pairs(sbfi_validation *v, const kind *kinds, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t k = 0; k < i; k++) {
-      bool this_way = kinds[i].mask & kinds[k].layer, that_way = kinds[k].mask & kinds[i].layer;
-      if (this_way == that_way) continue;
-      const kind *meets = this_way ? &kinds[i] : &kinds[k], *other = this_way ? &kinds[k] : &kinds[i];
-      sbfi_found(v, SBF_CODE_COLLISION_ONE_SIDED, meets->path.text, -1,
-          "the mask of '%s' has the layer of '%s', whose mask has not the layer of the former", meets->name,
-          other->name);
+      bool a_to_b = kinds[i].mask & kinds[k].layer, b_to_a = kinds[k].mask & kinds[i].layer;
+      if (a_to_b == b_to_a) continue;
+      const kind *collides = a_to_b ? &kinds[i] : &kinds[k], *other = a_to_b ? &kinds[k] : &kinds[i];
+      sbfi_found(v, SBF_CODE_COLLISION_ONE_SIDED, collides->path.text, -1,
+          "the mask of '%s' has the layer of '%s', whose mask has not the layer of the former",
+          collides->name, other->name);
     }
 }
 

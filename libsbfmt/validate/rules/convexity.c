@@ -39,7 +39,7 @@ static bool neighbours_behind(
   return true;
 }
 
-sbfi_hull_fault sbfi_hull_judge(const sbf_polygon_mesh *hull, sbfi_arena *scratch) {
+sbfi_hull_fault sbfi_hull_check(const sbf_polygon_mesh *hull, sbfi_arena *scratch) {
   sbfi_topology t;
   if (!sbfi_topology_build(&t, hull, scratch)) return SBFI_HULL_FAULT_MEMORY;
   if (t.polygon_count < 4 || t.boundary_edge_count || t.nonmanifold_edge_count || t.clashing_edge_count ||

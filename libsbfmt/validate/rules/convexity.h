@@ -15,6 +15,6 @@ typedef enum sbfi_hull_fault {
 
 /* Small hulls are compared point by face. Of large ones each face is compared with its neighbours' points:
  * a closed surface that bends outwards at every edge is convex or winds around itself more than once. */
-sbfi_hull_fault sbfi_hull_judge(const sbf_polygon_mesh *hull, sbfi_arena *scratch);
+sbfi_hull_fault sbfi_hull_check(const sbf_polygon_mesh *hull, sbfi_arena *scratch);
 
 #endif

@@ -34,12 +34,12 @@ static void check_spring(sbfi_validation *v, const sbf_cross_springs *set, const
     uint32_t i, const char *path) {
   const uint32_t *p = set->ends.at[i].at;
   if (!is_there(v, a, p[0], i, path) || !is_there(v, b, p[1], i, path)) return;
-  sbfi_d3 way =
+  sbfi_d3 direction =
       sbfi_d3_sub(sbfi_d3_of(a->level->positions.at[p[0]]), sbfi_d3_of(b->level->positions.at[p[1]]));
-  double rest = set->rest_lengths.count ? (double)set->rest_lengths.at[i] : sbfi_d3_length(way);
+  double rest = set->rest_lengths.count ? (double)set->rest_lengths.at[i] : sbfi_d3_length(direction);
   if (rest == 0)
     sbfi_found(v, SBF_CODE_SPRING_NO_LENGTH, path, i, "spring %u between two bodies has no rest length", i);
-  if (a->holds[p[0]] == SBFI_HELD_FAST && b->holds[p[1]] == SBFI_HELD_FAST)
+  if (a->holds[p[0]] == SBFI_PINNED && b->holds[p[1]] == SBFI_PINNED)
     sbfi_found(
         v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two held points, %u and %u", i, p[0], p[1]);
 }

@@ -24,11 +24,11 @@ static bool overlap(const sbfi_box *a, const sbfi_box *b) {
 }
 
 /* Whether a point of the triangle's plane lies strictly inside it. */
-static bool holds(const triangle *t, sbfi_d3 place) {
+static bool holds(const triangle *t, sbfi_d3 position) {
   for (int k = 0; k < 3; k++) {
     sbfi_d3 side = sbfi_d3_sub(t->corners[(k + 1) % 3], t->corners[k]);
     sbfi_d3 inwards = sbfi_d3_cross(t->normal, side);
-    double depth = sbfi_d3_dot(inwards, sbfi_d3_sub(place, t->corners[k]));
+    double depth = sbfi_d3_dot(inwards, sbfi_d3_sub(position, t->corners[k]));
     if (!(depth > 1e-6 * sbfi_d3_dot(side, side))) return false;
   }
   return true;
@@ -41,8 +41,8 @@ static bool pierces(const triangle *a, const triangle *b, double slack) {
   for (int k = 0; k < 3; k++) {
     double from = heights[k], to = heights[(k + 1) % 3];
     if (!((from > slack && to < -slack) || (from < -slack && to > slack))) continue;
-    sbfi_d3 way = sbfi_d3_sub(a->corners[(k + 1) % 3], a->corners[k]);
-    if (holds(b, sbfi_d3_add(a->corners[k], sbfi_d3_scale(way, from / (from - to))))) return true;
+    sbfi_d3 displacement = sbfi_d3_sub(a->corners[(k + 1) % 3], a->corners[k]);
+    if (holds(b, sbfi_d3_add(a->corners[k], sbfi_d3_scale(displacement, from / (from - to))))) return true;
   }
   return false;
 }
@@ -102,13 +102,13 @@ static void prepare(finder *f) {
     triangle *t = &f->triangles[i];
     for (int k = 0; k < 3; k++) {
       sbf_vec3 at = tree->positions[tree->triangles[i].points[k]];
-      const float place[3] = {at.x, at.y, at.z};
+      const float position[3] = {at.x, at.y, at.z};
       t->corners[k] = sbfi_d3_of(at);
       for (int axis = 0; axis < 3; axis++) {
         float *low = &f->boxes[i].low[axis], *high = &f->boxes[i].high[axis];
-        if (k == 0 || place[axis] < *low) *low = place[axis];
-        if (k == 0 || place[axis] > *high) *high = place[axis];
-        size = fmax(size, fabs((double)place[axis]));
+        if (k == 0 || position[axis] < *low) *low = position[axis];
+        if (k == 0 || position[axis] > *high) *high = position[axis];
+        size = fmax(size, fabs((double)position[axis]));
       }
     }
     t->normal = sbfi_d3_normal(
@@ -136,21 +136,21 @@ bool sbfi_crossings_find(const sbf_polygon_mesh *mesh, uint32_t *partners, sbfi_
 /* The ray runs along an axis-free direction, so that it hardly ever meets a side of a triangle. */
 static const sbfi_d3 ray = {0.5377, 0.3163, 0.7816};
 
-/* Whether the ray from `place` meets the box. */
-static bool ray_meets_box(const sbfi_box *box, sbfi_d3 place) {
-  const double from[3] = {place.x, place.y, place.z}, way[3] = {ray.x, ray.y, ray.z};
+/* Whether the ray from `position` meets the box. */
+static bool ray_hits_box(const sbfi_box *box, sbfi_d3 position) {
+  const double from[3] = {position.x, position.y, position.z}, direction[3] = {ray.x, ray.y, ray.z};
   double near = 0, far = INFINITY;
   for (int k = 0; k < 3; k++) {
-    near = fmax(near, (box->low[k] - from[k]) / way[k]);
-    far = fmin(far, (box->high[k] - from[k]) / way[k]);
+    near = fmax(near, (box->low[k] - from[k]) / direction[k]);
+    far = fmin(far, (box->high[k] - from[k]) / direction[k]);
   }
   return near <= far;
 }
 
-static bool ray_meets_triangle(const sbfi_triangle_tree *tree, uint32_t number, sbfi_d3 place) {
+static bool ray_hits_triangle(const sbfi_triangle_tree *tree, uint32_t number, sbfi_d3 position) {
   sbfi_d3 corners[3];
   for (int k = 0; k < 3; k++)
-    corners[k] = sbfi_d3_sub(sbfi_d3_of(tree->positions[tree->triangles[number].points[k]]), place);
+    corners[k] = sbfi_d3_sub(sbfi_d3_of(tree->positions[tree->triangles[number].points[k]]), position);
   double volumes[3], sum = 0;
   for (int k = 0; k < 3; k++) {
     volumes[k] = sbfi_d3_dot(ray, sbfi_d3_cross(corners[k], corners[(k + 1) % 3]));
@@ -163,18 +163,18 @@ static bool ray_meets_triangle(const sbfi_triangle_tree *tree, uint32_t number, 
   return sbfi_d3_dot(normal, corners[0]) * sum > 0;
 }
 
-bool sbfi_surface_encloses(const sbfi_triangle_tree *tree, sbf_vec3 place) {
-  uint32_t waiting[128], count = 0, met = 0;
-  sbfi_d3 from = sbfi_d3_of(place);
+bool sbfi_surface_encloses(const sbfi_triangle_tree *tree, sbf_vec3 position) {
+  uint32_t waiting[128], count = 0, hits = 0;
+  sbfi_d3 from = sbfi_d3_of(position);
   if (tree->tree.node_count > 0) waiting[count++] = 0;
   while (count > 0) {
     const sbfi_box_node *node = &tree->tree.nodes[waiting[--count]];
-    if (!ray_meets_box(&node->box, from)) continue;
+    if (!ray_hits_box(&node->box, from)) continue;
     for (uint32_t i = 0; i < node->count; i++)
-      met += ray_meets_triangle(tree, tree->tree.items[node->first + i], from);
+      hits += ray_hits_triangle(tree, tree->tree.items[node->first + i], from);
     if (node->count > 0) continue;
     waiting[count++] = node->first;
     waiting[count++] = node->first + 1;
   }
-  return met % 2 == 1;
+  return hits % 2 == 1;
 }

@@ -13,6 +13,6 @@
 bool sbfi_crossings_find(const sbf_polygon_mesh *mesh, uint32_t *partners, sbfi_arena *scratch);
 
 /* Whether a place lies inside a closed surface: an odd number of triangles lie on a ray from it. */
-bool sbfi_surface_encloses(const sbfi_triangle_tree *tree, sbf_vec3 place);
+bool sbfi_surface_encloses(const sbfi_triangle_tree *tree, sbf_vec3 position);
 
 #endif

@@ -17,7 +17,7 @@ typedef struct carried {
   const char *name;
   double size;
   uint8_t *unseen;  /* vertices in no polygon of a mesh that has some: no one sees where they are */
-  float *shares;    /* what the bodies carry of each vertex together */
+  float *fractions; /* what the bodies carry of each vertex together */
   uint32_t *stamps; /* the embedding, from 1, that carried the vertex last */
   uint32_t stamp;
   bool broken; /* an embedding is not read for its length: nothing can be said of the whole */
@@ -35,9 +35,9 @@ static bool carried_init(carried *c, sbfi_validation *v, const sbf_polygon_mesh 
       .name = name,
       .size = sbfi_extent(mesh->positions),
       .unseen = sbfi_scratch(v, count, sizeof *c->unseen),
-      .shares = sbfi_scratch(v, count, sizeof *c->shares),
+      .fractions = sbfi_scratch(v, count, sizeof *c->fractions),
       .stamps = sbfi_scratch(v, count, sizeof *c->stamps)};
-  if (!c->unseen || !c->shares || !c->stamps) return false;
+  if (!c->unseen || !c->fractions || !c->stamps) return false;
   memset(c->unseen, mesh->polygon_points.count > 0, count);
   mark_seen(c, &mesh->polygon_points);
   return true;
@@ -45,11 +45,11 @@ static bool carried_init(carried *c, sbfi_validation *v, const sbf_polygon_mesh 
 
 static double distance_off(const sbf_level *level, const sbf_embedding *e, uint32_t i, sbf_vec3 vertex) {
   const float weights[4] = {e->weights.at[i].x, e->weights.at[i].y, e->weights.at[i].z, e->weights.at[i].w};
-  sbfi_d3 place = {0, 0, 0};
+  sbfi_d3 position = {0, 0, 0};
   for (int k = 0; k < 4; k++)
-    place = sbfi_d3_add(
-        place, sbfi_d3_scale(sbfi_d3_of(level->positions.at[e->points.at[i].at[k]]), (double)weights[k]));
-  return sbfi_d3_length(sbfi_d3_sub(place, sbfi_d3_of(vertex)));
+    position = sbfi_d3_add(
+        position, sbfi_d3_scale(sbfi_d3_of(level->positions.at[e->points.at[i].at[k]]), (double)weights[k]));
+  return sbfi_d3_length(sbfi_d3_sub(position, sbfi_d3_of(vertex)));
 }
 
 /* True where the weights are good enough for the vertex to have a place. */
@@ -93,7 +93,7 @@ static void check_embedding(carried *c, const sbf_level *level, const sbf_embedd
       sbfi_found(c->v, SBF_CODE_EMBEDDING_REPEATED, vertices.text, i, "vertex %u of '%s' is carried twice",
           vertex, c->name);
     c->stamps[vertex] = c->stamp;
-    c->shares[vertex] += e->blends.count ? e->blends.at[i] : 1;
+    c->fractions[vertex] += e->blends.count ? e->blends.at[i] : 1;
     double distance = good && !c->unseen[vertex] ? distance_off(level, e, i, c->positions.at[vertex]) : 0;
     if (!(distance > OFF_TOLERANCE * c->size)) continue;
     if (off++ == 0) first = i;
@@ -117,18 +117,18 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     if (body->levels.count == 0) continue;
-    uint32_t place = l < body->levels.count ? l : body->levels.count - 1;
-    const sbf_level *level = &body->levels.at[place];
+    uint32_t index = l < body->levels.count ? l : body->levels.count - 1;
+    const sbf_level *level = &body->levels.at[index];
     for (uint32_t e = 0; e < level->embeddings.count; e++) {
       if (level->embeddings.at[e].render_mesh != (int32_t)mesh) continue;
       found = true;
       check_embedding(&c, level, &level->embeddings.at[e],
-          sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", b + 1, place + 1, e + 1).text);
+          sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", b + 1, index + 1, e + 1).text);
     }
   }
   for (uint32_t i = 0; i < c.positions.count && found; i++) {
-    none += c.shares[i] == 0;
-    partly += c.shares[i] != 0 && fabsf(c.shares[i] - 1) > BLEND_TOLERANCE;
+    none += c.fractions[i] == 0;
+    partly += c.fractions[i] != 0 && fabsf(c.fractions[i] - 1) > BLEND_TOLERANCE;
   }
   sbfi_path path = sbfi_path_of("/sbf/render_mesh[%u]", mesh + 1);
   if (partly)
@@ -143,10 +143,10 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
 static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   const sbf_level *level = &at->levels.at[l];
-  carried c = {.shares = NULL};
+  carried c = {.fractions = NULL};
   for (uint32_t e = 0; e < level->embeddings.count; e++) {
     if (level->embeddings.at[e].render_mesh != SBF_NONE) continue;
-    if (!c.shares && !carried_init(&c, v, &at->surface, sbfi_label(at->name, at->id))) return;
+    if (!c.fractions && !carried_init(&c, v, &at->surface, sbfi_label(at->name, at->id))) return;
     check_embedding(&c, level, &level->embeddings.at[e],
         sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", body + 1, l + 1, e + 1).text);
   }

@@ -36,13 +36,15 @@ static void check_leg(walker *w, uint32_t number) {
   check_bone(w, chain->root, "the leg bone", path.text);
   if (!run.whole || run.reach == 0) return; /* reported with the chain */
   if (w->shortest == 0 || run.reach < w->shortest) w->shortest = run.reach;
-  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(leg->home), sbfi_d3_of(w->v->asset->bones.at[chain->root].head));
-  double distance = sbfi_d3_length(way), room = run.reach * run.reach - way.y * way.y;
+  sbfi_d3 displacement =
+      sbfi_d3_sub(sbfi_d3_of(leg->home), sbfi_d3_of(w->v->asset->bones.at[chain->root].head));
+  double distance = sbfi_d3_length(displacement),
+         capacity = run.reach * run.reach - displacement.y * displacement.y;
   if (distance > 1.001 * run.reach)
     sbfi_found(w->v, SBF_CODE_LEG_HOME_BEYOND_REACH, path.text, -1,
         "the home of leg '%s' is %.3g m from '%s' and the leg %.3g m long", leg->name, distance,
         bone_name(w, chain->root), run.reach);
-  else if ((double)w->gait->step_trigger > fmax(sqrt(fmax(room, 0)), run.reach / 2))
+  else if ((double)w->gait->step_trigger > fmax(sqrt(fmax(capacity, 0)), run.reach / 2))
     sbfi_found(w->v, SBF_CODE_LEG_TRIGGER_BEYOND_REACH, path.text, -1,
         "leg '%s' is to step %.3g m from its home and is %.3g m long", leg->name,
         (double)w->gait->step_trigger, run.reach);

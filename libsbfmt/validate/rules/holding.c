@@ -13,7 +13,7 @@ void sbfi_holds_of(const sbf_level *level, uint8_t *holds) {
     const sbf_pin_set *set = &level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       float weight = sbfi_pin_weight(set, i);
-      uint8_t hold = weight >= 1 ? SBFI_HELD_FAST : weight > 0 ? SBFI_HELD_SOFTLY : SBFI_FREE;
+      uint8_t hold = weight >= 1 ? SBFI_PINNED : weight > 0 ? SBFI_GOAL_PINNED : SBFI_FREE;
       if (hold > holds[set->points.at[i]]) holds[set->points.at[i]] = hold;
     }
   }

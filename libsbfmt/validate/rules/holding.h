@@ -4,7 +4,7 @@
 
 #include "sbfmt/model.h"
 
-typedef enum sbfi_hold { SBFI_FREE = 0, SBFI_HELD_SOFTLY = 1, SBFI_HELD_FAST = 2 } sbfi_hold;
+typedef enum sbfi_hold { SBFI_FREE = 0, SBFI_GOAL_PINNED = 1, SBFI_PINNED = 2 } sbfi_hold;
 
 /* The weight of a pin: the set's own, raised to its minimum and lowered to its maximum. */
 float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin);

@@ -4,7 +4,7 @@
 
 typedef struct frame {
   sbfi_d3 origin;
-  sbfi_rotation turn;
+  sbfi_rotation rotation;
 } frame;
 
 /* A body's axes at rest are those of asset space; without a body the frame stands in asset space. */
@@ -33,13 +33,13 @@ sbfi_joint_rest sbfi_joint_rest_of(const sbf_asset *asset, const sbf_joint *join
   sbfi_joint_rest rest = {{0}, 0, 0, 0};
   frame a = frame_of(asset, joint->body_a, &joint->frame_a),
         b = frame_of(asset, joint->body_b, &joint->frame_b);
-  sbfi_rotation to_a = sbfi_rotation_inverse(a.turn);
+  sbfi_rotation to_a = sbfi_rotation_inverse(a.rotation);
   sbfi_d3 o = sbfi_rotated(to_a, sbfi_d3_sub(b.origin, a.origin));
   rest.at[SBF_JOINT_AXIS_LINEAR_X] = o.x;
   rest.at[SBF_JOINT_AXIS_LINEAR_Y] = o.y;
   rest.at[SBF_JOINT_AXIS_LINEAR_Z] = o.z;
   rest.at[SBF_JOINT_AXIS_DISTANCE] = sbfi_d3_length(o);
-  split(sbfi_rotation_product(to_a, b.turn), rest.at);
+  split(sbfi_rotation_product(to_a, b.rotation), rest.at);
   rest.arm = sbfi_d3_length(sbfi_d3_of(joint->frame_a.position)) +
              sbfi_d3_length(sbfi_d3_of(joint->frame_b.position));
   if (joint->kind == SBF_JOINT_KIND_PULLEY) {

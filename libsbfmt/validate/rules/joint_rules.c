@@ -1,11 +1,11 @@
 /* Joints: two bodies, frames that meet at rest, limits and drives on motions that they have. */
 #include <math.h>
 
-#include "model/place.h"
+#include "model/element_path.h"
 #include "validate/rules/joint_rest.h"
 #include "validate/validation.h"
 
-static const double PI = 3.14159265358979, REST_M = 1e-3, REST_SHARE = 0.01, REST_RAD = 0.02, SLACK = 1e-3;
+static const double PI = 3.14159265358979, REST_M = 1e-3, REST_FRACTION = 0.01, REST_RAD = 0.02, SLACK = 1e-3;
 
 typedef struct jointed {
   sbfi_validation *v;
@@ -24,7 +24,7 @@ static bool is_angle(sbf_joint_axis axis) {
 static void check_rest(const jointed *j) {
   for (int axis = 0; axis < SBF_JOINT_AXIS_COUNT; axis++) {
     double value = fabs(j->rest.at[axis]),
-           tolerance = is_angle(axis) ? REST_RAD : REST_M + REST_SHARE * j->rest.arm;
+           tolerance = is_angle(axis) ? REST_RAD : REST_M + REST_FRACTION * j->rest.arm;
     if (sbfi_joint_is_free(j->joint->kind, axis) || value <= tolerance) continue;
     sbfi_found(j->v, SBF_CODE_JOINT_NOT_AT_REST, j->path, -1,
         "joint '%s' holds %s at 0 and it is %.3g %s at rest", j->name, sbf_joint_axis_name(axis),
@@ -93,13 +93,14 @@ static void check_joint(const jointed *j) {
 }
 
 void sbfi_check_joints(sbfi_validation *v) {
-  const sbfi_place root = sbfi_place_root(v->asset);
+  const sbfi_element_path root = sbfi_element_path_root(v->asset);
   const sbfi_field *joints = sbfi_element_field(&sbfi_asset_element, "joints");
   for (uint32_t i = 0; i < v->asset->joints.count; i++) {
     const sbf_joint *joint = &v->asset->joints.at[i];
-    sbfi_place place = sbfi_place_child(&root, joints, i); /* numbered among joints of its kind */
+    sbfi_element_path location =
+        sbfi_element_path_child(&root, joints, i); /* numbered among joints of its kind */
     sbfi_path path;
-    sbfi_place_path(&place, NULL, path.text, sizeof path.text);
+    sbfi_element_path_print(&location, NULL, path.text, sizeof path.text);
     jointed j = {
         v, joint, sbfi_label(joint->name, joint->id), path.text, sbfi_joint_rest_of(v->asset, joint)};
     check_joint(&j);

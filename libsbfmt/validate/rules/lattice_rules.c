@@ -51,14 +51,14 @@ static void use_face(sbfi_validation *v, const sbf_uint4_list *tetrahedra, uint3
     sbfi_key_set *set, face_use *uses, uint32_t *use_count, const char *path) {
   const uint32_t *p = tetrahedra->at[i].at;
   sbfi_key key = {{p[faces[face][0]], p[faces[face][1]], p[faces[face][2]], UINT32_MAX}};
-  uint32_t *place = sbfi_key_set_find(set, sbfi_key_sorted(key, 3));
+  uint32_t *slots = sbfi_key_set_find(set, sbfi_key_sorted(key, 3));
   bool upwards = turns_upwards(p, face);
-  if (*place == UINT32_MAX) {
-    *place = (*use_count)++;
-    uses[*place] = (face_use){i, upwards, false};
+  if (*slots == UINT32_MAX) {
+    *slots = (*use_count)++;
+    uses[*slots] = (face_use){i, upwards, false};
     return;
   }
-  face_use *use = &uses[*place];
+  face_use *use = &uses[*slots];
   if (use->full)
     sbfi_found(v, SBF_CODE_LATTICE_NONMANIFOLD, path, i,
         "tetrahedron %u stands on a face that tetrahedron %u and another share already", i, use->first);

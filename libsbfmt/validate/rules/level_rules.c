@@ -19,7 +19,7 @@ static void check_map(sbfi_validation *v, const sbf_level *level, const char *pa
   }
 }
 
-static void check_places(
+static void check_positions(
     sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
   sbf_vec3_list surface = body->surface.positions;
   double max = 0, tolerance = 1e-4 * sbfi_extent(surface);
@@ -76,7 +76,7 @@ static void mark_cross_springs(
       if (named != (int32_t)body || (end ? set->level_b : set->level_a) != level) continue;
       for (uint32_t i = 0; i < set->ends.count; i++) {
         uint32_t point = set->ends.at[i].at[end];
-        if (point < point_count && holds[point] == SBFI_FREE) holds[point] = SBFI_HELD_SOFTLY;
+        if (point < point_count && holds[point] == SBFI_FREE) holds[point] = SBFI_GOAL_PINNED;
       }
     }
   }
@@ -86,17 +86,17 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
     const uint8_t *holds, const char *path) {
   uint32_t n = level->positions.count, loose = 0, first = 0, adrift = 0, anchored = 0;
   pieces p = {sbfi_scratch(v, n, sizeof *p.parents), sbfi_scratch(v, n, 1)};
-  uint8_t *is_held = sbfi_scratch(v, n, 1); /* of the roots of pieces */
-  if (!p.parents || !p.used || !is_held) return;
+  uint8_t *is_point_pinned = sbfi_scratch(v, n, 1); /* of the roots of pieces */
+  if (!p.parents || !p.used || !is_point_pinned) return;
   sbfi_sets_begin(p.parents, n);
   join_elements(&p, level);
   for (uint32_t i = 0; i < n; i++)
-    if (holds[i] != SBFI_FREE) is_held[sbfi_set_root(p.parents, i)] = 1;
+    if (holds[i] != SBFI_FREE) is_point_pinned[sbfi_set_root(p.parents, i)] = 1;
   for (uint32_t i = 0; i < n; i++) {
     if (!p.used[i] && holds[i] == SBFI_FREE && loose++ == 0) first = i;
     if (!p.used[i] || p.parents[i] != i) continue;
-    adrift += !is_held[i];
-    anchored += is_held[i];
+    adrift += !is_point_pinned[i];
+    anchored += is_point_pinned[i];
   }
   if (loose && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count)
     sbfi_found(v, SBF_CODE_POINT_LOOSE, sbfi_path_of("%s/positions", path).text, first,
@@ -110,7 +110,7 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
 
 static void check_masses(sbfi_validation *v, const sbf_level *level, const uint8_t *holds, const char *path) {
   for (uint32_t i = 0; i < level->masses.count; i++)
-    if (level->masses.at[i] == 0 && holds[i] != SBFI_HELD_FAST)
+    if (level->masses.at[i] == 0 && holds[i] != SBFI_PINNED)
       sbfi_found(v, SBF_CODE_POINT_NO_MASS, path, i, "free point %u has the mass 0", i);
 }
 
@@ -123,7 +123,7 @@ static void check_level(sbfi_validation *v, uint32_t body, uint32_t number) {
   sbfi_holds_of(level, holds);
   mark_cross_springs(v->asset, body, number, level->positions.count, holds);
   check_map(v, level, sbfi_path_of("%s/new_from_old", path.text).text);
-  check_places(v, at, level, sbfi_path_of("%s/positions", path.text).text);
+  check_positions(v, at, level, sbfi_path_of("%s/positions", path.text).text);
   if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return; /* it moves as one piece */
   check_pieces(v, at, level, holds, path.text);
   check_masses(v, level, holds, sbfi_path_of("%s/masses", path.text).text);

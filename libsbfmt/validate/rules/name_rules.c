@@ -6,13 +6,13 @@
 
 typedef struct named {
   const char *name;
-  uint32_t place;
+  uint32_t index;
 } named;
 
 static int compare(const void *a, const void *b) {
   const named *x = a, *y = b;
   int order = strcmp(x->name, y->name);
-  return order ? order : x->place < y->place ? -1 : x->place > y->place;
+  return order ? order : x->index < y->index ? -1 : x->index > y->index;
 }
 
 /* A collection of one kind: what it is called, its items, and where in each the name stands. */
@@ -38,8 +38,8 @@ static void find_repeated(sbfi_validation *v, const collection *c) {
     if (strcmp(all[i].name, all[first].name) != 0)
       first = i;
     else
-      sbfi_found(v, c->code, sbfi_path_of("%s[%u]", c->path, all[i].place + 1).text, -1,
-          "the name '%s' is that of %s %u as well", all[i].name, c->kind, all[first].place + 1);
+      sbfi_found(v, c->code, sbfi_path_of("%s[%u]", c->path, all[i].index + 1).text, -1,
+          "the name '%s' is that of %s %u as well", all[i].name, c->kind, all[first].index + 1);
   }
 }
 

@@ -28,7 +28,7 @@ static void check_substeps(
   for (uint32_t s = 0; s < level->springs.count; s++) springs += level->springs.at[s].ends.count;
   if (springs == 0 || level->simulation.substeps == 0 || level->simulation.scheme != SBF_SCHEME_SYMPLECTIC)
     return;
-  uint8_t *held = sbfi_scratch(v, points, 1);
+  uint8_t *pinned = sbfi_scratch(v, points, 1);
   float *masses = sbfi_scratch(v, points, sizeof *masses);
   float *volumes = sbfi_scratch(v, points, sizeof *volumes);
   double *sums = sbfi_scratch(v, points, 2 * sizeof *sums);
@@ -38,8 +38,8 @@ static void check_substeps(
   for (uint32_t s = 0; s < level->springs.count; s++)
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++)
       ends[at++] = level->springs.at[s].ends.at[i];
-  sbf_level_held_points(level, held);
-  sbf_level_masses(body, level, held, masses);
+  sbf_level_held_points(level, pinned);
+  sbf_level_masses(body, level, pinned, masses);
   sbf_level_stiffness(body, level, volumes, sums, stiffness);
   sbf_spring_network network = {.point_count = points,
       .spring_count = (uint32_t)springs,

@@ -10,15 +10,15 @@ typedef struct holder { /* who holds a point */
 } holder;
 
 /* The places that sets hold: of the body or of a level. */
-typedef struct held {
+typedef struct pinned_point {
   sbfi_validation *v;
   const sbf_soft_body *body;
   const sbf_vec3 *positions, *interior; /* interior: those behind the surface's; NULL in a level */
   uint32_t count, surface_count;
   const char *parent;
-} held;
+} pinned_point;
 
-static sbf_vec3 place_of(const held *h, uint32_t point) {
+static sbf_vec3 position_of(const pinned_point *h, uint32_t point) {
   return point < h->surface_count ? h->positions[point] : h->interior[point - h->surface_count];
 }
 
@@ -34,15 +34,15 @@ static void frame_of(const sbf_asset *asset, const sbf_pin_set *set, sbfi_d3 *or
   }
 }
 
-static void check_offsets(const held *h, const sbf_pin_set *set, const char *path) {
+static void check_offsets(const pinned_point *h, const sbf_pin_set *set, const char *path) {
   sbfi_d3 origin;
-  sbfi_rotation turn;
+  sbfi_rotation rotation;
   double max = 0, size = sbfi_extent(h->body->surface.positions);
   uint32_t far = 0, first = 0;
-  frame_of(h->v->asset, set, &origin, &turn);
+  frame_of(h->v->asset, set, &origin, &rotation);
   for (uint32_t i = 0; i < set->offsets.count; i++) {
-    sbfi_d3 place = sbfi_d3_add(origin, sbfi_rotated(turn, sbfi_d3_of(set->offsets.at[i])));
-    double distance = sbfi_d3_length(sbfi_d3_sub(place, sbfi_d3_of(place_of(h, set->points.at[i]))));
+    sbfi_d3 position = sbfi_d3_add(origin, sbfi_rotated(rotation, sbfi_d3_of(set->offsets.at[i])));
+    double distance = sbfi_d3_length(sbfi_d3_sub(position, sbfi_d3_of(position_of(h, set->points.at[i]))));
     if (!(distance > size) || size == 0) continue;
     if (far++ == 0) first = i;
     max = fmax(max, distance);
@@ -54,7 +54,7 @@ static void check_offsets(const held *h, const sbf_pin_set *set, const char *pat
 }
 
 static void check_points(
-    const held *h, const sbf_pin_set *set, uint32_t number, holder *holders, const char *path) {
+    const pinned_point *h, const sbf_pin_set *set, uint32_t number, holder *holders, const char *path) {
   sbfi_path points = sbfi_path_of("%s/points", path);
   bool holds = false;
   for (uint32_t i = 0; i < set->points.count; i++) {
@@ -71,7 +71,7 @@ static void check_points(
     sbfi_found(h->v, SBF_CODE_PIN_NO_WEIGHT, path, -1, "pin set '%s' has the weight 0 everywhere", set->name);
 }
 
-static void check_sets(const held *h, const sbf_pin_set_list *sets) {
+static void check_sets(const pinned_point *h, const sbf_pin_set_list *sets) {
   holder *holders = sbfi_scratch(h->v, h->count, sizeof *holders);
   if (!holders) return;
   for (uint32_t s = 0; s < sets->count; s++) {
@@ -126,14 +126,14 @@ static void check_attachments(sbfi_validation *v, const sbf_soft_body *body, con
 }
 
 static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char *path) {
-  held source = {v, body, body->surface.positions.at, body->interior.at,
+  pinned_point source = {v, body, body->surface.positions.at, body->interior.at,
       body->surface.positions.count + body->interior.count, body->surface.positions.count, path};
   check_sets(&source, &body->pins);
   check_attachments(v, body, path);
   for (uint32_t l = 0; l < body->levels.count && !v->out_of_memory; l++) {
     const sbf_level *level = &body->levels.at[l];
     sbfi_path parent = sbfi_path_of("%s/level[%u]", path, l + 1);
-    held here = {
+    pinned_point here = {
         v, body, level->positions.at, NULL, level->positions.count, level->positions.count, parent.text};
     check_sets(&here, &level->pins);
     bool carried = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* by its bone, without pins */

@@ -13,16 +13,16 @@ static bool is_flat(const sbf_vec3 *positions, const region *r) {
   sbfi_d3 origin = sbfi_d3_of(positions[r->points[0]]), along = {0, 0, 0}, across = {0, 0, 0};
   double far = 0, wide = 0, deep = 0;
   for (uint32_t i = 1; i < r->size; i++) {
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[r->points[i]]), origin);
-    if (sbfi_d3_length(way) > far) far = sbfi_d3_length(along = way);
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(positions[r->points[i]]), origin);
+    if (sbfi_d3_length(displacement) > far) far = sbfi_d3_length(along = displacement);
   }
   for (uint32_t i = 1; i < r->size; i++) {
     sbfi_d3 area = sbfi_d3_cross(along, sbfi_d3_sub(sbfi_d3_of(positions[r->points[i]]), origin));
     if (sbfi_d3_length(area) > wide) wide = sbfi_d3_length(across = area);
   }
   for (uint32_t i = 1; i < r->size; i++) {
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[r->points[i]]), origin);
-    deep = fmax(deep, fabs(sbfi_d3_dot(sbfi_d3_normal(across), way)));
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(positions[r->points[i]]), origin);
+    deep = fmax(deep, fabs(sbfi_d3_dot(sbfi_d3_normal(across), displacement)));
   }
   return deep <= 1e-4 * far;
 }
@@ -31,8 +31,8 @@ static void check_regions(sbfi_validation *v, const sbf_level *level, const char
   const sbf_shape_regions *regions = level->regions;
   uint32_t *seen =
       sbfi_scratch(v, level->positions.count, sizeof *seen); /* number of the last region from 1 */
-  uint8_t *held = sbfi_scratch(v, level->positions.count, 1);
-  if (!seen || !held) return;
+  uint8_t *pinned = sbfi_scratch(v, level->positions.count, 1);
+  if (!seen || !pinned) return;
   region r = {0, 0, regions->points.at};
   for (; r.number < regions->sizes.count; r.points += r.size, r.number++) {
     r.size = regions->sizes.at[r.number];
@@ -47,8 +47,8 @@ static void check_regions(sbfi_validation *v, const sbf_level *level, const char
           "region %u, of %u point%s, is flat", r.number, r.size, sbfi_plural(r.size));
   }
   uint32_t left_out = 0;
-  sbf_level_held_points(level, held);
-  for (uint32_t i = 0; i < level->positions.count; i++) left_out += !seen[i] && !held[i];
+  sbf_level_held_points(level, pinned);
+  for (uint32_t i = 0; i < level->positions.count; i++) left_out += !seen[i] && !pinned[i];
   if (left_out)
     sbfi_found(v, SBF_CODE_REGION_POINT_LEFT_OUT, sbfi_path_of("%s/shape_regions", path).text, -1,
         "%u free point%s in no region", left_out, left_out == 1 ? " is" : "s are");

@@ -7,7 +7,7 @@
 
 static void check_hull(sbfi_validation *v, const sbf_rigid_body *body, const char *path) {
   sbfi_path hull = sbfi_path_of("%s/polygon_mesh", path);
-  switch (sbfi_hull_judge(body->hull, &v->scratch)) {
+  switch (sbfi_hull_check(body->hull, &v->scratch)) {
   case SBFI_HULL_FAULT_OPEN:
     sbfi_found(v, SBF_CODE_HULL_OPEN, hull.text, -1, "the hull of '%s' is not a closed surface",
         sbfi_label(body->name, body->id));

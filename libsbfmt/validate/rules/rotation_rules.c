@@ -1,31 +1,30 @@
 /* Rotations of unit length, wherever the schema has one: found by its tables, not by name. */
-#include "model/place.h"
+#include "model/element_path.h"
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-static sbf_code code_of(const sbfi_place *place) {
-  bool in_joint =
-      place->up && place->up->element == sbfi_element_field(&sbfi_asset_element, "joints")->element;
+static sbf_code code_of(const sbfi_element_path *path) {
+  bool in_joint = path->up && path->up->element == sbfi_element_field(&sbfi_asset_element, "joints")->element;
   return in_joint ? SBF_CODE_JOINT_FRAME : SBF_CODE_ROTATION_NOT_UNIT;
 }
 
-static void check_rotation(sbfi_validation *v, const sbfi_place *place, const sbfi_field *field) {
+static void check_rotation(sbfi_validation *v, const sbfi_element_path *location, const sbfi_field *field) {
   sbf_quat q;
   sbfi_path path;
-  memcpy(&q, (const char *)place->object + field->offset, sizeof q);
+  memcpy(&q, (const char *)location->object + field->offset, sizeof q);
   if (sbfi_is_unit(q)) return;
-  sbfi_place_path(place, field, path.text, sizeof path.text);
-  sbfi_found(v, code_of(place), path.text, -1, "the rotation has the length %.4g",
+  sbfi_element_path_print(location, field, path.text, sizeof path.text);
+  sbfi_found(v, code_of(location), path.text, -1, "the rotation has the length %.4g",
       sqrt((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w));
 }
 
-static void walk(sbfi_validation *v, const sbfi_place *place) {
-  for (uint32_t i = 0; i < place->element->field_count; i++) {
-    const sbfi_field *field = &place->element->fields[i];
-    if (field->type == SBFI_QUAT) check_rotation(v, place, field);
-    uint32_t count = field->element ? sbfi_child_count(place->object, field) : 0;
+static void walk(sbfi_validation *v, const sbfi_element_path *path) {
+  for (uint32_t i = 0; i < path->element->field_count; i++) {
+    const sbfi_field *field = &path->element->fields[i];
+    if (field->type == SBFI_QUAT) check_rotation(v, path, field);
+    uint32_t count = field->element ? sbfi_child_count(path->object, field) : 0;
     for (uint32_t k = 0; k < count; k++) {
-      sbfi_place child = sbfi_place_child(place, field, k);
+      sbfi_element_path child = sbfi_element_path_child(path, field, k);
       walk(v, &child);
     }
   }
@@ -45,7 +44,7 @@ static void check_keys(sbfi_validation *v, const sbf_track *track, const char *p
 }
 
 void sbfi_check_rotations(sbfi_validation *v) {
-  sbfi_place root = sbfi_place_root(v->asset);
+  sbfi_element_path root = sbfi_element_path_root(v->asset);
   walk(v, &root);
   for (uint32_t c = 0; c < v->asset->clips.count; c++)
     for (uint32_t t = 0; t < v->asset->clips.at[c].tracks.count; t++)

@@ -44,7 +44,7 @@ static void check_set(const spring_level *l, uint32_t number) {
       continue;
     }
     check_length(l, set, i, ends.text);
-    if (l->holds[p[0]] == SBFI_HELD_FAST && l->holds[p[1]] == SBFI_HELD_FAST)
+    if (l->holds[p[0]] == SBFI_PINNED && l->holds[p[1]] == SBFI_PINNED)
       sbfi_found(l->v, SBF_CODE_SPRING_INERT, ends.text, i, "spring %u joins two held points, %u and %u", i,
           p[0], p[1]);
   }

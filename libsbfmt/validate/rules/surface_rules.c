@@ -59,8 +59,8 @@ static bool is_flat(const sbf_vec3 *positions, const uint32_t *corners, uint32_t
   sbfi_d3 middle = sbfi_polygon_middle(positions, corners, size);
   double farthest = 0;
   for (uint32_t k = 0; k < size; k++) {
-    sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[corners[k]]), middle);
-    farthest = fmax(farthest, sbfi_d3_dot(way, way));
+    sbfi_d3 displacement = sbfi_d3_sub(sbfi_d3_of(positions[corners[k]]), middle);
+    farthest = fmax(farthest, sbfi_d3_dot(displacement, displacement));
   }
   return sbfi_d3_length(sbfi_polygon_area(positions, corners, size, middle)) <= 1e-7 * farthest;
 }
@@ -119,11 +119,11 @@ static void check_winding(const surface *s) {
 /* Points that stand in one place, each at the border of an open surface: a seam that was never sewn. */
 static void find_seams(const surface *s) {
   const sbfi_topology *t = &s->t;
-  sbfi_key_set places;
+  sbfi_key_set positions;
   uint32_t count = 0, first = 0;
   uint8_t *at_border = sbfi_scratch(s->v, t->point_count, 1);
   if (!at_border) return;
-  if (!sbfi_key_set_init(&places, 2 * (size_t)t->boundary_edge_count, &s->v->scratch)) {
+  if (!sbfi_key_set_init(&positions, 2 * (size_t)t->boundary_edge_count, &s->v->scratch)) {
     s->v->out_of_memory = true;
     return;
   }
@@ -131,7 +131,7 @@ static void find_seams(const surface *s) {
     if (polygons_at(t, e) == 1) at_border[t->edges[e].at[0]] = at_border[t->edges[e].at[1]] = 1;
   for (uint32_t i = 0; i < t->point_count; i++) {
     if (!at_border[i]) continue;
-    uint32_t *seen = sbfi_key_set_find(&places, sbfi_key_of_place(s->body->surface.positions.at[i]));
+    uint32_t *seen = sbfi_key_set_find(&positions, sbfi_key_of_position(s->body->surface.positions.at[i]));
     if (*seen == UINT32_MAX)
       *seen = i;
     else if (count++ == 0)

@@ -28,7 +28,7 @@ CALL(teleport) {
   soft_character *one = self;
   UNUSED;
   if (!one->world) return;
-  soft_character_place(one, gd_as_vector3(arguments[0]), (float)gd_as_float(arguments[1]));
+  soft_character_set_position(one, gd_as_vector3(arguments[0]), (float)gd_as_float(arguments[1]));
   one->placed = true;
   soft_character_follow(one);
 }
@@ -38,35 +38,35 @@ CALL(reset_pose) {
   UNUSED;
   if (!one->world) return;
   sbr_character_reset(one->world, one->id);
-  soft_character_loose_place(one);
+  soft_character_set_loose_position(one);
   one->stale = true;
 }
 
 CALL(get_travelled) {
   soft_character *one = self;
   UNUSED;
-  gd_assign(result, gd_float(one->world ? sbr_character_distance(one->world, one->id) : 0));
+  gd_assign(result, gd_float(one->world ? sbr_character_get_distance(one->world, one->id) : 0));
 }
 
 CALL(get_state_hash) {
   soft_character *one = self;
   char text[32];
   UNUSED;
-  snprintf(
-      text, sizeof text, "%016llx", one->world ? (unsigned long long)sbr_world_state_hash(one->world) : 0);
+  snprintf(text, sizeof text, "%016llx",
+      one->world ? (unsigned long long)sbr_world_get_state_hash(one->world) : 0);
   gd_assign(result, gd_string(text));
 }
 
 CALL(get_leg_count) {
   soft_character *one = self;
   UNUSED;
-  gd_assign(result, gd_int(one->world ? sbr_character_legs(one->world, one->id, NULL, 0) : 0));
+  gd_assign(result, gd_int(one->world ? sbr_character_get_legs(one->world, one->id, NULL, 0) : 0));
 }
 
 CALL(is_leg_planted) {
   soft_character *one = self;
   sbr_leg_state legs[64];
-  uint32_t count = one->world ? sbr_character_legs(one->world, one->id, legs, 64) : 0;
+  uint32_t count = one->world ? sbr_character_get_legs(one->world, one->id, legs, 64) : 0;
   int64_t leg = gd_as_int(arguments[0]);
   gd_assign(result, gd_bool(leg >= 0 && leg < count && leg < 64 && legs[leg].planted));
 }
@@ -76,13 +76,13 @@ CALL(get_skin) {
   soft_character *one = self;
   int64_t mesh = gd_as_int(arguments[0]);
   uint32_t count = one->world && mesh >= 0 && mesh < one->model->asset->render_meshes.count
-                       ? sbr_character_skin(one->world, one->id, (uint32_t)mesh, NULL, NULL, NULL, 0)
+                       ? sbr_character_get_skin(one->world, one->id, (uint32_t)mesh, NULL, NULL, NULL, 0)
                        : 0;
   gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, count));
   sbf_vec3 *points = count ? gd_vector3s(result) : NULL;
   if (!points) return;
-  sbr_character_skin(one->world, one->id, (uint32_t)mesh, points, NULL, NULL, count);
-  sbr_double3 origin = sbr_character_origin(one->world, one->id);
+  sbr_character_get_skin(one->world, one->id, (uint32_t)mesh, points, NULL, NULL, count);
+  sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   for (uint32_t i = 0; i < count; i++)
     points[i] = (sbf_vec3){(float)(origin.x + (double)points[i].x), (float)(origin.y + (double)points[i].y),
         (float)(origin.z + (double)points[i].z)};
@@ -92,7 +92,7 @@ static sbr_body_health health_of(soft_character *one, const gd_variant *body) {
   int64_t index = gd_as_int(body);
   sbr_body_health none = {.volume_ratio = 1, .min_element_ratio = 1, .finite = true};
   if (!one->world || index < 0 || index >= one->model->asset->soft_bodies.count) return none;
-  return sbr_character_health(one->world, one->id, (uint32_t)index);
+  return sbr_character_get_body_health(one->world, one->id, (uint32_t)index);
 }
 
 CALL(get_volume_ratio) {
@@ -110,7 +110,7 @@ CALL(is_asleep) {
 CALL(get_substeps_needed) {
   soft_character *one = self;
   UNUSED;
-  gd_assign(result, gd_int(one->model ? sbr_model_substeps(one->model->model) : 0));
+  gd_assign(result, gd_int(one->model ? sbr_model_get_substeps(one->model->model) : 0));
 }
 
 /* Plays a clip by its name in the lowest layer; an empty name fades it out. */
@@ -130,15 +130,15 @@ CALL(play) {
   if (name[0] && clip == SBF_NONE)
     soft_character_error(one, "play: the asset has no clip of that name: see SoftAsset.get_clip_names");
   else
-    sbr_character_play(one->world, one->id, 0, clip, &how);
+    sbr_character_play_clip(one->world, one->id, 0, clip, &how);
 }
 
 /* Lets it fall over; it gets up by itself. */
 CALL(knock_over) {
   soft_character *one = self;
-  sbr_rigid_fall fall = sbr_default_rigid_fall();
+  sbr_fall_definition fall = sbr_default_fall_definition();
   UNUSED;
-  if (one->world) sbr_character_rigid_fall(one->world, one->id, &fall);
+  if (one->world) sbr_character_knock_over(one->world, one->id, &fall);
 }
 
 CALL(get_skeleton) {
@@ -171,8 +171,8 @@ CALL(get_bone_lines) {
   gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, bones ? 2 * (int64_t)count : 0));
   if (!bones) return;
   sbf_vec3 *line = gd_vector3s(result);
-  sbr_double3 o = sbr_character_origin(one->world, one->id);
-  sbr_character_bones(one->world, one->id, bones, count);
+  sbr_double3 o = sbr_character_get_origin(one->world, one->id);
+  sbr_character_get_bones(one->world, one->id, bones, count);
   for (uint32_t i = 0; i < count; i++) {
     sbf_quat q = bones[i].rotation;
     float length = one->model->asset->bones.at[i].length * one->scale;

@@ -27,17 +27,17 @@ static bool middle_of(const soft_character *one, double middle[3]) {
   double sum[3] = {0, 0, 0};
   uint64_t all = 0;
   for (uint32_t i = 0; i < one->model->asset->soft_bodies.count; i++) {
-    uint32_t count = sbr_character_points(one->world, one->id, i, NULL, 0);
+    uint32_t count = sbr_character_get_points(one->world, one->id, i, NULL, 0);
     sbf_vec3 *points = count ? malloc(count * sizeof *points) : NULL;
     if (!points) continue;
-    sbr_character_points(one->world, one->id, i, points, count);
+    sbr_character_get_points(one->world, one->id, i, points, count);
     for (uint32_t k = 0; k < count; k++)
       sum[0] += (double)points[k].x, sum[1] += (double)points[k].y, sum[2] += (double)points[k].z;
     free(points);
     all += count;
   }
   if (!all) return false;
-  sbr_double3 origin = sbr_character_origin(one->world, one->id);
+  sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   middle[0] = origin.x + sum[0] / (double)all;
   middle[1] = origin.y + sum[1] / (double)all;
   middle[2] = origin.z + sum[2] / (double)all;
@@ -71,7 +71,7 @@ bool soft_character_loose_follow(soft_character *one) {
 }
 
 /* The frame is moved until the middle is where it should be: its height counts from the ground below it. */
-bool soft_character_loose_place(soft_character *one) {
+bool soft_character_set_loose_position(soft_character *one) {
   double middle[3], wanted[3];
   if (!one->loose) return false;
   sbf_vec3 arm = arm_of(one), put = one->put.origin;

@@ -39,8 +39,8 @@ static bool make_world(soft_character *one) {
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
   sbf_diagnostic error;
-  gd_transform place = one->put;
-  one->scale = transform_scale(&place);
+  gd_transform node_transform = one->put;
+  one->scale = transform_scale(&node_transform);
   one->loose = soft_asset_is_loose(one->model->asset);
   measure(one);
   one->ground = physics_ground_make();
@@ -56,8 +56,8 @@ static bool make_world(soft_character *one) {
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
   world.gravity = one->model->options.gravity;
-  character.position = (sbr_double3){place.origin.x, 0, place.origin.z};
-  character.heading = transform_heading(&place);
+  character.position = (sbr_double3){node_transform.origin.x, 0, node_transform.origin.z};
+  character.heading = transform_heading(&node_transform);
   character.scale = one->scale;
   character.hold = one->settings.hold_pose;
   if (!shared_world_join(one, &world)) return false;
@@ -78,9 +78,9 @@ typedef struct kept_state {
 static kept_state keep(const soft_character *one) {
   kept_state kept = {0};
   if (!one->world || !one->placed || shared_world_count(one->shared) > 1) return kept;
-  kept.size = sbr_world_snapshot_size(one->world);
+  kept.size = sbr_world_get_snapshot_size(one->world);
   kept.bytes = malloc(kept.size);
-  if (kept.bytes && sbr_world_snapshot_save(one->world, kept.bytes, kept.size) != SBF_OK) {
+  if (kept.bytes && sbr_world_save_snapshot(one->world, kept.bytes, kept.size) != SBF_OK) {
     free(kept.bytes);
     kept.bytes = NULL;
   }
@@ -112,10 +112,10 @@ void soft_character_make(soft_character *one) {
     one->model = soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
       /* A bundle of the same structure goes on as it was; another one begins where that stood. */
-      if (kept.bytes && sbr_world_snapshot_restore(one->world, kept.bytes, kept.size) == SBF_OK) {
+      if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placed = true;
         one->frame = frame;
-        if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_look(one);
+        if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_query(one);
       } else
         one->placed = s->ground == SOFT_GROUND_FLAT;
       soft_character_drive(one);
@@ -135,7 +135,7 @@ void soft_character_make(soft_character *one) {
 void soft_character_drive(soft_character *one) {
   const soft_settings *s = &one->settings;
   if (!one->world) return;
-  sbr_character_drive(
+  sbr_character_set_drive(
       one->world, one->id, (float)s->forward_speed, (float)s->sideways_speed, (float)s->turn_speed);
   sbr_character_set_vertical_speed(one->world, one->id, (float)s->vertical_speed);
 }

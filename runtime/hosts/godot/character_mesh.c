@@ -246,14 +246,15 @@ static void write_surface(
 
 void character_mesh_update(character_mesh *mesh, soft_character *one) {
   if (!mesh) return;
-  sbr_double3 origin = sbr_character_origin(one->world, one->id);
+  sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   for (uint32_t i = 0; i < mesh->count; i++) {
     shown_mesh *shown = &mesh->meshes[i];
     const sbf_polygon_mesh *form = &one->model->asset->render_meshes.at[shown->render_mesh].mesh;
     uint32_t count = form->positions.count;
-    sbr_character_skin(one->world, one->id, shown->render_mesh, mesh->positions, mesh->normals, NULL, count);
+    sbr_character_get_skin(
+        one->world, one->id, shown->render_mesh, mesh->positions, mesh->normals, NULL, count);
     if (shown->corners)
-      sbr_character_corner_normals(
+      sbr_character_get_corner_normals(
           one->world, one->id, shown->render_mesh, mesh->normals, form->polygon_points.count);
     sbf_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t k = 0; k < count; k++) {

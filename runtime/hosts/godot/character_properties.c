@@ -98,7 +98,7 @@ SETTING(teleport_distance, float, 0, SOFT_MAX, (void)one)
 SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
 SETTING(push_bodies, bool, 0, 1, (void)one)
 SETTING(push_limit, float, 0, SOFT_MAX, (void)one)
-SETTING(meet_others, bool, 0, 1, soft_character_make(one))
+SETTING(collide_with_others, bool, 0, 1, soft_character_make(one))
 SETTING(cast_shadow, int, 0, 3, character_mesh_dress(one->mesh, one))
 SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_dress(one->mesh, one))
 #undef SETTING
@@ -160,7 +160,7 @@ const gd_property soft_character_properties[] = {
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
-    SHOWN("meet_others", BOOL, 0, NULL, "is_", meet_others),
+    SHOWN("meet_others", BOOL, 0, NULL, "is_", collide_with_others),
     GROUP("Geometry"),
     RESOURCE("material_override", "Material", material),
     CHOICE("cast_shadow", "GeometryInstance3D.ShadowCastingSetting", "Off,On,Double-Sided,Shadows Only",

@@ -63,8 +63,8 @@ void character_skeleton_update(soft_character *one) {
   const sbf_bone_list *list = &one->model->asset->bones;
   sbr_transform *bones = gd_as_object(&one->skeleton) ? malloc((list->count + 1) * sizeof *bones) : NULL;
   if (!bones) return;
-  sbr_double3 origin = sbr_character_origin(one->world, one->id);
-  sbr_character_bones(one->world, one->id, bones, list->count);
+  sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
+  sbr_character_get_bones(one->world, one->id, bones, list->count);
   GD_DO(&one->skeleton, "set_position", /* at the top level: the world's */
       gd_vector3((sbf_vec3){(float)origin.x, (float)origin.y, (float)origin.z}));
   for (uint32_t i = 0; i < list->count; i++)

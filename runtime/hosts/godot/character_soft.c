@@ -20,7 +20,7 @@ static uint32_t vertex_of(const gd_variant *value) {
   if (number == -1) return SBR_WHOLE_BODY;
   return number >= 0 && number < NO_BODY ? (uint32_t)number : NO_BODY - 1;
 }
-static sbr_double3 place_of(const gd_variant *value) {
+static sbr_double3 position_of(const gd_variant *value) {
   sbf_vec3 at = gd_as_vector3(value);
   return (sbr_double3){(double)at.x, (double)at.y, (double)at.z};
 }
@@ -30,7 +30,7 @@ static void report(const soft_character *one, sbf_status status, const sbf_diagn
 
 static sbr_soft_motion motion_of(soft_character *one, const gd_variant *body) {
   if (!one->world) return (sbr_soft_motion){.mass = 0};
-  return sbr_character_soft_motion(one->world, one->id, number_of(body));
+  return sbr_character_get_soft_motion(one->world, one->id, number_of(body));
 }
 CALL(soft_character_get_soft_mass) {
   gd_assign(result, gd_float((double)motion_of(self, arguments[0]).mass));
@@ -77,8 +77,8 @@ CALL(soft_character_apply_soft_force) {
 
 CALL(soft_character_get_nearest_vertex) {
   soft_character *one = self;
-  uint32_t vertex = one->world ? sbr_character_nearest_vertex(
-                                     one->world, one->id, number_of(arguments[0]), place_of(arguments[1]))
+  uint32_t vertex = one->world ? sbr_character_find_nearest_vertex(
+                                     one->world, one->id, number_of(arguments[0]), position_of(arguments[1]))
                                : SBR_WHOLE_BODY;
   gd_assign(result, gd_int(vertex == SBR_WHOLE_BODY ? -1 : (int64_t)vertex));
 }
@@ -88,7 +88,7 @@ CALL(soft_character_hold_vertex) {
   sbf_diagnostic error;
   sbr_soft_hold hold = sbr_default_soft_hold();
   UNUSED;
-  hold.target = place_of(arguments[2]);
+  hold.target = position_of(arguments[2]);
   if (one->world)
     report(one,
         sbr_character_hold_vertex(
@@ -107,7 +107,8 @@ CALL(soft_character_get_hold_force) {
   soft_character *one = self;
   sbf_vec3 force = {0, 0, 0};
   if (one->world)
-    force = sbr_character_hold_force(one->world, one->id, number_of(arguments[0]), number_of(arguments[1]));
+    force =
+        sbr_character_get_hold_force(one->world, one->id, number_of(arguments[0]), number_of(arguments[1]));
   gd_assign(result, gd_vector3(force));
 }
 
@@ -115,12 +116,12 @@ CALL(soft_character_get_hold_force) {
 CALL(soft_character_get_pin_reactions) {
   soft_character *one = self;
   uint32_t body = number_of(arguments[0]);
-  uint32_t count = one->world ? sbr_character_pin_reactions(one->world, one->id, body, NULL, 0) : 0;
+  uint32_t count = one->world ? sbr_character_get_pin_reactions(one->world, one->id, body, NULL, 0) : 0;
   sbr_pin_reaction *pins = count ? malloc(count * sizeof *pins) : NULL;
   gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, pins ? 2 * (int64_t)count : 0));
   if (!pins) return;
   sbf_vec3 *to = gd_vector3s(result);
-  sbr_character_pin_reactions(one->world, one->id, body, pins, count);
+  sbr_character_get_pin_reactions(one->world, one->id, body, pins, count);
   for (uint32_t i = 0; i < count; i++) to[2 * i] = pins[i].force, to[2 * i + 1] = pins[i].torque;
   free(pins);
 }
@@ -129,12 +130,12 @@ CALL(soft_character_get_pin_reactions) {
 CALL(soft_character_get_stress) {
   soft_character *one = self;
   uint32_t body = number_of(arguments[0]);
-  uint32_t count = one->world ? sbr_character_tetrahedra(one->world, one->id, body, NULL, 0) : 0;
+  uint32_t count = one->world ? sbr_character_get_tetrahedra(one->world, one->id, body, NULL, 0) : 0;
   sbr_tetrahedron_state *found = count ? malloc(count * sizeof *found) : NULL;
   gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, found ? 2 * (int64_t)count : 0));
   if (!found) return;
   sbf_vec3 *to = gd_vector3s(result);
-  sbr_character_tetrahedra(one->world, one->id, body, found, count);
+  sbr_character_get_tetrahedra(one->world, one->id, body, found, count);
   for (uint32_t i = 0; i < count; i++) {
     const float *s = found[i].stress;
     to[2 * i] = (sbf_vec3){s[0], s[1], s[2]}, to[2 * i + 1] = (sbf_vec3){s[3], s[4], s[5]};

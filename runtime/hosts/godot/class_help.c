@@ -9,15 +9,15 @@
 
 typedef struct text {
   char *at;
-  size_t size, room;
+  size_t size, capacity;
 } text;
 
 static void add(text *to, const char *from, size_t size) {
-  if (to->size + size + 1 > to->room) {
-    size_t room = 2 * (to->size + size) + 1024;
-    char *more = realloc(to->at, room);
+  if (to->size + size + 1 > to->capacity) {
+    size_t capacity = 2 * (to->size + size) + 1024;
+    char *more = realloc(to->at, capacity);
     if (!more) return;
-    to->at = more, to->room = room;
+    to->at = more, to->capacity = capacity;
   }
   memcpy(to->at + to->size, from, size);
   to->at[to->size += size] = 0;
@@ -136,7 +136,7 @@ static void write_members(text *to, const gd_class *form, const gd_help *words) 
   write(to, "</constants>");
 }
 
-void gd_class_tell(const gd_class *form, const char *about, const gd_help *words) {
+void gd_class_set_help(const gd_class *form, const char *about, const gd_help *words) {
   GDExtensionsInterfaceEditorHelpLoadXmlFromUtf8Chars load = gd_editor_help();
   text made = {0};
   char brief[256], message[256];

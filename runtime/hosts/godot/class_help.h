@@ -13,11 +13,11 @@ typedef struct gd_help {
 /* `about`: the class itself, its first sentence the short form. `words` end with an entry without a name; of
  * names that they lack, and of those that the class lacks, the log has an error. Once, when the editor
  * begins. */
-void gd_class_tell(const gd_class *form, const char *about, const gd_help *words);
+void gd_class_set_help(const gd_class *form, const char *about, const gd_help *words);
 
 /* ---- words.c ---- */
 
 /* Of all classes that users meet. */
-void words_tell(void);
+void words_set_help(void);
 
 #endif

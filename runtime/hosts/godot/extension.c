@@ -14,7 +14,7 @@ enum { CLASSES = sizeof classes / sizeof *classes };
 
 static void initialize(void *userdata, GDExtensionInitializationLevel level) {
   (void)userdata;
-  if (level == GDEXTENSION_INITIALIZATION_EDITOR) words_tell();
+  if (level == GDEXTENSION_INITIALIZATION_EDITOR) words_set_help();
   if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
   for (int i = 0; i < CLASSES; i++) gd_class_register(classes[i]);
   asset_loader_begin();

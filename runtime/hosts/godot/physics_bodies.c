@@ -25,19 +25,19 @@ enum {
 };
 
 typedef struct mirrored {
-  uint64_t body;      /* RID; 0: free */
-  int64_t index;      /* of its shapes */
-  gd_variant handle;  /* the RID as a value */
-  uint64_t object;    /* instance id of the node */
-  sbr_shape *shape;   /* NULL: of a kind that has none here */
-  sbr_collider_id id; /* in the character's world */
-  gd_transform inner; /* of the runtime's shape in Godot's */
-  gd_transform last;  /* of the shape in the world, as it was last moved to */
-  sbf_vec3 arm;       /* from the body's origin to the shape's there */
-  uint32_t seen;      /* frame it was last near */
-  uint32_t found;     /* query that last found it */
-  body_mass mass;     /* the body's, as its collider was made */
-  bool leads, told;   /* its collider has the mass; it was told of in the frame before */
+  uint64_t body;           /* RID; 0: free */
+  int64_t index;           /* of its shapes */
+  gd_variant handle;       /* the RID as a value */
+  uint64_t object;         /* instance id of the node */
+  sbr_shape *shape;        /* NULL: of a kind that has none here */
+  sbr_collider_id id;      /* in the character's world */
+  gd_transform inner;      /* of the runtime's shape in Godot's */
+  gd_transform last;       /* of the shape in the world, as it was last moved to */
+  sbf_vec3 arm;            /* from the body's origin to the shape's there */
+  uint32_t seen;           /* frame it was last near */
+  uint32_t found;          /* query that last found it */
+  body_mass mass;          /* the body's, as its collider was made */
+  bool leads, is_reported; /* its collider has the mass; it was told of in the frame before */
 } mirrored;
 
 struct physics_bodies {
@@ -92,7 +92,7 @@ static float length(sbf_vec3 v) {
   return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-static gd_transform place_of(const gd_variant *server, mirrored *one) {
+static gd_transform body_transform(const gd_variant *server, mirrored *one) {
   gd_variant body = GD_CALL(server, "body_get_state", gd_copy(&one->handle), gd_int(STATE_TRANSFORM));
   gd_variant inner = GD_CALL(server, "body_get_shape_transform", gd_copy(&one->handle), gd_int(one->index));
   gd_transform a = gd_as_transform(&body), b = gd_as_transform(&inner);
@@ -107,7 +107,7 @@ static sbf_vec3 velocity_of(const gd_variant *server, const gd_variant *handle) 
   return gd_take_vector3(GD_CALL(server, "body_get_state", gd_copy(handle), gd_int(STATE_LINEAR_VELOCITY)));
 }
 
-static sbf_vec3 spin_of(const gd_variant *server, const gd_variant *handle) {
+static sbf_vec3 angular_velocity_of(const gd_variant *server, const gd_variant *handle) {
   return gd_take_vector3(GD_CALL(server, "body_get_state", gd_copy(handle), gd_int(STATE_ANGULAR_VELOCITY)));
 }
 
@@ -125,17 +125,17 @@ static mirrored *leader_of(physics_bodies *bodies, const mirrored *at) {
 /* A collider for the body's shape; what it weighs is the first one's of the body. */
 static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at) {
   sbr_collider_definition made = sbr_default_collider_definition();
-  gd_transform place = place_of(server, at);
+  gd_transform target = body_transform(server, at);
   made.shape = at->shape;
-  made.position = (sbr_double3){place.origin.x, place.origin.y, place.origin.z};
-  made.rotation = turn_of(place.basis);
+  made.position = (sbr_double3){target.origin.x, target.origin.y, target.origin.z};
+  made.rotation = turn_of(target.basis);
   made.friction =
       (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_FRICTION)));
   made.restitution =
       (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_BOUNCE)));
   const mirrored *leader = leader_of(bodies, at);
-  at->leads = at->told = false;
-  at->last = place;
+  at->leads = at->is_reported = false;
+  at->last = target;
   if (at->mass.inverse > 0 && leader) {
     made.part_of = leader->id;
   } else if (at->mass.inverse > 0) {
@@ -164,17 +164,17 @@ static const float JUMP = 2;
 static void follow_moved(sbr_world *world, mirrored *at, const gd_transform *now) {
   if (!memcmp(now, &at->last, sizeof *now)) return;
   sbf_vec3 o = now->origin, was = at->last.origin;
-  sbr_double3 place = {o.x, o.y, o.z};
+  sbr_double3 target = {o.x, o.y, o.z};
   gd_transform turn = *now;
   if (length((sbf_vec3){o.x - was.x, o.y - was.y, o.z - was.z}) > JUMP)
-    sbr_collider_place(world, at->id, place, turn_of(turn.basis));
+    sbr_collider_set_transform(world, at->id, target, turn_of(turn.basis));
   else
-    sbr_collider_move(world, at->id, place, turn_of(turn.basis));
+    sbr_collider_move(world, at->id, target, turn_of(turn.basis));
 }
 
 /* From where it is, by its velocity; with a mass also by what pulls at it. */
 static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
-  gd_transform now = place_of(server, at);
+  gd_transform now = body_transform(server, at);
   sbf_vec3 o = now.origin;
   sbf_quat q = turn_of(now.basis);
   bool rigid = body_is_rigid(server, &at->handle);
@@ -182,7 +182,7 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
   at->last = now;
   if (!rigid) return;
   gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(&at->handle));
-  sbf_vec3 v = velocity_of(server, &at->handle), w = spin_of(server, &at->handle);
+  sbf_vec3 v = velocity_of(server, &at->handle), w = angular_velocity_of(server, &at->handle);
   sbf_vec3 centre = {0, 0, 0}, pull = {0, 0, 0};
   if (gd_as_object(&state)) {
     centre = gd_take_vector3(GD_CALL(&state, "get_center_of_mass"));
@@ -193,10 +193,10 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
   sbr_collider_motion motion = {.position = {o.x, o.y, o.z},
       .rotation = q,
       .velocity = {v.x + off.x, v.y + off.y, v.z + off.z},
-      .spin = w,
+      .angular_velocity = w,
       .acceleration = pull,
-      .since_s = at->told ? frame_s : 0};
-  at->told = true;
+      .since_s = at->is_reported ? frame_s : 0};
+  at->is_reported = true;
   sbr_collider_set_motion(world, at->id, &motion);
 }
 
@@ -204,7 +204,7 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
 static const float FASTEST = 50;
 
 /* A free place, or that of what has been away longest; NULL: all are near. */
-static mirrored *room_for_one(physics_bodies *bodies, sbr_world *world) {
+static mirrored *find_unused(physics_bodies *bodies, sbr_world *world) {
   mirrored *oldest = &bodies->each[0];
   for (uint32_t i = 0; i < MAX; i++) {
     mirrored *at = &bodies->each[i];
@@ -220,8 +220,8 @@ static mirrored *room_for_one(physics_bodies *bodies, sbr_world *world) {
 static void adopt(soft_character *one, const gd_variant *server, const gd_variant *handle, int64_t index,
     const gd_variant *object) {
   physics_bodies *bodies = one->bodies;
-  mirrored *room = room_for_one(bodies, one->world);
-  if (!room) {
+  mirrored *unused = find_unused(bodies, one->world);
+  if (!unused) {
     if (!bodies->warned)
       soft_character_warning(one,
           "more than 256 shapes of bodies are near it, and it passes through the rest "
@@ -230,14 +230,14 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
     bodies->warned = true;
     return;
   }
-  *room = (mirrored){.body = gd_as_rid(handle),
+  *unused = (mirrored){.body = gd_as_rid(handle),
       .index = index,
       .handle = gd_copy(handle),
       .object = gd.variant_get_object_instance_id(object),
       .seen = bodies->frame};
-  room->shape = physics_shape_of(server, handle, index, object, &room->inner);
-  if (one->settings.push_bodies) room->mass = body_mass_of(server, handle);
-  if (room->shape) make_collider(bodies, one->world, server, room);
+  unused->shape = physics_shape_of(server, handle, index, object, &unused->inner);
+  if (one->settings.push_bodies) unused->mass = body_mass_of(server, handle);
+  if (unused->shape) make_collider(bodies, one->world, server, unused);
 }
 
 /* What a query found; a shape that it finds again, as each triangle of a mesh may be, is left out of the next
@@ -248,12 +248,12 @@ static void note_found(
   gd_variant handle = gd_key(hit, "rid");
   uint64_t body = gd_as_rid(&handle);
   int64_t index = gd_take_int(gd_key(hit, "shape"));
-  mirrored *met = NULL;
-  for (uint32_t i = 0; i < MAX && !met; i++)
-    if (bodies->each[i].body == body && bodies->each[i].index == index) met = &bodies->each[i];
-  if (met) {
-    if (met->found == bodies->query_count) GD_DO(known, "push_back", gd_copy(&handle));
-    met->seen = bodies->frame, met->found = bodies->query_count;
+  mirrored *mirror = NULL;
+  for (uint32_t i = 0; i < MAX && !mirror; i++)
+    if (bodies->each[i].body == body && bodies->each[i].index == index) mirror = &bodies->each[i];
+  if (mirror) {
+    if (mirror->found == bodies->query_count) GD_DO(known, "push_back", gd_copy(&handle));
+    mirror->seen = bodies->frame, mirror->found = bodies->query_count;
   } else if (body) {
     gd_variant object = gd_key(hit, "collider");
     bool own = shared_world_has(one->shared, &object);
@@ -291,7 +291,7 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
 
 /* Every few frames all bodies in a box about the character; in each, those that would be through it before.
  */
-static void look_around(soft_character *one, bool all) {
+static void query_around(soft_character *one, bool all) {
   physics_bodies *bodies = one->bodies;
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
   gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
@@ -328,8 +328,8 @@ static void look_around(soft_character *one, bool all) {
   gd_free(&world);
 }
 
-void physics_bodies_look(soft_character *one, bool now) {
-  look_around(one, now || one->bodies->frame % AGAIN == 0);
+void physics_bodies_query(soft_character *one, bool now) {
+  query_around(one, now || one->bodies->frame % AGAIN == 0);
 }
 
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes) {
@@ -355,7 +355,7 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
 }
 
 /* No more at once than makes it so much faster (m/s), or throws back what came faster. */
-static float share_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
+static float fraction_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
   float size = length(impulse) * at->mass.inverse;
   if (!(limit > 0) || size <= limit) return 1;
   float max = fmaxf(limit, 2 * length(velocity_of(server, &at->handle)));
@@ -367,12 +367,12 @@ void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_se
   for (uint32_t i = 0; i < MAX; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->id.value) continue;
-    sbr_collider_push push = sbr_collider_take_push(world, at->id);
+    sbr_collider_impulse push = sbr_collider_take_impulse(world, at->id);
     sbf_vec3 j = push.impulse, m = push.moment;
     if (!settings->push_bodies || (length(j) == 0 && length(m) == 0)) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
     if (!gd.object_get_instance_from_id(at->object) || !body_is_rigid(&server, &at->handle)) continue;
-    float k = share_of(&server, at, j, (float)settings->push_limit);
+    float k = fraction_of(&server, at, j, (float)settings->push_limit);
     GD_DO(&server, "body_apply_impulse", gd_copy(&at->handle),
         gd_vector3((sbf_vec3){k * j.x, k * j.y, k * j.z}), gd_vector3(at->arm));
     GD_DO(&server, "body_apply_torque_impulse", gd_copy(&at->handle),

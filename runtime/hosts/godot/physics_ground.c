@@ -78,14 +78,14 @@ static void warn_of_nothing(const soft_character *one) {
                               "a StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
 }
 
-void physics_ground_look(soft_character *one) {
+void physics_ground_query(soft_character *one) {
   double y = (double)one->put.origin.y;
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
   gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
-  bool looks = gd_as_object(&space) != NULL;
-  bool found = looks && finds_floor(one, &space, soft_character_size(one));
+  bool has_space = gd_as_object(&space) != NULL;
+  bool found = has_space && finds_floor(one, &space, soft_character_size(one));
   one->ground->level = found ? y - 2 * DEEP : y;
-  if (looks && !found && !one->ground->warned && !one->editor) warn_of_nothing(one);
+  if (has_space && !found && !one->ground->warned && !one->editor) warn_of_nothing(one);
   gd_free(&space);
   gd_free(&world);
 }

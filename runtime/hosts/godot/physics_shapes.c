@@ -21,14 +21,14 @@ enum {
 };
 
 /* Of the main thread alone: whether it was said that something is passed through. */
-static bool told;
+static bool is_reported;
 
 static sbr_shape *made_of(const sbr_shape_definition *form, const gd_variant *object) {
   char name[128], message[sizeof name + sizeof(sbf_diagnostic)];
   sbr_shape *made = NULL;
   sbf_diagnostic error = {0};
-  if (sbr_shape_create(NULL, form, &made, &error) == SBF_OK || told) return made;
-  told = true;
+  if (sbr_shape_create(NULL, form, &made, &error) == SBF_OK || is_reported) return made;
+  is_reported = true;
   gd_variant text = GD_CALL(object, "to_string");
   gd_as_text(&text, name, sizeof name);
   gd_free(&text);
@@ -100,8 +100,8 @@ static sbr_shape *heightmap(const gd_variant *data, const gd_variant *object) {
   return made;
 }
 
-static float distance_to(const gd_variant *plane, sbf_vec3 place) {
-  return (float)gd_take_float(GD_CALL(plane, "distance_to", gd_vector3(place)));
+static float distance_to(const gd_variant *plane, sbf_vec3 point) {
+  return (float)gd_take_float(GD_CALL(plane, "distance_to", gd_vector3(point)));
 }
 
 /* The runtime's is at the origin and faces its +Y. */

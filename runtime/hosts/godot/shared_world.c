@@ -68,7 +68,7 @@ static shared_world *make(const sbr_world_definition *given, uint64_t space) {
       .frame = -1};
   made->bodies = physics_bodies_make();
   bool good = sbr_world_create(&definition, &made->world, &error) == SBF_OK &&
-              (!space || sbr_world_bodies_meet(made->world, 0, &error) == SBF_OK);
+              (!space || sbr_world_enable_body_contacts(made->world, 0, &error) == SBF_OK);
   if (!good || !made->bodies) {
     gd_error(good ? "no memory for a world's bodies" : error.message);
     release(made);
@@ -88,7 +88,8 @@ static shared_world *find(const sbr_world_definition *definition, uint64_t space
 }
 
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition) {
-  shared_world *shared = find(definition, one->settings.meet_others && !one->editor ? space_of(one) : 0);
+  shared_world *shared =
+      find(definition, one->settings.collide_with_others && !one->editor ? space_of(one) : 0);
   if (!shared) return false;
   shared->members[shared->count++] = one;
   one->shared = shared;
@@ -130,26 +131,26 @@ static soft_character *member_of(const shared_world *shared, sbr_character_id id
   return NULL;
 }
 
-static void tell_contact(const gd_variant *node, int32_t rigid, uint32_t soft, const gd_variant *at,
+static void emit_contact(const gd_variant *node, int32_t rigid, uint32_t soft, const gd_variant *at,
     sbf_vec3 normal, float impulse, gd_variant with) {
   GD_DO(node, "emit_signal", gd_name("contact"), gd_int(rigid < 0 ? (int64_t)soft : -1), gd_copy(at),
       gd_vector3(normal), gd_float((double)impulse), with);
 }
 
 /* Of two nodes each is told. Handlers may take away any node. */
-static void tell_contacts(shared_world *shared, const sbr_event *e, const gd_variant *at) {
+static void emit_contacts(shared_world *shared, const sbr_event *e, const gd_variant *at) {
   soft_character *one = member_of(shared, e->character), *other = member_of(shared, e->other);
   sbf_vec3 n = e->normal, back = {-n.x, -n.y, -n.z};
   if (one && one != other)
-    tell_contact(&one->node, e->rigid_body, e->soft_body, at, n, e->impulse,
+    emit_contact(&one->node, e->rigid_body, e->soft_body, at, n, e->impulse,
         other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(shared->bodies, e->collider));
   one = member_of(shared, e->character), other = member_of(shared, e->other);
   if (other && one != other)
-    tell_contact(&other->node, e->other_rigid_body, e->other_soft_body, at, back, e->impulse,
+    emit_contact(&other->node, e->other_rigid_body, e->other_soft_body, at, back, e->impulse,
         gd_object(one ? gd_as_object(&one->node) : NULL));
 }
 
-static void tell(shared_world *shared, const sbr_event *e) {
+static void report(shared_world *shared, const sbr_event *e) {
   soft_character *one = member_of(shared, e->character);
   if (!one) return;
   gd_variant at = gd_vector3((sbf_vec3){(float)e->position.x, (float)e->position.y, (float)e->position.z});
@@ -166,8 +167,8 @@ static void tell(shared_world *shared, const sbr_event *e) {
   case SBR_EVENT_TEAR:
     GD_DO(&one->node, "emit_signal", gd_name("torn"), gd_int(e->soft_body), gd_copy(&at));
     break;
-  case SBR_EVENT_CONTACT:
-    tell_contacts(shared, e, &at);
+  case SBR_EVENT_CONTACT_BEGIN:
+    emit_contacts(shared, e, &at);
     break;
   default:
     break;
@@ -209,7 +210,7 @@ void shared_world_step(soft_character *one) {
   sbr_event events[64];
   uint32_t count;
   shared->holders++;
-  while ((count = sbr_world_events(shared->world, events, 64)))
-    for (uint32_t i = 0; i < count; i++) tell(shared, &events[i]);
+  while ((count = sbr_world_take_events(shared->world, events, 64)))
+    for (uint32_t i = 0; i < count; i++) report(shared, &events[i]);
   release(shared);
 }

@@ -163,7 +163,7 @@ static void get_left_out(void *self, const gd_variant *const *arguments, gd_vari
   soft_model *model = soft_model_hold(self, &options);
   (void)arguments;
   gd_assign(result, gd_empty(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY));
-  if (model) sbr_model_left_out(model->model, add_sentence, result);
+  if (model) sbr_model_report_unsupported(model->model, add_sentence, result);
   soft_model_release(model);
 }
 

@@ -13,7 +13,7 @@ enum {
   EDITOR_POST_SAVE = 9002
 };
 
-static void tell(const soft_character *one, const char *message, void (*log)(const char *)) {
+static void report(const soft_character *one, const char *message, void (*log)(const char *)) {
   char name[256], line[1024];
   gd_variant text = GD_CALL(&one->node, "to_string");
   gd_as_text(&text, name, sizeof name);
@@ -23,11 +23,11 @@ static void tell(const soft_character *one, const char *message, void (*log)(con
 }
 
 void soft_character_error(const soft_character *one, const char *message) {
-  tell(one, message, gd_error);
+  report(one, message, gd_error);
 }
 
 void soft_character_warning(const soft_character *one, const char *message) {
-  tell(one, message, gd_warning);
+  report(one, message, gd_warning);
 }
 
 static void notify(void *self, int32_t what, bool reversed) {

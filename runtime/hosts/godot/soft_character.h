@@ -2,8 +2,9 @@
  *
  * Each node has a world of its own, stepped once a physics frame, or shares one with all that it may meet
  * (shared_world.c). One idea a file: what the inspector shows (character_properties.c), its life
- * (soft_character.c), what it has (character_making.c), where it is (character_place.c, character_loose.c),
- * what scripts call (character_calls.c), its mesh, its skeleton, the ground and the bodies that it meets. */
+ * (soft_character.c), what it has (character_making.c), where it is (character_position.c,
+ * character_loose.c), what scripts call (character_calls.c), its mesh, its skeleton, the ground and the
+ * bodies that it meets. */
 #ifndef SBFMT_GODOT_SOFT_CHARACTER_H
 #define SBFMT_GODOT_SOFT_CHARACTER_H
 
@@ -27,7 +28,7 @@ typedef struct soft_settings {
   int64_t collision_mask;   /* physics layers of what it meets */
   double teleport_distance; /* m: a node that is moved farther in a frame is put there; 0: half its size */
   bool push_bodies;
-  bool meet_others;            /* nodes of one physics space that do meet each other */
+  bool collide_with_others;    /* nodes of one physics space that do meet each other */
   double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
   int64_t cast_shadow, layers; /* as Godot's GeometryInstance3D has them */
 } soft_settings;
@@ -87,17 +88,17 @@ void soft_character_make(soft_character *one);
 void soft_character_unmake(soft_character *one);
 void soft_character_drive(soft_character *one);
 
-/* ---- character_place.c ---- */
+/* ---- character_position.c ---- */
 
 /* Its node's, in the world; and which way something placed so faces, rad. */
 gd_transform soft_character_transform(const soft_character *one);
-float transform_heading(const gd_transform *place);
+float transform_heading(const gd_transform *node_transform);
 /* By how much it is larger than without it, along +Y; 1 where that is nothing. */
-float transform_scale(const gd_transform *place);
+float transform_scale(const gd_transform *node_transform);
 /* Leaves the node where the character now is. */
 void soft_character_follow(soft_character *one);
 /* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
-void soft_character_place(soft_character *one, sbf_vec3 position, float heading);
+void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading);
 /* m: the greatest of its width and height; and how far from its node it may reach. */
 double soft_character_size(const soft_character *one);
 double soft_character_around(const soft_character *one);
@@ -120,7 +121,7 @@ bool soft_asset_is_loose(const sbf_asset *asset);
 void soft_character_loose_begin(soft_character *one);
 /* `put` goes with it; it goes to where `put` is. False where something holds it. */
 bool soft_character_loose_follow(soft_character *one);
-bool soft_character_loose_place(soft_character *one);
+bool soft_character_set_loose_position(soft_character *one);
 
 /* ---- character_properties.c ---- */
 
@@ -162,7 +163,7 @@ physics_ground *physics_ground_make(void);
 void physics_ground_free(physics_ground *ground);
 /* Level far below where the node stands over something, else at its height; main thread, in a physics frame.
  */
-void physics_ground_look(soft_character *one);
+void physics_ground_query(soft_character *one);
 sbr_ground physics_ground_of(physics_ground *ground);
 /* Level at that height (m) until it looks again. */
 void physics_ground_level(physics_ground *ground, double level);
@@ -172,7 +173,7 @@ void physics_ground_level(physics_ground *ground, double level);
 physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
 /* Makes colliders of the bodies near the character, for which it looks now or by and by. */
-void physics_bodies_look(soft_character *one, bool now);
+void physics_bodies_query(soft_character *one, bool now);
 /* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);

@@ -42,8 +42,8 @@ sbf_quat turn_of(float m[3][3]) {
   return (sbf_quat){(m[0][2] + m[2][0]) / s, (m[1][2] + m[2][1]) / s, s / 4, (m[1][0] - m[0][1]) / s};
 }
 
-sbf_vec3 placed_vector(const gd_transform *place, sbf_vec3 v) {
-  const float(*m)[3] = place->basis;
+sbf_vec3 placed_vector(const gd_transform *transform, sbf_vec3 v) {
+  const float(*m)[3] = transform->basis;
   return (sbf_vec3){m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
       m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z, m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
 }

@@ -7,31 +7,31 @@
 /* ---- Names ---- */
 
 /* StringNames by the address of their literal; equal words at several addresses are several entries. */
-enum { NAME_ROOM = 1024 };
+enum { NAME_CAPACITY = 1024 };
 typedef struct kept_name {
   const char *literal;
   uint64_t name; /* Godot's StringName: one pointer */
 } kept_name;
-static kept_name names[NAME_ROOM];
+static kept_name names[NAME_CAPACITY];
 
-static atomic_flag names_held = ATOMIC_FLAG_INIT; /* resources are loaded by several threads */
+static atomic_flag names_lock = ATOMIC_FLAG_INIT; /* resources are loaded by several threads */
 
 GDExtensionConstStringNamePtr gd_string_name(const char *literal) {
-  while (atomic_flag_test_and_set_explicit(&names_held, memory_order_acquire))
+  while (atomic_flag_test_and_set_explicit(&names_lock, memory_order_acquire))
     ;
-  uint32_t at = (uint32_t)(((uintptr_t)literal * 2654435761u) >> 4) % NAME_ROOM;
-  while (names[at].literal && names[at].literal != literal) at = (at + 1) % NAME_ROOM;
+  uint32_t at = (uint32_t)(((uintptr_t)literal * 2654435761u) >> 4) % NAME_CAPACITY;
+  while (names[at].literal && names[at].literal != literal) at = (at + 1) % NAME_CAPACITY;
   if (!names[at].literal) {
     gd.string_name_new_with_latin1_chars(&names[at].name, literal, false);
     names[at].literal = literal;
   }
-  atomic_flag_clear_explicit(&names_held, memory_order_release);
+  atomic_flag_clear_explicit(&names_lock, memory_order_release);
   return &names[at].name;
 }
 
 void gd_forget_names(void) {
   GDExtensionPtrDestructor destroy = gd.variant_get_ptr_destructor(GDEXTENSION_VARIANT_TYPE_STRING_NAME);
-  for (uint32_t i = 0; i < NAME_ROOM; i++)
+  for (uint32_t i = 0; i < NAME_CAPACITY; i++)
     if (names[i].literal) destroy(&names[i].name);
   memset(names, 0, sizeof names);
 }

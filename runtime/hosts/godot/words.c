@@ -117,8 +117,8 @@ static const gd_help asset_words[] = {
     {0},
 };
 
-void words_tell(void) {
-  gd_class_tell(&soft_character_class,
+void words_set_help(void) {
+  gd_class_set_help(&soft_character_class,
       "A soft character that walks, whose flesh gives and whose feet find the ground. It shows a [SoftAsset] "
       "and "
       "goes where its character goes; moving the node a little makes it step there, moving it far puts it "
@@ -127,7 +127,7 @@ void words_tell(void) {
       "size. Physics bodies are its floors and walls; platforms that move carry it, light bodies are pushed; "
       "what hangs below the node, as a hit box does, is neither.",
       character_words);
-  gd_class_tell(&soft_asset_class,
+  gd_class_set_help(&soft_asset_class,
       "A soft character's bundle, as [SoftCharacter3D] shows it. It is loaded from a .sbfz, or imported from "
       "a .sbf by the add-on's plugin.",
       asset_words);

@@ -112,10 +112,10 @@ export interface ModelOptions {
   /** One number at a time instead of four: the same bits, slower. */
   scalar?: boolean;
   /** Coarser levels than `level` as well, jiggle and bones alone, between which characters change. */
-  ladder?: boolean;
+  detailLevels?: boolean;
 }
 /** What a character may be: a level of the file's bodies, jiggle, bones alone, or but a place. */
-export interface Rung {
+export interface DetailLevel {
   readonly kind: 'soft' | 'jiggle' | 'bones' | 'away';
   /** Of soft ones. */
   readonly level: number;
@@ -130,8 +130,8 @@ export interface Model {
   readonly level: number;
   readonly substeps: number;
   readonly instructions: string;
-  /** Finest first; one without a ladder. */
-  readonly rungs: readonly Rung[];
+  /** Finest first; one without a detail levels. */
+  readonly detailLevels: readonly DetailLevel[];
   free(): void;
 }
 
@@ -191,7 +191,7 @@ export interface World {
   /** Since the last call, oldest first. */
   events(): Event[];
   ray(from: Vector, direction: Vector, length?: number): Hit | null;
-  /** From now on the world chooses the rungs of characters that are put on none, by the views. */
+  /** From now on the world chooses the detail levels of characters that are put on none, by the views. */
   detail(options?: DetailOptions): void;
   /** From where characters are looked at, at most four; without any nobody is seen. */
   views(views: readonly View[]): void;
@@ -215,7 +215,7 @@ export interface DetailOptions {
   budget?: number;
   /** What a visit takes on this machine; 6. */
   nsPerVisit?: number;
-  /** A coarser rung is taken where its error is below this share of errorPx; 0.7. */
+  /** A coarser detail level is taken where its error is below this share of errorPx; 0.7. */
   settle?: number;
   /** And no sooner after the last change, s; 0.5. */
   stay?: number;
@@ -335,10 +335,10 @@ export interface Character {
   setSoftVelocity(softBody: number, velocity: Vector, angularVelocity?: Vector): void;
   /** Its free points as one rigid body: kg, m relative to the origin, m/s, rad/s. */
   softMotion(softBody: number): { mass: number; center: number[]; velocity: number[]; angularVelocity: number[] };
-  /** The rung that it is on, or goes over to. */
-  readonly rung: number;
-  /** Puts it on a rung; null: the world chooses. In a world whose bodies meet each other it stays on its own. */
-  setRung(rung: number | null): void;
+  /** The detail level that it is on, or goes over to. */
+  readonly detailLevel: number;
+  /** Puts it on a detail level; null: the world chooses. In a world whose bodies meet each other it stays on its own. */
+  setDetailLevel(detailLevel: number | null): void;
   /** How far the skin still is from going over, 1 to 0. */
   readonly fade: number;
   /** What is known better than by the views. */

@@ -7,7 +7,7 @@ import { Hands, MOVES } from './viewer_hands.js';
 
 const element = (id) => document.getElementById(id);
 const SPRINGS = 0b011111, LATTICE = 0b100000;
-const RUNG_NAMES = { jiggle: 'springy bones', bones: 'bones alone' };
+const DETAIL_NAMES = { jiggle: 'springy bones', bones: 'bones alone' };
 const FRAME = 1 / 60;
 /** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
 const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
@@ -30,7 +30,7 @@ class Viewer extends Hands {
 
   put(asset) {
     super.put(asset);
-    this.offer('level', asset.levels || 1, 'finest', this.rungs.map(({ kind }) => [RUNG_NAMES[kind], kind]));
+    this.offer('level', asset.levels || 1, 'finest', this.detailLevels.map(({ kind }) => [DETAIL_NAMES[kind], kind]));
     this.offer('renderLevel', asset.renderLevels, 'full');
     element('knock').disabled = !this.mass;
   }

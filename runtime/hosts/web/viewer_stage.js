@@ -48,7 +48,7 @@ export class Stage {
     this.clear();
     Object.assign(this, { asset, size: 1 });
     Object.assign(this.choices, { level: 0, renderLevel: 0 });
-    this.rungs = this.rungsBelow();
+    this.detailLevels = this.detailLevelsBelow();
     this.restart();
     this.frameCamera();
     this.restart(); // now that the size is known
@@ -64,27 +64,27 @@ export class Stage {
   }
 
   /** What the runtime has that is coarser than the file's levels. */
-  rungsBelow() {
+  detailLevelsBelow() {
     if (!this.asset.softBodies.length || !this.asset.bones.length) return [];
-    const model = this.asset.model({ ladder: true }), found = model.rungs.filter(({ kind }) => kind === 'jiggle' || kind === 'bones');
+    const model = this.asset.model({ detailLevels: true }), found = model.detailLevels.filter(({ kind }) => kind === 'jiggle' || kind === 'bones');
     model.free();
     return found;
   }
   /** Of the chosen level, m; 0: nobody has measured it. */
   get statedError() {
     const { level } = this.choices;
-    return Number.isInteger(level) ? this.asset.levelError(level) : this.rungs.find(({ kind }) => kind === level).error;
+    return Number.isInteger(level) ? this.asset.levelError(level) : this.detailLevels.find(({ kind }) => kind === level).error;
   }
 
   /** Makes world and character anew, at the chosen level on the chosen ground. */
   restart(ground = LANDS[this.choices.ground](this.size), at) {
     this.clear();
     const { level } = this.choices, ofFile = Number.isInteger(level);
-    this.model = this.asset.model(ofFile ? { level } : { ladder: true });
+    this.model = this.asset.model(ofFile ? { level } : { detailLevels: true });
     this.ground = ground;
     this.world = this.sbfmt.world({ ground });
     this.character = this.world.add(this.model, at);
-    if (!ofFile) this.character.setRung(this.model.rungs.findIndex(({ kind }) => kind === level));
+    if (!ofFile) this.character.setDetailLevel(this.model.detailLevels.findIndex(({ kind }) => kind === level));
     this.skins = this.asset.meshes.map((_, i) => this.dress(i));
     this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
     this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);

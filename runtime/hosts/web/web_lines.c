@@ -95,7 +95,7 @@ web_lines *WEB_CALL(web_lines_create)(
   bool good = w->first && w->counts && levels;
   for (uint32_t b = 0; good && b < bodies; b++) {
     w->first[b] = w->point_count;
-    w->counts[b] = sbr_character_points(world, (sbr_character_id){character}, b, NULL, 0);
+    w->counts[b] = sbr_character_get_points(world, (sbr_character_id){character}, b, NULL, 0);
     w->point_count += w->counts[b];
     levels[b] = level_of(&asset->soft_bodies.at[b], w->counts[b], level);
     if (!levels[b]) continue;
@@ -123,7 +123,7 @@ uint32_t WEB_CALL(web_lines_count)(const web_lines *w) {
 /* Ten numbers a line, as of the last tick: place (3), kind and strain of either end. */
 const float *WEB_CALL(web_lines_update)(web_lines *w, const sbr_world *world, uint32_t character) {
   for (uint32_t b = 0; b < w->body_count; b++)
-    sbr_character_points(world, (sbr_character_id){character}, b, w->points + w->first[b], w->counts[b]);
+    sbr_character_get_points(world, (sbr_character_id){character}, b, w->points + w->first[b], w->counts[b]);
   for (uint32_t i = 0; i < w->line_count; i++) {
     const line *l = &w->lines[i];
     sbf_vec3 a = w->points[l->ends[0]], b = w->points[l->ends[1]];

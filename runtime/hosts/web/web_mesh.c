@@ -30,8 +30,8 @@ void WEB_CALL(web_mesh_free)(web_mesh *m) {
 /* The polygons of the mesh or of one of its levels. */
 typedef struct polygons {
   sbf_u32_list sizes, points, materials;
-  uint32_t *place_of;  /* (points of the mesh) among those that the runtime writes */
-  uint32_t *corner_of; /* (corners) the full mesh's corner that each looks like */
+  uint32_t *position_of; /* (points of the mesh) among those that the runtime writes */
+  uint32_t *corner_of;   /* (corners) the full mesh's corner that each looks like */
 } polygons;
 
 static bool find_polygons(const sbf_render_mesh *mesh, const sbr_model *model, web_mesh *m, polygons *p) {
@@ -40,17 +40,17 @@ static bool find_polygons(const sbf_render_mesh *mesh, const sbr_model *model, w
   p->sizes = level ? level->polygon_sizes : mesh->mesh.polygon_sizes;
   p->points = level ? level->polygon_points : mesh->mesh.polygon_points;
   p->materials = level ? level->polygon_materials : mesh->polygon_materials;
-  p->place_of = malloc((points + 1u) * sizeof *p->place_of);
+  p->position_of = malloc((points + 1u) * sizeof *p->position_of);
   p->corner_of = malloc((p->points.count + 1u) * sizeof *p->corner_of);
   uint32_t *scratch = calloc(points + 1u, sizeof *scratch);
-  bool good = p->place_of && p->corner_of && scratch;
+  bool good = p->position_of && p->corner_of && scratch;
   m->corner_count = p->points.count;
-  m->point_count = level ? sbr_model_level_vertices(model, m->mesh, m->level, NULL, 0) : points;
-  for (uint32_t i = 0; good && i < points; i++) p->place_of[i] = i;
+  m->point_count = level ? sbr_model_get_level_vertices(model, m->mesh, m->level, NULL, 0) : points;
+  for (uint32_t i = 0; good && i < points; i++) p->position_of[i] = i;
   for (uint32_t i = 0; good && i < p->points.count; i++) p->corner_of[i] = i;
   if (good && level) {
-    sbr_model_level_vertices(model, m->mesh, m->level, scratch, points);
-    for (uint32_t i = 0; i < m->point_count; i++) p->place_of[scratch[i]] = i;
+    sbr_model_get_level_vertices(model, m->mesh, m->level, scratch, points);
+    for (uint32_t i = 0; i < m->point_count; i++) p->position_of[scratch[i]] = i;
     /* A level may leave unsaid which corner of the full mesh each of its own looks like: the first there. */
     memset(scratch, 0, (points + 1u) * sizeof *scratch);
     for (uint32_t i = mesh->mesh.polygon_points.count; i-- > 0;) scratch[mesh->mesh.polygon_points.at[i]] = i;
@@ -67,10 +67,10 @@ typedef struct vertex_key {
 } vertex_key;
 
 static vertex_key key_of(const sbf_render_mesh *mesh, const polygons *p, uint32_t corner) {
-  uint32_t looks = p->corner_of[corner], point = p->points.at[corner];
+  uint32_t corner_index = p->corner_of[corner], point = p->points.at[corner];
   const sbf_uv_set *uv = mesh->uv_sets.count ? &mesh->uv_sets.at[0] : NULL;
-  return (vertex_key){point, uv ? (uv->corners.count ? uv->corners.at[looks] : point) : 0,
-      mesh->normal_corners.count ? mesh->normal_corners.at[looks] : 0};
+  return (vertex_key){point, uv ? (uv->corners.count ? uv->corners.at[corner_index] : point) : 0,
+      mesh->normal_corners.count ? mesh->normal_corners.at[corner_index] : 0};
 }
 
 /* Gives every corner a vertex, by a table of keys. */
@@ -89,7 +89,7 @@ static bool make_vertices(const sbf_render_mesh *mesh, const polygons *p, web_me
     if (table[slot] == UINT32_MAX) {
       table[slot] = m->vertex_count;
       keys[m->vertex_count] = key;
-      m->vertex_points[m->vertex_count] = p->place_of[key.point];
+      m->vertex_points[m->vertex_count] = p->position_of[key.point];
       m->vertex_corners[m->vertex_count++] = c;
     }
     vertex_of[c] = table[slot];
@@ -113,10 +113,10 @@ static float square(const sbf_vec3 *a, const sbf_vec3 *b) {
 /* Fans; a quad is cut along its shorter diagonal. */
 static void cut_polygon(const sbf_render_mesh *mesh, const polygons *p, const uint32_t *vertex_of,
     uint32_t at, uint32_t size, web_mesh *m) {
-  const sbf_vec3 *places = mesh->mesh.positions.at;
+  const sbf_vec3 *positions_at = mesh->mesh.positions.at;
   const uint32_t *points = p->points.at + at;
-  uint32_t turn = size == 4 && square(&places[points[1]], &places[points[3]]) <
-                                   square(&places[points[0]], &places[points[2]]);
+  uint32_t turn = size == 4 && square(&positions_at[points[1]], &positions_at[points[3]]) <
+                                   square(&positions_at[points[0]], &positions_at[points[2]]);
   for (uint32_t k = 2; k < size; k++) {
     m->indices[m->index_count++] = vertex_of[at + turn];
     m->indices[m->index_count++] = vertex_of[at + (k - 1 + turn) % size];
@@ -150,7 +150,7 @@ web_mesh *WEB_CALL(web_mesh_create)(
   if (number >= asset->render_meshes.count) return NULL;
   const sbf_render_mesh *mesh = &asset->render_meshes.at[number];
   web_mesh *m = calloc(1, sizeof *m);
-  polygons p = {.place_of = NULL};
+  polygons p = {.position_of = NULL};
   if (!m) return NULL;
   m->mesh = number;
   m->level = level < mesh->levels.count ? level : mesh->levels.count;
@@ -167,7 +167,7 @@ web_mesh *WEB_CALL(web_mesh_create)(
   m->positions = calloc(m->vertex_count + 1u, sizeof *m->positions);
   m->normals = calloc(m->vertex_count + 1u, sizeof *m->normals);
   free(vertex_of);
-  free(p.place_of);
+  free(p.position_of);
   free(p.corner_of);
   if (good && m->positions && m->normals) return m;
   web_mesh_free(m);
@@ -186,10 +186,10 @@ void WEB_CALL(web_mesh_layout)(const web_mesh *m, uint32_t *to) {
 /* Positions and normals as of the sampled moment, relative to the character's origin. */
 void WEB_CALL(web_mesh_update)(web_mesh *m, const sbr_world *world, uint32_t character) {
   sbr_character_id id = {character};
-  sbr_character_level_skin(
+  sbr_character_get_level_skin(
       world, id, m->mesh, m->level, m->points, m->by_corner ? NULL : m->point_normals, NULL, m->point_count);
   if (m->by_corner)
-    sbr_character_level_corner_normals(world, id, m->mesh, m->level, m->corner_normals, m->corner_count);
+    sbr_character_get_level_corner_normals(world, id, m->mesh, m->level, m->corner_normals, m->corner_count);
   for (uint32_t v = 0; v < m->vertex_count; v++) {
     m->positions[v] = m->points[m->vertex_points[v]];
     m->normals[v] =

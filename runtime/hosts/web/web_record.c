@@ -31,12 +31,12 @@ static void write(void *user, const void *bytes, size_t size) {
 /* NULL: memory ran out. */
 recording *WEB_CALL(web_record_begin)(sbr_world *world) {
   recording *made = calloc(1, sizeof *made);
-  if (made) sbr_world_record(world, &(sbr_record_output){write, made});
+  if (made) sbr_world_set_recording(world, &(sbr_record_output){write, made});
   return made;
 }
 /* Ends it in its world; its bytes stay until web_record_free. */
 void WEB_CALL(web_record_end)(sbr_world *world) {
-  sbr_world_record(world, NULL);
+  sbr_world_set_recording(world, NULL);
 }
 const void *WEB_CALL(web_record_bytes)(const recording *made, uint32_t *size) {
   *size = (uint32_t)made->size;
@@ -58,7 +58,7 @@ sbr_replay *WEB_CALL(web_replay_begin)(sbr_world *world, const void *bytes, size
   return made;
 }
 uint32_t WEB_CALL(web_replay_frame)(sbr_replay *replay) {
-  return sbr_replay_frame(replay);
+  return sbr_replay_step(replay);
 }
 /* Five numbers: frames in it, frames played, hashes compared, whether one differed, and at which tick. */
 void WEB_CALL(web_replay_state)(const sbr_replay *replay, double *to) {

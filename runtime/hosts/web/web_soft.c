@@ -14,7 +14,7 @@ static sbf_diagnostic *begin(void) {
 
 uint32_t WEB_CALL(web_character_nearest_vertex)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, double x, double y, double z) {
-  return sbr_character_nearest_vertex(world, id_of(character), soft_body, (sbr_double3){x, y, z});
+  return sbr_character_find_nearest_vertex(world, id_of(character), soft_body, (sbr_double3){x, y, z});
 }
 uint32_t WEB_CALL(web_character_hold)(sbr_world *world, uint32_t character, uint32_t soft_body,
     uint32_t vertex, double x, double y, double z, float frequency_hz, float max_force) {
@@ -46,13 +46,13 @@ uint32_t WEB_CALL(web_character_soft_velocity)(sbr_world *world, uint32_t charac
 /* Ten numbers: mass, centre of mass (3) relative to the origin, velocity (3), angular velocity (3). */
 void WEB_CALL(web_character_soft_motion)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, float *to) {
-  sbr_soft_motion m = sbr_character_soft_motion(world, id_of(character), soft_body);
+  sbr_soft_motion m = sbr_character_get_soft_motion(world, id_of(character), soft_body);
   _Static_assert(sizeof m == 40, "ten numbers");
   memcpy(to, &m, sizeof m);
 }
 void WEB_CALL(web_character_hold_force)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex, float *to) {
-  sbf_vec3 force = sbr_character_hold_force(world, id_of(character), soft_body, vertex);
+  sbf_vec3 force = sbr_character_get_hold_force(world, id_of(character), soft_body, vertex);
   memcpy(to, &force, sizeof force);
 }
 /* 13 numbers a pin set: set, bone, rigid body and count of points as integers, then position, force, torque.
@@ -60,11 +60,11 @@ void WEB_CALL(web_character_hold_force)(
 uint32_t WEB_CALL(web_character_pin_reactions)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, sbr_pin_reaction *to, uint32_t capacity) {
   _Static_assert(sizeof *to == 52, "13 numbers");
-  return sbr_character_pin_reactions(world, id_of(character), soft_body, to, capacity);
+  return sbr_character_get_pin_reactions(world, id_of(character), soft_body, to, capacity);
 }
 /* 14 numbers a tetrahedron: six of stress, energy density, rest volume, volume ratio, four corners, torn. */
 uint32_t WEB_CALL(web_character_tetrahedra)(const sbr_world *world, uint32_t character, uint32_t soft_body,
     sbr_tetrahedron_state *to, uint32_t capacity) {
   _Static_assert(sizeof *to == 56, "14 numbers");
-  return sbr_character_tetrahedra(world, id_of(character), soft_body, to, capacity);
+  return sbr_character_get_tetrahedra(world, id_of(character), soft_body, to, capacity);
 }

@@ -44,7 +44,7 @@ void WEB_CALL(web_asset_free)(sbf_asset *asset) {
 
 sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, const char *scheme,
     uint32_t substeps, uint32_t loose, uint32_t has_gravity, float x, float y, float z, uint32_t scalar,
-    uint32_t ladder) {
+    uint32_t has_detail_levels) {
   sbr_model *model = NULL;
   sbr_model_options options = {.level = level,
       .scheme = SBF_SCHEME_COUNT, /* refused, where the name is none */
@@ -52,7 +52,7 @@ sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, co
       .free = loose != 0,
       .has_gravity = has_gravity != 0,
       .gravity = {x, y, z},
-      .ladder = ladder != 0,
+      .detail_levels = has_detail_levels != 0,
       .instructions = scalar ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC};
   memset(&failure, 0, sizeof failure);
   for (int i = 0; i < SBF_SCHEME_COUNT; i++)
@@ -63,10 +63,10 @@ void WEB_CALL(web_model_free)(sbr_model *model) {
   sbr_model_destroy(model);
 }
 uint32_t WEB_CALL(web_model_substeps)(const sbr_model *model) {
-  return sbr_model_substeps(model);
+  return sbr_model_get_substeps(model);
 }
 const char *WEB_CALL(web_model_instructions)(const sbr_model *model) {
-  return sbr_instructions_name(sbr_model_instructions(model));
+  return sbr_instructions_get_name(sbr_model_get_instructions(model));
 }
 
 /* ---- Worlds ---- */
@@ -100,7 +100,8 @@ static sbr_ground ground_of(uint32_t kind, double a, double b) {
 }
 
 sbr_world *WEB_CALL(web_world_create)(uint32_t ground, double a, double b, uint32_t has_gravity, float x,
-    float y, float z, uint32_t characters, uint32_t colliders, double sleep_after_s, uint32_t touches) {
+    float y, float z, uint32_t characters, uint32_t colliders, double sleep_after_s,
+    uint32_t contact_capacity) {
   sbr_world *world = NULL;
   sbr_world_definition definition = sbr_default_world_definition();
   memset(&failure, 0, sizeof failure);
@@ -111,7 +112,7 @@ sbr_world *WEB_CALL(web_world_create)(uint32_t ground, double a, double b, uint3
   definition.collider_capacity = colliders;
   if (sleep_after_s >= 0) definition.sleep_after_s = sleep_after_s;
   if (sbr_world_create(&definition, &world, &failure) != SBF_OK) return NULL;
-  if (touches && sbr_world_bodies_meet(world, touches, &failure) != SBF_OK) {
+  if (contact_capacity && sbr_world_enable_body_contacts(world, contact_capacity, &failure) != SBF_OK) {
     sbr_world_destroy(world);
     return NULL;
   }
@@ -124,31 +125,32 @@ void WEB_CALL(web_world_step)(sbr_world *world, double seconds) {
   sbr_world_step(world, seconds);
 }
 double WEB_CALL(web_world_ticks)(const sbr_world *world) {
-  return (double)sbr_world_ticks(world);
+  return (double)sbr_world_get_tick_count(world);
 }
 uint32_t WEB_CALL(web_world_awake)(const sbr_world *world) {
-  return sbr_world_awake(world);
+  return sbr_world_count_awake_bodies(world);
 }
 void WEB_CALL(web_world_hash)(const sbr_world *world, uint32_t *halves) {
-  uint64_t hash = sbr_world_state_hash(world);
+  uint64_t hash = sbr_world_get_state_hash(world);
   halves[0] = (uint32_t)(hash >> 32);
   halves[1] = (uint32_t)hash;
 }
 size_t WEB_CALL(web_world_snapshot_size)(const sbr_world *world) {
-  return sbr_world_snapshot_size(world);
+  return sbr_world_get_snapshot_size(world);
 }
 uint32_t WEB_CALL(web_world_snapshot_save)(const sbr_world *world, void *bytes, size_t size) {
-  return sbr_world_snapshot_save(world, bytes, size) == SBF_OK;
+  return sbr_world_save_snapshot(world, bytes, size) == SBF_OK;
 }
 uint32_t WEB_CALL(web_world_snapshot_restore)(sbr_world *world, const void *bytes, size_t size) {
-  return sbr_world_snapshot_restore(world, bytes, size) == SBF_OK;
+  return sbr_world_restore_snapshot(world, bytes, size) == SBF_OK;
 }
 /* Heights and normals (x, y, z) of the ground of a world made alike, at `count` places (x, z). */
-void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float *places, uint32_t count,
+void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float *coordinates, uint32_t count,
     float *heights, sbf_vec3 *normals) {
   sbr_ground ground = ground_of(kind, a, b);
   for (uint32_t i = 0; i < count; i++)
-    heights[i] = (float)ground.height(&ground, (double)places[2 * i], (double)places[2 * i + 1], &normals[i]);
+    heights[i] = (float)ground.height(
+        &ground, (double)coordinates[2 * i], (double)coordinates[2 * i + 1], &normals[i]);
 }
 
 /* An event as eighteen numbers: kind, character, leg, soft body, rigid body, collider, tick, impulse, place
@@ -157,7 +159,7 @@ void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float
 uint32_t WEB_CALL(web_world_events)(sbr_world *world, double *to, uint32_t capacity) {
   sbr_event event;
   uint32_t count = 0;
-  for (; count < capacity && sbr_world_events(world, &event, 1); count++, to += 18) {
+  for (; count < capacity && sbr_world_take_events(world, &event, 1); count++, to += 18) {
     const double numbers[18] = {event.kind, event.character.value, event.leg, event.soft_body,
         event.rigid_body, event.collider.value, (double)event.tick, (double)event.impulse, event.position.x,
         event.position.y, event.position.z, (double)event.normal.x, (double)event.normal.y,
@@ -172,7 +174,7 @@ uint32_t WEB_CALL(web_world_events)(sbr_world *world, double *to, uint32_t capac
 uint32_t WEB_CALL(web_world_ray)(const sbr_world *world, double x, double y, double z, float along_x,
     float along_y, float along_z, double length, double *to) {
   sbr_hit hit;
-  if (!sbr_world_ray(
+  if (!sbr_world_cast_ray(
           world, (sbr_double3){x, y, z}, (sbf_vec3){along_x, along_y, along_z}, length, UINT32_MAX, &hit))
     return 0;
   const double numbers[11] = {hit.collider.value, hit.character.value, hit.rigid_body, hit.soft_body,
@@ -216,6 +218,6 @@ void WEB_CALL(web_collider_free)(sbr_world *world, uint32_t collider) {
 }
 void WEB_CALL(web_collider_move)(sbr_world *world, uint32_t collider, uint32_t at_once, double x, double y,
     double z, float qx, float qy, float qz, float qw) {
-  (at_once ? sbr_collider_place : sbr_collider_move)(
+  (at_once ? sbr_collider_set_transform : sbr_collider_move)(
       world, (sbr_collider_id){collider}, (sbr_double3){x, y, z}, (sbf_quat){qx, qy, qz, qw});
 }

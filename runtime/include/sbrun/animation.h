@@ -24,12 +24,12 @@ typedef struct sbr_ik_target {
  * finished pose, walking legs included, with the chain's own solver, pole, comfort pose and tolerance, within
  * the joints' limits. FABRIK chains with a common root are solved as one tree. Chains of more than 64 bones
  * are ignored. */
-SBF_API void sbr_character_ik_target(
+SBF_API void sbr_character_set_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target);
 
 /* Turns the character about the foot of one leg of the gait, from 0, which stays planted; -1: about the
  * body's centre again. */
-SBF_API void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg);
+SBF_API void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, int32_t leg);
 
 /* ---- Clips -------------------------------------------------------------------------------------------- */
 
@@ -45,12 +45,12 @@ typedef struct sbr_clip_play {
 /* Plays a clip of the asset in one of four layers (from 0; higher layers override lower ones), below the
  * gait: heads, tails, chains, legs and limbs with targets still move on top of it. The gait keeps the body
  * bone's motion along the ground; scales are not played. SBF_NONE fades the layer's clip out. */
-SBF_API void sbr_character_play(
+SBF_API void sbr_character_play_clip(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how);
 
 /* Carries the clips of another asset's skeleton over to this one's bones and adds them to its clips, for
- * sbr_character_play: a library of motion, loaded once, moves every character. It changes `asset`, which no
- * model may have been made of yet, and which no other thread may use meanwhile; it may be a loaded one.
+ * sbr_character_play_clip: a library of motion, loaded once, moves every character. It changes `asset`, which
+ * no model may have been made of yet, and which no other thread may use meanwhile; it may be a loaded one.
  *
  * Bones stand for each other by retarget_chains of one name, bone by bone by their share of the chain; else
  * by their names, or by names that mean the same part of the same side (LeftUpLeg, thigh.L). Each turns away
@@ -62,17 +62,18 @@ SBF_API void sbr_character_play(
  * (may be NULL) is told of each clip (IMPORT_MOTION) and of bones without a counterpart
  * (IMPORT_MOTION_UNMATCHED). SBF_BAD_INPUT: `from` has no clip, or no bone that stands for one; SBF_FAILED:
  * memory ran out. The asset then has the clips that it had. */
-SBF_API sbf_status sbr_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *name,
-    void (*report)(void *user, const sbf_diagnostic *finding), void *user, sbf_diagnostic *error);
+SBF_API sbf_status sbr_asset_retarget_clips(sbf_asset *asset, const sbf_asset *from, const char *name,
+    void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user, sbf_diagnostic *error);
 
 /* ---- Measures of a pose -----------------------------------------------------------------------------------
  */
 
 /* Maximum violation of a joint limit over all bones after the last tick, rad; 0: none. */
-SBF_API float sbr_character_limit_excess(const sbr_world *world, sbr_character_id character);
+SBF_API float sbr_character_get_limit_violation(const sbr_world *world, sbr_character_id character);
 /* Centre of mass after the last tick, relative to the origin. A bone has the mass of the soft bodies on it,
  * or of the skin that follows it. False if the bones hold neither. */
-SBF_API bool sbr_character_center(const sbr_world *world, sbr_character_id character, sbf_vec3 *center);
+SBF_API bool sbr_character_get_center_of_mass(
+    const sbr_world *world, sbr_character_id character, sbf_vec3 *center);
 
 #ifdef __cplusplus
 }

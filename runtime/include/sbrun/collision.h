@@ -34,12 +34,12 @@ typedef enum sbr_shape_kind {
 /* Queries of the host's own geometry, in the shape's frame. Both are pure functions, called from worker
  * threads many times a tick. Points of soft bodies and vertices of rigid hulls collide with it. */
 typedef struct sbr_host_shape {
-  /* Overlap: signed distance in m from `place` to the surface (negative inside), or any number above `reach`
+  /* Overlap: signed distance in m from `point` to the surface (negative inside), or any number above `reach`
    * where nothing is so near; `normal` receives the unit normal there, outwards. */
-  float (*distance)(void *user, sbf_vec3 place, float reach, sbf_vec3 *normal);
-  /* Ray: the fraction, 0 to 1, of `way` from `from` at which it enters, with the normal there; negative if it
-   * hits nothing. NULL: fast points may pass through. */
-  float (*cast)(void *user, sbf_vec3 from, sbf_vec3 way, sbf_vec3 *normal);
+  float (*distance)(void *user, sbf_vec3 point, float reach, sbf_vec3 *normal);
+  /* Ray: the fraction, 0 to 1, of `displacement` from `from` at which it enters, with the normal there;
+   * negative if it hits nothing. NULL: fast points may pass through. */
+  float (*cast)(void *user, sbf_vec3 from, sbf_vec3 displacement, sbf_vec3 *normal);
   void *user;         /* handed to both */
   sbf_vec3 low, high; /* m: bounds outside of which neither is asked */
 } sbr_host_shape;
@@ -100,21 +100,21 @@ SBF_API void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider);
 SBF_API void sbr_collider_move(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 /* Puts the collider there at once, without velocity. */
-SBF_API void sbr_collider_place(
+SBF_API void sbr_collider_set_transform(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 
 /* Motion of a host's body at the beginning of the next tick. */
 typedef struct sbr_collider_motion {
-  sbr_double3 position;  /* world, of the shape's origin */
-  sbf_quat rotation;     /* from the shape's axes to the world's */
-  sbf_vec3 velocity;     /* m/s, of the shape's origin */
-  sbf_vec3 spin;         /* rad/s, world axes */
-  sbf_vec3 acceleration; /* m/s^2, constant, added by the host: gravity */
-  float since_s;         /* s simulated by the host since the last call; 0: it was placed */
+  sbr_double3 position;      /* world, of the shape's origin */
+  sbf_quat rotation;         /* from the shape's axes to the world's */
+  sbf_vec3 velocity;         /* m/s, of the shape's origin */
+  sbf_vec3 angular_velocity; /* rad/s, world axes */
+  sbf_vec3 acceleration;     /* m/s^2, constant, added by the host: gravity */
+  float since_s;             /* s simulated by the host since the last call; 0: it was placed */
 } sbr_collider_motion;
 /* Sets the motion of a collider with a mass, before each step. The runtime then predicts its motion within
  * the tick from this velocity, the acceleration and the impulses of bodies in contact, so that a light body
- * gives way in the same tick. The host applies the impulses of sbr_collider_take_push to its own body and
+ * gives way in the same tick. The host applies the impulses of sbr_collider_take_impulse to its own body and
  * sets the motion again. A change of velocity from elsewhere, such as a supporting floor, is assumed to act
  * in the next tick too. Set the motion of each collider of a compound body. The prediction continues until
  * the motion is set again or the collider is moved or placed. */
@@ -122,28 +122,29 @@ SBF_API void sbr_collider_set_motion(
     sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion);
 
 /* Sum of the impulses on a collider from soft bodies and hulls of simulated rigid bodies, with friction. */
-typedef struct sbr_collider_push {
+typedef struct sbr_collider_impulse {
   sbf_vec3 impulse; /* N s, world axes */
   sbf_vec3 moment; /* N m s, about the collider's position at the end of the last tick; if its motion was set,
                       at the beginning of the tick, where the host's body still is */
-} sbr_collider_push;
+} sbr_collider_impulse;
 /* Returns the impulse since the last call and clears it. The host applies it to its own body before it moves
  * the body; momentum is then conserved. A collider without mass is immovable for characters. A body in
  * contact with more than twelve colliders pushes the first twelve. Output, as events are: snapshots do not
  * hold it. */
-SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
+SBF_API sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id collider);
 
 /* ---- Each other --------------------------------------------------------------------------------------- */
 
 /* Enables contacts between bodies of characters: soft bodies and hulls of rigid bodies, of the same and of
  * different characters, by the layers and masks of the file. Vertices collide with faces; edges collide with
- * edges on coarse closed bodies and sheets (docs/collision.md). At most `touch_capacity` contacts at once (0:
+ * edges on coarse closed bodies and sheets (docs/collision.md). At most `max_contacts` contacts at once (0:
  * 4096); beyond that some bodies pass through each other. Bodies of one character that overlap at rest, are
  * joined or pinned to each other do not collide. Characters that may touch are stepped in one task; islands
  * without a contact take their own steps. Impulses are stored from tick to tick; snapshots include space for
- * `touch_capacity` contacts. Call it before the first step; a second call does nothing. SBF_FAILED if memory
+ * `max_contacts` contacts. Call it before the first step; a second call does nothing. SBF_FAILED if memory
  * runs out. */
-SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capacity, sbf_diagnostic *error);
+SBF_API sbf_status sbr_world_enable_body_contacts(
+    sbr_world *world, uint32_t max_contacts, sbf_diagnostic *error);
 
 /* ---- Questions ---------------------------------------------------------------------------------------- */
 
@@ -162,12 +163,12 @@ typedef struct sbr_hit {
 /* Casts a ray from `from` along `direction` (any length), up to `length` metres. Finds the first collider,
  * hull of a rigid body or surface of a soft body (state after the last tick) on a layer in `mask`, or the
  * world's ground, which is on layer 1 and is sampled every 5 cm. False if nothing is hit. */
-SBF_API bool sbr_world_ray(
+SBF_API bool sbr_world_cast_ray(
     const sbr_world *world, sbr_double3 from, sbf_vec3 direction, double length, uint32_t mask, sbr_hit *hit);
 /* Finds everything on a layer in `mask` whose bounds overlap the box. Writes up to `capacity` hits and
  * returns their total number. */
-SBF_API uint32_t sbr_world_overlap(const sbr_world *world, sbr_double3 low, sbr_double3 high, uint32_t mask,
-    sbr_hit *hits, uint32_t capacity);
+SBF_API uint32_t sbr_world_overlap_aabb(const sbr_world *world, sbr_double3 low, sbr_double3 high,
+    uint32_t mask, sbr_hit *hits, uint32_t capacity);
 
 #ifdef __cplusplus
 }

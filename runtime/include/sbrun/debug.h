@@ -29,7 +29,7 @@ typedef enum sbr_stage {
 } sbr_stage;
 
 /* Lower case with underscores, as "broad_phase"; "" for a number that is no stage. */
-SBF_API const char *sbr_stage_name(sbr_stage stage);
+SBF_API const char *sbr_stage_get_name(sbr_stage stage);
 
 /* Part of a tick. */
 typedef struct sbr_time_span {

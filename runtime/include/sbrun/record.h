@@ -27,7 +27,7 @@ typedef struct sbr_record_output {
 /* Begins a recording; the one before ends. NULL: none begins. A world that is destroyed ends its own.
  * What it does not hold: characters that are made and snapshots that are restored meanwhile, colliders, and a
  * ground of the host's, which must be the same. */
-SBF_API void sbr_world_record(sbr_world *world, const sbr_record_output *output);
+SBF_API void sbr_world_set_recording(sbr_world *world, const sbr_record_output *output);
 
 /* A recording that is being played. Fields are read by the host; sbr_replay_begin sets them. */
 typedef struct sbr_replay {
@@ -48,7 +48,7 @@ typedef struct sbr_replay {
 SBF_API sbf_status sbr_replay_begin(
     sbr_replay *replay, sbr_world *world, const void *bytes, size_t size, sbf_diagnostic *error);
 /* Plays up to and with the next step, and the hash behind it; false where nothing was left to step. */
-SBF_API bool sbr_replay_frame(sbr_replay *replay);
+SBF_API bool sbr_replay_step(sbr_replay *replay);
 
 #ifdef __cplusplus
 }

@@ -47,41 +47,41 @@ typedef struct sbr_rigid_drive {
 /* Sets the mode of one rigid body, or of all if `rigid_body` is negative. The file states the initial mode:
  * kinematic, or passive if its motion is dynamic. A body without mass stays kinematic. A body that becomes
  * simulated keeps the velocity of the animation. */
-SBF_API void sbr_character_rigid_mode(
+SBF_API void sbr_character_set_rigid_mode(
     sbr_world *world, sbr_character_id character, int32_t rigid_body, sbr_rigid_mode mode);
 /* Sets the drive of all driven bodies of the character, and the fraction of it, 0 to 1, for the joint of one
  * body (default 1; all bodies if `rigid_body` is negative). One arm may hang while the rest walks. */
 SBF_API sbr_rigid_drive sbr_default_rigid_drive(void);
-SBF_API void sbr_character_rigid_drive(
+SBF_API void sbr_character_set_rigid_drive(
     sbr_world *world, sbr_character_id character, const sbr_rigid_drive *drive);
-SBF_API void sbr_character_rigid_share(
-    sbr_world *world, sbr_character_id character, int32_t rigid_body, float share);
+SBF_API void sbr_character_set_rigid_drive_fraction(
+    sbr_world *world, sbr_character_id character, int32_t rigid_body, float fraction);
 
 /* ---- Falling over ---- */
 
 /* Settings of falling and getting up. */
-typedef struct sbr_rigid_fall {
-  float share;  /* [0, 1] of its drive that it has while it falls; default 0.1 */
-  float rest_s; /* s that it lies still before it gets up; default 0.5; of its own, as all here are */
-  float rise_s; /* s in which it gets up; default 1.5, at least 0.1 */
-} sbr_rigid_fall;
+typedef struct sbr_fall_definition {
+  float drive_fraction; /* [0, 1] of its drive that it has while it falls; default 0.1 */
+  float rest_s;         /* s that it lies still before it gets up; default 0.5; of its own, as all here are */
+  float rise_s;         /* s in which it gets up; default 1.5, at least 0.1 */
+} sbr_fall_definition;
 
 /* Phase of a fall. */
-typedef enum sbr_rigid_posture {
-  SBR_RIGID_UP,      /* no fall: its bodies' modes apply */
-  SBR_RIGID_FALLING, /* it falls or lies */
-  SBR_RIGID_RISING   /* it gets up */
-} sbr_rigid_posture;
+typedef enum sbr_posture {
+  SBR_POSTURE_UPRIGHT, /* no fall: its bodies' modes apply */
+  SBR_POSTURE_FALLING, /* it falls or lies */
+  SBR_POSTURE_RISING   /* it gets up */
+} sbr_posture;
 
 /* Knocks the character over. All bodies that the file does not make dynamic are driven with a fraction of the
  * drive's strength until they lie still (or for 5 s plus rest_s). Then the strength grows, and a force on
  * each body helps it up to the pose of its gait or clip; walking waits. When it stands its bodies are
- * kinematic again. A reset or teleport ends the fall. Apply the hit with sbr_character_rigid_push after this
- * call. */
-SBF_API sbr_rigid_fall sbr_default_rigid_fall(void);
-SBF_API void sbr_character_rigid_fall(
-    sbr_world *world, sbr_character_id character, const sbr_rigid_fall *fall);
-SBF_API sbr_rigid_posture sbr_character_rigid_posture(const sbr_world *world, sbr_character_id character);
+ * kinematic again. A reset or teleport ends the fall. Apply the hit with sbr_character_apply_rigid_impulse
+ * after this call. */
+SBF_API sbr_fall_definition sbr_default_fall_definition(void);
+SBF_API void sbr_character_knock_over(
+    sbr_world *world, sbr_character_id character, const sbr_fall_definition *fall);
+SBF_API sbr_posture sbr_character_get_posture(const sbr_world *world, sbr_character_id character);
 
 /* ---- State ---- */
 
@@ -95,25 +95,25 @@ typedef struct sbr_rigid_state {
   float mass;                   /* kg */
   float kinetic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
 } sbr_rigid_state;
-SBF_API sbr_rigid_state sbr_character_rigid_state(
+SBF_API sbr_rigid_state sbr_character_get_rigid_state(
     const sbr_world *world, sbr_character_id character, uint32_t rigid_body);
 
 /* Applies an impulse in N s to a simulated body at a world position, with the next tick. */
-SBF_API void sbr_character_rigid_push(
-    sbr_world *world, sbr_character_id character, uint32_t rigid_body, sbr_double3 place, sbf_vec3 impulse);
+SBF_API void sbr_character_apply_rigid_impulse(sbr_world *world, sbr_character_id character,
+    uint32_t rigid_body, sbr_double3 position, sbf_vec3 impulse);
 
 /* A joint as of the last tick. */
 typedef struct sbr_joint_state {
   float coordinates[8];   /* by sbf_joint_axis: linear_x, _y, _z in m, twist, swing_y, swing_z, swing in rad,
                              distance in m (of a pulley its rope) */
-  float apart;            /* m: maximum position error of the joint */
-  float bent;             /* rad: maximum angular error of the joint */
-  float beyond_angle;     /* rad: maximum violation of a hard angular limit */
-  float beyond_length;    /* m: maximum violation of a hard linear limit */
+  float separation;       /* m: maximum position error of the joint */
+  float angular_error;    /* rad: maximum angular error of the joint */
+  float angle_violation;  /* rad: maximum violation of a hard angular limit */
+  float length_violation; /* m: maximum violation of a hard linear limit */
   sbf_vec3 force, torque; /* N and N m on body b at its frame, mean of the tick */
   bool broken;            /* it was overloaded and holds nothing until the character is reset */
 } sbr_joint_state;
-SBF_API sbr_joint_state sbr_character_joint_state(
+SBF_API sbr_joint_state sbr_character_get_joint_state(
     const sbr_world *world, sbr_character_id character, uint32_t joint);
 
 #ifdef __cplusplus

@@ -94,9 +94,9 @@ typedef enum sbr_instructions {
 } sbr_instructions;
 
 /* Whether this library has loops for the set and this processor supports it. Callable from any thread. */
-SBF_API bool sbr_instructions_available(sbr_instructions instructions);
+SBF_API bool sbr_instructions_are_available(sbr_instructions instructions);
 /* "automatic", "scalar", "sse2", "avx2", "avx512", "neon", "wasm_simd128"; NULL for anything else. */
-SBF_API const char *sbr_instructions_name(sbr_instructions instructions);
+SBF_API const char *sbr_instructions_get_name(sbr_instructions instructions);
 
 /* Settings of a model. */
 typedef struct sbr_model_options {
@@ -117,8 +117,8 @@ typedef struct sbr_model_options {
   sbr_instructions instructions; /* for the solvers' loops */
   uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), in flight a quarter at
                                   * the least; at most 1000; 0: 4, or 1 where `rigid_coarse` */
-  bool ladder; /* coarser levels than `level` as well, jiggle and bones alone, between which characters change
-                  (sbrun/detail.h) */
+  bool detail_levels; /* coarser levels than `level` as well, jiggle and bones alone, between which characters
+                  change (sbrun/detail.h) */
   /* Rigid parts fall for about half the time: one step of a tick where nothing asks for more, joints off by
    * up to 0.1 mm, a thousandth of a strike's energy left undecided (docs/rigid.md, "Coarse"). */
   bool rigid_coarse;
@@ -134,18 +134,18 @@ SBF_API void sbr_model_destroy(sbr_model *model);
 
 /* Reports every part of the asset that the runtime ignores. Calls `report` once per part; `report` may be
  * NULL. Returns the number of parts. */
-SBF_API uint32_t sbr_model_left_out(
-    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
+SBF_API uint32_t sbr_model_report_unsupported(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user);
 /* Reports every island of bodies whose scheme and substeps are known to deviate from the energy by more than
  * a tenth (SCHEME_BIASED), likewise. Relaxation has no energy and is not reported. */
-SBF_API uint32_t sbr_model_scheme_doubts(
-    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
+SBF_API uint32_t sbr_model_report_scheme_bias(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user);
 
 /* Instruction set in use; never automatic. */
-SBF_API sbr_instructions sbr_model_instructions(const sbr_model *model);
+SBF_API sbr_instructions sbr_model_get_instructions(const sbr_model *model);
 /* Single-precision lanes of the solvers on this processor, unless a model's options select another set: 1, 4
  * or 8. For reports of speed; results do not depend on it. */
-SBF_API uint32_t sbr_lanes(void);
+SBF_API uint32_t sbr_get_lane_count(void);
 
 /* ---- World -------------------------------------------------------------------------------------------- */
 
@@ -176,19 +176,19 @@ SBF_API void sbr_world_destroy(sbr_world *world);
 SBF_API void sbr_world_step(sbr_world *world, double seconds);
 /* Advances by exactly one control tick. */
 SBF_API void sbr_world_tick(sbr_world *world);
-SBF_API uint64_t sbr_world_ticks(const sbr_world *world);
+SBF_API uint64_t sbr_world_get_tick_count(const sbr_world *world);
 /* Number of soft bodies stepped in the last tick: neither asleep nor paused. */
-SBF_API uint32_t sbr_world_awake(const sbr_world *world);
+SBF_API uint32_t sbr_world_count_awake_bodies(const sbr_world *world);
 /* Hash of all mutable state except the interpolation time of reads. Equal states have equal hashes on every
  * machine and at every frame rate. */
-SBF_API uint64_t sbr_world_state_hash(const sbr_world *world);
+SBF_API uint64_t sbr_world_get_state_hash(const sbr_world *world);
 
-/* A snapshot is a plain copy of the state. `bytes` has sbr_world_snapshot_size bytes; the size stays the same
- * while the characters do. Restore into the same world with the same characters. SBF_FAILED if sizes or
+/* A snapshot is a plain copy of the state. `bytes` has sbr_world_get_snapshot_size bytes; the size stays the
+ * same while the characters do. Restore into the same world with the same characters. SBF_FAILED if sizes or
  * characters differ, or memory for levels of detail runs out; the world is then unchanged. */
-SBF_API size_t sbr_world_snapshot_size(const sbr_world *world);
-SBF_API sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size);
-SBF_API sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size);
+SBF_API size_t sbr_world_get_snapshot_size(const sbr_world *world);
+SBF_API sbf_status sbr_world_save_snapshot(const sbr_world *world, void *bytes, size_t size);
+SBF_API sbf_status sbr_world_restore_snapshot(sbr_world *world, const void *bytes, size_t size);
 
 /* ---- Characters --------------------------------------------------------------------------------------- */
 
@@ -204,8 +204,8 @@ typedef struct sbr_character_definition {
   bool hold;         /* bones stay in their rest pose */
   sbr_ground ground; /* of its own, where `height` is set; else the world's: characters of one world may stand
                         on floors above each other */
-  uint32_t rung; /* the level of detail that it begins on (sbrun/detail.h), beyond the last: the last; default
-                    0: the finest */
+  uint32_t detail_level; /* the level of detail that it begins on (sbrun/detail.h), beyond the last: the last;
+                    default 0: the finest */
 } sbr_character_definition;
 
 /* Begin with the default definition. The model must outlive the character. */
@@ -216,7 +216,7 @@ SBF_API void sbr_character_destroy(sbr_world *world, sbr_character_id character)
 
 /* Sets the wanted velocity: forward speed in m/s, sideways (left) speed in m/s, turn in rad/s (left
  * positive). */
-SBF_API void sbr_character_drive(
+SBF_API void sbr_character_set_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn);
 /* Wanted vertical speed in m/s of a character that swims or flies; others ignore it. 0 keeps the height, or
  * lets it drift while the drive is 0 as well (spec 14.7). Numbers that are not finite are ignored. */
@@ -235,10 +235,10 @@ SBF_API void sbr_character_reset(sbr_world *world, sbr_character_id character);
 /* Wakes all sleeping bodies of the character. Needed only after a change that the runtime cannot see. Moving
  * pins, driving, teleporting and a changed ground (a host's ground: within four ticks) wake them anyway. */
 SBF_API void sbr_character_wake(sbr_world *world, sbr_character_id character);
-SBF_API void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused);
+SBF_API void sbr_character_set_paused(sbr_world *world, sbr_character_id character, bool paused);
 
 /* Origin of bones and vertices at the sampled time. */
-SBF_API sbr_double3 sbr_character_origin(const sbr_world *world, sbr_character_id character);
+SBF_API sbr_double3 sbr_character_get_origin(const sbr_world *world, sbr_character_id character);
 
 /* Position and orientation. */
 typedef struct sbr_transform {
@@ -246,43 +246,44 @@ typedef struct sbr_transform {
   sbf_quat rotation; /* bone frame to world */
 } sbr_transform;
 /* Bones of the asset, in its order, at the sampled time. */
-SBF_API void sbr_character_bones(
+SBF_API void sbr_character_get_bones(
     const sbr_world *world, sbr_character_id character, sbr_transform *bones, uint32_t capacity);
 /* Scale of each bone along its own axes, about its head. 1 except where a follower squashes the bone; the
- * product of the three is 1. Children do not inherit it. sbr_character_skin already contains it. Returns the
- * number of bones. */
-SBF_API uint32_t sbr_character_bone_scales(
+ * product of the three is 1. Children do not inherit it. sbr_character_get_skin already contains it. Returns
+ * the number of bones. */
+SBF_API uint32_t sbr_character_get_bone_scales(
     const sbr_world *world, sbr_character_id character, sbf_vec3 *scales, uint32_t capacity);
 
 /* Skinned vertices of one render mesh at the sampled time, relative to the character's origin. Normals have
  * unit length; w of a tangent is the sign of the bitangent; tangents are zero without uvs. Normals and
  * tangents may be NULL. Returns the number of vertices of the mesh. */
-SBF_API uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
-    sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity);
+SBF_API uint32_t sbr_character_get_skin(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity);
 /* Unit normals of the same skin per polygon corner, in the order of mesh.polygon_points. Hard edges of the
  * mesh stay hard. Returns the number of corners. */
-SBF_API uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_character_get_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, sbf_vec3 *normals, uint32_t capacity);
 /* The same for a render level of the mesh: 0 is the full mesh, n its n-th `render_level`. Returns 0 if there
  * is none. Only vertices used by the level's polygons are written, in ascending order of their numbers.
- * sbr_model_level_vertices returns these numbers, the same in every frame; renumber polygon_points by them.
+ * sbr_model_get_level_vertices returns these numbers, the same in every frame; renumber polygon_points by
+ * them.
  */
-SBF_API uint32_t sbr_model_level_vertices(const sbr_model *model, uint32_t render_mesh, uint32_t render_level,
-    uint32_t *vertices, uint32_t capacity);
-SBF_API uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_model_get_level_vertices(const sbr_model *model, uint32_t render_mesh,
+    uint32_t render_level, uint32_t *vertices, uint32_t capacity);
+SBF_API uint32_t sbr_character_get_level_skin(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents,
     uint32_t capacity);
-SBF_API uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_character_get_level_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity);
 /* Polygons of a skin that tears have opened. `torn` receives 1 for each polygon of the render level (0: the
  * mesh) that spans a tear and must not be drawn, else 0. Returns the number of polygons. */
-SBF_API uint32_t sbr_character_torn_polygons(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_character_get_torn_polygons(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, uint8_t *torn, uint32_t capacity);
 /* Surface vertices of one soft body in source order; points of its simulated level. */
-SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
-    sbf_vec3 *positions, uint32_t capacity);
-SBF_API uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
-    sbf_vec3 *positions, uint32_t capacity);
+SBF_API uint32_t sbr_character_get_surface(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbf_vec3 *positions, uint32_t capacity);
+SBF_API uint32_t sbr_character_get_points(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbf_vec3 *positions, uint32_t capacity);
 
 /* Handle of a collider (sbrun/collision.h). */
 typedef struct sbr_collider_id {
@@ -293,16 +294,16 @@ typedef struct sbr_collider_id {
 typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
   SBR_EVENT_FOOT_UP,
-  SBR_EVENT_LANDED,   /* a character that fell from a height stands; or a fallen character
-                         (sbr_character_rigid_fall) lies still and begins to get up;   position: where it will
-                         stand */
-  SBR_EVENT_TEAR,     /* an element tore; at most 16 events a tick for one island */
-  SBR_EVENT_UNSPLIT,  /* a tear could not split a point: increase tear_points */
-  SBR_EVENT_ASLEEP,   /* an island of bodies fell asleep */
-  SBR_EVENT_AWAKE,    /* it woke */
-  SBR_EVENT_CONTACT,  /* a body begins to touch the ground, a collider (at most four events a tick) or
-                         another body (sbr_world_bodies_meet) */
-  SBR_EVENT_PARTED,   /* two bodies of characters no longer touch */
+  SBR_EVENT_LANDED,        /* a character that fell from a height stands; or a fallen character
+                              (sbr_character_knock_over) lies still and begins to get up;   position: where it will
+                              stand */
+  SBR_EVENT_TEAR,          /* an element tore; at most 16 events a tick for one island */
+  SBR_EVENT_UNSPLIT,       /* a tear could not split a point: increase tear_points */
+  SBR_EVENT_ASLEEP,        /* an island of bodies fell asleep */
+  SBR_EVENT_AWAKE,         /* it woke */
+  SBR_EVENT_CONTACT_BEGIN, /* a body begins to touch the ground, a collider (at most four events a tick) or
+                        another body (sbr_world_enable_body_contacts) */
+  SBR_EVENT_CONTACT_END,   /* two bodies of characters no longer touch */
   SBR_EVENT_NO_MEMORY /* no memory for a change of the level of detail, which is put off, or for simulated
                          rigid bodies, which stand still; tried again after half a second */
 } sbr_event_kind;
@@ -328,7 +329,7 @@ typedef struct sbr_event {
  * threads. */
 /* Writes the events since the last call, oldest first, and returns their number. The world keeps 256 events;
  * older ones are lost. Events are output: snapshots do not hold them. */
-SBF_API uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity);
+SBF_API uint32_t sbr_world_take_events(sbr_world *world, sbr_event *events, uint32_t capacity);
 
 /* Measures of a body after the last tick. Springs between two bodies count for the first. */
 typedef struct sbr_body_health {
@@ -346,17 +347,18 @@ typedef struct sbr_body_health {
   float min_element_ratio; /* minimum volume ratio of a tetrahedron, below 0 if inverted; 1 without
                               tetrahedra */
 } sbr_body_health;
-SBF_API sbr_body_health sbr_character_health(
+SBF_API sbr_body_health sbr_character_get_body_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
 /* Number of passes over all elements of the body's island since the character was created: a
  * machine-independent cost. Most schemes make one pass a substep; heun two, or three with damped springs;
  * block_descent one per sweep and end of an element; relaxation one a tick, over structural and shear springs
  * from both ends. Wraps from 2^32 - 1 to 0. Part of the state. 0: no such body, or it is not stepped. */
-SBF_API uint32_t sbr_character_passes(const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+SBF_API uint32_t sbr_character_get_element_visits(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body);
 /* Maximum number of substeps a tick over all bodies, at rest and scale 1. */
-SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
+SBF_API uint32_t sbr_model_get_substeps(const sbr_model *model);
 /* The same for the island of one soft body; 0: it is not stepped. */
-SBF_API uint32_t sbr_model_body_substeps(const sbr_model *model, uint32_t soft_body);
+SBF_API uint32_t sbr_model_get_body_substeps(const sbr_model *model, uint32_t soft_body);
 
 /* State of a leg of the gait. */
 typedef struct sbr_leg_state {
@@ -367,9 +369,10 @@ typedef struct sbr_leg_state {
   sbf_vec3 pole;        /* that its knee points to */
   float phase;          /* 0..1 of a step while lifted */
 } sbr_leg_state;
-SBF_API uint32_t sbr_character_legs(
+SBF_API uint32_t sbr_character_get_legs(
     const sbr_world *world, sbr_character_id character, sbr_leg_state *legs, uint32_t capacity);
-SBF_API double sbr_character_distance(const sbr_world *world, sbr_character_id character); /* m travelled */
+SBF_API double sbr_character_get_distance(
+    const sbr_world *world, sbr_character_id character); /* m travelled */
 
 #ifdef __cplusplus
 }

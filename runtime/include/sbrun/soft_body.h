@@ -1,6 +1,6 @@
 /* Soft bodies under a host's hand: velocities, impulses, forces, holding a point, reactions of pins.
  *
- * `vertex` is a vertex of the body's surface, as sbr_character_surface has them. It stands for the points
+ * `vertex` is a vertex of the body's surface, as sbr_character_get_surface has them. It stands for the points
  * that carry it: an impulse J there changes the body's momentum by J and its angular momentum by r x J. What
  * falls on pinned points goes to the simulated rigid bodies that hold them, or is lost to bones.
  *
@@ -32,7 +32,7 @@ typedef struct sbr_soft_motion {
   sbf_vec3 angular_velocity; /* rad/s, world axes */
 } sbr_soft_motion;
 /* Zeros where the body is not simulated. */
-SBF_API sbr_soft_motion sbr_character_soft_motion(
+SBF_API sbr_soft_motion sbr_character_get_soft_motion(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
 
 /* Sets the body's motion as a whole: velocity of its centre of mass in m/s, angular velocity in rad/s, world
@@ -65,12 +65,12 @@ SBF_API sbf_status sbr_character_hold_vertex(sbr_world *world, sbr_character_id 
 SBF_API bool sbr_character_release_vertex(
     sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex);
 /* Force on the vertex in N, world axes, mean of the last tick; zeros where it is not held. */
-SBF_API sbf_vec3 sbr_character_hold_force(
+SBF_API sbf_vec3 sbr_character_get_hold_force(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex);
 
 /* Vertex of the body's surface nearest to a position (world), at the sampled moment; SBR_WHOLE_BODY where the
  * body has none. */
-SBF_API uint32_t sbr_character_nearest_vertex(
+SBF_API uint32_t sbr_character_find_nearest_vertex(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, sbr_double3 position);
 
 /* What the pins of one set exert on the body, as of the end of the last tick. Of a body that hangs at rest:
@@ -86,7 +86,7 @@ typedef struct sbr_pin_reaction {
 } sbr_pin_reaction;
 /* One for each pin set of the simulated level, in the file's order; returns how many there are. 0: the body
  * is not simulated, or by relaxation. */
-SBF_API uint32_t sbr_character_pin_reactions(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_character_get_pin_reactions(const sbr_world *world, sbr_character_id character,
     uint32_t soft_body, sbr_pin_reaction *reactions, uint32_t capacity);
 
 /* A tetrahedron as of the last tick. */
@@ -99,7 +99,7 @@ typedef struct sbr_tetrahedron_state {
   bool torn;            /* it bears nothing: stress, energy and volumes are 0 */
 } sbr_tetrahedron_state;
 /* Tetrahedra of the simulated level, in its order; returns how many there are. 0: they are not its model. */
-SBF_API uint32_t sbr_character_tetrahedra(const sbr_world *world, sbr_character_id character,
+SBF_API uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id character,
     uint32_t soft_body, sbr_tetrahedron_state *tetrahedra, uint32_t capacity);
 
 /* A spring as of the last tick. */
@@ -110,8 +110,8 @@ typedef struct sbr_spring_state {
   bool torn;        /* it bears nothing: tension and energy are 0 */
 } sbr_spring_state;
 /* Springs of the simulated level that act, in the order of its sets; returns how many there are. */
-SBF_API uint32_t sbr_character_springs(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
-    sbr_spring_state *springs, uint32_t capacity);
+SBF_API uint32_t sbr_character_get_springs(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbr_spring_state *springs, uint32_t capacity);
 
 #ifdef __cplusplus
 }

@@ -31,7 +31,7 @@ SBF_API sbf_status sbr_ground_mesh_create(const sbf_allocator *allocator, const 
     uint32_t point_count, const uint32_t *triangles, uint32_t triangle_count, double otherwise_m,
     sbr_ground_mesh **mesh, sbf_diagnostic *error);
 SBF_API void sbr_ground_mesh_destroy(sbr_ground_mesh *mesh);
-SBF_API sbr_ground sbr_ground_of_mesh(const sbr_ground_mesh *mesh);
+SBF_API sbr_ground sbr_ground_from_mesh(const sbr_ground_mesh *mesh);
 
 /* Simple shapes on another ground. Feet step on low obstacles and around high ones. */
 typedef enum sbr_obstacle_kind {
@@ -53,7 +53,7 @@ typedef struct sbr_obstacle_set {
   const sbr_obstacle *obstacles; /* (count) */
   uint32_t count;                /* of obstacles */
 } sbr_obstacle_set;
-SBF_API sbr_ground sbr_ground_obstacles(const sbr_obstacle_set *set);
+SBF_API sbr_ground sbr_ground_with_obstacles(const sbr_obstacle_set *set);
 
 /* A vertical ray cast of the host. Returns the distance to the hit, at most `length`; negative without a hit.
  * `normal` receives the unit normal there. */
@@ -66,7 +66,7 @@ typedef struct sbr_ray_caster {
   double otherwise_m; /* height where nothing is hit */
 } sbr_ray_caster;
 /* The ground that they find; `caster` must outlive it. */
-SBF_API sbr_ground sbr_ground_rays(const sbr_ray_caster *caster);
+SBF_API sbr_ground sbr_ground_from_rays(const sbr_ray_caster *caster);
 
 #ifdef __cplusplus
 }

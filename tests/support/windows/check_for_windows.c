@@ -30,9 +30,9 @@ struct SRunner {
 static jmp_buf end_of_test;
 
 static void *made(size_t size) {
-  void *room = calloc(1, size);
-  if (!room) abort();
-  return room;
+  void *memory = calloc(1, size);
+  if (!memory) abort();
+  return memory;
 }
 
 Suite *suite_create(const char *name) {

@@ -5,7 +5,7 @@ import { SbfmtError } from './sbfmt_error.js';
 const POSTURES = ['up', 'falling', 'rising'];
 const MODES = { kinematic: 0, passive: 1, driven: 2 };
 const SHOWN = ['byViews', 'always', 'never'];
-const RUNG_CHOSEN = 0xffffffff, WHOLE_BODY = 0xffffffff;
+const DETAIL_AUTOMATIC = 0xffffffff, WHOLE_BODY = 0xffffffff;
 
 /** One of the characters of a world: what it is asked, and what it is now. */
 export class Character {
@@ -146,11 +146,11 @@ export class Character {
     if (!good) throw this.sbfmt.failure();
   }
 
-  get rung() {
-    return this.calls.web_character_rung(this.home, this.id);
+  get detailLevel() {
+    return this.calls.web_character_detail_level(this.home, this.id);
   }
-  setRung(rung) {
-    this.calls.web_character_set_rung(this.home, this.id, rung === null ? RUNG_CHOSEN : placeIn(rung, this.model.rungs.length, 'rung'));
+  setDetailLevel(detailLevel) {
+    this.calls.web_character_set_detail_level(this.home, this.id, detailLevel === null ? DETAIL_AUTOMATIC : placeIn(detailLevel, this.model.detailLevels.length, 'detailLevel'));
   }
   get fade() {
     return this.calls.web_character_fade(this.home, this.id);

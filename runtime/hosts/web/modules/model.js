@@ -3,7 +3,7 @@ import { chosen, number, triple } from './checked.js';
 import { Lent } from './lent.js';
 
 const SCHEMES = ['automatic', 'symplectic', 'position_based', 'relaxation', 'explicit_euler', 'heun', 'block_descent'];
-const RUNGS = ['soft', 'jiggle', 'bones', 'away'];
+const DETAIL_KINDS = ['soft', 'jiggle', 'bones', 'away'];
 
 /** What many characters of one asset share. */
 export class Model extends Lent {
@@ -17,13 +17,13 @@ export class Model extends Lent {
     this.asset = asset;
     this.level = number(options.level, 'level', 0);
     this.handle = c.web_model_create(asset.handle, this.level, sbfmt.scratch, number(options.substeps, 'substeps', 0),
-      options.free ? 1 : 0, options.gravity ? 1 : 0, ...gravity, options.scalar ? 1 : 0, options.ladder ? 1 : 0);
+      options.free ? 1 : 0, options.gravity ? 1 : 0, ...gravity, options.scalar ? 1 : 0, options.detailLevels ? 1 : 0);
     if (this.freed) throw sbfmt.failure();
     asset.use(this);
     this.substeps = c.web_model_substeps(this.handle);
     this.instructions = sbfmt.text(c.web_model_instructions(this.handle));
-    const count = c.web_model_rungs(this.handle, sbfmt.scratch, 64), n = sbfmt.floats(sbfmt.scratch, 4 * count);
-    this.rungs = Array.from({ length: count }, (_, i) => ({ kind: RUNGS[n[4 * i]], level: n[4 * i + 1], error: n[4 * i + 2], visits: n[4 * i + 3] }));
+    const count = c.web_model_detail_levels(this.handle, sbfmt.scratch, 64), n = sbfmt.floats(sbfmt.scratch, 4 * count);
+    this.detailLevels = Array.from({ length: count }, (_, i) => ({ kind: DETAIL_KINDS[n[4 * i]], level: n[4 * i + 1], error: n[4 * i + 2], visits: n[4 * i + 3] }));
   }
 
   /** After its characters. */

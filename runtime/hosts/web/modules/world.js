@@ -85,7 +85,7 @@ export class World extends Lent {
 
   // ---- Levels of detail ----
 
-  /** From now on it chooses the rungs of characters that are put on none. */
+  /** From now on it chooses the detail levels of characters that are put on none. */
   detail(options = {}) {
     const { errorPx, budget, nsPerVisit, settle, stay, awayAfter } = options, { scratch } = this.sbfmt;
     this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, settle, stay, awayAfter].map((one) => number(one, 'a setting', NaN)));

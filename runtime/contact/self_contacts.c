@@ -1,0 +1,196 @@
+/* Once a tick each point looks for the triangle of its own surface that it comes near to or goes through, and
+ * gets a touch with it: a sample whose weights are 1 for the point and below 0 for the corners, so that its
+ * place is the point's against the triangle, and a push on it acts on both sides alike and keeps momentum.
+ *
+ * A point does not meet triangles with a corner that a side joins it to: where a fold is so sharp that it
+ * would, the row of points beyond keeps the two legs apart, and what is pushed off by what it hangs on
+ * swings.
+ *
+ * What is nearer at rest than the thickness is kept no further off than it was: parts that overlap at rest do
+ * not fight. */
+#include "contact/self_contacts.h"
+
+#include "contact/self_query.h"
+
+/* What lies at the thickness would else be let go each other tick, and fall: of the body's size. */
+static const float NEAR_FRACTION = 0.01f;
+
+/* Of the thickness, that a point keeps from triangles with a corner that a side joins it to. */
+static const float JOINED_FRACTION = 0.2f;
+
+static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
+  sbri_moving_ball ball;
+  sbf_vec3 p[3];
+  float square = 0, directions = 0;
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 displacement = sbri_self_displacement(l->tick, c[k]);
+    p[k] = sbri_self_position(l->tick->positions, c[k]);
+    directions = sbri_max(directions, sbri_dot(displacement, displacement));
+  }
+  ball.middle = sbri_scale(sbri_add(sbri_add(p[0], p[1]), p[2]), 1.0f / 3);
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 off = sbri_sub(p[k], ball.middle);
+    square = sbri_max(square, sbri_dot(off, off));
+  }
+  ball.radius = sqrtf(square), ball.distance = sqrtf(directions);
+  return ball;
+}
+
+static void make_bounds(const sbri_self_looking *l, sbri_box *boxes, sbri_moving_ball *balls) {
+  for (uint32_t f = 0; f < l->body->self_face_count; f++) {
+    const uint32_t *c = l->body->self_faces + 3 * (size_t)f;
+    boxes[f] = sbri_self_swept(l->tick, c[0], l->rule.outer);
+    for (int k = 1; k < 3; k++)
+      boxes[f] = sbri_box_join(boxes[f], sbri_self_swept(l->tick, c[k], l->rule.outer));
+    balls[f] = ball_of(l, c);
+  }
+}
+
+/* A point, and all that may be near to it. */
+typedef struct location {
+  uint32_t slot;
+  sbf_vec3 x, displacement;
+  float reach; /* m, beside how a triangle goes */
+  sbri_box box;
+} location;
+
+static location position_of(const sbri_self_looking *l, uint32_t slot) {
+  location p = {.slot = slot,
+      .x = sbri_self_position(l->tick->positions, slot),
+      .displacement = sbri_self_displacement(l->tick, slot),
+      .box = sbri_self_swept(l->tick, slot, l->rule.outer)};
+  float near = l->rule.outer + 2 * sbri_length(p.displacement);
+  p.reach = l->rule.two_sided ? near : sbri_max(near, l->rule.inner);
+  return p;
+}
+
+/* Whether a triangle of the tree may be one that it comes near to, or lies behind. */
+static bool may_intersect(const sbri_self_looking *l, const location *p, uint32_t number) {
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const sbri_moving_ball *ball = &l->balls[number];
+  sbf_vec3 off = sbri_sub(p->x, ball->middle);
+  float max = ball->radius + 2 * ball->distance + p->reach;
+  return sbri_dot(off, off) <= 1.0001f * max * max && sbri_boxes_overlap(&p->box, &l->boxes[number]) &&
+         c[0] != p->slot && c[1] != p->slot && c[2] != p->slot;
+}
+
+static sbri_surface_hit check(const sbri_self_looking *l, const location *at, uint32_t number) {
+  const sbri_island_tick *t = l->tick;
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  sbri_surface_face face;
+  for (int k = 0; k < 3; k++)
+    face.at[k] = sbri_self_position(t->positions, c[k]), face.directions[k] = sbri_self_displacement(t, c[k]);
+  sbri_surface_hit found = sbri_surface_nothing();
+  sbri_surface_query(&l->rule, at->x, at->displacement, &face, number, &found);
+  return found;
+}
+
+/* How far off it is at rest from that place; negative behind a surface that encloses matter. */
+static float rest_gap(const sbri_self_looking *l, uint32_t slot, const uint32_t *corners) {
+  const sbri_point *rest = l->tick->island->rest;
+  sbf_vec3 p[3];
+  for (int k = 0; k < 3; k++) p[k] = sbri_self_position(rest, corners[k]);
+  return sbri_surface_gap(&l->rule, sbri_self_position(rest, slot), p);
+}
+
+/* Whether a side joins the point to a corner of the triangle. */
+static bool hangs_on(const sbri_body *body, uint32_t slot, const uint32_t *c) {
+  for (int k = 0; k < 3; k++)
+    if (sbri_self_are_joined(body, slot, c[k])) return true;
+  return false;
+}
+
+/* What a point has found: of the triangles that it does not hang on, of those that it hangs on, and what of
+ * the former may lie on its other side. */
+enum { OTHERS = 128 };
+typedef struct around {
+  sbri_surface_hit best, joined, others[OTHERS];
+  uint32_t other_count; /* more than there is room for: they are looked for anew */
+} around;
+
+/* As if one look had followed the other. */
+static void take(sbri_surface_hit *best, const sbri_surface_hit *one) {
+  float before = one->before < best->before ? one->before : best->before;
+  if (one->urgency < best->urgency) *best = *one;
+  best->before = before;
+}
+
+static void query_around(const sbri_self_looking *l, const location *p, around *a) {
+  sbri_bounds_walk walk;
+  uint32_t item;
+  a->best = a->joined = sbri_surface_nothing();
+  a->other_count = 0;
+  sbri_bounds_walk_begin(&walk, l->tree, p->box);
+  while (sbri_bounds_walk_next(&walk, &item)) {
+    if (!may_intersect(l, p, item)) continue;
+    sbri_surface_hit one = check(l, p, item);
+    if (one.urgency == INFINITY && (l->rule.two_sided || one.before == INFINITY)) continue;
+    if (hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item)) {
+      take(&a->joined, &one);
+      continue;
+    }
+    take(&a->best, &one);
+    if (one.urgency == INFINITY || one.behind) continue;
+    if (a->other_count < OTHERS) a->others[a->other_count] = one;
+    a->other_count++;
+  }
+}
+
+static void take_other(const sbri_surface_hit *one, const sbri_surface_hit *found, sbri_surface_hit *best) {
+  if (one->urgency < best->urgency && sbri_dot(one->normal, found->normal) < 0) *best = *one;
+}
+
+/* The most urgent on the other side than the most urgent of all. */
+static bool find_other(
+    const sbri_self_looking *l, const location *p, const around *a, sbri_surface_hit *best) {
+  *best = sbri_surface_nothing();
+  if (a->other_count <= OTHERS) {
+    for (uint32_t i = 0; i < a->other_count; i++) take_other(&a->others[i], &a->best, best);
+    return sbri_surface_found(best);
+  }
+  sbri_bounds_walk walk;
+  uint32_t item;
+  sbri_bounds_walk_begin(&walk, l->tree, p->box);
+  while (sbri_bounds_walk_next(&walk, &item)) {
+    if (!may_intersect(l, p, item)) continue;
+    sbri_surface_hit one = check(l, p, item);
+    if (!one.behind && !hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item))
+      take_other(&one, &a->best, best);
+  }
+  return sbri_surface_found(best);
+}
+
+static void add(const sbri_self_looking *l, uint32_t slot, const sbri_surface_hit *found, float thickness) {
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)found->face, slots[4] = {slot, c[0], c[1], c[2]};
+  const float weights[4] = {1, -found->weights[0], -found->weights[1], -found->weights[2]};
+  sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
+  sbri_self_add(l, &s, found->normal, rest_gap(l, slot, c), thickness, false);
+}
+
+static void add_point(const sbri_self_looking *l, uint32_t slot) {
+  around a;
+  sbri_surface_hit other;
+  float thickness = l->body->source->collision.outer_thickness;
+  location p = position_of(l, slot);
+  query_around(l, &p, &a);
+  if (sbri_surface_found(&a.best)) {
+    add(l, slot, &a.best, thickness);
+    if (!a.best.behind && find_other(l, &p, &a, &other)) add(l, slot, &other, thickness);
+  }
+  if (sbri_surface_found(&a.joined)) add(l, slot, &a.joined, JOINED_FRACTION * thickness);
+}
+
+void sbri_self_contacts_add(const sbri_island_tick *t, const sbri_body *body,
+    const sbri_contact_tables *tables, sbri_bounds_tree *tree) {
+  const sbf_collision *rule = &body->source->collision;
+  sbri_self_looking l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
+      {rule->outer_thickness + NEAR_FRACTION * body->rest_size_m, rule->inner_thickness,
+          body->is_sheet || body->rest_volume_m3 == 0}};
+  uint32_t *count = &tables->contact_counts[body - t->model->bodies], before = *count;
+  make_bounds(&l, tables->self_boxes, tables->self_balls);
+  sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
+  if (l.rule.two_sided) sbri_self_edges_add(&l);
+  /* A sheet that is through itself touches itself somewhere; what is deep in a closed surface need not. */
+  if ((*count > before || !l.rule.two_sided) && !body->is_tangled) sbri_self_crossings_add(&l);
+}

@@ -1,0 +1,87 @@
+/* What points and edges of a body need to look for its own surface within a tick. */
+#ifndef SBRI_SELF_LOOKING_H
+#define SBRI_SELF_LOOKING_H
+
+#include "collide/bounds_tree.h"
+#include "collide/surface_query.h"
+#include "contact/contact.h"
+
+/* Of the distance at rest, where that is less than the thickness. */
+#define SBRI_SELF_REST_FRACTION 0.9f
+/* m: nearer than this at rest, two parts are one. */
+#define SBRI_SELF_TOGETHER_M 1e-5f
+
+typedef struct sbri_self_looking {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  const sbri_contact_tables *tables;
+  const sbri_bounds_tree *tree; /* over the boxes of the triangles' ways */
+  const sbri_box *boxes;
+  const sbri_moving_ball *balls; /* about them when the tick begins */
+  sbri_surface_rule rule;
+} sbri_self_looking;
+
+static inline sbf_vec3 sbri_self_position(const sbri_point *points, uint32_t slot) {
+  return sbri_vec3(points[slot].x, points[slot].y, points[slot].z);
+}
+
+/* How far it goes in the tick. */
+static inline sbf_vec3 sbri_self_displacement(const sbri_island_tick *t, uint32_t slot) {
+  if (slot < t->island->free_count) return sbri_scale(sbri_slot_velocity(t, t->velocities, slot), t->tick_s);
+  return sbri_sub(sbri_self_position(t->targets, slot), sbri_self_position(t->positions, slot));
+}
+
+static inline sbri_box sbri_self_swept(const sbri_island_tick *t, uint32_t slot, float by) {
+  sbf_vec3 x = sbri_self_position(t->positions, slot);
+  return sbri_box_grown(
+      sbri_box_with(sbri_box_of_point(x), sbri_add(x, sbri_self_displacement(t, slot))), by);
+}
+
+/* Whether a side of the surface joins them. */
+static inline bool sbri_self_are_joined(const sbri_body *body, uint32_t a, uint32_t b) {
+  for (uint32_t i = body->self_ring_begins[a]; i < body->self_ring_begins[a + 1]; i++)
+    if (body->self_ring[i] == b) return true;
+  return false;
+}
+
+/* Four points by their weights, and the mass that a push on them meets; 0: nothing moves. */
+static inline sbri_sample sbri_self_sample(
+    const sbri_island *island, const uint32_t slots[4], const float weights[4]) {
+  sbri_sample s = {.vertex = UINT32_MAX};
+  float sum = 0;
+  for (int k = 0; k < 4; k++) {
+    s.slots[k] = slots[k], s.weights[k] = weights[k];
+    if (slots[k] < island->free_count) sum += weights[k] * weights[k] * island->inverse_masses[slots[k]];
+  }
+  s.mass_kg = sum > 0 ? 1 / sum : 0;
+  return s;
+}
+
+/* One more touch, if there is room, of what is `rest_m` apart at rest, and is to keep as much as `max_m`. */
+static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *s, sbf_vec3 normal,
+    float rest_m, float max_m, bool edges) {
+  const sbri_body *body = l->body;
+  uint32_t *count = &l->tables->contact_counts[body - l->tick->model->bodies];
+  float thickness = max_m;
+  if (*count >= body->max_contacts || rest_m < SBRI_SELF_TOGETHER_M || !(s->mass_kg > 0)) return;
+  if (SBRI_SELF_REST_FRACTION * rest_m < thickness) thickness = SBRI_SELF_REST_FRACTION * rest_m;
+  l->tables->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = *s,
+      .normal = normal,
+      .offset = thickness,
+      .friction_scale = 1,
+      .restitution = body->restitution,
+      .collider = SBRI_ITSELF,
+      .edges = edges};
+}
+
+/* ---- self_edges.c ---- */
+
+/* Rims of a sheet, and what it is bent across now, where they cross each other. */
+void sbri_self_edges_add(const sbri_self_looking *looking);
+
+/* ---- self_cross.c ---- */
+
+/* Sides that go through triangles, which go out again. */
+void sbri_self_crossings_add(const sbri_self_looking *looking);
+
+#endif

@@ -1,0 +1,26 @@
+/* A touch of a soft body with a host's shape, however it was found. */
+#include "collide/external_body.h"
+#include "contact/soft_shape_contacts.h"
+
+void sbri_shape_contact_add(const sbri_shape_pair *m, const sbri_sample *s, sbf_vec3 on_shape, sbf_vec3 n) {
+  const sbri_island_tick *t = m->tick;
+  uint32_t *count = &m->tables->contact_counts[m->body - t->model->bodies];
+  if (*count >= m->body->max_contacts) return;
+  sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, n);
+  sbf_vec3 position = sbri_out_of_shape(&m->frame, on_shape);
+  sbf_vec3 velocity = sbri_scale(sbri_shape_displacement(&m->frame, on_shape), 1 / t->tick_s);
+  float friction = m->body->friction;
+  sbri_soft_contact *made = &m->tables->contacts[m->body->first_soft_contact + (*count)++];
+  *made = (sbri_soft_contact){.sample = *s,
+      .normal = normal,
+      .offset = sbri_dot(normal, position) + m->body->margin_m,
+      .velocity = velocity,
+      .friction_scale = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
+      .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
+      .collider = m->number};
+  sbri_external_body_maker maker = {
+      t->colliders, t->origin, t->scale, t->tick_s, m->tables->touched->now, m->tables->touched->count};
+  made->external_body = sbri_external_body_of(m->tables->external_bodies, &maker, &m->frame, m->number);
+  if (made->external_body)
+    made->arm = sbri_sub(position, m->tables->external_bodies->at[made->external_body - 1].centre);
+}

@@ -1,0 +1,296 @@
+/* From one detail level to another: what all detail levels share is copied; soft bodies take over shapes and
+ * velocities, as each point is a mean of points of the level before (prepare/sources.c), both seen from where
+ * what holds the body would have them. A shape that would hold more energy than the one before is drawn back
+ * to rest until it does not. What nothing holds goes on as a whole just as fast, and turns as fast, as it
+ * did. From jiggle and bones bodies begin in their rest shape, going as their bones go. */
+#include <string.h>
+
+#include "detail/choose.h"
+#include "math/quat.h"
+#include "pose/frames.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+
+enum { ATTEMPTS = 4 };
+
+/* Longer than that no detail level is counted to have been kept: 200 days. */
+static const uint32_t LONG_TICKS = 1u << 30;
+
+/* ---- Before ---- */
+
+static float *velocity_of(const sbri_character *c, uint32_t slot) {
+  return sbri_velocities(c) + 3 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+/* How far and how fast the points are from their guides; those of what nothing holds from the root as it is.
+ */
+static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
+  const sbri_island *island = &c->model->islands[body->island];
+  sbri_point *drivers = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
+  sbri_compute_driver_positions(c->model, body, sbri_deltas(c), drivers);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    uint32_t at = island->first_slot + slot;
+    const sbri_point *p = &sbri_positions(c)[at], *g = &drivers[slot - body->slot_begin];
+    const float *v = velocity_of(c, at), *w = sbri_driver_velocities(c) + (v - sbri_velocities(c));
+    float limited = body->is_pinned ? 1 : 0, is = moves ? 1 : 0;
+    sbri_offsets(c)[at] = (sbri_point){p->x - g->x, p->y - g->y, p->z - g->z, 0};
+    sbri_speeds(c)[at] =
+        (sbri_point){is * (v[0] - limited * w[0]), is * (v[SBRI_BLOCK] - limited * w[SBRI_BLOCK]),
+            is * (v[2 * SBRI_BLOCK] - limited * w[2 * SBRI_BLOCK]), 0};
+  }
+}
+
+/* Whether it moves: not where what holds it has jumped. */
+static bool keep_soft(sbri_character *c, float tick_s) {
+  const sbr_model *model = c->model;
+  bool moves = true;
+  memset(sbri_offsets(c), 0, model->slot_count * sizeof(sbri_point));
+  memset(sbri_speeds(c), 0, model->slot_count * sizeof(sbri_point));
+  for (uint32_t i = 0; i < model->island_count; i++)
+    moves = sbri_driver_velocities_find(c, &model->islands[i], tick_s) && moves;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
+    if (model->bodies[b].level) keep_body(c, &model->bodies[b], moves);
+  return moves;
+}
+
+/* ---- What all detail levels share ---- */
+
+static void take_shared(sbri_character *c, const sbri_character *was) {
+  const sbr_model *is = c->model;
+  uint32_t frames = sbri_first_jiggle_frame(is);
+  uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
+  memcpy(sbri_header(c), sbri_header(was), sizeof(sbri_character_state));
+  memcpy(sbri_loads(c), sbri_loads(was), SBR_LOAD_CAPACITY * sizeof(sbri_load));
+  memcpy(sbri_faded(c), sbri_faded(was), vertices * sizeof(sbri_fading_vertex));
+  memcpy(sbri_gait(c), sbri_gait(was), sbri_gait_state_size(&is->rig));
+  memcpy(sbri_pose(c), sbri_pose(was), frames * sizeof(sbr_transform));
+  memcpy(sbri_previous_pose(c), sbri_previous_pose(was), frames * sizeof(sbr_transform));
+  memcpy(
+      sbri_soft_touching(c), sbri_soft_touching(was), is->asset->soft_bodies.count * sizeof(sbri_touching));
+  sbri_rigid_take(c, was);
+}
+
+/* What is told of an island goes on with the island that has its first body. */
+static void take_counts(sbri_character *c, const sbri_character *was) {
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    uint32_t body = c->model->islands[i].bodies[0];
+    if (!was->model->bodies[body].level) continue;
+    const sbri_island_state *from = &sbri_island_states(was)[was->model->bodies[body].island];
+    sbri_island_states(c)[i].recoveries = from->recoveries;
+    sbri_island_states(c)[i].recovery = from->recovery;
+    sbri_island_states(c)[i].element_visits = from->element_visits;
+    sbri_island_states(c)[i].reported_asleep = from->reported_asleep;
+  }
+}
+
+/* ---- Soft bodies ---- */
+
+static sbf_vec3 mean_of(const sbri_sources *sources, const sbri_point *of) {
+  sbf_vec3 sum = {0, 0, 0};
+  for (int k = 0; k < SBRI_SOURCES; k++) {
+    const sbri_point *p = &of[sources->slots[k]];
+    sum = sbri_add_scaled(sum, sbri_vec3(p->x, p->y, p->z), sources->weights[k]);
+  }
+  return sum;
+}
+
+/* `fraction` of the shape before, and of how it moved, at its guides' places. */
+static void shape(sbri_character *c, const sbri_character *was, const sbri_body *body,
+    const sbri_sources *sources, float fraction) {
+  const sbri_island *island = &c->model->islands[body->island];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 off = mean_of(&sources[island->first_slot + slot], sbri_offsets(was));
+    sbri_point *p = &positions[slot];
+    *p = (sbri_point){p->x + fraction * off.x, p->y + fraction * off.y, p->z + fraction * off.z, 0};
+  }
+}
+
+static void add_speeds(
+    sbri_character *c, const sbri_character *was, const sbri_body *body, const sbri_sources *sources) {
+  const sbri_island *island = &c->model->islands[body->island];
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 speed = mean_of(&sources[island->first_slot + slot], sbri_speeds(was));
+    float *v = velocity_of(c, island->first_slot + slot);
+    v[0] += speed.x, v[SBRI_BLOCK] += speed.y, v[2 * SBRI_BLOCK] += speed.z;
+  }
+}
+
+static double elastic_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
+  return sbri_body_health(world, c, body).elastic_j;
+}
+
+/* Energy goes with the square of a small strain. */
+static void shape_within(const sbr_world *world, sbri_character *c, const sbri_character *was, uint32_t index,
+    const sbri_sources *sources) {
+  const sbri_body *body = &c->model->bodies[index];
+  double max_j = sbri_energies(was)[index];
+  float fraction = 1;
+  shape(c, was, body, sources, fraction);
+  for (int n = 0; n < ATTEMPTS && body->is_pinned; n++) {
+    double now = elastic_of(world, c, index);
+    if (!(now > max_j)) return;
+    fraction *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(max_j / now) : 0;
+    shape(c, was, body, sources, fraction);
+  }
+}
+
+/* ---- Jiggles ---- */
+
+/* How far and how fast the body's points were off their guides on average. */
+static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
+  const sbri_body *body = &was->model->bodies[index];
+  *offset = *speed = sbri_vec3(0, 0, 0);
+  if (!body->level || body->slot_real_end == body->slot_begin) return;
+  float fraction = 1 / (float)(body->slot_real_end - body->slot_begin);
+  uint32_t first = was->model->islands[body->island].first_slot;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *o = &sbri_offsets(was)[first + slot], *v = &sbri_speeds(was)[first + slot];
+    *offset = sbri_add_scaled(*offset, sbri_vec3(o->x, o->y, o->z), fraction);
+    *speed = sbri_add_scaled(*speed, sbri_vec3(v->x, v->y, v->z), fraction);
+  }
+}
+
+/* Followers take that over, and go on as their bones go. */
+static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
+  for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
+    const sbri_jiggle *jiggle = &c->model->jiggles[j];
+    sbri_position_follower *follower = &sbri_jiggles(c)[j];
+    sbf_vec3 offset, speed;
+    mean_offset(was, jiggle->body, &offset, &speed);
+    sbr_transform before = sbri_delta_of(c, sbri_previous_pose(c), jiggle->carrier);
+    sbf_vec3 middle = sbri_add(before.position, sbri_rotate(before.rotation, jiggle->middle));
+    sbf_vec3 went = sbri_scale(sbri_sub(follower->followed, middle), 1 / tick_s);
+    follower->value = sbri_add(follower->followed, offset);
+    follower->rate = sbri_add(went, speed);
+    sbr_transform *frame = &sbri_pose(c)[sbri_first_jiggle_frame(c->model) + j];
+    frame->position = sbri_add_scaled(frame->position, offset, c->scale);
+  }
+}
+
+/* ---- All of it ---- */
+
+static void take_soft(
+    const sbr_world *world, sbri_character *c, const sbri_character *was, bool moves, float tick_s) {
+  const sbr_model *is = c->model;
+  const sbri_sources *sources = is->sources ? is->sources[sbri_header(was)->detail_level] : NULL;
+  for (uint32_t i = 0; i < is->island_count; i++) {
+    sbri_island_reset_to_rest(c, i);
+    sbri_drivers_advance(c, &is->islands[i], tick_s);
+  }
+  for (uint32_t b = 0; sources && b < is->asset->soft_bodies.count; b++) {
+    if (!is->bodies[b].level || !was->model->bodies[b].level) continue;
+    shape_within(world, c, was, b, sources);
+    add_speeds(c, was, &is->bodies[b], sources);
+    if (moves && !is->bodies[b].is_pinned && !was->model->bodies[b].is_pinned)
+      sbri_body_take_momentum(c, was, b);
+  }
+}
+
+/* Into the spare room; what it had stays as it was, and is the spare one then. */
+static void go_over(const sbr_world *world, sbri_character *c) {
+  float tick_s = (float)world->tick_s * c->time_scale;
+  bool was_soft = sbri_get_detail_level(c)->kind == SBR_DETAIL_SOFT;
+  for (uint32_t b = 0; was_soft && b < c->model->asset->soft_bodies.count; b++)
+    sbri_energies(c)[b] = elastic_of(world, c, b);
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  bool moves = was_soft && keep_soft(c, tick_s);
+  const sbri_character was = *c;
+  sbri_character_storage_swap(c);
+  take_shared(c, &was);
+  take_counts(c, &was);
+  sbri_jiggles_reset(c);
+  swing(c, &was, tick_s);
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  sbri_restore_elements(c);
+  take_soft(world, c, &was, moves, tick_s);
+}
+
+/* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
+static const float JUMPS_FRACTION = 0.15f;
+/* No longer is one that is to be finer kept from it, s; one that is driven elsewhere again and again. */
+static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
+
+/* How far a body lags more than it did at the end of this tick, as it is driven elsewhere: nothing that was
+ * seen of it before tells so. Asset metres. */
+static float lags_m(const sbr_world *world, const sbri_character *c) {
+  sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
+  float radius_m = 0.5f * c->scale * c->model->base->rest_size_m;
+  return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
+}
+
+/* Of one that is chosen for, and the budget does not ask for it: whether too much would be missed, on a
+ * detail level that does not swing, or be seen to jump. It is looked at again in a while, or at once if it is
+ * to be finer.
+ */
+static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t detail_level, float swings_m) {
+  const sbri_detail *detail = world->detail;
+  sbri_character_state *head = sbri_header(c);
+  const sbr_detail_level *detail_levels = c->model->base->detail_levels;
+  if (!detail || detail->is_short || head->set_detail_level_plus_1 || head->fade_before > 0) return false;
+  bool finer = detail_level < head->detail_level,
+       swings_on = finer || detail_levels[detail_level].kind == SBR_DETAIL_SOFT;
+  float a_metre = sbri_pixels_of(world, c) * c->scale, lags = a_metre * lags_m(world, c);
+  float shows = lags + a_metre * swings_m * (swings_on ? JUMPS_FRACTION : 1);
+  float max_s = lags > detail->is.error_px ? LAGS_MAX_S : SWINGS_MAX_S;
+  return shows > detail->is.error_px && !(finer && (float)head->swing_ticks++ * (float)world->tick_s > max_s);
+}
+
+/* Where it goes, of what it is to be. */
+static uint32_t find_next_detail_level(const sbri_character *c) {
+  const sbr_model *base = c->model->base;
+  uint32_t detail_level = sbri_header(c)->next_detail_level, collides = sbri_coarsest_colliding_level(base);
+  if (base->detail_levels[detail_level].kind == SBR_DETAIL_OFFSCREEN && !sbri_rigid_is_still(c))
+    detail_level--; /* what lies about, or falls, goes on doing so: bones alone */
+  return c->near && detail_level > collides ? collides : detail_level;
+}
+
+const sbr_model *sbri_next_detail_model(const sbri_character *c) {
+  return c->model->base->levels[find_next_detail_level(c)];
+}
+
+void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
+  sbri_character_state *head = sbri_header(c);
+  bool is_new = head->detail_level_ticks == UINT32_MAX; /* nobody has seen it yet, or lately */
+  head->detail_level_ticks =
+      is_new ? LONG_TICKS : head->detail_level_ticks + (head->detail_level_ticks < LONG_TICKS);
+  uint32_t detail_level = find_next_detail_level(c);
+  bool must_collide = c->near && head->next_detail_level > detail_level;
+  bool kept = head->fade_kept > 0, same = c->model == c->model->base->levels[detail_level];
+  if (detail_level == head->detail_level) {
+    head->fade_kept = 0;
+    return;
+  }
+  if (!same && c->spare.model != c->model->base->levels[detail_level]) return; /* there is no memory for it */
+  bool coarser = detail_level > head->detail_level, chosen = world->detail && !head->set_detail_level_plus_1;
+  if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short)
+    return; /* one after the other */
+  bool returns = sbri_is_away(c);
+  bool unseen = head->unseen_ticks > 0 || returns || (is_new && chosen), fades = !unseen && !same;
+  if (fades && !kept && !must_collide) {
+    sbri_fade_record(c);
+    return;
+  }
+  if (fades && must_collide) {
+    (void)sbri_fade_keep(world, c); /* at once: somebody is coming */
+  } else if (fades && swings_too_far(world, c, detail_level, sbri_fade_keep(world, c))) {
+    head->next_detail_level = head->detail_level;
+    head->detail_level_ticks = head->fade_kept = 0;
+    return;
+  }
+  head->fade_kept = head->swing_ticks = 0;
+  if (returns) sbri_away_arrive(world, c);
+  if (!same) go_over(world, c);
+  head = sbri_header(c);
+  head->detail_level = detail_level;
+  head->detail_level_ticks = 0;
+  head->asleep = 0;
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  if (fades)
+    sbri_fade_begin(world, c);
+  else if (!same || returns)
+    sbri_fade_end(c);
+}

@@ -1,0 +1,201 @@
+/* Where a character is: its node goes with it, and it goes where its node is put. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "soft_character.h"
+#include "turns.h"
+
+float transform_heading(const gd_transform *node_transform) {
+  return atan2f(node_transform->basis[0][2], node_transform->basis[2][2]);
+}
+
+float transform_scale(const gd_transform *node_transform) {
+  float x = node_transform->basis[0][1], y = node_transform->basis[1][1], z = node_transform->basis[2][1];
+  float length = sqrtf(x * x + y * y + z * z);
+  return length > 0 ? length : 1;
+}
+
+/* The bone that travels with the character. */
+static const sbf_bone *body_bone(const sbf_asset *asset, uint32_t *index) {
+  *index = asset->gaits.count && asset->gaits.at[0].body >= 0 ? (uint32_t)asset->gaits.at[0].body : 0;
+  return asset->bones.count ? &asset->bones.at[*index] : NULL;
+}
+
+double soft_character_size(const soft_character *one) {
+  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z));
+  return (double)(fmaxf(wide, one->high.y - one->low.y) * one->scale);
+}
+
+double soft_character_around(const soft_character *one) {
+  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z)) * one->scale;
+  double size = soft_character_size(one); /* what is tall may come to lie */
+  return fmax(1.5 * (double)wide + 0.1 * size, size);
+}
+
+/* What a parent's transform makes of it is what it has to be compared with. */
+static void leave_node(soft_character *one) {
+  GD_DO(&one->node, "set_global_transform", gd_transform_value(one->put));
+  one->put = soft_character_transform(one);
+}
+
+void soft_character_follow(soft_character *one) {
+  if (one->displaced && one->tick == sbr_world_get_tick_count(one->world)) return;
+  one->displaced = false;
+  if (soft_character_loose_follow(one)) {
+    leave_node(one);
+    return;
+  }
+  uint32_t index, count = one->model->asset->bones.count;
+  const sbf_bone *bone = body_bone(one->model->asset, &index);
+  sbr_transform *bones = bone ? malloc(count * sizeof *bones) : NULL;
+  if (!bones) return;
+  sbr_character_get_bones(one->world, one->id, bones, count);
+  sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
+  sbf_vec3 at = bones[index].position;
+  sbf_vec3 ahead = turned(bones[index].rotation, turned(turn_back(bone->rotation), (sbf_vec3){0, 0, 1}));
+  one->put = upright((sbf_vec3){0, 0, 0}, atan2f(ahead.x, ahead.z), one->scale);
+  sbf_vec3 rest = placed_vector(&one->put, bone->head);
+  one->put.origin = (sbf_vec3){(float)(origin.x + (double)(at.x - rest.x)),
+      (float)(origin.y + (double)(at.y - rest.y)), (float)(origin.z + (double)(at.z - rest.z))};
+  free(bones);
+  leave_node(one);
+}
+
+double soft_character_ground_height(const soft_character *one, double x, double z) {
+  sbf_vec3 normal;
+  sbr_ground ground = physics_ground_of(one->ground);
+  return ground.height(&ground, x, z, &normal);
+}
+
+void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading) {
+  one->put = upright(position, heading, one->scale);
+  if (one->settings.ground == SOFT_GROUND_PHYSICS) {
+    physics_bodies_query(one, true);
+    physics_ground_query(one);
+  }
+  one->stale = true;
+  if (soft_character_set_loose_position(one)) return;
+  double above = position.y - soft_character_ground_height(one, position.x, position.z);
+  if (above < 0) above = 0; /* from there it falls */
+  sbr_character_teleport(one->world, one->id, (sbr_double3){position.x, above, position.z}, heading);
+}
+
+gd_transform soft_character_transform(const soft_character *one) {
+  gd_variant value = GD_CALL(&one->node, "get_global_transform");
+  gd_transform node_transform = gd_as_transform(&value);
+  gd_free(&value);
+  return node_transform;
+}
+
+/* How something else has moved the node since the character left it there. */
+typedef struct node_move {
+  sbf_vec3 by; /* m */
+  float turn;  /* rad, about +Y */
+  bool any;
+} node_move;
+
+static const float STILL = 1e-12f; /* m^2 and rad^2: what the node's numbers are rounded by */
+
+static node_move move_of(const gd_transform *now, const gd_transform *put) {
+  node_move made = {
+      .by = {now->origin.x - put->origin.x, now->origin.y - put->origin.y, now->origin.z - put->origin.z}};
+  float sine = now->basis[0][2] * put->basis[2][2] - now->basis[2][2] * put->basis[0][2];
+  float cosine = now->basis[0][2] * put->basis[0][2] + now->basis[2][2] * put->basis[2][2];
+  made.turn = atan2f(sine, cosine);
+  made.any = !(made.by.x * made.by.x + made.by.y * made.by.y + made.by.z * made.by.z <= STILL &&
+               made.turn * made.turn <= STILL);
+  return made;
+}
+
+static const float LARGEST_TURN = 1; /* rad in a frame: what turns farther is put there */
+
+/* What is moved so little walks there; what nothing holds, and what is moved farther, is put there. */
+static bool steps_there(const soft_character *one, const node_move *move) {
+  double limit = one->settings.teleport_distance, size = soft_character_size(one);
+  float x = move->by.x, y = move->by.y, z = move->by.z;
+  if (one->loose || one->editor || one->settings.paused || !(fabsf(move->turn) < LARGEST_TURN)) return false;
+  return sqrt((double)(x * x + y * y + z * z)) < (limit > 0 ? limit : size / 2);
+}
+
+/* ---- A frame ---- */
+
+void soft_character_save(soft_character *one, bool done) {
+  if (one->previews)
+    GD_DO(&one->node, "set_global_transform", gd_transform_value(done ? one->put : one->from));
+}
+
+/* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
+static void edit(soft_character *one, const gd_transform *now) {
+  if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
+  if (!one->previews && !move_of(now, &one->put).any) return;
+  one->put = one->previews ? one->from : *now;
+  one->previews = false;
+  one->flat_y = one->put.origin.y;
+  physics_ground_level(one->ground, one->flat_y);
+  sbr_character_reset(one->world, one->id);
+  one->frame = (sbr_double3){one->put.origin.x, 0, one->put.origin.z};
+  sbr_character_teleport(one->world, one->id, one->frame, transform_heading(&one->put));
+  character_skeleton_update(one);
+  one->stale = true;
+  GD_DO(&one->node, "update_gizmos");
+}
+
+bool soft_character_prepare(soft_character *one) {
+  gd_transform now = soft_character_transform(one);
+  if (one->editor && memcmp(&now, &one->warned, sizeof now) != 0) {
+    one->warned = now;
+    GD_DO(&one->node, "update_configuration_warnings");
+  }
+  if (one->editor && !one->settings.preview) {
+    edit(one, &now);
+    return false;
+  }
+  if (one->editor && !one->previews) {
+    one->previews = true;
+    one->from = now;
+    one->placed = false;
+  }
+  node_move move = move_of(&now, &one->put);
+  if (one->placed && !isfinite(move.by.x + move.by.y + move.by.z + move.turn)) { /* it stays where it was */
+    leave_node(one);
+    move = (node_move){.any = false};
+  }
+  bool steps = one->placed && move.any && steps_there(one, &move);
+  if (steps) {
+    sbr_character_displace(one->world, one->id, move.by, move.turn);
+    one->put = now; /* a frame without a tick leaves it there */
+    one->displaced = true;
+    one->tick = sbr_world_get_tick_count(one->world);
+  }
+  if (!one->placed || (move.any && !steps)) {
+    soft_character_set_position(one, now.origin, transform_heading(&now));
+    one->placed = true;
+  } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
+    physics_bodies_query(one, false);
+  }
+  soft_character_pause(one);
+  return !one->still;
+}
+
+/* A node that does not process may be stepped all the same, by one that it meets. */
+void soft_character_pause(soft_character *one) {
+  bool still = one->settings.paused || !gd_take_bool(GD_CALL(&one->node, "can_process"));
+  if (one->world && still != one->still) sbr_character_set_paused(one->world, one->id, still);
+  one->still = still;
+}
+
+bool soft_character_rescale(soft_character *one) {
+  gd_transform now = soft_character_transform(one);
+  float scale = transform_scale(&now);
+  if (fabsf(scale - one->scale) <= 1e-4f * one->scale) return false;
+  one->placed = false; /* it begins again, where it stands */
+  soft_character_make(one);
+  return true;
+}
+
+void soft_character_show(soft_character *one) {
+  soft_character_follow(one);
+  character_skeleton_update(one);
+  one->stale = true;
+}

@@ -1,0 +1,226 @@
+/* How the flesh on one rigid body answers when that body's speed changes at the begin of a step: by what its
+ * points' speeds have changed at the step's end, so that the body may bear it through long steps
+ * (ragdoll/attached_bodies.c).
+ *
+ * A mode of angular frequency w, held by a frame whose speed changes by u at once, has taken the share
+ * 1 - cos(w h) of that after h seconds: little where it swings slowly, what it happens to where it has swung
+ * several times. Reckoned with is a share that is stable however far off w is: nearly that for small w h, and
+ * all where w h is above 1.8, where a step late would be too late: v = X u - p(h^2 M^-1 K) X u,   X u the
+ * rigid motion of the free points, p the polynomial of least degree that is 1 at 0 and no more than a
+ * thousandth from 1.8^2 up to the fastest mode's square: Chebyshev's, by its recurrence (Zhou and Saad, A
+ * Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The impulses M v it draws from the
+ * body, X^T M v, symmetric: masses and moments that the body has in that step beside its own.
+ *
+ * Bone and flesh then keep their momentum, but no energy: what swings fast takes some up in each exchange
+ * (of undamped flesh eight times as heavy as its bone twelve times that of the hit, in nine seconds). So it
+ * is for flesh whose own damping takes more than that. */
+#include <string.h>
+
+#include "mechanics/network.h"
+#include "prepare/island_maker.h"
+#include "solvers/scheme.h"
+
+/* Square of w h from which on all goes along, and what may then stay behind. */
+static const double ALONG = 3.2, BEHIND = 1e-3;
+/* The fastest mode is known from below. */
+static const double FASTEST_MARGIN = 1.1;
+enum { MAX_DEGREE = 64 };
+/* A bone bears no more than so many times its own mass: what rounding and strain leave over is its own to
+ * take. */
+static const float MAX_ATTACHED_TRAVEL = 10;
+/* Nor flesh whose slowest mode that stretches it has less than this damping ratio. */
+static const float MIN_DAMPING = 0.03f;
+
+/* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
+ */
+static int32_t carrier_alone(const sbri_island_maker *m) {
+  const sbri_island *island = m->island;
+  const int32_t *carriers = m->model->carrier_of_frame;
+  int32_t found = -1;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t i = 0; i < body->level->positions.count; i++) {
+      uint32_t slot = body->slot_from_point[i];
+      if (slot < island->free_count) continue;
+      int32_t carrier = carriers[island->frame_of_pinned[slot - island->free_count]];
+      if (carrier < 0 || (found >= 0 && carrier != found)) return -1;
+      found = carrier;
+    }
+  }
+  for (uint32_t i = 0; i < m->goals.count; i++) {
+    int32_t carrier = carriers[((const sbri_goal *)m->goals.at)[i].frame];
+    if (carrier < 0 || (found >= 0 && carrier != found)) return -1;
+    found = carrier;
+  }
+  return found;
+}
+
+/* Whether no point of the island's bodies is damped by too little. */
+static bool is_damped(const sbri_island_maker *m) {
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    float w = body->stretching_rad_s, min = body->alpha_1_s;
+    for (uint32_t slot = body->slot_begin; body->alphas && slot < body->slot_real_end; slot++)
+      min = body->alphas[slot] < min ? body->alphas[slot] : min;
+    float springs = body->source->attributes.stiffness_damping * w * w;
+    if (!(min + springs >= 2 * MIN_DAMPING * w)) return false;
+  }
+  return true;
+}
+
+/* The rigid motion at one of its six speeds. */
+static sbfi_d3 rigid_motion(sbf_vec3 arm, int which) {
+  double x = (double)arm.x, y = (double)arm.y, z = (double)arm.z;
+  const sbfi_d3 all[6] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -z, y}, {z, 0, -x}, {-y, x, 0}};
+  return all[which];
+}
+
+static sbf_vec3 middle_of(const sbri_island *island) {
+  double x = 0, y = 0, z = 0, kg = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    double m = (double)island->masses[slot];
+    x += m * (double)island->rest[slot].x, y += m * (double)island->rest[slot].y;
+    z += m * (double)island->rest[slot].z, kg += m;
+  }
+  return kg > 0 ? (sbf_vec3){(float)(x / kg), (float)(y / kg), (float)(z / kg)} : (sbf_vec3){0, 0, 0};
+}
+
+static sbf_vec3 arm_of(const sbri_island *island, uint32_t slot, sbf_vec3 about) {
+  const sbri_point *at = &island->rest[slot];
+  return (sbf_vec3){at->x - about.x, at->y - about.y, at->z - about.z};
+}
+
+/* Of one speed: the points' shares, and a column of the masses. */
+static void fill(const sbri_island *island, sbri_attached_responses *answers, float *fractions,
+    const double *lags, int column) {
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    sbf_vec3 arm = arm_of(island, slot, answers->about);
+    sbfi_d3 rigid = rigid_motion(arm, column);
+    double m = (double)island->masses[slot];
+    if (!(m > 0)) continue;
+    const double v[3] = {
+        rigid.x - lags[3 * slot], rigid.y - lags[3 * slot + 1], rigid.z - lags[3 * slot + 2]};
+    float *to = fractions + SBRI_ANSWER * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    for (int i = 0; i < 3; i++) to[(size_t)(3 * column + i) * SBRI_BLOCK] = (float)v[i];
+    for (int row = 0; row < 6; row++) {
+      sbfi_d3 x = rigid_motion(arm, row);
+      answers->mass[row][column] += m * (x.x * v[0] + x.y * v[1] + x.z * v[2]);
+    }
+  }
+}
+
+static void make_even(double mass[6][6]) {
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j < i; j++) mass[i][j] = mass[j][i] = 0.5 * (mass[i][j] + mass[j][i]);
+}
+
+/* y = (middle - h^2 M^-1 K) x of free points, 0 of held ones. */
+static void apply(
+    const sbf_spring_network *network, double middle, double square_s, const double *x, double *y) {
+  sbfi_network_apply(network, NULL, x, y);
+  for (uint32_t i = 0; i < network->point_count; i++) {
+    double m = (double)network->masses[i];
+    for (int k = 0; k < 3; k++)
+      y[3 * (size_t)i + k] = m > 0 ? middle * x[3 * (size_t)i + k] - square_s / m * y[3 * (size_t)i + k] : 0;
+  }
+}
+
+/* What stays behind of the motion in `now`, in place; `work` is twice as long as that. */
+static void filter(
+    const sbf_spring_network *network, double square_s, double fastest, double *now, double *work) {
+  size_t size = 3 * (size_t)network->point_count;
+  double high = fastest > 1.5 * ALONG ? fastest : 1.5 * ALONG, middle = 0.5 * (high + ALONG),
+         half = 0.5 * (high - ALONG), first = half / middle, ratio = first, min = 1, before = middle / half;
+  double *was = work, *next = work + size;
+  int degree = 1;
+  for (double value = before; degree < MAX_DEGREE && 1 / value > BEHIND;
+       degree++) { /* T of the degree at 0 */
+    double then = 2 * middle / half * value - min;
+    min = value, value = then;
+  }
+  memcpy(was, now, size * sizeof *was);
+  apply(network, middle, square_s, was, now);
+  for (size_t i = 0; i < size; i++) now[i] /= middle;
+  for (int d = 1; d < degree; d++) {
+    double then = 1 / (2 / first - ratio);
+    apply(network, middle, square_s, now, next);
+    for (size_t i = 0; i < size; i++) {
+      double value = 2 * then / half * next[i] - ratio * then * was[i];
+      was[i] = now[i], now[i] = value;
+    }
+    ratio = then;
+  }
+}
+
+bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network *found) {
+  sbri_island *island = m->island;
+  uint32_t points = island->slot_count;
+  island->lightly_damped = !is_damped(m);
+  if (island->scheme != &sbri_symplectic || island->region_block_count || carrier_alone(m) < 0 ||
+      island->lightly_damped)
+    return true;
+  sbf_spring_network network = *found;
+  size_t size = 3 * (size_t)points;
+  float *masses = sbri_scratch(m, points, sizeof *masses);
+  double *lags = sbri_scratch(m, 3 * size, sizeof *lags);
+  sbri_attached_responses *answers = sbri_keep(m, 1, sizeof *answers);
+  float *fractions = sbri_keep(m, (size_t)SBRI_ANSWER * island->free_count, sizeof *fractions);
+  if (!masses || !lags || !answers || !fractions) return false;
+  double h = (double)m->model->asset->environment.control_tick / SBRI_ATTACHED_STEPS,
+         fastest = FASTEST_MARGIN * h * h * island->fastest_rad_s * island->fastest_rad_s;
+  if (island->free_count) memcpy(masses, island->masses, island->free_count * sizeof *masses);
+  network.masses = masses;
+  answers->about = middle_of(island), answers->fractions = fractions;
+  for (int column = 0; column < 6; column++) {
+    memset(lags, 0, size * sizeof *lags);
+    for (uint32_t slot = 0; slot < island->free_count; slot++) {
+      sbfi_d3 x = rigid_motion(arm_of(island, slot, answers->about), column);
+      if (masses[slot] > 0) lags[3 * slot] = x.x, lags[3 * slot + 1] = x.y, lags[3 * slot + 2] = x.z;
+    }
+    filter(&network, h * h, fastest, lags, lags + size);
+    fill(island, answers, fractions, lags, column);
+  }
+  make_even(answers->mass);
+  island->answers = answers;
+  return true;
+}
+
+/* ---- On bodies ---- */
+
+/* Adds masses about a place, as seen from another: a speed there is u + w x (place - from). */
+static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, double to[6][6]) {
+  double x = (double)(answers->about.x - from.x), y = (double)(answers->about.y - from.y),
+         z = (double)(answers->about.z - from.z);
+  const double move[6][6] = {{1, 0, 0, 0, z, -y}, {0, 1, 0, -z, 0, x}, {0, 0, 1, y, -x, 0},
+      {0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, 1}};
+  double half[6][6] = {{0}};
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j < 6; j++)
+      for (int k = 0; k < 6; k++) half[i][j] += answers->mass[i][k] * move[k][j];
+  for (int i = 0; i < 6; i++)
+    for (int j = 0; j < 6; j++)
+      for (int k = 0; k < 6; k++) to[i][j] += move[k][i] * half[k][j];
+}
+
+static bool is_carried_by(const sbri_island *island, uint32_t carrier) {
+  for (uint32_t i = 0; i < island->carrier_count; i++)
+    if (island->carriers[i] == carrier) return true;
+  return false;
+}
+
+void sbri_attached_mass_join(sbr_model *model) {
+  for (uint32_t c = 0; c < model->rigid.body_count; c++) {
+    sbri_attached_mass *attached = &model->rigid.attached[c];
+    bool any = false, all = true;
+    for (uint32_t i = 0; i < model->island_count; i++) {
+      const sbri_island *island = &model->islands[i];
+      if (!is_carried_by(island, c)) continue;
+      any = true;
+      all = all && island->answers && island->scheme == &sbri_symplectic && !island->splits &&
+            !(island->external_rad_s > 0);
+      if (all) add_mass(island->answers, model->rigid.bodies[c].center, attached->mass);
+    }
+    attached->bearable =
+        any && all && model->rigid.carried_masses[c] <= MAX_ATTACHED_TRAVEL * model->rigid.bodies[c].mass;
+  }
+}

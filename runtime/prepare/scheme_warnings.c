@@ -1,0 +1,80 @@
+/* Schemes that a call or a file asks for, or that are all that is left, where they are known to be off the
+ * energy by more than a tenth: by the figures of docs/solvers.md, which tests/runtime/test_scheme_bias.c
+ * holds. */
+#include "base/diagnostic.h"
+#include "prepare/prepare.h"
+#include "solvers/scheme.h"
+
+static const double WARNED_BIAS = 0.1;
+
+/* By how much position-based networks bend too far, as a share: with so many substeps where `stable` are what
+ * symplectic steps need. */
+static double network_softness(uint32_t stable, uint32_t taken) {
+  double ratio = (double)stable / taken;
+  return 0.34 * ratio * ratio;
+}
+
+/* False: nothing is known against it. */
+static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnostic *found) {
+  double tick_s = (double)model->asset->environment.control_tick;
+  sbri_island open = *island;
+  open.substeps = 0; /* as many as would be needed */
+  uint32_t stable = sbri_stable_substeps(&open, tick_s, island->rest_stretch),
+           taken = sbri_scheme_substeps(island, tick_s, island->rest_stretch);
+  const char *id = model->bodies[island->bodies[0]].source->id;
+  bool solid = island->tetrahedron_count > 0;
+  double softness = network_softness(stable, taken);
+  if ((double)island->softened_shear < 1 - WARNED_BIAS || (double)island->softened_bulk < 1 - WARNED_BIAS)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is too stiff for %d substeps a tick and is stepped as a softer one: where that is most, "
+        "with "
+        "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
+        id, (int)SBRI_MAX_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
+  /* The number that is needed has a tenth to spare. */
+  else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is stepped by symplectic with %u substeps a tick and is stable with %u: it may burst; "
+        "leave "
+        "their number open",
+        id, (unsigned)taken, (unsigned)stable);
+  else if (island->scheme == &sbri_position_based && solid && taken < stable)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is stepped by position_based with %u substeps a tick: it gives way %s too far; with %u "
+        "it is "
+        "within 2 %%",
+        id, (unsigned)taken, 2 * taken < stable ? "several times" : "by a tenth or more",
+        (unsigned)(2 * stable));
+  else if (island->scheme == &sbri_position_based && !solid && island->spring_count && softness > WARNED_BIAS)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is stepped by position_based with %u substeps a tick: it bends about %.2g times as far "
+        "as its "
+        "springs say; with %u it is within 3 %%",
+        id, (unsigned)taken, 1 + softness, (unsigned)(4 * stable));
+  else if (island->scheme == &sbri_block_descent && solid)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is stepped by block_descent: it rests where it should and moves as through honey, its "
+        "lowest "
+        "mode 79 %% slower on a bar; only symplectic and heun swing right",
+        id);
+  else if (island->scheme == &sbri_block_descent)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is stepped by block_descent: it rests where it should, and loses its swings by a "
+        "damping ratio "
+        "of 0.14 more than its own on a bar; only symplectic and heun swing right",
+        id);
+  else
+    return false;
+  return true;
+}
+
+uint32_t sbr_model_report_scheme_bias(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; model && i < model->island_count; i++) {
+    sbf_diagnostic found;
+    if (!warn(model, &model->islands[i], &found)) continue;
+    count++;
+    if (report) report(user, &found);
+  }
+  return count;
+}

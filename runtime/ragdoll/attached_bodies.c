@@ -1,0 +1,241 @@
+/* Bones that bear their flesh through long steps.
+ *
+ * Flesh is stepped held by what moves on as it moved, and pulls with what comes of that: it answers a change
+ * of its bone's speed a step late. What swings slowly does not mind. Of what swings several times in a step
+ * that answer drives bone and flesh apart, however much the bone weighs; so all would have to step as often
+ * as the fastest.
+ *
+ * Instead a bone that is given an impulse shares it with its flesh in the same step, by how the flesh answers
+ * (prepare/ attached_responses.c: what is stiff goes along, what is soft stays behind): the answers' masses
+ * stand beside the bone's own in the system of the joints, the Schur complement of the coupling for that
+ * step, and when all impulses are known the points take their shares of the change, at their speeds and over
+ * the step at their places. What is left of linear and angular momentum, as the flesh lies otherwise than at
+ * rest, is the bone's. The flesh itself is stepped as ever, in as many substeps as it needs. */
+#include <string.h>
+
+#include "math/lane_sums.h"
+#include "math/quat.h"
+#include "ragdoll/ragdoll.h"
+#include "rigid/sym6.h"
+#include "solvers/spring_forces.h"
+
+/* Steps may be longer than those that the answers are for by rounding alone. */
+static const float LONGEST = 1.001f;
+
+/* No bone goes farther against its flesh in a step, as a share of the flesh's cells: that far the answers are
+ * what they are at rest. */
+static const float MAX_TRAVEL = 0.1f;
+
+static float longest_step_s(const sbri_character *c) {
+  return c->model->asset->environment.control_tick / SBRI_ATTACHED_STEPS;
+}
+
+bool sbri_may_bear(const sbri_character *c, uint32_t body) {
+  return sbri_rigid_is_simulated(c, body) && c->model->rigid.attached[body].bearable;
+}
+
+/* Of islands that hang on one body, that one. */
+static bool hangs_on(const sbri_character *c, uint32_t island, uint32_t body) {
+  const sbri_island *is = &c->model->islands[island];
+  return is->carrier_count == 1 && is->carriers[0] == body;
+}
+
+/* Root of the mean square of how fast the island's points move against the body, m/s. */
+static float speed_against(const sbri_character *c, const sbri_island *island, const sbri_rigid_body *is,
+    const sbri_rigid_body_state *body) {
+  const sbri_point *at = sbri_positions(c) + island->first_slot;
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  sbf_vec3 turn = sbri_angular_velocity_from_momentum(is, body->pose.rotation, body->angular_momentum);
+  float sum = 0, kg = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbf_vec3 arm = sbri_sub(sbri_vec3(at[slot].x, at[slot].y, at[slot].z), body->pose.position);
+    sbf_vec3 off = sbri_sub(
+        sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), sbri_add(body->velocity, sbri_cross(turn, arm)));
+    sum += island->masses[slot] * sbri_dot(off, off), kg += island->masses[slot];
+  }
+  return kg > 0 ? sqrtf(sum / kg) : 0;
+}
+
+float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s) {
+  float max = tick_s / (LONGEST * longest_step_s(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    const sbri_island *island = &c->model->islands[i];
+    if (!hangs_on(c, i, body) || !(island->cell_m > 0)) continue;
+    float speed = speed_against(c, island, &c->model->rigid.bodies[body], &sbri_rigid_bodies(c)[body]);
+    float steps = tick_s * speed / (MAX_TRAVEL * island->cell_m);
+    max = steps > max ? steps : max;
+  }
+  return max;
+}
+
+/* ---- How heavy ---- */
+
+/* Axes of rest in space, as columns. */
+static void axes_of(sbf_quat rotation, double axes[3][3]) {
+  const sbf_vec3 to[3] = {sbri_rotate(rotation, sbri_vec3(1, 0, 0)),
+      sbri_rotate(rotation, sbri_vec3(0, 1, 0)), sbri_rotate(rotation, sbri_vec3(0, 0, 1))};
+  for (int k = 0; k < 3; k++)
+    axes[0][k] = (double)to[k].x, axes[1][k] = (double)to[k].y, axes[2][k] = (double)to[k].z;
+}
+
+/* Each of the four blocks as A block A^T. */
+static void turn_mass(const sbri_attached_mass *attached, double axes[3][3], double to[6][6]) {
+  const double *from[6];
+  for (int i = 0; i < 6; i++) from[i] = attached->mass[i];
+  for (int block = 0; block < 4; block++) {
+    int row = 3 * (block / 2), column = 3 * (block % 2);
+    double half[3][3];
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++)
+        half[i][j] = (axes[i][0] * from[row][column + j] + axes[i][1] * from[row + 1][column + j]) +
+                     axes[i][2] * from[row + 2][column + j];
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++)
+        to[row + i][column + j] =
+            (half[i][0] * axes[j][0] + half[i][1] * axes[j][1]) + half[i][2] * axes[j][2];
+  }
+}
+
+static sbf_quat turn_of(const sbri_rigid_body *is, const sbr_transform *pose) {
+  return sbri_quat_normalize(sbri_quat_multiply(pose->rotation, sbri_quat_conjugate(is->axes)));
+}
+
+void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *t, float step_s) {
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    sbri_rigid_burden *burden = &sbri_burdens(c)[b];
+    const sbri_rigid_body_state *body = &t->bodies[b];
+    double axes[3][3];
+    burden->on = burden->needed_steps * step_s > LONGEST * t->tick_s && step_s <= LONGEST * longest_step_s(c);
+    if (!burden->on) continue;
+    burden->begin = body->pose, burden->velocity = body->velocity,
+    burden->angular_momentum = body->angular_momentum;
+    axes_of(turn_of(&t->model->bodies[b], &body->pose), axes);
+    turn_mass(&t->model->attached[b], axes, burden->mass);
+  }
+}
+
+/* By how much bone and flesh together change their speeds by an impulse and a moment, and the bone does. */
+static void push(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotation, sbf_vec3 impulse, sbf_vec3 moment,
+    sbf_vec3 *velocity, sbf_vec3 *turn) {
+  const sbri_rigid_body *is = &t->model->bodies[b];
+  sbri_rigid_body_state *body = &t->bodies[b];
+  float moments[3][3];
+  double mass[6][6], x[6] = {(double)impulse.x, (double)impulse.y, (double)impulse.z, (double)moment.x,
+                         (double)moment.y, (double)moment.z};
+  memcpy(mass, t->pull.burdens[b].mass, sizeof mass);
+  sbri_rigid_compute_moments(is->inertia, rotation, moments);
+  for (int k = 0; k < 3; k++) {
+    mass[k][k] += (double)is->mass;
+    for (int j = 0; j < 3; j++) mass[3 + k][3 + j] += (double)moments[k][j];
+  }
+  sbri_sym6_factor(mass);
+  sbri_sym6_solve_forward(mass, x);
+  sbri_sym6_solve_back(mass, x);
+  *velocity = sbri_vec3((float)x[0], (float)x[1], (float)x[2]);
+  *turn = sbri_vec3((float)x[3], (float)x[4], (float)x[5]);
+  body->velocity = sbri_add(body->velocity, *velocity);
+  body->angular_momentum =
+      sbri_add(body->angular_momentum, sbri_angular_momentum_from_velocity(is, rotation, *turn));
+}
+
+void sbri_burden_push(const sbri_rigid_tick *t, uint32_t b, const sbri_reaction *by) {
+  sbf_vec3 velocity, turn;
+  push(t, b, t->bodies[b].pose.rotation, by->impulse, by->moment, &velocity, &turn);
+}
+
+/* ---- Borne along ---- */
+
+/* By how much a body's speeds have changed beyond its weight. */
+typedef struct change {
+  sbf_vec3 velocity, angular_velocity; /* of the centre; rad/s */
+  sbf_vec3 about;                      /* where that was when the step began */
+  sbf_quat rotation;                   /* since rest */
+  float step_s;
+} change;
+
+/* The points take their shares. */
+static void bear(const sbri_character *c, const sbri_island *island, const change *by,
+    const sbri_rigid_body *is, sbri_lane_sums *sums) {
+  const sbri_attached_responses *answers = island->answers;
+  sbf_quat back = sbri_quat_conjugate(by->rotation);
+  sbf_vec3 angular_velocity = sbri_rotate(back, by->angular_velocity),
+           arm = sbri_sub(answers->about, is->center),
+           velocity = sbri_add(sbri_rotate(back, by->velocity), sbri_cross(angular_velocity, arm));
+  const float speeds[6] = {
+      velocity.x, velocity.y, velocity.z, angular_velocity.x, angular_velocity.y, angular_velocity.z};
+  double axes[3][3];
+  axes_of(by->rotation, axes);
+  sbri_wide a[3][3], step = sbri_wide_all(by->step_s);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) a[i][j] = sbri_wide_all((float)axes[i][j]);
+  sbri_point *points = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
+    uint32_t block = slot / SBRI_BLOCK * SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    const float *fractions = answers->fractions + (size_t)SBRI_ANSWER * block + lane;
+    sbri_wide u[3];
+    for (int i = 0; i < 3; i++) {
+      u[i] = sbri_wide_load(fractions + i * SBRI_BLOCK) * sbri_wide_all(speeds[0]);
+      for (int k = 1; k < 6; k++)
+        u[i] = u[i] + sbri_wide_load(fractions + (3 * k + i) * SBRI_BLOCK) * sbri_wide_all(speeds[k]);
+    }
+    sbri_wide gain[3];
+    for (int i = 0; i < 3; i++) gain[i] = a[i][0] * u[0] + a[i][1] * u[1] + a[i][2] * u[2];
+    float *at = velocities + (size_t)3 * block + lane;
+    sbri_wide3 x = sbri_wide_load_points(points + slot), v = sbri_load3(at);
+    sbri_store3(at, (sbri_wide3){v.x + gain[0], v.y + gain[1], v.z + gain[2]});
+    sbri_wide_store_points(
+        points + slot, (sbri_wide3){x.x + step * gain[0], x.y + step * gain[1], x.z + step * gain[2]});
+    /* (x + h g) x (v + g) - x x v = (x - h v) x g */
+    sbri_wide m = sbri_wide_load(island->masses + slot);
+    sbri_wide3 r = {x.x - step * v.x - sbri_wide_all(by->about.x),
+        x.y - step * v.y - sbri_wide_all(by->about.y), x.z - step * v.z - sbri_wide_all(by->about.z)};
+    sbri_lane_sums_add(sums, lane, r, (sbri_wide3){m * gain[0], m * gain[1], m * gain[2]});
+  }
+}
+
+/* What the bone has given the flesh in the system, less what the points have taken. */
+static void find_left(const sbri_rigid_burden *burden, const change *by, const sbri_lane_sums *taken,
+    sbf_vec3 *impulse, sbf_vec3 *moment) {
+  const double x[6] = {(double)by->velocity.x, (double)by->velocity.y, (double)by->velocity.z,
+      (double)by->angular_velocity.x, (double)by->angular_velocity.y, (double)by->angular_velocity.z};
+  double given[6];
+  for (int i = 0; i < 6; i++) given[i] = sbri_dot6(burden->mass[i], x);
+  *impulse = sbri_sub(sbri_vec3((float)given[0], (float)given[1], (float)given[2]), sbri_lanes_push(taken));
+  *moment = sbri_sub(sbri_vec3((float)given[3], (float)given[4], (float)given[5]), sbri_lanes_moment(taken));
+}
+
+static void bear_all(const sbri_character *c, uint32_t b, const change *by, sbri_lane_sums *taken) {
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (hangs_on(c, i, b)) bear(c, &c->model->islands[i], by, &c->model->rigid.bodies[b], taken);
+}
+
+/* What is left over of the first sharing is shared once more, and what then is left is the bone's. */
+void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *t, float step_s, float weight_s) {
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    const sbri_rigid_burden *burden = &sbri_burdens(c)[b];
+    const sbri_rigid_body *is = &t->model->bodies[b];
+    sbri_rigid_body_state *body = &t->bodies[b];
+    sbri_lane_sums taken = {{{0}}, {{0}}}, again = taken;
+    sbf_vec3 impulse, moment;
+    if (!burden->on) continue;
+    sbf_vec3 fallen = sbri_scale(t->gravity, weight_s * is->source->gravity_scale);
+    change by = {.velocity = sbri_sub(sbri_sub(body->velocity, burden->velocity), fallen),
+        .angular_velocity = sbri_angular_velocity_from_momentum(
+            is, burden->begin.rotation, sbri_sub(body->angular_momentum, burden->angular_momentum)),
+        .about = burden->begin.position,
+        .rotation = turn_of(is, &burden->begin),
+        .step_s = step_s};
+    bear_all(c, b, &by, &taken);
+    find_left(burden, &by, &taken, &impulse, &moment);
+    sbf_vec3 displacement = sbri_sub(body->pose.position, by.about);
+    push(t, b, burden->begin.rotation, impulse, sbri_sub(moment, sbri_cross(displacement, impulse)),
+        &by.velocity, &by.angular_velocity);
+    by.about = body->pose.position, by.step_s = 0; /* it has gone where it goes */
+    bear_all(c, b, &by, &again);
+    find_left(burden, &by, &again, &impulse, &moment);
+    body->velocity = sbri_add_scaled(body->velocity, impulse, is->inverse_mass);
+    body->angular_momentum = sbri_add(body->angular_momentum, moment);
+  }
+}

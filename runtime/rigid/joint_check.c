@@ -1,0 +1,167 @@
+/* A step's rows from one pass to the next: what they want, how they have moved, and which of them act. */
+#include "rigid/joint_rows.h"
+
+#include <string.h>
+
+#include "rigid/sym6.h"
+
+void sbri_joint_rows_set_targets(sbri_edge *e) {
+  sbri_edge_list_active(e);
+  if (e->ball)
+    memset(e->ball->impulse, 0, sizeof e->ball->impulse), memset(e->ball->moment, 0, sizeof e->ball->moment);
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    sbri_row *row = &e->rows[r];
+    if (!row->full) row->impulse = 0;
+    row->wanted = row->target - row->speed;
+  }
+  for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = (double)e->rows[e->actives[r]].wanted;
+}
+
+/* What a drive gives of its row's impulse: all but what the flesh takes at the speed that the row leaves. */
+static float of_drive(const sbri_row *row) {
+  return row->impulse + row->attached_mass * (row->target - row->give * row->impulse);
+}
+
+/* A drive's greatest impulse goes into the motions at once; it then takes no part. Where there is flesh as
+ * well the row goes on as that, with the greatest impulse on top. */
+static void give_max(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
+  if (row->attached_mass > 0) {
+    float max = of_drive(row) > 0 ? row->max : -row->max;
+    row->give = 1 / row->attached_mass;
+    row->target = row->give * max;
+    row->max = 0;
+    return;
+  }
+  row->impulse = row->impulse > 0 ? row->max : -row->max;
+  row->full = true;
+  row->active = false;
+  for (int side = 0; side < SBRI_SIDES; side++)
+    if (e->nodes[side] >= 0)
+      sbri_add6_rates(work->system.nodes[e->nodes[side]].push, row->rates[side], row->impulse);
+}
+
+/* By how much b's turn against a's has changed by the pass before, and by the last. */
+static void find_turns(const sbri_rigid_system *s, const sbri_edge *e, sbf_vec3 *was, sbf_vec3 *now) {
+  static const double none[6] = {0, 0, 0, 0, 0, 0};
+  const int32_t a = e->nodes[SBRI_A], b = e->nodes[SBRI_B];
+  const double *a_was = a >= 0 ? s->nodes[a].was : none, *b_was = b >= 0 ? s->nodes[b].was : none,
+               *a_now = a >= 0 ? s->nodes[a].x : none, *b_now = b >= 0 ? s->nodes[b].x : none;
+  *was = sbri_vec3((float)(b_was[3] - a_was[3]), (float)(b_was[4] - a_was[4]), (float)(b_was[5] - a_was[5]));
+  *now = sbri_vec3((float)(b_now[3] - a_now[3]), (float)(b_now[4] - a_now[4]), (float)(b_now[5] - a_now[5]));
+}
+
+/* A limit that is near enough now to be looked at gets what it would have had from the step's begin on. */
+static void wake_limit(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e, sbri_row *row,
+    sbf_vec3 was, float step_s) {
+  sbri_joint_frames *joint_frames = &work->joint_frames[e - work->system.edges];
+  row->clear = 0;
+  row->now = sbri_joint_coordinate(&model->joints[e->joint], joint_frames, (sbf_joint_axis)row->axis);
+  if (row->axis == SBF_JOINT_AXIS_TWIST) row->now = sbri_nearest_turn(row->now, row->low, row->high);
+  sbri_limit_ready(work, model, e, joint_frames, row, step_s);
+  row->wanted = row->target - row->speed;
+  row->moved = sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), was);
+}
+
+/* Dry friction that would brake with more than so many times its torque, as in a hit, brakes with that. */
+static const float DRY_MORE = 2;
+
+static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
+  sbri_ball *ball = e->ball;
+  if (!(ball->dry > 0)) return false;
+  sbf_vec3 was, now;
+  find_turns(s, e, &was, &now);
+  const double *slow = ball->attached_rhs;
+  double turns =
+      (double)sbri_length(sbri_vec3(now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]));
+  if (!(ball->dry * turns > (double)DRY_MORE * ball->max_dry)) return false;
+  double dry = ball->max_dry / turns;
+  ball->attached_inertia += dry - ball->dry;
+  ball->dry = dry;
+  return true;
+}
+
+static bool slip_row(sbri_row *row) {
+  if (!row->active || !(row->dry > 0)) return false;
+  float turns = fabsf(row->target - row->give * row->impulse), pull = row->target / row->give;
+  if (!(row->dry * turns > DRY_MORE * row->max_dry)) return false;
+  float dry = row->max_dry / turns, rate = 1 / row->give + dry - row->dry;
+  row->attached_mass += dry - row->dry;
+  row->dry = dry;
+  row->give = 1 / rate;
+  row->target = row->give * pull;
+  return true;
+}
+
+static void move_ball(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e, float step_s) {
+  const double *slow = e->ball->attached_rhs; /* how they turned when the step was made, backwards */
+  sbf_vec3 was, now;
+  find_turns(&work->system, e, &was, &now);
+  sbf_vec3 turn = {now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]};
+  float reach = sbri_turn_reach(sbri_length(turn), step_s);
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    sbri_row *row = &e->rows[r];
+    if (row->clear > 0 && row->clear <= reach) wake_limit(work, model, e, row, was, step_s);
+    if (!row->sign) continue;
+    row->was = row->moved;
+    row->moved =
+        sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), now);
+  }
+}
+
+void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    sbri_edge *e = &work->system.edges[i];
+    if (e->ball) move_ball(work, model, e, step_s);
+    for (uint32_t r = 0; r < e->row_count && !e->ball; r++) {
+      sbri_row *row = &e->rows[r];
+      if (!row->sign) continue;
+      row->was = row->moved;
+      row->moved = (float)sbri_row_moved(&work->system, e, row);
+    }
+  }
+}
+
+bool sbri_joint_rows_agree(const sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      const sbri_row *row = &e->rows[r];
+      if (row->kind == SBRI_ROW_LIMIT && row->active != ((float)row->sign * (row->wanted - row->moved) > 0))
+        return false;
+    }
+  }
+  return true;
+}
+
+void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float fraction) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      sbri_row *row = &e->rows[r];
+      row->moved = row->was + fraction * (row->moved - row->was);
+    }
+  }
+}
+
+bool sbri_joint_rows_check(const sbri_rigid_tick *t, sbri_rigid_solving *work, sbri_edge *e, float step_s) {
+  bool changed = false, slips = false;
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    sbri_row *row = &e->rows[r];
+    if (row->sign) {
+      bool was = row->active;
+      float speed = row->speed;
+      if (!was && row->kind == SBRI_ROW_LIMIT) sbri_limit_choose_side(row, speed + row->moved, step_s);
+      row->wanted = row->target - speed;
+      row->active = sbri_limit_acts(row, speed + row->moved, step_s);
+      if (!row->active) row->impulse = 0;
+      changed = changed || row->active != was;
+    } else if (row->active && row->max > 0 && fabsf(of_drive(row)) > row->max * 1.0001f) {
+      give_max(work, e, row);
+      changed = true;
+    } else if (slip_row(row)) {
+      slips = true;
+    }
+  }
+  if (e->ball && slip_ball(&work->system, e)) slips = true;
+  return changed || (slips && !t->coarse);
+}

@@ -1,0 +1,413 @@
+/* Hulls against the ground, vertex by vertex.
+ *
+ * Once a tick the ground is asked under each vertex that may reach it, and stands for that tick as the plane
+ * that touches it there, as it does for soft bodies (contact/contact.h). A touch acts on one body alone, and
+ * so lies in the body's own block of the system: all touches, and all joints, are solved at once. Along the
+ * normal it is a row that gives way by a small share of the body's own inertia there, pushes only, and aims
+ * at the vertex's lying on the plane at the substep's end. Across it is a spring whose force goes on from
+ * that of the step before (Cundall and Strack, A discrete numerical model for granular assemblies, 1979), cut
+ * where it would be more than Coulomb's law allows. So what lies, however it is jammed, is held by the same
+ * forces step after step, and the last bits of its place are no reason to slide. */
+#include "collide/ground.h"
+#include "rigid/rigid_work.h"
+
+/* How much stiffer than the body's own inertia. */
+static const float FIRM = 300, FIRM_ACROSS = 30;
+/* What presses with more than its body's weight, as a toe with a leg on it, grips as much harder, and no more
+ * than this. */
+static const float MAX_LOAD = 1000;
+/* In steps that are longer than this they are so much stiffer that what lies sinks in as far. */
+static const float FIRM_STEPS_1_S = 240;
+/* What is less than this share of its body's weight, or of what presses, makes no difference. */
+static const float FRICTION_TOLERANCE = 1e-3f;
+/* A friction that is right but for this share of its bound needs no other pass, and for this the bound. */
+static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
+/* Of what holds a place that sticks, this share is let go in a step: it creeps by micrometres a second. */
+static const float FRICTION_RELEASE = 0.005f;
+/* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
+static const float LYING_M = 1e-4f;
+/* What lies below is moved up by this share of it a substep, and no faster than that. */
+static const float LIFT_FRACTION = 0.2f, LIFT_MAX_M_S = 0.5f;
+
+static float height_at(const sbri_rigid_tick *t, float x, float z, sbf_vec3 *normal) {
+  double world_x = t->origin.x + (double)t->scale * x, world_z = t->origin.z + (double)t->scale * z;
+  return (float)((sbri_ground_height(t->ground, world_x, world_z, normal) - t->origin.y) / t->scale);
+}
+
+static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t b, int32_t node) {
+  const sbri_rigid_body *body = &t->model->bodies[b];
+  const sbri_rigid_body_state *s = &t->bodies[b];
+  if (sbri_rigid_stair_contacts_find(t, work, b, node)) return;
+  sbf_vec3 turn = sbri_angular_velocity_from_momentum(body, s->pose.rotation, s->angular_momentum), normal;
+  float fastest = sbri_length(s->velocity) + sbri_length(turn) * body->radius;
+  float travel =
+      2 * fastest * t->tick_s + 2 * sbri_length(t->gravity) * t->tick_s * t->tick_s + 0.02f * body->radius;
+  float under = height_at(t, s->pose.position.x, s->pose.position.z, &normal);
+  float slope = normal.y > 0.1f ? 1 / normal.y : 10; /* and ground that rises nearby by as much again */
+  double flat;
+  float reach = body->radius * (sbri_ground_is_flat(t->ground, &flat) ? 1 : 1 + slope) + travel;
+  if (s->pose.position.y - under > reach) return;
+  for (uint32_t i = 0; i < body->vertex_count && work->rigid_contact_count < work->max_contacts; i++) {
+    sbf_vec3 at = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, body->vertices[i]));
+    float y = height_at(t, at.x, at.z, &normal);
+    if (at.y - y > travel * slope) continue;
+    sbri_rigid_contact *contact = &work->contacts[work->rigid_contact_count++];
+    *contact = (sbri_rigid_contact){.node = node,
+        .body = b,
+        .at = body->vertices[i],
+        .normal = normal,
+        .offset = sbri_dot(normal, sbri_vec3(at.x, y, at.z)),
+        .friction = body->source->friction,
+        .restitution = body->source->restitution,
+        .collider = UINT32_MAX,
+        .surface = UINT32_MAX};
+  }
+}
+
+void sbri_rigid_contacts_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  work->rigid_contact_count = 0;
+  for (uint32_t b = 0; b < t->model->body_count; b++) sbri_touching_begin(&t->touching[b]);
+  for (uint32_t i = 0; i < work->system.node_count; i++)
+    list_body(t, work, work->system.nodes[i].body, (int32_t)i);
+}
+
+/* 1 / mass that answers a push along n at an arm. */
+static float inverse_mass_of(const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 arm, sbf_vec3 n) {
+  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rotation), sbri_cross(arm, n)), i = body->inverse_inertia;
+  return body->inverse_mass + own.x * own.x * i.x + own.y * own.y * i.y + own.z * own.z * i.z;
+}
+
+static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 turn, sbf_vec3 arm) {
+  return sbri_add(velocity, sbri_cross(turn, arm));
+}
+
+static sbri_rigid_external_body *external_body_of(
+    const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+  return contact->external_body ? &work->external_bodies[contact->external_body - 1] : NULL;
+}
+
+/* Of the place against what it touches. */
+static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+  const sbri_part_motion *m = &work->motions[contact->body];
+  const sbri_rigid_external_body *g = external_body_of(work, contact);
+  sbf_vec3 under = g ? sbri_external_body_velocity(&g->is, contact->external_body_arm) : contact->velocity;
+  return sbri_sub(velocity_at(m->velocity, m->turn, contact->arm), under);
+}
+
+/* Of what it touches, in all the tick so far. */
+static sbf_vec3 gone_with(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+  const sbri_rigid_external_body *g = external_body_of(work, contact);
+  return g ? velocity_at(g->is.begin_velocity, g->is.begin_angular_velocity, contact->external_body_arm)
+           : contact->velocity;
+}
+
+/* Neither presses at that change of velocity nor has any friction: the most of those nearby. */
+static bool is_idle(const sbri_rigid_contact *contact, sbf_vec3 du) {
+  return !(contact->bound > 0) && !(sbri_dot(contact->normal, sbri_sub(contact->target, du)) > 0);
+}
+
+/* How friction answers at a change of velocity du, linearised there: it sticks, giving way from the force of
+ * the step before on, or slides with what Coulomb's law allows against where that would go. */
+static void linearise(sbri_rigid_contact *contact, sbf_vec3 du) {
+  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
+  if (is_idle(contact, du)) {
+    contact->slides = true, contact->active = false;
+    contact->drag = sbri_vec3(0, 0, 0), contact->side_grip = 0;
+    return;
+  }
+  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -sbri_dot(n, off)), contact->grip);
+  float across = sbri_length(pull);
+  contact->slides = across > contact->bound;
+  contact->active = sbri_dot(n, off) > 0;
+  contact->drag = sbri_vec3(0, 0, 0);
+  contact->side_grip = 0;
+  if (!contact->slides || !(contact->bound > 0)) return;
+  sbf_vec3 along = sbri_scale(pull, 1 / across);
+  contact->side = sbri_cross(n, along);
+  contact->side_grip = contact->grip * contact->bound / across;
+  contact->drag = sbri_add_scaled(
+      sbri_scale(along, contact->bound), contact->side, contact->side_grip * sbri_dot(contact->side, du));
+}
+
+void sbri_rigid_contacts_linearise(
+    const sbri_rigid_tick *t, sbri_rigid_solving *work, float since_s, float step_s) {
+  float bounce_from = 4 * sbri_length(t->gravity) * step_s;
+  float firmer = step_s * FIRM_STEPS_1_S > 1 ? step_s * step_s * FIRM_STEPS_1_S * FIRM_STEPS_1_S : 1;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    const sbri_rigid_body *body = &t->model->bodies[contact->body];
+    const sbri_rigid_body_state *s = &t->bodies[contact->body];
+    sbf_vec3 n = contact->normal;
+    contact->arm = sbri_rotate(s->pose.rotation, contact->at);
+    const sbri_rigid_external_body *external_body = external_body_of(work, contact);
+    float plane = contact->offset + since_s * sbri_dot(n, gone_with(work, contact));
+    contact->gap = sbri_dot(n, sbri_add(s->pose.position, contact->arm)) - plane;
+    sbf_vec3 u = slip_of(work, contact);
+    float speed = sbri_dot(n, u), lift = -LIFT_FRACTION * contact->gap / step_s;
+    float wanted = contact->gap > 0 ? -contact->gap / step_s : lift < LIFT_MAX_M_S ? lift : LIFT_MAX_M_S;
+    float gives = external_body
+                      ? sbri_rigid_external_body_inverse_mass(external_body, contact->external_body_arm, n)
+                      : 0,
+          mass = body->mass;
+    if (external_body && external_body->is.max_inverse_mass * mass > 1)
+      mass = 1 / external_body->is.max_inverse_mass;
+    contact->inverse_mass = inverse_mass_of(body, s->pose.rotation, contact->arm, n) + gives;
+    float weight = 1 / contact->inverse_mass, alone = weight * (wanted - speed);
+    contact->target = sbri_sub(sbri_scale(n, wanted), u);
+    contact->more = sbri_vec3(0, 0, 0);
+    contact->bounce_m_s = 0;
+    if (speed < wanted && -speed > bounce_from) {
+      /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
+      sbf_vec3 falls = external_body ? sbri_sub(t->gravity, external_body->is.acceleration) : t->gravity;
+      float g = -sbri_dot(n, falls), half = 0.5f * g * step_s, begin = speed + half;
+      float square = begin * begin + 2 * g * (contact->gap > 0 ? contact->gap : 0);
+      contact->bounce_m_s = contact->restitution * (square > 0 ? sqrtf(square) : 0) + half;
+      if (!(contact->restitution > 0)) contact->bounce_m_s = 0;
+    }
+    float normal = work->kick_s * contact->normal_n, own = mass * sbri_length(t->gravity) * step_s;
+    float load = sbri_clamp(own > 0 ? normal / own : 1, 1, MAX_LOAD);
+    contact->stiff = firmer * FIRM * weight;
+    contact->grip = load * firmer * FIRM_ACROSS * weight;
+    contact->tolerance = FRICTION_TOLERANCE * load * own;
+    if (!(contact->known && (normal > 0 || speed > -bounce_from))) normal = alone > 0 ? alone : 0;
+    contact->bound = contact->friction * normal;
+    sbf_vec3 pinned = sbri_scale(contact->drag_n, contact->known ? (1 - FRICTION_RELEASE) * work->kick_s : 0);
+    contact->hold = sbri_add_scaled(pinned, n, -sbri_dot(n, pinned));
+    /* What stuck most likely sticks on, and what slid slides on as it did. */
+    linearise(contact, contact->known ? sbri_sub(contact->target, contact->left) : sbri_vec3(0, 0, 0));
+    if (!contact->known) continue;
+    if (contact->normal_n > 0 && contact->gap < LYING_M) contact->active = true;
+    if (contact->normal_n == 0 && speed > -bounce_from) contact->active = false;
+  }
+}
+
+/* The same to the host's body that it touches, and what couples both. */
+static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_contact *contact, float more,
+    float grip, float across, sbf_vec3 f) {
+  const double n[3] = {(double)contact->normal.x, (double)contact->normal.y, (double)contact->normal.z};
+  const double p[3] = {(double)contact->side.x, (double)contact->side.y, (double)contact->side.z};
+  double w[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      w[i][j] = (i == j ? (double)grip : 0) + (double)more * n[i] * n[j] + (double)across * p[i] * p[j];
+  sbri_rigid_external_body_couple(g, contact->external_body_arm, contact->arm, w);
+  sbri_rigid_external_body_push(g, contact->external_body_arm, sbri_scale(f, -1));
+}
+
+/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) where it sticks and
+ * stiff n n^T + side_grip side side^T where it slides, and f the impulse that it has without giving way. */
+static void add_contact(
+    sbri_node *node, const sbri_rigid_contact *contact, sbri_rigid_external_body *external_body) {
+  float stiff = contact->active ? contact->stiff : 0, grip = contact->slides ? 0 : contact->grip,
+        more = stiff - grip;
+  float across = contact->slides ? contact->side_grip : 0;
+  const float n[3] = {contact->normal.x, contact->normal.y, contact->normal.z};
+  const float p[3] = {contact->side.x, contact->side.y, contact->side.z};
+  sbf_vec3 arm_w[3]; /* columns of arm x W */
+  for (int j = 0; j < 3; j++) {
+    float column[3];
+    for (int i = 0; i < 3; i++) column[i] = (i == j ? grip : 0) + more * n[i] * n[j];
+    if (contact->slides)
+      for (int i = 0; i < 3; i++) column[i] += across * p[i] * p[j];
+    arm_w[j] = sbri_cross(contact->arm, sbri_vec3(column[0], column[1], column[2]));
+    node->d[3][j] += arm_w[j].x, node->d[4][j] += arm_w[j].y, node->d[5][j] += arm_w[j].z;
+    for (int i = j; i < 3; i++) node->d[i][j] += column[i];
+  }
+  const sbf_vec3 rows[3] = {{arm_w[0].x, arm_w[1].x, arm_w[2].x}, {arm_w[0].y, arm_w[1].y, arm_w[2].y},
+      {arm_w[0].z, arm_w[1].z, arm_w[2].z}};
+  for (int i = 0; i < 3; i++) {
+    sbf_vec3 turned = sbri_cross(contact->arm, rows[i]);
+    const float to[3] = {turned.x, turned.y, turned.z};
+    for (int j = 0; j <= i; j++) node->d[3 + i][3 + j] += to[j];
+  }
+  float wanted = sbri_dot(contact->normal, contact->target);
+  sbf_vec3 f = sbri_scale(contact->normal, stiff * wanted);
+  if (contact->slides) {
+    f = sbri_add(f, contact->drag);
+  } else {
+    sbf_vec3 along = sbri_add_scaled(contact->target, contact->normal, -wanted);
+    f = sbri_add(f, sbri_add_scaled(contact->hold, along, contact->grip));
+  }
+  sbf_vec3 moment = sbri_cross(contact->arm, f);
+  const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
+  for (int i = 0; i < 6; i++) node->b[i] += both[i];
+  if (external_body) add_external_body(external_body, contact, more, grip, across, f);
+}
+
+void sbri_rigid_contacts_add(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *contact = &work->contacts[i];
+    if (contact->active || contact->bound > 0)
+      add_contact(&work->system.nodes[contact->node], contact, external_body_of(work, contact));
+  }
+}
+
+/* W x of add_contact. */
+static sbf_vec3 reaction_velocity(const sbri_rigid_contact *contact, sbf_vec3 x) {
+  float along = sbri_dot(contact->normal, x);
+  sbf_vec3 f = sbri_scale(contact->normal, contact->active ? contact->stiff * along : 0);
+  if (contact->slides)
+    return sbri_add_scaled(f, contact->side, contact->side_grip * sbri_dot(contact->side, x));
+  return sbri_add_scaled(f, sbri_add_scaled(x, contact->normal, -along), contact->grip);
+}
+
+static sbf_vec3 moved_now(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+  const double *x = work->system.nodes[contact->node].x;
+  sbf_vec3 moved = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
+      sbri_vec3((float)x[3], (float)x[4], (float)x[5]), contact->arm);
+  const sbri_rigid_external_body *g = external_body_of(work, contact);
+  return g ? sbri_sub(moved, sbri_rigid_external_body_moved(g, contact->external_body_arm)) : moved;
+}
+
+/* The impulse at a change of velocity: nothing but that stands in it. */
+static sbf_vec3 impulse_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
+  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
+  float into = sbri_dot(n, off);
+  *normal = into > 0 ? contact->stiff * into : 0;
+  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -into), contact->grip);
+  float across = sbri_length(pull);
+  return across > contact->bound ? sbri_scale(pull, contact->bound / across) : pull;
+}
+
+static double dot_of(sbf_vec3 a, sbf_vec3 b) {
+  return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
+}
+
+void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *contact = &work->contacts[i];
+    if (is_idle(contact, contact->was) && is_idle(contact, contact->moved)) continue;
+    sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, contact->was),
+             displacement = sbri_sub(contact->moved, contact->was);
+    float into = sbri_dot(n, off), along = sbri_dot(n, displacement);
+    sbri_contact_search *p = &work->pushes[work->push_count++];
+    *p = (sbri_contact_search){
+        .stiff = (double)contact->stiff, .into = (double)into, .distance = (double)along};
+    if (!(contact->bound > 0)) continue;
+    sbf_vec3 across = sbri_add_scaled(off, n, -into), turn = sbri_add_scaled(displacement, n, -along);
+    sbf_vec3 pull = sbri_add_scaled(contact->hold, across, contact->grip),
+             grip = sbri_scale(turn, contact->grip);
+    p->bound = (double)contact->bound;
+    p->inverse_mass = 1 / (double)contact->grip;
+    p->pull_pull = dot_of(pull, pull), p->pull_grip = dot_of(pull, grip), p->grip_grip = dot_of(grip, grip);
+  }
+}
+
+void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    contact->was = contact->moved;
+    contact->moved = moved_now(work, contact);
+  }
+}
+
+/* The same as the last pass had it. */
+static sbf_vec3 linear_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
+  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
+  float into = sbri_dot(n, off);
+  *normal = contact->active ? contact->stiff * into : 0;
+  if (contact->slides)
+    return sbri_add_scaled(contact->drag, contact->side, -contact->side_grip * sbri_dot(contact->side, du));
+  return sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -into), contact->grip);
+}
+
+float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
+  float energy = 0;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *contact = &work->contacts[i];
+    if (!contact->active && is_idle(contact, contact->moved)) continue;
+    float normal, linear;
+    sbf_vec3 was = linear_at(contact, contact->moved, &linear),
+             is = impulse_at(contact, contact->moved, &normal);
+    float across = sbri_length(sbri_sub(was, is));
+    float along = fabsf(normal - linear);
+    if (along > contact->tolerance || across > CHANGE * contact->bound + contact->tolerance)
+      energy += contact->inverse_mass * (along * along + across * across);
+  }
+  return energy;
+}
+
+void sbri_rigid_contacts_take_solution(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    if (!contact->active && is_idle(contact, contact->moved)) continue;
+    float normal, linear;
+    sbf_vec3 was = linear_at(contact, contact->moved, &linear),
+             is = impulse_at(contact, contact->moved, &normal);
+    contact->more = sbri_add_scaled(sbri_sub(was, is), contact->normal, linear - normal);
+  }
+}
+
+void sbri_rigid_contacts_check(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    if (contact->active || !is_idle(contact, contact->moved)) linearise(contact, contact->moved);
+  }
+}
+
+bool sbri_rigid_contacts_bound(sbri_rigid_solving *work) {
+  float off = 0, all = 0, tolerance_sum = 0;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    float normal, used = sbri_length(impulse_at(contact, contact->moved, &normal)),
+                  bound = contact->friction * normal;
+    all += bound;
+    tolerance_sum += contact->tolerance;
+    if (contact->slides || used > bound) off += fabsf(bound - contact->bound);
+  }
+  if (off <= BOUND_CHANGE * all + tolerance_sum) return false;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    float normal;
+    (void)impulse_at(contact, contact->moved, &normal);
+    contact->bound = contact->friction * normal;
+    linearise(contact, contact->moved);
+  }
+  return true;
+}
+
+void sbri_rigid_contacts_apply_impulse(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    if (!contact->active && !(contact->bound > 0)) continue;
+    sbf_vec3 direction = reaction_velocity(contact, moved_now(work, contact));
+    contact->more = sbri_sub(contact->more, direction);
+  }
+}
+
+void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    float normal;
+    sbf_vec3 across = impulse_at(contact, contact->moved, &normal);
+    contact->known = true;
+    contact->left = sbri_sub(contact->target, contact->moved);
+    contact->normal_n = normal / work->kick_s;
+    contact->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
+    if (!(normal > 0)) continue;
+    sbf_vec3 position = sbri_add(t->bodies[contact->body].pose.position, contact->arm);
+    sbri_touching_one *one =
+        sbri_touching_add(&t->touching[contact->body], contact->collider, position, contact->normal, normal);
+    sbf_vec3 push = sbri_add(sbri_add_scaled(across, contact->normal, normal), contact->more);
+    if (one) sbri_touching_push(one, position, push);
+  }
+}
+
+bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work) {
+  bool any = false;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    if (!contact->active || !(contact->bounce_m_s > 0)) continue;
+    sbf_vec3 u = slip_of(work, contact), n = contact->normal;
+    sbf_vec3 f = sbri_scale(n, contact->stiff * (contact->bounce_m_s - sbri_dot(n, u)));
+    sbf_vec3 moment = sbri_cross(contact->arm, f);
+    const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
+    for (int k = 0; k < 6; k++) work->system.nodes[contact->node].b[k] += both[k];
+    if (contact->external_body)
+      sbri_rigid_external_body_push(
+          external_body_of(work, contact), contact->external_body_arm, sbri_scale(f, -1));
+    contact->more = sbri_add(contact->more, f);
+    any = true;
+  }
+  return any;
+}

@@ -1,0 +1,93 @@
+/* What touches did in the last step, kept to the next tick: the passes that find who presses, who sticks and
+ * who slides begin there, and where a body lies they end there too. The forces are no part of the solution:
+ * they are guesses of it, and the bounds of friction for the first pass. */
+#include "base/assert.h"
+#include "rigid/rigid_work.h"
+
+/* A place on a shape is the same as before within this share of its body's size. */
+static const float SAME_FRACTION = 0.05f;
+
+/* What has not been found again bears on within this share of it, if it pressed in so many ticks, beside one
+ * that faces as much alike. */
+static const float NEAR_FRACTION = 0.02f, FACING = 0.97f;
+enum { IDLE_TICKS = 4 };
+
+static bool is_same(const sbri_stored_contact *kept, const sbri_rigid_contact *contact, float max) {
+  sbf_vec3 off = sbri_sub(kept->at, contact->at);
+  return kept->surface == contact->surface && sbri_dot(off, off) <= max * max;
+}
+
+static void give_back(const sbri_stored_contact *kept, sbri_rigid_contact *contact) {
+  contact->known = true;
+  contact->idle = kept->idle;
+  contact->normal_n = kept->normal_n, contact->drag_n = kept->drag_n;
+  contact->left = kept->left;
+}
+
+/* A touch of the pair that has been found anew and faces as the one that has not; NULL: none. */
+static const sbri_rigid_contact *beside(const sbri_rigid_solving *work, const sbri_stored_contact *kept) {
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *contact = &work->contacts[i];
+    if (contact->body == kept->body && contact->surface == kept->surface &&
+        sbri_dot(contact->normal, kept->normal) > FACING &&
+        sbri_dot(contact->velocity, contact->velocity) == 0)
+      return contact;
+  }
+  return NULL;
+}
+
+/* Two hulls whose edges cross are told to touch at one place, and rock between two: the one that has not been
+ * found this time bears on while the body is near it. */
+static void bear_on(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_stored_contact *kept) {
+  if (kept->idle > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
+  const sbri_rigid_contact *by = beside(work, kept);
+  if (!by) return;
+  const sbri_rigid_body_state *s = &t->bodies[kept->body];
+  sbf_vec3 x = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, kept->at));
+  float gap = sbri_dot(kept->normal, x) - kept->offset;
+  if (fabsf(gap) > NEAR_FRACTION * t->model->bodies[kept->body].radius) return;
+  sbri_rigid_contact *contact = &work->contacts[work->rigid_contact_count++];
+  *contact = *by;
+  contact->at = kept->at, contact->normal = kept->normal, contact->offset = kept->offset;
+  if (contact->external_body)
+    contact->external_body_arm = sbri_sub(x, work->external_bodies[contact->external_body - 1].is.centre);
+  give_back(kept, contact);
+}
+
+void sbri_stored_contacts_apply(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  uint32_t count = t->drive->stored_contacts, begin = 0;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    sbri_rigid_contact *contact = &work->contacts[i];
+    float max = SAME_FRACTION * t->model->bodies[contact->body].radius;
+    if (contact->surface == UINT32_MAX) max = 0; /* those on the ground are vertices */
+    for (uint32_t k = 0; k < count; k++) {       /* mostly the one behind the last */
+      sbri_stored_contact *kept = &t->kept[(begin + k) % count];
+      if (kept->body != contact->body || !is_same(kept, contact, max)) continue;
+      kept->found = 1;
+      give_back(kept, contact);
+      begin = (begin + k + 1) % count;
+      break;
+    }
+  }
+  for (uint32_t k = 0; k < count; k++)
+    if (!t->kept[k].found && t->kept[k].surface != UINT32_MAX) bear_on(t, work, &t->kept[k]);
+}
+
+void sbri_stored_contacts_save(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
+    const sbri_rigid_contact *contact = &work->contacts[i];
+    if (!contact->known) continue;
+    t->kept[count++] = (sbri_stored_contact){.body = contact->body,
+        .surface = contact->surface,
+        .at = contact->at,
+        .drag_n = contact->drag_n,
+        .left = contact->left,
+        .idle = contact->normal_n > 0 ? 0 : contact->idle + 1,
+        .normal = contact->normal,
+        .offset = contact->offset,
+        .normal_n = contact->normal_n};
+  }
+  SBF_ASSERT(count <= sbri_rigid_contact_capacity(t->model));
+  t->drive->stored_contacts = count;
+}

@@ -1,0 +1,443 @@
+#include "solvers/soft_contacts.h"
+
+#include <math.h>
+
+#include "collide/external_body.h"
+#include "contact/self_contacts.h"
+#include "math/vec3.h"
+#include "solvers/pinned_impulse.h"
+
+/* While some speed changes by more than this in a pass, another follows, in m/s: up to the passes that are
+ * enough at rest, and up to the most. */
+static const float RESTING_M_S = 1e-3f, STRUCK_M_S = 0.05f;
+
+/* What could not reach its plane in the substep if it were this much faster waits for the next one, in m/s:
+ * most places near the ground do not touch it, and none of them is to cost passes. */
+static const float NEAR_M_S = 1;
+
+/* A point that is no higher over its plane touches it. */
+static const float CONTACT_DISTANCE_M = 1e-5f;
+
+/* Friction at this share of its limit slides. */
+static const float SLIDES_FRACTION = 0.999f;
+
+/* In one substep. By row sums two are enough where there are pushes to go on from; a light external body
+ * hangs from all that touches it at once. */
+enum { PASSES = 2, MAX_PASSES = 16, MAX_EXTERNAL_BODY_PASSES = 64 };
+static const float FINER_WITH_EXTERNAL_BODIES = 10;
+
+typedef struct touching {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  float *velocities;
+  sbri_soft_contact *contacts;
+  uint32_t count;
+  sbri_external_bodies *external_bodies; /* NULL: there are none */
+  bool in_turn; /* each push sees those before it; else all are found together, by row sums */
+  bool changed; /* others push, or may, than in the substep before */
+} touching;
+
+static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
+  uint32_t count = sbri_soft_contact_count(t, body);
+  sbri_external_bodies *external_bodies =
+      count && t->external_bodies ? &t->external_bodies[body - t->model->bodies] : NULL;
+  if (external_bodies && !external_bodies->count) external_bodies = NULL;
+  return (touching){.tick = t,
+      .body = body,
+      .velocities = velocities,
+      .contacts = t->contacts + body->first_soft_contact,
+      .count = count,
+      .external_bodies = external_bodies,
+      .in_turn = external_bodies != NULL};
+}
+
+static sbri_external_body *external_body_of(const touching *c, const sbri_soft_contact *contact) {
+  return &c->external_bodies->at[contact->external_body - 1];
+}
+
+/* Of what the touch stands for. */
+static sbf_vec3 velocity_under(const touching *c, const sbri_soft_contact *contact) {
+  return contact->external_body ? sbri_external_body_velocity(external_body_of(c, contact), contact->arm)
+                                : contact->velocity;
+}
+
+/* Whether simulated bodies that hold points of the touch feel it: what flesh does to itself, they get back.
+ */
+static bool is_felt(const touching *c, const sbri_soft_contact *contact) {
+  return c->tick->reactions && contact->collider == SBRI_ITSELF;
+}
+
+static sbf_vec3 velocity_of(const touching *c, const sbri_soft_contact *contact) {
+  const sbri_sample *s = &contact->sample;
+  const bool felt = is_felt(c, contact);
+  sbf_vec3 v = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    if (s->weights[k] == 0) continue;
+    v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
+    if (felt) v = sbri_add_scaled(v, sbri_pinned_velocity_change(c->tick, s->slots[k]), s->weights[k]);
+  }
+  return v;
+}
+
+static float gap_of(const touching *c, const sbri_soft_contact *contact) {
+  return sbri_dot(contact->normal, sbri_sample_position(c->tick, &contact->sample)) - contact->offset;
+}
+
+/* Of what the sample is pushed by, that its point k moves with. */
+static float fraction_of(const touching *c, const sbri_sample *s, int k) {
+  const sbri_island *island = c->tick->island;
+  if (s->slots[k] >= island->free_count) return 0;
+  return s->weights[k] * island->inverse_masses[s->slots[k]] * s->mass_kg;
+}
+
+/* What changes the velocity of the sample by `faster`. */
+static void push(const touching *c, const sbri_soft_contact *contact, sbf_vec3 faster) {
+  const sbri_sample *s = &contact->sample;
+  const bool felt = is_felt(c, contact);
+  for (int k = 0; k < 4; k++) {
+    float fraction = fraction_of(c, s, k);
+    if (felt) sbri_pinned_apply_impulse(c->tick, s->slots[k], sbri_scale(faster, s->weights[k] * s->mass_kg));
+    if (fraction == 0) continue;
+    float *v = c->velocities + 3 * (s->slots[k] / SBRI_BLOCK * SBRI_BLOCK) + s->slots[k] % SBRI_BLOCK;
+    v[0] += fraction * faster.x, v[SBRI_BLOCK] += fraction * faster.y,
+        v[2 * SBRI_BLOCK] += fraction * faster.z;
+  }
+}
+
+/* And its place by `moved`; `felt`: by those that hold it too. */
+static void move(const touching *c, const sbri_soft_contact *contact, sbf_vec3 moved, bool felt) {
+  const sbri_sample *s = &contact->sample;
+  for (int k = 0; k < 4; k++) {
+    float fraction = fraction_of(c, s, k);
+    if (felt) sbri_pinned_apply_shift(c->tick, s->slots[k], sbri_scale(moved, s->weights[k] * s->mass_kg));
+    if (fraction == 0) continue;
+    sbri_point *x = &c->tick->positions[s->slots[k]];
+    x->x += fraction * moved.x, x->y += fraction * moved.y, x->z += fraction * moved.z;
+  }
+}
+
+/* The other side of what changes the sample's velocity by `faster`. */
+static void push_external_body(const touching *c, const sbri_soft_contact *contact, sbf_vec3 faster) {
+  sbri_external_body_push(
+      external_body_of(c, contact), contact->arm, sbri_scale(faster, -contact->sample.mass_kg));
+}
+
+static float friction_of(const touching *c, const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  const sbri_sample *s = &contact->sample;
+  if (contact->crosses) return 0;
+  if (!rule->frictions) return rule->friction * contact->friction_scale;
+  float sum = 0;
+  if (contact->collider == SBRI_ITSELF) /* of the point alone */
+    return s->slots[0] < c->tick->island->free_count ? rule->frictions[s->slots[0]] : rule->friction;
+  for (int k = 0; k < 4; k++) {
+    bool free = s->slots[k] < c->tick->island->free_count;
+    sum += s->weights[k] * (free ? rule->frictions[s->slots[k]] : rule->friction);
+  }
+  return sum > 0 ? sum * contact->friction_scale : 0;
+}
+
+/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+static float wanted_of(const sbri_soft_contact *contact, float speed, const sbri_contact_rule *rule) {
+  float arriving = contact->gap > 0 ? -contact->gap / rule->step_s : 0, back = -contact->restitution * speed;
+  bool bounces = contact->gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s;
+  return bounces && back > arriving ? back : arriving;
+}
+
+/* How long a place so far from its plane cannot get there, by what it was taken for a place that may touch
+ * within the tick: its speed, twice, and what springs and weight add, which grows with the square of time. */
+static float idle_time(const touching *c, const sbri_soft_contact *contact, float gap) {
+  float max = SBRI_MOTION_FRACTION * c->body->rest_size_m, travel = contact->fast_m_s * c->tick->tick_s;
+  if (!(gap > 0) || !(contact->fast_m_s > 0) || !(max > 0)) return 0;
+  return c->tick->tick_s * (2 * gap / (travel + sqrtf(travel * travel + 4 * max * gap)));
+}
+
+/* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
+static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
+  float sum = 0;
+  for (int k = 0; k < 4; k++) {
+    const sbri_reaction *r = sbri_reaction_at(c->tick, s->slots[k]);
+    sbf_vec3 arm = {0, 0, 0};
+    float weight = 0;
+    bool first = true; /* of those that this body holds, which are moved as one */
+    for (int i = 0; r && i < 4; i++) {
+      if (sbri_reaction_at(c->tick, s->slots[i]) != r) continue;
+      first = first && i >= k;
+      weight += s->weights[i];
+      arm = sbri_add_scaled(arm, sbri_reaction_arm(c->tick, r, s->slots[i]), s->weights[i]);
+    }
+    if (r && first) sum += r->inverse_mass * weight * weight + r->inverse_inertia * sbri_dot(arm, arm);
+  }
+  return sum;
+}
+
+/* The mass that a push on the body itself meets where bodies that hold it give way. */
+static float mass_of(const touching *c, const sbri_sample *s) {
+  float sum = pinned_inverse_mass(c, s);
+  for (int k = 0; k < 4; k++)
+    if (s->slots[k] < c->tick->island->free_count)
+      sum += s->weights[k] * s->weights[k] * c->tick->island->inverse_masses[s->slots[k]];
+  return 1 / sum;
+}
+
+/* Says whether it may touch. */
+static bool begin(touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  if (contact->collider == SBRI_ITSELF && !contact->crosses) sbri_self_contact_update(c->tick, contact);
+  if (is_felt(c, contact)) contact->sample.mass_kg = mass_of(c, &contact->sample);
+  sbf_vec3 v = velocity_of(c, contact);
+  float speed = sbri_dot(
+      contact->normal, sbri_sub(v, c->external_bodies ? velocity_under(c, contact) : contact->velocity));
+  contact->gap = gap_of(c, contact);
+  contact->wanted = wanted_of(contact, speed, rule);
+  c->in_turn = c->in_turn || contact->collider == SBRI_ITSELF;
+  bool pushes = contact->velocity_change > 0 || contact->gap + rule->step_s * speed < 0;
+  c->changed = c->changed || pushes != contact->pushes;
+  contact->pushes = pushes;
+  if (contact->velocity_change > 0 || contact->gap < rule->step_s * (NEAR_M_S - speed)) return true;
+  contact->idle_s = idle_time(c, contact, contact->gap - rule->step_s * NEAR_M_S);
+  return false;
+}
+
+/* What is below its plane and was pushed goes up, at a limited rate. */
+static float lift_of(const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  float up = -contact->gap - rule->slack_m;
+  return up < rule->push_m ? up : rule->push_m;
+}
+
+/* What all that follows comes to for one that is alone: no other push changes what it sees. */
+static void answer_alone(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  uint32_t slot = contact->sample.slots[0];
+  float *velocity = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+  sbri_point *x = &c->tick->positions[slot];
+  sbf_vec3 n = contact->normal, v = {velocity[0], velocity[SBRI_BLOCK], velocity[2 * SBRI_BLOCK]};
+  v = sbri_sub(v, contact->velocity);
+  float speed = sbri_dot(n, v);
+  contact->gap = sbri_dot(n, sbri_vec3(x->x, x->y, x->z)) - contact->offset;
+  contact->velocity_change = wanted_of(contact, speed, rule) - speed;
+  if (!(contact->velocity_change > 0)) {
+    contact->velocity_change = 0;
+    return;
+  }
+  sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
+  float size = sbri_length(sideways), max = friction_of(c, contact, rule) * contact->velocity_change;
+  contact->friction_impulse = sbri_scale(sideways, size > max ? -max / size : -1);
+  sbf_vec3 change = sbri_add_scaled(contact->friction_impulse, n, contact->velocity_change);
+  velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
+  float up = lift_of(contact, rule);
+  if (up > 0) x->x += up * n.x, x->y += up * n.y, x->z += up * n.z;
+  contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
+}
+
+/* Answers those that are alone, and brings those others that may touch to the front; how many. */
+static uint32_t begin_all(touching *c, const sbri_contact_rule *rule) {
+  uint32_t near = 0;
+  for (uint32_t i = 0; i < c->count; i++) {
+    sbri_soft_contact *contact = &c->contacts[i];
+    contact->idle_s -= rule->step_s;
+    if (contact->alone) answer_alone(c, contact, rule);
+    if (contact->alone || contact->idle_s > rule->step_s || !begin(c, contact, rule)) continue;
+    sbri_soft_contact first = c->contacts[near];
+    c->contacts[near++] = c->contacts[i];
+    c->contacts[i] = first;
+  }
+  return near;
+}
+
+/* One push made right; by how much it changed. */
+static float correct(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  sbf_vec3 v = sbri_sub(velocity_of(c, contact), contact->velocity), n = contact->normal;
+  float speed = sbri_dot(n, v),
+        normal_velocity_change = contact->velocity_change + contact->fraction * (contact->wanted - speed);
+  if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
+  if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
+  sbf_vec3 friction_impulse =
+      sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -contact->fraction);
+  float size = sbri_length(friction_impulse), max = friction_of(c, contact, rule) * normal_velocity_change;
+  if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
+  sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
+      normal_velocity_change - contact->velocity_change);
+  contact->velocity_change = normal_velocity_change, contact->friction_impulse = friction_impulse;
+  push(c, contact, change);
+  return sbri_length(change);
+}
+
+/* The same against an external body: what that gives way by is not the sample's to gain. */
+static float correct_with_external_body(
+    const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  const sbri_sample *s = &contact->sample;
+  const sbri_external_body *g = external_body_of(c, contact);
+  sbf_vec3 arm = contact->arm, v = sbri_sub(velocity_of(c, contact), sbri_external_body_velocity(g, arm)),
+           n = contact->normal;
+  float along = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_answer(g, arm, n));
+  float across =
+      1 + s->mass_kg * g->lever * (g->max_inverse_mass + sbri_dot(arm, arm) * g->max_inverse_inertia);
+  float speed = sbri_dot(n, v),
+        normal_velocity_change = contact->velocity_change + (contact->wanted - speed) / along;
+  if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
+  if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
+  sbf_vec3 friction_impulse =
+      sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -1 / across);
+  float size = sbri_length(friction_impulse), max = friction_of(c, contact, rule) * normal_velocity_change;
+  if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
+  sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
+      normal_velocity_change - contact->velocity_change);
+  contact->velocity_change = normal_velocity_change, contact->friction_impulse = friction_impulse;
+  push(c, contact, change);
+  push_external_body(c, contact, change);
+  return sbri_length(change) * (FINER_WITH_EXTERNAL_BODIES + s->mass_kg * g->max_inverse_mass);
+}
+
+/* The shares by row sums: 1 / sum_k |w_k| W_k / m_k in place of 1 / sum_k w_k^2 / m_k, W_k the sum of |w| of
+ * all that push the point k. */
+static void distribute(const touching *c) {
+  const sbri_island *island = c->tick->island;
+  float *sums = c->tick->contact_weights;
+  for (uint32_t i = 0; i < c->count; i++)
+    for (int k = 0; k < 4; k++) sums[c->contacts[i].sample.slots[k]] = 0;
+  for (uint32_t i = 0; i < c->count; i++)
+    for (int k = 0; c->contacts[i].pushes && k < 4; k++)
+      sums[c->contacts[i].sample.slots[k]] += fabsf(c->contacts[i].sample.weights[k]);
+  for (uint32_t i = 0; i < c->count; i++) {
+    const sbri_sample *s = &c->contacts[i].sample;
+    float sum = 0;
+    for (int k = 0; k < 4; k++)
+      if (s->slots[k] < island->free_count)
+        sum += fabsf(s->weights[k]) * sums[s->slots[k]] * island->inverse_masses[s->slots[k]];
+    c->contacts[i].fraction = c->contacts[i].pushes ? 1 / (sum * s->mass_kg) : 0;
+  }
+}
+
+/* Gives each its share, and says after how many passes small changes are left. */
+static int begin_passes(const touching *c) {
+  bool pushed = false;
+  if (!c->in_turn && c->changed) distribute(c);
+  for (uint32_t i = 0; i < c->count; i++) {
+    if (c->in_turn) c->contacts[i].fraction = 1;
+    pushed = pushed || c->contacts[i].velocity_change > 0;
+  }
+  if (c->external_bodies) return MAX_EXTERNAL_BODY_PASSES;
+  return c->in_turn || !pushed ? MAX_PASSES : PASSES;
+}
+
+/* Goes on from the pushes of the substep before. */
+static void push_as_before(const touching *c) {
+  for (uint32_t i = 0; i < c->count; i++) {
+    const sbri_soft_contact *contact = &c->contacts[i];
+    if (!(contact->velocity_change > 0)) continue;
+    sbf_vec3 change = sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change);
+    push(c, contact, change);
+    if (contact->external_body) push_external_body(c, contact, change);
+  }
+}
+
+static void lift(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  if (!(contact->velocity_change > 0 && lift_of(contact, rule) > 0)) return;
+  contact->gap = gap_of(c, contact); /* of what others that share its points have left */
+  float up = lift_of(contact, rule);
+  if (up > 0) move(c, contact, sbri_scale(contact->normal, up), is_felt(c, contact));
+}
+
+void sbri_soft_contacts_solve(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, velocities);
+  if (c.external_bodies) sbri_external_bodies_begin(c.external_bodies, rule->step_s);
+  c.count = begin_all(&c, rule);
+  const int passes = begin_passes(&c), max_passes = passes > MAX_PASSES ? passes : MAX_PASSES;
+  push_as_before(&c);
+  float max = STRUCK_M_S;
+  for (int pass = 0; pass < max_passes && max >= (pass < passes ? RESTING_M_S : STRUCK_M_S); pass++) {
+    max = 0;
+    for (uint32_t i = 0; i < c.count; i++) {
+      sbri_soft_contact *contact = &c.contacts[pass % 2 ? c.count - 1 - i : i];
+      float change =
+          contact->external_body ? correct_with_external_body(&c, contact, rule) : correct(&c, contact, rule);
+      max = change > max ? change : max;
+    }
+  }
+  for (uint32_t i = 0; i < c.count; i++) {
+    sbri_soft_contact *contact = &c.contacts[i];
+    contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
+    lift(&c, contact, rule);
+  }
+}
+
+sbri_sliding sbri_soft_contacts_sum_sliding(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, t->velocities);
+  sbri_sliding sum = {0, 0, {0, 0, 0}};
+  for (uint32_t i = 0; i < c.count; i++) {
+    const sbri_soft_contact *contact = &c.contacts[i];
+    if (!(contact->velocity_change > 0) || contact->collider == SBRI_ITSELF) continue;
+    float mass = contact->sample.mass_kg, limit = friction_of(&c, contact, rule) * contact->velocity_change;
+    sum.load += mass * contact->velocity_change, sum.limit += mass * limit;
+    if (limit > 0 && sbri_length(contact->friction_impulse) > SLIDES_FRACTION * limit)
+      sum.friction = sbri_add_scaled(sum.friction, contact->friction_impulse, mass);
+  }
+  return sum;
+}
+
+void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body, float step_s) {
+  touching c = touching_of(t, body, t->velocities);
+  const bool with = c.external_bodies != NULL;
+  for (uint32_t i = 0; i < c.count; i++) {
+    sbri_soft_contact *contact = &c.contacts[i];
+    contact->offset +=
+        step_s * sbri_dot(contact->normal, with ? velocity_under(&c, contact) : contact->velocity);
+    if (contact->velocity_change > 0)
+      contact->given = sbri_add(contact->given,
+          sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change));
+  }
+  if (with) sbri_external_bodies_end_step(c.external_bodies, step_s);
+}
+
+static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    if (!t->near_ground[block]) continue;
+    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
+    sbf_vec3 x = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
+    if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] <= CONTACT_DISTANCE_M)
+      sbri_touching_add(to, SBRI_NO_COLLIDER, x, n, 0);
+  }
+}
+
+void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
+  sbri_touching_begin(to);
+  for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
+    const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
+    if (contact->collider == SBRI_ITSELF ||
+        !(contact->pushed > 0 || sbri_dot(contact->normal, contact->given) > 0))
+      continue;
+    sbf_vec3 position = sbri_sample_position(t, &contact->sample);
+    sbri_touching_one *one = sbri_touching_add(
+        to, contact->collider, position, contact->normal, contact->pushed * contact->sample.mass_kg);
+    if (one) sbri_touching_push(one, position, sbri_scale(contact->given, contact->sample.mass_kg));
+  }
+  report_planes(t, body, to);
+}
+
+void sbri_soft_contacts_store(const sbri_island_tick *t, const sbri_body *body) {
+  touching c = touching_of(t, body, t->velocities);
+  for (uint32_t i = 0; i < c.count; i++) c.contacts[i].gap = gap_of(&c, &c.contacts[i]);
+}
+
+void sbri_soft_contacts_bound(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, t->velocities);
+  for (uint32_t i = 0; i < c.count; i++) {
+    sbri_soft_contact *contact = &c.contacts[i];
+    float min = contact->gap < -rule->slack_m ? contact->gap : -rule->slack_m,
+          lift = min - gap_of(&c, contact);
+    if (!(lift > 0)) continue;
+    sbf_vec3 v = sbri_sub(velocity_of(&c, contact), velocity_under(&c, contact)), n = contact->normal;
+    float normal_velocity_change = lift / rule->step_s;
+    sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
+    float size = sbri_length(sideways), max = friction_of(&c, contact, rule) * normal_velocity_change;
+    sbf_vec3 change =
+        sbri_add_scaled(sbri_scale(n, normal_velocity_change), sideways, size > max ? -max / size : -1);
+    push(&c, contact, change);
+    if (contact->external_body) push_external_body(&c, contact, change);
+    move(&c, contact, sbri_scale(change, rule->step_s), false); /* they go by the push */
+    contact->given = sbri_add(contact->given, change);
+  }
+}
