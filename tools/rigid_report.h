@@ -7,10 +7,10 @@
 #include "session.h"
 
 typedef struct rigid_report {
-  bool asked;          /* the call has rigid parts simulated */
+  bool asked;             /* the call has rigid parts simulated */
   double angle_violation; /* rad, by which the worst hard limit of an angle was broken */
-  double separation;   /* m, by which the worst joint was off in place */
-  double moving_s;     /* time at which something last moved faster than REST_M_S */
+  double separation;      /* m, by which the worst joint was off in place */
+  double moving_s;        /* time at which something last moved faster than REST_M_S */
 } rigid_report;
 
 /* Before the first frame. */

@@ -102,8 +102,7 @@ static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const 
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
-  float bent =
-      state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
+  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
   if (fraction < l->rest_stretch) fraction = l->rest_stretch + bent * bent * (fraction - l->rest_stretch);
   return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
 }

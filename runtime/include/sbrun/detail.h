@@ -1,7 +1,7 @@
 /* Levels of detail: each character is simulated as finely as its distance and a budget require.
  *
- * A detail level is a level of detail of a model. A model made with sbr_model_options.detail levels has
- * several, finest first: each simulated level of the file's bodies; jiggle, one second-order follower per
+ * A detail level says how finely a character is simulated. A model made with sbr_model_options.detail_levels
+ * has several, finest first: each simulated level of the file's bodies; jiggle, one second-order follower per
  * body (spec 10.4); bones only, whose skin follows them; and away, a position that moves as the character is
  * driven, without feet or pose. A character is on one detail level at a time. A change transfers shapes and
  * velocities, and the skin blends from one to the other, so that no jump is visible: docs/detail.md.
@@ -16,7 +16,7 @@
  * Memory for a change is allocated when a tick begins, on the thread that steps. Memory of the detail level
  * that was left is freed after a second. A step without changes allocates nothing. If memory runs out the
  * character stays on its detail level, SBR_EVENT_NO_MEMORY reports it, and the change is tried again every
- * half second. Create distant characters on a coarse detail level (sbr_character_definition.detail level).
+ * half second. Create distant characters on a coarse detail level (sbr_character_definition.detail_level).
  *
  * Rules are those of sbrun.h; only sbr_world_select_detail_levels allocates beside that. Detail levels and
  * the progress of changes are state, held by snapshots; views are the host's. Recordings hold both. */
@@ -29,8 +29,7 @@
 extern "C" {
 #endif
 
-/* ---- Detail levels
- * -------------------------------------------------------------------------------------------- */
+/* ---- Detail levels ------------------------------------------------------------------------------------- */
 
 /* Kinds of detail levels. */
 typedef enum sbr_detail_level_kind {
@@ -51,7 +50,7 @@ typedef struct sbr_detail_level {
 } sbr_detail_level;
 
 /* Writes up to `capacity` detail levels of the model, finest first, and returns their number. It is 1 without
- * sbr_model_options.detail levels and for models with a body that yields or tears. Models with loose bodies
+ * sbr_model_options.detail_levels and for models with a body that yields or tears. Models with loose bodies
  * have soft detail levels only. */
 SBF_API uint32_t sbr_model_get_detail_levels(
     const sbr_model *model, sbr_detail_level *detail_levels, uint32_t capacity);
