@@ -8,7 +8,7 @@ static const float NEAR = 0.1f; /* of a step's height: how far a sole may be fro
 
 /* How a tick moves what stands on a collider. */
 typedef struct ride {
-  sbf_vec3 direction; /* m */
+  sbf_vec3 displacement; /* m */
   float turn;         /* rad, about +Y */
 } ride;
 
@@ -33,12 +33,12 @@ static void find_ride(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec
   *of_body = ride_on(&input->around->colliders->at[number], input, body);
 }
 
-static void shift_step(sbri_foot *foot, sbf_vec3 direction) {
-  foot->ground = sbri_add(foot->ground, direction);
-  foot->from = sbri_add(foot->from, direction);
-  foot->to = sbri_add(foot->to, direction), foot->planned = sbri_add(foot->planned, direction);
-  foot->x.at += direction.x, foot->z.at += direction.z, foot->base.at += direction.y;
-  foot->pole = sbri_add(foot->pole, direction);
+static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
+  foot->ground = sbri_add(foot->ground, displacement);
+  foot->from = sbri_add(foot->from, displacement);
+  foot->to = sbri_add(foot->to, displacement), foot->planned = sbri_add(foot->planned, displacement);
+  foot->x.at += displacement.x, foot->z.at += displacement.z, foot->base.at += displacement.y;
+  foot->pole = sbri_add(foot->pole, displacement);
 }
 
 void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
@@ -50,21 +50,21 @@ void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     find_ride(rig, input, state->feet[i].ground, body, &rides[i], &of_body);
-    mean.direction = sbri_add(mean.direction, of_body.direction), mean.turn += of_body.turn;
+    mean.displacement = sbri_add(mean.displacement, of_body.displacement), mean.turn += of_body.turn;
     count += 1;
   }
-  if (count > 0) mean.direction = sbri_scale(mean.direction, 1 / count), mean.turn /= count;
+  if (count > 0) mean.displacement = sbri_scale(mean.displacement, 1 / count), mean.turn /= count;
   if (!rig->leg_count) find_ride(rig, input, body, body, &of_body, &mean);
-  if (mean.turn == 0 && !(sbri_dot(mean.direction, mean.direction) > 0)) return;
+  if (mean.turn == 0 && !(sbri_dot(mean.displacement, mean.displacement) > 0)) return;
   for (uint32_t i = 0; i < rig->leg_count; i++)
-    shift_step(&state->feet[i], state->feet[i].planted ? rides[i].direction : mean.direction);
-  state->position.x += mean.direction.x,
-      state->position.z += mean.direction.z; /* its y counts from the ground */
-  state->root.position = sbri_add(state->root.position, mean.direction);
-  state->level += mean.direction.y;
+    shift_step(&state->feet[i], state->feet[i].planted ? rides[i].displacement : mean.displacement);
+  state->position.x += mean.displacement.x,
+      state->position.z += mean.displacement.z; /* its y counts from the ground */
+  state->root.position = sbri_add(state->root.position, mean.displacement);
+  state->level += mean.displacement.y;
   state->heading = sbri_wrap_angle(state->heading + mean.turn);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  sbri_motion_rebase(rig, state, sbri_scale(mean.direction, -1));
+  sbri_motion_rebase(rig, state, sbri_scale(mean.displacement, -1));
   for (uint32_t i = 0; mean.turn != 0 && i < rig->leg_count; i++)
     sbri_foot_update_orientation(rig, state, input, i);
 }

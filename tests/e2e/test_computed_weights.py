@@ -143,6 +143,23 @@ class ComputedWeights(ProgramTest):
                 for i, expected in from_bvh.items():  # whose last bone states its length
                     self.assertEqual(strongest(weights[i]), strongest(expected))
 
+    def test_a_far_end_of_the_last_bone_counts_for_nothing(self):
+        """Exporters mark the end of a limb as far away as their own setting says."""
+        write_gltf(self.path("rig.gltf"), True, "metarig")
+        with open(self.path("rig.gltf"), encoding="utf-8") as stream:
+            gltf = json.load(stream)
+        gltf["nodes"][3]["children"] = [len(gltf["nodes"])]
+        gltf["skins"][0]["joints"].append(len(gltf["nodes"]))
+        gltf["nodes"].append({"name": "hand_end", "translation": [0, 5, 0]})
+        with open(self.path("far.gltf"), "w", encoding="utf-8") as stream:
+            json.dump(gltf, stream)
+        self.rig = self.path("rig.gltf")
+        near, _ = self.weights()
+        self.rig = self.path("far.gltf")
+        far, _ = self.weights()
+        same = sum(strongest(far[i]) == strongest(expected) for i, expected in near.items())
+        self.assertGreater(same, 0.9 * len(near))
+
     def test_the_node_of_an_armature_joins_no_bones(self):
         """Beside its skeleton hangs what an animator pulls a hand by."""
         write_collada(self.path("rig.dae"), "JOINT", '<node id="aim" name="aim" type="JOINT"/>')

@@ -46,7 +46,14 @@ bool sbfi_bone_is_end(const sbfi_weights_input *in, uint32_t bone) {
          sbfi_name_is_end(name, strlen(name));
 }
 
-static bool is_on_root(const sbfi_weights_input *in, uint32_t bone) {
+/* Whether no bone hangs on it but marks of ends. */
+static bool is_last(const sbfi_weights_input *in, uint32_t bone) {
+  for (uint32_t i = bone + 1; i < in->bone_count; i++)
+    if (in->bones[i].parent == (int32_t)bone && !sbfi_bone_is_end(in, i)) return false;
+  return true;
+}
+
+bool sbfi_bone_is_on_root(const sbfi_weights_input *in, uint32_t bone) {
   int32_t parent = in->bones[bone].parent;
   return parent == SBF_NONE || in->bones[parent].parent == SBF_NONE;
 }
@@ -60,7 +67,7 @@ static bool is_outside(const sbfi_body_rays *rays, sbfi_d3 at) {
 /* Whether a bone that hangs on another limb begins in the same place. */
 static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, uint32_t bone) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
-    if (i == bone || (int32_t)i == in->bones[bone].parent || is_on_root(in, i)) continue;
+    if (i == bone || (int32_t)i == in->bones[bone].parent || sbfi_bone_is_on_root(in, i)) continue;
     sbfi_d3 separation = sbfi_d3_sub(sbfi_weight_mesh_position(mesh, in->bones[i].head),
         sbfi_weight_mesh_position(mesh, in->bones[bone].head));
     if (sbfi_d3_length(separation) < SAME_POSITION) return true;
@@ -126,11 +133,11 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
     int32_t parent = in->bones[i].parent;
     take_letters(in->bones[i].name, letters);
     bool is_control = is_control_name(letters);
-    if (!is_control && is_on_root(in, i) && !has_child(in, i))
+    if (!is_control && sbfi_bone_is_on_root(in, i) && is_last(in, i))
       is_control = (rays && is_outside(rays, sbfi_weight_mesh_position(mesh, in->bones[i].head))) ||
                    pulls_another(in, mesh, i);
     if (is_control || is_frame_name(letters) || sbfi_bone_is_end(in, i) ||
-        (is_on_root(in, i) && strstr(letters, "root")))
+        (sbfi_bone_is_on_root(in, i) && strstr(letters, "root")))
       is_deforming[i] = false;
     if (is_control && parent != SBF_NONE && in->bones[parent].parent == SBF_NONE)
       is_deforming[parent] = false;

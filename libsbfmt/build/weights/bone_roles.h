@@ -16,4 +16,7 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
 /* Whether a bone is a leaf that only marks where its parent ends, by its name. */
 bool sbfi_bone_is_end(const sbfi_weights_input *in, uint32_t bone);
 
+/* Whether a bone is a root or hangs on one. */
+bool sbfi_bone_is_on_root(const sbfi_weights_input *in, uint32_t bone);
+
 #endif

@@ -4,6 +4,7 @@
  * units and offsets are tried, the plainest first, and at last a scale that makes the two as large. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "build/geometry/winding_number.h"
@@ -130,6 +131,11 @@ static void consider(search *s, const sbfi_matrix *m) {
 
 /* --- Bones as lines ------------------------------------------------------------------------------------ */
 
+static int compare_lengths(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
   double length = sbfi_d3_length(sbfi_d3_sub(to, from));
   if (!(length > 0)) return;
@@ -137,22 +143,55 @@ static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
   s->total += length;
 }
 
+/* Exporters mark the end of a limb's last bone as far away as their own setting says. Ends farther than any
+ * two bones of the rig's limbs are apart are moved to the median distance. */
+static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *lengths) {
+  const sbf_bone_list *bones = &r->c->asset->bones;
+  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    if (parent == SBF_NONE || !holds_skin[parent] || !holds_skin[b] || sbfi_bone_is_on_root(&in, b)) continue;
+    lengths[count++] =
+        sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[parent].head)));
+  }
+  if (!count) return;
+  qsort(lengths, count, sizeof *lengths, compare_lengths);
+  double longest = lengths[count - 1], median = lengths[count / 2];
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    if (!sbfi_bone_is_end(&in, b) || !holds_skin[parent]) continue;
+    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* ours until the asset is handed out */
+    sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
+    sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
+    double length = sbfi_d3_length(along);
+    if (!(length > longest)) continue;
+    end->head = sbfi_d3_rounded(sbfi_d3_add(from, sbfi_d3_scale(along, median / length)));
+    if ((double)last->length > longest) last->length = (float)median;
+  }
+}
+
 /* Frames and controls do not lie in a body: lines run between bones that hold skin, and to marks of ends. */
 static bool make_lines(search *s, sbfi_arena *arena) {
   const sbf_bone_list *bones = &s->r->c->asset->bones;
   const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
   bool *holds_skin = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *holds_skin);
+  double *lengths = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *lengths);
   s->lines = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->lines);
-  if (!s->lines || !holds_skin) return false;
+  if (!s->lines || !holds_skin || !lengths) return false;
   double size = 0;
   for (uint32_t b = 1; b < bones->count; b++)
     size =
         fmax(size, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[0].head))));
   const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
   sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
+  shorten_ends(s->r, holds_skin, lengths);
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
-    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !sbfi_bone_is_end(&in, b))) continue;
+    bool is_end = sbfi_bone_is_end(&in, b);
+    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !is_end)) continue;
+    /* What hangs on the root alone may pull a limb by inverse kinematics, and end anywhere. */
+    if (is_end && bones->count > SEVERAL && sbfi_bone_is_on_root(&in, (uint32_t)parent)) continue;
     add_line(s, (uint32_t)parent, sbfi_d3_of(bones->at[parent].head), sbfi_d3_of(bones->at[b].head));
   }
   for (uint32_t i = 0; i < 2 * s->line_count; i++) {
