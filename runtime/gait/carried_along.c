@@ -9,7 +9,7 @@ static const float NEAR = 0.1f; /* of a step's height: how far a sole may be fro
 /* How a tick moves what stands on a collider. */
 typedef struct ride {
   sbf_vec3 displacement; /* m */
-  float turn;         /* rad, about +Y */
+  float turn;            /* rad, about +Y */
 } ride;
 
 static ride ride_on(const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 position) {

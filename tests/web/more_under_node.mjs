@@ -118,6 +118,13 @@ const { count, frames, checks, differs } = replay.state;
 expect(count === 150 && frames === 150 && checks >= 3 && !differs, `replayed: ${JSON.stringify(replay.state)}`);
 expect(second.one.stateHash() === hash, 'a replay ends in another state');
 replay.free();
+// A host that moves it itself: its feet step after it.
+const led = made();
+for (let i = 0; i < 120; i++) {
+  led.character.displace([0, 0, 0.005]);
+  led.one.step(1 / 60);
+}
+expect(Math.abs(led.character.distance - 0.6) < 0.06, `moved by 0.6 m it went ${led.character.distance} m`);
 const third = sbfmt.world({ ground: { kind: 'flat' } });
 third.add(plain, { position: [1, 0, 0] });
 expect(third.replay(recording).state.differs, 'another world passes for the same');

@@ -298,6 +298,8 @@ export interface Character {
   /** What it is to do until told otherwise: forward in m/s, turn (left) in rad/s, sideways (left) in m/s, up in m/s
    *  for what swims or flies. */
   drive(forward: number, turn?: number, sideways?: number, up?: number): void;
+  /** Moves it by metres along the world's axes and turns it by radians in the next tick: its feet step after it. */
+  displace(by: Vector, turn?: number): void;
   teleport(position: Vector, heading?: number): void;
   reset(): void;
   wake(): void;

@@ -29,6 +29,10 @@ void WEB_CALL(web_character_drive)(
 void WEB_CALL(web_character_set_vertical_speed)(sbr_world *world, uint32_t character, float up) {
   sbr_character_set_vertical_speed(world, id_of(character), up);
 }
+void WEB_CALL(web_character_displace)(
+    sbr_world *world, uint32_t character, float x, float y, float z, float turn) {
+  sbr_character_displace(world, id_of(character), (sbf_vec3){x, y, z}, turn);
+}
 void WEB_CALL(web_character_teleport)(
     sbr_world *world, uint32_t character, double x, double y, double z, float heading) {
   sbr_character_teleport(world, id_of(character), (sbr_double3){x, y, z}, heading);

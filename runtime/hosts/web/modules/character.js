@@ -32,6 +32,9 @@ export class Character {
       number(turn, 'turn'));
     this.calls.web_character_set_vertical_speed(this.home, this.id, vertical);
   }
+  displace(by, turn = 0) {
+    this.calls.web_character_displace(this.home, this.id, ...triple(by, 'by'), number(turn, 'turn'));
+  }
   teleport(position, heading = 0) {
     this.calls.web_character_teleport(this.home, this.id, ...triple(position, 'position'), number(heading, 'heading'));
   }
