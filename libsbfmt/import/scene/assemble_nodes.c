@@ -173,6 +173,15 @@ static bool is_armature_name(const char *name) {
   return !word[i] && (!name[i] || name[i] == '.'); /* Armature.001 */
 }
 
+/* Forms in which programs write an armature alone. Files of others hold meshes: without one they are damaged.
+ */
+static bool may_be_armature(const char *format) {
+  static const char *const forms[] = {"fbx", "dae", "x", "blend"};
+  bool is_one = is_gltf(format);
+  for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) is_one = is_one || strcmp(format, forms[i]) == 0;
+  return is_one;
+}
+
 /* A file without a mesh that declares no joint: two nodes or more are a skeleton, from the first that is no
  * frame around it. Such frames are the root that importers invent and an armature's own node. */
 static void mark_bare_skeleton(sbfi_assembly *a) {
@@ -201,7 +210,7 @@ static bool mark_bones(sbfi_assembly *a) {
   for (uint32_t i = 0; i < count; i++)
     if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) declared = nodes[i].is_bone = true;
   if (is_gltf(format)) mark_rigid_rig(a);
-  if (!a->raw->mesh_count && strcmp(format, "bvh") != 0 && !has_bones(a)) mark_bare_skeleton(a);
+  if (!a->raw->mesh_count && may_be_armature(format) && !has_bones(a)) mark_bare_skeleton(a);
   if (is_gltf(format) || strcmp(format, "fbx") == 0 || (declared && !a->raw->mesh_count)) return true;
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;
