@@ -44,7 +44,7 @@ static sbf_level make_jiggle(scene *s) {
   return level;
 }
 
-scene rung_scene_begin(bool loose) {
+scene detail_scene_begin(bool loose) {
   scene s = scene_begin();
   scene_bone(&s, MIDDLE);
   scene_section(&s, 0, MIDDLE, SIZE, 4);
@@ -59,8 +59,8 @@ scene rung_scene_begin(bool loose) {
   return s;
 }
 
-scene rung_scene_walking(uint32_t detail_level) {
-  scene s = rung_scene_begin(false);
+scene detail_scene_walking(uint32_t detail_level) {
+  scene s = detail_scene_begin(false);
   scene_start(&s);
   sbr_character_set_detail_level(s.world, s.character, detail_level);
   sbr_character_set_drive(s.world, s.character, 0.5f, 0, 0.8f);
@@ -68,7 +68,7 @@ scene rung_scene_walking(uint32_t detail_level) {
   return s;
 }
 
-uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions) {
+uint32_t detail_scene_skin(const scene *s, sbf_vec3 *positions) {
   sbr_double3 origin = sbr_character_get_origin(s->world, s->character);
   uint32_t count = sbr_character_get_skin(s->world, s->character, 0, positions, NULL, NULL, RUNG_VERTICES);
   ck_assert_uint_le(count, RUNG_VERTICES);
@@ -79,7 +79,7 @@ uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions) {
   return count;
 }
 
-double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count) {
+double detail_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count) {
   double max = 0;
   for (uint32_t v = 0; v < count; v++) {
     double x = (double)a[v].x - (double)b[v].x, y = (double)a[v].y - (double)b[v].y;
@@ -90,22 +90,22 @@ double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count)
   return sqrt(max);
 }
 
-double rung_scene_apart(const scene *a, const scene *b) {
+double detail_scene_apart(const scene *a, const scene *b) {
   static sbf_vec3 of_a[RUNG_VERTICES], of_b[RUNG_VERTICES];
-  uint32_t count = rung_scene_skin(a, of_a);
-  ck_assert_uint_eq(rung_scene_skin(b, of_b), count);
-  return rung_scene_farthest(of_a, of_b, count);
+  uint32_t count = detail_scene_skin(a, of_a);
+  ck_assert_uint_eq(detail_scene_skin(b, of_b), count);
+  return detail_scene_farthest(of_a, of_b, count);
 }
 
-void rung_scene_ticks(scene *a, scene *b, int ticks) {
+void detail_scene_ticks(scene *a, scene *b, int ticks) {
   scene_ticks(a, ticks);
   scene_ticks(b, ticks);
 }
 
-double rung_scene_elastic(const scene *s) {
+double detail_scene_elastic(const scene *s) {
   return sbr_character_get_body_health(s->world, s->character, 0).elastic_j;
 }
 
-double rung_scene_kinetic(const scene *s) {
+double detail_scene_kinetic(const scene *s) {
   return sbr_character_get_body_health(s->world, s->character, 0).kinetic_j;
 }

@@ -10,20 +10,20 @@ enum { DETAIL_FINE, DETAIL_COARSE, DETAIL_JIGGLE, DETAIL_BONES, DETAIL_OFFSCREEN
 
 /* The asset and the options, before scene_start; of a loose body held by nothing, whose detail levels are the
  * first two. */
-scene rung_scene_begin(bool loose);
+scene detail_scene_begin(bool loose);
 /* Started, driven at 0.5 m/s and turning, on that detail level, for a second and a half. */
-scene rung_scene_walking(uint32_t detail_level);
+scene detail_scene_walking(uint32_t detail_level);
 
 enum { RUNG_VERTICES = 512 };
 /* The skin in world space; returns how many vertices. */
-uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions);
+uint32_t detail_scene_skin(const scene *s, sbf_vec3 *positions);
 /* The farthest that two are apart, m. */
-double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count);
+double detail_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count);
 /* The same of the skins of two scenes that began alike, and so many ticks of both. */
-double rung_scene_apart(const scene *a, const scene *b);
-void rung_scene_ticks(scene *a, scene *b, int ticks);
+double detail_scene_apart(const scene *a, const scene *b);
+void detail_scene_ticks(scene *a, scene *b, int ticks);
 /* J of the body: elastic, kinetic. */
-double rung_scene_elastic(const scene *s);
-double rung_scene_kinetic(const scene *s);
+double detail_scene_elastic(const scene *s);
+double detail_scene_kinetic(const scene *s);
 
 #endif

@@ -15,7 +15,7 @@ static size_t bytes_of(const scene *s, uint32_t detail_level) {
 }
 
 static scene begin(harness_memory *memory, size_t allowed, uint32_t detail_level) {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   harness_memory_init(memory, allowed);
   s.world_definition.allocator = &memory->allocator;
   s.character_definition.detail_level = detail_level;
@@ -24,7 +24,7 @@ static scene begin(harness_memory *memory, size_t allowed, uint32_t detail_level
   return s;
 }
 
-START_TEST(a_character_holds_what_its_rung_needs)
+START_TEST(a_character_holds_what_its_detail_level_needs)
 {
   harness_memory memory;
   scene s = begin(&memory, SIZE_MAX, DETAIL_BONES);
@@ -77,23 +77,23 @@ static uint32_t refusals(const scene *s) {
 }
 
 /* It goes on as if nobody had asked, and goes over as soon as it may. */
-START_TEST(without_memory_it_stays_on_its_rung_and_says_so)
+START_TEST(without_memory_it_stays_on_its_detail_level_and_says_so)
 {
   const uint32_t to = _i ? DETAIL_BONES : DETAIL_FINE, from = _i ? DETAIL_FINE : DETAIL_BONES;
   harness_memory memory, plenty;
   scene s = begin(&memory, SIZE_MAX, from), stays = begin(&plenty, SIZE_MAX, from);
-  rung_scene_ticks(&s, &stays, 30);
+  detail_scene_ticks(&s, &stays, 30);
   memory.allowed = memory.calls;
   sbr_character_set_detail_level(s.world, s.character, to);
-  rung_scene_ticks(&s, &stays, 75);
+  detail_scene_ticks(&s, &stays, 75);
   ck_assert_uint_eq(refusals(&s), 3); /* at once, and every half second */
-  ck_assert(rung_scene_apart(&s, &stays) == 0);
+  ck_assert(detail_scene_apart(&s, &stays) == 0);
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) == 0);
-  ck_assert((rung_scene_elastic(&s) > 0) == (from == DETAIL_FINE));
+  ck_assert((detail_scene_elastic(&s) > 0) == (from == DETAIL_FINE));
   memory.allowed = SIZE_MAX;
   scene_ticks(&s, 40);
   ck_assert_uint_eq(refusals(&s), 0);
-  ck_assert((rung_scene_elastic(&s) > 0) == (to == DETAIL_FINE));
+  ck_assert((detail_scene_elastic(&s) > 0) == (to == DETAIL_FINE));
   scene_free(&s);
   scene_free(&stays);
   ck_assert_uint_eq(memory.held_bytes, 0);
@@ -112,7 +112,7 @@ static void check(const crowd *c, double from) {
 }
 
 static crowd crowd_begin(harness_memory *memory, const sbr_tasks *tasks) {
-  crowd c = {.s = rung_scene_begin(false)};
+  crowd c = {.s = detail_scene_begin(false)};
   sbr_detail_definition detail = sbr_default_detail_definition();
   detail.away_after_s = -1;
   harness_memory_init(memory, SIZE_MAX);
@@ -211,7 +211,7 @@ START_TEST(threads_change_nothing)
 END_TEST
 
 /* From a detail level whose memory has been given back, and while it goes over. */
-START_TEST(snapshots_go_back_to_any_rung)
+START_TEST(snapshots_go_back_to_any_detail_level)
 {
   for (uint32_t fading = 0; fading < 2; fading++) {
     harness_memory memory;
@@ -287,13 +287,13 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rooms");
   TCase *c = tcase_create("rooms");
-  tcase_add_test(c, a_character_holds_what_its_rung_needs);
+  tcase_add_test(c, a_character_holds_what_its_detail_level_needs);
   tcase_add_test(c, ticks_ask_for_nothing_but_at_a_change);
-  tcase_add_loop_test(c, without_memory_it_stays_on_its_rung_and_says_so, 0, 2);
+  tcase_add_loop_test(c, without_memory_it_stays_on_its_detail_level_and_says_so, 0, 2);
   tcase_add_test(c, a_crowd_far_off_holds_a_share_of_one_that_is_near);
   tcase_add_test(c, changes_survive_want_of_memory_at_every_call);
   tcase_add_test(c, threads_change_nothing);
-  tcase_add_test(c, snapshots_go_back_to_any_rung);
+  tcase_add_test(c, snapshots_go_back_to_any_detail_level);
   tcase_add_test(c, rigid_parts_stand_still_without_memory);
   suite_add_tcase(s, c);
   return harness_run(s);

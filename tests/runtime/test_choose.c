@@ -20,7 +20,7 @@ static sbr_view view_from(double z) {
 
 /* Boxes in a row along +Z, two metres apart, in a world that chooses. */
 static crowd make_crowd(const sbr_detail_definition *how, const sbr_tasks *tasks) {
-  crowd c = {.s = rung_scene_begin(false)};
+  crowd c = {.s = detail_scene_begin(false)};
   sbr_detail_definition by_default = sbr_default_detail_definition();
   if (tasks) c.s.world_definition.tasks = *tasks;
   scene_start(&c.s);
@@ -34,7 +34,7 @@ static crowd make_crowd(const sbr_detail_definition *how, const sbr_tasks *tasks
   return c;
 }
 
-static uint32_t rung_of(const crowd *c, uint32_t i) {
+static uint32_t detail_level_of(const crowd *c, uint32_t i) {
   return sbr_character_get_detail_level(c->s.world, c->ids[i]);
 }
 
@@ -50,21 +50,21 @@ START_TEST(what_is_far_is_coarse_and_what_nobody_sees_goes_away)
 {
   crowd c = make_crowd(NULL, NULL);
   check(&c, -1, 2);
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_FINE);
   for (uint32_t i = 0; i < CROWD; i++) {
     ck_assert(sbr_character_get_error_px(c.s.world, c.ids[i]) <= 0.5f);
-    if (i > 0) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
+    if (i > 0) ck_assert_uint_ge(detail_level_of(&c, i), detail_level_of(&c, i - 1));
   }
   check(&c, -120, 40); /* 2 cm of the bones' error, 120 m away: 0.15 pixels */
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_BONES);
   ck_assert(sbr_character_get_error_px(c.s.world, c.ids[0]) > 0.1f);
   check(&c, 200, 30); /* all are behind */
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_BONES);
   ck_assert(sbr_character_get_error_px(c.s.world, c.ids[0]) == 0);
   check(&c, 200, 40);
-  for (uint32_t i = 0; i < CROWD; i++) ck_assert_uint_eq(rung_of(&c, i), DETAIL_OFFSCREEN);
+  for (uint32_t i = 0; i < CROWD; i++) ck_assert_uint_eq(detail_level_of(&c, i), DETAIL_OFFSCREEN);
   check(&c, -1, 1);
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_FINE);
   ck_assert(sbr_character_get_detail_fade(c.s.world, c.ids[0]) == 0); /* nobody has seen where it was */
   ck_assert(sbr_character_get_body_health(c.s.world, c.ids[0], 0).elastic_j > 0);
   scene_free(&c.s);
@@ -78,7 +78,7 @@ START_TEST(predicted_pixels_are_those_of_the_measured_error)
   const float error_m = 0.004f;
   for (int i = 0; i < 2; i++) {
     double distance = i ? 16 : 9, pixels = (double)error_m * 1080 / (2 * tan(0.5236) * distance);
-    crowd c = {.s = rung_scene_begin(false)};
+    crowd c = {.s = detail_scene_begin(false)};
     sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&c.s, 0)->levels.at;
     const sbr_detail_definition by_default = sbr_default_detail_definition();
     const sbr_view view = view_from(-distance);
@@ -106,14 +106,14 @@ START_TEST(the_host_may_know_better)
   sbr_character_set_visibility(c.s.world, c.ids[0], SBR_VISIBILITY_NEVER);
   sbr_character_set_detail_level(c.s.world, c.ids[1], DETAIL_COARSE);
   check(&c, -1, 70);
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_OFFSCREEN);
-  ck_assert_uint_eq(rung_of(&c, 1), DETAIL_COARSE);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_OFFSCREEN);
+  ck_assert_uint_eq(detail_level_of(&c, 1), DETAIL_COARSE);
   sbr_character_set_visibility(c.s.world, c.ids[0], SBR_VISIBILITY_BY_VIEWS);
   sbr_character_set_visibility(c.s.world, c.ids[1], SBR_VISIBILITY_ALWAYS);
   sbr_character_set_detail_level(c.s.world, c.ids[1], SBR_DETAIL_AUTOMATIC);
   check(&c, 3, 70); /* both are behind */
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_OFFSCREEN);
-  ck_assert_uint_eq(rung_of(&c, 1), DETAIL_FINE);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_OFFSCREEN);
+  ck_assert_uint_eq(detail_level_of(&c, 1), DETAIL_FINE);
   scene_free(&c.s);
 }
 END_TEST
@@ -123,12 +123,12 @@ START_TEST(a_camera_that_trembles_changes_nothing)
   crowd c = make_crowd(NULL, NULL);
   uint32_t changes = 0, was[CROWD];
   check(&c, -20, 60);
-  for (uint32_t i = 0; i < CROWD; i++) was[i] = rung_of(&c, i);
+  for (uint32_t i = 0; i < CROWD; i++) was[i] = detail_level_of(&c, i);
   for (int t = 0; t < 300; t++) {
     check(&c, -20 + (t % 2 ? 1.0 : -1.0), 1);
     for (uint32_t i = 0; i < CROWD; i++) {
-      changes += rung_of(&c, i) != was[i];
-      was[i] = rung_of(&c, i);
+      changes += detail_level_of(&c, i) != was[i];
+      was[i] = detail_level_of(&c, i);
     }
   }
   ck_assert_uint_le(changes, 2); /* to the finer ones of what it trembles between */
@@ -137,12 +137,12 @@ START_TEST(a_camera_that_trembles_changes_nothing)
 END_TEST
 
 /* From three metres away, looking `aside` rad beside it. */
-static uint32_t rung_beside(crowd *c, double aside) {
+static uint32_t detail_level_beside(crowd *c, double aside) {
   sbr_view view = view_from(-3);
   view.forward = (sbf_vec3){(float)sin(aside), 0, (float)cos(aside)};
   sbr_world_set_views(c->s.world, &view, 1);
   sbr_world_tick(c->s.world);
-  return rung_of(c, 0);
+  return detail_level_of(c, 0);
 }
 
 /* Beyond a view's edges it becomes fine in one tick, before it can be seen, and nowhere does it come and go.
@@ -153,11 +153,11 @@ START_TEST(a_view_that_turns_finds_it_ready)
   double in = 0, out = 0, step = 0.002, far = 1.6;
   const double edge = atan(tan(0.5236) * sqrt(1 + 256.0 / 81));
   uint32_t changes = 0, detail_level, before = DETAIL_BONES;
-  for (uint32_t t = 0; t < 5; t++) rung_beside(&c, far);
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_BONES);
+  for (uint32_t t = 0; t < 5; t++) detail_level_beside(&c, far);
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_BONES);
   for (double aside = far; aside > 0; aside -= step)
     for (int tick = 0; tick < 3; tick++, before = detail_level) {
-      detail_level = rung_beside(&c, aside);
+      detail_level = detail_level_beside(&c, aside);
       if ((detail_level == DETAIL_FINE) == (before == DETAIL_FINE)) continue;
       ck_assert(sbr_character_get_detail_fade(c.s.world, c.ids[0]) == 0);
       in = aside, changes++;
@@ -166,7 +166,7 @@ START_TEST(a_view_that_turns_finds_it_ready)
   ck_assert_double_gt(in, edge);
   for (double aside = 0; aside < far; aside += step)
     for (int tick = 0; tick < 3; tick++, before = detail_level) {
-      detail_level = rung_beside(&c, aside);
+      detail_level = detail_level_beside(&c, aside);
       if ((detail_level == DETAIL_FINE) != (before == DETAIL_FINE)) out = aside, changes++;
     }
   ck_assert_uint_eq(changes, 2);
@@ -178,7 +178,7 @@ END_TEST
 START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
 {
   sbr_detail_level detail_levels[8];
-  scene alone = rung_scene_begin(false);
+  scene alone = detail_scene_begin(false);
   scene_start(&alone);
   sbr_model_get_detail_levels(alone.model, detail_levels, 8);
   scene_free(&alone);
@@ -192,9 +192,9 @@ START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
   ck_assert_msg(sbr_world_get_element_visits(c.s.world) <= max, "%g of %g visits",
       sbr_world_get_element_visits(c.s.world), max);
   ck_assert(sbr_world_get_element_visits(c.s.world) > 0.6 * max);
-  ck_assert_uint_eq(rung_of(&c, 0), DETAIL_FINE);
-  ck_assert_uint_gt(rung_of(&c, CROWD - 1), DETAIL_FINE);
-  for (uint32_t i = 1; i < CROWD; i++) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
+  ck_assert_uint_eq(detail_level_of(&c, 0), DETAIL_FINE);
+  ck_assert_uint_gt(detail_level_of(&c, CROWD - 1), DETAIL_FINE);
+  for (uint32_t i = 1; i < CROWD; i++) ck_assert_uint_ge(detail_level_of(&c, i), detail_level_of(&c, i - 1));
   scene_free(&c.s);
 }
 END_TEST

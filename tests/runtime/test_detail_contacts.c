@@ -16,7 +16,7 @@ typedef struct pair {
 static const double APART_M = 4;
 
 static pair make(const sbr_tasks *tasks, bool chooses) {
-  pair p = {.s = rung_scene_begin(false)};
+  pair p = {.s = detail_scene_begin(false)};
   sbr_detail_definition detail = sbr_default_detail_definition();
   sbr_view view = {{0, 1, -400}, {0, 0, 1}, 1.0472f, 16.0f / 9, 1080};
   if (tasks) p.s.world_definition.tasks = *tasks;
@@ -164,7 +164,7 @@ START_TEST(want_of_memory_leaves_the_world_as_it_was)
 {
   harness_memory memory;
   harness_memory_init(&memory, SIZE_MAX);
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   s.world_definition.allocator = &memory.allocator;
   scene_start(&s);
   size_t pinned = memory.held_bytes, before = memory.calls;

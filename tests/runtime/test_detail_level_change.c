@@ -25,25 +25,25 @@ static uint32_t to_of(int i) {
  * on either detail level by itself. */
 START_TEST(the_skin_does_not_jump)
 {
-  scene s = rung_scene_walking(from_of(_i)), stays = rung_scene_walking(from_of(_i));
+  scene s = detail_scene_walking(from_of(_i)), stays = detail_scene_walking(from_of(_i));
   static sbf_vec3 was[RUNG_VERTICES], is[RUNG_VERTICES], stay_was[RUNG_VERTICES], stay_is[RUNG_VERTICES];
-  uint32_t count = rung_scene_skin(&s, was);
-  rung_scene_skin(&stays, stay_was);
+  uint32_t count = detail_scene_skin(&s, was);
+  detail_scene_skin(&stays, stay_was);
   sbr_character_set_detail_level(s.world, s.character, to_of(_i));
   ck_assert_uint_eq(sbr_character_get_detail_level(s.world, s.character), to_of(_i));
-  rung_scene_skin(&s, is);
-  ck_assert(rung_scene_farthest(was, is, count) == 0);
+  detail_scene_skin(&s, is);
+  ck_assert(detail_scene_farthest(was, is, count) == 0);
   sbr_world_step(s.world, 1e-4); /* hardly later it is being looked at, and nothing shows */
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) > 0.9f);
-  rung_scene_skin(&s, is);
-  ck_assert(rung_scene_farthest(was, is, count) < HALF_PIXEL_M / 10);
+  detail_scene_skin(&s, is);
+  ck_assert(detail_scene_farthest(was, is, count) < HALF_PIXEL_M / 10);
   sbr_world_step(s.world, 2.0 / 60 - 1e-4);
   scene_ticks(&stays, 2);
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) < 1);
-  rung_scene_skin(&s, is);
-  rung_scene_skin(&stays, stay_is);
-  ck_assert_msg(rung_scene_farthest(is, stay_is, count) < HALF_PIXEL_M, "%u to %u: %g m", from_of(_i),
-      to_of(_i), rung_scene_farthest(is, stay_is, count));
+  detail_scene_skin(&s, is);
+  detail_scene_skin(&stays, stay_is);
+  ck_assert_msg(detail_scene_farthest(is, stay_is, count) < HALF_PIXEL_M, "%u to %u: %g m", from_of(_i),
+      to_of(_i), detail_scene_farthest(is, stay_is, count));
   for (int t = 0; t < 300 && sbr_character_get_detail_fade(s.world, s.character) > 0; t++) scene_ticks(&s, 1);
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) == 0);
   scene_free(&s);
@@ -54,23 +54,23 @@ END_TEST
 START_TEST(energy_does_not_rise_and_the_motion_goes_on)
 {
   const uint32_t from = (uint32_t)_i, to = 1 - from;
-  scene s = rung_scene_walking(from), other = rung_scene_walking(to);
+  scene s = detail_scene_walking(from), other = detail_scene_walking(to);
   sbr_character_set_detail_level(s.world, s.character, to);
-  rung_scene_ticks(&s, &other, 1); /* it is looked at, and goes over in the next */
-  double elastic = rung_scene_elastic(&s), kinetic = rung_scene_kinetic(&s);
+  detail_scene_ticks(&s, &other, 1); /* it is looked at, and goes over in the next */
+  double elastic = detail_scene_elastic(&s), kinetic = detail_scene_kinetic(&s);
   ck_assert(elastic > 0);
   sbr_world_step(s.world, 1e-9); /* nothing but the change, and a tick */
-  ck_assert_msg(rung_scene_elastic(&s) < 1.5 * elastic, "%g J to %g", elastic, rung_scene_elastic(&s));
-  ck_assert_msg(rung_scene_kinetic(&s) < 1.1 * kinetic, "%g J to %g", kinetic, rung_scene_kinetic(&s));
+  ck_assert_msg(detail_scene_elastic(&s) < 1.5 * elastic, "%g J to %g", elastic, detail_scene_elastic(&s));
+  ck_assert_msg(detail_scene_kinetic(&s) < 1.1 * kinetic, "%g J to %g", kinetic, detail_scene_kinetic(&s));
   double max = 0;
   for (int t = 0; t < 120; t++) {
-    rung_scene_ticks(&s, &other, 1);
-    max = fmax(max, rung_scene_elastic(&s));
+    detail_scene_ticks(&s, &other, 1);
+    max = fmax(max, detail_scene_elastic(&s));
     ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   }
   ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).recoveries, 0);
-  ck_assert_msg(max < 2 * fmax(elastic, rung_scene_elastic(&other)), "%g J up to %g", elastic, max);
-  ck_assert_msg(rung_scene_apart(&s, &other) < 2e-3, "%g m", rung_scene_apart(&s, &other));
+  ck_assert_msg(max < 2 * fmax(elastic, detail_scene_elastic(&other)), "%g J up to %g", elastic, max);
+  ck_assert_msg(detail_scene_apart(&s, &other) < 2e-3, "%g m", detail_scene_apart(&s, &other));
   scene_free(&s);
   scene_free(&other);
 }
@@ -79,16 +79,16 @@ END_TEST
 /* A loose box that falls. */
 START_TEST(what_flies_goes_on_flying)
 {
-  scene s = rung_scene_begin(true), stays = rung_scene_begin(true);
+  scene s = detail_scene_begin(true), stays = detail_scene_begin(true);
   s.world_definition.has_gravity = stays.world_definition.has_gravity = true;
   s.world_definition.gravity = stays.world_definition.gravity = (sbf_vec3){0, -2, 0};
   scene_start(&s);
   scene_start(&stays);
-  rung_scene_ticks(&s, &stays, 30);
+  detail_scene_ticks(&s, &stays, 30);
   for (uint32_t n = 0; n < 4; n++) {
     sbr_character_set_detail_level(s.world, s.character, (n + 1) % 2);
-    rung_scene_ticks(&s, &stays, 10);
-    ck_assert_msg(rung_scene_apart(&s, &stays) < 1e-3, "%g m", rung_scene_apart(&s, &stays));
+    detail_scene_ticks(&s, &stays, 10);
+    ck_assert_msg(detail_scene_apart(&s, &stays) < 1e-3, "%g m", detail_scene_apart(&s, &stays));
   }
   scene_free(&s);
   scene_free(&stays);
@@ -117,7 +117,7 @@ static void angular_velocity(const scene *s, float rad_s) {
 START_TEST(what_spins_goes_on_spinning)
 {
   static const float spins[3] = {1, 4, 12};
-  scene s = rung_scene_begin(true);
+  scene s = detail_scene_begin(true);
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){0, -2, 0};
   scene_start(&s);
@@ -143,14 +143,14 @@ END_TEST
 
 START_TEST(away_goes_where_it_is_driven_and_comes_back)
 {
-  scene s = rung_scene_walking(DETAIL_OFFSCREEN), stays = rung_scene_walking(DETAIL_BONES);
+  scene s = detail_scene_walking(DETAIL_OFFSCREEN), stays = detail_scene_walking(DETAIL_BONES);
   double distance = sbr_character_get_distance(s.world, s.character);
   ck_assert(distance > 0.5);
   ck_assert(fabs(distance - sbr_character_get_distance(stays.world, stays.character)) < 1e-3);
   sbr_character_set_detail_level(s.world, s.character, DETAIL_FINE);
-  rung_scene_ticks(&s, &stays, 120);
-  ck_assert(rung_scene_apart(&s, &stays) < 0.03);
-  ck_assert(rung_scene_elastic(&s) > 0);
+  detail_scene_ticks(&s, &stays, 120);
+  ck_assert(detail_scene_apart(&s, &stays) < 0.03);
+  ck_assert(detail_scene_elastic(&s) > 0);
   ck_assert(fabs(sbr_character_get_distance(s.world, s.character) -
                  sbr_character_get_distance(stays.world, stays.character)) < 1e-3);
   scene_free(&s);
@@ -161,11 +161,11 @@ END_TEST
 /* What a follower should do, by its own equation, to the middle of a bone that is shaken. */
 START_TEST(jiggle_follows_its_bone)
 {
-  scene s = rung_scene_walking(DETAIL_JIGGLE), bones = rung_scene_walking(DETAIL_BONES);
+  scene s = detail_scene_walking(DETAIL_JIGGLE), bones = detail_scene_walking(DETAIL_BONES);
   static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
-  uint32_t count = rung_scene_skin(&s, a);
-  rung_scene_skin(&bones, b);
-  double steady = rung_scene_farthest(a, b, count);
+  uint32_t count = detail_scene_skin(&s, a);
+  detail_scene_skin(&bones, b);
+  double steady = detail_scene_farthest(a, b, count);
   ck_assert_msg(steady < 2e-3, "%g m", steady); /* it turns: its middle speeds up by 0.4 m/s^2 */
   sbr_character_set_drive(s.world, s.character, -0.5f, 0, 0);
   sbr_character_set_drive(bones.world, bones.character, -0.5f, 0, 0);
@@ -173,9 +173,9 @@ START_TEST(jiggle_follows_its_bone)
   for (int t = 0; t < 60; t++) {
     scene_ticks(&s, 1);
     scene_ticks(&bones, 1);
-    count = rung_scene_skin(&s, a);
-    rung_scene_skin(&bones, b);
-    max = fmax(max, rung_scene_farthest(a, b, count));
+    count = detail_scene_skin(&s, a);
+    detail_scene_skin(&bones, b);
+    max = fmax(max, detail_scene_farthest(a, b, count));
     sbf_vec3 off = {a[0].x - b[0].x, a[0].y - b[0].y, a[0].z - b[0].z};
     for (uint32_t v = 0; v < count; v++) { /* as one piece */
       ck_assert(fabsf(a[v].x - b[v].x - off.x) < 1e-5f && fabsf(a[v].z - b[v].z - off.z) < 1e-5f);
@@ -183,9 +183,9 @@ START_TEST(jiggle_follows_its_bone)
   }
   ck_assert_msg(max > 3e-3 && max < 3e-2, "%g m", max);
   for (int t = 0; t < 300; t++) scene_ticks(&s, 1), scene_ticks(&bones, 1);
-  rung_scene_skin(&s, a);
-  rung_scene_skin(&bones, b);
-  ck_assert(rung_scene_farthest(a, b, count) < 1e-5);
+  detail_scene_skin(&s, a);
+  detail_scene_skin(&bones, b);
+  ck_assert(detail_scene_farthest(a, b, count) < 1e-5);
   scene_free(&s);
   scene_free(&bones);
 }
@@ -204,9 +204,9 @@ static uint64_t wander(scene *s) {
   return sbr_world_get_state_hash(s->world);
 }
 
-START_TEST(snapshots_hold_rungs_and_fades)
+START_TEST(snapshots_hold_detail_levels_and_fades)
 {
-  scene s = rung_scene_walking(DETAIL_FINE);
+  scene s = detail_scene_walking(DETAIL_FINE);
   static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
   sbr_character_set_detail_level(s.world, s.character, DETAIL_JIGGLE);
   scene_ticks(&s, 4);
@@ -214,14 +214,14 @@ START_TEST(snapshots_hold_rungs_and_fades)
   size_t size = sbr_world_get_snapshot_size(s.world);
   unsigned char *bytes = malloc(size);
   ck_assert_int_eq(sbr_world_save_snapshot(s.world, bytes, size), SBF_OK);
-  uint32_t count = rung_scene_skin(&s, a);
+  uint32_t count = detail_scene_skin(&s, a);
   uint64_t end = wander(&s);
   ck_assert_uint_eq(sbr_world_get_snapshot_size(s.world), size);
   ck_assert_int_eq(sbr_world_restore_snapshot(s.world, bytes, size), SBF_OK);
   ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
   ck_assert_uint_eq(sbr_character_get_detail_level(s.world, s.character), DETAIL_JIGGLE);
-  rung_scene_skin(&s, b);
-  ck_assert(rung_scene_farthest(a, b, count) == 0);
+  detail_scene_skin(&s, b);
+  ck_assert(detail_scene_farthest(a, b, count) == 0);
   ck_assert_uint_eq(wander(&s), end);
   free(bytes);
   scene_free(&s);
@@ -232,7 +232,7 @@ START_TEST(recordings_hold_changes)
 {
   static tape t;
   const sbr_record_output output = {tape_keep, &t};
-  scene s = rung_scene_begin(false), again = rung_scene_begin(false);
+  scene s = detail_scene_begin(false), again = detail_scene_begin(false);
   scene_start(&s);
   scene_start(&again);
   sbr_world_set_recording(s.world, &output);
@@ -251,7 +251,7 @@ END_TEST
 
 START_TEST(bones_that_stand_sleep_and_wake_for_a_change)
 {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   s.world_definition.sleep_after_s = 0.5;
   scene_start(&s);
   sbr_character_set_detail_level(s.world, s.character, DETAIL_BONES);
@@ -260,7 +260,7 @@ START_TEST(bones_that_stand_sleep_and_wake_for_a_change)
   sbr_character_set_detail_level(s.world, s.character, DETAIL_FINE);
   scene_ticks(&s, 60);
   ck_assert_uint_ne(sbr_world_get_state_hash(s.world), hash);
-  ck_assert(rung_scene_elastic(&s) > 0);
+  ck_assert(detail_scene_elastic(&s) > 0);
   scene_free(&s);
 }
 END_TEST
@@ -274,7 +274,7 @@ int main(void) {
   tcase_add_loop_test(c, what_spins_goes_on_spinning, 0, 3);
   tcase_add_test(c, away_goes_where_it_is_driven_and_comes_back);
   tcase_add_test(c, jiggle_follows_its_bone);
-  tcase_add_test(c, snapshots_hold_rungs_and_fades);
+  tcase_add_test(c, snapshots_hold_detail_levels_and_fades);
   tcase_add_test(c, recordings_hold_changes);
   tcase_add_test(c, bones_that_stand_sleep_and_wake_for_a_change);
   suite_add_tcase(s, c);

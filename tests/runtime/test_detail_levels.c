@@ -6,7 +6,7 @@
 
 START_TEST(a_ladder_has_levels_jiggle_bones_and_away)
 {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   scene_start(&s);
   sbr_detail_level detail_levels[8];
   ck_assert_uint_eq(sbr_model_get_detail_levels(s.model, detail_levels, 8), LEVELS_OF_DETAIL);
@@ -25,10 +25,10 @@ START_TEST(a_ladder_has_levels_jiggle_bones_and_away)
 }
 END_TEST
 
-START_TEST(without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung)
+START_TEST(without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_one_level)
 {
   for (int i = 0; i < 2; i++) {
-    scene s = rung_scene_begin(false);
+    scene s = detail_scene_begin(false);
     if (i == 0)
       s.model_options.detail_levels = false;
     else
@@ -44,9 +44,9 @@ START_TEST(without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_run
 }
 END_TEST
 
-START_TEST(what_nothing_holds_has_soft_rungs_alone)
+START_TEST(what_nothing_holds_has_soft_detail_levels_alone)
 {
-  scene s = rung_scene_begin(true);
+  scene s = detail_scene_begin(true);
   scene_start(&s);
   sbr_detail_level detail_levels[8];
   ck_assert_uint_eq(sbr_model_get_detail_levels(s.model, detail_levels, 8), 2);
@@ -55,9 +55,9 @@ START_TEST(what_nothing_holds_has_soft_rungs_alone)
 }
 END_TEST
 
-START_TEST(a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung)
+START_TEST(a_level_that_is_off_by_a_quarter_of_its_body_is_no_detail_level)
 {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   ((sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at)[1].simulation.error = 0.2f;
   scene_start(&s);
   sbr_detail_level detail_levels[8];
@@ -69,11 +69,11 @@ END_TEST
 
 /* What a level states of motion goes before what it states of rest, even where that has gone wrong; a scheme
  * that looks at elements more often costs so much more. */
-START_TEST(rungs_go_by_what_was_measured_in_motion)
+START_TEST(detail_levels_go_by_what_was_measured_in_motion)
 {
   float visits = 0;
   for (int i = 0; i < 2; i++) {
-    scene s = rung_scene_begin(false);
+    scene s = detail_scene_begin(false);
     sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at;
     levels[0].simulation.motion_error = 0.001f;
     levels[1].simulation.error = 0.2f;
@@ -97,21 +97,21 @@ END_TEST
 
 START_TEST(levels_that_were_not_loaded_are_passed_over)
 {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at;
   sbf_level_init(&levels[0]);
   s.model_options.detail_levels = false;
   scene_start(&s);
   scene_ticks(&s, 30);
   ck_assert_uint_eq(sbr_character_get_points(s.world, s.character, 0, NULL, 0), levels[1].positions.count);
-  ck_assert(rung_scene_elastic(&s) > 0);
+  ck_assert(detail_scene_elastic(&s) > 0);
   scene_free(&s);
 }
 END_TEST
 
 START_TEST(making_one_survives_want_of_memory)
 {
-  scene s = rung_scene_begin(false);
+  scene s = detail_scene_begin(false);
   scene_models_survive_want(&s);
   sbf_asset_free(s.asset);
 }
@@ -121,10 +121,10 @@ int main(void) {
   Suite *s = suite_create("detail levels");
   TCase *c = tcase_create("detail levels");
   tcase_add_test(c, a_ladder_has_levels_jiggle_bones_and_away);
-  tcase_add_test(c, without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung);
-  tcase_add_test(c, what_nothing_holds_has_soft_rungs_alone);
-  tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung);
-  tcase_add_test(c, rungs_go_by_what_was_measured_in_motion);
+  tcase_add_test(c, without_detail_levels_or_with_a_body_that_keeps_its_shape_there_is_one_level);
+  tcase_add_test(c, what_nothing_holds_has_soft_detail_levels_alone);
+  tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_detail_level);
+  tcase_add_test(c, detail_levels_go_by_what_was_measured_in_motion);
   tcase_add_test(c, levels_that_were_not_loaded_are_passed_over);
   tcase_add_test(c, making_one_survives_want_of_memory);
   suite_add_tcase(s, c);

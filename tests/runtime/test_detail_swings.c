@@ -38,7 +38,7 @@ static void swing(swinging *w, int from, int ticks) {
 }
 
 static swinging begin(int motion, uint32_t detail_level, int ticks) {
-  swinging w = {.s = rung_scene_begin(false), .motion = motion};
+  swinging w = {.s = detail_scene_begin(false), .motion = motion};
   scene_start(&w.s);
   sbr_character_set_detail_level(w.s.world, w.s.character, detail_level);
   if (motion == KNOCKED) {
@@ -67,12 +67,12 @@ static double jump(int motion, uint32_t from, uint32_t to, int at) {
   double max = 0, reach = 1e-6;
   for (int t = at - 20; t < at; t++) {
     swing(&w, t, 1), swing(&stays, t, 1), swing(&bones, t, 1);
-    reach = fmax(reach, rung_scene_apart(&stays.s, &bones.s));
+    reach = fmax(reach, detail_scene_apart(&stays.s, &bones.s));
   }
   sbr_character_set_detail_level(w.s.world, w.s.character, to);
   for (int t = at; t < at + 2; t++) {
     swing(&w, t, 1), swing(&stays, t, 1);
-    max = fmax(max, rung_scene_apart(&w.s, &stays.s));
+    max = fmax(max, detail_scene_apart(&w.s, &stays.s));
     if (sbr_character_get_detail_fade(w.s.world, w.s.character) < 1) break;
   }
   ck_assert(sbr_character_get_detail_fade(w.s.world, w.s.character) < 1);
@@ -132,9 +132,9 @@ typedef struct watched_changes {
 } watched_changes;
 
 static watched_changes watch_changes(int motion) {
-  watched_changes c = {.w = {.s = rung_scene_begin(false), .motion = motion},
-      .other = rung_scene_begin(false),
-      .stays = rung_scene_begin(false),
+  watched_changes c = {.w = {.s = detail_scene_begin(false), .motion = motion},
+      .other = detail_scene_begin(false),
+      .stays = detail_scene_begin(false),
       .motion = motion};
   const sbr_detail_definition detail = sbr_default_detail_definition();
   state_errors(&c.w.s), state_errors(&c.other), state_errors(&c.stays);
@@ -176,7 +176,7 @@ static double jump_driven(
     scene_ticks(both[i], 1);
   }
   c->put_off += !is_fading(&c->other);
-  return is_fading(&c->other) ? rung_scene_apart(&c->other, &c->stays) : 0;
+  return is_fading(&c->other) ? detail_scene_apart(&c->other, &c->stays) : 0;
 }
 
 /* The camera goes from a metre and a half to four hundred away and back, twice. */
@@ -208,7 +208,7 @@ START_TEST(chosen_changes_jump_by_less_than_half_a_pixel)
 END_TEST
 
 /* Of one that has just been made nothing has been seen. */
-START_TEST(a_new_one_begins_on_the_rung_that_is_chosen)
+START_TEST(a_new_one_begins_on_the_detail_level_that_is_chosen)
 {
   watched_changes c = watch_changes(CALM);
   sbr_view view = view_from(&c.w.s, 1.5);
@@ -229,7 +229,7 @@ int main(void) {
   tcase_add_loop_test(c, hardly_anything_of_a_swing_jumps, 0, DETAIL_BONES * (DETAIL_OFFSCREEN - 1));
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, SHAKEN, KNOCKED);
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, TURNED, CALM + 1);
-  tcase_add_test(c, a_new_one_begins_on_the_rung_that_is_chosen);
+  tcase_add_test(c, a_new_one_begins_on_the_detail_level_that_is_chosen);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -37,7 +37,7 @@ START_TEST(a_level_has_gone_wrong_by_more_than_a_quarter_of_its_body)
 }
 END_TEST
 
-START_TEST(what_is_not_stepped_is_no_rung_however_near)
+START_TEST(what_is_not_stepped_is_no_detail_level_however_near)
 {
   sbf_level level = of_model(SBF_ELASTIC_MODEL_SPRINGS);
   level.simulation.error = 0.01f;
@@ -52,7 +52,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, springs_and_solids_are_stepped_once_they_are_loaded);
   tcase_add_test(tests, a_level_has_gone_wrong_by_more_than_a_quarter_of_its_body);
-  tcase_add_test(tests, what_is_not_stepped_is_no_rung_however_near);
+  tcase_add_test(tests, what_is_not_stepped_is_no_detail_level_however_near);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
