@@ -131,7 +131,7 @@ static void measure_crowds(
     double one = 0;
     uint64_t hash = 0;
     for (uint32_t threads = 1; threads <= 2; threads++) {
-      crowd_times t = run_crowd(model, raise_m, counts[n], threads, quick ? 4 : frames);
+      crowd_times t = run_crowd(model, raise_m, counts[n], threads, bench_runs_once() ? 4 : frames);
       if (threads == 1)
         one = t.busy_s, hash = t.hash;
       else if (hash != t.hash)
@@ -156,7 +156,7 @@ static double bytes_of_substep(const sbf_asset *asset) {
          BYTES_OF_POINT * (double)asset->soft_bodies.at[0].levels.at[0].positions.count;
 }
 
-static void measure_substep(const sbf_asset *asset, sbr_instructions instructions, bool quick) {
+static void measure_substep(const sbf_asset *asset, sbr_instructions instructions) {
   sbf_diagnostic error;
   sbr_model *models[2];
   double min[2] = {0, 0};
@@ -166,9 +166,9 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
                       &(sbr_model_options){.substeps = (k + 1) * SUBSTEPS, .instructions = instructions},
                       &models[k], &error),
         &error);
-  for (uint32_t round = 0; round < (quick ? 1u : 7u); round++)
+  for (uint32_t round = 0; round < bench_round_count(7); round++)
     for (uint32_t k = 0; k < 2; k++) {
-      double taken = run_crowd(models[k], FLIES_M, 1, 1, quick ? 4 : 40).busy_s;
+      double taken = run_crowd(models[k], FLIES_M, 1, 1, bench_runs_once() ? 4 : 40).busy_s;
       if (round == 0 || taken < min[k]) min[k] = taken;
     }
   double substep = (min[1] - min[0]) / SUBSTEPS;
@@ -180,8 +180,8 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
 
 /* a = b + s c, over and over: what a core reads and writes a second where three lists of so many bytes lie.
  */
-static void measure_triad(const char *name, size_t size, bool quick) {
-  size_t count = size / sizeof(float), rounds = quick ? 1 : 3 + ((size_t)1 << 27) / size;
+static void measure_triad(const char *name, size_t size) {
+  size_t count = size / sizeof(float), rounds = bench_runs_once() ? 1 : 3 + ((size_t)1 << 27) / size;
   float *lists = bench_allocate(3 * count, sizeof *lists), *a = lists, *b = lists + count, *c = b + count;
   double min = 0;
   for (size_t i = 0; i < count; i++) a[i] = 0, b[i] = (float)i, c[i] = 2;
@@ -207,8 +207,7 @@ int main(int argument_count, char **arguments) {
   sbf_asset *asset = armadillo_of_tetrahedra(2750);
   if (asset) {
     for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++)
-      if (sbr_instructions_are_available((sbr_instructions)i))
-        measure_substep(asset, (sbr_instructions)i, quick);
+      if (sbr_instructions_are_available((sbr_instructions)i)) measure_substep(asset, (sbr_instructions)i);
     measure_crowds("armadillo in flight", asset, FLIES_M, 100, 40, quick);
     measure_crowds("armadillo on the floor", asset, STANDS_M, 1, 120, quick);
     measure_crowds("armadillo that strikes the floor", asset, STRIKES_M, 1, 60, quick);
@@ -216,9 +215,9 @@ int main(int argument_count, char **arguments) {
   } else {
     fprintf(stderr, "bench_crowd: ../shared/data is not there: the armadillos are left out\n");
   }
-  measure_triad("L2", (size_t)1 << 18, quick);
-  measure_triad("L3", (size_t)1 << 23, quick);
-  measure_triad("memory", (size_t)1 << (quick ? 22 : 27), quick);
+  measure_triad("L2", (size_t)1 << 18);
+  measure_triad("L3", (size_t)1 << 23);
+  measure_triad("memory", (size_t)1 << (bench_runs_once() ? 22 : 27));
   asset = our_lizard(true);
   measure_crowds("lizard", asset, 0, 100, 60, quick);
   sbf_asset_free(asset);

@@ -31,6 +31,11 @@
 static const float DEGREES = 57.29578f;
 #ifdef BENCH_BULLET
 static const float TICK_S = 1 / 60.0f;
+
+/* With --once other engines are left out. */
+static bool measures_bullet(bool quick) {
+  return quick || !bench_runs_once();
+}
 #endif
 
 typedef struct fall {
@@ -179,7 +184,7 @@ static void measure_ragdolls(bool quick) {
   static const int theirs[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
   sbf_asset *asset = ragdoll_asset();
   sbf_diagnostic error;
-  int rounds = quick ? 1 : 5, ticks = quick ? 90 : RAGDOLL_TICKS;
+  int rounds = (int)bench_round_count(5), ticks = quick ? 90 : RAGDOLL_TICKS;
   for (size_t k = 0; k < sizeof ours / sizeof *ours; k++) {
     sbr_model *model;
     sbr_model_options options = {.rigid_substeps = ours[k].steps, .rigid_coarse = ours[k].coarse};
@@ -198,7 +203,7 @@ static void measure_ragdolls(bool quick) {
     sbr_model_destroy(model);
   }
 #ifdef BENCH_BULLET
-  for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
+  for (size_t k = 0; measures_bullet(quick) && k < sizeof theirs / sizeof *theirs; k++) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
       fall f = bullets_ragdoll(theirs[k][0], theirs[k][1], ticks);
@@ -361,13 +366,13 @@ static void measure_our_cloth(
 static void measure_cloths(bool quick) {
   cloth c = make_cloth(quick ? 40 : 100, quick ? 60 : CLOTH_TICKS);
   sbf_vec3 *points = bench_allocate(c.shape.point_count, sizeof *points);
-  int rounds = quick ? 1 : 3;
+  int rounds = (int)bench_round_count(3);
   measure_our_cloth(&c, "symplectic", SBF_SCHEME_SYMPLECTIC, 0, rounds, points);
   for (uint32_t steps = 20; steps <= (quick ? 20 : 80); steps *= 2)
     measure_our_cloth(&c, "position-based", SBF_SCHEME_POSITION_BASED, steps, rounds, points);
 #ifdef BENCH_BULLET
   static const uint32_t theirs[][2] = {{1, 10}, {4, 10}, {8, 10}, {16, 10}};
-  for (size_t k = 0; k < (quick ? 1 : sizeof theirs / sizeof *theirs); k++) {
+  for (size_t k = 0; measures_bullet(quick) && k < (quick ? 1 : sizeof theirs / sizeof *theirs); k++) {
     fall best = {0};
     for (int r = 0; r < rounds; r++) {
       fall f = bullets_cloth(&c, theirs[k][0], theirs[k][1], points);

@@ -114,7 +114,7 @@ int main(int argument_count, char **arguments) {
               .count = quick ? 20 : TARGETS};
           cases[s] = (bench_case){.run = solve_all, .context = &works[s]};
         }
-        bench_rounds(cases, SOLVERS, quick ? 1 : 5);
+        bench_rounds(cases, SOLVERS, bench_round_count(5));
         for (int s = 0; s < SOLVERS; s++) {
           const work *w = &works[s];
           bench_print_row("%s,%s,%s,%g,%.1f,%.2f,%.3g,%.3g,%u,%u", w->with->name,

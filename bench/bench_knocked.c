@@ -87,7 +87,7 @@ int main(int argument_count, char **arguments) {
   sbf_diagnostic error;
   knock knocks[CASES];
   double walk_us = 0;
-  int rounds = quick ? 1 : 5, ticks = quick ? COMPARED : TICKS;
+  int rounds = (int)bench_round_count(5), ticks = quick ? COMPARED : TICKS;
   if (asset->rigid_bodies.count > MAX_BODIES) bench_fail("the lizard has too many bodies");
   for (int i = 0; i < CASES; i++) {
     sbr_model_options options = {.rigid_substeps = steps[i]};

@@ -66,7 +66,8 @@ int main(int argument_count, char **arguments) {
   bench_print_columns("body,level,elements,error_mm,cost,us_per_tick");
   if (spot)
     measure("spot", spot,
-        (sbf_build_options){.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 4000, .levels = 5}, 15);
+        (sbf_build_options){.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 4000, .levels = 5},
+        bench_round_count(15));
   else
     measure("our lizard's first section", our_lizard(false), (sbf_build_options){.levels = 2}, 3);
   return 0;

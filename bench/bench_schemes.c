@@ -94,7 +94,7 @@ static void measure_cost(const char *name, sbf_asset *asset, bool quick) {
   const sbf_level *level = &asset->soft_bodies.at[0].levels.at[0];
   uint32_t springs = level->springs.at[0].ends.count;
   for (int i = 0; i < 4; i++) {
-    uint32_t substeps = 16, ticks = quick ? 1 : 10, rounds = quick ? 1 : 7;
+    uint32_t substeps = 16, ticks = quick ? 1 : 10, rounds = bench_round_count(7);
     double s = time_of(asset, schemes[i], substeps, ticks, rounds);
     bench_print_row("%s,%u,%u,%s,%u,%.1f,%.2f,", name, level->positions.count, springs,
         sbf_scheme_name(schemes[i]), substeps, s * 1e6, s * 1e9 / springs / substeps);
@@ -102,7 +102,7 @@ static void measure_cost(const char *name, sbf_asset *asset, bool quick) {
   sbf_asset_free(asset);
 }
 
-static void measure_errors(bool quick) {
+static void measure_errors(void) {
   static const struct {
     sbf_scheme scheme;
     uint32_t substeps;
@@ -120,7 +120,7 @@ static void measure_errors(bool quick) {
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     track(asset, cases[i].scheme, cases[i].substeps, tips);
     double error = error_of(tips, exact),
-           s = time_of(asset, cases[i].scheme, cases[i].substeps, SWING_TICKS, quick ? 1 : 9);
+           s = time_of(asset, cases[i].scheme, cases[i].substeps, SWING_TICKS, bench_round_count(9));
     char text[32] = "";
     if (error < 1) snprintf(text, sizeof text, "%.4f", error * 1e3);
     bench_print_row("swing,%u,%u,%s,%u,%.1f,%.2f,%s", level->positions.count, springs,
@@ -135,6 +135,6 @@ int main(int argument_count, char **arguments) {
   bench_print_columns("body,points,springs,scheme,substeps,us_per_tick,ns_per_spring,error_mm");
   measure_cost("cloth", cloth_of_springs(quick ? 20 : 200), quick);
   measure_cost("beam", beam_of_springs(quick ? 2 : 10, quick ? 5 : 50, 0.02f, 3000), quick);
-  measure_errors(quick);
+  measure_errors();
   return 0;
 }

@@ -89,7 +89,7 @@ int main(int argument_count, char **arguments) {
   }
   for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
     sbf_asset *source = character_asset(meshes[i][0], meshes[i][1], NULL, false);
-    if (source) measure(meshes[i][1], source, 25);
+    if (source) measure(meshes[i][1], source, bench_round_count(25));
   }
   return 0;
 }

@@ -250,7 +250,7 @@ static sbr_model *model_of(const sbf_asset *asset) {
 static result measure(const char *name, const sbf_asset *asset, bool quick) {
   sbf_asset *round = ball_asset(BALL_M, BALL_KG);
   sbr_model *ball = model_of(round), *model = model_of(asset);
-  uint32_t frames = quick ? 10 : 300;
+  uint32_t frames = bench_runs_once() ? 10 : 300;
   result r = throw_all(model, ball, asset->joints.count, quick);
   bench_print_row("%s,%u,%u,%u,%.1f,%.3f,%.1f,%.1f,%.1f,%.2f,%.1f,%.0f,%.0f", name,
       asset->soft_bodies.at[0].levels.at[0].lattice.tetrahedra.count,

@@ -107,7 +107,7 @@ def measure(build, name):
     if not os.access(program, os.X_OK):
         skip(f"{program} is not built")
     if not table.cases:
-        return list(csv.DictReader(io.StringIO(run([program]))))
+        return list(csv.DictReader(io.StringIO(run([program, "--once"]))))
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         character = converted(program, table, folder)

@@ -50,8 +50,24 @@ void bench_print_row(const char *format, ...) {
   fflush(stdout);
 }
 
+/* ---- How often ---- */
+
+static bool once;
+
 bool bench_is_quick(int argument_count, char **arguments) {
-  for (int i = 1; i < argument_count; i++)
-    if (strcmp(arguments[i], "--quick") == 0) return true;
-  return false;
+  bool quick = false;
+  for (int i = 1; i < argument_count; i++) {
+    quick |= strcmp(arguments[i], "--quick") == 0;
+    once |= strcmp(arguments[i], "--once") == 0;
+  }
+  once |= quick;
+  return quick;
+}
+
+bool bench_runs_once(void) {
+  return once;
+}
+
+uint32_t bench_round_count(uint32_t rounds) {
+  return once ? 1 : rounds;
 }

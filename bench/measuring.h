@@ -40,7 +40,12 @@ void bench_print_columns(const char *columns);
 /* Prints a row: the formatted fields, separated by commas, then commit, compiler, lanes, processor, date. */
 void bench_print_row(const char *format, ...);
 
-/* Whether an argument of main is `--quick`: every case once or so, to see that the program works. */
+/* Whether an argument of main is `--quick`: every case once or so, to see that the program works. Takes note
+ * of `--once` as well: every row with what no machine changes, its times of one round, no other engines. */
 bool bench_is_quick(int argument_count, char **arguments);
+/* Whether `--once` or `--quick` was given. */
+bool bench_runs_once(void);
+/* `rounds`, or 1 where bench_runs_once. */
+uint32_t bench_round_count(uint32_t rounds);
 
 #endif
