@@ -144,6 +144,45 @@ class Packages(unittest.TestCase):
         self.assertIn("configuring failed", done.stderr)
 
 
+class Stages(unittest.TestCase):
+    """The stages of `test --all`, with others in their places."""
+
+    def run_all(self, **bodies):
+        stages = {name: "true" for name in ("other_system", "strict_build", "strict", "sanitize", "first_run", "slow")}
+        replaced = "".join(f"stage_{name}() {{\n{body}\n}}\n" for name, body in {**stages, **bodies}.items())
+        with open(RUN, encoding="utf-8") as file:
+            functions, dispatch = file.read().split("\ncommand=${1:-help}\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "run")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(f"{functions}\nrequire() {{ :; }}\n{replaced}command=${{1:-help}}\n{dispatch}")
+            shutil.copytree(os.path.join(ROOT, "tests"), os.path.join(folder, "tests"), ignore=lambda top, names: [
+                name for name in names if os.path.isdir(os.path.join(top, name))])
+            return subprocess.run(["/bin/sh", path, "test", "--all"], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                                  timeout=60, check=False)
+
+    def test_each_is_counted_once(self):
+        done = self.run_all(first_run="echo said beside", slow="echo said before; sleep 1")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.stdout.count("\npassed "), 6)
+        self.assertIn("6 passed, 0 failed", done.stdout)
+        self.assertLess(done.stdout.index("said before"), done.stdout.index("said beside"))
+
+    def test_one_that_fails_beside_others_fails_all(self):
+        for name in ("other_system", "first_run"):
+            done = self.run_all(**{name: "echo broken; exit 1"})
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("broken", done.stdout)
+            self.assertRegex(done.stdout, r"(?m)^FAILED +\d+ s")
+            self.assertIn("5 passed, 1 failed", done.stdout)
+
+    def test_two_that_are_skipped_give_their_own_reasons(self):
+        done = self.run_all(other_system="skippable 'no' sh -c 'echo SKIP one: no archive; exit 77'",
+                            first_run="skippable 'no' sh -c 'sleep 1; echo SKIP two: no root; exit 77'")
+        self.assertIn("stage/other_system one: no archive", done.stdout)
+        self.assertIn("stage/first_run two: no root", done.stdout)
+
+
 class Table(unittest.TestCase):
     def test_a_package_that_is_not_made_is_counted_and_reported(self):
         class Some:
