@@ -33,7 +33,7 @@ static inline void move_position(contact_inertia *i, const sbri_twin r[3]) {
   }
 }
 
-/* What rows give way by between the two bodies' turns, added to the lower half. */
+/* Adds the rows' compliance between the two bodies' rotations to the lower half. */
 static void add_give(const sbri_edge *edge, double k[3][3]) {
   for (uint32_t r = 0; r < edge->active_count; r++) {
     const sbri_row *row = &edge->rows[edge->actives[r]];
@@ -44,7 +44,7 @@ static void add_give(const sbri_edge *edge, double k[3][3]) {
   }
 }
 
-/* What gives way, lower half, and flesh alone. */
+/* Compliance (lower half): of all rows, and of joint damping alone. */
 static void find_give(const sbri_ball_pair *p, sbri_twin k[3][3]) {
   const sbri_edge *const *edges = (const sbri_edge *const *)p->edges;
   sbri_twin attached = sbri_twin_of(edges[0]->ball->attached_inertia, edges[SECOND]->ball->attached_inertia);

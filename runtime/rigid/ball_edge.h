@@ -1,11 +1,13 @@
-/* Joints of the tree that hold a place and leave every turn free, as most of a ragdoll's do: eliminated by
- * their own three unknowns, without rows for what they hold, and two at once, as limbs come in pairs.
+/* Ball joints of the tree: they fix a point and leave every rotation free, as most joints of a ragdoll do.
+ * Each is eliminated by its own three unknowns, without constraint rows; two at once, as limbs come in pairs.
  *
- * With the child's inertia about the joint's place, A of speeds, E between turns and speeds, C of turns, and
- * K of what gives way between the two bodies' turns (flesh, drives, limits that press), the child turns by (C
- * + K) w = m + r + K w_parent - E v,      v the place's speed, and its parent feels at that place what is
- * left when that is put in (Featherstone, The calculation of robot dynamics using articulated-body inertias,
- * 1983). All in factors of C + K, so that a light link keeps its own inertia beside a heavy one's. */
+ * The child's inertia about the joint's point has the blocks A (linear), E (between angular and linear) and C
+ * (angular). K is the compliance between the two bodies' rotations: joint damping, drives, active limits. The
+ * child's angular velocity w follows from
+ *   (C + K) w = m + r + K w_parent - E v,      v the velocity of the joint's point;
+ * the parent gets the remaining inertia and impulse at that point (Featherstone, The calculation of robot
+ * dynamics using articulated-body inertias, 1983). Everything is kept in factors of C + K, so that a light
+ * link keeps its own inertia beside a heavy one's. */
 #ifndef SBRI_BALL_EDGE_H
 #define SBRI_BALL_EDGE_H
 

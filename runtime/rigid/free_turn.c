@@ -1,11 +1,11 @@
-/* Bodies that nothing twists.
+/* Torque-free rotation.
  *
- * Over a step h the angular momentum p, seen from the body, turns backwards by what the body turns forwards,
- * and the body turns at w = I^-1 (p + p') / 2, the implicit midpoint rule of Euler's equation:
+ * In the body's frame the angular momentum p rotates opposite to the body. The body's angular velocity over a
+ * step h is w = I^-1 (p + p') / 2, the implicit midpoint rule of Euler's equation:
  *   (1 + h/2 w^) p' = (1 - h/2 w^) p,      R' = R cay(h w).
- * The angular momentum in space stays what it is by construction, and p' - p is square to w, so that the
- * energy stays too (Lewis and Simo, Conserving algorithms for the dynamics of Hamiltonian systems on Lie
- * groups, 1994): a body that tumbles about its middle axis does so for ever, at any step. */
+ * The angular momentum in space is constant by construction. p' - p is perpendicular to w, so the energy is
+ * constant too (Lewis and Simo, Conserving algorithms for the dynamics of Hamiltonian systems on Lie groups,
+ * 1994): a body that tumbles about its middle axis keeps tumbling, at any step size. */
 #include "rigid/free_turn.h"
 
 static sbf_vec3 times(sbf_vec3 a, sbf_vec3 b) {

@@ -17,13 +17,13 @@ void sbri_joint_rows_set_targets(sbri_edge *e) {
   for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = (double)e->rows[e->actives[r]].wanted;
 }
 
-/* What a drive gives of its row's impulse: all but what the flesh takes at the speed that the row leaves. */
+/* The drive's part of its row's impulse: the rest is joint damping at the velocity after the solve. */
 static float of_drive(const sbri_row *row) {
   return row->impulse + row->attached_mass * (row->target - row->give * row->impulse);
 }
 
-/* A drive's greatest impulse goes into the motions at once; it then takes no part. Where there is flesh as
- * well the row goes on as that, with the greatest impulse on top. */
+/* A drive at its limit becomes a constant impulse on the right-hand side. If the joint has damping as well,
+ * the row stays in the system for the damping alone. */
 static void give_max(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
   if (row->attached_mass > 0) {
     float max = of_drive(row) > 0 ? row->max : -row->max;
@@ -62,7 +62,7 @@ static void wake_limit(sbri_rigid_solving *work, const sbri_rigid_model *model, 
   row->moved = sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), was);
 }
 
-/* Dry friction that would brake with more than so many times its torque, as in a hit, brakes with that. */
+/* Upper bound of dry friction, in multiples of its torque: it counts in a hit. */
 static const float DRY_MORE = 2;
 
 static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {

@@ -89,7 +89,8 @@ static void put(float to[6], sbf_vec3 linear, sbf_vec3 angular) {
   to[3] = angular.x, to[4] = angular.y, to[5] = angular.z;
 }
 
-/* Of the origins' distance along a direction, in which frame a's share of the direction's turning is. */
+/* Rate of the origins' distance along a direction that is fixed in frame a: the direction's rotation counts.
+ */
 static void put_linear(const sbri_joint_frames *p, sbf_vec3 along, float rates[SBRI_SIDES][6]) {
   put(rates[SBRI_B], along, sbri_cross(p->arms[SBRI_B], along));
   sbf_vec3 back = sbri_scale(along, -1);

@@ -7,11 +7,11 @@
 #include "math/trig.h"
 #include "mechanics/joint_freedom.h"
 
-/* Beyond a swing of that length, or below that w of the turn, it is not told without an arctangent how far
- * off a limit is. */
+/* Beyond that length of the swing, or below that w of the rotation, the distance to a limit needs an
+ * arctangent. */
 static const float CLEAR_SWING = 0.9f, CLEAR_TURN = 0.6f;
-/* rad/s: what turns no faster is held by dry friction, which holds with so much more than it brakes with
- * where that turns so much faster: what breaks loose does not creep. */
+/* rad/s: below it dry friction is static, above it kinetic. Static friction is stronger by a factor, so that
+ * a joint that breaks loose does not creep. */
 static const float STICKS = 0.001f, HOLDS_MORE = 0.25f, LOOSE = 5;
 /* Slower than this nothing bounces off a limit. */
 static const float BOUNCE_FROM = 0.05f;
@@ -140,10 +140,10 @@ static float turning_of(const row_maker *m) {
       sbri_side_motion(m->work, model, m->joint, SBRI_A)->turn));
 }
 
-/* Between bones: the flesh about the joint damps it, and where it is driven draws it towards what the
- * animation has the two bodies turned against each other; about the axes that turn. Dry friction is as much
- * damping as brakes with its torque at the speed that the bodies turn at; where they hardly turn it holds,
- * but for a creep below STICKS. */
+/* Joints between bones, about their free axes: damping by the tissue around the joint, and, where the joint
+ * is driven, a pull towards the animated relative rotation. Dry friction is the damping that gives its torque
+ * at the current relative angular velocity; bodies that hardly rotate are held, except for a creep below
+ * STICKS. */
 static void add_track(row_maker *m) {
   const sbri_rigid_tick *t = m->tick;
   const sbri_rigid_joint *joint = m->joint;
@@ -202,7 +202,7 @@ static sbf_vec3 slip_of(
       sbri_add(a->velocity, sbri_cross(a->turn, lever)));
 }
 
-/* What the bodies' turning at the speeds that they have bends the place's way by, as a mean speed. */
+/* Mean velocity by which the point's path curves, from the bodies' rotation at their current velocities. */
 static sbf_vec3 bend_of(const row_maker *m, sbf_vec3 slip) {
   const sbri_part_motion *a = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_A),
                          *b = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_B);
@@ -212,7 +212,7 @@ static sbf_vec3 bend_of(const row_maker *m, sbf_vec3 slip) {
   return sbri_sub(mean, slip);
 }
 
-/* What a ball asks of its place; its turns are wanted to be as its flesh has them, at rest. */
+/* Right-hand side of a ball joint: its point is closed; its rotations only have damping, with target 0. */
 static void make_ball(row_maker *m) {
   sbri_ball *ball = m->edge->ball;
   const sbri_joint_frames *joint_frames = m->frames;

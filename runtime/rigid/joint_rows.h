@@ -9,7 +9,7 @@
 #define SBRI_CORRECTION_M_S 1.0f
 #define SBRI_CORRECTION_RAD_S 4.0f
 
-/* Within that either way: of lengths, and of angles. */
+/* Tolerances to either side: of lengths, and of angles. */
 static inline float sbri_clamped_rate(sbf_joint_axis axis, float rate, float max_m_s, float max_rad_s) {
   float max = sbri_axis_turns(axis) ? max_rad_s : max_m_s;
   return sbri_clamp(rate, -max, max);
@@ -27,7 +27,7 @@ bool sbri_limit_acts(const sbri_row *row, float speed, float step_s);
 /* By how much swing and twist change at most in a step where the bodies turn so against each other; of turns
  * that are no greater than those of which sbri_row has `clear`. */
 float sbri_turn_reach(float turn_rad_s, float step_s);
-/* Rates of a limit's row, the side on which it is, and what it gives way by. */
+/* A limit's row: its Jacobian, its side and its compliance. */
 void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *edge,
     sbri_joint_frames *joint_frames, sbri_row *row, float step_s);
 

@@ -4,11 +4,11 @@
 #include "rigid/sym6.h"
 
 static const float TURN = 6.28318530718f;
-/* How much stiffer limits are than the lighter of their bodies is heavy; what they give way by is put right
- * at the step's end. */
+/* Stiffness of limits relative to the lighter body's inertia. The position error that this leaves is
+ * corrected at the end of the step. */
 static const double FIRM = 1e5;
-/* A small turn changes its swing and twist by no more than this times what the bodies turn against each
- * other; and so much more is let be for what comes of steps of finite length. */
+/* Upper bound of the rate of swing and twist, in multiples of the relative angular velocity; and the margin
+ * for steps of finite length. */
 static const float REACH = 1.4f, REACH_MIN = 0.02f;
 
 float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *model,

@@ -1,13 +1,13 @@
 /* Hulls against the ground, vertex by vertex.
  *
- * Once a tick the ground is asked under each vertex that may reach it, and stands for that tick as the plane
- * that touches it there, as it does for soft bodies (contact/contact.h). A touch acts on one body alone, and
- * so lies in the body's own block of the system: all touches, and all joints, are solved at once. Along the
- * normal it is a row that gives way by a small share of the body's own inertia there, pushes only, and aims
- * at the vertex's lying on the plane at the substep's end. Across it is a spring whose force goes on from
- * that of the step before (Cundall and Strack, A discrete numerical model for granular assemblies, 1979), cut
- * where it would be more than Coulomb's law allows. So what lies, however it is jammed, is held by the same
- * forces step after step, and the last bits of its place are no reason to slide. */
+ * Once a tick the ground is sampled under each vertex that may reach it. For that tick the tangent plane
+ * there replaces the ground, as for soft bodies (contact/contact.h). A contact acts on one body only, so it
+ * adds to the body's own block of the system; all contacts and all joints are solved together. The normal
+ * direction is a unilateral row with a small compliance relative to the body's inertia; it aims at the vertex
+ * on the plane at the end of the substep. The tangential direction is a spring whose force continues from the
+ * step before (Cundall and Strack, A discrete numerical model for granular assemblies, 1979), cut at
+ * Coulomb's bound. A body at rest is therefore held by the same forces in every step, even where it is
+ * jammed, and rounding does not make it slide. */
 #include "collide/ground.h"
 #include "rigid/rigid_work.h"
 
@@ -16,17 +16,18 @@ static const float FIRM = 300, FIRM_ACROSS = 30;
 /* What presses with more than its body's weight, as a toe with a leg on it, grips as much harder, and no more
  * than this. */
 static const float MAX_LOAD = 1000;
-/* In steps that are longer than this they are so much stiffer that what lies sinks in as far. */
+/* s: in longer steps contacts are stiffer in proportion, so that a body at rest sinks in equally far. */
 static const float FIRM_STEPS_1_S = 240;
-/* What is less than this share of its body's weight, or of what presses, makes no difference. */
+/* Forces below this fraction of the body's weight, or of the normal force, are ignored. */
 static const float FRICTION_TOLERANCE = 1e-3f;
-/* A friction that is right but for this share of its bound needs no other pass, and for this the bound. */
+/* Tolerances as fractions of friction's bound: of the force, and of the bound itself. */
 static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
-/* Of what holds a place that sticks, this share is let go in a step: it creeps by micrometres a second. */
+/* Fraction of a sticking contact's tangential force that decays in a step: a creep of micrometres a second.
+ */
 static const float FRICTION_RELEASE = 0.005f;
-/* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
+/* m: a vertex no higher than this counts as on the ground. */
 static const float LYING_M = 1e-4f;
-/* What lies below is moved up by this share of it a substep, and no faster than that. */
+/* Fraction of a penetration that is corrected in a substep, and the greatest velocity of the correction. */
 static const float LIFT_FRACTION = 0.2f, LIFT_MAX_M_S = 0.5f;
 
 static float height_at(const sbri_rigid_tick *t, float x, float z, sbf_vec3 *normal) {
@@ -106,8 +107,8 @@ static bool is_idle(const sbri_rigid_contact *contact, sbf_vec3 du) {
   return !(contact->bound > 0) && !(sbri_dot(contact->normal, sbri_sub(contact->target, du)) > 0);
 }
 
-/* How friction answers at a change of velocity du, linearised there: it sticks, giving way from the force of
- * the step before on, or slides with what Coulomb's law allows against where that would go. */
+/* Friction linearised at a change of velocity du: it sticks, a spring that continues from the force of the
+ * step before, or slides with Coulomb's bound against the direction of that force. */
 static void linearise(sbri_rigid_contact *contact, sbf_vec3 du) {
   sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
   if (is_idle(contact, du)) {
@@ -195,7 +196,7 @@ static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_cont
 }
 
 /* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) where it sticks and
- * stiff n n^T + side_grip side side^T where it slides, and f the impulse that it has without giving way. */
+ * stiff n n^T + side_grip side side^T where it slides, and f the impulse at zero change of velocity. */
 static void add_contact(
     sbri_node *node, const sbri_rigid_contact *contact, sbri_rigid_external_body *external_body) {
   float stiff = contact->active ? contact->stiff : 0, grip = contact->slides ? 0 : contact->grip,
@@ -259,7 +260,7 @@ static sbf_vec3 moved_now(const sbri_rigid_solving *work, const sbri_rigid_conta
   return g ? sbri_sub(moved, sbri_rigid_external_body_moved(g, contact->external_body_arm)) : moved;
 }
 
-/* The impulse at a change of velocity: nothing but that stands in it. */
+/* The impulse at a change of velocity; it depends on nothing else. */
 static sbf_vec3 impulse_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
   sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
   float into = sbri_dot(n, off);

@@ -36,8 +36,8 @@ static inline bool sbri_rigid_external_body_gives(const sbri_rigid_external_body
 void sbri_rigid_external_bodies_begin(struct sbri_rigid_solving *work, float step_s);
 void sbri_rigid_external_bodies_end_step(struct sbri_rigid_solving *work, float step_s);
 
-/* The system: begun; a touch that answers relative motion by `w`, kg, at their two arms; an impulse; folded
- * into the nodes' d; and solved along with all. */
+/* The system's parts: begin; add a contact with stiffness matrix `w` (kg) at its two lever arms; add an
+ * impulse; eliminate into the nodes' d; back-substitute. */
 void sbri_rigid_external_bodies_clear(struct sbri_rigid_solving *work);
 void sbri_rigid_external_body_couple(
     sbri_rigid_external_body *external_body, sbf_vec3 arm, sbf_vec3 own_arm, double w[3][3]);
@@ -48,7 +48,8 @@ void sbri_rigid_solve(struct sbri_rigid_solving *work);
 /* Change of velocity at its arm, by y. */
 sbf_vec3 sbri_rigid_external_body_moved(const sbri_rigid_external_body *external_body, sbf_vec3 arm);
 
-/* Along with the nodes' x: kept for the next pass, held back, and its kinetic energy along the way. */
+/* Together with the nodes' x: store for the next pass, limit, and the kinetic energy along the search
+ * direction. */
 void sbri_rigid_external_bodies_note(struct sbri_rigid_solving *work);
 void sbri_rigid_external_bodies_hold_back(struct sbri_rigid_solving *work, float fraction);
 void sbri_rigid_external_bodies_compute_slope(

@@ -3,22 +3,22 @@
  * for comes on top (ragdoll/coupled.c). */
 #include "rigid/rigid_work.h"
 
-/* After so many slow ticks all lies, or hangs: what swings is slow for less. */
+/* Number of slow ticks after which all bodies count as resting. A swinging body is slow for fewer. */
 enum { LYING_TICKS = 20 };
 
-/* In flight a tick has so many times fewer steps than the model says at the least. */
+/* In flight a tick has at least the model's number of substeps divided by this. */
 enum { MAX_FEWER = 4 };
-/* And there goes back to fewer below this share of what those would do for. */
+/* In flight fewer substeps are used again below this fraction of what they allow. */
 static const float NEARLY = 0.75f;
 
-/* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
+/* rad: the greatest rotation of a body in a step, so that an arc is close to its tangent. */
 static const float MAX_TURN = 0.2f;
-/* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
- * that of the tick before: as light parts crack between heavy ones. */
+/* Greatest angular frequency times step size, from the joint forces of the step itself. It counts where its
+ * square is so many times that of the tick before, as with light parts between heavy ones. */
 static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
 /* A bound of what pulls is no smaller for rounding. */
 static const float ROUNDED = 1.001f;
-/* Slower than this share of its size a second, a body hardly moves. */
+/* Fraction of its size a second below which a body counts as slow. */
 static const float SLOW_1_S = 0.1f;
 
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
@@ -29,8 +29,8 @@ float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s)
   return swell > 1 ? swell : 1;
 }
 
-/* Torque on a body per turn about each of its own axes, by pulls at its joints: the force at an arm r answers
- * a turn with (r.F - r_i F_i) about the axis i. */
+/* Rotational stiffness of a body about each of its own axes, from the forces at its joints: a force F at the
+ * lever arm r gives r.F - r_i F_i about the axis i. */
 static void add_pull(
     const sbri_rigid_joint *joint, int side, sbf_quat rotation, sbf_vec3 force, float stiffness[3]) {
   sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(rotation), force);
@@ -67,7 +67,7 @@ static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) 
   return true;
 }
 
-/* As many as the model says; one where all lies; and in flight as many as keep turns and swings fine. */
+/* Number of substeps: the model's; 1 where all bodies rest; in flight enough for rotations and swings. */
 static uint32_t min_steps(const sbri_rigid_tick *t, bool lies, bool flies, float steps) {
   if (lies) return 1;
   if (!flies) return t->substeps;
@@ -89,7 +89,7 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
   return fastest;
 }
 
-/* What the edge's pull swings its bodies by at most, whatever its direction. */
+/* Upper bound of the squared frequency that the edge's force gives its bodies, over all directions. */
 static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_edge *e) {
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   sbf_vec3 pull = work->pulls[e->joint];
@@ -135,9 +135,8 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   float turns = t->tick_s * fastest_turn(t, work) / MAX_TURN;
   float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MAX_SWING;
   float steps = turns > swings ? turns : swings;
-  /* In powers of two, and fewer than before only where a quarter would do, in flight where half would do with
-   * some to spare, or what fell has landed or the other way about: a leapfrog whose steps change at every
-   * turn gains by it. */
+  /* Powers of two. Fewer than before only if a quarter would do, in flight if half would do with a margin, or
+   * if the bodies have landed or taken off: a leapfrog gains energy if its step size changes often. */
   bool lies = t->drive->slow_ticks >= LYING_TICKS, flies = is_flying(t, work), flew = t->drive->flies;
   uint32_t count = min_steps(t, lies, flies, steps),
            max = t->substeps > SBRI_RIGID_MAX_SUBSTEPS ? t->substeps : SBRI_RIGID_MAX_SUBSTEPS;

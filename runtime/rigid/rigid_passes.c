@@ -1,17 +1,17 @@
-/* Passes over a step's system until what pushes in it is what should.
+/* Newton passes over a step's system until the active set is consistent.
  *
- * A pass is Newton's: touches, limits and friction stand in the system as they answer at the changes of
- * velocity of the pass before, the first as they did in the step before; from the second on the way is
- * searched, also where drives have come to their most or dry friction of joints slips: else those go round in
- * circles with limits. Friction's bounds stay as they are until the rest has settled; then they are those of
- * what presses, and if that makes a difference it goes on.
+ * In each pass contacts, limits and friction are linearised at the changes of velocity of the pass before; in
+ * the first pass at those of the step before. From the second pass on a line search follows, also where
+ * drives are at their limit or dry friction slips: without it these may cycle with limits. Friction's bounds
+ * stay fixed until the rest has converged. Then they are updated from the normal forces, and the passes
+ * continue if that changes the result.
  */
 #include <string.h>
 
 #include "rigid/rigid_work.h"
 
 enum { MAX_PASSES = 40, MAX_BOUNDS = 3 };
-/* Where it is coarse touches may be off by this share of the energy by which the step changes velocities. */
+/* Tolerance of rigid_coarse: fraction of the kinetic energy of the step's changes of velocity. */
 static const double LEFT = 1e-3;
 
 void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
@@ -33,7 +33,7 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   sbri_system_factor(&work->system);
 }
 
-/* Back by that share of the way from the pass before. */
+/* Scales the step from the pass before back by that fraction. */
 static void hold_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];

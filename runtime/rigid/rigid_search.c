@@ -1,21 +1,21 @@
-/* How far to go from one pass to the next.
+/* Line search between two passes.
  *
- * With friction's bounds as they are, touches, drives and springs have an energy of the changes of velocity,
- * which with the kinetic one is convex, and a pass goes to its minimum as it would be if nothing began to
- * press or to slide on the way (Newton's method, as Todorov, Convex and analytically-invertible dynamics with
- * contacts and constraints, 2014). Where that goes too far, its least value along the way is where its slope
- * is 0; with it the passes end, where without it they may go round in a circle. */
+ * With fixed friction bounds, contacts, drives and springs have an energy of the changes of velocity which is
+ * convex together with the kinetic energy. A pass is a Newton step towards its minimum, as if no contact
+ * changed its state on the way (Todorov, Convex and analytically-invertible dynamics with contacts and
+ * constraints, 2014). The search finds where the slope along the step is 0. With it the passes converge;
+ * without it they may cycle. */
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-/* Enough to find what sticks: the share of the way in which a hard strike's friction turns round is the speed
- * that it gives way by, some 0.05 mm/s, over that of the way, metres a second where all slides. A search that
- * ends before has the passes go to and fro over it without end. The last are halvings: of a slope that is
- * steep on one side and flat on the other a secant comes back with next to nothing. */
+/* Enough evaluations to find where friction begins to stick: in a hard hit it changes sign within 0.05 mm/s
+ * of metres a second. A search that ends earlier makes the passes oscillate around that point. The last
+ * evaluations are bisections: where the slope is steep on one side and flat on the other, the secant method
+ * stalls. */
 enum { SECANTS = 20, SEARCHES = 60 };
 /* Of the slope at the begin, what may be left. */
 static const float LEVEL = 0.01f;
-/* And what may have come up behind it at the end, for the way not to be too long. */
+/* The slope at the end above which the step is too long, as a fraction of that at its beginning. */
 static const float FAR = 0.3f;
 /* And of the energy that weight gives all bodies in a step from rest. */
 static const double TRIFLE = 1e-5;
@@ -35,7 +35,7 @@ static void add_attached(const sbri_rigid_solving *work, const sbri_edge *e, dou
   }
 }
 
-/* Slope of all but the touches at the begin of the way, and its change along it. */
+/* Slope of all terms but the contacts at the beginning of the step, and its derivative. */
 static void find_slope(
     const sbri_rigid_tick *t, const sbri_rigid_solving *work, double *slope, double *rise) {
   double a = 0, q = 0;
@@ -79,9 +79,9 @@ static void find_slope(
   sbri_rigid_external_bodies_compute_slope(work, slope, rise);
 }
 
-/* What pushes one way only and the friction with it, along the way: `into` goes from that at its begin by
- * -`travel`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are
- * known and by how much it grips, up to its bound. */
+/* A unilateral row and its friction along the step: `into` changes from its initial value by -`travel`, and
+ * the force is proportional to it. Friction changes from P by -G, up to its bound; the squares of both and
+ * the grip are stored. */
 static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -96,7 +96,7 @@ static void add_limits(sbri_rigid_solving *work) {
   }
 }
 
-/* What touches and limits do at that share of the way. */
+/* Slope from contacts and limits at that fraction of the step. */
 static double pushed(const sbri_rigid_solving *work, double fraction) {
   double sum = 0;
   for (uint32_t i = 0; i < work->push_count; i++) {

@@ -1,8 +1,8 @@
-/* Hulls against the host's shapes: places on the hull with the planes that they must not go below, in the
- * same list as those on the ground (rigid_contacts.c), by which they are solved.
+/* Hulls against the host's shapes: contact points on the hull, each with a plane, in the same list as those
+ * on the ground (rigid_contacts.c), which solves them.
  *
- * A body that goes further in the tick than half its size might be on the other side of a thin thing before
- * anything is seen to be near: where the way of its middle enters a shape, the plane there bounds it. */
+ * A body that moves by more than half its size in the tick could pass through a thin shape unnoticed. If the
+ * path of its centre enters a shape, the plane at that point becomes a contact. */
 #include "collide/colliders.h"
 #include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
@@ -10,7 +10,7 @@
 /* Touches that shapes may give a body, of the room that there is for all. */
 enum { MAX_TRIANGLES = 64 };
 
-/* How near things begin to touch: a share of the body's size, beside its way in the tick. */
+/* Contact margin: a fraction of the body's size, on top of its displacement in the tick. */
 static const float NEAR_FRACTION = 0.02f;
 
 typedef struct shape_pair {
@@ -161,7 +161,7 @@ static void collide_triangles(const shape_pair *m) {
 
 /* ---- All ---- */
 
-/* Where the way of the middle enters the shape, the plane there for what of the hull lies furthest that way.
+/* Where the centre's path enters the shape: the plane there, for the hull's extreme point in that direction.
  */
 static void sweep_triangle(const shape_pair *m, sbf_vec3 direction) {
   float fraction;

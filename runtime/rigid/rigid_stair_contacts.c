@@ -1,15 +1,15 @@
-/* Hulls against the built-in stairs, whose height alone knows no walls and no nosings.
+/* Hulls against the built-in stairs. A height function alone has no risers and no nosings.
  *
- * What is solid of stairs is the union of one quadrant a step: below its tread and behind its riser, on for
- * ever. A hull meets each that is near as it meets any other hull (rigid_shape_contacts.c), so that it lies
- * across nosings and leans on risers; a quadrant has no other edge for it to catch on, nor a bottom. */
+ * Stairs are the union of one quadrant a step: everything below its tread and behind its riser. A hull
+ * collides with each quadrant near it as with any other hull (rigid_shape_contacts.c), so it rests across
+ * nosings and leans on risers. A quadrant has one edge and no bottom: there is nothing else to catch on. */
 #include "collide/ground.h"
 #include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
 
-/* How near things begin to touch: a share of the body's size, beside its way in the tick. */
+/* Contact margin: a fraction of the body's size, on top of its displacement in the tick. */
 static const float NEAR_FRACTION = 0.02f;
-/* Of the body's size, how much of a quadrant it meets. */
+/* Extent of the part of a quadrant that is tested, in sizes of the body. */
 static const float PIECE = 6;
 /* A body over more steps than that sees but heights: to it they are a slope. */
 enum { MAX_STEPS = 12 };

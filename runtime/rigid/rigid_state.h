@@ -102,9 +102,10 @@ typedef struct sbri_rigid_burden {
   sbf_vec3 velocity, angular_momentum;
 } sbri_rigid_burden;
 
-/* What else acts on the bodies: called before each step over that share of the tick, with the seconds for
- * which weight will change velocities in it, `act` adds impulses to their velocities and spins
- * (sbri_rigid_swell); `acted` is called after it, with its seconds, and those for which weight has. */
+/* External forces on the bodies. `act` is called before each step over a fraction of the tick, with the
+ * seconds over which gravity acts in it; it adds impulses to linear and angular velocities
+ * (sbri_rigid_swell). `acted` is called after the step, with its seconds and those over which gravity acted.
+ */
 typedef struct sbri_rigid_pull {
   void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
   void (*acted)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);

@@ -30,7 +30,8 @@ typedef struct tolerance {
 static const tolerance EXACT = {2e-5f, 5e-6f, 1e-2f}, ROUGH = {1e-4f, 1e-4f, 2e-2f};
 /* And before the step is taken again in halves. */
 static const float COARSE = 3e-4f;
-/* Or where the way along its arcs is so far from its tangents, m and rad; or from where it was foreseen. */
+/* m and rad: distance between arcs and their tangents, or from the prediction, above which a step is halved.
+ */
 static const float CURVED = 3e-3f;
 
 /* ---- Memory ---- */
@@ -128,7 +129,7 @@ static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float 
   m->fine_to = sbri_sub(displacement, sbri_sub(m->to.position, m->from.position));
 }
 
-/* And all that give way: their turns by lanes. */
+/* All simulated bodies; rotations eight lanes at a time. */
 static void advance_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   const sbri_node *nodes = work->system.nodes;
   uint32_t count = work->system.node_count;
@@ -283,7 +284,7 @@ static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   take(t, work);
 }
 
-/* One step over that share of the tick; whether it is good. */
+/* One step over that fraction of the tick. Returns whether the joints hold at its end. */
 static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
   sbri_rigid_system *s = &work->system;
@@ -321,7 +322,7 @@ static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int 
   }
 }
 
-/* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
+/* A step; if the joints do not hold at its end, as when a whip cracks, two steps of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
   int max = work->rigid_contact_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
   keep_bodies(t, work, depth, false);

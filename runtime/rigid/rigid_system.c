@@ -5,14 +5,14 @@
 #include "rigid/ball_edge.h"
 #include "rigid/sym6.h"
 
-/* A pivot below this share of its row's own weight belongs to a row that others say already. */
+/* A pivot below this fraction of the row's own diagonal marks a redundant row. */
 static const double DEPENDENT = 1e-11;
 
-/* Most loops of hinges say some of their rows twice: those whose pivot is below this share of what they would
- * do to their bodies alone, which is what single precision leaves of the rates, are left out. */
+/* Most loops of hinges have redundant rows. A row is left out if its pivot is below this fraction of its
+ * value for the bodies alone, which is the rounding error of the Jacobian in single precision. */
 static const double REDUNDANT = 3e-7;
-/* And all of them give way by this share of that: of rows that nearly say the same, as a net's, none then
- * takes what rounding has left. What they give way by is put right at the step's end. */
+/* Compliance of all loop rows, as a fraction of that value: of nearly dependent rows, as in a net, none then
+ * amplifies rounding. The position error that this leaves is corrected at the end of the step. */
 static const double GIVE = 1e-5;
 
 void sbri_edge_list_active(sbri_edge *e) {
@@ -26,8 +26,8 @@ static int side_of(const sbri_edge *e, int32_t node) {
   return e->nodes[SBRI_B] == node ? SBRI_B : SBRI_A;
 }
 
-/* Cholesky of (count x count), lower, as sbri_sym6_factor does it; a row whose pivot is below its `least`, or
- * NULL: a share of its own, gets the pivot 0. */
+/* Cholesky factorisation of (count x count), lower, as sbri_sym6_factor. A row whose pivot is below its
+ * `least`, or, where that is NULL, below a fraction of its diagonal, gets the pivot 0. */
 static void factor_dense(double *a, uint32_t count, const double *min) {
   for (uint32_t k = 0; k < count; k++) {
     double *row = a + (size_t)k * count, own = row[k];

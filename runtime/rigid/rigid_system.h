@@ -1,17 +1,17 @@
-/* The linear system of one substep: bodies that give way, rows that couple them, what the rows do to them.
+/* The linear system of one substep: simulated bodies and the constraint rows between them.
  *
- * Unknown are the changes of the bodies' velocities x (linear and angular, six a body) and the rows' impulses
- * l in
- *   D x - J^T l = b      D the bodies' masses and moments, and what acts on single bodies (contacts)
- *   J x + G l   = c      a row a line: G = 0 is hard, above it gives way (springs, dampers)
- * The bodies are the nodes of a graph, the joints its edges. Along a tree of joints that spans it, bodies and
- * joints are eliminated from the leaves to the roots without any fill (Baraff, Linear-Time Dynamics using
- * Lagrange Multipliers, 1996); rows of joints that close loops follow by their Schur complement, which is
- * dense and small. Time is linear in bodies, for a tree. The result is exact up to rounding whatever the
- * masses' ratios: no iteration spreads an impulse from body to body.
+ * The unknowns are the changes of the bodies' velocities x (linear and angular, six a body) and the rows'
+ * impulses l in
+ *   D x - J^T l = b      D: masses, moments of inertia, and contacts, which act on single bodies
+ *   J x + G l   = c      one line a row; compliance G = 0 is hard, G > 0 soft (springs, dampers)
+ * The bodies are the nodes of a graph, the joints its edges. Along a spanning tree, bodies and joints are
+ * eliminated from the leaves to the roots without fill-in (Baraff, Linear-Time Dynamics using Lagrange
+ * Multipliers, 1996). Joints that close loops follow by their Schur complement, which is dense and small. For
+ * a tree the time is linear in the number of bodies. The result is exact up to rounding for any mass ratio:
+ * no iteration carries an impulse from body to body.
  *
- * Rows that depend on others of their joint (a cone and a box at one bound) are found by their vanishing
- * pivots and left out. */
+ * Redundant rows of a joint (a cone and a box at one bound) are found by their vanishing pivots and left out.
+ */
 #ifndef SBRI_RIGID_SYSTEM_H
 #define SBRI_RIGID_SYSTEM_H
 
@@ -21,7 +21,7 @@
 
 typedef enum sbri_row_kind {
   SBRI_ROW_LOCKED, /* a coordinate at one value */
-  SBRI_ROW_LIMIT,  /* pushes one way only */
+  SBRI_ROW_LIMIT,  /* unilateral: its impulse is not negative */
   SBRI_ROW_SPRING, /* a limit with stiffness, likewise */
   SBRI_ROW_DRIVE,  /* a coordinate's motor, cut to a maximum */
   SBRI_ROW_TRACK   /* towards an angle of the animated pose, likewise */
@@ -32,7 +32,7 @@ typedef struct sbri_row {
   float target;               /* c, of the velocities at the substep's end */
   float give;                 /* G */
   float max;                  /* N s or N m s: of drives; 0: no bound */
-  float attached_mass;        /* N s or N m s per speed: of what it gives way by, no part of the drive */
+  float attached_mass;        /* N s or N m s per unit of velocity: the damping part of its compliance */
   float dry;                  /* of the flesh, what stands for dry friction, */
   float max_dry;              /* N m s, and what that may come to */
   float bound;                /* of the coordinate, where it is held or limited */
@@ -66,7 +66,7 @@ typedef struct sbri_ball {
 typedef struct sbri_edge {
   uint32_t joint;
   sbri_ball *ball;           /* NULL: it has rows for all that it asks */
-  int32_t nodes[SBRI_SIDES]; /* -1: that side does not give way */
+  int32_t nodes[SBRI_SIDES]; /* -1: that side is not simulated */
   uint32_t row_count;
   sbri_row *rows;        /* (row_count) */
   uint32_t active_count; /* rows that take part; their places in `actives` */
@@ -78,7 +78,7 @@ typedef struct sbri_edge {
   double *rhs; /* (active_count) */
 } sbri_edge;
 
-/* A body that gives way. */
+/* A simulated body. */
 typedef struct sbri_node {
   uint32_t body;
   int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
@@ -90,7 +90,7 @@ typedef struct sbri_node {
   float swell;               /* sbri_rigid_swell */
   const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
   float pulled;              /* (rad/s)^2 that its joints' pulls swing it by, at most */
-  float inverse_mass[2];     /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
+  float inverse_mass[2];     /* 1 / mass, and the mean of 1 / moment of inertia */
 } sbri_node;
 
 /* Two of the tree's balls that are eliminated at once, neither being above the other; or one. */

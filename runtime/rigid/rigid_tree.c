@@ -1,6 +1,6 @@
-/* Which bodies give way changes as a game goes: the tree is made anew each tick, without a search. Joints are
- * taken in the order of how much they hold; each that joins two parts which hang together yet by nothing is
- * one of the tree's, the world being a part. What is left closes loops. */
+/* The set of simulated bodies changes during a game, so the spanning tree is rebuilt each tick. Joints are
+ * taken in the order of their number of constraints; one that connects two components belongs to the tree
+ * (Kruskal's algorithm; the world is a component). The others close loops. */
 #include "base/union_find.h"
 #include "rigid/rigid_work.h"
 

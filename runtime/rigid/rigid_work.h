@@ -16,22 +16,22 @@ typedef struct sbri_part_motion {
   sbr_transform from, to;      /* poses at its begin and end */
   sbf_vec3 fine_from, fine_to; /* what their places have beyond rounded numbers */
   sbf_vec3 velocity, turn;     /* m/s; rad/s, mean of the substep */
-  int32_t node;                /* -1: it does not give way */
+  int32_t node;                /* -1: it is not simulated */
 } sbri_part_motion;
 
-/* What pushes one way only, and the friction with it, along the way from a pass to the next: at a share s of
- * it the force is stiff (into - s way) where that is above 0, and friction's pull P - s G, cut to its bound.
+/* A unilateral row and its friction along the step from one pass to the next: at a fraction s of it the force
+ * is stiff (into - s way), at least 0, and friction is P - s G, cut to its bound.
  */
 typedef struct sbri_contact_search {
   double stiff, into, distance;
   double bound;                           /* N s; 0: there is no friction */
   double pull_pull, pull_grip, grip_grip; /* P.P, P.G, G.G */
-  double inverse_mass;                    /* 1 / kg: the way over G */
+  double inverse_mass;                    /* 1 / kg: the step over G */
 } sbri_contact_search;
 
 typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
-  sbri_part_motion *motions;   /* (body_count + 1); the last is the anchor, which stands */
+  sbri_part_motion *motions;   /* (body_count + 1); the last is the anchor, which does not move */
   sbr_transform *begins;       /* (body_count) poses when the tick began */
   sbf_vec3 *pulls;             /* (joint_count) N on body b: mean of the last tick, then of the last step */
   sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
@@ -42,7 +42,7 @@ typedef struct sbri_rigid_solving {
   uint32_t rigid_contact_count, max_contacts;
   sbri_rigid_external_body *external_bodies; /* (external_body_count) of the host's bodies that have a mass */
   uint32_t external_body_count, external_body_capacity;
-  sbri_contact_search *pushes; /* (max_contacts + row_count) of the way that is searched */
+  sbri_contact_search *pushes; /* (max_contacts + row_count) of the line search */
   uint32_t push_count;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
   float last_step_s; /* length of the step before; 0: there is none */
@@ -55,9 +55,8 @@ typedef struct sbri_rigid_solving {
 
 /* ---- rigid_step.c ---- */
 
-/* A tick of all that is not broken, in parts, so that characters may step along with each other: what comes
- * first, which finds out how many steps the tick needs (substeps) and fills `work`; a step over that share of
- * the tick; and what comes last. */
+/* A tick in three parts, so that several characters can be stepped together: the beginning, which chooses the
+ * number of substeps and fills `work`; a step over a fraction of the tick; the end. */
 void sbri_rigid_begin(sbri_rigid_tick *tick, sbri_rigid_solving *work);
 void sbri_rigid_advance(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float from, float to);
 void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
@@ -85,7 +84,7 @@ void sbri_rigid_iterate(const sbri_rigid_tick *tick, sbri_rigid_solving *work, f
 /* The system with what acts, factored; its right-hand sides so far are pushes and touches. */
 void sbri_rigid_factor(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- rigid_tree.c: the system's graph, of the bodies that give way and the joints that are whole. ---- */
+/* ---- rigid_tree.c: the system's graph of simulated bodies and unbroken joints. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- joint_rows.c, joint_check.c, joint_ends.c ---- */
@@ -98,7 +97,7 @@ void sbri_joint_rows_set_targets(sbri_edge *edge);
 void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s);
 /* Whether limits push in the last pass's system just where they would at what it came to. */
 bool sbri_joint_rows_agree(const sbri_rigid_solving *work);
-/* And back by that share of it. */
+/* And back by that fraction of it. */
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float fraction);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
  * maximum; whether anything has changed, which where it is coarse dry friction does not count for. */
@@ -145,7 +144,7 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *tick, sbri_rigid_solving 
 bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work);
 /* Takes from the nodes' x how the places' velocities change. */
 void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work);
-/* Lists what may press, or rub, somewhere on the way from the pass before to the last. */
+/* Lists the contacts and limits that may be active somewhere between the pass before and the last. */
 void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work);
 /* By how much what they do at the velocities that the last pass came to is not what they did in its system:
  * the energy, J, by which that would move each body alone; 0 where it makes no difference. */
@@ -159,7 +158,7 @@ bool sbri_rigid_contacts_bound(sbri_rigid_solving *work);
 
 /* ---- rigid_search.c ---- */
 
-/* How much of the way from the pass before to the last is best: 1 where that is no further than it should be.
+/* The best fraction of the step from the pass before to the last; 1 where the whole step is not too long.
  */
 float sbri_rigid_search(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 

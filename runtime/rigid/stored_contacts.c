@@ -1,14 +1,14 @@
-/* What touches did in the last step, kept to the next tick: the passes that find who presses, who sticks and
- * who slides begin there, and where a body lies they end there too. The forces are no part of the solution:
- * they are guesses of it, and the bounds of friction for the first pass. */
+/* Warm start: contact impulses of the last step, kept for the next tick. The passes that find the active set
+ * begin with them; for a body at rest they end there too. The stored impulses are initial guesses, and the
+ * bounds of friction for the first pass. */
 #include "base/assert.h"
 #include "rigid/rigid_work.h"
 
-/* A place on a shape is the same as before within this share of its body's size. */
+/* Tolerance for matching contact points of two ticks, as a fraction of the body's size. */
 static const float SAME_FRACTION = 0.05f;
 
-/* What has not been found again bears on within this share of it, if it pressed in so many ticks, beside one
- * that faces as much alike. */
+/* A contact that is not found again persists within this fraction of the body's size if it was active in so
+ * many ticks and another one of the pair faces a similar direction. */
 static const float NEAR_FRACTION = 0.02f, FACING = 0.97f;
 enum { IDLE_TICKS = 4 };
 
@@ -24,7 +24,7 @@ static void give_back(const sbri_stored_contact *kept, sbri_rigid_contact *conta
   contact->left = kept->left;
 }
 
-/* A touch of the pair that has been found anew and faces as the one that has not; NULL: none. */
+/* A newly found contact of the pair whose normal is similar to that of the lost one; NULL: none. */
 static const sbri_rigid_contact *beside(const sbri_rigid_solving *work, const sbri_stored_contact *kept) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     const sbri_rigid_contact *contact = &work->contacts[i];
@@ -36,8 +36,8 @@ static const sbri_rigid_contact *beside(const sbri_rigid_solving *work, const sb
   return NULL;
 }
 
-/* Two hulls whose edges cross are told to touch at one place, and rock between two: the one that has not been
- * found this time bears on while the body is near it. */
+/* Two hulls with crossing edges have one contact point at a time and would rock between two. So the one that
+ * is not found this time persists while the body is near it. */
 static void bear_on(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_stored_contact *kept) {
   if (kept->idle > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
   const sbri_rigid_contact *by = beside(work, kept);
