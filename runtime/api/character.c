@@ -69,7 +69,7 @@ static sbf_status check_definition(const sbr_character_definition *definition, s
   return SBF_OK;
 }
 
-/* It stands where it is to, at rest. */
+/* It stands at its position, at rest. */
 static void begin(sbr_world *world, sbri_character *c, const sbr_character_definition *definition) {
   put(world, c, definition->position, definition->heading);
   sbri_rigid_reset(c, true);

@@ -165,10 +165,11 @@ void sbr_collider_set_transform(
   stir(world);
 }
 
-/* Less than this share of what its weight gives it, and this speed in m/s, come from nowhere: hosts damp. */
+/* Changes of velocity below this fraction of gravity's, and below this speed in m/s, are ignored: hosts damp
+ * their bodies. */
 static const float FROM_WEIGHT = 0.2f, FROM_NOWHERE_M_S = 0.01f;
 
-/* What its velocity shows that the host's own things have pushed it with since it was last told. */
+/* Impulse from the host's other bodies since the motion was last set, by the change of velocity. */
 static void find_holder(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
   b->blocked_normal = sbri_vec3(0, 0, 0);
   if (!b->goes || !(m->since_s > 0)) {

@@ -1,4 +1,4 @@
-/* Bodies that meet each other, as hosts ask for it: sbrun/collision.h. */
+/* Public calls for contacts between bodies: sbrun/collision.h. */
 #include "base/diagnostic.h"
 #include "body_contact/body_contacts.h"
 

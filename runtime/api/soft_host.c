@@ -142,7 +142,7 @@ sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id c
   return SBF_OK;
 }
 
-/* ---- What goes on for a while ---- */
+/* ---- Loads that last ---- */
 
 static sbri_load *find_hold(sbri_character *c, uint32_t soft_body, uint32_t vertex) {
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++) {

@@ -1,16 +1,16 @@
-/* Bones that bear their flesh through long steps.
+/* Simulated bones with attached soft bodies, coupled implicitly, so that steps can be long.
  *
- * Flesh is stepped held by what moves on as it moved, and pulls with what comes of that: it answers a change
- * of its bone's speed a step late. What swings slowly does not mind. Of what swings several times in a step
- * that answer drives bone and flesh apart, however much the bone weighs; so all would have to step as often
- * as the fastest.
+ * In the explicit coupling (coupled.c) a soft body is stepped while its bone continues at its old velocity,
+ * and its reaction reaches the bone one step late. That is harmless for slow oscillations. A soft body that
+ * oscillates several times within a step becomes unstable with its bone, whatever the bone's mass, so all
+ * bodies would need the step size of the fastest.
  *
- * Instead a bone that is given an impulse shares it with its flesh in the same step, by how the flesh answers
- * (prepare/ attached_responses.c: what is stiff goes along, what is soft stays behind): the answers' masses
- * stand beside the bone's own in the system of the joints, the Schur complement of the coupling for that
- * step, and when all impulses are known the points take their shares of the change, at their speeds and over
- * the step at their places. What is left of linear and angular momentum, as the flesh lies otherwise than at
- * rest, is the bone's. The flesh itself is stepped as ever, in as many substeps as it needs. */
+ * Here a bone that receives an impulse shares it with its soft body within the same step. The soft body's
+ * response (prepare/attached_responses.c) says how much of it follows: stiff parts do, soft ones stay behind.
+ * The responses' masses are added to the bone's own in the system of the joints: the Schur complement of the
+ * coupling for that step. Once all impulses are known the points take their part of the change, in velocity
+ * and, over the step, in position. The responses are those of the rest shape; the remainder of linear and
+ * angular momentum goes to the bone. The soft body itself still takes as many substeps as it needs. */
 #include <string.h>
 
 #include "math/lane_sums.h"
@@ -22,8 +22,8 @@
 /* Steps may be longer than those that the answers are for by rounding alone. */
 static const float LONGEST = 1.001f;
 
-/* No bone goes farther against its flesh in a step, as a share of the flesh's cells: that far the answers are
- * what they are at rest. */
+/* Greatest displacement of a bone against its soft body in a step, as a fraction of the body's cells: within
+ * it the responses of the rest shape are valid. */
 static const float MAX_TRAVEL = 0.1f;
 
 static float longest_step_s(const sbri_character *c) {
@@ -115,7 +115,7 @@ void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *t, float step_
   }
 }
 
-/* By how much bone and flesh together change their speeds by an impulse and a moment, and the bone does. */
+/* Change of velocity by an impulse and a moment: of bone and soft body together, and of the bone alone. */
 static void push(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotation, sbf_vec3 impulse, sbf_vec3 moment,
     sbf_vec3 *velocity, sbf_vec3 *turn) {
   const sbri_rigid_body *is = &t->model->bodies[b];
@@ -195,7 +195,7 @@ static void bear(const sbri_character *c, const sbri_island *island, const chang
   }
 }
 
-/* What the bone has given the flesh in the system, less what the points have taken. */
+/* Momentum that the system gave to the soft body, minus the momentum that its points took. */
 static void find_left(const sbri_rigid_burden *burden, const change *by, const sbri_lane_sums *taken,
     sbf_vec3 *impulse, sbf_vec3 *moment) {
   const double x[6] = {(double)by->velocity.x, (double)by->velocity.y, (double)by->velocity.z,

@@ -1,17 +1,18 @@
-/* Soft bodies and the simulated rigid bodies that hold them, stepped together.
+/* Soft bodies and the simulated rigid bodies that they are pinned to, stepped together.
  *
- * A tick of the rigid parts is several steps. Before each the soft bodies go through the same time, what
- * holds them going on as it moved; the impulses with which they pulled meanwhile are then given to the rigid
- * bodies, whose step follows, and what is held is put where they have come to. Where a soft body's own step
- * is as long as that, this is a leapfrog of all together, in which all forces are those at the step's begin:
- * it keeps momentum to rounding and loses no energy. Where it is a fraction, the rigid bodies feel the mean
- * of the forces (the impulse method: Grubmueller, Heller, Windemuth, Schulten 1991). How long the rigid steps
- * may be follows from how fast the softness would swing each body alone (prepare/coupling.c): so a heavy
- * belly on light bones is as stable as the other way round.
+ * A tick of the rigid bodies has several steps. Before each of them the soft bodies are advanced over the
+ * same time while their pins continue at their old velocity. The pins' impulses are then applied to the rigid
+ * bodies, the rigid step follows, and the pins are moved to the new poses. If a soft body takes one substep
+ * in it, this is a leapfrog of the whole system with all forces taken at the step's beginning: it conserves
+ * momentum to rounding and loses no energy. If it takes several, the rigid bodies get the mean force (the
+ * impulse method: Grubmueller, Heller, Windemuth, Schulten 1991). The length of the rigid steps follows from
+ * the frequency of each rigid body on its soft bodies alone (prepare/coupling.c), so a heavy belly on light
+ * bones is as stable as a light one on heavy bones.
  *
- * Flesh that hangs on one bone alone is borne by it, in fewer steps (attached_bodies.c).
+ * Soft bodies on one bone only are coupled implicitly, in fewer steps (attached_bodies.c).
  *
- * Damping against what holds a soft body is done here, once a step, so that those who hold it feel it too. */
+ * Damping relative to the pins is applied here, once a step, so that the rigid bodies receive its reaction.
+ */
 #include <string.h>
 
 #include "math/lane_sums.h"
@@ -84,8 +85,8 @@ static void pull_on_drivers(
       pull_on(c, carriers[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
 }
 
-/* The share of a decay that is left to it where a frame's body is lighter than the flesh that it would draw
- * along, so that it ends as fast as that and no faster: as an implicit step does. */
+/* Reduces a decay where the rigid body is lighter than the soft body, so that relative velocity reaches zero
+ * and does not change sign, as in an implicit step. */
 static float inverse_mass_along(const sbri_character *c, uint32_t frame, float lost) {
   int32_t carrier = c->model->carrier_of_frame[frame];
   if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return 1;
@@ -104,8 +105,9 @@ static float inverse_mass_of_drivers(
   return min;
 }
 
-/* Of a body that one frame guides, and every point of which loses the same share: by lanes of eight, summed
- * alike for any number of them at once. */
+/* Bodies with one pin frame and one decay for all points: eight lanes at a time, in a fixed order of
+ * summation.
+ */
 static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri_body *body, float fraction) {
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
@@ -161,8 +163,8 @@ static void damp(
   }
 }
 
-/* In flight weight acts on flesh and bones at the same time and for as long: so they fall as one, whatever
- * their steps, and the flesh keeps its shape. */
+/* In flight gravity acts on soft and rigid bodies over the same time, so they fall together, whatever their
+ * step sizes, and the soft body keeps its shape. */
 static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 velocity_change) {
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {

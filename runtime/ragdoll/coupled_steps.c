@@ -1,11 +1,11 @@
-/* How many steps a tick of soft bodies and of the rigid bodies that hold them takes.
+/* Number of steps in a tick of soft bodies and the rigid bodies that they are pinned to.
  *
- * Flesh that its bone bears asks for few (attached_bodies.c). All other goes in step with the bones: each
- * step is no longer than the flesh's own substeps may be, and than what its softness swings each bone by
- * alone allows. Both are asked for again after each step, since what is crushed stiffens: a step that has
- * become too long is where undamped flesh and its bones swing each other up, so the rest of the tick is then
- * divided anew. And no point goes farther against the bones about it in a step than a share of a cell, so
- * that what is struck is seen to stiffen. */
+ * Implicitly coupled soft bodies need few (attached_bodies.c). All others take the bones' steps: a step is no
+ * longer than the soft body's own substep limit, and than the limit from each bone's frequency on its soft
+ * bodies. Both limits are computed again after each step, because compressed bodies stiffen and a step that
+ * has become too long makes undamped bodies gain energy; the rest of the tick is then divided anew. A point
+ * also moves by at most a fraction of a cell against its bones in a step, so that the stiffening is noticed
+ * in time. */
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "solvers/router.h"
@@ -14,15 +14,15 @@
 /* More steps of rigid parts than this are not taken in a tick. */
 enum { MAX_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
 
-/* Way of a point against its guides in a step, as a share of its body's cells. */
+/* Displacement of a point against its pin frames in a step, as a fraction of its body's cells. */
 static const float MAX_TRAVEL = 0.25f;
 
-/* Greatest angular frequency times step of a bone on flesh that is stiffer than at rest, where that at rest
- * is no more than SBRI_RIGID_MAX_SWING. */
+/* Greatest angular frequency times step size of a bone on a soft body that is stiffer than at rest; at rest
+ * the bound is SBRI_RIGID_MAX_SWING. */
 static const float MAX_STIFFENED_SWING = 1.2f;
 
-/* What nothing damps goes on for ever, and gains by each change of its steps near those that are just stable:
- * it takes so many times as many. */
+/* Undamped bodies never come to rest, and gain energy by each change of a step size near the stability limit:
+ * they take so many times as many steps. */
 static const float FINER_UNDAMPED = 1.25f;
 
 /* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
@@ -34,8 +34,8 @@ static uint32_t rounded_steps(uint32_t steps) {
   return whole;
 }
 
-/* As many as the soft body takes by itself, so that both go in step: in a stiff one's own substeps there are
- * modes that would swing up against steps of others. Schemes that sweep lose such motion, and are spared it.
+/* As many as the soft body takes by itself, so that both have equal steps: modes of a stiff body can resonate
+ * with other steps. Sweeping schemes damp these modes and do not need it.
  */
 static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
   const sbri_island *island = t->island;
@@ -62,8 +62,8 @@ static bool may_be_attached(const sbri_character *c, const sbri_island *island) 
   return island->carrier_count == 1 && sbri_may_bear(c, island->carriers[0]);
 }
 
-/* The steps that the tick needs; what bones need that may bear their flesh is looked at when it is known of
- * all. */
+/* The number of steps that the tick needs. Bones with implicitly coupled bodies are checked last, when those
+ * of all others are known. */
 static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
   if (carrier < 0 || !sbri_may_bear(group->character, (uint32_t)carrier)) {
     take_steps(group, steps);
@@ -73,7 +73,7 @@ static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
   burden->needed_steps = steps > burden->needed_steps ? steps : burden->needed_steps;
 }
 
-/* ---- By way ---- */
+/* ---- By displacement ---- */
 
 /* Of the fastest point against its guides, m/s. */
 static float speed_against_drivers(const sbri_character *c, const sbri_island *island) {
@@ -124,7 +124,7 @@ void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tic
   need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
 }
 
-/* Whether anything coupled goes on swinging for long. */
+/* Whether a coupled body is undamped. */
 static bool is_lightly_damped(const sbri_character *c) {
   bool any = false;
   for (uint32_t i = 0; i < c->model->island_count; i++)

@@ -1,8 +1,8 @@
-/* What becomes of a soft body's momentum when it is put back into its rest shape on bones that are simulated.
+/* Conserves momentum when a soft body on simulated bones is reset to its rest shape.
  *
- * In its rest shape it goes as its bones do. What that lacks of the momentum that it had, and of the angular
- * momentum about the centre of mass of both, bones and flesh take up as one rigid body: of all changes of
- * speed that do so the one with the least energy. */
+ * After the reset the body moves with its bones. The difference in linear momentum, and in angular momentum
+ * about the common centre of mass, is given to bones and soft body as one rigid body: the change of velocity
+ * with the least energy. */
 #include <string.h>
 
 #include "ragdoll/ragdoll.h"
@@ -10,7 +10,7 @@
 #include "soft/soft.h"
 #include "solvers/scheme.h"
 
-/* How a place that goes with a frame moves; false where no simulated body carries that. */
+/* Velocity of a point fixed to a frame; false where the frame belongs to no simulated body. */
 static bool add_velocity(const sbri_character *c, uint32_t frame, float weight, sbf_vec3 at, sbf_vec3 *sum) {
   int32_t carrier = c->model->carrier_of_frame[frame];
   if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return false;
@@ -77,7 +77,7 @@ static void add_moments(double d[6][6], double mass, const double center[3], sbf
     for (int j = 0; j <= i; j++) d[3 + i][3 + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Masses and moments of bones and flesh, about the centre. */
+/* Masses and moments of inertia of bones and soft body, about the common centre. */
 static void weigh(
     const sbri_character *c, const sbri_island *island, const double center[3], double d[6][6]) {
   const sbri_point *points = sbri_positions(c) + island->first_slot;

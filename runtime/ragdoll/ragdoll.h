@@ -9,10 +9,9 @@
 
 /* Frame of a body for a pose, asset metres. */
 sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body);
-/* The pose with the bones where simulated bodies have them after they have gone on for `ahead_s`, each by its
- * share of `velocity_change` faster (m/s, that weight gives it), and all else at that share of the way from
- * the tick's beginning to `animated`. Bones below them that have no body keep what the animation has them
- * turned and away from their parents. */
+/* The pose in which bones with simulated bodies are where these will be after `ahead_s`, with their fraction
+ * of `velocity_change` (m/s, from gravity) added; all other bones are at that fraction between the tick's
+ * beginning and `animated`. Child bones without a body keep their animated pose relative to the parent. */
 void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, float fraction, float ahead_s,
     sbf_vec3 velocity_change, sbr_transform *pose);
 /* Predicted frame of a body from its velocities and its part of the velocity change. */
@@ -64,7 +63,7 @@ typedef struct sbri_coupled {
   const sbr_transform *animated; /* (frame_count) the pose at the tick's end but for what bodies move */
   bool any;                      /* soft body is coupled; set by sbri_coupled_begin, as: */
   bool is_touching;              /* one may touch something within the tick */
-  bool falls;                    /* in this step weight acts on flesh as it does on the bones, for: */
+  bool falls; /* time for which gravity acts on soft bodies in this step, as on the bones: */
   float weight_s;
   uint32_t steps; /* of a whole tick, that the soft bodies ask for as they are now */
 } sbri_coupled;
@@ -92,8 +91,8 @@ void sbri_attached_body_take_momentum(
 
 /* ---- ragdoll/coupled_steps.c ---- */
 
-/* What a tick that begins asks for in `steps`: of an island, after which of all bones; and what flesh that no
- * bone bears asks for after a step of it. */
+/* Numbers of steps, into `steps`: of an island at the beginning of a tick; then of all bones; and of
+ * explicitly coupled bodies after a step. */
 void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick);
 void sbri_coupled_request_steps_of_bones(sbri_coupled *group);
 void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick *tick);

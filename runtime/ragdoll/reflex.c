@@ -1,25 +1,24 @@
 /* Falling over and getting up again.
  *
- * A fallen character's bodies are driven, with a share of their strength: it goes down as somebody does who
- * is awake. Once it lies still its gait is put where it lies, standing, and it rises: the drives get their
- * strength back, and each body is drawn towards its place in that pose and held against its weight, softly at
- * first and then more and more, with no more than a stated acceleration. That help comes from nowhere: it
- * stands for the pushing off that nobody has planned. Joints, limits, ground and what is in the way act all
- * along. Arrived, the bodies are the animation's again. */
+ * While a character falls, its bodies are driven with a fraction of their strength, so it falls as someone
+ * who is awake. Once it lies still, its gait is placed there in a standing pose and it rises: the drives
+ * regain their strength, and a growing force pulls each body towards its pose and carries its weight, up to a
+ * stated acceleration. This external force replaces a planned push off the ground. Joints, limits, the ground
+ * and obstacles act throughout. When all bodies have arrived they are kinematic again. */
 #include "math/quat_log.h"
 #include "math/trig.h"
 #include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
 
-/* It lies still when no point of a body is faster than this, in asset metres a second; and in any case after
- * so many seconds. */
+/* The character lies still when no point of a body is faster than this (asset metres a second), or after so
+ * many seconds. */
 static const float STILL_M_S = 0.15f, LONGEST_FALL_S = 5;
 
 /* How fast the help draws, at first and at last; its greatest accelerations, of places and of turns. */
 static const float FIRST_HZ = 1, LAST_HZ = 6, MAX_M_S2 = 40, MAX_RAD_S2 = 200;
 
-/* It has arrived when no body is farther off than this, asset metres and rad; and in any case when so much
- * longer than it should has gone. */
+/* It has arrived when no body is farther off than this (asset metres and rad), or after so many times the
+ * stated time. */
 static const float ARRIVED_M = 0.01f, ARRIVED_RAD = 0.06f, LATE_S = 1.5f;
 
 static const float TWO_PI = 6.28318530718f;
@@ -66,8 +65,7 @@ static int32_t hips_of(const sbri_character *c) {
   return -1;
 }
 
-/* The way that somebody lying so faces when up: where the head is, of one who lies on the belly; the other
- * way on the back. */
+/* The heading after getting up: towards the head for a character on its belly, away from it on its back. */
 static float heading_of(sbf_quat rotation) {
   sbf_vec3 front = sbri_rotate(rotation, sbri_vec3(0, 0, 1)), up = sbri_rotate(rotation, sbri_vec3(0, 1, 0));
   return sbri_atan2(front.x - front.y * up.x, front.z - front.y * up.z);

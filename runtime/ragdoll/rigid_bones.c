@@ -69,7 +69,7 @@ sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *po
 
 /* ---- From bodies to bones ---- */
 
-/* What has carried the body from rest to `now`, applied to a place and axes of rest. */
+/* The body's motion from rest to `now`, applied to a position and rotation of the rest pose. */
 static sbr_transform carried(
     const sbri_character *c, uint32_t body, const sbr_transform *now, const sbr_transform *rest) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];

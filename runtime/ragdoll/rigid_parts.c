@@ -4,10 +4,10 @@
 #include "math/quat.h"
 #include "ragdoll/ragdoll.h"
 
-/* Slower than this share of its size a second, with nothing that draws it, a body comes to rest. */
+/* Fraction of its size a second below which an undriven body comes to rest. */
 static const float IDLE_1_S = 0.01f;
-/* And slower than this one that calms down: the fastest has but this share of its speed left after so long,
- * in which a hand swings there and back. */
+/* The same for a body that is damping out: its greatest speed falls to this fraction within the period of a
+ * swinging hand. */
 static const float DAMPING_1_S = 0.2f, CALMING = 0.8f, DAMPING_S = 0.5f;
 
 /* ---- Stepping ---- */

@@ -1,8 +1,8 @@
-/* How much room a body takes: balls in it, which walls keep out.
+/* The collision volume of a body for walls: a set of balls.
  *
- * The vertices of all but tails, in the gait's rest pose (arms down), are sorted into cubes; a ball stands in
- * each cube that holds some, inside of its bounds. Below the height of a step there are none: feet step on
- * what is as low as that. What is lower counts as if it were that high. */
+ * The vertices of all parts but tails, in the gait's rest pose (arms down), are sorted into cubes. Each cube
+ * that contains vertices gets a ball inside its bounds. There are none below the height of a step, because
+ * feet step onto things that low; lower vertices count as if they were at that height. */
 #include "skeleton/rig_girth.h"
 
 static const float STEP_UP = 0.6f;         /* of the legs' mean length, or of a height that is less */

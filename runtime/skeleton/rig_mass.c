@@ -1,6 +1,6 @@
-/* What each bone carries: the volume of the soft bodies that hang on it, or of the rigid body that a build
- * cut from the skin; where there are none, as many points of the skinned meshes as follow it. Volumes are
- * sums of signed tetrahedra from the bone's head. */
+/* Mass of each bone: the volume of its soft bodies, or of the rigid body that the build cut from the skin; a
+ * bone without either has the number of skin vertices that follow it. Volumes are sums of signed tetrahedra
+ * from the bone's head. */
 #include "skeleton/rig_mass.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* What each bone carries, by the volume of what is seen of it. */
+/* Mass of each bone, by its visible volume. */
 #ifndef SBRI_RIG_MASS_H
 #define SBRI_RIG_MASS_H
 

@@ -1,8 +1,8 @@
 /* Soles: the lowest part of what hangs on a foot. */
 #include "skeleton/rig_soles.h"
 
-/* Of a foot's height: what has to have ground under it; and what stands on it, for a round foot is wider
- * above. */
+/* Fractions of a foot's height: the part that needs ground under it; and the part that counts as sole,
+ * because a round foot is wider above. */
 static const float LARGEST = 0.6f; /* of a leg's length: half a sole */
 static const float BAND = 0.12f, CONTACT_BAND = 0.06f;
 

@@ -53,8 +53,8 @@ uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
   return best;
 }
 
-/* The key of a bone as its mirror image has it: the turn in asset axes, seen in a mirror, in the other bone's
- * axes; so with the way. */
+/* The mirrored key of a bone: rotation and translation reflected in asset axes, then expressed in the other
+ * bone's axes. */
 static sbri_posed_bone mirrored_key(const sbri_rig *rig, uint32_t from, uint32_t to, sbri_posed_bone key) {
   sbf_quat own = rig->rest[from].rotation, other = rig->rest[to].rotation;
   sbf_quat rotation = sbri_quat_multiply(sbri_quat_multiply(own, key.rotation), sbri_quat_conjugate(own));

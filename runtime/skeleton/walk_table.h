@@ -1,5 +1,5 @@
-/* Walks of pose keys as the runtime uses them: every pose of a walk, mirrored ones too, laid out bone by
- * bone, so that a tick looks nothing up. */
+/* Walks of pose keys in the runtime's layout: every pose of a walk, mirrored ones included, bone by bone, so
+ * that a tick needs no search. */
 #ifndef SBRI_WALK_TABLE_H
 #define SBRI_WALK_TABLE_H
 

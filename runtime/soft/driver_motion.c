@@ -85,11 +85,13 @@ static void ride(sbri_character *c, const sbri_island *island, uint32_t index, f
   move_along(c, island, tick_s);
 }
 
-/* A jump of what holds a body within itself may leave it crushed; looked for so many ticks after. */
+/* A jump of pins relative to each other may leave the body crushed. For so many ticks after it, that is
+ * checked.
+ */
 enum { JUMPED_TICKS = 240 };
 
-/* Whether guides go farther against the body as a rigid one than half a cell: with two frames each goes half
- * of the way. */
+/* Whether pin frames move by more than half a cell against the body's rigid motion; with two frames each
+ * moves by half of the displacement. */
 static bool is_fully_torn(const sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_rigid_motion *is, float tick_s) {
   const float *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;

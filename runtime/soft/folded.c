@@ -1,10 +1,9 @@
-/* Whether a body has lost its shape for good: it encloses next to nothing, or it rests in a knot.
+/* Whether a body has collapsed for good: it encloses almost no volume, or it rests in a false equilibrium.
  *
- * A knot: little moves, and yet elements and weight hold more energy than they would in the rest shape where
- * the body is held. Whatever comes to rest from its rest shape holds less. That can be told of bodies that
- * something holds, that touch no ground, and on which nothing else acts. Of loose ones and of those that lie
- * on something the elements' energy alone is looked at, once they have been so wild that they may well have
- * folded, and by another measure. */
+ * In a false equilibrium little moves, yet elastic plus potential energy exceed those of the rest shape at
+ * the pins. A body that comes to rest from its rest shape always has less. This test holds for pinned bodies
+ * without ground contact or other loads. For loose bodies and bodies in contact only the elastic energy is
+ * compared, with another bound, and only after motion so violent that they may have collapsed. */
 #include <math.h>
 
 #include "math/vec3.h"
@@ -14,24 +13,25 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
 
-/* A body with less than this share of its volume will not come back by itself. */
+/* Fraction of its volume below which a body does not recover by itself. */
 static const double FOLDED_FRACTION = 0.1;
 
 /* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
  * is. */
 static const double MOVING_FRACTION = 0.2;
 
-/* What loses a fifth of its energy from look to look is still on its way out, however slowly it moves. */
+/* A body that loses a fifth of its energy between two checks is still recovering, however slowly it moves. */
 static const double STUCK_FRACTION = 0.8;
 
 /* Shares of what an island holds all of whose elements are strained by a tenth: what a knot holds at least
  * where the load is known, and where it is not; and what is wild, strains of 14 %. */
 static const double KNOT_FRACTION = 0.02, LOOSE_KNOT_FRACTION = 0.1, UNSTABLE_FRACTION = 2;
 
-/* What holds a body presses it where its rest shape would lie so deep: a share of the body's size. */
+/* Penetration of the rest shape from which pins press the body against the ground, as a fraction of its size.
+ */
 static const float PRESSED_FRACTION = 0.01f;
 
-/* Tetrahedra so many times as stiff as at rest may be wild. */
+/* Ratio of stiffness to that at rest from which tetrahedra count as unstable. */
 static const float STIFFENED = 2;
 
 /* Of a body of tetrahedra it is their volume: a bent surface of few vertices encloses less than what it is
@@ -240,9 +240,9 @@ static bool is_crushed(const sbri_island_state *state, double load_j, double bul
   return state->min_ratio < SBRI_CRUSHED_RATIO && 4 * load_j < (1 - (double)SBRI_CRUSHED_RATIO) * bulk_j;
 }
 
-/* Springs are looked at each time. For other elements that would cost as much as a substep of theirs: they
- * are looked at while they are wild, or may be by what their steps have seen. Soft ones may hold little
- * energy where they are crushed, as after a pin has jumped over its neighbours. */
+/* Springs are checked every time. Other elements cost as much to check as a substep, so they are checked only
+ * while they are unstable or their steps indicate it. A soft body may be crushed with little energy, as after
+ * a pin has jumped over its neighbours. */
 static bool is_looked_at(const sbri_island *island, const sbri_island_state *state) {
   if (island->scheme->forceless || island->link_flows || island->solid_flows) return false;
   return state->unstable || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED ||

@@ -4,7 +4,7 @@
 #include "solvers/scheme.h"
 
 static const float TWO_PI = 6.2831853f, EARTH_M_S2 = 9.80665f;
-/* A hold that states no force may lift the body so many times over. */
+/* Default force limit of a hold, in multiples of the body's weight. */
 static const float LIFTS = 20;
 
 bool sbri_vertex_carriers(

@@ -1,8 +1,8 @@
-/* Bodies that have lost themselves.
+/* Recovery of bodies that have lost their shape.
  *
- * What is thrown into a heap holds far more energy than anything it meets in use, and swings through all its
- * shapes until that is gone: seconds, where little damps it. So its motion is taken out of it for a while.
- * Then it has either unfolded, or it rests in a knot, which is told and undone. */
+ * A body whose points are scrambled has far more energy than in normal use and oscillates for seconds if it
+ * is weakly damped. So its motion is damped out for a while. After that it has either unfolded, or it rests
+ * in a false equilibrium, which is detected (folded.c), reported and undone. */
 #include <math.h>
 #include <string.h>
 
@@ -11,11 +11,11 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/router.h"
 
-/* What has been folded for so many ticks will not come back by itself; what was calmed, and rests in what no
- * load explains, for so many. */
+/* Ticks after which a collapsed body is reset; and ticks after which a damped-out body in a shape that no
+ * load explains is reset. */
 enum { FOLDED_TICKS = 24, CALMED_TICKS = 12, CHECK_INTERVAL = 4 };
 
-/* What no load explains, and calming does not calm for so many, goes round in steps that are not stable. */
+/* Ticks after which a body that damping cannot calm counts as stepped beyond its stability limit. */
 enum { UNSTABLE_TICKS = 36 };
 
 /* For so long at most, where loads that nobody knows may be what strains a body: once each time that it gets
@@ -36,7 +36,7 @@ static bool are_velocities_sound(const sbri_character *c, const sbri_island *isl
   return are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count);
 }
 
-/* What holds a body feels nothing of it; so where that is simulated, whoever steps both does it. */
+/* The pins get no reaction here. If a pin's body is simulated, the coupled step does this instead. */
 static void damp_out(sbri_character *c, uint32_t index, bool coupled) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_point *positions = sbri_positions(c) + island->first_slot;
@@ -63,7 +63,7 @@ static sbri_rigid_motion motion_of(
       sbri_velocities(c) + 3 * (size_t)island->first_slot);
 }
 
-/* Springs twice as long as at rest, or tetrahedra so much stiffer, may be about to burst. */
+/* Springs at twice their rest length, or tetrahedra so much stiffer than at rest, may become unstable. */
 static const float SOUND_STRETCH = 0.5f, SOUND_STIFFENING = 4;
 
 static bool is_sound(const sbri_island_state *state) {

@@ -1,9 +1,8 @@
 /* Sleep: a soft body that has come to rest is not stepped.
  *
- * A group of bodies sleeps once all its points have been slower than a share of its size a second for the
- * world's time, nothing that holds it moving. Its velocities become 0, which takes less than that speed's
- * kinetic energy, and its places stay: so waking begins where sleep did. It wakes as soon as anything that
- * holds it has moved, or the ground under it is another. */
+ * A group of bodies falls asleep after sleep_after_s during which all its points were slower than a fraction
+ * of its size a second and no pin moved. Its velocities become 0 and its positions stay. It wakes as soon as
+ * a pin moves or the ground under it changes. */
 #include <string.h>
 
 #include "base/hash64.h"
@@ -12,13 +11,13 @@
 #include "soft/soft.h"
 #include "solvers/scheme.h"
 
-/* Slower than this share of its size a second, a body comes to rest. */
+/* Fraction of its size a second below which a body comes to rest. */
 static const float IDLE_1_S = 0.01f;
 
-/* What holds a sleeper may tremble by this share of the character's size. */
+/* Displacement of a pin that does not wake a body, as a fraction of the character's size. */
 static const float TREMBLE = 1e-5f;
 
-/* Ground that the host may change is looked at in every so many ticks. */
+/* Number of ticks between two checks of a ground that the host may change. */
 enum { CHECK_INTERVAL = 4 };
 
 static bool is_idle(const sbri_character *c, const sbri_island *island) {
@@ -72,7 +71,7 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
   return (uint32_t)sbfi_hash64_value(&hash);
 }
 
-/* As the island lies, without velocity. */
+/* Keeps the island's positions, with zero velocities. */
 static uint32_t find_ground(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island_find_contacts(world, c, index);
   return ground_mark(c, &c->model->islands[index]);

@@ -10,7 +10,7 @@
 #include "soft/soft.h"
 #include "step/step.h"
 
-/* Ground that the host may change is looked at in every so many ticks. */
+/* Number of ticks between two checks of a ground that the host may change. */
 enum { CHECK_INTERVAL = 4 };
 
 bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {

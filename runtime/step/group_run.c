@@ -1,9 +1,9 @@
 /* The tick of characters whose bodies are in contact, in one task.
  *
- * Rigid parts and the islands in contact take steps of one length, that of the one that needs the shortest,
- * and before each the contacts push (body_contact/contact_step.c). Within a step everything moves as it does
- * alone. What is crushed stiffens, so after each step all are asked again, and if one needs shorter ones the
- * rest of the tick is divided anew. Islands that nothing is in contact with take their own steps. */
+ * Rigid parts and the islands in contact take equal steps, as short as the stiffest of them needs. Contact
+ * impulses are applied before each step (body_contact/contact_step.c); within a step everything moves as it
+ * does alone. Compressed bodies stiffen, so the step limit is computed again after each step, and the rest of
+ * the tick is divided anew if it has become shorter. Islands without contacts take their own steps. */
 #include <string.h>
 
 #include "body_contact/body_contacts.h"
@@ -66,7 +66,7 @@ static void hold(sbri_character *c, const sbri_island *island) {
 static void begin_island(const sbr_world *world, sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
-  (void)sbri_island_update_drivers(c, &now, index, m->tick_s); /* what has jumped goes on from there */
+  (void)sbri_island_update_drivers(c, &now, index, m->tick_s); /* pins that jumped continue from there */
   sbri_island_fill_unused_slots(c, &now);
   sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);

@@ -9,8 +9,8 @@
 /* The origin follows when the character is this far from it, in m; small ones keep their digits as well. */
 static const float REBASE_AT_M = 4;
 
-/* Bodies that have left their root by so much, of the asset's metres, are where the character is: a body of
- * 1 m that nothing holds is strained by a hundredth by what is rounded 3 km away from where it began. */
+/* m, in the asset's units: loose bodies so far from their root define where the character is. 3 km from the
+ * origin rounding strains a loose body of 1 m by a hundredth. */
 static const float LEFT_ROOT_M = 16;
 
 /* m, a power of two: what the origin goes by, a metre or a character's scale if that is less. */

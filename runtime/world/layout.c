@@ -45,7 +45,7 @@ static uint32_t max_contacts(const sbri_body *body) {
   return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + edges + 64 : 0;
 }
 
-/* Where each body's share of what all of them have in common begins. */
+/* Offsets of each body's part in the arrays that all bodies share. */
 static void distribute(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
     sbri_body *body = &model->bodies[i];

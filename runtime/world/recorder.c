@@ -1,4 +1,4 @@
-/* Public calls on their way into a recording. */
+/* Writes public calls into a recording. */
 #include <string.h>
 
 #include "math/usable.h"
