@@ -55,7 +55,7 @@ sbf_vec3 sbri_home_arm(
   if (rig->legs[leg].carrier >= 0) {
     const sbr_transform *bone =
         &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].carrier].frame;
-    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].carried_home, input->scale));
+    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].home_in_bone, input->scale));
     home = sbri_sub(sbri_add(bone->position, home), state->position);
     return sbri_vec3(home.x, 0, home.z);
   }

@@ -67,7 +67,7 @@ typedef struct sbri_rigid_model {
   float *pinned_squares;
   /* (body_count) how much more than the body the flesh weighs that is damped against it, or has moment. */
   float *pinned_weights;
-  float *carried_masses;        /* (body_count) kg of flesh that hangs on each */
+  float *attached_masses;       /* (body_count) kg of soft bodies attached to each */
   sbri_attached_mass *attached; /* (body_count) */
   uint32_t bone_count, vertex_count, row_count;
   size_t square_count;

@@ -1,19 +1,19 @@
-/* How the flesh on one rigid body answers when that body's speed changes at the begin of a step: by what its
- * points' speeds have changed at the step's end, so that the body may bear it through long steps
- * (ragdoll/attached_bodies.c).
+/* Response of a soft body to a change of velocity of the rigid body that it is attached to: the change of its
+ * points' velocities at the end of the step, for the implicit coupling (ragdoll/attached_bodies.c).
  *
- * A mode of angular frequency w, held by a frame whose speed changes by u at once, has taken the share
- * 1 - cos(w h) of that after h seconds: little where it swings slowly, what it happens to where it has swung
- * several times. Reckoned with is a share that is stable however far off w is: nearly that for small w h, and
- * all where w h is above 1.8, where a step late would be too late: v = X u - p(h^2 M^-1 K) X u,   X u the
- * rigid motion of the free points, p the polynomial of least degree that is 1 at 0 and no more than a
- * thousandth from 1.8^2 up to the fastest mode's square: Chebyshev's, by its recurrence (Zhou and Saad, A
- * Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The impulses M v it draws from the
- * body, X^T M v, symmetric: masses and moments that the body has in that step beside its own.
+ * If its frame's velocity changes by u, a mode of angular frequency w has taken the fraction 1 - cos(w h) of
+ * u after a step h: little for a slow mode, an arbitrary amount for one that has oscillated several times.
+ * The response uses a fraction that is stable for every w: close to the exact one for small w h, and 1 for w
+ * h above 1.8, where a reaction one step late would be unstable: v = X u - p(h^2 M^-1 K) X u,   X u: rigid
+ * motion of the free points. p is the polynomial of least degree that is 1 at 0 and at most a thousandth
+ * between 1.8^2 and the square of the fastest mode: Chebyshev's, by its recurrence (Zhou and Saad, A
+ * Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The reaction on the rigid body is
+ * X^T M v. That matrix is symmetric: mass and moments of inertia that the rigid body has in the step in
+ * addition to its own.
  *
- * Bone and flesh then keep their momentum, but no energy: what swings fast takes some up in each exchange
- * (of undamped flesh eight times as heavy as its bone twelve times that of the hit, in nine seconds). So it
- * is for flesh whose own damping takes more than that. */
+ * This conserves momentum but not energy: fast modes gain some in each exchange (an undamped soft body eight
+ * times as heavy as its bone gains twelve times the energy of a hit in nine seconds). So it is used only for
+ * bodies whose own damping takes more than that. */
 #include <string.h>
 
 #include "mechanics/network.h"
@@ -25,10 +25,9 @@ static const double ALONG = 3.2, BEHIND = 1e-3;
 /* The fastest mode is known from below. */
 static const double FASTEST_MARGIN = 1.1;
 enum { MAX_DEGREE = 64 };
-/* A bone bears no more than so many times its own mass: what rounding and strain leave over is its own to
- * take. */
+/* Greatest ratio of a soft body's mass to its bone's: the bone takes the errors of rounding and strain. */
 static const float MAX_ATTACHED_TRAVEL = 10;
-/* Nor flesh whose slowest mode that stretches it has less than this damping ratio. */
+/* Least damping ratio of the soft body's slowest stretching mode. */
 static const float MIN_DAMPING = 0.03f;
 
 /* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
@@ -187,7 +186,7 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
 
 /* ---- On bodies ---- */
 
-/* Adds masses about a place, as seen from another: a speed there is u + w x (place - from). */
+/* Adds mass and moments about `place`, expressed at `from`: the velocity there is u + w x (place - from). */
 static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, double to[6][6]) {
   double x = (double)(answers->about.x - from.x), y = (double)(answers->about.y - from.y),
          z = (double)(answers->about.z - from.z);
@@ -221,6 +220,6 @@ void sbri_attached_mass_join(sbr_model *model) {
       if (all) add_mass(island->answers, model->rigid.bodies[c].center, attached->mass);
     }
     attached->bearable =
-        any && all && model->rigid.carried_masses[c] <= MAX_ATTACHED_TRAVEL * model->rigid.bodies[c].mass;
+        any && all && model->rigid.attached_masses[c] <= MAX_ATTACHED_TRAVEL * model->rigid.bodies[c].mass;
   }
 }

@@ -1,5 +1,5 @@
-/* Edges of a body's surface that are so long that something of the host's would be in it, or it in that,
- * before a point of either is: at a right angle an edge lies half as deep as it is long. */
+/* Surface edges that are long enough to penetrate a host's shape between their end points: across a
+ * right-angled edge the depth is half of the length. */
 #include "math/vec3.h"
 #include "prepare/prepare.h"
 
@@ -15,7 +15,7 @@ static float thickness_of(const sbri_body *body) {
   return measures.sheet || !(measures.area > 0) ? 0 : (float)(4 * measures.volume / measures.area);
 }
 
-/* What stands for each vertex: a sample, or a slot; false where it is neither. */
+/* The sample or slot of each vertex; false if it has neither. */
 static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t *ends) {
   for (uint32_t v = 0; v < body->surface.vertex_count; v++) ends[v] = NOT_THERE;
   for (uint32_t i = 0; i < body->sample_count; i++)

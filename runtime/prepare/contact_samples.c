@@ -1,12 +1,11 @@
-/* Which places of a body meet the ground.
+/* Selects the contact samples of a body.
  *
- * Where the surface's points are points of the level: its points. Where the level carries its surface: the
- * surface's points, each by the points that carry it, all that polygons use, in the order of the source.
- * Fewer would be cheaper, but only those near the ground cost anything, and each that is left out is one that
- * dips in. Where they lie further apart than the level's own points, those of the level that lie on the
- * surface too: else a face would be borne by its corners alone, and its matter sink between them. All of
- * them are sorted into groups that the same points carry, so that a tick looks at no sample whose points are
- * far from everything. */
+ * If the surface's vertices are points of the level, these are the samples. If the surface is embedded in the
+ * level, every vertex that a polygon uses is one, with the weights of its embedding, in the source's order.
+ * Fewer would be cheaper, but only samples near the ground cost anything, and each one left out can
+ * penetrate. Where vertices are farther apart than the level's points, points of the level on the surface are
+ * samples too: otherwise a face would rest on its corners alone and sink between them. Samples are sorted
+ * into groups with the same points, so that a tick skips all samples whose points are far from everything. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,8 +39,8 @@ static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
 
 /* ---- Points of the level on the surface ---- */
 
-/* A point this share of an edge of the tetrahedra outside of the surface would bear it too high; one that
- * much inside, no better than not. */
+/* Distance to the surface, as a fraction of the tetrahedra's edges, within which a level's point is a sample:
+ * farther outside it would hold the body too high, farther inside it would add nothing. */
 static const float OUTSIDE_FRACTION = 0.02f, INSIDE_FRACTION = 0.25f;
 
 /* Between a triangle and a point: the square, and whether the point is behind. */

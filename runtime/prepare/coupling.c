@@ -1,14 +1,15 @@
-/* What ties soft bodies to rigid ones: the bodies that carry what holds each island, the springs that reach
- * what is held, and how fast a rigid body may swing by all of it.
+/* Coupling of soft and rigid bodies: the rigid bodies that each island is pinned to, the springs that reach
+ * pinned points, and the greatest frequency of a rigid body on its soft bodies.
  *
- * A bound of that: what is soft stands, the body gives way. Springs and regions count with their stiffness
- * along the worst direction, a tetrahedron with its matter's P-wave modulus M = mu + lambda (mechanics/
- * neo_hookean.h) times V |G|^2, G the strain of it by a unit motion of the corners that the body holds. About
- * the principal axes the same over the moments. The square of the fastest is at most the sum of both. */
+ * The frequency is an upper bound: the soft points are held and the rigid body moves. Springs and regions
+ * count with their stiffness in the worst direction, a tetrahedron with its P-wave modulus M = mu + lambda
+ * (mechanics/neo_hookean.h) times V |G|^2, where G is its strain by a unit motion of the pinned corners.
+ * Rotations about the principal axes count likewise over the moments of inertia. The square of the frequency
+ * is at most the sum of both. */
 #include "mechanics/neo_hookean.h"
 #include "prepare/prepare.h"
 
-/* ---- Who carries what ---- */
+/* ---- Which rigid body holds which island ---- */
 
 /* A bone goes with the body of the nearest bone above it, or its own, that has one. */
 bool sbri_carriers_list(sbr_model *model) {
@@ -165,7 +166,7 @@ static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point 
   sbf_vec3 r = own_arm(body, at), inverse_mass = body->inverse_inertia;
   float turning = inverse_mass.x > inverse_mass.y ? inverse_mass.x : inverse_mass.y;
   turning = turning > inverse_mass.z ? turning : inverse_mass.z;
-  model->rigid.carried_masses[carrier] += mass;
+  model->rigid.attached_masses[carrier] += mass;
   model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * turning);
 }
 
@@ -183,10 +184,10 @@ bool sbri_coupling_make(sbr_model *model) {
   sbri_rigid_model *rigid = &model->rigid; /* on each detail level its own */
   rigid->pinned_weights = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->pinned_squares = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
-  rigid->carried_masses = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
+  rigid->attached_masses = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->attached =
       sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof *rigid->attached);
-  if (!rigid->pinned_weights || !rigid->pinned_squares || !rigid->carried_masses || !rigid->attached)
+  if (!rigid->pinned_weights || !rigid->pinned_squares || !rigid->attached_masses || !rigid->attached)
     return false;
   for (uint32_t i = 0; i < model->island_count; i++)
     if (!list_pinned(model, &model->islands[i])) return false;

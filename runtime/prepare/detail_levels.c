@@ -3,7 +3,7 @@
 #include "prepare/prepare.h"
 #include "solvers/scheme.h"
 
-/* Of a level that states no error: a body that swings shows about so much of its size. */
+/* Error of a level that states none, as a fraction of the body's size: about that of a swinging body. */
 static const float UNSTATED_FRACTION = 0.02f;
 
 /* What else a tick costs, in visits of tetrahedra, of which each takes 6 ns: a visit of a spring or of a
@@ -43,7 +43,7 @@ static uint32_t max_levels(const sbf_asset *asset) {
   return max;
 }
 
-/* What yields or tears has a shape of its own that no other level has, and relaxation no velocities. */
+/* A body that yields or tears has a shape that no other level has, and relaxation has no velocities. */
 static bool keeps_its_level(const sbr_model *model) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
@@ -60,14 +60,14 @@ static bool is_point_pinned(const sbr_model *model) {
 
 /* ---- Errors and costs ---- */
 
-/* What was measured in motion is what will be seen; else what it gives under its weight. */
+/* The error measured in motion if the file states it, else the error under gravity. */
 static float stated_error(const sbf_level *level) {
   if (!level) return 0;
   return level->simulation.motion_error > 0 ? level->simulation.motion_error : level->simulation.error;
 }
 
-/* How often a substep looks at each tetrahedron, and at each spring: block descent sweeps four times, from
- * every point of an element. */
+/* Visits of each tetrahedron and of each spring in a substep: block descent makes four sweeps, over every
+ * point of an element. */
 static float styles_of(const sbri_island *island, bool solid) {
   if (island->scheme->kind == SBF_SCHEME_HEUN) return 2;
   if (island->scheme->kind == SBF_SCHEME_BLOCK_DESCENT) return solid ? 16 : 8;

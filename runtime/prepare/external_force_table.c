@@ -6,8 +6,8 @@
 #include "prepare/hinges.h"
 #include "solvers/surface_forces.h"
 
-/* A gas is reckoned with down to this share of its rest volume; what it pushes back with grows as the square.
- * Beyond, it is looked at while it runs (sbri_update_gas_stiffness). */
+/* Fraction of its rest volume down to which a gas's stiffness, which grows with the square of the
+ * compression, is bounded in advance. Beyond, it is updated at run time (sbri_update_gas_stiffness). */
 static const double MIN_GAS_FRACTION = 0.5;
 
 static bool has_flexion(const sbf_level *level) {
@@ -59,7 +59,7 @@ static double hinges_bound(const sbri_island *island, const sbri_body *body, dou
   return max;
 }
 
-/* A point of a surface is carried by others; the lightest of them stands for it. */
+/* A vertex of an embedded surface has no mass of its own; the lightest of its points is used. */
 static float vertex_mass_inverse(const sbri_island *island, const sbri_skin *skin, uint32_t v) {
   float sum = 0;
   for (uint32_t c = skin->cell_begins[v / SBRI_BLOCK]; c < skin->cell_begins[v / SBRI_BLOCK + 1]; c++) {

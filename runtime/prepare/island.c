@@ -7,7 +7,8 @@
 #include "prepare/pins.h"
 #include "solvers/scheme.h"
 
-/* A free point without mass would answer any force at once: it gets this share of the mean. */
+/* Mass of a free point that has none, as a fraction of the mean: without mass its acceleration would be
+ * unbounded. */
 static const float MIN_MASS_FRACTION = 1e-3f;
 
 static uint32_t padded(uint32_t count) {
@@ -35,10 +36,9 @@ static bool read_goals(sbri_island_maker *m, uint32_t index) {
   return true;
 }
 
-/* Points inside, which no face gives a share of the matter, have all the same by the rule for masses. Where
- * they are let go, they share what they have as stiffly as their springs hold them: else the one in the
- * middle, on which a spring of each point of the surface pulls, would swing twice as fast as all the others
- * and ask for twice the substeps. */
+/* Interior points, which have no face, all get the same mass by the rule for masses. If they are free, their
+ * total is divided in proportion to the stiffness of their springs. Otherwise the centre point, which has a
+ * spring to every surface point, would be twice as fast as all others and double the number of substeps. */
 static bool inside_fraction(sbri_island_maker *m, const sbri_body *body, float *masses) {
   const sbf_level *level = body->level;
   const sbf_polygon_mesh *mesh = &body->source->surface;

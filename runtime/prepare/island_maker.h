@@ -38,8 +38,8 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t in
   return &m->model->bodies[m->island->bodies[index]];
 }
 
-/* Young's modulus times the edge of the cube of matter that a point stands for: the stiffness of springs that
- * state none and have no length to derive it from. */
+/* Young's modulus times the edge of the cube of material that a point represents: the stiffness of springs
+ * without a stated one and without a length to derive it from. */
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */

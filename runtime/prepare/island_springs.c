@@ -255,17 +255,17 @@ static bool make_cells(sbri_island_maker *m) {
 
 /* ---- Frequencies ---- */
 
-/* Lattices above this size have their lowest mode from above alone: refining it would take longer than a
- * tenth of a second, and what a fine lattice's mode lies above by is little. */
+/* Lattices above this size only get an upper bound of their lowest mode: refining it would take more than a
+ * tenth of a second, and the bound of a fine lattice is close. */
 enum { MAX_REFINED = 3000 };
 
-/* Bones that would throw a body's points by more than this share of how far they are from what holds them
- * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
- * starts at once sways twice as far as what is drawn there slowly. A sheet has no inside: how it bends does
- * not count. */
+/* Greatest displacement of a body's points by its bones, as a fraction of their distance from the pins.
+ * Beyond it the bones move the whole body along: springs cannot tell inside from outside and would not
+ * restore it. A sudden start sways twice as far as a slow one. Bending of a sheet does not count, because a
+ * sheet has no inside. */
 static const float MAX_SWAY = 0.25f;
 
-/* Of so many of a body's points its reach is found. */
+/* Number of a body's points from which its reach is found. */
 enum { REACH_SAMPLES = 256 };
 
 /* How far from what holds it the body reaches, in m; no farther than it is large. */
@@ -340,7 +340,7 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
   return true;
 }
 
-/* Damping of each point, where a map scales what mass_damping says; the ratio's part stays as it is. */
+/* Damping of each point if a map scales mass_damping; the part of the damping ratio is not scaled. */
 static bool find_alphas(sbri_island_maker *m) {
   uint32_t free_count = m->island->free_count;
   for (uint32_t b = 0; b < m->island->body_count; b++) {

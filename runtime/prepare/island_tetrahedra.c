@@ -79,7 +79,7 @@ static uint32_t min_bit(uint64_t mask) {
   return bit;
 }
 
-/* Where the next block may be opened; the oldest gives way where there is no room. */
+/* The place for the next block; it replaces the oldest one if all are in use. */
 static uint32_t open_block(packing *p) {
   uint32_t index = 0;
   if (p->open == UINT64_MAX) {

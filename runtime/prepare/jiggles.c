@@ -1,7 +1,7 @@
-/* Jiggles: of bodies that one frame holds, the follower that stands for them. */
+/* Jiggles: the follower that replaces bodies with one pin frame. */
 #include "prepare/prepare.h"
 
-/* The frame that carries the body as one piece. */
+/* The frame that moves the body rigidly. */
 static uint32_t carrier_frame(const sbr_model *model, uint32_t soft_body) {
   int32_t bone = model->asset->soft_bodies.at[soft_body].bone;
   const sbri_body *body = &model->base->bodies[soft_body];

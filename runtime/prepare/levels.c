@@ -1,7 +1,7 @@
 /* What the levels of bodies are good for. */
 #include "prepare/prepare.h"
 
-/* A level that is off by more than this share of the body has gone wrong: it is of no use, whatever it costs.
+/* Error, as a fraction of the body's size, above which a level is never used.
  */
 static const float USELESS_FRACTION = 0.25f;
 

@@ -1,9 +1,9 @@
-/* Springs as links: each once, in colours of which no two springs share a free point. What is swept is then
- * worked on eight at a time, and no point gets its corrections in an order that follows the file's: springs
- * listed by their distance from a pin, swept in that order, blow up where the same ones in colours do not.
+/* Springs in colours: no two springs of a colour share a free point, so a sweep handles eight at a time. The
+ * order of corrections is then independent of the file's: springs that are listed, and swept, by their
+ * distance from a pin can be unstable where the coloured ones are not.
  *
- * Colours by the least free one, in the order of the springs; held points colour nothing, since nothing moves
- * them. A point of more springs than there are colours has the rest one by one. */
+ * Greedy colouring in the springs' order. Pinned points are ignored because nothing moves them. A point with
+ * more springs than there are colours has the remaining ones in blocks of one. */
 #include <string.h>
 
 #include "base/assert.h"

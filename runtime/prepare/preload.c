@@ -9,7 +9,7 @@
 
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 
-/* Never shorter than this share of its distance at rest, however heavy the body. */
+/* Least rest length as a fraction of the distance at rest, for any mass of the body. */
 static const float MIN_FRACTION = 0.05f;
 
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network) {

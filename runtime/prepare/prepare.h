@@ -15,8 +15,8 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
 /* Whether the level is of a model that is stepped; and was loaded. */
 bool sbri_level_has_stepped_model(const sbf_level *level);
 bool sbri_level_is_stepped(const sbf_level *level);
-/* Whether the error a level states under its weight is too large a share of its body, whose size that is;
- * one measured in motion is taken as it is. */
+/* Whether the error that a level states under gravity is too large a fraction of its body's size. An error
+ * measured in motion is always accepted. */
 bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m);
 /* Whether a level that is stepped is near enough to its body to be a detail level. */
 bool sbri_level_is_useful(const sbf_level *level, float size_m);
@@ -34,17 +34,18 @@ bool sbri_external_forces_make(sbr_model *model);
 /* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points);
-/* The rigid bodies that frames go with; which of them the islands may pull on, and how stiffly; the flesh
- * that hangs on each alone, after all that acts on it. The first two false where memory runs out. */
+/* The rigid bodies that frames belong to; those that islands act on, with the stiffness; and the soft bodies
+ * that are attached to one rigid body only, after all that acts on them. The first two return false if memory
+ * runs out. */
 bool sbri_carriers_list(sbr_model *model);
 bool sbri_coupling_make(sbr_model *model);
 void sbri_attached_mass_join(sbr_model *model);
-/* Neighbours and what lies around each point; false where memory runs out. */
+/* Neighbouring tetrahedra, and those around each point; false if memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
-/* The places of the surface that meet the ground; after the surfaces. */
+/* Contact samples; call it after the surfaces are made. */
 bool sbri_samples_make(sbr_model *model, sbri_body *body);
 bool sbri_coarse_edges_make(sbr_model *model, sbri_body *body);
-/* The triangles by which it meets itself, where it does; likewise. */
+/* Triangles for self-contact, if the body has it; also after the surfaces. */
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* Whether these go through each other at rest; after them. */
 bool sbri_self_tangles_find(sbr_model *model, sbri_body *body);

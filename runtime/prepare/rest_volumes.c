@@ -3,7 +3,7 @@
 
 #include "skin/skin.h"
 
-/* A surface that is open by no more than this share of its area, as by a stray triangle, still has a volume.
+/* Greatest opening of a surface that still has a volume, as a fraction of its area: a stray triangle.
  */
 static const double MAX_OPENING = 0.05;
 

@@ -4,7 +4,7 @@
 #include "mechanics/joint_freedom.h"
 #include "sbfmt/mechanics.h"
 
-/* Rows of joints that close loops are solved by a dense matrix of so many at most. */
+/* Greatest number of rows of joints that close loops; they are solved as a dense matrix. */
 enum { MAX_LOOP_ROWS = 96 };
 
 static const float EARTH_M_S2 = 9.81f;
@@ -18,8 +18,8 @@ static sbf_vec3 own_position(const sbri_rigid_body *body, sbf_vec3 position) {
   return sbri_rotate(sbri_quat_conjugate(body->axes), sbri_sub(position, body->center));
 }
 
-/* A flat or thin body has a moment of next to nothing about some axis, about which it would spin at any
- * speed: no moment is below this share of the greatest. */
+/* Least moment of inertia as a fraction of the greatest: a thin body has almost none about its long axis and
+ * would reach any angular velocity. */
 static const float MIN_MOMENT = 1e-3f;
 
 static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_arena *arena) {
@@ -129,7 +129,7 @@ typedef struct load {
   sbf_vec3 first;     /* kg m from the joint */
 } load;
 
-/* All that is joined to a body without passing `joint` or what is marked as seen, as one piece. */
+/* All bodies connected to a body without passing `joint` or a visited body, as one rigid body. */
 static load find_load(
     const sbri_rigid_model *model, uint32_t joint, uint32_t body, uint32_t *seen, uint32_t *queue) {
   sbf_vec3 about = rest_position(model, &model->joints[joint], SBRI_B);

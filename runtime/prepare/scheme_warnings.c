@@ -7,7 +7,7 @@
 
 static const double WARNED_BIAS = 0.1;
 
-/* By how much position-based networks bend too far, as a share: with so many substeps where `stable` are what
+/* Relative error of bending in position-based networks, by the ratio of substeps to `stable`, the number that
  * symplectic steps need. */
 static double network_softness(uint32_t stable, uint32_t taken) {
   double ratio = (double)stable / taken;

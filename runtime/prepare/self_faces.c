@@ -1,5 +1,5 @@
-/* The triangles by which a body meets itself: those of its surface, where its points are the level's own; and
- * what hangs together there. */
+/* Triangles for self-contact: those of the surface, if its vertices are points of the level; and its
+ * connected components. */
 #include <string.h>
 
 #include "collide/sides.h"

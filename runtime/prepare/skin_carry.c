@@ -1,4 +1,4 @@
-/* What carries each vertex: points of the bodies it is embedded in, else bones. */
+/* Attaches each skin vertex to points of the bodies that it is embedded in, else to bones. */
 #include <string.h>
 
 #include "model/level_mesh.h"
@@ -54,7 +54,7 @@ static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, 
   return UINT32_MAX;
 }
 
-/* On four points of a network that may tear, where some vertex of the embedding is carried by several. */
+/* Whether a vertex is embedded in several points of a network that may tear. */
 static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   const sbri_island *island = &c->model->islands[body->island];
@@ -173,7 +173,7 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   return keep_bindings(c, indices);
 }
 
-/* What carries a vertex as one piece with a body, in detail levels that are not soft. */
+/* Attaches a vertex rigidly to a body, for detail levels without soft bodies. */
 typedef struct piece {
   uint32_t vertex, frame;
   float weight;
@@ -255,7 +255,7 @@ static uint32_t join_pieces(const piece *pieces, uint32_t count, sbri_influence 
   return end;
 }
 
-/* The vertices that no body carries: they follow pieces, else the skin's weights, else `frame`. */
+/* Vertices that no body moves: they follow pieces, else the skin's weights, else `frame`. */
 static bool fill_frames(
     carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
   sbri_skin *skin = c->skin;

@@ -14,7 +14,7 @@ static const double POWER_MARGIN = 1.03;
 /* Bulk modulus is given up down to this Poisson's ratio. */
 static const double MIN_POISSON = 0.35;
 
-/* The body's fastest mode ends within this share below the limit, and is aimed at the middle of that. */
+/* Tolerance of the body's fastest mode below the limit, as a fraction; the search aims at its middle. */
 static const double NEAR_ENOUGH = 0.97, AIM = 0.985;
 
 double sbri_fastest(const sbf_spring_network *network, double *scratch) {

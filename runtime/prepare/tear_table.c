@@ -1,4 +1,4 @@
-/* What tearing needs to know of an island's tetrahedra: who is whose neighbour, and what lies around a point.
+/* Topology for tearing: neighbours of each tetrahedron, and the tetrahedra around each point.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -5,9 +5,8 @@
 
 #include "prepare/prepare.h"
 
-/* The points that carry the vertex with a twentieth of it or more, as slots of the character, the one that
- * carries most first; a vertex that something else carries has none, nor one that goes with one side of a
- * tear (tear/torn_network.c). */
+/* The points with at least a twentieth of the vertex's weight, as slots of the character, greatest weight
+ * first. None for a vertex that follows something else, or one side of a tear (tear/torn_network.c). */
 typedef struct carriers {
   uint32_t slots[4], count;
 } carriers;
@@ -67,9 +66,10 @@ static uint32_t add(const sbr_model *model, uint32_t *strengths, uint32_t count,
   return count;
 }
 
-/* Between what carries most of a side's two ends, and between all that carry the first of them: so of
- * points that are vertices, the springs along the sides; of a network that carries a skin, those that a torn
- * polygon spans. */
+/* Springs between the heaviest points of a side's two ends, and between all points of the first end. If
+ * vertices are points, these are the springs along the sides; in an embedding network, those that a torn
+ * polygon spans.
+ */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points) {
   if (model->flow_count == 0 || sizes->count == 0) return true;

@@ -1,4 +1,5 @@
-/* Which faces make up each slot's share in the gradient of a body's volume; see solvers/volume_keep.h. */
+/* The faces that contribute to each slot's entry in the gradient of a body's volume: solvers/volume_keep.h.
+ */
 #include <string.h>
 
 #include "prepare/prepare.h"
@@ -7,8 +8,8 @@ static bool add_contribution(sbfi_array *contributions, uint32_t slot, uint32_t 
   return sbfi_array_append(contributions, &(sbri_face_weight){slot, face, weight}, 1);
 }
 
-/* What carries a vertex receives its part of each of the vertex's faces: an eighth of the product of the
- * diagonals of a quad, that is a quarter of its area; a sixth of a triangle's, that is a third. */
+/* The points of a vertex get its part of each of its faces: of a quad an eighth of the product of its
+ * diagonals, a quarter of the area; of a triangle a sixth, a third of the area. */
 static bool list_fractions(const sbri_skin *skin, uint32_t first_slot, sbfi_array *contributions) {
   for (uint32_t face = 0; face < skin->face_block_count * SBRI_BLOCK; face++) {
     const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];

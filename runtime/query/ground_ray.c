@@ -10,10 +10,10 @@ enum { MAX_PARTS = 4096, HALVINGS = 40 };
 typedef struct ray {
   const sbr_ground *ground;
   sbr_double3 from;
-  double x, y, z; /* m: the way */
+  double x, y, z; /* m: length of the ray */
 } ray;
 
-/* Of a place on the way above the ground, m. */
+/* Height of a point of the ray above the ground, m. */
 static double clearance(const ray *r, double fraction, sbf_vec3 *normal) {
   return r->from.y + fraction * r->y -
          sbri_ground_height(r->ground, r->from.x + fraction * r->x, r->from.z + fraction * r->z, normal);

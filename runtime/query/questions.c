@@ -14,7 +14,7 @@ typedef struct ray {
   sbr_double3 from;
   sbf_vec3 direction;
   uint32_t mask;
-  float fraction; /* of the way, as far as it goes */
+  float fraction; /* of the ray, to the nearest hit so far */
   bool any;
   sbr_hit hit;
 } ray;

@@ -40,7 +40,7 @@ typedef struct sbri_leg {
   float copy_rotation, soft_reach;
   sbf_quat upper_back, lower_back; /* undo how thigh and shin face at rest */
   int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
-  sbf_vec3 carried_home;           /* in that bone's frame, m */
+  sbf_vec3 home_in_bone;           /* in that bone's frame, m */
   sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
   sbf_vec3 toe_position;           /* the same of the toe's head */
   sbri_sole sole;

@@ -169,7 +169,7 @@ static void find_carriers(sbri_rig *rig) {
         if (rig->parents[leg->upper] != (int32_t)bones->at[k]) continue;
         leg->carrier = (int32_t)(rig->chains[c].first_state + k);
         sbf_vec3 home = sbri_vec3(leg->home.x, 0, leg->home.z);
-        leg->carried_home = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(home, rest->position));
+        leg->home_in_bone = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(home, rest->position));
       }
     }
   }

@@ -57,7 +57,7 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].stretch = island->rest_stretch;
   sbri_island_states(c)[island_index].stiffening = 1;
   sbri_island_states(c)[island_index].min_ratio = 1;
-  sbri_island_states(c)[island_index].folded_ticks = 0;
+  sbri_island_states(c)[island_index].collapsed_ticks = 0;
   sbri_island_states(c)[island_index].unstable = 0;
   sbri_island_states(c)[island_index].excess_j = 0;
   sbri_island_states(c)[island_index].damping_ticks = 0;

@@ -2,7 +2,7 @@
  *
  * A body whose points are scrambled has far more energy than in normal use and oscillates for seconds if it
  * is weakly damped. So its motion is damped out for a while. After that it has either unfolded, or it rests
- * in a false equilibrium, which is detected (folded.c), reported and undone. */
+ * in a false equilibrium, which is detected (collapsed.c), reported and undone. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 
 /* Ticks after which a collapsed body is reset; and ticks after which a damped-out body in a shape that no
  * load explains is reset. */
-enum { FOLDED_TICKS = 24, CALMED_TICKS = 12, CHECK_INTERVAL = 4 };
+enum { COLLAPSED_TICKS = 24, CALMED_TICKS = 12, CHECK_INTERVAL = 4 };
 
 /* Ticks after which a body that damping cannot calm counts as stepped beyond its stability limit. */
 enum { UNSTABLE_TICKS = 36 };
@@ -166,7 +166,7 @@ static void count_tick(sbri_recovery *recovery) {
 static bool is_crushed_by_jump(sbri_recovery *recovery, const sbri_shape *shape) {
   bool crushed = shape->crushed && recovery->jumped_ticks > 0;
   recovery->crushed_ticks = crushed ? recovery->crushed_ticks + CHECK_INTERVAL : 0;
-  if (recovery->crushed_ticks < FOLDED_TICKS) return false;
+  if (recovery->crushed_ticks < COLLAPSED_TICKS) return false;
   recovery->jumped_ticks = recovery->crushed_ticks = 0;
   return true;
 }
@@ -224,9 +224,10 @@ bool sbri_island_recover(
     state->damping_ticks = DAMPING_TICKS;
   state->unstable = shape.unstable ? state->unstable + CHECK_INTERVAL : 0;
   state->excess_j = shape.excess_j;
-  state->folded_ticks = shape.folded ? state->folded_ticks + CHECK_INTERVAL : 0;
-  if (shape.folded) state->recovery.ticks = SBRI_RECOVERING_TICKS;
-  bool stays = state->folded_ticks >= (shape.unstable && shape.is_reported ? CALMED_TICKS : FOLDED_TICKS);
+  state->collapsed_ticks = shape.collapsed ? state->collapsed_ticks + CHECK_INTERVAL : 0;
+  if (shape.collapsed) state->recovery.ticks = SBRI_RECOVERING_TICKS;
+  bool stays =
+      state->collapsed_ticks >= (shape.unstable && shape.is_reported ? CALMED_TICKS : COLLAPSED_TICKS);
   bool jumped = is_crushed_by_jump(&state->recovery, &shape);
   if (!stays && !jumped && !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
     return false;

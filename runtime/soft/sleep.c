@@ -91,7 +91,7 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
 bool sbri_island_is_idle(const sbri_character *c, uint32_t index) {
   const sbri_island_state *state = &sbri_island_states(c)[index];
   const sbri_island *island = &c->model->islands[index];
-  return !state->recovery.ticks && !sbri_island_is_loaded(c, index) && !state->folded_ticks &&
+  return !state->recovery.ticks && !sbri_island_is_loaded(c, index) && !state->collapsed_ticks &&
          !state->unstable && sbri_drivers_rest(c, island) && sbri_tears_of(c)[index].count == 0 &&
          is_idle(c, island);
 }

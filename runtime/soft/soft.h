@@ -94,14 +94,14 @@ sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c
  * `element_forces`. */
 void sbri_pin_forces_find(const sbr_world *world, sbri_character *c, uint32_t island);
 
-/* ---- soft/folded.c ---- */
+/* ---- soft/collapsed.c ---- */
 
 /* An element with a smaller volume ratio is crushed. */
 #define SBRI_CRUSHED_RATIO 0.2f
 
 /* Assessment of an island's present shape. */
 typedef struct sbri_shape {
-  bool folded;      /* collapsed: will not regain its shape by itself */
+  bool collapsed;   /* will not regain its shape by itself */
   bool heaped;      /* strained by a throw or by an initial position */
   bool unstable;    /* heaped or not yet recovered from it */
   float excess_j;   /* elastic energy above the rest shape, J; 0: not measured */

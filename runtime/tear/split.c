@@ -1,9 +1,9 @@
-/* Points of lattices that split where tetrahedra have torn.
+/* Splits points of lattices where tetrahedra have torn.
  *
- * What is left around a point of a torn tetrahedron hangs together across sides. Where that makes several
- * parts, the largest keeps the point and each other one gets a point of its own out of the body's room, at
- * the same place and velocity, with its share of the mass by the volume of its tetrahedra: momentum and
- * energy are kept. Torn tetrahedra weigh what they did. Held points do not split: they would not move apart.
+ * The intact tetrahedra around a point of a torn one are grouped by shared sides. If there are several
+ * groups, the largest keeps the point. Each other group gets a spare point of the body at the same position
+ * and velocity, with mass in proportion to the volume of its tetrahedra: momentum and energy are conserved.
+ * Torn tetrahedra keep their mass. Pinned points do not split because they would not separate.
  */
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #include "tear/split_springs.h"
 #include "tear/tear.h"
 
-/* Of a point with more tetrahedra around it only so many are looked at. */
+/* Greatest number of tetrahedra around a point that are considered. */
 enum { MAX_AROUND = 192 };
 
 static void unsplit_springs(sbri_character *c, const sbri_island *island) {

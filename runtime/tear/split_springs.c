@@ -1,12 +1,12 @@
-/* Points of networks that split where springs have torn.
+/* Splits points of networks where springs have torn.
  *
- * Two springs of a point hang together where their other ends are one, or one or two springs apart by others
- * than this point's. Those that did at rest, and that a tear leaves in several parts, are parts of what was
- * one fabric and would now turn about the point as about a hinge: the one of most springs keeps the point,
- * each other one gets a point of its own out of the body's room, at the same place and velocity. A copy's
- * share of the mass is that of its springs' stiffness, so that no part swings faster for it than the point
- * could; momentum and energy are kept. A spring that is a part by itself is a thread: it stays, and tears by
- * itself. What never hung together, as the two sides of a rope's point, stays too. Held points do not split.
+ * Two springs of a point are connected if their other ends are the same, or at most two springs apart without
+ * passing this point. If springs that were connected at rest fall into several groups by a tear, the groups
+ * are pieces of one fabric that would now rotate about the point as about a hinge. The group with the most
+ * springs keeps the point. Each other group gets a spare point of the body at the same position and velocity,
+ * with mass in proportion to the stiffness of its springs, so that no group becomes faster; momentum and
+ * energy are conserved. A group of one spring is a thread: it stays, and may tear by itself. Springs that
+ * were never connected, as on both sides of a rope's point, stay too. Pinned points do not split.
  */
 #include "tear/split_springs.h"
 
@@ -182,7 +182,7 @@ static uint32_t split(fraying *f, uint32_t slot) {
 
 /* ---- All of an island ---- */
 
-/* Ends of torn springs, and what those had springs to: no other point can have lost a way. */
+/* Ends of torn springs and their neighbours: no other point can have lost a connection. */
 static void mark(const fraying *f, uint8_t *frayed) {
   const sbri_island *island = &f->island;
   enum { TORN = 1, NEAR = 2 };

@@ -1,9 +1,9 @@
-/* Skins of networks of springs that tear.
+/* Skins of networks that tear.
  *
- * A vertex rides on up to four points. Where a tear has parted these, it stays with those that carry more of
- * it: of the others it takes the copies that have split off to that side, and what is left to be carried is
- * shared by the side's own points, its rest place extrapolated from theirs. Two points are parted that were
- * within three springs of each other at rest and are no more.
+ * A vertex is embedded in up to four points. If a tear separates them, the vertex follows the side with the
+ * greater weight. Points of the other side are replaced by their copies on this side; the remaining weight
+ * goes to this side's own points, with the rest position extrapolated from theirs. Two points are separated
+ * if they were within three springs of each other at rest and are not any more.
  */
 #include "tear/torn_network.h"
 
@@ -48,7 +48,7 @@ static bool is_parted(const sbri_torn_network *t, uint32_t a, uint32_t b) {
 
 /* ---- Sides ---- */
 
-/* What carries a vertex; slots of the island. */
+/* The points of a vertex, as slots of the island. */
 typedef struct carriers {
   uint32_t slots[CARRIERS];
   float weights[CARRIERS];
@@ -82,7 +82,7 @@ static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t 
   return SBRI_UNUSED;
 }
 
-/* The carrier by whose side most of the vertex is carried. */
+/* The point whose side has the greatest weight. */
 static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
   uint32_t best = 0;
   float max = -1;
@@ -103,7 +103,7 @@ static sbf_vec3 rest_of(const sbri_torn_network *t, uint32_t slot) {
   return sbri_vec3(p->x, p->y, p->z);
 }
 
-/* The place of the vertex at rest, by what carried it when it was made. */
+/* Rest position of the vertex, from its original points. */
 static sbf_vec3 rest_position(const sbri_torn_network *t, const carriers *made) {
   sbf_vec3 sum = {0, 0, 0};
   float all = 0;

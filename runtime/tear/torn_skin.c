@@ -1,11 +1,10 @@
 /* Skins of lattices and networks that tear.
  *
- * A vertex rides on its tetrahedron, wherever the corners of that go. Where the tetrahedron itself has torn,
- * it rides on from its corner of the greatest weight, on a whole tetrahedron there, as an extrapolation of
- * its rest shape; where there is none, it stays in between what has torn. A polygon is left out once the
- * tetrahedra of two neighbouring corners, which few sides lie between at rest, have lost that way to each
- * other. Of networks of springs tear/torn_network.c decides both; of cloth, whose vertices are points, a
- * polygon is left out once a spring along one of its sides has torn.
+ * A vertex follows its tetrahedron. If that has torn, the vertex follows an intact tetrahedron at its corner
+ * of greatest weight, extrapolated from the rest shape; without one it stays with the torn corners. A polygon
+ * is hidden once the tetrahedra of two neighbouring corners, connected by few sides at rest, have lost that
+ * connection. For networks tear/torn_network.c decides both. For cloth, whose vertices are points, a polygon
+ * is hidden once a spring along one of its sides has torn.
  */
 #include <string.h>
 
@@ -13,7 +12,7 @@
 #include "tear/tear.h"
 #include "tear/torn_network.h"
 
-/* The way from one corner's tetrahedron to the next one's goes through no more sides than this. */
+/* Greatest number of sides between the tetrahedra of two neighbouring corners. */
 enum { MAX_SIDES = 6 };
 
 static void repair(sbri_character *c, const sbri_skin *skin) {
@@ -127,7 +126,7 @@ static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
 
 /* ---- Polygons ---- */
 
-/* Whether a way of few sides leads from one to the other, through whole ones or at rest through all. */
+/* Whether few sides connect one to the other: through intact tetrahedra, or at rest through all. */
 static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest) {
   uint32_t *stamps = sbri_visits(t->c) + t->island->first_solid,
            *queue = sbri_queue(t->c) + t->island->first_solid;
@@ -182,7 +181,7 @@ static void follow_vertices(const tearing *t, const sbri_skin *skin) {
   uint8_t *touched = sbri_touched(t->c) + skin->first_binding;
   for (uint32_t i = 0; i < skin->binding_count; i++)
     touched[i] = skin->bindings[i].island == t->index && follow(t, skin, i);
-  /* What was torn before may have opened further: whoever does not ride where it was made is looked at too.
+  /* Older tears may have opened further, so vertices that already follow another tetrahedron are checked too.
    */
   for (uint32_t i = 0; i < skin->binding_count; i++) {
     const sbri_binding *binding = &skin->bindings[i];

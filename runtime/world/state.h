@@ -43,11 +43,11 @@ typedef struct sbri_island_state {
   float stretch; /* maximum stretch of a spring in the last substep, as a fraction beyond its rest length */
   float stiffening; /* maximum stiffness of a tetrahedron in the last substep relative to rest */
   float min_ratio;  /* minimum J of the tetrahedra in the last substep; below 0: inverted; 1: no tetrahedra */
-  float max_flow_stretch; /* maximum g.g of a yielded rest shape relative to the original one */
-  uint32_t folded_ticks;  /* ticks with almost no volume or with inverted elements */
-  uint32_t unstable;      /* ticks with an unstable shape (soft/folded.c) */
-  float excess_j;         /* excess energy in them, J; 0: not measured */
-  uint32_t damping_ticks; /* remaining ticks of extra damping */
+  float max_flow_stretch;   /* maximum g.g of a yielded rest shape relative to the original one */
+  uint32_t collapsed_ticks; /* ticks with almost no volume or with inverted elements */
+  uint32_t unstable;        /* ticks with an unstable shape (soft/collapsed.c) */
+  float excess_j;           /* excess energy in them, J; 0: not measured */
+  uint32_t damping_ticks;   /* remaining ticks of extra damping */
   uint32_t recoveries;
   uint32_t unsplit; /* points that could not split for lack of spare slots */
   sbri_recovery recovery;

@@ -44,8 +44,8 @@ START_TEST(what_is_pressed_flat_is_left_alone)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("folded");
-  TCase *c = tcase_create("folded");
+  Suite *suite = suite_create("collapsed");
+  TCase *c = tcase_create("collapsed");
   tcase_add_loop_test(c, what_is_pressed_flat_is_left_alone, 0, 2);
   suite_add_tcase(suite, c);
   return harness_run(suite);

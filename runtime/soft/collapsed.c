@@ -14,7 +14,7 @@
 #include "solvers/scheme.h"
 
 /* Fraction of its volume below which a body does not recover by itself. */
-static const double FOLDED_FRACTION = 0.1;
+static const double COLLAPSED_FRACTION = 0.1;
 
 /* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
  * is. */
@@ -38,9 +38,9 @@ static const float STIFFENED = 2;
  * drawn around. That is looked at only where the least of them leaves it open. */
 static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
   if (body->tetrahedron_count && !island->solid_flows)
-    return (double)min < FOLDED_FRACTION && sbri_lattice_fraction(c, body) < FOLDED_FRACTION;
+    return (double)min < COLLAPSED_FRACTION && sbri_lattice_fraction(c, body) < COLLAPSED_FRACTION;
   return body->rest_volume_m3 > 0 &&
-         sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_FRACTION * body->rest_volume_m3;
+         sbri_surface_volume(c, body, sbri_positions(c)) < COLLAPSED_FRACTION * body->rest_volume_m3;
 }
 
 static bool is_any_empty(const sbri_character *c, const sbri_island *island, float min) {
@@ -257,8 +257,8 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   if (is_squeezed(c, island) || is_pressed_by_holders(c, island) || sbri_island_is_loaded(c, index))
     return (sbri_shape){.unstable = unstable};
   if (!(state->min_ratio > 0) || is_any_empty(c, island, state->min_ratio))
-    return (sbri_shape){.folded = true, .heaped = true, .unstable = true};
-  if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};
+    return (sbri_shape){.collapsed = true, .heaped = true, .unstable = true};
+  if (!is_looked_at(island, state)) return (sbri_shape){.collapsed = false};
   elastic elements = elastic_of(c, island, positions);
   double more = elements.now_j, min = KNOT_FRACTION * elements.tenth_j;
   bool is_reported = !island->has_external_forces && is_point_pinned(c, island) && !is_on_ground(c, island);
@@ -275,7 +275,7 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
       .heaped = more > UNSTABLE_FRACTION * elements.tenth_j};
   shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
-  shape.folded = strained && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
-                 kinetic_of(c, island) < MOVING_FRACTION * more;
+  shape.collapsed = strained && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
+                    kinetic_of(c, island) < MOVING_FRACTION * more;
   return shape;
 }
