@@ -54,7 +54,7 @@ typedef struct sbri_bounds_tree {
   uint32_t node_count, item_count;
 } sbri_bounds_tree;
 
-/* Nodes that so many items need at most. */
+/* Greatest number of nodes for a number of items. */
 static inline size_t sbri_bounds_tree_nodes(uint32_t item_count) {
   return 2 * (size_t)item_count + 1;
 }
@@ -66,7 +66,7 @@ void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32
  * stay exact, and fast while neighbours stay neighbours, as the triangles of a surface do. */
 void sbri_bounds_tree_refit(sbri_bounds_tree *tree, const sbri_box *boxes);
 
-/* A walk over the items whose leaves a box meets: begin, then next until it says false. */
+/* Iterates over the items whose leaves overlap a box: begin, then next until it returns false. */
 enum { SBRI_BOUNDS_TREE_DEPTH = 64 };
 typedef struct sbri_bounds_walk {
   const sbri_bounds_tree *tree;

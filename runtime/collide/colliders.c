@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Places a million metres out are right to a sixteenth: bounds are larger by this share of them. */
+/* Relative enlargement of bounds: a million metres from the origin positions are exact to 1/16 m. */
 static const float ROUNDING = 2.4e-7f;
 
 static sbf_vec3 single(sbr_double3 x) {
@@ -43,8 +43,8 @@ static sbf_vec3 single_of(const double v[3]) {
   return sbri_vec3((float)v[0], (float)v[1], (float)v[2]);
 }
 
-/* What has pushed it in the tick that is over is what others may push it with in the next. Where the host has
- * not told of it since, it goes on. */
+/* The impulses of the last tick are those that other bodies are assumed to apply in the next. If the host has
+ * not set the motion since, the body continues with them. */
 static void begin_body(sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
   b->sharers = b->sharing, b->push = single_of(b->pushing), b->moment = single_of(b->turning);

@@ -6,7 +6,7 @@
 
 #include "math/vec3.h"
 
-/* Squared sine of the angle between edges that count as parallel: their ends meet faces. */
+/* Squared sine of the angle up to which edges count as parallel: their ends collide with faces. */
 #define SBRI_PARALLEL 1e-3f
 
 /* Its ends, and how far they go in the tick. */
@@ -42,7 +42,7 @@ static inline bool sbri_edges_cross(const sbri_soft_edge *p, const sbri_soft_edg
   return true;
 }
 
-/* Whether what lies so to each other touches within the tick, or comes as near as `outer`. */
+/* Whether two edges in this relative position touch within the tick, or come as near as `outer`. */
 static inline bool sbri_edges_contact(
     const sbri_soft_edge *p, const sbri_soft_edge *q, float outer, sbri_edge_hit *to) {
   /* Where they cross may lie beside them now: as they are when they have come near. */

@@ -21,7 +21,7 @@ static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
   add_outer(m, sbri_rotate(axes, sbri_vec3(0, 0, 1)), values.z);
 }
 
-/* What moves it in its share of the mass; what something else holds is not turned either. */
+/* The impulse on its part of the mass; a body that something else holds does not rotate either. */
 static void take_mass(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
   const sbri_host_body *b = &leader->body;
   float cube = scale * scale * scale, fraction = (float)sharers * cube;

@@ -1,15 +1,15 @@
-/* Bodies of the host with a mass, as a soft body or a rigid one that touches them sees them through a tick.
+/* Bodies of the host with a mass, within a tick of a soft or rigid body in contact with them.
  *
- * Characters are stepped beside each other, so each body has a copy of its own of what it touches, which its
- * pushes move in each substep. Where several push the same, each copy has its share of the mass
- * (R. Tonge, F. Benevolenti, A. Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid Body Simulation,
- * 2012), and in place of what the others do the difference between what all have pushed it with in the tick
- * before and what this one had as its share: at rest all copies then stand still, whoever bears how much.
+ * Characters are stepped in parallel, so each body has its own copy of the host's bodies that it touches, and
+ * its impulses move the copy in each substep. If several bodies touch the same one, each copy has a fraction
+ * of the mass (R. Tonge, F. Benevolenti, A. Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid Body
+ * Simulation, 2012). The effect of the others is predicted: the total impulse of the last tick minus this
+ * copy's own. At rest all copies then stand still, however the load is divided.
  *
- * The host will move its body by its new velocity for all of the tick: x + T (v + sum J / m). So the copy is,
- * after a time t of the tick, at x + t v(t): a push moves it t times the change of its velocity at once, and
- * it ends the tick where the host will put it. Otherwise what is light on what is stiff would swing up: at
- * more than 16 Hz with 60 ticks a second.
+ * The host will move its body by the new velocity over the whole tick: x + T (v + sum J / m). So after a time
+ * t of the tick the copy is at x + t v(t): an impulse moves it at once by t times its change of velocity, and
+ * it ends the tick where the host will put it. Otherwise a light body on a stiff one would become unstable:
+ * above 16 Hz at 60 ticks a second.
  *
  * Lengths and times are the character's own, masses those of its file. */
 #ifndef SBRI_EXTERNAL_BODY_H

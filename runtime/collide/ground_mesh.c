@@ -1,5 +1,5 @@
-/* Triangles as a ground: a grid over x and z, about one square a triangle, each with the triangles whose
- * boxes meet it. */
+/* Triangles as a ground: a grid over x and z, about one square a triangle. Each square lists the triangles
+ * whose boxes overlap it. */
 #include <math.h>
 #include <string.h>
 

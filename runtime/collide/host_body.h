@@ -10,16 +10,16 @@ typedef struct sbri_host_body {
   sbf_vec3 inverse_inertias; /* 1/(kg m^2), about its principal axes */
   sbf_quat axes;             /* from these to the shape's */
   sbf_vec3 centre;           /* of its mass, in the shape's frame */
-  bool goes;                 /* the host has told its motion: it goes on by that */
+  bool goes;                 /* the host has set its motion, from which it is predicted */
   bool is_reported;          /* since the last tick */
   sbf_vec3 velocity,
-      angular_velocity; /* m/s of the collider's place, and rad/s: as told, or gone on from that */
+      angular_velocity; /* m/s of the collider's position, and rad/s: as set, or predicted from that */
   sbf_vec3 reported_velocity, acceleration; /* m/s and m/s^2 */
   sbf_vec3 blocked_normal;                  /* unit, along which something else holds it; or zeros */
-  sbf_vec3 handed;                          /* N s that the host has taken since it told */
-  uint32_t sharers;                         /* bodies that pushed it in the last tick, by so much in all: */
-  sbf_vec3 push, moment;                    /* N s, and N m s about its centre */
-  uint32_t sharing;                         /* the same of this tick */
+  sbf_vec3 handed;                          /* N s that the host has taken since it set the motion */
+  uint32_t sharers;      /* bodies that applied an impulse in the last tick, and their sum: */
+  sbf_vec3 push, moment; /* N s, and N m s about its centre */
+  uint32_t sharing;      /* the same of this tick */
   double pushing[3], turning[3];
 } sbri_host_body;
 

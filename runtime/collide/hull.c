@@ -5,13 +5,14 @@
 
 #include "collide/triangle.h"
 
-/* Nearer than this share of the distance from the middle, what leads from the nearest place is rounding and
- * no direction. */
+/* Distance, as a fraction of that from the centre, below which the direction from the nearest point is
+ * rounding.
+ */
 static const float ON_IT_FRACTION = 1e-5f;
 
 /* ---- Making ---- */
 
-/* A face so much narrower than long has its normal from sums in double precision. */
+/* Aspect ratio from which a face's normal is computed in double precision. */
 static const float SLIVER = 1e-3f;
 
 /* The same as area_of. */

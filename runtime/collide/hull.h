@@ -1,4 +1,4 @@
-/* Convex shapes of flat faces: what rigid bodies, boxes and single triangles are when they meet. */
+/* Convex polyhedra: the collision shapes of rigid bodies, boxes and single triangles. */
 #ifndef SBRI_HULL_H
 #define SBRI_HULL_H
 
@@ -36,7 +36,7 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
 float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face);
 /* Nearest place on the surface; returns the distance, negative inside. */
 float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *position, sbf_vec3 *normal);
-/* The vertex that lies furthest along a direction. */
+/* The support point: the vertex farthest along a direction. */
 uint32_t sbri_hull_support(const sbri_hull *hull, sbf_vec3 along);
 
 #endif

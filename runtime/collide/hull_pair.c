@@ -1,10 +1,10 @@
-/* Separating axes: normals of both hulls' faces, and products of those edges whose arcs cross on the sphere
- * of normals, which alone can be faces of the difference of the two (D. Gregorius, The Separating Axis Test
- * between Convex Polyhedra, 2013). Then what of the one lies over what of the other, seen along the axis. */
+/* Separating axis test: the normals of both hulls' faces, and the cross products of edges whose arcs
+ * intersect on the Gauss map; only these are faces of the Minkowski difference (D. Gregorius, The Separating
+ * Axis Test between Convex Polyhedra, 2013). Then the contact manifold by clipping along the best axis. */
 #include "collide/hull_pair.h"
 
-/* An edge's axis is taken where it is better than every face's by this share of the reach and by this in m:
- * faces meet in more places. */
+/* An edge axis must be better than every face axis by this fraction of the reach and by this length (m):
+ * face contacts have more points. */
 static const float EDGE_FRACTION = 0.05f, EDGE_M = 1e-5f;
 
 enum { MAX_CORNERS = 32 };
@@ -66,7 +66,7 @@ static sbf_vec3 along_of(const sbri_hull *hull, const sbri_hull_edge *e) {
   return sbri_sub(hull->vertices[e->ends[1]], hull->vertices[e->ends[0]]);
 }
 
-/* As directions of edges, whatever their lengths. */
+/* Directions of edges, not normalised. */
 static bool are_parallel(sbf_vec3 p, sbf_vec3 q) {
   sbf_vec3 n = sbri_cross(p, q);
   return sbri_dot(n, n) < 1e-4f * sbri_dot(p, p) * sbri_dot(q, q);
@@ -183,8 +183,7 @@ static void make_outline(const outline *all, outline *to) {
   for (uint32_t i = 0; i < count; i++) add_corner(to, all->at[chain[i]], all->u[chain[i]], all->v[chain[i]]);
 }
 
-/* What of the outline lies to the left of the line from (u0, v0) to (u1, v1), or no further right of it than
- * `slack`. */
+/* Clips the outline to the left of the line from (u0, v0) to (u1, v1), with a margin of `slack`. */
 static void cut(const outline *from, float u0, float v0, float u1, float v1, float slack, outline *to) {
   float du = u1 - u0, dv = v1 - v0, size = sqrtf(du * du + dv * dv);
   to->count = 0;
@@ -217,7 +216,7 @@ static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float ma
   }
 }
 
-/* The corners of the face that looks most against n. */
+/* The corners of the face whose normal is most opposed to n. */
 static void gather_face(
     const sbri_placed_hull *h, sbf_vec3 n, sbf_vec3 side, sbf_vec3 other_side, outline *to) {
   sbf_vec3 own = into(h, n);
@@ -231,7 +230,7 @@ static void gather_face(
   }
 }
 
-/* What of an outline lies over a face's; in `parts` of the number that it returns. */
+/* Clips an outline against a face's; `parts` receives the points whose number it returns. */
 static int cut_to(const outline *face, const outline *found, float slack, outline parts[2]) {
   int now = 0;
   make_outline(found, &parts[0]);
@@ -242,8 +241,9 @@ static int cut_to(const outline *face, const outline *found, float slack, outlin
   return now;
 }
 
-/* Of the hull whose face the axis is, that face; of the other all that is near, cut to lie over it. Where no
- * corner of that does, as of a plank across a sill, what of its own face does. */
+/* Reference face: that of the axis. Incident: everything near it of the other hull, clipped to the reference
+ * face. If no corner of it lies over the face, as with a plank across a sill, the reference face is clipped
+ * instead. */
 static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull *other, sbf_vec3 n, bool of_a,
     float reach, sbri_hull_pair *pair) {
   sbf_vec3 x_axis = fabsf(n.x) < 0.7f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);

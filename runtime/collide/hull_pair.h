@@ -1,4 +1,4 @@
-/* Where two hulls meet, or are about to. */
+/* Contact manifold of two hulls that touch or are about to. */
 #ifndef SBRI_HULL_PAIR_H
 #define SBRI_HULL_PAIR_H
 

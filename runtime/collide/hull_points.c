@@ -1,7 +1,7 @@
-/* A tetrahedron grows by the point that is the furthest outside of it, until none is (C. B. Barber, D. P.
- * Dobkin and H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996). Places are counted in 2^20ths of
- * the largest extent, so that sides are told by whole numbers: without rounding nothing in a plane, on a line
- * or in one place needs a tolerance, and no hull comes out that is not convex. */
+/* Quickhull: a tetrahedron grows by the point farthest outside of it until none is outside (C. B. Barber, D.
+ * P. Dobkin and H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996). Coordinates are integers, in
+ * 2^20ths of the largest extent, so orientation tests are exact: coplanar, collinear and equal points need no
+ * tolerance, and every hull is convex. */
 #include "collide/hull_points.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ typedef struct side {
 typedef struct growing {
   location *positions;
   double *height_of; /* of each place over its side, in steps */
-  uint32_t *side_of; /* one that each lies outside of; NONE: it is inside, or on the hull */
+  uint32_t *side_of; /* a face that each point is outside of; NONE: it is inside, or on the hull */
   uint32_t count, side_count;
   side sides[MAX_SIDES], seen[MAX_SIDES]; /* of the hull; and from the point that comes next */
 } growing;
@@ -124,7 +124,7 @@ static bool has_edge(const side *s, uint32_t a, uint32_t b) {
   return false;
 }
 
-/* New sides to the point from the rim of what is seen of the hull: from edges whose other side is not. */
+/* New faces from the horizon to the point: from edges between a visible and an invisible face. */
 static void join(growing *g, uint32_t point, uint32_t seen_count) {
   for (uint32_t i = 0; i < 3 * seen_count; i++) {
     uint32_t a = g->seen[i / 3].corners[i % 3], b = g->seen[i / 3].corners[(i % 3 + 1) % 3], k = 0;

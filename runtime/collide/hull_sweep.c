@@ -1,6 +1,6 @@
-/* By going on as far as they certainly do not touch (B. Mirtich, Timewarp Rigid Body Simulation, 1996): the
- * distance along any direction that parts them is none that they are nearer than. Where a direction parts
- * them by less than `near`, but no place of the one lies over the other, they go on by that. */
+/* Conservative advancement (B. Mirtich, Timewarp Rigid Body Simulation, 1996): the distance along a
+ * separating direction is a lower bound of their distance, so they can advance by it. If a direction
+ * separates them by less than `near`, but no point of the one lies over the other, they advance by that. */
 #include "collide/hull_sweep.h"
 
 #include <math.h>

@@ -4,12 +4,12 @@
 
 #include "collide/hull_pair.h"
 
-/* Where it is at that share of its way, straight and turning evenly by less than half a turn. */
+/* The pose at that fraction of a motion: straight, with a constant rotation of less than half a turn. */
 sbri_placed_hull sbri_hull_interpolate(
     const sbri_placed_hull *from, const sbri_placed_hull *to, float fraction);
 
-/* The share of their ways, 0 to 1, at which they are first no further apart than `near`, to within that;
- * above 1 where they never are. */
+/* Time of impact: the fraction of the motions, 0 to 1, at which the distance first is at most `near`, to
+ * within `near`; above 1 if it never is. */
 float sbri_hulls_sweep(const sbri_placed_hull from[2], const sbri_placed_hull to[2], float near);
 
 #endif

@@ -1,10 +1,9 @@
-/* What two ridges of surfaces that enclose matter have to do with each other within a tick. They are outside
- * of each other: where they have got past each other, `distance` is below 0 and the normal still leads out.
+/* Contact of two convex edges of closed surfaces within a tick. `distance` is below 0 where they have passed
+ * each other; the normal still points outwards.
  *
- * What is across two edges parts two solids only if each lies wholly on its own side of it near by: the arcs
- * of the normals at the edges cross (D. Gregorius, The Separating Axis Test between Convex Polyhedra, 2013),
- * told here by the third corners of the triangles beside them. And only if neither is nearer to be let out by
- * a face. */
+ * The cross product of two edges separates two solids only if each lies locally on its own side: the arcs of
+ * the normals at the edges intersect (D. Gregorius, The Separating Axis Test between Convex Polyhedra, 2013),
+ * decided here by the third corners of the adjacent triangles. And only if no face is a shorter way out. */
 #ifndef SBRI_RIDGE_QUERY_H
 #define SBRI_RIDGE_QUERY_H
 
@@ -12,7 +11,7 @@
 
 /* Beyond what is across both by less than this (a sine) is on it. */
 #define SBRI_RIDGE_FLAT 0.2f
-/* A face that both are so many times nearer to, and further off than this (m), holds them off. */
+/* A face that both edges are so many times nearer to, and at least this far from (m), handles the contact. */
 #define SBRI_RIDGE_NEARER 1.1f
 #define SBRI_RIDGE_ON_IT_M 1e-4f
 
@@ -22,7 +21,7 @@ typedef struct sbri_soft_ridge {
   sbf_vec3 wings[2];
 } sbri_soft_ridge;
 
-/* The sines by which what is beside it lies on the side of n. */
+/* Sines of the angles of the adjacent triangles towards n. */
 static inline void sbri_ridge_find_sides(const sbri_soft_ridge *r, sbf_vec3 n, float sines[2]) {
   sbf_vec3 along = sbri_sub(r->edge.at[1], r->edge.at[0]);
   for (int k = 0; k < 2; k++) {

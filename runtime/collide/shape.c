@@ -38,8 +38,8 @@ static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
   return (sbri_nearest){sbri_length(off), on, sbri_normalize(off, sbri_vec3(n[0], n[1], n[2]))};
 }
 
-/* Of triangles the nearest; of those that share the place, as at an edge, the one that faces x most, whose
- * side is the side of the whole. */
+/* The nearest triangle; of several with the same nearest point, as at an edge, the one that faces x most: its
+ * side decides whether x is inside. */
 static bool near_triangles(
     const sbri_triangles *t, sbf_vec3 x, float reach, float depth, sbri_nearest *found) {
   sbri_bounds_walk walk;
@@ -98,8 +98,8 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
 
 /* ---- Ways in ---- */
 
-/* The least share in 0..1 at which a place at x + t way is at `radius` from the origin, of the two axes or
- * three that `flat` leaves. */
+/* The least t in 0..1 at which x + t way is at `radius` from the origin, in three dimensions or, with `flat`,
+ * in two. */
 static float enter_round(sbf_vec3 x, sbf_vec3 displacement, float radius) {
   float a = sbri_dot(displacement, displacement), b = sbri_dot(x, displacement),
         c = sbri_dot(x, x) - radius * radius;

@@ -1,4 +1,4 @@
-/* Shapes of the host: how far a place is from one, and where a way enters it. All in the shape's frame. */
+/* The host's shapes: distance of a point, and where a ray enters. All in the shape's frame. */
 #ifndef SBRI_SHAPE_H
 #define SBRI_SHAPE_H
 
@@ -13,7 +13,7 @@ typedef struct sbri_triangles {
   sbri_bounds_tree tree;
 } sbri_triangles;
 
-/* An edge that stands out, and the normals of the faces beside it, in turn about it. */
+/* A convex edge and the normals of its adjacent faces, in order around it. */
 typedef struct sbri_shape_ridge {
   sbf_vec3 at[2], normals[2];
 } sbri_shape_ridge;
@@ -48,11 +48,11 @@ typedef struct sbri_nearest {
 /* False where nothing is within `reach`, or the place is deeper inside of triangles than `depth`: they have
  * no other side to be pushed out of. */
 bool sbri_shape_nearest(const sbr_shape *shape, sbf_vec3 x, float reach, float depth, sbri_nearest *found);
-/* Where the way from x first enters; `fraction` of it, 0 to 1. From inside it enters nothing. */
+/* Where the ray from x first enters; `fraction` of it, 0 to 1. A ray that begins inside enters nothing. */
 bool sbri_shape_enter(
     const sbr_shape *shape, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 
-/* The same of triangles that are not a shape's: where a way crosses them from the front. */
+/* The same for loose triangles: where a ray crosses them from the front. */
 bool sbri_hull_enter(
     const sbri_hull *hull, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c);

@@ -1,5 +1,4 @@
-/* Where a shape of flat faces stands out: edges of soft bodies meet it there that have no point on either
- * side.
+/* Convex edges of polyhedral shapes, with which edges of soft bodies collide.
  */
 #include "collide/shape_ridges.h"
 

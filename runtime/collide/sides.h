@@ -6,8 +6,8 @@
 
 #include "math/vec3.h"
 
-/* In place of the corner on the other side: there is none; or the side stands there already, of a triangle
- * before. */
+/* Instead of the opposite corner: there is no other triangle; or an earlier triangle already lists the side.
+ */
 #define SBRI_RIM UINT32_MAX
 #define SBRI_SAME_SIDE (UINT32_MAX - 1)
 
@@ -22,8 +22,8 @@ static inline uint32_t sbri_sides_table(uint32_t triangle_count) {
  * has it, SBRI_RIM or SBRI_SAME_SIDE. */
 void sbri_sides_find(const uint32_t *triangles, uint32_t count, uint32_t *beside, uint32_t *table);
 
-/* Cosine squared of the angle from which on a side counts as bent: 18 degrees. Flatter surfaces meet by their
- * corners and faces. */
+/* Squared cosine of the angle from which a side counts as an edge: 18 degrees. Flatter surfaces collide by
+ * vertices and faces. */
 #define SBRI_BENT 0.9045f
 
 /* Whether two triangles at the side from a to b are bent across it: `own` and `other` are their third

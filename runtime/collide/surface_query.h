@@ -9,15 +9,17 @@
 
 #include "collide/triangle.h"
 
-/* What is nearest to a face's rim and lies behind it by no more than this share of the distance lies beside
- * it, and before another. */
+/* A point nearest to a face's rim, and behind the face by at most this fraction of the distance, lies beside
+ * it and in front of another face. */
 #define SBRI_BESIDE 0.3f
-/* Of the distance to the one that it lies behind: nearer before another, it is outside. */
+/* Fraction of the distance to the face that it lies behind: nearer than that in front of another, it is
+ * outside.
+ */
 #define SBRI_OUTSIDE 0.99f
 
 typedef struct sbri_surface_rule {
-  /* m: found so far outside, which is where contact begins and what weight and springs may add to the way
-   * within the tick; and so deep inside. */
+  /* m: search distance outside (contact margin plus the displacement that gravity and springs may add within
+   * the tick) and inside. */
   float outer, inner;
   bool two_sided; /* a sheet, or open */
 } sbri_surface_rule;
@@ -32,16 +34,17 @@ typedef struct sbri_surface_hit {
   uint32_t face;
   float weights[3]; /* of the corners: the place on it */
   sbf_vec3 normal;  /* towards where the point belongs */
-  float urgency; /* the least counts: share of the tick until it goes through, or 1 and more for nearness */
-  bool behind;   /* it lies behind the face */
-  float before;  /* m to the nearest face that it lies before */
+  float urgency;    /* the least counts: fraction of the tick until it crosses, or 1 and more for proximity */
+  bool behind;      /* it is behind the face */
+  float before;     /* m to the nearest face that it is in front of */
 } sbri_surface_hit;
 
 static inline sbri_surface_hit sbri_surface_nothing(void) {
   return (sbri_surface_hit){.urgency = INFINITY, .before = INFINITY};
 }
 
-/* Whether there is a face: none where it lies behind the one, but nearer before another, and so outside. */
+/* Whether a face was found. None for a point behind one face but nearer in front of another: it is outside.
+ */
 static inline bool sbri_surface_found(const sbri_surface_hit *f) {
   return f->urgency != INFINITY && !(f->behind && f->before < SBRI_OUTSIDE * (f->urgency - 1));
 }

@@ -40,7 +40,7 @@ static inline sbf_vec3 sbri_triangle_point(const float weights[3], sbf_vec3 a, s
   return sbri_add_scaled(sbri_add_scaled(sbri_scale(a, weights[0]), b, weights[1]), c, weights[2]);
 }
 
-/* Share of the way at which from + t way goes through, from either side; negative: it does not within 0 to 1
+/* The t in 0..1 at which from + t way crosses the triangle, from either side; negative: it does not
  * (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997). */
 static inline float sbri_triangle_cross(
     sbf_vec3 from, sbf_vec3 displacement, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {

@@ -3,7 +3,7 @@
  * well below what is allowed, and a while. Done by one thread, in the order of the characters. */
 #include "detail/choose.h"
 
-/* The coarsest that has a pose; of one that others may meet, that has bodies. */
+/* The coarsest level with a pose; for a character that may touch others, the coarsest with bodies. */
 static uint32_t last_posed(const sbri_character *c) {
   const sbr_model *base = c->model->base;
   uint32_t last = base->detail_level_count - 1;
@@ -49,7 +49,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   }
   pixels *= sbri_speed_factor(c) * c->scale;
   uint32_t detail_level = detail_level_for(world, c, pixels);
-  if (head->asleep && detail_level >= head->detail_level) return false; /* it costs nothing as it is */
+  if (head->asleep && detail_level >= head->detail_level) return false; /* it already costs nothing */
   *choice = (sbri_choice){index, detail_level, last_posed(c), pixels};
   if (detail_level > choice->last) choice->last = detail_level;
   *visits += base->detail_levels[detail_level].visits;

@@ -1,4 +1,4 @@
-/* Which detail level each character of a world is on: by what is seen of it, and by a budget. */
+/* Selects the detail level of each character of a world, by its error on the screen and a budget. */
 #ifndef SBRI_CHOOSE_H
 #define SBRI_CHOOSE_H
 
@@ -14,7 +14,7 @@ typedef struct sbri_eye {
 /* A character that is chosen for. */
 typedef struct sbri_choice {
   uint32_t character, detail_level, last; /* what it is to be on, and the coarsest that it may */
-  float pixels;                           /* that a metre of error shows as; 0: it is not seen */
+  float pixels;                           /* pixels of a metre of error; 0: it is not visible */
 } sbri_choice;
 
 /* A change for the worse that would save something. */
@@ -39,18 +39,18 @@ typedef struct sbri_detail {
 /* At the beginning of a tick: what each character goes over to. */
 void sbri_detail_choose(sbr_world *world);
 
-/* ---- detail/seen.c ---- */
+/* ---- detail/visibility.c ---- */
 
 sbri_eye sbri_eye_of(const sbr_view *view);
 /* Pixels that a metre of the character has where it is shown largest; 0: no view has it. */
 float sbri_pixels_of(const sbr_world *world, const sbri_character *c);
-/* By how much more than at rest it is off for being as fast as it is wanted to be. */
+/* Factor on the error at rest for the speed at which the character is driven. */
 float sbri_speed_factor(const sbri_character *c);
 
 /* ---- detail/budget.c ---- */
 
-/* Makes the choices coarser, the least to be seen first, until all cost no more than `most` visits of
- * `visits`; returns what they cost then. */
+/* Coarsens the choices, least visible first, until all cost at most `most` of `visits`; returns their cost.
+ */
 double sbri_budget_keep(const sbr_world *world, double visits, double max);
 
 #endif

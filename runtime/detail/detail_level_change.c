@@ -1,8 +1,8 @@
-/* From one detail level to another: what all detail levels share is copied; soft bodies take over shapes and
- * velocities, as each point is a mean of points of the level before (prepare/sources.c), both seen from where
- * what holds the body would have them. A shape that would hold more energy than the one before is drawn back
- * to rest until it does not. What nothing holds goes on as a whole just as fast, and turns as fast, as it
- * did. From jiggle and bones bodies begin in their rest shape, going as their bones go. */
+/* Changes a character's detail level. State that all levels share is copied. Soft bodies take over shape and
+ * velocity relative to their pins: each point is a weighted mean of points of the old level
+ * (prepare/sources.c). A shape with more energy than the old one is scaled back towards rest. Loose bodies
+ * keep their linear and angular velocity. After jiggle or bones a body begins in its rest shape, moving with
+ * its bones. */
 #include <string.h>
 
 #include "detail/choose.h"
@@ -22,7 +22,8 @@ static float *velocity_of(const sbri_character *c, uint32_t slot) {
   return sbri_velocities(c) + 3 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
 
-/* How far and how fast the points are from their guides; those of what nothing holds from the root as it is.
+/* Displacement and velocity of the points relative to their pin frames; for loose bodies relative to the
+ * root.
  */
 static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
   const sbri_island *island = &c->model->islands[body->island];
@@ -53,7 +54,7 @@ static bool keep_soft(sbri_character *c, float tick_s) {
   return moves;
 }
 
-/* ---- What all detail levels share ---- */
+/* ---- State that all detail levels share ---- */
 
 static void take_shared(sbri_character *c, const sbri_character *was) {
   const sbr_model *is = c->model;
@@ -70,7 +71,7 @@ static void take_shared(sbri_character *c, const sbri_character *was) {
   sbri_rigid_take(c, was);
 }
 
-/* What is told of an island goes on with the island that has its first body. */
+/* Counters of an island continue in the island that has its first body. */
 static void take_counts(sbri_character *c, const sbri_character *was) {
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     uint32_t body = c->model->islands[i].bodies[0];
@@ -209,22 +210,21 @@ static void go_over(const sbr_world *world, sbri_character *c) {
   take_soft(world, c, &was, moves, tick_s);
 }
 
-/* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
+/* Visible jump at a change as a fraction of the amplitude, measured on hard shaking. */
 static const float JUMPS_FRACTION = 0.15f;
 /* No longer is one that is to be finer kept from it, s; one that is driven elsewhere again and again. */
 static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
 
-/* How far a body lags more than it did at the end of this tick, as it is driven elsewhere: nothing that was
- * seen of it before tells so. Asset metres. */
+/* Additional lag of a body in the next tick because the drive changes; earlier motion does not show it. Asset
+ * metres. */
 static float lags_m(const sbr_world *world, const sbri_character *c) {
   sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
   float radius_m = 0.5f * c->scale * c->model->base->rest_size_m;
   return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
 }
 
-/* Of one that is chosen for, and the budget does not ask for it: whether too much would be missed, on a
- * detail level that does not swing, or be seen to jump. It is looked at again in a while, or at once if it is
- * to be finer.
+/* For an automatic change that the budget does not demand: whether a level without oscillation would miss too
+ * much, or a jump would be visible. The change is tried again later, or at once if it is to a finer level.
  */
 static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t detail_level, float swings_m) {
   const sbri_detail *detail = world->detail;
@@ -244,7 +244,7 @@ static uint32_t find_next_detail_level(const sbri_character *c) {
   const sbr_model *base = c->model->base;
   uint32_t detail_level = sbri_header(c)->next_detail_level, collides = sbri_coarsest_colliding_level(base);
   if (base->detail_levels[detail_level].kind == SBR_DETAIL_OFFSCREEN && !sbri_rigid_is_still(c))
-    detail_level--; /* what lies about, or falls, goes on doing so: bones alone */
+    detail_level--; /* a character that lies or falls continues to: bones only */
   return c->near && detail_level > collides ? collides : detail_level;
 }
 
@@ -254,7 +254,7 @@ const sbr_model *sbri_next_detail_model(const sbri_character *c) {
 
 void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_header(c);
-  bool is_new = head->detail_level_ticks == UINT32_MAX; /* nobody has seen it yet, or lately */
+  bool is_new = head->detail_level_ticks == UINT32_MAX; /* it has not been visible yet, or recently */
   head->detail_level_ticks =
       is_new ? LONG_TICKS : head->detail_level_ticks + (head->detail_level_ticks < LONG_TICKS);
   uint32_t detail_level = find_next_detail_level(c);

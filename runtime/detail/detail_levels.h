@@ -13,7 +13,7 @@ static inline bool sbri_is_away(const sbri_character *c) {
   return sbri_get_detail_level(c)->kind == SBR_DETAIL_OFFSCREEN;
 }
 
-/* The coarsest that can meet others, where it has to. */
+/* The coarsest level with body contacts, for a character that needs them. */
 static inline uint32_t sbri_coarsest_colliding_level(const sbr_model *base) {
   uint32_t last = 0;
   while (last + 1 < base->detail_level_count && base->detail_levels[last + 1].kind == SBR_DETAIL_SOFT) last++;
@@ -27,7 +27,7 @@ static inline uint32_t sbri_ticks_of(const sbr_world *world, float seconds) {
 
 /* ---- detail/detail_level_change.c ---- */
 
-/* What `next_detail_level` will be for one who lies about, or must meet others. */
+/* The `next_detail_level` of a character that lies on the ground or needs body contacts. */
 const sbr_model *sbri_next_detail_model(const sbri_character *c);
 /* At the beginning of a tick, before anything of it: goes over to `next_detail_level`, if that is another and
  * there is room for it. */
@@ -35,8 +35,8 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c);
 
 /* ---- detail/fade.c ---- */
 
-/* Of a change of detail levels: a tick before it; then right before it, and after it, when the skin is where
- * it was. The second returns how far what is seen swings at most, asset metres. */
+/* The three moments of a change: a tick before it; right before it; and after it, when the skin is where it
+ * was. The second returns the greatest visible amplitude, asset metres. */
 void sbri_fade_record(sbri_character *c);
 float sbri_fade_keep(const sbr_world *world, sbri_character *c);
 void sbri_fade_begin(const sbr_world *world, sbri_character *c);
@@ -44,7 +44,8 @@ void sbri_fade_begin(const sbr_world *world, sbri_character *c);
 void sbri_fade_end(sbri_character *c);
 /* A tick of it. */
 void sbri_fade_tick(const sbr_world *world, sbri_character *c);
-/* What is left of it, at a share of the tick, on vertices of a skin of a render mesh, asset metres. */
+/* Adds the remaining difference, at a fraction of the tick, to vertices of a render mesh's skin, asset
+ * metres. */
 void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t render_level,
     const sbri_skin *skin, float fraction, sbri_point *vertices);
 
@@ -52,7 +53,7 @@ void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t ren
 
 /* Where the followers of the pose's bones are to be, without swinging. */
 void sbri_jiggles_reset(sbri_character *c);
-/* A tick of them, of so many of the character's own seconds, once its bones are where they go. */
+/* A tick of the jiggles, of so many of the character's own seconds, after its bones have moved. */
 void sbri_jiggles_tick(sbri_character *c, float tick_s);
 /* The origin moved by `shift`, in asset metres. */
 void sbri_jiggles_rebase(sbri_character *c, sbf_vec3 shift);
@@ -61,7 +62,7 @@ void sbri_jiggles_rebase(sbri_character *c, sbf_vec3 shift);
 
 /* A tick of one that is away. */
 void sbri_away_tick(const sbr_world *world, sbri_character *c);
-/* It comes back: it stands on its feet where it has come to. */
+/* Brings an offscreen character back: it stands on its feet at its present position. */
 void sbri_away_arrive(const sbr_world *world, sbri_character *c);
 
 #endif

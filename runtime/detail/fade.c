@@ -1,12 +1,10 @@
-/* From what one detail level shows to what the next does, over a while, and nothing is seen to jump: neither
- * the skin nor how fast it goes, nor how that changes.
+/* Blends the skin from one detail level to the next, so that its position, velocity and acceleration stay
+ * continuous.
  *
- * For a tick before the change the skin is looked at, so that it is known by three moments how each vertex
- * moves, seen from where the bones alone would have it: as a weight on a spring, as fast as its body swings
- * (its jiggle says so). On that it goes on, along with the bones, while it fades and the new detail level's
- * skin comes up: what a soft detail level does at first, before it has found where it rests, hardly shows. Of
- * bodies that nothing holds, which have no detail level of bones, the difference of both skins fades from the
- * new one. */
+ * The skin is sampled at three moments up to the change, relative to bones alone. They define a harmonic
+ * oscillation of each vertex, at the frequency of its body's jiggle. This oscillation continues with the
+ * bones while it fades out and the new level's skin fades in, so that the first motion of a new soft level is
+ * hardly visible. For loose bodies, which have no level of bones, the difference of both skins fades out. */
 #include <string.h>
 
 #include "detail/detail_levels.h"
@@ -15,15 +13,15 @@
 #include "pose/frames.h"
 #include "skin/skin.h"
 
-/* A quarter of a second, or longer where much is to fade: no vertex goes faster for it than so much of the
- * character's size a second, but for one that swings, which ends within so many radians of that. */
+/* Duration: a quarter of a second, or longer for large differences. No vertex becomes faster by it than this
+ * fraction of the character's size a second, except an oscillating one, which ends within so many radians. */
 static const float FADES_S = 0.25f, MAX_SIZES_1_S = 0.05f, SWINGS_RAD = 9.4f;
 static const uint32_t MAX_TICKS = 240;
 
-/* Where it is steepest the share falls so much faster than on average. */
+/* Ratio of the steepest to the mean slope of the blend. */
 static const float STEEPEST = 1.875f;
 
-/* What is taken to swing goes no farther than so many times as far as it has been seen. */
+/* Greatest amplitude of the oscillation, in multiples of the sampled displacement. */
 static const float MAX_REACHES = 2;
 
 /* How far it turns in a tick, at most: what swings faster than three moments can tell. */
@@ -52,14 +50,14 @@ static float turn_of(const sbr_world *world, const sbri_character *c, uint32_t b
   return turn < MAX_TURN_RAD ? turn : MAX_TURN_RAD;
 }
 
-/* Of a spring that turns by so much in a tick, what a tick's steps change by for each metre from its rest. */
+/* Second difference over a tick, per metre of displacement, of an oscillation with that phase per tick. */
 static float pull_of(float turn) {
   float sine, cosine;
   sbri_sincos(0.5f * turn, &sine, &cosine);
   return 4 * sine * sine;
 }
 
-/* ---- What is seen ---- */
+/* ---- Samples of the skin ---- */
 
 static void skin_of(sbri_character *c, const sbr_model *model, uint32_t mesh, bool now, sbri_point *to) {
   sbri_skin_compute_vertices(model, sbri_skin_of(model, mesh, 0),
@@ -119,10 +117,9 @@ void sbri_fade_record(sbri_character *c) {
   sbri_header(c)->fade_kept = 1;
 }
 
-/* ---- How it goes on ---- */
+/* ---- Its oscillation ---- */
 
-/* As three places, a tick after each other, on a spring that turns by so much in each; no farther than it has
- * been seen. Returns how far it swings. */
+/* Fits the oscillation to three positions a tick apart, with a bounded amplitude. Returns the amplitude. */
 static float attach(sbri_fading_vertex *g, float turn) {
   sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->position), sbri_scale(g->was, 2));
   g->still = sbri_add_scaled(g->was, bend, 1 / pull_of(turn));

@@ -1,11 +1,12 @@
-/* Jiggle (spec 10.4): bodies that go with their bones as one piece, shifted by how far a second-order
- * follower of their middle lags behind it. Each has a frame of its own behind the others in the pose: where
- * its bone has carried the asset's axes, and the shift. */
+/* Jiggle (spec 10.4): bodies that move rigidly with their bones, displaced by the lag of a second-order
+ * follower of their centre. Each has a frame of its own at the end of the pose: its bone's motion, and the
+ * displacement.
+ */
 #include "detail/detail_levels.h"
 #include "math/quat.h"
 #include "pose/frames.h"
 
-/* Farther than so many sizes of all bodies nothing is shifted: a bone that jumps does not throw them away. */
+/* Greatest displacement, in sizes of all bodies: a bone that jumps does not throw them away. */
 static const float MAX_SIZES = 0.25f;
 
 static sbf_vec3 middle_of(const sbri_jiggle *jiggle, const sbr_transform *carrier) {

@@ -11,7 +11,7 @@ typedef struct sbri_squash {
   float along, across;
 } sbri_squash;
 
-/* What carries a rest position to where it is now, in asset metres. */
+/* The motion from a rest position to the current one, in asset metres. */
 typedef struct sbri_delta {
   sbf_vec3 position;
   sbf_quat rotation;

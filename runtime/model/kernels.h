@@ -23,7 +23,8 @@ typedef struct sbri_kernels {
 } sbri_kernels;
 
 extern const sbri_kernels sbri_kernels_scalar; /* one lane */
-extern const sbri_kernels sbri_kernels_plain;  /* what the compiler was told to assume: may be one lane too */
+extern const sbri_kernels
+    sbri_kernels_plain; /* the compiler's default instruction set: may be one lane too */
 #if defined(__x86_64__) && defined(__GNUC__)
 #define SBRI_HAS_X86_64 1
 extern const sbri_kernels sbri_kernels_avx2, sbri_kernels_avx512; /* for processors that have them */

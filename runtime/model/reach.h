@@ -6,8 +6,8 @@
 #include "math/vec3.h"
 #include "model/runtime_model.h"
 
-/* Speeds may grow within a tick, by weight and springs: by as much as takes a place this share of the body
- * further. */
+/* Margin for speeds that grow within a tick by gravity and springs: a displacement of this fraction of the
+ * body's size. */
 #define SBRI_REACH_FRACTION 0.02f
 
 /* The fastest of the body's free points, m/s; velocities of its island. */

@@ -62,10 +62,10 @@ typedef struct sbri_rigid_model {
   const uint32_t *own_frames;  /* (body_count) of bodies with mass that are no bone's such: their number among
                                   these; else UINT32_MAX */
   uint32_t own_frame_count;
-  /* (body_count) rad^2/s^2, with all that soft bodies hold them by and nothing else giving way: as fast as a
-   * body may swing by it; prepare/coupling.c */
+  /* (body_count) rad^2/s^2: upper bound of the squared angular frequency on the attached soft bodies;
+   * prepare/coupling.c */
   float *pinned_squares;
-  /* (body_count) how much more than the body the flesh weighs that is damped against it, or has moment. */
+  /* (body_count) ratio of the mass, or moment of inertia, of the soft bodies damped against it to its own. */
   float *pinned_weights;
   float *attached_masses;       /* (body_count) kg of soft bodies attached to each */
   sbri_attached_mass *attached; /* (body_count) */

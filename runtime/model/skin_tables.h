@@ -13,7 +13,7 @@ typedef struct sbri_carry_cell {
   float weights[SBRI_BLOCK];
 } sbri_carry_cell;
 
-/* A slot's share of a face. */
+/* A slot's weight in a face. */
 typedef struct sbri_face_weight {
   uint32_t slot, face; /* slot of the island */
   float weight;

@@ -1,5 +1,6 @@
-/* What views have of characters. A view's four planes stand for the cone around them: the host may be turned
- * about where it looks as it likes. */
+/* Visibility of characters in the views. A view is the cone around its frustum, because its roll is not
+ * known.
+ */
 #include "detail/choose.h"
 #include "math/trig.h"
 #include "math/vec3.h"
@@ -7,8 +8,8 @@
 /* Nearer than that nothing is looked at. */
 static const float NEAREST_M = 0.05f;
 
-/* A character is taken for seen as far beyond the edges as this share of its distance, so that it is ready
- * when it comes within; one that is, until it is further beyond, so that it does not come and go there. */
+/* Margins around the cone, as fractions of the distance: a character within the first becomes visible, so
+ * that it is ready in time; a visible one stays so within the second (hysteresis). */
 static const float MARGIN = 0.1f, MORE_MARGIN = 0.15f;
 
 static const float G_M_S2 = 9.81f;
