@@ -1,5 +1,5 @@
-/* Bodies that a medium carries: they move in three dimensions, bank into turns, pitch along their path, and
- * drift when nothing drives them (spec 14.7, media). */
+/* Swimmers and fliers: they move in three dimensions, bank into turns, pitch along their path, and drift when
+ * nothing drives them (spec 14.7, media). */
 #include "gait/motion_kinds.h"
 #include "math/trig.h"
 
@@ -41,7 +41,8 @@ static sbf_quat lean_of(const sbri_motion_state *m) {
   return sbri_quat_multiply(pitch, bank);
 }
 
-/* A vertical speed without drive: towards that at which drag carries what buoyancy does not. */
+/* Vertical speed without drive: approaches the terminal speed, at which drag balances weight minus buoyancy.
+ */
 static float drifted(float up, float buoyancy, float g, float length_m, float h) {
   float spare = buoyancy - 1, max = sqrtf(fabsf(spare) * g * length_m);
   if (max > 0) {
@@ -77,7 +78,7 @@ static void lean(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
   float bank = sbri_atan2(medium->bank * speed * state->turn, gravity_of(rig));
   bank = sbri_clamp(bank, -medium->bank_limit, medium->bank_limit);
   float climb = sbri_atan2(m->up, fabsf(speed) + 0.25f * cruise);
-  if (!wanted) climb = 0; /* it sinks as it lies */
+  if (!wanted) climb = 0; /* it sinks without pitching */
   float pitch = -sbri_clamp(climb, -medium->pitch_limit, medium->pitch_limit);
   pitch += medium->tilt * sbri_clamp(speed / cruise, -1.5f, 1.5f);
   sbri_follower_step step = sbri_follower_step_of(LEANS_HZ, 1, 0, input->tick_s);

@@ -91,14 +91,14 @@ static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, sbf_vec3 away, float reach) {
   float left = reach * reach - away.x * away.x - away.z * away.z;
   float min = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-  /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
+  /* A clip's lift of the hip is undone entirely, so that the foot stays on the ground. */
   float lifted = state->feet[leg].hip.y - rig->rest[rig->legs[leg].upper].position.y * input->scale;
   float drop = away.y - sqrtf(left > min ? left : min);
   float max = DEEPEST * reach + (lifted > 0 ? lifted : 0);
   return drop < max ? drop : max;
 }
 
-/* The same with a share of its reach. */
+/* The same with a fraction of its reach. */
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
@@ -242,8 +242,8 @@ float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return crouch(rig, state, input, root, &unused);
 }
 
-/* Lets it down as far as it has come by itself, or as far as it must. Where these meet, legs are nearly
- * straight, and their knees turn fast as the body moves: there it is eased, no more abruptly than it can be.
+/* The body's lowering: the greater of the planned and the necessary one. Where they are equal, legs are
+ * nearly straight and knees turn fast, so the transition is smoothed as far as possible.
  */
 static void come_down(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     float needed, sbri_stance *stance) {

@@ -7,7 +7,7 @@ static sbf_quat quat_at(const float *v) {
   return sbri_quat_normalize((sbf_quat){v[0], v[1], v[2], v[3]});
 }
 
-/* Along the arc at constant speed, the shorter way. */
+/* Spherical linear interpolation along the shorter arc. */
 static sbf_quat slerp(sbf_quat a, sbf_quat b, float t) {
   sbf_vec3 turn = sbri_quat_log(sbri_quat_multiply(b, sbri_quat_conjugate(a)));
   return sbri_quat_normalize(sbri_quat_multiply(sbri_quat_exp(sbri_scale(turn, t)), a));
@@ -66,7 +66,7 @@ static void play_clip(const sbri_rig *rig, const sbri_clip_layer *layer, sbr_tra
     } else {
       sample_track(track, layer->time_s, 3, v);
       sbf_vec3 to = {v[0], v[1], v[2]};
-      if (track->bone == body) to.x = local->position.x, to.z = local->position.z; /* the gait carries it */
+      if (track->bone == body) to.x = local->position.x, to.z = local->position.z; /* the gait moves it */
       local->position = sbri_lerp(local->position, to, weight);
     }
   }

@@ -1,11 +1,12 @@
-/* Falling: a character under which the ground has gone, or that was put above it, falls until it stands.
+/* Falling: a character without ground under it falls until it lands.
  *
- * In the air its height is that of a body thrown up: gravity alone moves it (semi-implicit Euler). Its feet
- * hang below it; they are put on the ground where it lands. */
+ * In the air only gravity changes its height (semi-implicit Euler). Its feet hang below it and are placed on
+ * the ground at landing. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 
-static const float GONE = 0.4f; /* of a step's height: ground that is so much lower bears no foot */
+static const float GONE =
+    0.4f; /* depth below a foot, as a fraction of a step's height, at which ground no longer supports it */
 static const float LOW = 1e-4f; /* m: nothing falls from so low */
 
 /* Height of what the character stands on, from the origin. */
@@ -15,7 +16,7 @@ static float level_below(const sbri_rig *rig, const sbri_gait_state *state, cons
   return rig->leg_count ? sum / (float)rig->leg_count : sbri_ground_below(input, state->position, NULL).y;
 }
 
-/* Whether a foot that stands has ground: under its middle, or, as across the edge of a stair, elsewhere. */
+/* Whether a planted foot has ground under its centre, or elsewhere under it, as at the edge of a stair. */
 static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float gone) {
   sbf_vec3 position = state->feet[leg].ground, normal;
@@ -25,7 +26,7 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
   return position.y >= min;
 }
 
-/* Whether nothing bears it: neither any foot that stands nor, without legs, the body's place. */
+/* Whether nothing supports it: no planted foot has ground, or, without legs, there is none under the body. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float gone = GONE * rig->girth.step_up * input->scale;
   if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - gone;

@@ -5,7 +5,7 @@
 
 static const float TURN = 6.2831853f;
 static const float STEER_HZ = 1.5f, TRAIL_HZ = 2, UNSTATED_HZ = 1;
-static const float FULL_TURN = 1;             /* rad/s: a fin that steers is turned as far as it goes */
+static const float FULL_TURN = 1;             /* rad/s of turning at which a steering fin is at its limit */
 static const float SLOW = 0.6f, QUICK = 1.4f; /* bounds of a beat, of that at walk_speed */
 
 static float beat_hz(
@@ -53,7 +53,7 @@ static sbf_quat about(sbf_vec3 axis, float angle) {
   return (sbf_quat){axis.x * s, axis.y * s, axis.z * s, c};
 }
 
-/* How a bone stands against its parent without the fin's motion, in world axes. */
+/* Rotation of a bone against its parent without the fin's motion, in world axes. */
 static sbf_quat still(
     const sbri_rig *rig, uint32_t bone, const sbr_transform *root, const sbr_transform *pose) {
   sbf_quat parent = rig->parents[bone] >= 0 ? pose[rig->parents[bone]].rotation : root->rotation;

@@ -1,4 +1,4 @@
-/* What follows from how a foot stands: its tilt with the ground, its turn, and its ankle beside its sole. */
+/* Geometry of a foot on the ground: its tilt, its heading, and the ankle's position relative to the sole. */
 #include "gait/gait_state.h"
 #include "math/trig.h"
 

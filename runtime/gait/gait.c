@@ -13,8 +13,8 @@ static const float SMOOTHING_S = 0.18f; /* smoothing time of commands, s */
 static const float DISPLACED_S = 0.1f;  /* smoothing time of the speed of host displacements, s */
 static const float ACCELERATES = 0.2f;  /* maximum acceleration, in reaches per squared duration of a step */
 static const float STILL =
-    0.004f;                    /* speed below which the character stands, m/s and rad/s per metre of leg */
-static const float LONG_S = 1; /* maximum counted time of standing, s */
+    0.004f; /* speed below which the character stands still, m/s and rad/s per metre of leg */
+static const float LONG_S = 1;       /* maximum counted time of standing, s */
 static const float SLOWS_S = 0.05f;  /* time over which it slows down for feet at their reach, s */
 static const float WAITS_S = 0.1f;   /* wait for balance after which the body slows down, s */
 static const float BALANCE_S = 0.2f; /* further wait after which it stands, s */

@@ -16,7 +16,7 @@ typedef struct sbri_gait_input {
   bool hold;                       /* rest pose, moved rigidly */
   sbr_double3 origin;              /* world place of the character's origin, for asking the ground */
   const sbr_ground *ground;        /* with the colliders near it */
-  const sbri_surroundings *around; /* NULL: no colliders are seen */
+  const sbri_surroundings *around; /* NULL: no colliders */
   float gravity;                   /* m/s^2, downwards */
 } sbri_gait_input;
 
@@ -43,13 +43,13 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *state, const sbri_gait_input 
  * elsewhere. */
 float sbri_gait_jolt(const sbri_rig *rig, const void *state, const sbri_gait_input *input, float radius_m);
 
-/* A tick of the way alone: the body moves as it is driven, as fast as it has learnt that its feet can. Then
- * standing where it has come to, its speed, its targets and what it has travelled kept. */
+/* A tick of an offscreen character: the body moves as it is driven, at the speed that its feet have reached
+ * before, without steps. The second call makes it stand where it is and keeps speed, targets and distance. */
 void sbri_gait_travel(const sbri_rig *rig, void *state, const sbri_gait_input *input);
 void sbri_gait_arrive(const sbri_rig *rig, void *state, const sbri_gait_input *input);
 
-/* The pose of the present state, without advancing it; what lags begins anew where the character was
- * `placed`.
+/* The pose of the present state, without advancing it; if the character was `placed`, lagging parts are
+ * reset.
  */
 void sbri_gait_pose(
     const sbri_rig *rig, void *state, const sbri_gait_input *input, bool placed, sbr_transform *pose);
@@ -64,11 +64,11 @@ float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t followe
 /* Begins a tick: the present state becomes the previous one. */
 void sbri_gait_begin_tick(const sbri_rig *rig, void *state);
 
-/* At a share of the last tick: what came down or lifted off at its end had not done so before. */
+/* Legs at a fraction of the last tick: feet that landed or lifted off at its end had not done so before. */
 uint32_t sbri_gait_legs(
     const sbri_rig *rig, const void *state, float fraction, sbr_leg_state *legs, uint32_t capacity);
 double sbri_gait_distance(const void *state);
-/* Height of the ground that it stands on, or from which its own counts in the air, from the origin; m. */
+/* Height of the ground below it, relative to the origin, m; in the air its height counts from there. */
 float sbri_gait_level(const void *state);
 /* Where the character is and where it faces, relative to the origin. */
 void sbri_gait_get_placement(const void *state, sbf_vec3 *position, float *heading);

@@ -156,7 +156,7 @@ sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 position, sbf_
 /* Horizontal distance of two points. */
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
 
-/* ---- gait/walls.c, carried_along.c, fall.c: what colliders and the ground do to the body ---- */
+/* ---- gait/walls.c, moving_floor.c, fall.c: what colliders and the ground do to the body ---- */
 
 /* Keeps the body out of walls while it moves from `from` to its present position and turns by `turned`.
  * Returns whether it hit any. */
@@ -166,10 +166,10 @@ bool sbri_walls_keep_out(
 void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 /* One tick of free fall. Returns false if the character stands; on landing, `falls` becomes 0. */
 bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
-/* Stores the ground level that it stands on. */
+/* Stores the level of the ground that it stands on. */
 void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 
-/* ---- gait/foot_faces.c: how a foot stands ---- */
+/* ---- gait/foot_faces.c: geometry of a foot on the ground ---- */
 
 /* Updates what depends on a foot's heading and normal; and only what depends on the body's heading, for a
  * foot that does not move. */
@@ -258,7 +258,7 @@ float sbri_pace_of(
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *position, sbf_vec3 *normal);
 
-/* Whether a foot can stand, or stands well, at a position. */
+/* Whether a foot can stand, or can stand well, at a position. */
 bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 position, bool well);
 /* Puts a sole on the ground at `position`, tilted to the slope and not penetrating. */
@@ -286,7 +286,7 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
 float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float wanted_s);
 
-/* ---- gait/swing.c: the way of a foot through the air ---- */
+/* ---- gait/swing.c: the path of a foot through the air ---- */
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg);

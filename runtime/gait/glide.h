@@ -1,6 +1,6 @@
-/* One number on its way to a target, at rest there at a given time, with the least jerk from whatever motion
- * it is in (Flash and Hogan, The coordination of arm movements, 1985). Where the target stands, ticks run
- * along one quintic; where it moves, speed and acceleration stay continuous. */
+/* Minimum-jerk motion of one coordinate from any state to rest at a target at a given time (Flash and Hogan,
+ * The coordination of arm movements, 1985). While the target is fixed, all ticks follow one quintic
+ * polynomial; when it moves, velocity and acceleration stay continuous. */
 #ifndef SBRI_GLIDE_H
 #define SBRI_GLIDE_H
 

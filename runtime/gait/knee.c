@@ -1,8 +1,7 @@
-/* How fast knees turn: a leg in the air follows its foot's way no more abruptly than its muscles would let
- * it.
+/* Limits the angular acceleration of knees.
  *
- * A step is planned for what is known as it begins; body and ground may then do something else. Where the
- * foot's way would change the turn of its knee too fast, the knee lags, and catches up as fast as it can stop
+ * A step is planned with what is known at its beginning; body and ground may then move otherwise. If the
+ * foot's path would accelerate the knee too much, the knee lags behind and catches up as fast as it can stop
  * again. */
 #include "gait/gait_state.h"
 #include "math/trig.h"

@@ -91,7 +91,7 @@ static void take_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_
     }
 }
 
-/* The pole, carried by its bone. */
+/* The pole, moved with its bone. */
 static sbf_vec3 pole_now(const sbri_rig *rig, const sbf_ik_chain *source, const sbr_transform *root,
     float scale, const sbr_transform *pose) {
   int32_t bone = source->pole_bone >= 0 ? source->pole_bone : rig->parents[source->root];

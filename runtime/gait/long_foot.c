@@ -1,5 +1,5 @@
-/* A long foot, as a spider's: it stands on its toe, and leans over that towards the hip or away
- * from it, so that the leg above it stretches and bends by half of what it would have to. */
+/* A long foot, as a spider's: it stands on its toe and leans towards the hip or away from it, so that the leg
+ * above it has to stretch and bend only half as much. */
 #include "gait/gait_state.h"
 #include "ik/ik.h"
 #include "math/quat.h"

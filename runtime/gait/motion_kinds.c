@@ -1,4 +1,4 @@
-/* Kinds of gait other than walking: what all of them share, and which file moves what (spec 14.7). */
+/* Kinds of gait other than walking: their common part, and the dispatch to their files (spec 14.7). */
 #include "gait/motion_kinds.h"
 
 #include "math/trig.h"
@@ -53,7 +53,7 @@ float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   m->hop += input->tick_s / rig->gait->step_duration;
   if (before < 0.5f && m->hop >= 0.5f && !wanted) m->hop = 0;
   if (m->hop >= 1) m->hop = wanted ? m->hop - (float)(int32_t)m->hop : 0;
-  /* The share of the tick that it has been in the air. */
+  /* The fraction of the tick for which it has been in the air. */
   float end = m->hop < before ? m->hop + 1 : m->hop, span = end - before;
   float air = (end < 1 ? end : 1) - (before > 0.5f ? before : 0.5f);
   if (end > 1.5f) air += end - 1.5f;

@@ -75,7 +75,7 @@ float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
 void sbri_motion_tick(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step);
 void sbri_motion_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift);
-/* The root frame over `level`, which stands upright on the ground. */
+/* The root frame above `level`, the upright frame on the ground. */
 sbr_transform sbri_motion_root(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform level);
 /* Turns the bones of the kind; `pose` is in world axes. */

@@ -92,7 +92,7 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
   }
 }
 
-/* The leg's pole, carried by its bone as posed so far. */
+/* The leg's pole, moved with its bone in the pose so far. */
 static sbf_vec3 pole_of(
     const sbri_leg *leg, const sbr_transform *root, float scale, const sbr_transform *pose) {
   const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
@@ -110,7 +110,7 @@ static void put_bone(
   pose[bone] = to;
 }
 
-/* Puts the foot somewhere and turns it, by as much as the chain says to how the ground lies. */
+/* Places the foot and rotates it towards the ground's slope by the chain's copy_rotation. */
 static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
     sbf_quat own, sbr_transform *pose) {
   sbf_quat flat = sbri_quat_multiply(foot->turned, rig->rest[leg->foot].rotation);
@@ -125,7 +125,7 @@ static void pose_peg(
   sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
   sbf_quat rotation = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
   sbri_rig_turn(rig, (uint32_t)leg->upper, rotation, pose);
-  /* What its one length leaves over or lacks is the foot's: it stands where it stands. */
+  /* The leg has one fixed length; the foot stays at its position and takes the difference. */
   pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
 
@@ -181,7 +181,7 @@ static void pose_rest_of_leg(const sbri_rig *rig, const sbri_gait_state *state, 
   }
 }
 
-/* How far ankle and hip of a leg are apart as it is posed. */
+/* Distance of a leg's ankle and hip in the pose. */
 static float span_of(const sbri_leg *leg, const sbr_transform *pose) {
   return sbri_length(sbri_sub(pose[leg->foot].position, pose[leg->upper].position));
 }
@@ -259,7 +259,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
     solve_leg(rig, leg, foot, eased_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
-    /* A foot that its ankle lets turn no farther stands where it stands all the same; in the air it hangs. */
+    /* A foot at its ankle's limit keeps its position on the ground; in the air it follows the ankle. */
     sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
     foot->missed = sbri_length(sbri_sub(sbri_add(sole, over), pose[leg->foot].position));
     if (foot->missed <= limited || stands <= 0) break;
@@ -277,8 +277,8 @@ static void note_hips(
     state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, root->position));
 }
 
-/* The body came down for where its hips were a tick ago. What moves them by itself is slow enough for that; a
- * clip, or its weight, may have thrown them up since. */
+/* The body was lowered for the hips' position a tick ago. The gait moves them slowly enough for that; a clip,
+ * or a change of its weight, may have raised them since. */
 static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     sbr_transform *root, sbr_transform *pose) {
   float drop = sbri_body_drop(rig, state, input, root);

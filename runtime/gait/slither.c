@@ -92,8 +92,9 @@ void sbri_slither_tick(
   m->path_ahead = sbri_flat_distance(m->nose, m->path[0]);
 }
 
-/* The point of the path that is `distance` from `from` as the crow flies, behind the segment `*next` begins:
- * of m->path, the segment from the nose to the first point is 0. Beyond its end the path goes on straight. */
+/* The point of the path at the straight distance `distance` from `from`, behind the beginning of segment
+ * `*next`; segment 0 leads from the nose to the first point of m->path. Beyond its end the path continues
+ * straight. */
 static sbf_vec3 behind(const sbri_motion_state *m, sbf_vec3 from, float distance, uint32_t *segment) {
   for (uint32_t i = *segment; i < m->path_count; i++) {
     sbf_vec3 far = m->path[i];
@@ -144,8 +145,8 @@ static sbf_quat turn_between(sbf_vec3 rest, sbf_vec3 now) {
   return sbri_quat_normalize(sbri_quat_multiply(up, yaw_to(now, rest)));
 }
 
-/* The next joint behind `from`, whose rest is `rest` further: along the path where the body lies; where it
- * stands up, as the neck of a cobra, straight up or back along the path's direction `direction`. */
+/* The next joint behind `from`, at the rest offset `rest`: on the path where the body lies on the ground;
+ * where it is raised, as the neck of a cobra, straight up or back along the path's direction `direction`. */
 static sbf_vec3 next_joint(const sbri_motion_state *m, sbf_vec3 from, sbf_vec3 rest, sbf_vec3 direction,
     float scale, uint32_t *segment) {
   float flat = sqrtf(rest.x * rest.x + rest.z * rest.z) * scale;
@@ -187,7 +188,7 @@ void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   const sbf_undulation *wave = rig->gait->undulation;
   (void)root;
   if (!wave || sbri_motion(rig, state)->path_count < 2) return;
-  /* Parents first, as the asset's bones are, whatever the order along the chain. */
+  /* Parents before children, as in the asset, whatever the order along the chain. */
   for (uint32_t bone = 0; bone < rig->bone_count; bone++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != bone) continue;

@@ -1,5 +1,5 @@
-/* Squash and stretch: what a bone carries hangs on its head by a spring, so that it is long while the bone
- * speeds away from it and short where the bone is stopped; its volume stays. */
+/* Squash and stretch: everything on a bone follows its head on a spring. It is long while the bone
+ * accelerates away and short while the bone brakes; its volume stays constant. */
 #include "gait/gait_state.h"
 #include "math/quat.h"
 
@@ -12,13 +12,13 @@ sbf_vec3 sbri_squash_axis(const sbf_follower *source) {
       source->axis == SBF_BONE_AXIS_X, source->axis == SBF_BONE_AXIS_Y, source->axis == SBF_BONE_AXIS_Z);
 }
 
-/* Of a lag of so many lengths; eased towards the limit either way. */
+/* The scale for a lag in lengths of the bone; saturates smoothly at the limits. */
 static float stretch_of(float lag, float limit) {
   float eased = limit * lag / (limit + fabsf(lag));
   return eased >= 0 ? 1 + eased : 1 / (1 - eased);
 }
 
-/* Where a squashed bone carries a place, world axes. */
+/* Position of a point on a squashed bone, world axes. */
 static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, sbf_vec3 position) {
   sbf_vec3 off = sbri_sub(position, bone->position);
   float across = 1 / sqrtf(along);
@@ -26,7 +26,7 @@ static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, 
   return sbri_add_scaled(at, axis, (along - across) * sbri_dot(axis, off));
 }
 
-/* What hangs on the bone goes along as it is; what is below a thigh is posed later. */
+/* Child bones move along unscaled; bones below a thigh are posed later. */
 static void shift_children(
     const sbri_rig *rig, uint32_t bone, sbf_vec3 axis, float along, sbr_transform *pose) {
   sbf_vec3 by = {0, 0, 0};

@@ -1,10 +1,10 @@
-/* How a foot goes through the air: how high, when it sets out over the ground and when it has arrived there,
- * and how long all of it takes.
+/* Plans a foot's path through the air: its height, the times at which it begins and ends to move
+ * horizontally, and its duration.
  *
- * It goes straight from place to place, lifted off that line to a top in the middle of its time and back, all
- * along curves of least jerk. Where something stands in its way it makes the height between its places early
- * upwards and late downwards, goes over the ground later or arrives there earlier, and is lifted higher. A
- * step takes as long as its knee needs to follow. */
+ * The foot moves straight from one position to the next and is lifted off that line up to the middle of its
+ * time, all along minimum-jerk curves. Over an obstacle it gains height early when going up and loses it late
+ * when going down, moves horizontally later or arrives earlier, and is lifted higher. The step lasts as long
+ * as the knee needs to follow. */
 #include "collide/ground.h"
 #include "gait/gait_state.h"
 #include "math/trig.h"
@@ -17,7 +17,7 @@ static const float SOONEST = 0.6f;      /* minimum fraction of the step in which
 static const float KNEE_STEP = 3.925f;  /* maximum change of the knee's rate per frame, degrees */
 static const float FRAME_S = 1.0f / 60; /* that frame */
 static const float LONGEST_STEP = 2.4f; /* maximum duration as a multiple of the requested one */
-static const float SHORTEST = 0.5f;     /* the same: what is told of a step that needs less */
+static const float SHORTEST = 0.5f;     /* the same: value for a step that needs less */
 static const float DEGREES = 57.2957795f;
 enum { PROFILE_SAMPLES = 12, TRIES = 6, SAMPLES = 16 };
 

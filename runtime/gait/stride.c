@@ -30,15 +30,15 @@ static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in t
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
-  if (state->pivot) { /* about a foot: it carries the body round */
+  if (state->pivot) { /* about a foot: it moves the body round */
     sbf_vec3 arm = sbri_sub(state->position, state->feet[state->pivot - 1].ground);
     v.x += state->turn * arm.z, v.z -= state->turn * arm.x;
   }
   return v;
 }
 
-/* On two legs that go one by one, each foot stands nearly in the middle, where the body need not lean far to
- * be over it; as far as it goes ahead, for aside feet would meet. */
+/* Bipeds place each foot close to the middle, so that the body need not lean far to be above it. This applies
+ * to forward motion only, because sideways the feet would collide. */
 static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
   if (rig->leg_count != 2 || rig->has_pegs || state->together) return x;
   float ahead = state->forward * state->forward, aside = state->sideways * state->sideways;
@@ -104,7 +104,7 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
 }
 
-/* Where the ankle over `sole` is from the hip, as high as the foot stands. */
+/* The ankle above `sole` relative to the hip, at the foot's height. */
 static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg,
     sbf_vec3 hip, sbf_vec3 sole, bool at_home) {
   const sbri_leg *l = &rig->legs[leg];
@@ -133,7 +133,7 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   return over > 0 ? sqrtf(over) : 0;
 }
 
-/* How far a place in a circle is from its edge along a way (of unit length). */
+/* Distance from a point in a circle to its edge along a unit direction. */
 static float to_edge(sbf_vec3 off, float radius, sbf_vec3 direction) {
   float along = sbri_dot(off, direction), square = along * along - sbri_dot(off, off) + radius * radius;
   return (square > 0 ? sqrtf(square) : 0) - along;
@@ -239,7 +239,7 @@ float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t 
   return distance / (roam > 1e-6f ? roam : 1e-6f);
 }
 
-/* The circle that a leg's foot may be in where it stands. */
+/* The circle of allowed positions of a leg's foot. */
 static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
@@ -263,7 +263,7 @@ float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, co
   return to_edge(stance.off, stance.radius, sbri_scale(direction, -1));
 }
 
-/* What a planted leg has left before the end of its reach, as its home goes on at `speed`; m. */
+/* Remaining travel of a planted leg until the end of its reach, if its home moves at `speed`; m. */
 static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float *speed) {
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), v = sbri_home_velocity(rig, state, leg, arm);

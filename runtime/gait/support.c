@@ -1,4 +1,4 @@
-/* Balance: the centre of mass over the polygon of the feet that stand, now and as far as it will go. */
+/* Balance: the centre of mass over the polygon of the planted feet, now and at its predicted position. */
 #include "gait/gait_state.h"
 #include "skeleton/rig_mass.h"
 
@@ -15,7 +15,7 @@ static float side(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x);
 }
 
-/* Convex hull of the planted feet, one way round (Andrew 1979). */
+/* Convex hull of the planted feet, in one orientation (Andrew 1979). */
 static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t lifted) {
   sbf_vec3 points[4 * SBRI_MAX_LEGS];
   uint32_t n = 0;
@@ -53,7 +53,8 @@ static sbf_vec3 nearest_on(sbf_vec3 p, sbf_vec3 a, sbf_vec3 b) {
   return sbri_add_scaled(sbri_vec3(a.x, 0, a.z), along, t);
 }
 
-/* Signed distance of p from the polygon's edge, positive inside; `inwards` receives the way to more. */
+/* Signed distance of p from the polygon's edge, positive inside; `inwards` receives the direction of
+ * increase. */
 static float margin_of(const polygon *hull, sbf_vec3 p, sbf_vec3 *inwards) {
   bool inside = hull->count > 2;
   float nearest = 1e30f;
@@ -98,8 +99,7 @@ static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
 }
 
-/* The worse of the margins where the centre is and where it will be, `direction` further; with it the way to
- * more.
+/* The lesser of the margins at the centre and at the centre plus `direction`, with the direction of increase.
  */
 static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 direction, sbf_vec3 *inwards) {
   sbf_vec3 then;

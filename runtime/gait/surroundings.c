@@ -19,7 +19,7 @@ bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider) {
   return !leader || leader->body.inverse_mass * around->girth->mass * cube < 1;
 }
 
-/* A collider as it stands when the tick begins or ends. */
+/* A collider's pose at the tick's beginning or end. */
 typedef struct stand {
   const sbr_shape *shape;
   const sbr_double3 *at;

@@ -1,8 +1,9 @@
-/* What is around a character's body: the ground and the colliders near it, seen as one.
+/* The surroundings of a character: the ground and the colliders near it.
  *
- * Colliders are ground where they are low enough to be stepped on, and walls above. Those that are lighter
- * than the character give way to it and are neither. Triangles of meshes and height fields have no inside:
- * only what a ray from above finds of them is ground. Held characters see the ground alone. */
+ * The parts of a collider that are low enough to step on are ground; higher parts are walls. Colliders
+ * lighter than the character are neither, because it pushes them away. Triangles of meshes and height fields
+ * have no inside: only the parts that a ray from above hits are ground. Held characters only have the ground.
+ */
 #ifndef SBRI_SURROUNDINGS_H
 #define SBRI_SURROUNDINGS_H
 
@@ -18,12 +19,12 @@ typedef struct sbri_surroundings {
   double overhead; /* m, world: what is above is not to be stood on */
 } sbri_surroundings;
 
-/* The surroundings of a body of that rig at `position` (world; its y is that of the ground which it stands
- * on). `out` is used in place: it must not be copied. */
+/* The surroundings of a body with that rig at `position` (world; y is that of the ground below it). `out`
+ * must not be copied. */
 void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collider_set *colliders,
     const sbr_ground *base, sbr_double3 position, sbri_surroundings *out);
 
-/* Whether a collider of the set stands in the way of the body and bears it. */
+/* Whether a collider of the set is an obstacle and floor for the body. */
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
 
 /* The collider whose top at (x, z) is within `off` of the height y, as colliders stood when the tick began;

@@ -47,7 +47,8 @@ static sbf_quat turn_of(const sbri_rig *rig, const sbri_gait_state *state, const
     return bend_of(rotation, chain, decay);
   }
   sbf_vec3 ideal = sbri_rotate(straight, rest_step(rig, chain, k, input->scale)), tip = was->tip;
-  if (sbri_dot(ideal, ideal) == 0) return sbri_quat_identity(); /* an empty link has no way of its own */
+  if (sbri_dot(ideal, ideal) == 0)
+    return sbri_quat_identity(); /* a link without length has no direction of its own */
   tip.y = height_at(rig, state, input, chain, k, tip);
   sbf_vec3 from = sbri_normalize(ideal, sbri_vec3(0, 0, 1));
   sbf_vec3 to = sbri_normalize(sbri_sub(tip, head), from);

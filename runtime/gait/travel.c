@@ -1,4 +1,4 @@
-/* The way of a body that nobody sees: where it comes to, without feet. */
+/* Motion of an offscreen character: its position and heading, without feet. */
 #include <string.h>
 
 #include "gait/gait_state.h"

@@ -42,7 +42,7 @@ void sbri_undulation_tick(const sbri_rig *rig, sbri_gait_state *state, const sbr
   m->strength += (goal - m->strength) * (1 - sbri_exp(-input->tick_s / SWELLS_S));
   if (goal == 0 && m->strength < 1e-4f) m->strength = 0;
   float f = sbri_wave_frequency(wave, speed, length);
-  if (crawls && m->strength == 0) f = 0; /* it lies still */
+  if (crawls && m->strength == 0) f = 0; /* it is still */
   m->wave += (state->forward < 0 ? -f : f) * input->tick_s;
   m->wave -= (float)(int32_t)m->wave;
   if (m->wave < 0) m->wave += 1;

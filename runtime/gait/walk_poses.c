@@ -2,9 +2,10 @@
  */
 #include "gait/gait_state.h"
 
-static const float FULL_AT = 0.5f;   /* of the walking speed: from here on a walk of poses counts fully */
-static const float CATCH_UP = 4;     /* of what a walk is out of step it makes up most in half a cycle */
-static const float MAX_CATCH = 0.5f; /* of the way it goes anyway: it never goes back, nor twice as fast */
+static const float FULL_AT = 0.5f; /* of the walking speed: from here on a walk of poses counts fully */
+static const float CATCH_UP = 4;   /* of what a walk is out of step it makes up most in half a cycle */
+static const float MAX_CATCH =
+    0.5f; /* correction as a fraction of the phase's own progress: it never runs backwards or twice as fast */
 static const float MIN_STEP = 0.4f, MAX_STEP = 2.5f; /* of half the poses' own cycle: what counts as a step */
 
 /* The walks below and above a speed, and how far towards the second. */

@@ -1,9 +1,8 @@
-/* Walls: what is too high to be stepped on keeps the body out.
+/* Walls: colliders that are too high to step on keep the body out.
  *
- * The balls of the girth are pushed out of colliders one after the other, level, as a character that walks
- * stays on its ground; one that swims or flies is pushed any way. What is left of its speed goes along the
- * wall. Slopes that can be walked on are no walls, and what hangs over a character is only one for those that
- * are afloat. */
+ * The balls of the rig's girth are pushed out of colliders one after the other: horizontally for a character
+ * on the ground, in any direction for a swimmer or flier. The remaining velocity is along the wall. Slopes
+ * that can be walked on are not walls; overhangs are walls for swimmers and fliers only. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
@@ -99,7 +98,7 @@ bool sbri_walls_keep_out(
   sbri_sincos(0.5f * turned, &s, &c);
   body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->root.rotation),
       sbri_is_afloat(rig), false};
-  /* No part of the way is longer than a ball: none jumps over a wall. */
+  /* Each part of the displacement is at most a ball's size, so that no ball jumps over a wall. */
   sbf_vec3 displacement = sbri_sub(state->position, from);
   float parts = sbri_length(displacement) / (smallest(&rig->girth) * input->scale) + 1;
   int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;

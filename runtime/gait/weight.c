@@ -1,5 +1,5 @@
-/* Weight: a bone that lags behind its own place in the world sinks or rises by what it lags up and down, and
- * leans towards where it lags aside, whichever way the body faces. */
+/* Weight: a bone follows its position in the world with a lag. The vertical lag lowers or raises it; the
+ * horizontal lag makes it lean in that direction, whatever the body's heading. */
 #include "gait/gait_state.h"
 #include "math/quat.h"
 
@@ -7,7 +7,7 @@ static bool weighs(const sbri_rig *rig, const sbf_follower *source) {
   return source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT && rig->roles[source->bone] != SBRI_ROLE_LEG;
 }
 
-/* How it lags, in its lengths, eased towards the limit whichever way that is. */
+/* The lag in lengths of the bone, saturating smoothly at the limit in any direction. */
 static sbf_vec3 eased_lag(const sbf_follower *source, const sbri_position_follower *follower, float length) {
   sbf_vec3 lag = sbri_scale(sbri_sub(follower->value, follower->followed), source->strength / length);
   return sbri_scale(lag, source->limit / (source->limit + sbri_length(lag)));
@@ -19,7 +19,8 @@ static float heave(const sbri_rig *rig, const sbri_gait_state *state, float lag)
   return lag < -clearance ? -(clearance > 0 ? clearance : 0) : lag;
 }
 
-/* The rotation by the length of `aside`, level, in rad, that takes what is above the head that way. */
+/* The rotation by the length of the horizontal vector `aside`, in rad, that leans the bone in its direction.
+ */
 static sbf_quat lean_towards(sbf_vec3 aside) {
   return sbri_quat_exp(sbri_vec3(aside.z, 0, -aside.x));
 }

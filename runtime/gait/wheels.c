@@ -103,7 +103,8 @@ static void pose_tread(const sbri_rig *rig, const sbf_tread *tread, float distan
     if (!(distance > 0)) break;
   }
   for (uint32_t k = 0; k < count; k++) {
-    /* How far from the place of link `at + k` to the next one: the same share for links of one length. */
+    /* Fraction of the distance from the position of link `at + k` to the next one; equal for links of one
+     * length. */
     uint32_t from = (at + k) % count, to = (from + 1) % count, bone = tread->bones.at[k];
     float length = link_length(rig, tread, from), t = length > 0 ? sbri_clamp(distance / length, 0, 1) : 0;
     const sbr_transform *a = &rig->rest[tread->bones.at[from]], *b = &rig->rest[tread->bones.at[to]];

@@ -1,4 +1,4 @@
-/* Where frames carry the points that hang on them, and how fast they were carried. */
+/* Positions and velocities of the points pinned to frames. */
 #include <string.h>
 
 #include "math/quat.h"

@@ -1,4 +1,4 @@
-/* What a character's gait is told, and where it has come to. */
+/* Input of a character's gait, and its resulting position. */
 #include "collide/ground.h"
 #include "math/trig.h"
 #include "pose/frames.h"

@@ -1,4 +1,4 @@
-/* A floor that moves carries who stands on it: a lift, a platform, a turntable. */
+/* Characters on moving floors: lifts, platforms, turntables. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
@@ -6,7 +6,7 @@
 
 static const float NEAR = 0.1f; /* of a step's height: how far a sole may be from what bears it */
 
-/* How a tick moves what stands on a collider. */
+/* Motion in a tick of a point that stands on a collider. */
 typedef struct ride {
   sbf_vec3 displacement; /* m */
   float turn;            /* rad, about +Y */
@@ -20,7 +20,7 @@ static ride ride_on(const sbri_collider *c, const sbri_gait_input *input, sbf_ve
       sbri_atan2(ahead.x, ahead.z)};
 }
 
-/* How what is below `position` moves it, and moves the body that stands at `body`. */
+/* Motion by the collider below `position`: of that point, and of the body at `body`. */
 static void find_ride(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 position, sbf_vec3 body,
     ride *ride_of_position, ride *of_body) {
   uint32_t number;
