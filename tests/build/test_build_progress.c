@@ -67,7 +67,7 @@ START_TEST(springs_on_a_grid)
 {
   sbf_asset *asset = ball();
   /* 4,600 nodes: each loop over them asks twice. */
-  int calls = end_everywhere(asset, 1,
+  int calls = end_everywhere(asset, HARNESS_FEW(1, 5),
       (sbf_build_options){.interior = SBF_BUILD_INTERIOR_LATTICE, .cell_m = 0.075, .without_hulls = true});
   ck_assert_int_ge(calls, 24);
   sbf_asset_free(asset);
@@ -79,11 +79,11 @@ START_TEST(tetrahedra_and_their_levels)
   sbf_asset *asset = ball();
   sbf_build_options options = {
       .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 400, .without_calibration = true};
-  ck_assert_int_ge(end_everywhere(asset, 1, options), 30);
+  ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(1, 5), options), 30);
   /* What it is compared with takes long: here it is ended while that is made, and while it is loaded. */
   options.without_calibration = false;
   options.levels = 3;
-  ck_assert_int_ge(end_everywhere(asset, 40, options), 60);
+  ck_assert_int_ge(end_everywhere(asset, HARNESS_FEW(40, 200), options), 60);
   sbf_asset_free(asset);
 }
 END_TEST
@@ -103,7 +103,7 @@ START_TEST(sections_of_a_skin)
 {
   sbf_asset *asset = skinned_limb_make(
       &(skinned_limb){.bones = 4, .sides = 8, .rings_a_bone = 4, .radius = 0.2f, .slope = 0.4f});
-  int calls = end_everywhere(asset, 1, (sbf_build_options){0});
+  int calls = end_everywhere(asset, HARNESS_FEW(1, 5), (sbf_build_options){0});
   ck_assert_int_ge(calls, 30); /* cuts, hulls, springs and embeddings of each */
   sbf_asset_free(asset);
 }

@@ -640,8 +640,8 @@ static Suite *suite(void) {
   Suite *s = suite_create("calibrate");
   TCase *c = tcase_create("calibrate");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, a_beam_of_240_bends_as_one_of_15360);
-  tcase_add_test(c, an_arm_of_the_armadillo);
+  tcase_add_loop_test(c, a_beam_of_240_bends_as_one_of_15360, 0, HARNESS_FEW(1, 0));
+  tcase_add_loop_test(c, an_arm_of_the_armadillo, 0, HARNESS_FEW(1, 0));
   tcase_add_test(c, a_build_calibrates_what_is_coarse);
   tcase_add_test(c, the_coarsest_that_is_good_enough_is_chosen);
   tcase_add_test(c, levels_go_from_lattices_to_jiggle);
@@ -652,7 +652,7 @@ static Suite *suite(void) {
   suite_add_tcase(s, c);
   TCase *bounds = tcase_create("bounds");
   tcase_add_checked_fixture(bounds, setup, teardown);
-  tcase_add_loop_test(bounds, the_error_is_the_greatest_over_all_loads, 0, 3);
+  tcase_add_loop_test(bounds, the_error_is_the_greatest_over_all_loads, 0, HARNESS_FEW(3, 1));
   tcase_add_test(bounds, one_factor_for_all_has_bounds);
   tcase_add_test(bounds, a_crumb_does_not_set_the_factor);
   tcase_add_test(bounds, no_element_takes_more_than_twice_its_modulus);

@@ -23,8 +23,8 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("dropped_ball");
   TCase *c = tcase_create("dropped_ball");
-  tcase_add_loop_test(c, balls_keep_shape_and_energy, 0, BALLS);
-  tcase_add_loop_test(c, what_strikes_faster_than_sound_is_not_turned_inside_out, 0, 5);
+  tcase_add_loop_test(c, balls_keep_shape_and_energy, 0, HARNESS_FEW(BALLS, 2));
+  tcase_add_loop_test(c, what_strikes_faster_than_sound_is_not_turned_inside_out, 0, HARNESS_FEW(5, 2));
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import unittest
 import zlib
 
 PLAYERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "players")
@@ -63,3 +64,13 @@ def blender(program, *arguments):
             raise AssertionError(done.stdout[-3000:] + done.stderr[-3000:])
         with open(out, encoding="utf-8") as stream:
             return json.load(stream)
+
+
+def skip_unless(is_there, reason):
+    if "-fsanitize" in os.environ.get("SBFMT_CFLAGS", ""):
+        return unittest.skip("sanitizers check C code: other programs play the files of another build")
+    return unittest.skipUnless(is_there(), reason)
+
+
+needs_node = skip_unless(node_folder, "node, npm and the packages of tests/e2e/players are not to be had")
+needs_blender = skip_unless(has_blender, "there is no Blender: install the package blender")

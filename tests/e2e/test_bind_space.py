@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ElementTree
 
 from bundle_file import apply, inverse, matrix_of, numbers, product, rows
 from glb_file import Glb
-from play_files import blender, has_blender, node, node_folder
+from play_files import blender, needs_blender, needs_node, node
 from sbfmt_program import ProgramTest, main, shared
 from skinned_glb import SkinnedGlb, box, inverse_binds, moved, tube
 
@@ -89,7 +89,7 @@ def nearest_gap(points, others):
     return max(min(math.dist(p, o) for o in others) for p in points)
 
 
-@unittest.skipUnless(has_blender(), "there is no Blender to be had")
+@needs_blender
 class FilesOfBlender(ProgramTest):
     """Saved in the first frame, the bind pose, and in the eighth of a clip: every vertex stands as Blender has it at rest."""
 
@@ -112,7 +112,7 @@ class FilesOfBlender(ProgramTest):
                     gaps.append(max(nearest_gap(found, lifted), nearest_gap(lifted, found)))
                 self.assertLess(min(gaps), 2e-3)
 
-    @unittest.skipUnless(node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+    @needs_node
     def test_three_draws_what_blender_drew(self):
         for file, expected in self.made.items():
             with self.subTest(file):
@@ -261,7 +261,7 @@ class SharedFiles(ProgramTest):
                 if not posed:
                     self.assert_placed(every, expected, size_drawn)
 
-    @unittest.skipUnless(node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+    @needs_node
     def test_three_draws_every_vertex_where_the_formula_says(self):
         """As saved, skinned or not: the formula that the cases above hold conversions to is that of a viewer."""
         for path in shared_files():

@@ -5,7 +5,6 @@ import os
 import struct
 import subprocess
 import sys
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 import play_files
@@ -18,9 +17,6 @@ SECONDS = 1
 DRIVE = ("--drive", "0.3,0.2", "--ground", "noise:0.1,3")
 HOP = ("--clip", "0")
 NEAR_M = 1e-5
-
-needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
-needs_blender = unittest.skipUnless(play_files.has_blender(), "there is no Blender: install the package blender")
 
 
 def points_at(cache, frame):
@@ -98,7 +94,7 @@ class Motion(ProgramTest):
         self.assertLess(most, NEAR_M)
         self.assertGreater(least, 0.01, "nothing moved")
 
-    @needs_node
+    @play_files.needs_node
     def test_the_validator_finds_nothing_to_warn_of(self):
         for name, bundle in self.bundles.items():
             out = self.moved(name)[0]
@@ -109,7 +105,7 @@ class Motion(ProgramTest):
                 issues = play_files.node("validate_gltf.mjs", path)["issues"]
                 self.assertEqual((issues["numErrors"], issues["numWarnings"]), (0, 0), issues["messages"])
 
-    @needs_node
+    @play_files.needs_node
     def test_three_js_plays_it(self):
         for name, bundle in self.bundles.items():
             out, rest, now = self.moved(name)
@@ -120,7 +116,7 @@ class Motion(ProgramTest):
                              sum(mesh["triangles"] for mesh in info["render_meshes"]))
             self.assert_plays(shown["meshes"], rest, now)
 
-    @needs_blender
+    @play_files.needs_blender
     def test_blender_plays_it(self):
         for name, bundle in self.bundles.items():
             if name == "pudding":
@@ -222,7 +218,7 @@ class Everything(ProgramTest):
         for what in ("soft bodies: ", "rigid bodies: ", "gaits: ", "EXPORT_LEFT_OUT"):
             self.assertIn(what, self.left_out)
 
-    @needs_node
+    @play_files.needs_node
     def test_the_validator_finds_no_error(self):
         issues = play_files.node("validate_gltf.mjs", self.path("all.glb"))["issues"]
         self.assertEqual(issues["numErrors"], 0, issues["messages"])

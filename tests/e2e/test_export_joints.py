@@ -5,7 +5,6 @@ MuJoCo comes from npm into the build folder, once (play_files.py); without node,
 import csv
 import json
 import math
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 import joint_files
@@ -13,7 +12,6 @@ import play_files
 import usda_files
 from sbfmt_program import ProgramTest, main, read_text, write_bytes
 
-needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
 SECONDS = 5
 KINDS = {"revolute": "PhysicsRevoluteJoint", "prismatic": "PhysicsPrismaticJoint"}
 AXES = {"linear_x": "transX", "linear_y": "transY", "linear_z": "transZ", "twist": "rotX", "swing_y": "rotY", "swing_z": "rotZ"}
@@ -72,15 +70,15 @@ class Joints(ProgramTest):
             moved += abs(rotation[3]) < 0.999 or name.startswith("slide")
         self.assertEqual(moved, len(joint_files.CASES))
 
-    @needs_node
+    @play_files.needs_node
     def test_mjcf_where_drives_lead(self):
         self.compare_poses("drive", lambda joint: float(joint.get("springref")))
 
-    @needs_node
+    @play_files.needs_node
     def test_mjcf_at_the_least_of_each_range(self):
         self.compare_poses("min", lambda joint: numbers(joint.get("range", joint.get("springref")))[0])
 
-    @needs_node
+    @play_files.needs_node
     def test_mjcf_at_the_greatest_of_each_range(self):
         self.compare_poses("max", lambda joint: numbers(joint.get("range", joint.get("springref")))[-1])
 

@@ -15,8 +15,6 @@ SECONDS = 0.02
 # Polygons of a box whose corners are counted by x first, then y, then z.
 BOX = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
 
-needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
-
 
 def corners(low, high):
     return [(low[0] if i % 2 == 0 else high[0], low[1] if i // 2 % 2 == 0 else high[1], low[2] if i < 4 else high[2])
@@ -111,7 +109,7 @@ class Mjcf(ProgramTest):
         return [tuple(a + b for a, b in zip(places[body], local[3 * i:3 * i + 3]))
                 for i, body in enumerate(flex.get("body").split())]
 
-    @needs_node
+    @play_files.needs_node
     def test_mujoco_steps_it(self):
         """Its compiler takes the files with as much of everything as they hold, and none blows up."""
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
@@ -132,7 +130,7 @@ class Mjcf(ProgramTest):
             self.assertEqual((told["warnings"], told["finite"]), (0, True), path)
             self.assertLess(told["fastest"], 10)  # m/s and rad/s; a fall of so long ends at 0.2 m/s
 
-    @needs_node
+    @play_files.needs_node
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
     def test_mujoco_steps_characters(self):
         """Their sections lie in each other and around their hulls: nothing drives those apart, and nothing moves faster than it would fall."""
@@ -147,7 +145,7 @@ class Mjcf(ProgramTest):
             self.assertLess(told["fastest"], 0.981, name)
             self.assertLess(told["falls"], 1.2, name)
 
-    @needs_node
+    @play_files.needs_node
     def test_mujoco_lets_touch_what_may(self):
         """Two soft boxes on a hull touch, and it the lower one; what lies in one of them does not, nor what layers part."""
         with open(self.path("boxes.obj"), "w", encoding="ascii") as file:

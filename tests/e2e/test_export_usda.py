@@ -3,7 +3,6 @@ that others wrote, TinyUSDZ, with equal prims and values."""
 
 import math
 import os
-import unittest
 import xml.etree.ElementTree as ElementTree
 
 import play_files
@@ -14,8 +13,6 @@ FIGURE = os.path.join(ROOT, "examples", "bones", "figure.sbf")
 EVERYTHING = os.path.join(ROOT, "spec", "samples", "valid", "everything.sbf")
 BAR = os.path.join(ROOT, "spec", "samples", "dialect2012", "bar.xml")
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # of a tetrahedron, seen from outside
-
-needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
 
 
 def minus(a, b):
@@ -213,7 +210,7 @@ class Usda(ProgramTest):
         for name in ("a_b", "a_b__1", "_1_a__0", "a__0__9"):
             self.assertIn("/asset/rigid/" + name, self.prims)
 
-    @needs_node
+    @play_files.needs_node
     def test_others_read_the_same(self):
         self.good("convert", BAR, "-o", self.path("bar.sbf"))
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))

@@ -3,7 +3,6 @@
 import math
 import os
 import struct
-import unittest
 
 import play_files
 from bundle_file import rows
@@ -56,7 +55,7 @@ class Caches(ProgramTest):
         self.assertIn("--of surface", refused.err)
         self.assertFalse(os.path.exists(self.path("none.pc2")))
 
-    @unittest.skipUnless(play_files.has_blender(), "there is no Blender: install the package blender")
+    @play_files.needs_blender
     def test_blender_plays_both(self):
         numbers, _, count = self.samples("skin")
         frame = 20

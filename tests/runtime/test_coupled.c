@@ -342,7 +342,8 @@ int main(void) {
   Suite *suite = suite_create("coupled");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, a_hit_keeps_momentum, 0, sizeof dumbbells / sizeof *dumbbells);
-  tcase_add_loop_test(tests, a_hard_hit_swings_nothing_up, 0, sizeof hard_hits / sizeof *hard_hits);
+  tcase_add_loop_test(
+      tests, a_hard_hit_swings_nothing_up, 0, HARNESS_FEW((int)(sizeof hard_hits / sizeof *hard_hits), 2));
   tcase_add_loop_test(tests, springs_keep_momentum, 0, 2);
   tcase_add_loop_test(tests, a_mass_swings_on_a_soft_spring, 0, 3);
   tcase_add_loop_test(tests, both_ends_of_a_spring_swing, 0, 3);

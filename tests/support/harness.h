@@ -9,6 +9,14 @@
 /* Runs the suite and gives the exit status: `int main(void) { return harness_run(my_suite()); }` */
 int harness_run(Suite *suite);
 
+/* Sanitizers make a program ten times as slow, and find in a few of many similar cases what they find in all:
+ * `few` where they are on, else `all`. */
+#ifdef HARNESS_SANITIZED
+#define HARNESS_FEW(all, few) (few)
+#else
+#define HARNESS_FEW(all, few) (all)
+#endif
+
 /* Prints "SKIP case: reason", which tests/report.py counts, once per case; the test then returns. Takes a
  * printf format. */
 #define harness_skip(...) harness_skip_case(__func__, __VA_ARGS__)
