@@ -1,4 +1,4 @@
-/* What `sbfmt info` tells of a bundle, for whoever else tells it. */
+/* The description of a bundle that `sbfmt info` prints. */
 #ifndef BUNDLE_DESCRIPTION_H
 #define BUNDLE_DESCRIPTION_H
 

@@ -27,7 +27,7 @@ typedef struct checked {
 /* Loads and checks a file. Thread safe on different results. */
 void check_file(const char *path, checked *result);
 
-/* The rules alone, on an asset that lies, or will lie, at `path`; lines are not looked up. */
+/* Only the rules, for an asset whose file is, or will be, at `path`; without line numbers. */
 void check_loaded(const sbf_asset *asset, const char *path, checked *result);
 
 bool checked_is_valid(const checked *one, bool strict);

@@ -67,7 +67,8 @@ int cli_wrong(const cli_call *call, const char *format, ...) __attribute__((form
  * differ in names and numbers alone, the first is printed and the others are counted, unless the call is
  * verbose. */
 void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *diagnostic);
-/* Prints how many were only counted, a line for each kind, and begins anew: at the end of a file. */
+/* At the end of a file: prints the number of findings that were only counted, a line a kind, and resets it.
+ */
 void cli_print_counted(const cli_call *call);
 /* cli_print_diagnostic as a callback, `call` a cli_call: for `report` of loads and the like. */
 void cli_report(void *call, const sbf_diagnostic *diagnostic);

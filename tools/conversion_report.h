@@ -1,5 +1,5 @@
-/* What `sbfmt convert --report` tells of a conversion: one object, written as JSON or as a page that needs
- * nothing but itself. The keys are those of spec/conversion.schema.json. */
+/* The report of `sbfmt convert --report`: one object, written as JSON or as a self-contained page. The keys
+ * are those of spec/conversion.schema.json. */
 #ifndef CONVERSION_REPORT_H
 #define CONVERSION_REPORT_H
 

@@ -10,9 +10,9 @@ typedef struct file_list {
   size_t count, capacity;
 } file_list;
 
-/* Adds a path; of a folder, every .sbf and .sbfz in it and below. Links to folders are not followed. False,
- * with a message on standard error, where a folder cannot be read or memory runs out. What is no folder is
- * added as it is, whether it exists or not. */
+/* Adds a path; for a folder, every .sbf and .sbfz in it and below. Links to folders are not followed. A path
+ * that is not a folder is added unchanged, whether it exists or not. Returns false, with a message on
+ * standard error, if a folder cannot be read or memory runs out. */
 bool file_list_add(file_list *list, const char *path);
 void file_list_free(file_list *list);
 

@@ -36,8 +36,8 @@ typedef struct pin_options {
   char *soft_text, *rigid_text;
 } pin_options;
 
-/* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a
- * message, where a value is wrong. `*pins` is to be freed either way. */
+/* Sets the pins of the command line in `*options`; "world" or an empty value means the world. Returns false,
+ * with a message, if a value is wrong. Free `*pins` in either case. */
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options);
 void pin_options_free(pin_options *pins);
 

@@ -10,7 +10,7 @@ typedef struct seams seams;
 seams *seams_create(const session *s);
 void seams_destroy(seams *all);
 
-/* Looks at the skin as it is now: `skin` holds every render mesh's vertices one after the other. */
+/* Measures the present skin: `skin` has the vertices of all render meshes one after the other. */
 void seams_measure(seams *all, const sbf_vec3 *skin);
 
 /* m: the greatest distance, at any time, between vertices of one mesh that are in one place at rest. */

@@ -9,7 +9,7 @@
 #include "script.h"
 #include "thread_pool.h"
 
-/* The options that both verbs share; put them first in a verb's table. */
+/* The common options of both verbs; put them first in a verb's table. */
 #define SESSION_OPTIONS(seconds_help, fps_help)                                                              \
   {"--seconds", "S", seconds_help}, {"--fps", "N", fps_help},                                                \
       {"--scheme", "NAME",                                                                                   \
@@ -69,15 +69,15 @@ typedef struct session {
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status);
 void session_close(session *s);
 
-/* Makes model, world and character anew, as `settings` and `ground` now say; the file stays, and nothing is
- * recorded or played any more. On a failure nothing but closing it is left. */
+/* Recreates model, world and character from `settings` and `ground`, with the same file; recording and replay
+ * end. After a failure the session can only be closed. */
 sbf_status session_restart(session *s, const cli_call *call, sbf_diagnostic *error);
 
 /* Plays the script's commands that are due, or what was recorded, and advances by one frame; false after the
  * last. */
 bool session_step(session *s);
-/* The same for a frame of so many seconds, > 0, however long it was meant to go on; of a recording it is as
- * long as it was. */
+/* The same for a frame of so many seconds, > 0, beyond the planned end too. A replayed frame has its recorded
+ * length. */
 bool session_step_by(session *s, double seconds);
 
 /* After the last: ends a recording; false, with a message printed, where it could not be written. */

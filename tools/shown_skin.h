@@ -14,7 +14,7 @@ typedef struct shown_skin shown_skin;
 shown_skin *shown_skin_create(const session *s, const skin_images *images, uint32_t render_level);
 void shown_skin_destroy(shown_skin *skin);
 
-/* Adds it as it is now, moved by `origin`. */
+/* Adds the present skin, moved by `origin`. */
 void shown_skin_add(
     shown_skin *skin, const session *s, sbf_vec3 origin, float transparency, draw_scene *scene);
 

@@ -11,8 +11,8 @@ typedef struct skin_images {
   uint32_t count;
 } skin_images;
 
-/* Reads them from the asset, or from beside `file`, which it came from. Each that cannot be drawn is told to
- * `note`, and its material's colour stands for it. */
+/* Reads the images from the asset, or from files beside `file`, where the asset is from. An image that cannot
+ * be drawn is reported to `note`; its material's colour is used instead. */
 typedef void (*skin_image_note)(void *user, const sbf_diagnostic *note);
 void skin_images_load(
     skin_images *images, const sbf_asset *asset, const char *file, skin_image_note note, void *user);
@@ -23,7 +23,7 @@ typedef struct skin_material {
   draw_colour colour;
   const draw_image *image; /* NULL: none */
   sbf_vec4 base;    /* linear: what `colour` is made of, and what colours of points are multiplied by */
-  bool has_colours; /* the mesh has some of its own: skin_corner_colour */
+  bool has_colours; /* the mesh has vertex colours: skin_corner_colour */
   const sbf_uv_transform *uv; /* NULL: none */
   draw_alpha alpha;
   float cutoff;
@@ -32,8 +32,7 @@ typedef struct skin_material {
 skin_material skin_material_of(
     const sbf_asset *asset, const skin_images *images, const sbf_render_mesh *mesh, uint32_t slot);
 
-/* Where on its image a corner of the full mesh lies; the mesh has texture coordinates if its look has an
- * image.
+/* Texture coordinates of a corner of the full mesh; the mesh has them if its material has an image.
  */
 sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, const skin_material *style, uint32_t corner);
 

@@ -16,13 +16,13 @@ typedef struct soles soles;
 soles *soles_create(const session *s);
 void soles_destroy(soles *soles);
 
-/* Looks at the skin as it is now: `skin` holds every render mesh's vertices one after the other. */
+/* Measures the present skin: `skin` has the vertices of all render meshes one after the other. */
 void soles_measure(soles *soles, const session *s, const sbf_vec3 *skin);
 /* Places in the skin of a leg's sole; returns how many. */
 uint32_t soles_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
-/* Those of them that the foot alone carries: others give as the leg bends. */
+/* Those of them with weights of the foot only: others move as the leg bends. */
 uint32_t soles_firm_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
-/* How far it reaches from its middle at rest, seen from above, m; 0: nothing is seen of it. */
+/* Its radius around its centre at rest, seen from above, m; 0: no skin follows it. */
 double soles_radius(const soles *soles, const session *s, uint32_t leg);
 sole_report soles_report(const soles *soles);
 

@@ -1,4 +1,5 @@
-/* A character of a session on the stage of the renderer: its skin and what lies under it, as it is now. */
+/* The scene that the renderer draws of a session: the character's present skin, and its parts under the skin.
+ */
 #ifndef STAGE_H
 #define STAGE_H
 

@@ -1,5 +1,4 @@
-/* What draws a session: its stage, its camera and the painter, and the options that say how. Pictures, films
- * and the window share it. */
+/* Draws a session: scene, camera, painter and their options. Used for pictures, films and the window. */
 #ifndef STUDIO_H
 #define STUDIO_H
 
@@ -8,7 +7,7 @@
 #include "render/painter.h"
 #include "stage.h"
 
-/* The options that all who draw share, but for sizes, which are each one's own. */
+/* The common drawing options; each verb has its own for sizes. */
 #define STUDIO_OPTIONS                                                                                       \
   {"--show", "LIST",                                                                                         \
       "surface, springs, lattice, bones, hulls, strain, feet, contacts, joints, bounds (surface; without "   \
@@ -23,7 +22,7 @@ typedef struct studio {
   session s;
   unsigned show; /* STAGE_SURFACE and so on; 0 until studio_open where the call does not say */
   uint32_t render_level;
-  float yaw, pitch; /* from where the camera looks at first, rad */
+  float yaw, pitch; /* initial direction of the camera, rad */
   stage *stage;
   skin_images images;
   draw_canvas *canvas;
@@ -41,8 +40,8 @@ bool studio_size(cli_call *call, uint32_t *width, uint32_t *height);
 
 /* For the session, which is open, on a canvas, which the studio closes; NULL is ignored, and fails. */
 sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diagnostic *error);
-/* Puts the session on the stage again: after it was made anew, or to show something else (st->show) or
- * another render level. */
+/* Rebuilds the scene: after the session was recreated, or to show other parts (st->show) or another render
+ * level. */
 sbf_status studio_dress(studio *st, sbf_diagnostic *error);
 /* Of the canvas. */
 float studio_aspect(const studio *st);

@@ -1,4 +1,4 @@
-/* sbfmt build: makes what is derived anew. */
+/* sbfmt build: rebuilds the derived parts. */
 #include "building.h"
 #include "material_options.h"
 #include "output_name.h"

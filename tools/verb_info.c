@@ -12,7 +12,7 @@ static json_t *integer(uint64_t value) {
   return json_integer((json_int_t)value);
 }
 
-/* Below so many bytes a file is read whole: its figures are worked out anew. */
+/* Files below this size are read whole, and their figures are computed. */
 enum { READ_WHOLE_BYTES = 1 << 16 };
 
 /* Triangles that the polygons fall into; by the counts alone, so that no item need have been read. */
@@ -339,7 +339,7 @@ typedef struct loaded {
   uint64_t bytes, read_bytes;
 } loaded;
 
-/* Of a large packed file the outline, if it tells all figures that its lists would give; else all. */
+/* Reads only the outline of a large packed file if it has all figures; else the whole file. */
 static sbf_status load(cli_call *call, const char *path, bool whole, loaded *l, sbf_diagnostic *error) {
   struct stat file;
   l->bytes = stat(path, &file) == 0 ? (uint64_t)file.st_size : 0;

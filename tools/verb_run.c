@@ -1,4 +1,4 @@
-/* sbfmt run: a character steps, and what came of it is told and written. */
+/* sbfmt run: simulates a character, reports the result and writes the files asked for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,7 +146,7 @@ static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
   return good;
 }
 
-/* How far a character went that moves in another way than on legs. */
+/* Distance of a character without legs. */
 static void add_distance(const run_state *r, json_t *o) {
   const sbf_gait_list gaits = r->s.asset->gaits;
   if (gaits.count && gaits.at[0].kind != SBF_GAIT_KIND_WALK)

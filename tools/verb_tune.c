@@ -82,7 +82,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
       !cli_integer(call, "--reference", 12, 100000, &reference) ||
       !cli_integer(call, "--core", 0, 1023, &core) || !read_sizes(call, &r->grid))
     return false;
-  /* A length bounds every vertex; a share of the size is about what is seen of the whole. */
+  /* A bound in metres holds for every vertex; one in percent of the size for the 99th percentile. */
   t->by = cli_value(call, "--measure") ? (tune_by)measure : t->error_percent > 0 ? TUNE_BY_P99 : TUNE_BY_MAX;
   r->nearest = cli_switch(call, "--nearest");
   r->grid.reference = (uint32_t)reference;

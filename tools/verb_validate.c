@@ -109,13 +109,13 @@ static int validate(const cli_call *call, const file_list *list, thread_pool *po
   return finish(call, &t, messages, files);
 }
 
-/* What was mended of a file, and what is left to find in the one written. */
+/* Reports the repairs of a file and the remaining findings of the written one. */
 typedef struct repaired {
   findings done;
   checked left;
 } repaired;
 
-/* A file that is refused for what can be mended is loaded all the same. */
+/* Loads a file even if its only errors can be repaired. */
 static sbf_status load_for_repair(const char *path, sbf_asset **asset, checked *refused) {
   sbf_load_options loading = {
       .check_crc = true, .mendable = true, .report = findings_take, .user = &refused->found};

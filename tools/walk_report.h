@@ -10,7 +10,7 @@ typedef struct walk_report walk_report;
 walk_report *walk_report_create(const session *s, const soles *feet);
 void walk_report_destroy(walk_report *r);
 
-/* Looks at the frame as it is now: `skin` holds every render mesh's vertices one after the other. */
+/* Measures the present frame: `skin` has the vertices of all render meshes one after the other. */
 void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin);
 
 /* Adds its keys to the report of a run. */

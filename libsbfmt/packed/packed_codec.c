@@ -15,7 +15,7 @@ uint32_t sbfi_crc32(const void *bytes, size_t size) {
   return (uint32_t)crc32_z(crc, (const uint8_t *)bytes + done, size - done);
 }
 
-/* zlib does not say how much it frees, our allocators want to know: the size stands before the block. */
+/* zlib frees without a size, but our allocators need it: it is stored in front of the block. */
 static voidpf zlib_allocate(voidpf user, uInt count, uInt item_size) {
   size_t size;
   if (!sbfi_multiply_size(count, item_size, &size) || !sbfi_add_size(size, HEAD, &size)) return NULL;

@@ -2,8 +2,8 @@
 #include "packed/packed_attempt.h"
 #include "packed/packed_plan.h"
 
-/* The bytes that a compressed chunk may take: one block of alignment less than before, and a sixteenth, or it
- * is better left as it is and used in place. */
+/* Greatest size of a compressed chunk: it must save a block of alignment and a sixteenth. Otherwise the chunk
+ * stays uncompressed and is used in place. */
 static size_t compressed_capacity(size_t raw_size) {
   size_t aligned = (raw_size + SBFI_PACKED_ALIGN - 1) / SBFI_PACKED_ALIGN * SBFI_PACKED_ALIGN;
   size_t by_blocks = aligned - SBFI_PACKED_ALIGN, by_fraction = raw_size - raw_size / 16;

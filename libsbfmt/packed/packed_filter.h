@@ -16,11 +16,11 @@
  * straddle two. */
 enum { SBFI_FILTER_BLOCK = 65520 };
 
-/* Outside the planes scalars are as the machine has them, whatever its byte order.
+/* Outside the planes scalars have the machine's byte order.
  *
  * Filters `count` scalars (SBFI_FILTER_BLOCK at most) from `from` + `done` scalars on into count * 4 bytes of
- * planes. `width` is the scalars in an item, 1 to 4; `done` a multiple of it. False, of SBFI_FILTER_RECENT
- * alone, where the scalars are not such as it is for. */
+ * planes. `width` is the number of scalars in an item, 1 to 4; `done` is a multiple of it. Returns false only
+ * for SBFI_FILTER_RECENT, if the scalars have too many different values. */
 bool sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
     uint32_t width, uint8_t *planes);
 

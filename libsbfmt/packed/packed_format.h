@@ -96,7 +96,7 @@ static inline void sbfi_put_u64(uint8_t *at, uint64_t value) {
   sbfi_put_u32(at + 4, (uint32_t)(value >> 32));
 }
 
-/* Four letters of a kind, printable whatever a file says. */
+/* The four letters of a kind, made printable. */
 typedef struct sbfi_kind_name {
   char text[5];
 } sbfi_kind_name;

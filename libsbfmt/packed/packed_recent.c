@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The scalars named last, the newest first, and the new one before it that the next is told from. */
+/* The scalars used last, newest first, and the last new one, from which the next new one is a difference. */
 typedef struct recent {
   uint32_t at[SBFI_RECENT_COUNT];
   uint32_t last_new;

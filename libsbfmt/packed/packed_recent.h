@@ -9,8 +9,8 @@
 /* Length of the move-to-front list. 16 to 64 differ by a few per cent on lattices, springs and polygons. */
 enum { SBFI_RECENT_COUNT = 32 };
 
-/* One block of `count` scalars from `from` + `done` on into count * 4 bytes; false where so many are new that
- * they do not fit. */
+/* Encodes a block of `count` scalars from `from` + `done` on into count * 4 bytes. Returns false if too many
+ * are new for that. */
 bool sbfi_filter_recent(const uint8_t *from, size_t done, size_t count, uint8_t *block);
 
 /* Undoes the filter; false if the block is invalid. */

@@ -19,7 +19,7 @@ typedef struct part_context {
   bool without_lists;        /* lists of the part stay empty */
 } part_context;
 
-/* Which fields of an element stand in a record: a part's label lies with its parent. */
+/* The fields of an element that its record holds: a part's label is in its parent's. */
 typedef enum field_set { ALL_FIELDS, LABEL_FIELDS, FIELDS_BUT_LABEL } field_set;
 
 static bool is_in(field_set set, const sbfi_field *field) {
@@ -55,7 +55,7 @@ static sbf_status no_memory(const reading *r, const span *s, const sbfi_field *f
 
 static sbf_status read_fields(const reading *r, span s, field_set set);
 
-/* Reads the fields of one child that stands in the record itself. */
+/* Reads the fields of a child whose fields are in this record. */
 static sbf_status read_child(
     const reading *r, span s, const sbfi_field *field, uint32_t index, void *child, field_set set) {
   sbfi_element_path path = sbfi_element_path_child(r->path, field, index);
@@ -186,7 +186,7 @@ static sbf_status read_optional(const reading *r, const span *s, const sbfi_fiel
   return read_child(r, *s, field, 0, child, ALL_FIELDS);
 }
 
-/* Makes room for the children whose count stands next; each takes `least` bytes or more of the record. */
+/* Reads the number of children and allocates them; each takes at least `least` bytes of the record. */
 static sbf_status make_children(
     const reading *r, span *s, const sbfi_field *field, size_t min, char **children, uint32_t *count) {
   *count = 0;
@@ -210,7 +210,7 @@ static sbf_status make_children(
   return SBF_OK;
 }
 
-/* The piece of `s` whose size stands next, taken off its front. */
+/* Reads a size and takes a piece of that size off the front of `s`. */
 static sbf_status take_piece(const reading *r, span *s, const sbfi_field *field, span *piece) {
   if (s->end - s->at < 4)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` is cut short", field->name);

@@ -279,7 +279,7 @@ static sbf_status read_entries(sbfi_packed_table *table, const uint8_t *bytes, s
   return SBF_OK;
 }
 
-/* What stands before the entries, and room for as many of them as are to be read. */
+/* Reads the header of the table and allocates as many entries as are to be read. */
 static sbf_status begin_table(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, bool last_only, sbf_diagnostic *error) {
   *table = (sbfi_packed_table){.allocator = sbfi_allocator_or_default(allocator)};
