@@ -163,7 +163,8 @@ static void begin(session *s) {
     return;
   }
   script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1], set->drive[2]);
-  const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
+  sbr_clip_play how = sbr_default_clip_play();
+  how.fade_s = CLIP_FADE_S;
   if (set->clip != SBF_NONE) sbr_character_play_clip(s->world, s->character, 0, set->clip, &how);
   loosen_rigid_parts(s);
 }

@@ -3,6 +3,14 @@
 #include "sbrun/animation.h"
 #include "world/world.h"
 
+sbr_ik_target sbr_default_ik_target(void) {
+  return (sbr_ik_target){.rotation = {0, 0, 0, 1}};
+}
+
+sbr_clip_play sbr_default_clip_play(void) {
+  return (sbr_clip_play){.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
+}
+
 void sbr_character_set_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target) {
   sbri_character *c = sbri_character_of(world, character);

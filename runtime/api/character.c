@@ -109,7 +109,8 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .scale = definition->scale,
       .time_scale = 1 / sqrtf(definition->scale),
       .ground = definition->ground.height ? definition->ground : world->ground,
-      .spare = storage};
+      .spare = storage,
+      .user_data = definition->user_data};
   sbri_character_storage_swap(c);
   if (!sbri_contact_surfaces_create(world, index)) {
     sbri_character_storage_free(&world->allocator, &storage);
@@ -123,6 +124,20 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   *character = sbri_id_of(world, c);
   sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
   return SBF_OK;
+}
+
+bool sbr_character_is_valid(const sbr_world *world, sbr_character_id character) {
+  return sbri_character_of(world, character) != NULL;
+}
+
+void sbr_character_set_user_data(sbr_world *world, sbr_character_id character, void *user_data) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (c) c->user_data = user_data;
+}
+
+void *sbr_character_get_user_data(const sbr_world *world, sbr_character_id character) {
+  const sbri_character *c = sbri_character_of(world, character);
+  return c ? c->user_data : NULL;
 }
 
 void sbr_character_destroy(sbr_world *world, sbr_character_id character) {

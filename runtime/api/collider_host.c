@@ -42,7 +42,7 @@ sbr_collider_definition sbr_default_collider_definition(void) {
       .mask = UINT32_MAX};
 }
 
-static sbri_collider *collider_of(sbr_world *world, sbr_collider_id id) {
+static sbri_collider *collider_of(const sbr_world *world, sbr_collider_id id) {
   uint32_t index = (id.value & 0xffff) - 1;
   if (!world || id.value == 0 || index >= world->colliders.capacity) return NULL;
   sbri_collider *c = &world->colliders.at[index];
@@ -122,6 +122,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
       .restitution = definition->restitution,
       .layer = definition->layer,
       .mask = definition->mask,
+      .user_data = definition->user_data,
       .leader = index};
   if (definition->part_of.value)
     c->leader = (definition->part_of.value & 0xffff) - 1;
@@ -134,6 +135,20 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
   stir(world);
   *collider = sbri_collider_name(set, index);
   return SBF_OK;
+}
+
+bool sbr_collider_is_valid(const sbr_world *world, sbr_collider_id collider) {
+  return collider_of(world, collider) != NULL;
+}
+
+void sbr_collider_set_user_data(sbr_world *world, sbr_collider_id collider, void *user_data) {
+  sbri_collider *c = collider_of(world, collider);
+  if (c) c->user_data = user_data;
+}
+
+void *sbr_collider_get_user_data(const sbr_world *world, sbr_collider_id collider) {
+  const sbri_collider *c = collider_of(world, collider);
+  return c ? c->user_data : NULL;
 }
 
 void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider) {

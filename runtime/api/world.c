@@ -82,7 +82,8 @@ sbf_status sbr_world_create(
       .stamp = 1,
       .colliders = set,
       .characters = characters,
-      .character_capacity = capacity};
+      .character_capacity = capacity,
+      .user_data = definition->user_data};
   *world = made;
   return SBF_OK;
 }
@@ -99,6 +100,14 @@ void sbr_world_destroy(sbr_world *world) {
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
   sbfi_free(&allocator, world, sizeof *world);
+}
+
+void sbr_world_set_user_data(sbr_world *world, void *user_data) {
+  if (world) world->user_data = user_data;
+}
+
+void *sbr_world_get_user_data(const sbr_world *world) {
+  return world ? world->user_data : NULL;
 }
 
 void sbr_world_step(sbr_world *world, double seconds) {

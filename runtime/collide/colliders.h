@@ -15,6 +15,7 @@ typedef struct sbri_collider {
   float friction, restitution; /* negative: use the other body's value */
   uint32_t layer, mask;
   double impulse[3], moment[3]; /* impulse and angular impulse received, about `to`; output, not state */
+  void *user_data;              /* the host's */
   uint32_t leader;              /* index of the collider that leads its body; its own index if it leads */
   sbri_host_body body;          /* only the leader's */
 } sbri_collider;

@@ -94,6 +94,7 @@ typedef struct sbri_character {
   uint32_t rigid_ticks;   /* ticks without simulated bodies */
   uint32_t refused_ticks; /* ticks until a failed allocation is retried */
   uint64_t sampled_at;    /* stamp of the time that `sampled` belongs to; 0: none */
+  void *user_data;        /* the host's */
   uint32_t event_count;   /* of the last tick */
   sbri_gait_event events[SBRI_TICK_EVENTS];
 } sbri_character;

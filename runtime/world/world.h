@@ -46,6 +46,7 @@ struct sbr_world {
   sbr_profile profile;             /* of the last tick that was timed */
   sbr_record_output record;        /* write NULL: no recording */
   uint64_t recorded_at;            /* tick of the last recorded hash */
+  void *user_data;                 /* the host's */
   uint64_t event_head, event_tail; /* sequence numbers of the next event to write and to read */
 };
 

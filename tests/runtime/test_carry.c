@@ -103,7 +103,7 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   sbr_character_id character;
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_character_definition standing = sbr_default_character_definition();
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_transform pose[BONES];
   ck_assert_int_eq(sbr_model_create(q, NULL, &model, NULL), SBF_OK);
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);

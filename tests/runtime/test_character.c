@@ -195,6 +195,37 @@ START_TEST(definitions_are_checked)
 }
 END_TEST
 
+START_TEST(handles_are_valid_while_it_lives)
+{
+  int first, second;
+  scene s = walker();
+  s.world_definition.user_data = &first;
+  s.character_definition.user_data = &second;
+  scene_start(&s);
+  ck_assert_ptr_eq(sbr_world_get_user_data(s.world), &first);
+  ck_assert_ptr_eq(sbr_character_get_user_data(s.world, s.character), &second);
+  sbr_world_set_user_data(s.world, NULL);
+  sbr_character_set_user_data(s.world, s.character, &first);
+  ck_assert_ptr_null(sbr_world_get_user_data(s.world));
+  scene_ticks(&s, 2);
+  ck_assert_ptr_eq(sbr_character_get_user_data(s.world, s.character), &first);
+  ck_assert(sbr_character_is_valid(s.world, s.character));
+  ck_assert(!sbr_character_is_valid(s.world, (sbr_character_id){0}));
+  ck_assert(!sbr_character_is_valid(NULL, s.character));
+  sbr_character_destroy(s.world, s.character);
+  ck_assert(!sbr_character_is_valid(s.world, s.character));
+  ck_assert_ptr_null(sbr_character_get_user_data(s.world, s.character));
+  sbr_character_set_user_data(s.world, s.character, &second);
+  sbr_character_id next;
+  s.character_definition.user_data = NULL;
+  ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &next, NULL), SBF_OK);
+  ck_assert(!sbr_character_is_valid(s.world, s.character)); /* the same place, another generation */
+  ck_assert(sbr_character_is_valid(s.world, next));
+  ck_assert_ptr_null(sbr_character_get_user_data(s.world, next));
+  scene_free(&s);
+}
+END_TEST
+
 /* Each number of a definition, and each of the calls that nobody hears fail. */
 START_TEST(numbers_that_are_none_never_get_in)
 {
@@ -293,6 +324,7 @@ static Suite *suite(void) {
   tcase_add_test(c, scaled_bodies_move_alike);
   tcase_add_test(c, each_may_have_a_ground_of_its_own);
   tcase_add_test(c, definitions_are_checked);
+  tcase_add_test(c, handles_are_valid_while_it_lives);
   tcase_add_loop_test(c, numbers_that_are_none_never_get_in, 0, 4);
   suite_add_tcase(s, c);
   return s;

@@ -66,7 +66,7 @@ static scene rod(sbf_track_property property, const float *values, uint32_t valu
   track->values = (sbf_f32_list){values, value_count};
   s.asset->clips = (sbf_clip_list){clip, 1};
   scene_start(&s);
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }

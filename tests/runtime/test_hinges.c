@@ -118,7 +118,7 @@ START_TEST(cloth_stays_behind_its_bone)
   track->values = (sbf_f32_list){values, 6};
   s.asset->clips = (sbf_clip_list){clip, 1};
   scene_start(&s);
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   scene_ticks(&s, 11);
   ck_assert_float_gt(scene_point(&s, 0, point(0, CELLS / 2)).y, 0.39f);

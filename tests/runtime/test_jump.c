@@ -83,7 +83,7 @@ static scene begin(const jump *j) {
   s.model_options.scheme = j->scheme;
   add_clip(&s, j);
   scene_start(&s);
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }
@@ -207,7 +207,7 @@ static scene begin_bent(void) {
   track->values = (sbf_f32_list){turns, 16};
   s.asset->clips = (sbf_clip_list){clip, 1};
   scene_start(&s);
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }

@@ -194,7 +194,7 @@ static scene swinging(float times[KEYS], float values[4 * KEYS]) {
   scene s = arms();
   swing(&s, times, values);
   scene_start(&s);
-  sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = -1};
+  sbr_clip_play how = sbr_default_clip_play();
   sbr_character_play_clip(s.world, s.character, 0, 0, &how);
   return s;
 }

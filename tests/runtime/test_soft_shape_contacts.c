@@ -256,7 +256,13 @@ START_TEST(a_sleeper_wakes_when_its_bed_goes)
   sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){0, -0.5, 0});
   scene_ticks(&s, 60);
   float y = scene_point(&s, 0, 0).y;
+  int mine;
+  ck_assert(sbr_collider_is_valid(s.world, id));
+  sbr_collider_set_user_data(s.world, id, &mine);
+  ck_assert_ptr_eq(sbr_collider_get_user_data(s.world, id), &mine);
   sbr_collider_destroy(s.world, id);
+  ck_assert(!sbr_collider_is_valid(s.world, id));
+  ck_assert_ptr_null(sbr_collider_get_user_data(s.world, id));
   scene_ticks(&s, 30);
   ck_assert_float_eq_tol(y, 0.01f, 1e-3f);
   ck_assert_float_lt(scene_point(&s, 0, 0).y, -0.5f);

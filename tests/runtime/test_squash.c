@@ -167,7 +167,7 @@ static scene post(void) {
 START_TEST(a_host_reads_scales_at_every_frame_rate)
 {
   scene even = post(), fine = post();
-  const sbr_clip_play whole = {.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
+  const sbr_clip_play whole = sbr_default_clip_play();
   sbr_character_play_clip(even.world, even.character, 0, 0, &whole);
   sbr_character_play_clip(fine.world, fine.character, 0, 0, &whole);
   float min = 1;

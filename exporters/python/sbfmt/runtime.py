@@ -61,12 +61,12 @@ class ModelOptions(Structure):
 class WorldDefinition(Structure):
     _fields_ = [("cookie", c_uint32), ("allocator", c_void_p), ("tasks", Tasks), ("ground", Ground), ("has_gravity", c_bool),
                 ("gravity", Vec3), ("control_tick_s", c_double), ("longest_frame_s", c_double), ("character_capacity", c_uint32),
-                ("sleep_after_s", c_double), ("collider_capacity", c_uint32)]
+                ("sleep_after_s", c_double), ("collider_capacity", c_uint32), ("user_data", c_void_p)]
 
 
 class CharacterDefinition(Structure):
     _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool),
-                ("ground", Ground), ("detail_level", c_uint32)]
+                ("ground", Ground), ("detail_level", c_uint32), ("user_data", c_void_p)]
 
 
 class CharacterId(Structure):

@@ -117,8 +117,8 @@ CALL(get_substeps_needed) {
 CALL(play) {
   soft_character *one = self;
   char name[256];
-  sbr_clip_play how = {
-      .weight = 1, .speed = 1, .bone_mask = SBF_NONE, .fade_s = (float)gd_as_float(arguments[1])};
+  sbr_clip_play how = sbr_default_clip_play();
+  how.fade_s = (float)gd_as_float(arguments[1]);
   int32_t clip = SBF_NONE;
   UNUSED;
   gd_as_text(arguments[0], name, sizeof name);

@@ -13,12 +13,14 @@ extern "C" {
 
 /* ---- Targets for limbs -------------------------------------------------------------------------------- */
 
-/* Target of an IK chain's end. Begin with zeros and rotation {0, 0, 0, 1}. */
+/* Target of an IK chain's end. Begin with the default. */
 typedef struct sbr_ik_target {
   sbr_double3 position; /* world: target of the end bone's head */
   sbf_quat rotation;    /* world: target rotation, weighted by the chain's copy_rotation */
   float weight;         /* 0 to 1: blend from the pose without the target to the solved one */
 } sbr_ik_target;
+/* Position at the world's origin, no rotation, weight 0. */
+SBF_API sbr_ik_target sbr_default_ik_target(void);
 
 /* Sets the target of one of the asset's ik_chains from the next tick on; NULL removes it. It acts on the
  * finished pose, walking legs included, with the chain's own solver, pole, comfort pose and tolerance, within
@@ -33,7 +35,7 @@ SBF_API void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id char
 
 /* ---- Clips -------------------------------------------------------------------------------------------- */
 
-/* Settings of a clip. Begin with zeros, weight 1 and speed 1. */
+/* Settings of a clip. Begin with the default. */
 typedef struct sbr_clip_play {
   float weight;      /* 0 to 1: weight of the layer over lower layers */
   float fade_s;      /* time of the change to this weight; 0: at once */
@@ -41,6 +43,8 @@ typedef struct sbr_clip_play {
   float start_s;     /* start time in the clip; ignored if it already plays in the layer */
   int32_t bone_mask; /* of the asset's bone_masks; SBF_NONE: all bones */
 } sbr_clip_play;
+/* Weight 1, at once, as keyed, from its start, all bones. */
+SBF_API sbr_clip_play sbr_default_clip_play(void);
 
 /* Plays a clip of the asset in one of four layers (from 0; higher layers override lower ones), below the
  * gait: heads, tails, chains, legs and limbs with targets still move on top of it. The gait keeps the body

@@ -87,6 +87,7 @@ typedef struct sbr_collider_definition {
   sbf_vec3 centre;         /* m, of its mass, in the shape's frame; default its origin */
   sbr_collider_id part_of; /* of one body with that collider, made before and with a mass, which is that of
                              all its parts; 0 (default): of none */
+  void *user_data;         /* the host's */
 } sbr_collider_definition;
 
 /* Begin with the default definition. The collider lives until it or the world is destroyed. */
@@ -95,6 +96,11 @@ SBF_API sbr_collider_definition sbr_default_collider_definition(void);
 SBF_API sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *definition,
     sbr_collider_id *collider, sbf_diagnostic *error);
 SBF_API void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider);
+/* Whether the handle names a collider of the world that has not been destroyed. */
+SBF_API bool sbr_collider_is_valid(const sbr_world *world, sbr_collider_id collider);
+/* The host's pointer, as in the definition; the runtime does not use it. */
+SBF_API void sbr_collider_set_user_data(sbr_world *world, sbr_collider_id collider, void *user_data);
+SBF_API void *sbr_collider_get_user_data(const sbr_world *world, sbr_collider_id collider);
 /* Moves the collider during the next tick; bodies in contact feel its velocity. It then stands still until it
  * is moved again. */
 SBF_API void sbr_collider_move(

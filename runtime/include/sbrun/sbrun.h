@@ -164,6 +164,7 @@ typedef struct sbr_world_definition {
    * all its points are slower than a hundredth of its size a second and nothing that holds it moves. */
   double sleep_after_s;
   uint32_t collider_capacity; /* 0: 64; of sbrun/collision.h; more than that cannot be created */
+  void *user_data;            /* the host's */
 } sbr_world_definition;
 
 /* Begin with the default definition, change it, create the world. Destroying it destroys its characters. */
@@ -171,6 +172,9 @@ SBF_API sbr_world_definition sbr_default_world_definition(void);
 SBF_API sbf_status sbr_world_create(
     const sbr_world_definition *definition, sbr_world **world, sbf_diagnostic *error);
 SBF_API void sbr_world_destroy(sbr_world *world);
+/* The host's pointer, as in the definition; the runtime does not use it. */
+SBF_API void sbr_world_set_user_data(sbr_world *world, void *user_data);
+SBF_API void *sbr_world_get_user_data(const sbr_world *world);
 
 /* Advances by a frame of `seconds` (>= 0). */
 SBF_API void sbr_world_step(sbr_world *world, double seconds);
@@ -206,6 +210,7 @@ typedef struct sbr_character_definition {
                         on floors above each other */
   uint32_t detail_level; /* the level of detail that it begins on (sbrun/detail.h), beyond the last: the last;
                     default 0: the finest */
+  void *user_data;       /* the host's */
 } sbr_character_definition;
 
 /* Begin with the default definition. The model must outlive the character. */
@@ -213,6 +218,11 @@ SBF_API sbr_character_definition sbr_default_character_definition(void);
 SBF_API sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error);
 SBF_API void sbr_character_destroy(sbr_world *world, sbr_character_id character);
+/* Whether the handle names a character of the world that has not been destroyed. */
+SBF_API bool sbr_character_is_valid(const sbr_world *world, sbr_character_id character);
+/* The host's pointer, as in the definition; the runtime does not use it. */
+SBF_API void sbr_character_set_user_data(sbr_world *world, sbr_character_id character, void *user_data);
+SBF_API void *sbr_character_get_user_data(const sbr_world *world, sbr_character_id character);
 
 /* Sets the wanted velocity: forward speed in m/s, sideways (left) speed in m/s, turn in rad/s (left
  * positive). */
