@@ -313,7 +313,8 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found) {
   *found = false;
   if (!rig.count || !r->input.mesh.positions.count || !(r->input.size > 0) || !(r->rig.size > 0)) return true;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
-  bool good = sbfi_point_finder_make(&s.finder, rig.at, rig.count, &scratch);
+  double within = sbfi_match_tolerance(r, r->rig.size / r->input.size, s.quantum);
+  bool good = sbfi_point_finder_make(&s.finder, rig.at, rig.count, within, &scratch);
   take_samples(&s);
   if (good) {
     consider(&s, &r->c->to_asset);

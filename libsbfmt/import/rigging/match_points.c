@@ -106,9 +106,9 @@ bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved) {
           sbfi_match_tolerance(r, sbfi_similarity_scale(&r->alignment.to_asset), sbfi_input_quantum(r))};
   uint32_t *matches = sbfi_arena_allocate(&scratch, count + 1, sizeof *matches);
   m.used = sbfi_arena_allocate(&scratch, (size_t)r->rig.mesh.positions.count + 1, sizeof *m.used);
-  bool good =
-      matches && m.used &&
-      sbfi_point_finder_make(&m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, &scratch);
+  bool good = matches && m.used &&
+              sbfi_point_finder_make(
+                  &m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, m.within, &scratch);
   for (uint32_t i = 0; good && i < count; i++) matches[i] = find_match(&m, i);
   for (uint32_t mesh = 0; good && mesh < r->input.scene->mesh_count; mesh++) {
     r->turned[mesh] = faces_away(r, moved, mesh, matches);

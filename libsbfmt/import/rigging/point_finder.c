@@ -1,51 +1,118 @@
 #include "import/rigging/point_finder.h"
 
-bool sbfi_point_finder_make(
-    sbfi_point_finder *finder, const sbf_vec3 *points, uint32_t count, sbfi_arena *arena) {
-  sbfi_box *boxes = sbfi_arena_allocate(arena, count ? count : 1, sizeof *boxes);
-  if (!boxes) return false;
-  for (uint32_t i = 0; i < count; i++)
-    boxes[i] = (sbfi_box){{points[i].x, points[i].y, points[i].z}, {points[i].x, points[i].y, points[i].z}};
-  finder->points = points;
-  return sbfi_box_tree_build(&finder->tree, boxes, count, arena);
+#include <math.h>
+
+/* Cells along the longest side of the points' box are at most so many times the square root of their number,
+ * so that a cell of a surface holds a point or none. */
+static const double MAX_CELLS = 4;
+/* A query spans two cells along an axis at most, if a cell is longer than twice its distance. */
+static const double CELL_OF_DISTANCE = 4;
+
+typedef struct cell_range {
+  int64_t low[3], high[3];
+} cell_range;
+
+static double squared_distance(const sbf_vec3 *p, sbfi_d3 to) {
+  double x = (double)p->x - to.x, y = (double)p->y - to.y, z = (double)p->z - to.z;
+  return x * x + y * y + z * z;
 }
 
-static double squared_distance(const void *user, uint32_t item, const double position[3]) {
-  const sbf_vec3 *p = &((const sbf_vec3 *)user)[item];
-  double x = (double)p->x - position[0], y = (double)p->y - position[1], z = (double)p->z - position[2];
-  return x * x + y * y + z * z;
+static uint32_t slot_of(const sbfi_point_finder *finder, int64_t x, int64_t y, int64_t z) {
+  uint64_t hash = (uint64_t)x * 73856093u ^ (uint64_t)y * 19349663u ^ (uint64_t)z * 83492791u;
+  return (uint32_t)((hash * 0x9e3779b97f4a7c15u) >> 32) & (finder->slot_count - 1);
+}
+
+static uint32_t slot_of_point(const sbfi_point_finder *finder, sbf_vec3 p) {
+  sbfi_d3 from_low = sbfi_d3_sub(sbfi_d3_of(p), finder->low);
+  return slot_of(finder, (int64_t)floor(from_low.x / finder->cell), (int64_t)floor(from_low.y / finder->cell),
+      (int64_t)floor(from_low.z / finder->cell));
+}
+
+static void find_bounds(sbfi_point_finder *finder, uint32_t count) {
+  finder->low = finder->high = count ? sbfi_d3_of(finder->points[0]) : (sbfi_d3){0, 0, 0};
+  for (uint32_t i = 1; i < count; i++) {
+    sbfi_d3 p = sbfi_d3_of(finder->points[i]), low = finder->low, high = finder->high;
+    finder->low = (sbfi_d3){fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z)};
+    finder->high = (sbfi_d3){fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z)};
+  }
+}
+
+bool sbfi_point_finder_make(
+    sbfi_point_finder *finder, const sbf_vec3 *points, uint32_t count, double within, sbfi_arena *arena) {
+  *finder = (sbfi_point_finder){.points = points, .slot_count = 16};
+  find_bounds(finder, count);
+  sbfi_d3 sides = sbfi_d3_sub(finder->high, finder->low);
+  double longest = fmax(sides.x, fmax(sides.y, sides.z));
+  finder->cell = fmax(longest / (MAX_CELLS * sqrt(count + 1.0)), CELL_OF_DISTANCE * within);
+  if (!(finder->cell > 0)) finder->cell = 1;
+  while (finder->slot_count / 2 < count) finder->slot_count *= 2;
+  finder->starts = sbfi_arena_allocate(arena, (size_t)finder->slot_count + 2, sizeof *finder->starts);
+  finder->items = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *finder->items);
+  if (!finder->starts || !finder->items) return false;
+  for (uint32_t i = 0; i < count; i++) finder->starts[slot_of_point(finder, points[i]) + 2]++;
+  for (uint32_t s = 2; s < finder->slot_count + 2; s++) finder->starts[s] += finder->starts[s - 1];
+  for (uint32_t i = 0; i < count; i++)
+    finder->items[finder->starts[slot_of_point(finder, points[i]) + 1]++] = i;
+  return true;
+}
+
+/* The cells of the points' box that a query reaches; false where it reaches none. */
+static bool find_cells(const sbfi_point_finder *finder, sbfi_d3 position, double within, cell_range *cells) {
+  const double at[3] = {position.x, position.y, position.z};
+  const double low[3] = {finder->low.x, finder->low.y, finder->low.z};
+  const double high[3] = {finder->high.x, finder->high.y, finder->high.z};
+  for (int k = 0; k < 3; k++) {
+    double from = fmax(at[k] - within, low[k]), to = fmin(at[k] + within, high[k]);
+    if (!(from <= to)) return false;
+    cells->low[k] = (int64_t)floor((from - low[k]) / finder->cell);
+    cells->high[k] = (int64_t)floor((to - low[k]) / finder->cell);
+  }
+  return true;
+}
+
+/* Different cells may share a slot: only points of the cell itself are visited, so that each comes once. */
+static bool is_in_cell(const sbfi_point_finder *finder, uint32_t point, int64_t x, int64_t y, int64_t z) {
+  sbfi_d3 from_low = sbfi_d3_sub(sbfi_d3_of(finder->points[point]), finder->low);
+  return (int64_t)floor(from_low.x / finder->cell) == x && (int64_t)floor(from_low.y / finder->cell) == y &&
+         (int64_t)floor(from_low.z / finder->cell) == z;
 }
 
 uint32_t sbfi_point_nearest(
     const sbfi_point_finder *finder, sbfi_d3 position, double within, double *distance) {
-  const double at[3] = {position.x, position.y, position.z};
   double min = within * within * (1 + 1e-12);
-  uint32_t found = sbfi_box_tree_nearest(&finder->tree, at, squared_distance, finder->points, &min);
+  uint32_t nearest = UINT32_MAX;
+  cell_range cells;
+  if (distance) *distance = within;
+  if (!find_cells(finder, position, within * (1 + 1e-9), &cells)) return UINT32_MAX;
+  for (int64_t z = cells.low[2]; z <= cells.high[2]; z++)
+    for (int64_t y = cells.low[1]; y <= cells.high[1]; y++)
+      for (int64_t x = cells.low[0]; x <= cells.high[0]; x++) {
+        uint32_t slot = slot_of(finder, x, y, z);
+        for (uint32_t i = finder->starts[slot]; i < finder->starts[slot + 1]; i++) {
+          uint32_t point = finder->items[i];
+          double squared = squared_distance(&finder->points[point], position);
+          if (squared > min || (squared == min && point >= nearest)) continue;
+          min = squared;
+          nearest = point;
+        }
+      }
   if (distance) *distance = sqrt(min);
-  return found;
-}
-
-typedef struct near_points {
-  const sbfi_point_finder *finder;
-  double position[3], within;
-  void (*visit)(void *user, uint32_t point);
-  void *user;
-} near_points;
-
-static bool visit_near(void *user, uint32_t item) {
-  const near_points *n = user;
-  if (squared_distance(n->finder->points, item, n->position) <= n->within * n->within)
-    n->visit(n->user, item);
-  return true;
+  return nearest;
 }
 
 void sbfi_find_points_near(const sbfi_point_finder *finder, sbfi_d3 position, double within,
     void (*visit)(void *user, uint32_t point), void *user) {
-  near_points n = {finder, {position.x, position.y, position.z}, within, visit, user};
-  sbfi_box box;
-  for (int k = 0; k < 3; k++) {
-    box.low[k] = nextafterf((float)(n.position[k] - within), -INFINITY);
-    box.high[k] = nextafterf((float)(n.position[k] + within), INFINITY);
-  }
-  sbfi_box_tree_visit(&finder->tree, &box, visit_near, &n);
+  cell_range cells;
+  if (!find_cells(finder, position, within * (1 + 1e-9), &cells)) return;
+  for (int64_t z = cells.low[2]; z <= cells.high[2]; z++)
+    for (int64_t y = cells.low[1]; y <= cells.high[1]; y++)
+      for (int64_t x = cells.low[0]; x <= cells.high[0]; x++) {
+        uint32_t slot = slot_of(finder, x, y, z);
+        for (uint32_t i = finder->starts[slot]; i < finder->starts[slot + 1]; i++) {
+          uint32_t point = finder->items[i];
+          if (squared_distance(&finder->points[point], position) <= within * within &&
+              is_in_cell(finder, point, x, y, z))
+            visit(user, point);
+        }
+      }
 }
