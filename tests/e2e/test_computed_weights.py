@@ -214,6 +214,37 @@ class ComputedWeights(ProgramTest):
         self.assertNotIn("moved by", done.err)
         self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"]["legs"], 2)
 
+    def test_feet_on_the_root_hang_on_their_legs(self):
+        """Animators move feet by hand: they hang on the root beside targets of knees, and no skin tells whose they are."""
+        write_person(self.path("person.obj"), self.path("person.bvh"), 0)
+        bones = Bvh(self.path("person.bvh"))
+        joints = [("Root", None, (0, 0, 0))]
+        for name, parent, frame in zip(bones.names, bones.parents, bones.worlds()):
+            above = "Root" if parent is None or name in ("LeftFoot", "RightFoot") else bones.names[parent]
+            joints.append((name, above, tuple(row[3] for row in frame)))
+        joints += [("LeftKneeTarget", "Root", (0.15, 0.5, 1)), ("RightKneeTarget", "Root", (-0.15, 0.5, 1))]
+        write_bvh(self.path("person.bvh"), joints)
+        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
+        self.assertIn("bone 'LeftFoot' belongs where 'LeftLeg' ends", done.err)
+        self.assertNotIn("'LeftKneeTarget' belongs", done.err)
+        bundle = Bundle(self.path("person.sbf"))
+        names = bundle.bone_names()
+        parents = {name: names[parent] for name, parent in zip(names, bundle.parents) if parent is not None}
+        self.assertEqual([parents[side + "Foot"] for side in ("Left", "Right")], ["LeftLeg", "RightLeg"])
+        self.assertEqual(parents["LeftKneeTarget"], "Root")
+        self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"], {"kind": "walk", "legs": 2})
+
+    def test_objects_of_which_half_are_named_as_bones(self):
+        """A body and a head are parts of a skin and no sections, where other objects are named as no bone."""
+        with open(self.obj, encoding="ascii") as stream:
+            text = stream.read()
+        with open(self.obj, "w", encoding="ascii") as stream:
+            stream.write(text.replace("o arm", "o upper") + "o hand\nf 372 371 370\no rest\nf 372 371 369\no more\nf 372 370 369\n"
+                         .replace("o rest", "o hat"))
+        weights, told = self.weights()
+        self.assertNotIn("by the names of objects", told)
+        self.assertGreater(weights[360].get("hand", 0), 0.9)
+
     def test_shells_follow_the_bones_they_are_given_to(self):
         weights, _ = self.weights("--shell", "buttons#2=hand")
         for i in range(372, 444):

@@ -1,9 +1,18 @@
 /* Bones that were moved by hand: they hold skin and hang on nothing; each goes to the limb that points at
  * its head. */
 #include "import/convert/skeleton_draft.h"
+#include "model/bone_ends.h"
 
-/* How often the length of the bone before it a limb's last bone may have. */
-static const double LONGEST_TIP = 3;
+#include <math.h>
+#include <string.h>
+
+/* How often the length of the bone before it a limb's last bone may have; a target in its place is no end of
+ * it. */
+static const double LONGEST_TIP = 3, SHORTEST_TIP = 0.1;
+/* Cosine of the angle within which a limb goes on. */
+static const double AHEAD = 0.3;
+/* A file's, an armature's and a rig's root may stand above a foot that is moved by hand. */
+enum { MAX_FRAMES = 3 };
 
 /* Moved by hand: it holds skin and hangs on nothing, or on a root that holds none. */
 static bool is_detached(const sbfi_skeleton_draft *s, uint32_t bone) {
@@ -42,6 +51,78 @@ static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
   return best;
 }
 
+/* --- Rigs without a skin ------------------------------------------------------------------------------- */
+
+static bool is_end(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
+  const char *name = rig->nodes[s->bones[bone].node].name;
+  return s->bones[bone].below == 0 && sbfi_name_is_end(name, strlen(name));
+}
+
+/* Bones that hang below, without marks of ends. */
+static uint32_t count_below(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
+  uint32_t count = s->bones[bone].below;
+  for (uint32_t i = 0; i < s->count; i++)
+    count -= i != bone && hangs_below(s, (int32_t)i, (int32_t)bone) && is_end(s, rig, i);
+  return count;
+}
+
+/* A bone, or a foot and its toe, below nothing but roots and frames. */
+static bool is_loose(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
+  int depth = 0;
+  for (int32_t above = s->bones[bone].parent; above != SBF_NONE; above = s->bones[above].parent) depth++;
+  return depth <= MAX_FRAMES && !is_end(s, rig, bone) && count_below(s, rig, bone) <= 1;
+}
+
+/* The last bone of a limb of at least two below a bone that is no root. */
+static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
+  int32_t parent = s->bones[bone].parent;
+  if (parent == SBF_NONE || is_end(s, rig, bone) || count_below(s, rig, bone)) return false;
+  int32_t above = s->bones[parent].parent;
+  return above != SBF_NONE && s->bones[above].parent != SBF_NONE &&
+         count_below(s, rig, (uint32_t)parent) == 1;
+}
+
+/* Distance from where a limb's last bone begins to a loose bone in which it may end; INFINITY where it
+ * cannot: a limb points at its foot where bones run along +Y, and else goes on down to it. */
+static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
+  const sbfi_bone_draft *last = &s->bones[tip];
+  int32_t carrier = s->bones[loose].parent, limb = s->bones[last->parent].parent;
+  if (carrier == limb || (carrier != SBF_NONE && !hangs_below(s, limb, carrier))) return INFINITY;
+  sbfi_d3 displacement = sbfi_d3_sub(s->bones[loose].head, last->head);
+  sbfi_d3 before = sbfi_d3_sub(last->head, s->bones[last->parent].head);
+  sbfi_d3 direction = sbfi_d3_normal(displacement);
+  double length = sbfi_d3_length(displacement), length_before = sbfi_d3_length(before);
+  bool fits = s->along_y ? sbfi_d3_dot(direction, sbfi_d3_normal(last->y)) > SBFI_STRAIGHT
+                         : displacement.y < 0 && sbfi_d3_dot(direction, sbfi_d3_normal(before)) > AHEAD;
+  return fits && length >= SHORTEST_TIP * length_before && length <= LONGEST_TIP * length_before ? length
+                                                                                                 : INFINITY;
+}
+
+/* A loose bone and a limb's last one belong together where each is the nearest to the other that it can be.
+ */
+static void find_limbs_without_skin(const sbfi_skeleton_draft *s, const sbfi_scene *rig, int32_t *limbs) {
+  for (uint32_t i = 0; i < s->count; i++) limbs[i] = SBF_NONE;
+  for (uint32_t tip = 0; tip < s->count; tip++) {
+    double nearest = INFINITY, others = INFINITY;
+    uint32_t best = 0;
+    if (!ends_limb(s, rig, tip)) continue;
+    for (uint32_t i = 0; i < s->count; i++) {
+      double reach = i != tip && is_loose(s, rig, i) ? reach_of_limb(s, tip, i) : INFINITY;
+      if (reach < nearest) nearest = reach, best = i;
+    }
+    for (uint32_t i = 0; i < s->count && isfinite(nearest); i++)
+      if (i != tip && ends_limb(s, rig, i)) others = fmin(others, reach_of_limb(s, i, best));
+    if (isfinite(nearest) && nearest <= others) limbs[best] = (int32_t)tip;
+  }
+}
+
+static void find_neighbors_without_skin(sbfi_skeleton_draft *s, const sbfi_scene *rig, int32_t *limbs) {
+  find_limbs_without_skin(s, rig, limbs);
+  for (uint32_t i = 0; i < s->count; i++) s->bones[i].neighbor = limbs[i];
+}
+
+/* --- All of them --------------------------------------------------------------------------------------- */
+
 bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
   bool moved = false;
   /* All are found before any is moved, so that their order does not matter. Where bones do not run along +Y
@@ -63,6 +144,7 @@ sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
   if (!sbfi_find_neighbors(c, s)) return sbfi_convert_no_memory(c);
   int32_t *limbs = sbfi_arena_allocate(&c->scratch, s->count, sizeof *limbs);
   if (!limbs) return sbfi_convert_no_memory(c);
+  if (c->rig->mesh_count == 0) find_neighbors_without_skin(s, c->rig, limbs);
   if (!sbfi_hang_on_limbs(s, limbs)) return SBF_OK;
   for (uint32_t i = 0; i < s->count; i++) {
     if (limbs[i] == SBF_NONE) continue;

@@ -30,6 +30,8 @@ static const double THICK = 0.15;
 static const double BETTER = 0.02;  /* by which a later candidate has to be better */
 static const double NEARNESS = 2;   /* of a mean distance, by a share inside */
 static const double MIN_LONG = 0.6; /* of a body's longest side, of bones that lie as the files say */
+static const double KEPT = 0.85;    /* so much inside as the files say is no accident: */
+static const double ODD = 0.15;     /* an odd scale or offset with the same axes has to be so much better */
 static const double POSED = 0.1; /* so much better a rarer rotation has to be where limbs stand otherwise */
 static const double REACH = 0.3; /* so much worse one may be before its scale and offset are refined */
 
@@ -269,14 +271,26 @@ static void choose(search *s) {
   }
 }
 
-static void consider_all(search *s) {
+/* Whether a candidate has the axes that the files state, and another scale or offset. */
+static bool has_stated_axes(const search *s, const sbfi_matrix *m) {
+  const sbfi_matrix *stated = &s->r->c->to_asset;
+  double scale = sbfi_similarity_scale(m) / sbfi_similarity_scale(stated);
+  for (int row = 0; row < 3; row++)
+    for (int k = 0; k < 3; k++)
+      if (fabs(m->at[row][k] - scale * stated->at[row][k]) > 1e-6 * sbfi_similarity_scale(m)) return false;
+  return true;
+}
+
+/* Whether the stated transform stays. */
+static bool consider_all(search *s) {
+  const candidate stated = s->best;
   double bones = longest_side(s->low, s->high), input = longest_side(s->soup.low, s->soup.high);
-  double stated = sbfi_similarity_scale(&s->r->c->to_asset);
+  double stated_scale = sbfi_similarity_scale(&s->r->c->to_asset);
   /* A small rig lies inside anything. One of few bones may leave large parts of its body without any. */
   double max = s->line_count < SEVERAL && !sbfi_rig_has_no_size(s->r) ? 3 : 1.6;
   for (uint32_t i = 0; i < ROTATIONS; i++) s->of_rotation[i].score = -INFINITY;
   for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
-    double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated;
+    double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated_scale;
     if (input * scale < 0.7 * bones || input * scale > (unit ? max : 3) * bones) continue;
     consider_scale(s, scale);
   }
@@ -285,6 +299,11 @@ static void consider_all(search *s) {
   size_t count = sizeof ratios / sizeof *ratios - (s->line_count < SEVERAL ? 0 : 2);
   for (size_t k = 0; k < count; k++) consider_scale(s, ratios[k] * bones / input);
   choose(s);
+  if (stated.fraction < KEPT || sbfi_rig_has_no_size(s->r) || !has_stated_axes(s, &s->best.m) ||
+      s->best.score >= stated.score + ODD)
+    return false;
+  s->best = stated;
+  return true;
 }
 
 /* --- Where they do not fit ----------------------------------------------------------------------------- */
@@ -479,9 +498,9 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
     bool matched = false;
     if (is_long(&s)) status = match_limbs(r, &s, &scratch, &matched);
     if (status == SBF_OK && !matched && is_stated) {
-      consider_all(&s);
+      bool kept = consider_all(&s);
       status = match_limbs(r, &s, &scratch, &matched);
-      if (status == SBF_OK && !matched) status = match_limbs_otherwise(r, &s, &scratch, &matched);
+      if (status == SBF_OK && !matched && !kept) status = match_limbs_otherwise(r, &s, &scratch, &matched);
     }
     r->alignment.to_asset = s.best.m;
     r->alignment.inside = s.best.fraction;

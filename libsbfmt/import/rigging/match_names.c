@@ -71,7 +71,7 @@ static void weigh_by_bones(sbfi_rigging *r) {
   uint32_t named = 0;
   for (uint32_t m = 0; m < scene->mesh_count; m++)
     named += find_bone(r, scene->nodes[scene->meshes[m].node].name) != SBF_NONE;
-  if (named < 2 || 2 * named < scene->mesh_count) return;
+  if (named < 2 || 2 * named <= scene->mesh_count) return;
   for (uint32_t m = 0; m < scene->mesh_count; m++) {
     int32_t bone = find_bone(r, scene->nodes[scene->meshes[m].node].name);
     if (bone != SBF_NONE) carry(r, m, bone);
