@@ -25,11 +25,10 @@ static void fill(sbfi_linear_statics *s) {
   sbfi_block_matrix_prepare(matrix);
 }
 
-bool sbfi_linear_statics_make(
-    sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
+static bool make(sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
   size_t size = 3 * (size_t)network->point_count + 1;
-  *made = (sbfi_linear_statics){.coarse = sbfi_coarse_space_helps(network)};
   double **vectors[] = {&made->r, &made->z, &made->p, &made->q};
+  made->coarse = !made->is_direct && sbfi_coarse_space_helps(network);
   for (int i = 0; i < 4; i++) {
     *vectors[i] = sbfi_arena_allocate(arena, size, sizeof(double));
     if (!*vectors[i]) return false;
@@ -37,12 +36,26 @@ bool sbfi_linear_statics_make(
   if (!sbfi_network_matrix_make(&made->stiffness, network, NULL, arena)) return false;
   fill(made);
   const sbfi_block_matrix *matrix = &made->stiffness.matrix;
+  if (made->is_direct && !sbfi_direct_solver_make(&made->direct, matrix, arena)) return false;
   return !made->coarse || sbfi_coarse_space_make(&made->space, matrix, network->positions, arena);
+}
+
+bool sbfi_linear_statics_make(
+    sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
+  *made = (sbfi_linear_statics){.is_direct = false};
+  return make(made, network, arena);
+}
+
+bool sbfi_linear_statics_make_direct(
+    sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
+  *made = (sbfi_linear_statics){.is_direct = sbfi_direct_solver_helps(network->point_count)};
+  return make(made, network, arena);
 }
 
 void sbfi_linear_statics_refresh(sbfi_linear_statics *s) {
   sbfi_network_matrix_refresh(&s->stiffness);
   fill(s);
+  if (s->is_direct) sbfi_direct_solver_refresh(&s->direct, &s->stiffness.matrix);
   if (s->coarse) sbfi_coarse_space_fill(&s->space, &s->stiffness.matrix);
 }
 
@@ -56,6 +69,10 @@ uint32_t sbfi_linear_statics_solve(
   const sbf_spring_network *n = s->stiffness.network;
   const sbfi_block_matrix *matrix = &s->stiffness.matrix;
   size_t size = 3 * (size_t)n->point_count;
+  if (s->is_direct && s->direct.null_count == 0) {
+    sbfi_direct_solver_solve(&s->direct, forces, displacements);
+    return 1;
+  }
   sbfi_block_matrix_multiply(matrix, displacements, s->q);
   for (size_t i = 0; i < size; i++) s->r[i] = n->masses[i / 3] > 0 ? forces[i] - s->q[i] : 0;
   precondition(s);

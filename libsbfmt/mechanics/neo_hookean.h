@@ -81,6 +81,17 @@ void sbfi_tetrahedron_compute_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[
 /* The second derivatives at `x` times the displacements u, in N: minus the change of the forces. */
 void sbfi_tetrahedron_product(
     const sbfi_tetrahedron *t, const sbfi_d3 x[4], const sbfi_d3 u[4], sbfi_d3 products[4]);
+/* v times the same at rest times u, in J: the work that the forces of small displacements u do along v. */
+static inline double sbfi_tetrahedron_rest_work(
+    const sbfi_tetrahedron *t, const sbfi_d3 u[4], const sbfi_d3 v[4]) {
+  sbfi_columns d = sbfi_tetrahedron_gradient(t, u), e = sbfi_tetrahedron_gradient(t, v);
+  double along = d.at[0].x * e.at[0].x + d.at[1].y * e.at[1].y + d.at[2].z * e.at[2].z;
+  double across = (d.at[0].y + d.at[1].x) * (e.at[0].y + e.at[1].x) +
+                  (d.at[1].z + d.at[2].y) * (e.at[1].z + e.at[2].y) +
+                  (d.at[2].x + d.at[0].z) * (e.at[2].x + e.at[0].z);
+  double traces = (d.at[0].x + d.at[1].y + d.at[2].z) * (e.at[0].x + e.at[1].y + e.at[2].z);
+  return t->volume * (t->lame.mu * (2 * along + across) + (t->lame.lambda - t->lame.mu) * traces);
+}
 /* The whole matrix of second derivatives, block of corners i and j by block, N/m:
  * blocks[i][j][3 * row + column]. */
 void sbfi_tetrahedron_compute_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]);

@@ -1,6 +1,7 @@
 #include "mechanics/linear_statics.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "harness.h"
 #include "lattice_box.h"
@@ -77,6 +78,82 @@ START_TEST(half_the_modulus_gives_twice_as_much)
 }
 END_TEST
 
+enum { FEW = 9 * 3 * 3 };
+
+static lattice_box make_small_bar(void) {
+  return lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){2, 0.3f, 0.3f}, 8, 2, 2, 1000, 1e6f, 0.3f);
+}
+
+static void compare_small(lattice_box *small, const double *forces) {
+  static double moved[3 * FEW], wanted[3 * FEW], scratch[10 * FEW];
+  sbf_spring_network of = lattice_box_network(small);
+  sbfi_linear_statics linear;
+  double max = 0;
+  memset(moved, 0, sizeof moved);
+  ck_assert_double_lt(sbf_network_static(&of, forces, 1e-12, 20000, wanted, scratch), 1e-10);
+  ck_assert(sbfi_linear_statics_make_direct(&linear, &of, &arena));
+  ck_assert(linear.is_direct);
+  ck_assert_uint_eq(linear.direct.null_count, 0);
+  ck_assert_uint_eq(sbfi_linear_statics_solve(&linear, forces, 1e-8, moved), 1);
+  for (size_t i = 0; i < 3 * FEW; i++) max = fmax(max, fabs(wanted[i]));
+  for (size_t i = 0; i < 3 * FEW; i++) ck_assert_double_eq_tol(moved[i], wanted[i], 1e-6 * max);
+}
+
+/* Few points: one factorisation, and the answer of conjugate gradients. */
+START_TEST(a_small_bar_bends_at_once)
+{
+  static double forces[3 * FEW];
+  lattice_box small = make_small_bar();
+  lattice_box_hold(&small);
+  ck_assert_uint_eq(small.point_count, FEW);
+  for (uint32_t i = 0; i < FEW; i++) forces[3 * i + 1] = small.masses[i], forces[3 * i] = -forces[3 * i + 1];
+  compare_small(&small, forces);
+  lattice_box_free(&small);
+}
+END_TEST
+
+/* Nothing resists its motion as a whole: no factorisation, but an answer to balanced forces. */
+START_TEST(a_small_bar_that_nothing_holds)
+{
+  static double forces[3 * FEW], moved[3 * FEW];
+  lattice_box small = make_small_bar();
+  sbf_spring_network of = lattice_box_network(&small);
+  sbfi_linear_statics linear;
+  for (uint32_t y = 0; y < 3; y++)
+    for (uint32_t z = 0; z < 3; z++) {
+      forces[3 * lattice_box_point(&small, 0, y, z)] = -1;
+      forces[3 * lattice_box_point(&small, 8, y, z)] = 1;
+    }
+  ck_assert(sbfi_linear_statics_make_direct(&linear, &of, &arena));
+  ck_assert_uint_eq(linear.direct.null_count, 6);
+  sbfi_linear_statics_solve(&linear, forces, 1e-8, moved);
+  double longer =
+      moved[3 * lattice_box_point(&small, 8, 1, 1)] - moved[3 * lattice_box_point(&small, 0, 1, 1)];
+  ck_assert_double_eq_tol(longer, 9 * 2 / (0.3 * 0.3 * 1e6), 0.1 * 2e-4);
+  lattice_box_free(&small);
+}
+END_TEST
+
+/* Refreshed moduli are factorised anew. */
+START_TEST(a_small_bar_of_twice_the_modulus)
+{
+  static double forces[3 * FEW], before[3 * FEW], after[3 * FEW];
+  lattice_box small = make_small_bar();
+  lattice_box_hold(&small);
+  sbf_spring_network of = lattice_box_network(&small);
+  sbfi_linear_statics linear;
+  size_t tip = 3 * lattice_box_point(&small, 8, 2, 2) + 2;
+  for (uint32_t i = 0; i < FEW; i++) forces[3 * i + 2] = small.masses[i];
+  ck_assert(sbfi_linear_statics_make_direct(&linear, &of, &arena));
+  sbfi_linear_statics_solve(&linear, forces, 1e-7, before);
+  for (uint32_t t = 0; t < of.tetrahedron_count; t++) small.young_modulus[t] *= 2;
+  sbfi_linear_statics_refresh(&linear);
+  sbfi_linear_statics_solve(&linear, forces, 1e-7, after);
+  ck_assert_double_eq_tol(after[tip] / before[tip], 0.5, 1e-9);
+  lattice_box_free(&small);
+}
+END_TEST
+
 /* A point on one spring is free to swing: it stays near, and keeps no other from its place. */
 START_TEST(a_point_on_one_spring)
 {
@@ -106,6 +183,9 @@ int main(void) {
   tcase_add_test(c, a_bar_bends_in_few_steps);
   tcase_add_test(c, what_was_found_is_a_start);
   tcase_add_test(c, half_the_modulus_gives_twice_as_much);
+  tcase_add_test(c, a_small_bar_bends_at_once);
+  tcase_add_test(c, a_small_bar_that_nothing_holds);
+  tcase_add_test(c, a_small_bar_of_twice_the_modulus);
   tcase_add_test(c, a_point_on_one_spring);
   suite_add_tcase(s, c);
   return harness_run(s);

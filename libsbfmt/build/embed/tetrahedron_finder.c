@@ -186,6 +186,16 @@ static bool any_below(const double weights[4], double limit) {
   return weights[0] < limit || weights[1] < limit || weights[2] < limit || weights[3] < limit;
 }
 
+/* Whether one of the first three weights is clearly below 0: most tetrahedra are left out so, without a
+ * division. */
+static bool is_clearly_outside(const sbfi_solved_tetrahedron *in, sbf_vec3 last_corner, sbfi_d3 point) {
+  sbfi_d3 from = sbfi_d3_sub(point, sbfi_d3_of(last_corner));
+  double limit = -2 * slack * in->volume * in->volume;
+  for (int k = 0; k < 3; k++)
+    if (sbfi_d3_dot(from, in->cofactors[k]) * in->volume < limit) return true;
+  return false;
+}
+
 static void find_inside(search *s, uint32_t tetrahedron, double middle2) {
   const sbfi_tetrahedron_finder *f = s->finder;
   sbfi_solved_tetrahedron now;
@@ -193,7 +203,8 @@ static void find_inside(search *s, uint32_t tetrahedron, double middle2) {
   (void)middle2;
   if (tetrahedron >= s->best) return;
   const sbfi_solved_tetrahedron *in = solved_of(f, tetrahedron, &now);
-  if (!weigh_solved(in, f->positions[f->tetrahedra[tetrahedron].at[3]], s->at, weights)) return;
+  sbf_vec3 last_corner = f->positions[f->tetrahedra[tetrahedron].at[3]];
+  if (is_clearly_outside(in, last_corner, s->at) || !weigh_solved(in, last_corner, s->at, weights)) return;
   if (!any_below(weights, -slack)) s->best = tetrahedron;
 }
 

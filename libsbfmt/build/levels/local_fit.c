@@ -15,18 +15,15 @@ static const double push_fraction = 5e-3, no_work = 1e-6;
 static void add_works(
     const sbfi_linear_statics *linear, const double *moved, double scale, double *at_points) {
   const sbf_spring_network *n = linear->stiffness.network;
-  sbfi_d3 rest[4], u[4], products[4];
+  sbfi_d3 u[4];
   for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
     const uint32_t *at = n->tetrahedra[t].at;
     if (!(linear->stiffness.elements[t].volume > 0)) continue;
     for (int k = 0; k < 4; k++) {
       const double *by = moved + 3 * (size_t)at[k];
-      rest[k] = sbfi_d3_of(n->positions[at[k]]);
       u[k] = (sbfi_d3){by[0], by[1], by[2]};
     }
-    sbfi_tetrahedron_product(&linear->stiffness.elements[t], rest, u, products);
-    double work = 0;
-    for (int k = 0; k < 4; k++) work += sbfi_d3_dot(products[k], u[k]);
+    double work = sbfi_tetrahedron_rest_work(&linear->stiffness.elements[t], u, u);
     for (int k = 0; k < 4; k++) at_points[at[k]] += scale * work / 4;
   }
 }

@@ -142,19 +142,16 @@ static void add_gradient_of_springs(const work *w, uint32_t load) {
 
 static void add_gradient_of_tetrahedra(const work *w, uint32_t load) {
   const sbf_spring_network *n = &w->statics->network;
-  sbfi_d3 rest[4], u[4], products[4];
+  sbfi_d3 u[4], v[4];
   for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
     const sbfi_tetrahedron *element = &w->linear->stiffness.elements[t];
     const uint32_t *corners = n->tetrahedra[t].at;
     if (!(element->volume > 0)) continue;
     for (int k = 0; k < 4; k++) {
-      rest[k] = sbfi_d3_of(n->positions[corners[k]]);
       u[k] = at(w->moved[load], corners[k]);
+      v[k] = at(w->adjoint[load], corners[k]);
     }
-    sbfi_tetrahedron_product(element, rest, u, products);
-    double both = 0;
-    for (int k = 0; k < 4; k++) both += sbfi_d3_dot(products[k], at(w->adjoint[load], corners[k]));
-    w->gradient[t] -= both;
+    w->gradient[t] -= sbfi_tetrahedron_rest_work(element, u, v);
   }
 }
 
