@@ -73,7 +73,8 @@ static int32_t find_raw(clipping *c, sbfi_span name, bool *good) {
 
 /* --- Keys ------------------------------------------------------------------------------------------ */
 
-/* Keys in seconds, strictly ascending; the others are dropped and counted. Times and values in `arena`. */
+/* Keys in seconds, strictly ascending from 0 or later; the others are dropped and counted. Times and values
+ * in `arena`. */
 static bool read_track(
     clipping *c, sbfi_arena *arena, const sbfi_raw_keys *raw, uint32_t width, sbfi_track *to) {
   *to = (sbfi_track){0};
@@ -85,7 +86,7 @@ static bool read_track(
   for (uint32_t i = 0; i < raw->count; i++) {
     float *value = values + (size_t)count * width;
     float time = (float)((sbfi_raw_key(raw, width, i, value) + c->shift_ticks) / c->ticks_per_second);
-    bool good = isfinite(time);
+    bool good = isfinite(time) && time >= 0; /* the clip begins at the first keys, whose times may be NaN */
     if (width == 4) {
       double length = sqrt((double)value[0] * value[0] + (double)value[1] * value[1] +
                            (double)value[2] * value[2] + (double)value[3] * value[3]);
