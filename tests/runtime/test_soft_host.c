@@ -167,6 +167,84 @@ START_TEST(pins_bear_what_hangs_on_them)
 }
 END_TEST
 
+/* A bar along x, held at x = 0, and by a second set at its other end where `both`. */
+static scene bar(sbf_scheme scheme, bool both, float damping_ratio) {
+  scene s = scene_begin();
+  lattice_box box =
+      lattice_box_make((sbf_vec3){0, 1, 0}, (sbf_vec3){1, 0.2f, 0.2f}, 10, 2, 2, density, 1e6f, 0.3f);
+  uint32_t far_count = 0, *far = sbf_asset_allocate(s.asset, 9, sizeof *far);
+  ck_assert_ptr_nonnull(far);
+  lattice_box_hold(&box);
+  for (uint32_t y = 0; both && y <= 2; y++)
+    for (uint32_t z = 0; z <= 2; z++) far[far_count++] = lattice_box_point(&box, 10, y, z);
+  for (uint32_t i = 0; i < far_count; i++) box.masses[far[i]] = 0;
+  sbf_level *level = scene_lattice(&s, 0, &box);
+  if (both) {
+    sbf_pin_set *sets = sbf_asset_allocate(s.asset, 2, sizeof *sets);
+    uint32_t *near = sbf_asset_allocate(s.asset, 9, sizeof *near), near_count = 0;
+    ck_assert(sets && near);
+    for (uint32_t i = 0; i < level->pins.at[0].points.count; i++)
+      if (!(box.positions[level->pins.at[0].points.at[i]].x > 0))
+        near[near_count++] = level->pins.at[0].points.at[i];
+    sets[0] = sets[1] = level->pins.at[0];
+    sets[0].points = (sbf_u32_list){near, near_count};
+    sets[1].points = (sbf_u32_list){far, far_count};
+    level->pins = (sbf_pin_set_list){sets, 2};
+  }
+  lattice_box_free(&box);
+  scene_body(&s, 0)->attributes.damping_ratio = damping_ratio;
+  s.model_options.scheme = scheme;
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, -gravity, 0};
+  scene_start(&s);
+  return s;
+}
+
+START_TEST(both_ends_bear_half_a_bar)
+{
+  scene s = bar(schemes[_i], true, 1);
+  sbr_pin_reaction r[2];
+  scene_ticks(&s, 300);
+  ck_assert_uint_eq(sbr_character_get_pin_reactions(s.world, s.character, 0, r, 2), 2);
+  float weight = mass_of(&s) * gravity;
+  ck_assert_float_gt(r[1].about.x - r[0].about.x, 0.99f);
+  for (int k = 0; k < 2; k++) {
+    ck_assert_uint_eq(r[k].points, 9);
+    ck_assert_float_eq_tol(r[k].force.y, weight / 2, 0.01f * weight);
+  }
+  /* It sags: each end pulls the bar outwards, and holds it against turning. */
+  ck_assert_float_lt(r[0].force.x, 0);
+  ck_assert_float_eq_tol(r[1].force.x, -r[0].force.x, 0.01f * weight);
+  ck_assert_float_gt(r[0].torque.z, 0.05f * weight);
+  scene_free(&s);
+}
+END_TEST
+
+/* Momentum gained is the sum over time of weight and reactions, as of the end of each tick: in the schemes
+ * that step by forces. */
+START_TEST(what_swings_gains_what_pins_and_weight_give)
+{
+  scene s = bar(_i ? SBF_SCHEME_HEUN : SBF_SCHEME_SYMPLECTIC, false, 0);
+  sbr_pin_reaction before, after;
+  double impulse[2] = {0, 0}, tick_s = 1.0 / 60, weight = (double)(mass_of(&s) * gravity);
+  enum { TICKS = 20 };
+  ck_assert_uint_eq(sbr_character_get_pin_reactions(s.world, s.character, 0, &before, 1), 1);
+  ck_assert_double_lt(fabs((double)before.force.y), 0.01 * weight); /* nothing has sagged yet */
+  for (int i = 0; i < TICKS; i++, before = after) {
+    scene_ticks(&s, 1);
+    sbr_character_get_pin_reactions(s.world, s.character, 0, &after, 1);
+    impulse[0] += tick_s / 2 * (double)(before.force.x + after.force.x);
+    impulse[1] += tick_s / 2 * (double)(before.force.y + after.force.y);
+  }
+  sbr_soft_motion m = sbr_character_get_soft_motion(s.world, s.character, 0);
+  double whole = weight * TICKS * tick_s;
+  ck_assert_double_eq_tol((double)(m.mass * m.velocity.y), impulse[1] - whole, 0.01 * whole);
+  ck_assert_double_eq_tol((double)(m.mass * m.velocity.x), impulse[0], 0.01 * whole);
+  ck_assert_double_gt(impulse[1], 0.2 * whole);
+  scene_free(&s);
+}
+END_TEST
+
 /* A goal spring stretches by m g / k and pulls with that. */
 START_TEST(goal_springs_are_pins_too)
 {
@@ -326,6 +404,8 @@ int main(void) {
   tcase_add_test(c, a_velocity_that_is_set_is_had);
   tcase_add_loop_test(c, a_force_acts_for_as_long_as_it_says, 0, SCHEMES);
   tcase_add_loop_test(c, pins_bear_what_hangs_on_them, 0, SCHEMES + 1);
+  tcase_add_loop_test(c, both_ends_bear_half_a_bar, 0, SCHEMES);
+  tcase_add_loop_test(c, what_swings_gains_what_pins_and_weight_give, 0, 2);
   tcase_add_test(c, goal_springs_are_pins_too);
   tcase_add_loop_test(c, what_is_held_hangs_where_it_is_held, 0, SCHEMES);
   tcase_add_test(c, a_hold_never_pulls_harder_than_it_may);

@@ -73,8 +73,11 @@ SBF_API sbf_vec3 sbr_character_get_hold_force(
 SBF_API uint32_t sbr_character_find_nearest_vertex(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body, sbr_double3 position);
 
-/* What the pins of one set exert on the body, as of the end of the last tick. Of a body that hangs at rest:
- * its weight, upwards. Forces of weights below 1 (goal springs) count likewise. */
+/* What the pins of one set exert on the body: elastic forces and those of goal springs at the end of the last
+ * tick, not its mean. Of a body that hangs at rest: the weight of its free points, upwards. Damping against
+ * the pins' own motion is left out. While a body moves, symplectic and heun gain the momentum that weight and
+ * reactions give; position_based is off by some per cent of the weight, and of block_descent, which ends its
+ * sweeps before forces balance, reactions are right only near rest. */
 typedef struct sbr_pin_reaction {
   uint32_t pin_set;   /* of the simulated level's pins */
   int32_t bone;       /* what holds; -1: not a bone */
