@@ -8,7 +8,7 @@
  * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
  * above that; below, such a wall is what flesh is, which does not get thinner either.
  *
- * Looked for only where the tetrahedra, when last looked at, were at a half of their volume somewhere.
+ * Looked for only in blocks of tetrahedra with one that, when last looked at, was at a half of its volume.
  * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
 #define SBRI_COMPRESSION_H
@@ -19,7 +19,6 @@
 #include "solvers/tetrahedron_forces.h"
 
 #define SBRI_CRUSHED 0.1f
-#define SBRI_COMPRESSION_NEAR 0.5f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
  * size. Keeps heaps from bursting. */
 #define SBRI_COMPRESSION_STEP 0.1f
@@ -89,14 +88,26 @@ static inline bool sbri_is_compressed(const sbri_island_tick *t) {
   return t->island->tetrahedron_dense_count > 0 && *t->min_ratio < SBRI_COMPRESSION_NEAR;
 }
 
+/* Finds the blocks that the limit watches, at the beginning of a tick. */
+static inline void sbri_find_compressed(const sbri_island_tick *t) {
+  for (uint32_t b = 0; sbri_is_compressed(t) && b < t->island->tetrahedron_dense_count; b++) {
+    t->compressed[b] = 0;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
+      if (sbri_mask_any(sbri_ratio_of(t, &t->tetrahedra[b], lane) < sbri_wide_all(SBRI_COMPRESSION_NEAR)))
+        t->compressed[b] = 1;
+  }
+}
+
 /* Updates J for integrators that do not compute it. */
 static inline void sbri_update_compression(const sbri_island_tick *t) {
   sbri_tetrahedron_watch watch;
-  sbri_watch_begin(&watch);
+  sbri_watch_begin(t, &watch);
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       float *min = watch.min_ratio + lane;
-      sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(min)));
+      sbri_wide ratio = sbri_ratio_of(t, &t->tetrahedra[b], lane);
+      if (sbri_mask_any(ratio < sbri_wide_all(SBRI_COMPRESSION_NEAR))) t->compressed[b] = 1;
+      sbri_wide_store(min, sbri_wide_min(ratio, sbri_wide_load(min)));
     }
   *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
@@ -110,7 +121,7 @@ static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool 
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
     float marks[SBRI_BLOCK];
     bool any = false;
-    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+    for (uint32_t lane = 0; t->compressed[b] && lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_mask crushed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_CRUSHED);
       sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
       any = any || sbri_mask_any(crushed);
