@@ -118,6 +118,16 @@ static int32_t marked_end(const sbfi_weights_input *in, const sbfi_d3 *heads, ui
   return SBF_NONE;
 }
 
+/* Exporters make up ends where they know none: a bone ends in the body, or before a mark outside it. */
+static sbfi_d3 tail_to_mark(
+    const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays, sbfi_d3 head, sbfi_d3 mark) {
+  sbfi_d3 displacement = sbfi_d3_sub(mark, head);
+  double length = sbfi_d3_length(displacement);
+  if (sbfi_body_holds(rays, mark) || !sbfi_body_holds(rays, head)) return mark;
+  double out = sbfi_body_shell_end(rays, mesh, head, sbfi_d3_scale(displacement, 1 / length));
+  return out < length ? sbfi_d3_add(head, sbfi_d3_scale(displacement, EXIT_DISTANCE * out / length)) : mark;
+}
+
 static void take_sides(const sbfi_weights_input *in, sbfi_bone_segment *segments) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
@@ -146,7 +156,7 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
     if (segments[i].next != SBF_NONE || !segments[i].is_deforming) continue;
     int32_t end = marked_end(in, heads, i);
     if (end != SBF_NONE) {
-      segments[i].tail = heads[end];
+      segments[i].tail = tail_to_mark(mesh, rays, heads[i], heads[end]);
       continue;
     }
     sbfi_d3 axis = axis_of(in->bones[i].rotation);

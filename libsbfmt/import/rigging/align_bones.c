@@ -188,12 +188,14 @@ static bool make_lines(search *s, sbfi_arena *arena) {
   const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
   sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
   shorten_ends(s->r, holds_skin, lengths);
+  uint32_t joined = 0; /* bones between two that hold skin */
+  for (uint32_t b = 0; b < bones->count; b++)
+    joined += bones->at[b].parent != SBF_NONE && holds_skin[bones->at[b].parent] && holds_skin[b];
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
     bool is_end = sbfi_bone_is_end(&in, b);
     if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !is_end)) continue;
-    /* What hangs on the root alone may pull a limb by inverse kinematics, and end anywhere. */
-    if (is_end && bones->count > SEVERAL && sbfi_bone_is_on_root(&in, (uint32_t)parent)) continue;
+    if (is_end && joined > SEVERAL) continue;
     add_line(s, (uint32_t)parent, sbfi_d3_of(bones->at[parent].head), sbfi_d3_of(bones->at[b].head));
   }
   for (uint32_t i = 0; i < 2 * s->line_count; i++) {
