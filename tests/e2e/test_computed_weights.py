@@ -268,6 +268,8 @@ class ComputedWeights(ProgramTest):
             stream.write("v 0 0 0\nv 3 0 0\nv 0 0.1 0\nf 1 2 3\n")
         said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "compute")
         self.assertIn("outside lie bones on the surface of the mesh, which encloses no space", said)
+        said = self.fails(1, "convert", self.obj, "--rig", self.rig, "-o", self.path("no.sbf"), "--weights", "named")
+        self.assertIn("RIG_MISFIT", said)
         self.assertFalse(os.path.exists(self.path("no.sbf")))
 
 

@@ -270,6 +270,14 @@ static sbf_status weigh_beside(
   return mode == MODE_TRANSFER && fraction < min ? refuse_transfer(r, fraction) : SBF_OK;
 }
 
+/* Nameless objects go to the nearest bone only beside named ones. */
+static sbf_status refuse_nameless(const sbfi_rigging *r) {
+  return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
+      "--weights named: no object of %s has the name of a node or bone of %s; name its objects as those, or "
+      "leave the choice to the program: without --weights",
+      r->input.scene->file, r->rig.scene->file);
+}
+
 static bool has_named_objects(const sbfi_rigging *r) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (r->carriers[m] != SBF_NONE) return true;
@@ -332,6 +340,8 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
   bool alike = by_points;
   sbf_status status = sbfi_weigh_shells(r);
+  if (status == SBF_OK && mode == MODE_NAMED && !has_named_objects(r) && !r->c->options->shell_count)
+    status = refuse_nameless(r);
   if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
   say_alignment(r);
