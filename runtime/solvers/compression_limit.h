@@ -8,7 +8,8 @@
  * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
  * above that; below, such a wall is what flesh is, which does not get thinner either.
  *
- * Looked for only in blocks of tetrahedra with one that, when last looked at, was at a half of its volume.
+ * Looked for only in blocks of tetrahedra with one that, when last looked at, was at a half of its volume; in
+ * all blocks where one was nearly crushed: others may follow before they are looked at again.
  * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
 #define SBRI_COMPRESSION_H
@@ -19,6 +20,7 @@
 #include "solvers/tetrahedron_forces.h"
 
 #define SBRI_CRUSHED 0.1f
+#define SBRI_NEARLY_CRUSHED 0.25f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
  * size. Keeps heaps from bursting. */
 #define SBRI_COMPRESSION_STEP 0.1f
@@ -116,12 +118,12 @@ static inline void sbri_update_compression(const sbri_island_tick *t) {
  * because some blocks share points between lanes. Stores soft contacts before the first change unless
  * `*remembered`; most substeps need none. */
 static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *remembered) {
-  bool found = false;
+  bool found = false, all = *t->min_ratio < SBRI_NEARLY_CRUSHED;
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
     float marks[SBRI_BLOCK];
     bool any = false;
-    for (uint32_t lane = 0; t->compressed[b] && lane < SBRI_BLOCK; lane += SBRI_LANES) {
+    for (uint32_t lane = 0; (all || t->compressed[b]) && lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_mask crushed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_CRUSHED);
       sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
       any = any || sbri_mask_any(crushed);
