@@ -10,7 +10,7 @@
  * single precision. */
 #include "body_contact/constraint_solver.h"
 
-/* More would be spent on a set of contacts that soon changes; Gauss-Seidel looks again. */
+/* More iterations would be wasted on an active set that soon changes; Gauss-Seidel updates it. */
 enum { MAX_STEPS = 20 };
 /* Friction above this fraction of its bound counts as sliding. */
 static const float SLIDING_FRACTION = 0.999f;

@@ -21,9 +21,9 @@ enum {
 };
 /* A sweep that changes no velocity by more is the last. */
 static const float CONVERGED_RIGID_M_S = 2e-5f, CONVERGED_SOFT_M_S = 2e-4f;
-/* A contact of rigid bodies gives way by this fraction of the velocity that its impulse alone causes: else
- * the share of each of several contacts of a face has no limit. The push-out makes up for it at a depth of
- * micrometres. */
+/* Compliance of a contact of rigid bodies, as a fraction of the velocity change that its impulse alone
+ * causes: without it the impulses of several contacts of a face are not unique. The position correction
+ * compensates for it at a depth of micrometres. */
 static const float RIGID_COMPLIANCE = 1e-4f;
 /* m^2/s^2: below this slip has no direction. */
 static const float MIN_SLIP = 1e-20f;

@@ -20,7 +20,7 @@ static void add_triangles(const sbf_polygon_mesh *mesh, sbri_contact_surface *su
       float all_simulated = INFINITY;
       for (int i = 0; i < 3; i++)
         all_simulated = fminf(all_simulated, surface->samples[c[i]].weights[0] != 0 ? 1.0f : 0.0f);
-      if (!(all_simulated > 0)) continue; /* a corner is carried by frames, not by points */
+      if (!(all_simulated > 0)) continue; /* a corner follows frames, not points */
       uint32_t *to = surface->triangles + 3 * (size_t)surface->triangle_count++;
       to[0] = c[0], to[1] = c[1], to[2] = c[2];
     }

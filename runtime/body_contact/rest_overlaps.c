@@ -26,7 +26,7 @@ static bool overlap(const sbr_model *model, uint32_t one, const sbri_contact_sur
     sbri_bounds_walk walk;
     uint32_t triangle;
     sbri_box box = sbri_box_of_point(x);
-    if (a->samples[v].weights[0] == 0) continue; /* carried by frames, not by points */
+    if (a->samples[v].weights[0] == 0) continue; /* follows frames, not points */
     sbri_bounds_walk_begin(&walk, &b->tree, box);
     while (sbri_bounds_walk_next(&walk, &triangle)) {
       const uint32_t *c = b->triangles + 3 * (size_t)triangle;

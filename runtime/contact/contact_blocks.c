@@ -74,7 +74,8 @@ void sbri_contact_blocks_fill(const sbri_island_tick *t, const sbri_body *body) 
   const sbri_soft_contact *contacts = t->contacts + body->first_soft_contact;
   *blocks = 0;
   if (count == 0 || !are_lanes(contacts, count)) return;
-  /* Those that probably touch share blocks, so that the others are idle together. */
+  /* Contacts that probably touch are put into the same blocks, so that whole blocks of the others can be
+   * skipped. */
   float near = NEAR_FRACTION * body->rest_size_m;
   uint32_t filled = 0;
   for (int far = 0; far < 2; far++)

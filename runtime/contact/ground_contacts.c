@@ -37,8 +37,8 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   return e;
 }
 
-/* Of all that may carry a sample, held points on their way included. No mean with weights below 0 of so much
- * lies further out than as many times the range. */
+/* Over all points that a sample may have, pinned ones at their targets included. A weighted mean with
+ * negative weights of that sum lies outside of the points' range by at most as many times the range. */
 static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
   extent e = extent_of(t, body);
   for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
@@ -109,8 +109,8 @@ typedef struct ground_search {
   uint32_t *count;
 } ground_search;
 
-/* m by which a sample may come nearer to the ground in a tick than by twice its present way: by weight, and
- * by springs and bones that make it as fast as the fastest of the body, and more. */
+/* m: approach of a sample to the ground in a tick beyond twice its present displacement, by gravity, and by
+ * springs and bones, which may make it faster than the fastest point of the body. */
 static float fastest_approach(const sbri_island_tick *t, float fastest) {
   return 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
 }

@@ -1,4 +1,4 @@
-/* Where soft bodies may meet the ground within a tick. */
+/* Finds the contacts of soft bodies with the ground that are possible within a tick. */
 #ifndef SBRI_GROUND_CONTACTS_H
 #define SBRI_GROUND_CONTACTS_H
 

@@ -1,16 +1,15 @@
-/* A wall in front of J = 0: what a blow crushes to less than a tenth of its volume at the end of a
- * substep is brought back there along the gradient of J, by the corners' inverse masses, and the speed with
- * which it was being crushed is taken. Momentum is kept; what is inside out already comes back a step at a
- * time. Held corners stay where they are, but what carries them takes its part of the push: else a light bone
- * would drive flesh before it as if it weighed more than anything, and give it energy without end.
+/* Limits the compression of tetrahedra. An element with less than a tenth of its volume at the end of a
+ * substep is moved back to that along the gradient of J, weighted by the corners' inverse masses, and its
+ * rate of compression becomes 0. Momentum is conserved. Inverted elements are brought back over several
+ * steps. Pinned corners do not move, but the rigid bodies that hold them get the reaction; otherwise a light
+ * bone would push a soft body as if it had infinite mass and add energy without bound.
  *
- * The energy itself is finite and smooth through J = 0, so that nothing bursts there; but thin tips that
- * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
- * above that; below, such a wall is what flesh is, which does not get thinner either.
+ * The energy is finite and smooth through J = 0, so nothing explodes there. But thin tips that strike the
+ * ground first, with the whole body behind them, would invert. Bias against the energy: none above the limit.
  *
- * Looked for only in blocks of tetrahedra with one that, when last looked at, was at a half of its volume; in
- * all blocks where one was nearly crushed: others may follow before they are looked at again.
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Elements are checked only in blocks that had one below half of its volume at the last check, or in all
+ * blocks if one was nearly crushed, because others may follow before the next check. Written for the lanes of
+ * the file that includes it; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
 #define SBRI_COMPRESSION_H
 

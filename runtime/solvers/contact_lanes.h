@@ -98,7 +98,8 @@ SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contac
   sbri_wide pushed = sbri_wide_load(block->velocity_change + lane);
   sbri_mask arrives = gap + h * speed < zero,
             bounces = arrives & (speed < sbri_wide_all(-rule->bounce_from_m_s));
-  /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+  /* Target velocity along the normal: to arrive exactly at the surface; 0 for a sample already below it; with
+   * restitution above the threshold. */
   sbri_wide arriving = zero - sbri_wide_max(gap, zero) / h;
   sbri_wide back = zero - sbri_wide_load(block->restitution + lane) * speed;
   sbri_wide_store(block->wanted + lane, sbri_wide_select(bounces, sbri_wide_max(back, arriving), arriving));

@@ -279,9 +279,9 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
   return max;
 }
 
-/* Substeps of the `time_s` seconds to come in which no element of a solid body that strikes the ground is
- * crossed; 1 where nothing is near it. Where others give the steps, as those of rigid bodies do, it keeps to
- * them: more of its own would keep a pair from coming to rest. */
+/* Number of substeps in the next `time_s` seconds so that no element of a solid body is crossed in one when
+ * it strikes the ground; 1 if nothing is near. If the steps are those of rigid bodies, these are used
+ * unchanged: additional ones would keep the pair from coming to rest. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
   bool is_given = island->substeps || t->fraction < 1;

@@ -14,7 +14,7 @@ static const float RESTING_M_S = 1e-3f;
 /* A point that is no higher over its plane touches it. */
 static const float CONTACT_DISTANCE_M = 1e-5f;
 
-/* Friction at this share of its limit slides. */
+/* Fraction of its limit from which friction counts as sliding. */
 static const float SLIDES_FRACTION = 0.999f;
 
 /* In one substep; a light external body hangs from all that touches it at once. */
@@ -53,8 +53,8 @@ static sbf_vec3 velocity_under(const touching *c, const sbri_soft_contact *conta
                                 : contact->velocity;
 }
 
-/* Whether simulated bodies that hold points of the touch feel it: what flesh does to itself, they get back.
- */
+/* Whether simulated rigid bodies that hold points of the contact get its impulse: in self-contact they get
+ * the reaction. */
 static bool is_felt(const touching *c, const sbri_soft_contact *contact) {
   return c->tick->reactions && contact->collider == SBRI_ITSELF;
 }
@@ -114,14 +114,16 @@ static void push_external_body(const touching *c, const sbri_soft_contact *conta
       external_body_of(c, contact), contact->arm, sbri_scale(faster, -contact->sample.mass_kg));
 }
 
-/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+/* Target velocity along the normal: to arrive exactly at the surface; 0 for a sample already below it; with
+ * restitution above the threshold. */
 static float wanted_of(const sbri_soft_contact *contact, float speed, const sbri_contact_rule *rule) {
   float arriving = contact->gap > 0 ? -contact->gap / rule->step_s : 0, back = -contact->restitution * speed;
   bool bounces = contact->gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s;
   return bounces && back > arriving ? back : arriving;
 }
 
-/* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
+/* Upper bound, over all directions, of the velocity change of the sample's pinned points by an impulse of 1 N
+ * s. */
 static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
   float sum = 0;
   for (int k = 0; k < 4; k++) {
@@ -140,7 +142,7 @@ static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
   return sum;
 }
 
-/* The mass that a push on the body itself meets where bodies that hold it give way. */
+/* Effective mass of a self-contact if the rigid bodies that hold the body move. */
 static float mass_of(const touching *c, const sbri_sample *s) {
   float sum = pinned_inverse_mass(c, s);
   for (int k = 0; k < 4; k++)
@@ -223,7 +225,7 @@ static float correct(const touching *c, sbri_soft_contact *contact) {
   return sbri_length(change);
 }
 
-/* The same against an external body: what that gives way by is not the sample's to gain. */
+/* The same against an external body, whose own change of velocity is subtracted. */
 static float correct_with_external_body(const touching *c, sbri_soft_contact *contact) {
   const sbri_sample *s = &contact->sample;
   const sbri_external_body *g = external_body_of(c, contact);
@@ -262,7 +264,7 @@ static void push_as_before(const touching *c) {
 
 static void lift(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   if (!(contact->velocity_change > 0 && lift_of(contact, rule) > 0)) return;
-  contact->gap = gap_of(c, contact); /* of what others that share its points have left */
+  contact->gap = gap_of(c, contact); /* remaining after contacts that share its points */
   float up = lift_of(contact, rule);
   if (up > 0) move(c, contact, sbri_scale(contact->normal, up), is_felt(c, contact));
 }
