@@ -133,7 +133,7 @@ CALL(play) {
     sbr_character_play_clip(one->world, one->id, 0, clip, &how);
 }
 
-/* Lets it fall over; it gets up by itself. */
+/* Knocks the character over; it gets up by itself. */
 CALL(knock_over) {
   soft_character *one = self;
   sbr_fall_definition fall = sbr_default_fall_definition();
@@ -147,7 +147,7 @@ CALL(get_skeleton) {
   gd_assign(result, gd_copy(&one->skeleton));
 }
 
-/* What it is drawn with, for a surface's own material and whatever else is a mesh's. */
+/* The MeshInstance3D of a render mesh, for materials of surfaces and other properties. */
 CALL(get_mesh_instance) {
   soft_character *one = self;
   UNUSED;

@@ -55,7 +55,7 @@ void soft_character_loose_begin(soft_character *one) {
   one->middle = placed_vector(&back, off);
 }
 
-/* From the node to the middle, as it is turned. */
+/* From the node to the centre, in the node's rotation. */
 static sbf_vec3 arm_of(const soft_character *one) {
   gd_transform turn = upright((sbf_vec3){0, 0, 0}, transform_heading(&one->put), 1);
   return placed_vector(&turn, one->middle);

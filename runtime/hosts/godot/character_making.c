@@ -69,7 +69,7 @@ static bool make_world(soft_character *one) {
   return false;
 }
 
-/* All that a world of its own knows, to be put into the next one. */
+/* The state of a world, to be restored in the next one. */
 typedef struct kept_state {
   void *bytes;
   size_t size;
@@ -111,7 +111,7 @@ void soft_character_make(soft_character *one) {
         .gravity = {k * g.x, k * g.y, k * g.z}};
     one->model = soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
-      /* A bundle of the same structure goes on as it was; another one begins where that stood. */
+      /* A bundle of the same structure keeps its state; another one begins at the same position. */
       if (kept.bytes && sbr_world_restore_snapshot(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placed = true;
         one->frame = frame;

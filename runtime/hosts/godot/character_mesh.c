@@ -1,7 +1,7 @@
-/* A character's render meshes as an ArrayMesh each, whose vertices are written anew every frame.
+/* A character's render meshes, an ArrayMesh each. Its vertices are updated every frame.
  *
- * Godot wants one normal and one place in the texture a vertex: a point of the file becomes as many vertices
- * as its corners differ. A surface has the triangles of one material. */
+ * Godot has one normal and one texture coordinate a vertex: a point of the file becomes one vertex for each
+ * different corner. A surface has the triangles of one material. */
 #include "soft_character.h"
 
 #include <math.h>
@@ -218,8 +218,8 @@ gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_me
 
 /* ---- Each frame ---- */
 
-/* A unit vector on two numbers of 16 bits: by the octahedron whose faces are folded out on a square (Meyer et
- * al. 2010), as Godot's renderer reads normals. */
+/* Octahedral encoding of a unit vector in two numbers of 16 bits (Meyer et al. 2010), as Godot's renderer
+ * reads normals. */
 static uint32_t on_octahedron(sbf_vec3 n) {
   float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
   float x = sum > 0 ? n.x / sum : 0, y = sum > 0 ? n.y / sum : 1;

@@ -125,7 +125,8 @@ void soft_character_save(soft_character *one, bool done) {
     GD_DO(&one->node, "set_global_transform", gd_transform_value(done ? one->put : one->from));
 }
 
-/* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
+/* In the editor the character is at the node's position, moves during a preview, and is put back afterwards.
+ */
 static void edit(soft_character *one, const gd_transform *now) {
   if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
   if (!one->previews && !move_of(now, &one->put).any) return;
@@ -178,7 +179,7 @@ bool soft_character_prepare(soft_character *one) {
   return !one->still;
 }
 
-/* A node that does not process may be stepped all the same, by one that it meets. */
+/* A node that does not process may be stepped by another one of its world. */
 void soft_character_pause(soft_character *one) {
   bool still = one->settings.paused || !gd_take_bool(GD_CALL(&one->node, "can_process"));
   if (one->world && still != one->still) sbr_character_set_paused(one->world, one->id, still);
@@ -189,7 +190,7 @@ bool soft_character_rescale(soft_character *one) {
   gd_transform now = soft_character_transform(one);
   float scale = transform_scale(&now);
   if (fabsf(scale - one->scale) <= 1e-4f * one->scale) return false;
-  one->placed = false; /* it begins again, where it stands */
+  one->placed = false; /* it restarts at its position */
   soft_character_make(one);
   return true;
 }

@@ -1,4 +1,4 @@
-/* The bones as a Skeleton3D, for attachments and whatever else of Godot's works on one. */
+/* The bones as a Skeleton3D, for attachments and other nodes that use one. */
 #include <stdlib.h>
 
 #include "soft_character.h"
@@ -21,7 +21,7 @@ static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t b
       turn_product(back, bones[bone].rotation), turned(back, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
 }
 
-/* The node stays the same one when the character is made anew, as things hang on it. */
+/* The node is kept when the character is recreated, because attachments refer to it. */
 static void begin(soft_character *one) {
   if (gd_as_object(&one->skeleton)) {
     GD_DO(&one->skeleton, "clear_bones");

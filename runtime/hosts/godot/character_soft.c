@@ -9,7 +9,7 @@
 #define UNUSED (void)arguments, (void)result
 #define NO_BODY UINT32_MAX
 
-/* A number that the runtime refuses with a message where it is none of its own. */
+/* Converts a number; the runtime refuses one that is out of range with a message. */
 static uint32_t number_of(const gd_variant *value) {
   int64_t number = gd_as_int(value);
   return number >= 0 && number < NO_BODY ? (uint32_t)number : NO_BODY;

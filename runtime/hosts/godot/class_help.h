@@ -17,7 +17,7 @@ void gd_class_set_help(const gd_class *form, const char *about, const gd_help *w
 
 /* ---- words.c ---- */
 
-/* Of all classes that users meet. */
+/* Help of all public classes. */
 void words_set_help(void);
 
 #endif

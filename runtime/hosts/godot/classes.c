@@ -7,7 +7,7 @@ enum { MAX_ARGUMENTS = 6, USAGE_DEFAULT = 6, USAGE_IS_ENUM = 65536, USAGE_NIL_IS
 
 /* ---- Instances ---- */
 
-/* Every instance knows its class, so that one can be told by its object. */
+/* Every instance stores its class, so that objects can be identified. */
 typedef struct instance {
   const gd_class *form;
   void *self;

@@ -1,5 +1,5 @@
-/* Classes for Godot, from tables: what one lists of methods, properties and signals is registered, and its
- * functions are called with values whichever way Godot calls them. */
+/* Registers classes with Godot from tables of methods, properties and signals. The same functions serve both
+ * of Godot's calling conventions. */
 #ifndef SBFMT_GODOT_CLASSES_H
 #define SBFMT_GODOT_CLASSES_H
 

@@ -1,7 +1,7 @@
-/* The bodies near a character: a query with a box about it finds them, a wider one those that are fast, and
- * each of their shapes (physics_shapes.c) is mirrored as a collider of the runtime, which its threads then
- * meet without asking Godot: floors, walls, platforms, and what is pushed. What these are pushed with goes to
- * the bodies. What hangs on the character is left out. */
+/* Bodies of the physics space near a character: floors, walls, platforms and movable bodies. A query with a
+ * box around the character finds them, a wider query finds the fast ones. Each of their shapes
+ * (physics_shapes.c) gets a collider of the runtime, so that its threads need not call Godot. Impulses on
+ * these colliders go to the bodies. Bodies below the character's node are ignored. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +14,9 @@
 enum {
   MAX = 256,   /* shapes at once */
   KEPT = 30,   /* frames for which one is kept that is no longer near, while there is room */
-  AGAIN = 4,   /* frames between two looks around */
-  FORGET = 64, /* frames after which what was left out is looked at again */
-  QUERIES = 8, /* most of them in a look: a mesh may fill one by itself */
+  AGAIN = 4,   /* frames between two queries */
+  FORGET = 64, /* frames after which ignored bodies are checked again */
+  QUERIES = 8, /* greatest number in a frame: a mesh may fill one result by itself */
   PARAM_BOUNCE = 0,
   PARAM_FRICTION = 1,
   STATE_TRANSFORM = 0,
@@ -37,15 +37,15 @@ typedef struct mirrored {
   uint32_t seen;           /* frame it was last near */
   uint32_t found;          /* query that last found it */
   body_mass mass;          /* the body's, as its collider was made */
-  bool leads, is_reported; /* its collider has the mass; it was told of in the frame before */
+  bool leads, is_reported; /* its collider has the mass; its motion was set in the frame before */
 } mirrored;
 
 struct physics_bodies {
   mirrored each[MAX];
   uint32_t frame;
   gd_variant query, box; /* PhysicsShapeQueryParameters3D and its BoxShape3D */
-  gd_variant passed;     /* RIDs that queries leave out: they hang on characters */
-  gd_variant still;      /* those and what stands still: what queries for fast ones leave out */
+  gd_variant passed;     /* RIDs that queries exclude: bodies below characters */
+  gd_variant still;      /* those and static bodies: excluded from queries for fast bodies */
   uint32_t query_count;
   bool warned; /* it was said that there is no room for more */
 };
@@ -200,7 +200,7 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
   sbr_collider_set_motion(world, at->id, &motion);
 }
 
-/* m/s, of the fastest that is seen before it is there. */
+/* m/s: greatest speed of a body that is found in time. */
 static const float FASTEST = 50;
 
 /* A free place, or that of what has been away longest; NULL: all are near. */
@@ -310,7 +310,7 @@ static void query_around(soft_character *one, bool all) {
       gd_assign(&bodies->still, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
     }
     if (all) {
-      /* As far as it goes until it looks again, were it to go twice as fast. */
+      /* Distance that the character covers until the next query at twice its speed. */
       sbf_vec3 o = one->put.origin, was = one->looked;
       float goes = fminf(4 * length((sbf_vec3){o.x - was.x, o.y - was.y, o.z - was.z}), FASTEST);
       size = (sbf_vec3){size.x + goes, size.y + goes, size.z + goes};
@@ -354,7 +354,7 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
   gd_free(&server);
 }
 
-/* No more at once than makes it so much faster (m/s), or throws back what came faster. */
+/* Limits the impulse to a change of velocity of so many m/s, or to what reflects a faster body. */
 static float fraction_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
   float size = length(impulse) * at->mass.inverse;
   if (!(limit > 0) || size <= limit) return 1;

@@ -1,6 +1,5 @@
-/* The ground below all that the physics space holds. What stands there is met as colliders
- * (physics_bodies.c); this is level: far below where something is there to stand on, at the node's own height
- * where nothing is. */
+/* The runtime's ground under a physics space. Bodies are colliders (physics_bodies.c), so this is a level
+ * plane: far below if there is a body to stand on, else at the node's own height. */
 #include <stdlib.h>
 
 #include "physics_kinds.h"

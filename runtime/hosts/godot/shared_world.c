@@ -1,6 +1,5 @@
-/* The runtime's worlds: a node's own, or one for all nodes of a physics space that are to meet each other,
- * which then bear each other's weight and push each other as the runtime's bodies do. Characters of one world
- * have their gravity and their control tick together. */
+/* Worlds of the runtime: one for each node, or one for all nodes of a physics space with contacts between
+ * them. Characters of one world share gravity and control tick. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +7,7 @@
 #include "soft_character.h"
 
 enum {
-  MAX = 64, /* characters that meet each other */
+  MAX = 64, /* characters with contacts between them */
   COLLIDERS = 256
 };
 
@@ -137,7 +136,7 @@ static void emit_contact(const gd_variant *node, int32_t rigid, uint32_t soft, c
       gd_vector3(normal), gd_float((double)impulse), with);
 }
 
-/* Of two nodes each is told. Handlers may take away any node. */
+/* Both nodes emit the signal. Handlers may free any node. */
 static void emit_contacts(shared_world *shared, const sbr_event *e, const gd_variant *at) {
   soft_character *one = member_of(shared, e->character), *other = member_of(shared, e->other);
   sbf_vec3 n = e->normal, back = {-n.x, -n.y, -n.z};
@@ -178,7 +177,8 @@ static void report(shared_world *shared, const sbr_event *e) {
 
 /* ---- A frame ---- */
 
-/* Those whose nodes were scaled are made anew, and are then the last of the world, or in another one. */
+/* Characters whose nodes were scaled are recreated; they are then the last of the world, or in another one.
+ */
 static void rescale(shared_world *shared) {
   shared->holders++;
   for (uint32_t i = 0; i < shared->count;)

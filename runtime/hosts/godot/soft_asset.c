@@ -6,7 +6,7 @@
 
 #include "sbfmt/packed.h"
 
-/* ---- What characters share ---- */
+/* ---- Shared by characters ---- */
 
 /* The bytes stay, as lists of a stored bundle are used in place. */
 struct soft_content {

@@ -1,10 +1,9 @@
-/* SoftCharacter3D: a node that shows a SoftAsset and brings it to life.
+/* SoftCharacter3D: a node that shows and simulates a SoftAsset.
  *
- * Each node has a world of its own, stepped once a physics frame, or shares one with all that it may meet
- * (shared_world.c). One idea a file: what the inspector shows (character_properties.c), its life
- * (soft_character.c), what it has (character_making.c), where it is (character_position.c,
- * character_loose.c), what scripts call (character_calls.c), its mesh, its skeleton, the ground and the
- * bodies that it meets. */
+ * Each node has a world of its own, stepped once a physics frame, or shares one with the nodes that it may
+ * touch (shared_world.c). Files: properties (character_properties.c), life cycle (soft_character.c), creation
+ * of model and world (character_making.c), position (character_position.c, character_loose.c), methods
+ * (character_calls.c), mesh, skeleton, ground and physics bodies. */
 #ifndef SBFMT_GODOT_SOFT_CHARACTER_H
 #define SBFMT_GODOT_SOFT_CHARACTER_H
 
@@ -25,10 +24,10 @@ typedef struct soft_settings {
   double gravity_scale;
   bool paused, preview, mirror_skeleton;
   int64_t ground;           /* a soft_ground */
-  int64_t collision_mask;   /* physics layers of what it meets */
+  int64_t collision_mask;   /* physics layers that it collides with */
   double teleport_distance; /* m: a node that is moved farther in a frame is put there; 0: half its size */
   bool push_bodies;
-  bool collide_with_others;    /* nodes of one physics space that do meet each other */
+  bool collide_with_others;    /* contacts with other nodes of the physics space */
   double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
   int64_t cast_shadow, layers; /* as Godot's GeometryInstance3D has them */
 } soft_settings;
@@ -62,7 +61,7 @@ typedef struct soft_character {
   bool displaced;     /* its node was moved, which the world has not followed at this tick: */
   uint64_t tick;
   sbf_vec3 looked; /* where that was when it last looked for bodies */
-  bool stale;      /* the mesh is to be drawn anew */
+  bool stale;      /* the mesh must be updated */
   bool previews;   /* it moves in the editor, having stood at: */
   gd_transform from;
   gd_transform warned; /* what the editor's warnings were about */
@@ -82,15 +81,15 @@ extern const gd_method soft_character_methods[], soft_character_virtuals[];
 
 /* ---- character_making.c ---- */
 
-/* Makes model, world and mesh anew, with what they were doing where that fits; called at every change of the
- * asset or of what a model is made with. Nothing without an asset or outside of a tree. */
+/* Recreates model, world and mesh, and keeps the character's state where possible; called when the asset or
+ * an option of the model changes. Does nothing without an asset or outside of a tree. */
 void soft_character_make(soft_character *one);
 void soft_character_unmake(soft_character *one);
 void soft_character_drive(soft_character *one);
 
 /* ---- character_position.c ---- */
 
-/* Its node's, in the world; and which way something placed so faces, rad. */
+/* The node's transform in the world; and the heading of a transform, rad. */
 gd_transform soft_character_transform(const soft_character *one);
 float transform_heading(const gd_transform *node_transform);
 /* By how much it is larger than without it, along +Y; 1 where that is nothing. */
@@ -102,11 +101,12 @@ void soft_character_set_position(soft_character *one, sbf_vec3 position, float h
 /* m: the greatest of its width and height; and how far from its node it may reach. */
 double soft_character_size(const soft_character *one);
 double soft_character_around(const soft_character *one);
-/* Before its world steps: puts it where its node was put, and looks around; whether it moves. */
+/* Before its world steps: takes over the node's position and finds nearby bodies. Returns whether it is
+ * simulated. */
 bool soft_character_prepare(soft_character *one);
-/* It keeps still, or goes on. */
+/* Pauses the character or continues. */
 void soft_character_pause(soft_character *one);
-/* Whether its node was scaled: then it has been made anew, in that size. */
+/* Recreates the character at the node's scale; returns whether that has changed. */
 bool soft_character_rescale(soft_character *one);
 /* In the editor: a scene is saved with the node where it stood before the preview. */
 void soft_character_save(soft_character *one, bool done);
@@ -161,18 +161,19 @@ void character_skeleton_update(soft_character *one);
 
 physics_ground *physics_ground_make(void);
 void physics_ground_free(physics_ground *ground);
-/* Level far below where the node stands over something, else at its height; main thread, in a physics frame.
+/* A level ground: far below if there is a body under the node, else at its height; main thread, in a physics
+ * frame.
  */
 void physics_ground_query(soft_character *one);
 sbr_ground physics_ground_of(physics_ground *ground);
-/* Level at that height (m) until it looks again. */
+/* A level ground at that height (m) until the next query. */
 void physics_ground_level(physics_ground *ground, double level);
 
 /* ---- physics_bodies.c ---- */
 
 physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
-/* Makes colliders of the bodies near the character, for which it looks now or by and by. */
+/* Creates colliders for the bodies near the character; queries now, or every few frames. */
 void physics_bodies_query(soft_character *one, bool now);
 /* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
@@ -189,8 +190,8 @@ sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, in
 
 /* ---- shared_world.c ---- */
 
-/* A world for the character, which has its model and its place: its own, or that of those that it may meet.
- * Sets what of it is the world's; false, and said, where it cannot be had. */
+/* A world for a character with a model and a position: its own, or a shared one. Sets the character's fields
+ * that belong to the world. Returns false, with a message, if it cannot be created. */
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition);
 void shared_world_leave(soft_character *one);
 /* How many nodes are in it. */

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-/* What tells a corner from another of the same point. */
+/* The key that distinguishes corners of the same point. */
 typedef struct corner_key {
   uint32_t point, uv, normal, corner;
 } corner_key;

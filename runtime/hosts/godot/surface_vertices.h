@@ -7,7 +7,7 @@
 typedef struct surface_vertices {
   uint32_t count;       /* of vertices */
   uint32_t *points;     /* (count) of the mesh */
-  uint32_t *corners;    /* (count) one of the mesh's polygon_points that it stands for */
+  uint32_t *corners;    /* (count) one of its corners, as an index into the mesh's polygon_points */
   sbf_vec2 *uvs;        /* (count) origin at the upper left, as Godot's; NULL: none */
   uint32_t index_count; /* three a triangle */
   int32_t *indices;     /* (index_count) clockwise seen from outside, as Godot wants them */

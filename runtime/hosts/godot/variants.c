@@ -42,7 +42,7 @@ bool gd_is_name(GDExtensionConstStringNamePtr name, const char *literal) {
 
 /* ---- Making ---- */
 
-/* Variants are made of a type's raw value, and the other way, by a function of each type. */
+/* Conversion functions between variants and raw values, one for each type. */
 static gd_variant make(GDExtensionVariantType type, const void *raw) {
   static GDExtensionVariantFromTypeConstructorFunc makers[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX];
   gd_variant made;
