@@ -88,6 +88,47 @@ START_TEST(it_looks_along_z)
 }
 END_TEST
 
+/* A quadruped that looks along -Z, of whom names alone say so; the head ahead of its fore feet, or behind. */
+static void make_quadruped(sbfi_scene *s, bool head_ahead) {
+  const turned t = {2, true, false};
+  scene_begin(s);
+  int32_t hips = put(&t, s, "hips", SBF_NONE, true, 0, 0.9375, -0.5);
+  int32_t chest = put(&t, s, "chest", hips, true, 0, 0, 1);
+  int32_t head = put(&t, s, "head", chest, true, 0, 0.25, head_ahead ? 0.5 : -1.5);
+  scene_box(s, put(&t, s, "coat", hips, false, 0, 0, 0.5), 0.25, 0, 0, 0, false);
+  scene_box(s, put(&t, s, "skull", head, false, 0, 0, 0), 0.125, 0, 0, 0, false);
+  static const char *const names[2][2][3] = {
+      {{"thigh.R", "shin.R", "foot.R"}, {"thigh.L", "shin.L", "foot.L"}},
+      {{"upperarm.R", "forearm.R", "hand.R"}, {"upperarm.L", "forearm.L", "hand.L"}}};
+  for (int fore = 0; fore < 2; fore++)
+    for (int left = 0; left < 2; left++) {
+      const char *const *name = names[fore][left];
+      int32_t upper = put(&t, s, name[0], fore ? chest : hips, true, left ? 0.25 : -0.25, -0.25, 0);
+      int32_t lower = put(&t, s, name[1], upper, true, 0, -0.3125, 0);
+      int32_t foot = put(&t, s, name[2], lower, true, 0, -0.3125, 0);
+      scene_box(s, put(&t, s, "hoof", foot, false, 0, 0, 0), 0.0625, 0, 0, 0, false);
+    }
+  scene_end(s);
+}
+
+START_TEST(head_behind_all_feet_turns_a_quadruped)
+{
+  for (int ahead = 0; ahead < 2; ahead++) {
+    sbfi_scene scene;
+    converted c;
+    make_quadruped(&scene, ahead);
+    converted_scene(&c, &scene, &scene, NULL);
+    ck_assert_uint_eq(c.asset->gaits.count, 1);
+    ck_assert_uint_eq(c.asset->gaits.at[0].legs.count, 4);
+    ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_FACING), ahead);
+    check_near(c.asset->bones.at[bone_named(c.asset, "hand.L")].head, ahead ? 0.25 : -0.25, 0.0625,
+        ahead ? 0.5 : -0.5, 1e-6);
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
+}
+END_TEST
+
 /* Without a gait nobody asks where ahead is. */
 START_TEST(what_need_not_walk_stays)
 {
@@ -121,6 +162,7 @@ int main(void) {
   Suite *suite = suite_create("convert_facing");
   TCase *tests = tcase_create("convert_facing");
   tcase_add_test(tests, it_looks_along_z);
+  tcase_add_test(tests, head_behind_all_feet_turns_a_quadruped);
   tcase_add_test(tests, what_need_not_walk_stays);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

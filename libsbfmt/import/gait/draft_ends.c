@@ -42,7 +42,7 @@ static bool is_called_tail(const sbfi_gait_draft *d, int32_t bone) {
   return false;
 }
 
-static int32_t head_by_name(const sbfi_gait_draft *d) {
+int32_t sbfi_draft_named_head(const sbfi_gait_draft *d) {
   for (int pass = 0; pass < 2; pass++) /* better one that holds something itself */
     for (uint32_t i = 0; i < d->asset->bones.count; i++) {
       int32_t bone = (int32_t)i;
@@ -117,7 +117,7 @@ static bool find_tail(sbfi_gait_draft *d) {
 }
 
 bool sbfi_draft_ends(sbfi_gait_draft *d) {
-  d->head = head_by_name(d);
+  d->head = sbfi_draft_named_head(d);
   if (d->head == SBF_NONE) d->head = head_by_shape(d);
   return find_tail(d);
 }

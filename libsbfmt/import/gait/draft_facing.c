@@ -9,6 +9,7 @@
 static const double PAIR_FRACTION =
     0.1; /* of the height: from where its twin is mirrored to a leg, at most */
 static const double SIDEWAYS_MARGIN = 0.25; /* by how much looking aside must be the better guess */
+enum { QUADRUPED_LEGS = 4 };
 
 /* Above 0: the legs named left are on the left; below 0: on the right. */
 static int ask_names(const sbfi_gait_draft *d) {
@@ -53,6 +54,15 @@ static double ask_feet(const sbfi_gait_draft *d) {
   return ahead;
 }
 
+/* An animal's head is ahead of its fore feet: one behind all feet tells more than short hooves do. */
+static bool is_head_behind_feet(const sbfi_gait_draft *d) {
+  int32_t head = d->leg_count >= QUADRUPED_LEGS ? sbfi_draft_named_head(d) : SBF_NONE;
+  if (head == SBF_NONE) return false;
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    if (sbfi_draft_head(d, head).z >= sbfi_draft_head(d, sbfi_draft_stands(&d->legs[l])).z) return false;
+  return true;
+}
+
 bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *turns) {
   sbfi_gait_draft seen[2];
   double rates[2];
@@ -64,7 +74,8 @@ bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *tu
   uint32_t side = rates[1] > rates[0] + SIDEWAYS_MARGIN;
   int names = ask_names(&seen[side]);
   double feet = ask_feet(&seen[side]);
-  bool backwards = side ? names < 0 || (names == 0 && feet < 0) : names < 0 && feet < 0;
+  bool backwards =
+      side ? names < 0 || (names == 0 && feet < 0) : names < 0 && (feet < 0 || is_head_behind_feet(&seen[0]));
   *turns = side + 2 * backwards;
   return true;
 }

@@ -48,10 +48,12 @@ bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_row(sbfi_gait_draft *d);
 bool sbfi_draft_ends(sbfi_gait_draft *d);
+/* After the legs: the bone in the middle, above no leg, with "head" in its name, or SBF_NONE. */
+int32_t sbfi_draft_named_head(const sbfi_gait_draft *d);
 
 /* How many quarters the character has been turned from +Z: 0 where its legs pair up across x = 0, or nowhere.
  * Which of both ways along that line it looks is said by the names of its legs, else by its feet; backwards,
- * as 2, only where both say so. */
+ * as 2, only where the names and the feet say so, or the names and the head of a quadruped. */
 bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *turns);
 
 static inline const sbf_bone *sbfi_draft_bone(const sbfi_gait_draft *d, int32_t bone) {
