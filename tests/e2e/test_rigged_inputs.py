@@ -250,6 +250,21 @@ class ArmOfAnotherFile(ProgramTest):
         self.assertEqual(len(notes), 1)
         self.assertIn("'far'", notes[0]["message"])
 
+    def test_another_character_side_by_side(self):
+        """It is nearer to the bones than a bracelet may be, and yet holds none of them."""
+        write_arm(self.path("arm.obj"))
+        write_bones(self.path("arm.bvh"))
+        arm = variants.read(self.path("arm.obj"))
+        twin = [(x, y + 0.45, z) for x, y, z in arm.points]
+        bracelet = box((1, -0.25, 0), (1.1, -0.22, 0.1))
+        objects = {name: (points, [[p for p, _, _ in corners] for part, _, corners in arm.faces if part == "arm"])
+                   for name, points in (("arm", arm.points), ("twin", twin))}
+        variants.write(obj_of({**objects, "bracelet": bracelet}), self.path("both.obj"))
+        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
+                         self.path("out.sbf"))
+        self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1)
+        self.assertIn("lies in the object 'twin' or beside it", done.err)
+
 
 if __name__ == "__main__":
     main()

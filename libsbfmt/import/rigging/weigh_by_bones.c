@@ -9,8 +9,10 @@
 #include "mechanics/vector.h"
 #include "motion/carried_motion.h"
 
-/* Farther than this share of the rig's size an object is no part of its character. */
+/* Farther than this fraction of the rig's size, an object is no part of its character. */
 static const double BESIDE = 0.15;
+/* As large as this fraction of the rig's size, it may be another character, and must hold a bone. */
+static const double LARGE = 0.6;
 
 static uint32_t (*triangles_of(const sbfi_scene_surface *s, sbfi_arena *arena, uint32_t *count))[3] {
   uint32_t(*triangles)[3] =
@@ -66,8 +68,11 @@ static bool holds(const box *b, sbfi_d3 p, double margin) {
          p.x <= b->high.x + margin && p.y <= b->high.y + margin && p.z <= b->high.z + margin;
 }
 
-/* Whether a joint lies in the object's box, or nearer to it than a share of the rig's size, as a hat's does.
- */
+static double size_of(const box *b) {
+  return sbfi_d3_length(sbfi_d3_sub(b->high, b->low));
+}
+
+/* Whether a joint lies in the object's box, or nearer to that than the margin, as a hat's does. */
 static bool is_beside_bones(const sbf_bone_list bones, const box *object, double margin) {
   for (uint32_t b = 0; b < bones.count; b++)
     if (holds(object, sbfi_d3_of(bones.at[b].head), margin)) return true;
@@ -80,7 +85,7 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
   const sbfi_d3 min = {-INFINITY, -INFINITY, -INFINITY}, max = {INFINITY, INFINITY, INFINITY};
   box rig = {max, min};
   for (uint32_t b = 0; b < bones.count; b++) widen(&rig, bones.at[b].head);
-  double margin = BESIDE * sbfi_d3_length(sbfi_d3_sub(rig.high, rig.low));
+  double size = size_of(&rig);
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
     box object = {max, min};
     uint32_t count = 0;
@@ -88,6 +93,7 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
       widen(&object, moved->mesh.positions.at[i]);
       count += r->sources[i] == SBFI_WEIGHTS_COMPUTED;
     }
+    double margin = size_of(&object) < LARGE * size ? BESIDE * size : 0;
     if (!count || is_beside_bones(bones, &object, margin)) continue;
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OBJECT_APART,
         "no bone of %s lies in the object '%.60s' or beside it: if it is another character, convert it from "
