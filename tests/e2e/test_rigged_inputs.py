@@ -219,6 +219,17 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, ["low"] * len(low[0]) + ["high"] * len(high[0]))
         self.assertIn("carried over from the nearest surface", said)
 
+    def test_limbs_in_another_pose_than_the_rigs(self):
+        """A small part of an object may move with the bone that it touches, but not an arm."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        for rings, reported in ((2, False), (8, True)):
+            points, triangles = tube(4, 6, 0.2, rings)
+            joined = variants.one_object(obj_of({**column.objects(), "beside": (points, triangles)}))
+            found, said = self.convert(joined, rig)
+            self.assertIn(f"{len(points)} of the bone that their piece touches", said)
+            self.assertEqual(f"{len(points)} of {len(found)} points lie beside the mesh" in said, reported)
+
     def test_a_skin_of_its_own_is_kept(self):
         """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""
         column, other = Column(), Column()

@@ -319,6 +319,28 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   return true;
 }
 
+/* Of an object that lies on the rig's mesh elsewhere, a large part beside it may be limbs in another pose. */
+static const double MANY_ATTACHED = 0.2;
+
+static void warn_of_attached(const sbfi_rigging *r, weights_mode mode) {
+  uint32_t count = r->input.mesh.positions.count, beside = 0;
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
+    uint32_t attached = 0, matched = 0;
+    for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++) {
+      attached += r->sources[i] == SBFI_WEIGHTS_ATTACHED;
+      matched += r->sources[i] == SBFI_WEIGHTS_MATCHED;
+    }
+    if (matched) beside += attached;
+  }
+  if (mode != MODE_ANY || beside <= MANY_ATTACHED * count) return;
+  sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
+      "%u of %u points lie beside the mesh of %s, and each of their pieces moves as a whole with the bone "
+      "that it touches: "
+      "if they are limbs in another pose, give the input in the pose of the rig's mesh; if they are right, "
+      "--weights transfer",
+      beside, count, r->rig.scene->file);
+}
+
 static sbf_status weigh_objects(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool by_points, bool alike) {
   if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->weights);
@@ -353,6 +375,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
   say_weights(r);
+  warn_of_attached(r, mode);
   return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
 }
 
