@@ -181,6 +181,7 @@ class RiggedInputs(ProgramTest):
             stream.write("\n".join(line + " 0.8 0.2 0.1" if line.startswith("v ") else line for line in lines) + "\n")
         found, said = self.convert(self.path("colours.obj"), rig)
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
+        self.assertIn(f"the colors of {len(found)} vertices are left out", said)
         places = [p for mesh in Bundle(self.path("out.sbf")).meshes for p in Bundle(self.path("out.sbf")).positions(mesh)]
         self.assertEqual(len(places), len(found))
         self.assertAlmostEqual(max(p[1] for p in places), 2.5, 5)

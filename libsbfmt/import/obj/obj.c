@@ -109,6 +109,11 @@ static sbf_status fill(
           "%u lines of kinds that make no polygon are passed over, the first is \"%s\"", text->ignored_count,
           sbfi_quote_of(text->ignored_keyword).text))
     return out_of_memory(error);
+  if (text->colored_count &&
+      !sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, text->colored_line,
+          "the colors of %u vertices are left out: give the character as PLY or glTF to keep them",
+          text->colored_count))
+    return out_of_memory(error);
   return SBF_OK;
 }
 

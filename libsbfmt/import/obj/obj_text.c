@@ -184,7 +184,14 @@ static sbf_status read_point(reader *r) {
   sbf_vec3 *point = push(&text->points);
   if (!point) return out_of_memory(r);
   *point = (sbf_vec3){v[0], v[1], v[2]};
-  skip_statement(r); /* a weight, or a colour */
+  const char *after = r->at;
+  uint32_t more = 0, line = r->line; /* one is a weight, three or more are a color */
+  for (skip_blank(r); more < 3 && !at_statement_end(r); skip_blank(r), more++)
+    while (r->at < r->end && *r->at != r->line_end && !is_blank(*r->at)) r->at++;
+  if (more == 3 && text->colored_count++ == 0) text->colored_line = line;
+  r->at = after;
+  r->line = line;
+  skip_statement(r);
   return SBF_OK;
 }
 

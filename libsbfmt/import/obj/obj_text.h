@@ -42,6 +42,8 @@ typedef struct sbfi_obj_text {
   sbfi_name_table materials; /* each name of usemtl once */
   sbfi_array libraries;      /* sbfi_span, one a line mtllib */
   sbfi_array forward;        /* forward references, empty once they are checked */
+  uint32_t colored_count;    /* number of points with a color */
+  uint32_t colored_line;     /* line of the first point with a color */
   uint32_t ignored_count;    /* number of ignored statements, such as lines and curves */
   uint32_t ignored_line;     /* line of the first ignored statement */
   sbfi_span ignored_keyword;
