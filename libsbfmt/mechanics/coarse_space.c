@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "mechanics/vector_sums.h"
+
 enum { MANY_POINTS = 200, PATCHES = 48, MODES = 6, MIN_PATCH = 12 };
 /* Of its diagonal, so little is left of a mode that others make up. */
 static const double min_pivot = 1e-9;
@@ -90,24 +92,6 @@ static void add_block(sbfi_coarse_space *c, const double *block, uint32_t row, u
   }
 }
 
-/* In four parts, which do not wait for each other. */
-static double sum_of_products(const double *a, const double *b, size_t count) {
-  double sums[4] = {0};
-  size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (size_t k = 0; k < 4; k++) sums[k] += a[i + k] * b[i + k];
-  for (; i < count; i++) sums[0] += a[i] * b[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-/* The same in fours: v - s a. */
-static void take_times(double *restrict v, const double *restrict a, double s, size_t count) {
-  size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (size_t k = 0; k < 4; k++) v[i + k] -= a[i + k] * s;
-  for (; i < count; i++) v[i] -= a[i] * s;
-}
-
 /* L D L^T in place, D on the diagonal; `row` is (size) scratch. */
 static void factorise(double *a, size_t size, double *row) {
   for (size_t i = 0; i < size; i++) {
@@ -115,7 +99,7 @@ static void factorise(double *a, size_t size, double *row) {
     /* row[j] = L_ij D_j as it comes. */
     for (size_t j = 0; j < i; j++) {
       const double *other = a + j * size;
-      row[j] = other[j] > 0 ? of[j] - sum_of_products(row, other, j) : 0;
+      row[j] = other[j] > 0 ? of[j] - sbfi_sum_of_products(row, other, j) : 0;
     }
     for (size_t j = 0; j < i; j++) {
       double diagonal = a[j * size + j];
@@ -171,9 +155,9 @@ void sbfi_coarse_space_add(const sbfi_coarse_space *space, const double *r, doub
       v[MODES * (size_t)space->patches[i] + (size_t)j] +=
           columns[j][0] * at[0] + columns[j][1] * at[1] + columns[j][2] * at[2];
   }
-  for (size_t i = 0; i < size; i++) v[i] -= sum_of_products(a + i * size, v, i);
+  for (size_t i = 0; i < size; i++) v[i] -= sbfi_sum_of_products(a + i * size, v, i);
   for (size_t i = 0; i < size; i++) v[i] = a[i * size + i] > 0 ? v[i] / a[i * size + i] : 0;
-  for (size_t i = size; i-- > 0;) take_times(v, a + i * size, v[i], i);
+  for (size_t i = size; i-- > 0;) sbfi_subtract_scaled(v, a + i * size, v[i], i);
   for (uint32_t i = 0; i < space->point_count; i++) {
     if (space->patches[i] == UINT32_MAX) continue;
     double *at = z + 3 * (size_t)i;

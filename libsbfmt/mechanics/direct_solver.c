@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "mechanics/vector_sums.h"
+
 enum { MAX_POINTS = 700 };
 /* Of its diagonal, what is left of a row that others make up. */
 static const double min_pivot = 1e-12;
@@ -80,24 +82,6 @@ static void take_blocks(const sbfi_direct_solver *s, const sbfi_block_matrix *m)
     }
 }
 
-/* In four parts, which do not wait for each other. */
-static double sum_of_products(const double *a, const double *b, size_t count) {
-  double sums[4] = {0};
-  size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (size_t k = 0; k < 4; k++) sums[k] += a[i + k] * b[i + k];
-  for (; i < count; i++) sums[0] += a[i] * b[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-/* The same in fours: v - s a. */
-static void take_times(double *restrict v, const double *restrict a, double s, size_t count) {
-  size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (size_t k = 0; k < 4; k++) v[i + k] -= a[i + k] * s;
-  for (; i < count; i++) v[i] -= a[i] * s;
-}
-
 static double *row_of(const sbfi_direct_solver *s, uint32_t row) {
   return s->factor + s->begins[row];
 }
@@ -147,7 +131,7 @@ static void factorise(sbfi_direct_solver *s) {
     finish_row(s, i);
     for (uint32_t row = 1; row < 3; row++) {
       for (uint32_t j = i; j < i + row; j++)
-        of[row][j - first] -= sum_of_products(of[row], of[j - i], j - first);
+        of[row][j - first] -= sbfi_sum_of_products(of[row], of[j - i], j - first);
       finish_row(s, i + row);
     }
   }
@@ -193,8 +177,9 @@ void sbfi_direct_solver_solve(const sbfi_direct_solver *s, const double *b, doub
   for (uint32_t p = 0; p < s->point_count; p++)
     memcpy(v + 3 * (size_t)p, b + 3 * (size_t)s->points[p], 3 * sizeof *v);
   for (uint32_t i = 0; i < s->size; i++)
-    v[i] -= sum_of_products(row_of(s, i), v + s->firsts[i], i - s->firsts[i]);
+    v[i] -= sbfi_sum_of_products(row_of(s, i), v + s->firsts[i], i - s->firsts[i]);
   for (uint32_t i = 0; i < s->size; i++) v[i] = diagonal_of(s, i) > 0 ? v[i] / diagonal_of(s, i) : 0;
-  for (uint32_t i = s->size; i-- > 0;) take_times(v + s->firsts[i], row_of(s, i), v[i], i - s->firsts[i]);
+  for (uint32_t i = s->size; i-- > 0;)
+    sbfi_subtract_scaled(v + s->firsts[i], row_of(s, i), v[i], i - s->firsts[i]);
   for (size_t p = 0; p < s->point_count; p++) memcpy(x + 3 * (size_t)s->points[p], v + 3 * p, 3 * sizeof *v);
 }
