@@ -77,7 +77,7 @@ func _physics_process(_delta: float) -> void:
 		check(character.transform.is_equal_approx(began), "it was not put back: %s" % character.transform)
 		var pages := EditorInterface.get_script_editor().find_children("*", "RichTextLabel", true, false)
 		var help := "".join(pages.map(func(one): return one.get_parsed_text()))
-		for words in ["whose flesh gives", "pushed with what the flesh feels", "begins to touch something", "A foot of the gait comes down"]:
+		for words in ["with deformable bodies", "gets the soft bodies' impulses", "begins to touch something", "A foot of the gait lands"]:
 			check(words in help, "its help does not say: %s" % words)
 		print("%d failed after %d frames of the editor" % [failed, frame])
 		get_tree().quit(1 if failed else 0)
