@@ -1,7 +1,7 @@
 /* Contact of soft bodies with the ground.
  *
  * The contact points are the body's points, or surface samples where points only embed the surface
- * (prepare/contact_samples.c, solvers/contact_lanes.h). Once per tick the ground below each candidate becomes
+ * (prepare/contact_samples.c, solvers/soft_contacts.h). Once per tick the ground below each candidate becomes
  * a plane. In each substep, a point that would pass its plane loses normal velocity so that it just arrives,
  * or bounces if it is fast. Coulomb friction removes tangential velocity of at most the friction coefficient
  * times the normal change. Points below the plane are moved up at a limited speed that does not become
@@ -37,9 +37,6 @@ typedef struct sbri_contact_tables {
  * samples gets a list of contacts instead. */
 void sbri_contact_prepare(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
-
-/* A contact that would not arrive within the substep if it were this much faster is idle, m/s. */
-#define SBRI_CONTACT_NEAR_M_S 1.0f
 
 typedef struct sbri_contact_rule {
   float friction, restitution;

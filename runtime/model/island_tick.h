@@ -46,40 +46,17 @@ typedef struct sbri_soft_contact {
   bool alone;            /* the sample is a single free point that no other contact moves */
   uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
                             (collide/external_body.h); 0: none */
-  /* Solver state (solvers/soft_contacts.c, contact_block.h): */
+  /* Solver state (solvers/soft_contacts.c): */
   float gap, wanted;     /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
+  float fraction;        /* relaxation factor of an iteration; 1: solved in sequence */
+  bool pushes;           /* active in this substep */
   float velocity_change; /* normal velocity change by the contact, m/s */
   sbf_vec3 friction_impulse; /* friction, tangential */
   float pushed;              /* maximum velocity_change in the tick */
   sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
-  float fast_m_s;            /* bound of its approach speed in the tick, m/s; 0: unbounded */
+  float fast_m_s;            /* bound of its approach speed in the tick, without forces, m/s; 0: unbounded */
+  float idle_s;              /* time until it may touch, s */
 } sbri_soft_contact;
-
-/* Eight contacts of a body with what no impulse of theirs moves, nearest first. An unused lane has weights of
- * 0 and lies far from its plane. */
-typedef struct sbri_contact_block {
-  uint32_t slots[4][SBRI_BLOCK];
-  uint32_t contacts[SBRI_BLOCK]; /* of the body; UINT32_MAX: an unused lane */
-  float weights[4][SBRI_BLOCK];
-  float responses[4][SBRI_BLOCK]; /* velocity change of a point per velocity change of the sample */
-  float normal[3][SBRI_BLOCK];
-  float mass_kg[SBRI_BLOCK];     /* effective, of an impulse at the sample; 0: an unused lane */
-  float offset[SBRI_BLOCK];      /* n . x of the plane at the beginning of the present substep */
-  float velocity[3][SBRI_BLOCK]; /* velocity of the other surface, m/s */
-  float friction[SBRI_BLOCK], restitution[SBRI_BLOCK];
-  float active[SBRI_BLOCK];   /* 1: pushes, or arrives in this substep; else 0 */
-  float fraction[SBRI_BLOCK]; /* relaxation factor of an iteration by row sums; 0 if not active */
-  float gap[SBRI_BLOCK], wanted[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
-  float velocity_change[SBRI_BLOCK];         /* normal velocity change by the contact, m/s */
-  float friction_impulse[3][SBRI_BLOCK];     /* friction, tangential */
-  float pushed[SBRI_BLOCK];                  /* maximum velocity_change in the tick */
-  float given[3][SBRI_BLOCK];                /* sum of velocity changes in the tick, m/s */
-  float fast_m_s; /* bound of the approach speed of its samples in the tick, m/s; 0: unbounded */
-  float idle_s;   /* time until one of them may touch, s */
-  bool moves;     /* some other surface moves */
-  bool is_near;   /* not idle in this substep */
-  bool pushes;    /* some lane is pushed, before or by an iteration */
-} sbri_contact_block;
 
 /* Impulse and angular impulse of soft bodies on a rigid body about `about`, N s and N m s. The inverse mass
  * and the largest inverse moment of inertia are 0 for a body that does not move.
@@ -138,10 +115,7 @@ typedef struct sbri_island_tick {
   const uint8_t *near_ground;                      /* (free_count / 8) */
   sbri_soft_contact *contacts;                     /* of the character; see sbri_body.first_soft_contact */
   struct sbri_external_bodies
-      *external_bodies;               /* (bodies of the model) collide/external_body.h; NULL: none */
-  sbri_contact_block *contact_blocks; /* of the character; contact/contact_block.h */
-  uint32_t *contact_block_counts;     /* (bodies of the model) */
-  uint8_t *contact_slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
+      *external_bodies;           /* (bodies of the model) collide/external_body.h; NULL: none */
   float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
   const uint32_t *contact_counts; /* (bodies of the model) NULL: none */
   float *rests, *strengths;       /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
@@ -158,9 +132,8 @@ typedef struct sbri_island_tick {
   sbri_tetrahedron_block *flowing;          /* the same where they yield or tear, else NULL */
   uint32_t *torn;                           /* (tetrahedron_count) sbri_torn_state, likewise */
   float *max_flow_stretch;                  /* see sbri_island_state */
-  uint8_t *compressed; /* (tetrahedron_dense_count) scratch: blocks that the compression limit watches */
-  float *stiffening;   /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
-  float *min_ratio;    /* out: minimum J = det F of the tetrahedra at the last check; 1 without tetrahedra */
+  float *stiffening; /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
+  float *min_ratio;  /* out: minimum J = det F of the tetrahedra at the last check; 1 without tetrahedra */
   float *
       stretch; /* maximum stretch of a spring: of the previous tick on entry, of the last substep on return */
   uint32_t *element_visits; /* element visits, accumulated; NULL: not counted */

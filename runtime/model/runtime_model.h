@@ -188,7 +188,6 @@ typedef struct sbri_body {
       *coarse_edges; /* (coarse_edge_count x 2) edges of its surface: samples, or slots without samples */
   uint32_t coarse_edge_count;
   uint32_t first_soft_contact, max_contacts; /* its part of the contacts in a character's scratch */
-  uint32_t first_contact_block;              /* its part of their blocks */
   const uint32_t *self_faces;                /* (self_face_count x 3) slots; NULL: no self contact */
   uint32_t self_face_count, first_self_face; /* first in a character's scratch */
   const uint32_t *self_sides;                /* (self_face_count x 3) as collide/sides.h has them */
@@ -339,10 +338,9 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, driver_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t contacts, contact_counts, contact_blocks, contact_block_counts, contact_slots, contact_islands,
-      external_bodies, slot_contacts, contact_weights, touching, rigid_touching, self_boxes, self_balls,
-      self_nodes, self_items, self_edges;
-  size_t external_forces, accelerations, older_velocities, moves, edges, solid_edges, compressed, tears;
+  size_t contacts, contact_counts, contact_islands, external_bodies, slot_contacts, contact_weights, touching,
+      rigid_touching, self_boxes, self_balls, self_nodes, self_items, self_edges;
+  size_t external_forces, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, offsets, speeds, energies, fading, pulls, scratch_size;

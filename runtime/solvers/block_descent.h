@@ -197,7 +197,6 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
   sbri_point *drawn = t->element_forces, *moved = t->moves;       /* scratch that is free here */
   uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* number of points per element */
   sbri_store_pinned_begin(t);
-  sbri_find_compressed(t);
   for (uint32_t s = 0; s < substeps; s++) {
     if (t->external_forces) sbri_compute_external_forces(t, h);
     sbri_move_pinned(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);

@@ -1,15 +1,15 @@
-/* Limits the compression of tetrahedra. An element with less than a tenth of its volume at the end of a
- * substep is moved back to that along the gradient of J, weighted by the corners' inverse masses, and its
- * rate of compression becomes 0. Momentum is conserved. Inverted elements are brought back over several
- * steps. Pinned corners do not move, but the rigid bodies that hold them get the reaction; otherwise a light
- * bone would push a soft body as if it had infinite mass and add energy without bound.
+/* A wall in front of J = 0: what a blow crushes to less than a tenth of its volume at the end of a
+ * substep is brought back there along the gradient of J, by the corners' inverse masses, and the speed with
+ * which it was being crushed is taken. Momentum is kept; what is inside out already comes back a step at a
+ * time. Held corners stay where they are, but what carries them takes its part of the push: else a light bone
+ * would drive flesh before it as if it weighed more than anything, and give it energy without end.
  *
- * The energy is finite and smooth through J = 0, so nothing explodes there. But thin tips that strike the
- * ground first, with the whole body behind them, would invert. Bias against the energy: none above the limit.
+ * The energy itself is finite and smooth through J = 0, so that nothing bursts there; but thin tips that
+ * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
+ * above that; below, such a wall is what flesh is, which does not get thinner either.
  *
- * Elements are checked only in blocks that had one below half of its volume at the last check, or in all
- * blocks if one was nearly crushed, because others may follow before the next check. Written for the lanes of
- * the file that includes it; see model/kernels.h. */
+ * Looked for only where the tetrahedra, when last looked at, were at a half of their volume somewhere.
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
 #define SBRI_COMPRESSION_H
 
@@ -19,7 +19,7 @@
 #include "solvers/tetrahedron_forces.h"
 
 #define SBRI_CRUSHED 0.1f
-#define SBRI_NEARLY_CRUSHED 0.25f
+#define SBRI_COMPRESSION_NEAR 0.5f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
  * size. Keeps heaps from bursting. */
 #define SBRI_COMPRESSION_STEP 0.1f
@@ -89,26 +89,14 @@ static inline bool sbri_is_compressed(const sbri_island_tick *t) {
   return t->island->tetrahedron_dense_count > 0 && *t->min_ratio < SBRI_COMPRESSION_NEAR;
 }
 
-/* Finds the blocks that the limit watches, at the beginning of a tick. */
-static inline void sbri_find_compressed(const sbri_island_tick *t) {
-  for (uint32_t b = 0; sbri_is_compressed(t) && b < t->island->tetrahedron_dense_count; b++) {
-    t->compressed[b] = 0;
-    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
-      if (sbri_mask_any(sbri_ratio_of(t, &t->tetrahedra[b], lane) < sbri_wide_all(SBRI_COMPRESSION_NEAR)))
-        t->compressed[b] = 1;
-  }
-}
-
 /* Updates J for integrators that do not compute it. */
 static inline void sbri_update_compression(const sbri_island_tick *t) {
   sbri_tetrahedron_watch watch;
-  sbri_watch_begin(t, &watch);
+  sbri_watch_begin(&watch);
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       float *min = watch.min_ratio + lane;
-      sbri_wide ratio = sbri_ratio_of(t, &t->tetrahedra[b], lane);
-      if (sbri_mask_any(ratio < sbri_wide_all(SBRI_COMPRESSION_NEAR))) t->compressed[b] = 1;
-      sbri_wide_store(min, sbri_wide_min(ratio, sbri_wide_load(min)));
+      sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(min)));
     }
   *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
@@ -117,12 +105,12 @@ static inline void sbri_update_compression(const sbri_island_tick *t) {
  * because some blocks share points between lanes. Stores soft contacts before the first change unless
  * `*remembered`; most substeps need none. */
 static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *remembered) {
-  bool found = false, all = *t->min_ratio < SBRI_NEARLY_CRUSHED;
+  bool found = false;
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
     float marks[SBRI_BLOCK];
     bool any = false;
-    for (uint32_t lane = 0; (all || t->compressed[b]) && lane < SBRI_BLOCK; lane += SBRI_LANES) {
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_mask crushed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_CRUSHED);
       sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
       any = any || sbri_mask_any(crushed);

@@ -131,7 +131,6 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   while (island->substeps_most && shortest < longest && SBRI_HEUN_UNITS / shortest > island->substeps_most)
     shortest *= 2; /* stability bounds the step */
   sbri_store_pinned_begin(t);
-  sbri_find_compressed(t);
   sbri_heun_evaluate(t, unit * (float)longest, NULL);
   for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
     if (step > shortest && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {

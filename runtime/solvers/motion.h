@@ -13,7 +13,6 @@
 
 #include "contact/contact.h"
 #include "math/trig.h"
-#include "solvers/contact_lanes.h"
 #include "solvers/external_forces.h"
 #include "solvers/loads.h"
 #include "solvers/reaction.h"
@@ -192,10 +191,7 @@ static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body 
 static inline void sbri_apply_impulses(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   if (t->load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
-  if (sbri_contact_block_count(t, body))
-    sbri_contact_solve(t, body, velocities, rule);
-  else
-    sbri_soft_contacts_solve(t, body, velocities, rule);
+  sbri_soft_contacts_solve(t, body, velocities, rule);
 }
 
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
@@ -279,9 +275,9 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
   return max;
 }
 
-/* Number of substeps in the next `time_s` seconds so that no element of a solid body is crossed in one when
- * it strikes the ground; 1 if nothing is near. If the steps are those of rigid bodies, these are used
- * unchanged: additional ones would keep the pair from coming to rest. */
+/* Substeps of the `time_s` seconds to come in which no element of a solid body that strikes the ground is
+ * crossed; 1 where nothing is near it. Where others give the steps, as those of rigid bodies do, it keeps to
+ * them: more of its own would keep a pair from coming to rest. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
   bool is_given = island->substeps || t->fraction < 1;

@@ -7,7 +7,7 @@
 
 static const float PI = 3.14159265f;
 
-/* Distance from the ground, as a fraction of the body's size, within which points touch it. */
+/* Points this near to the ground touch it: a share of the body's size. */
 static const float TOUCHING_FRACTION = 1e-3f;
 
 float sbri_rolling_fraction(float damping_ratio) {

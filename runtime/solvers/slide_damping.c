@@ -34,7 +34,7 @@ static void add_planes(
 
 void sbri_slide_damp(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
   if (!(body->sliding_rad_s > 0)) return;
-  sbri_sliding sliding = sbri_soft_contacts_sum_sliding(t, body);
+  sbri_sliding sliding = sbri_soft_contacts_sum_sliding(t, body, rule);
   if (!body->samples) add_planes(t, body, rule, &sliding);
   float friction = sbri_length(sliding.friction);
   if (!(friction > 0)) return;

@@ -39,7 +39,6 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);
   sbri_store_pinned_begin(t);
-  sbri_find_compressed(t);
   for (uint32_t s = 1; left > 0; s++) {
     bool last = left == 1, checks = last || s % SBRI_CHECK_INTERVAL == 0;
     if (sbri_has_damping(island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);

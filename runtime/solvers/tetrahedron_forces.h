@@ -31,12 +31,8 @@ SBRI_INLINE sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* J at which an element is watched by the compression limit (solvers/compression_limit.h). */
-#define SBRI_COMPRESSION_NEAR 0.5f
-
 /* Per lane: bound of the stiffening relative to rest, and minimum J. */
 typedef struct sbri_tetrahedron_watch {
-  uint8_t *compressed;          /* (tetrahedron_dense_count) 1: an element of the block is below that J */
   float stiffening[SBRI_BLOCK]; /* bound of the stiffness relative to rest, maximum over elements */
   float min_ratio[SBRI_BLOCK];  /* minimum J */
 } sbri_tetrahedron_watch;
@@ -45,7 +41,7 @@ typedef struct sbri_tetrahedron_watch {
  * largest eigenvalue against that at rest, the greatest of the corners'; and what the curvature of J adds
  * between corners, lambda |J - 1| at most beyond the mu that is there at rest. */
 SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, sbri_wide3 n1, sbri_wide3 n2,
-    sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch, uint8_t *compressed) {
+    sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch) {
   sbri_wide zero = sbri_wide_all(0), tiny = sbri_wide_all(1e-30f);
   sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
             k22 = sbri_wide_load(block->stiffness[1] + lane);
@@ -67,7 +63,6 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   curved = sbri_wide_max(sbri_wide_max(curved, zero - curved) - shear, zero);
   sbri_wide stiffening = (sbri_wide_all(1) + a) * fraction / max + curved / max;
   sbri_mask real = shear > zero;
-  if (sbri_mask_any(real & (ratio < sbri_wide_all(SBRI_COMPRESSION_NEAR)))) *compressed = 1;
   sbri_wide before = sbri_wide_load(watch->stiffening + lane), min = sbri_wide_load(watch->min_ratio + lane);
   sbri_wide_store(
       watch->stiffening + lane, sbri_wide_select(real, sbri_wide_max(stiffening, before), before));
@@ -152,7 +147,7 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
   f[1] = sbri_wide3_sub(sbri_wide3_scale(n2, p), kd2);
   f[2] = sbri_wide3_sub(sbri_wide3_scale(n3, p), kd3);
   if (betas) sbri_compute_tetrahedron_damping(t, block, lane, betas, d, f);
-  if (watch) sbri_watch(block, lane, n1, n2, n3, ratio, watch, &watch->compressed[block - t->tetrahedra]);
+  if (watch) sbri_watch(block, lane, n1, n2, n3, ratio, watch);
   forces[0] = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
 }
 
@@ -201,9 +196,7 @@ static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sb
     sbri_tetrahedron_blocks(t, NULL, NULL, sums);
 }
 
-static inline void sbri_watch_begin(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
-  watch->compressed = t->compressed;
-  memset(t->compressed, 0, t->island->tetrahedron_dense_count);
+static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
   for (int lane = 0; lane < SBRI_BLOCK; lane++) watch->stiffening[lane] = 0, watch->min_ratio[lane] = 1;
 }
 static inline float sbri_watch_stiffening(const sbri_tetrahedron_watch *watch) {
@@ -222,7 +215,7 @@ static inline float sbri_watch_min_ratio(const sbri_tetrahedron_watch *watch) {
 /* The forces, and if `checks` what is watched into the tick's state. */
 static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool checks) {
   sbri_tetrahedron_watch watch;
-  sbri_watch_begin(t, &watch);
+  sbri_watch_begin(&watch);
   sbri_compute_tetrahedron_forces(t, checks ? &watch : NULL);
   if (!checks) return;
   *t->stiffening = sbri_watch_stiffening(&watch);

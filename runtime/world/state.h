@@ -186,7 +186,6 @@ SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)   
 SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                     /* (slot_count) */
 SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)                          /* (link_block_count x 24) */
 SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
-SBRI_SCRATCH_PART(compressed, uint8_t, c->model->layout.compressed) /* (tetrahedron_block_count) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
 SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
 SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, c->model->layout.loads_now)  /* of this tick */
@@ -199,9 +198,6 @@ SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4)
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
 SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
 SBRI_SCRATCH_PART(contact_counts, uint32_t, c->model->layout.contact_counts) /* (bodies) */
-SBRI_SCRATCH_PART(contact_blocks, sbri_contact_block, c->model->layout.contact_blocks)   /* (contacts / 8) */
-SBRI_SCRATCH_PART(contact_block_counts, uint32_t, c->model->layout.contact_block_counts) /* (bodies) */
-SBRI_SCRATCH_PART(contact_slots, uint8_t, c->model->layout.contact_slots) /* (slot_count / 8) */
 /* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
 SBRI_SCRATCH_PART(contact_islands, uint8_t, c->model->layout.contact_islands)
 SBRI_SCRATCH_PART(
