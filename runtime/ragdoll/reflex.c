@@ -162,8 +162,8 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float st
     sbf_vec3 twist = sbri_scale(turn_to(&t->targets[b], &body->pose), w * w);
     pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), fraction * MAX_M_S2);
     twist = bounded(sbri_add_scaled(twist, turn, -2 * w), fraction * MAX_RAD_S2);
-    float carried = 1 + t->model->attached_masses[b] * is->inverse_mass;
-    pull = sbri_add_scaled(pull, t->gravity, -fraction * is->source->gravity_scale * carried);
+    float load = 1 + t->model->attached_masses[b] * is->inverse_mass;
+    pull = sbri_add_scaled(pull, t->gravity, -fraction * is->source->gravity_scale * load);
     body->velocity = sbri_add_scaled(body->velocity, pull, step_s);
     body->angular_momentum =
         sbri_angular_momentum_from_velocity(is, body->pose.rotation, sbri_add_scaled(turn, twist, step_s));
