@@ -5,9 +5,10 @@
  * bodies. Both limits are computed again after each step, because compressed bodies stiffen and a step that
  * has become too long makes undamped bodies gain energy; the rest of the tick is then divided anew. A point
  * also moves by at most a fraction of a cell against its bones in a step, so that the stiffening is noticed
- * in time. */
+ * in time. Fast impacts bound the step of all (solvers/motion.h). */
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
+#include "solvers/motion.h"
 #include "solvers/router.h"
 #include "solvers/tetrahedron_forces.h"
 
@@ -116,12 +117,24 @@ static void check_directions(sbri_coupled *group) {
   if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
 }
 
+/* ---- By impact ---- */
+
+/* For what strikes the ground faster than its own substeps resolve, which is about its speed of sound. Bones
+ * of attached bodies take as many: what lies between a bone and the ground holds it up, but only after a
+ * step. */
+static void request_steps_of_impact(sbri_coupled *group, const sbri_island_tick *tick) {
+  float steps = fminf(ceilf(sbri_impact_substeps(tick, tick_of(group))), MAX_STEPS);
+  if (steps > (float)group->steps && steps > (float)steps_of(tick, tick_of(group)))
+    take_steps(group, (float)rounded_steps((uint32_t)steps));
+}
+
 /* ---- For a tick, and for what is left of it ---- */
 
 void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_island *island = tick->island;
   int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
   need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
+  request_steps_of_impact(group, tick);
 }
 
 /* Whether a coupled body is undamped. */
@@ -153,6 +166,7 @@ void sbri_coupled_request_steps_of_bones(sbri_coupled *group) {
 void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_character *c = group->character;
   const sbri_island *island = tick->island;
+  request_steps_of_impact(group, tick);
   if (island->scheme->sweeps || may_be_attached(c, island)) return;
   take_steps(group, (float)steps_of(tick, tick_of(group)));
   double stiffened_s = sbri_stiffened_time(tick, tick_of(group));

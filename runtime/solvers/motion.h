@@ -276,14 +276,17 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
 }
 
 /* Substeps of the `time_s` seconds to come in which no element of a solid body that strikes the ground is
- * crossed; 1 where nothing is near it. Where others give the steps, as those of rigid bodies do, it keeps to
- * them: more of its own would keep a pair from coming to rest. */
+ * crossed; 1 where nothing is near it. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
-  bool is_given = island->substeps || t->fraction < 1;
-  if (is_given || island->tetrahedron_block_count == 0 || !(island->cell_m > 0)) return 1;
-  return sbri_soft_contacts_any(t) ? time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->cell_m)
-                                   : 1;
+  if (island->tetrahedron_block_count == 0 || !(island->cell_m > 0) || !sbri_soft_contacts_any(t)) return 1;
+  return time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->cell_m);
+}
+
+/* Whether others give the substeps, as those of rigid bodies do. They have counted impacts; more of its own
+ * would keep a pair from coming to rest. */
+static inline bool sbri_substeps_are_given(const sbri_island_tick *t) {
+  return t->island->substeps || t->fraction < 1;
 }
 
 /* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. Their
@@ -291,8 +294,10 @@ static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s
  * goes wrong then is recovered from. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
-  needed = (float)needed < crossing ? (uint32_t)crossing : needed;
+  if (!sbri_substeps_are_given(t)) {
+    float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
+    needed = (float)needed < crossing ? (uint32_t)crossing : needed;
+  }
   return needed < SBRI_MAX_STRAINED_SUBSTEPS ? needed : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 

@@ -247,9 +247,11 @@ static inline uint32_t sbri_position_substeps_now(const sbri_island_tick *t) {
   uint32_t at_rest = sbri_position_substeps(island, t->tick_s);
   if (island->substeps || island->tetrahedron_block_count == 0) return at_rest;
   uint32_t now = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), island->rest_stretch);
-  float crossing = ceilf(fminf(sbri_impact_substeps(t, t->tick_s), SBRI_MAX_SUBSTEPS));
   now = now < SBRI_MAX_SUBSTEPS ? now : SBRI_MAX_SUBSTEPS;
-  now = (float)now < crossing ? (uint32_t)crossing : now;
+  if (!sbri_substeps_are_given(t)) {
+    float crossing = ceilf(fminf(sbri_impact_substeps(t, t->tick_s), SBRI_MAX_SUBSTEPS));
+    now = (float)now < crossing ? (uint32_t)crossing : now;
+  }
   return now > at_rest ? now : at_rest;
 }
 
