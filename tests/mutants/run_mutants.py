@@ -27,7 +27,9 @@ class Scratch:
 
     def __init__(self, folder):
         self.source, self.build = os.path.join(folder, "source"), os.path.join(folder, "build")
-        self.environment = {**os.environ, "CCACHE_BASEDIR": self.source, "SBFMT_BUILD_DIR": self.build}
+        shared = os.environ.get("SBFMT_SHARED_DATA", os.path.join(ROOT, os.pardir, "shared", "data"))
+        self.environment = {**os.environ, "CCACHE_BASEDIR": self.source, "SBFMT_BUILD_DIR": self.build,
+                            "SBFMT_SHARED_DATA": os.path.realpath(shared)}
 
     def update(self):
         """Copies what differs, so that no more is compiled than has changed."""
