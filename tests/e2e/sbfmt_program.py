@@ -6,9 +6,11 @@ takes as skipped.
 """
 
 import collections
+import hashlib
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -111,13 +113,42 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(sorted(set(os.listdir(folder or self.folder)) - set(but)), [])
 
 
+def stamp_of(*paths):
+    """A name for these files as they are now."""
+    states = [(path, os.stat(path).st_size, os.stat(path).st_mtime_ns) for path in paths if os.path.isfile(path)]
+    return hashlib.sha256(repr(states).encode()).hexdigest()[:24]
+
+
+def kept_conversions():
+    """A folder of the build for what this program converts, which other test files want as well; None without a build."""
+    build = os.environ.get("SBFMT_BUILD_DIR")
+    if not build or os.environ.get("SBFMT_PROGRAM"):
+        return None
+    every = os.path.join(build, "scratch", "converted")
+    mine = os.path.join(every, stamp_of(PROGRAM, os.path.join(os.path.dirname(PROGRAM), "sbfmt-import")))
+    if not os.path.isdir(mine):
+        os.makedirs(mine, exist_ok=True)
+        for other in set(os.listdir(every)) - {os.path.basename(mine)}:  # of the program as it was before
+            shutil.rmtree(os.path.join(every, other), ignore_errors=True)
+    return mine
+
+
 def convert_once(folder, name, *arguments):
-    """A file made for a whole class; a failure is the class's."""
-    out = os.path.join(folder, name)
-    if not os.path.exists(out):
-        result = call("convert", *arguments, "-o", out)
-        if result.status != 0:
-            raise AssertionError(f"convert {' '.join(arguments)}: {result.err}")
+    """A file made for a whole class; a failure is the class's. Each class has a copy of its own."""
+    out, kept = os.path.join(folder, name), kept_conversions()
+    if os.path.exists(out):
+        return out
+    kept = kept and os.path.join(kept, f"{stamp_of(*arguments)}.{hashlib.sha256(repr(arguments).encode()).hexdigest()[:8]}.{name}")
+    if kept and os.path.exists(kept):
+        shutil.copyfile(kept, out)
+        return out
+    result = call("convert", *arguments, "-o", out)
+    if result.status != 0:
+        raise AssertionError(f"convert {' '.join(arguments)}: {result.err}")
+    if kept:
+        unfinished = f"{kept}.{os.getpid()}"
+        shutil.copyfile(out, unfinished)
+        os.replace(unfinished, kept)
     return out
 
 
