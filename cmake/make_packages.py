@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Everything that others install, made of two built trees and listed with its SHA-256 in SHA256SUMS.
+"""Everything that others install, made of built trees and listed with its SHA-256 in SHA256SUMS.
 
-Usage: make_packages.py --static DIR [--shared DIR] --out DIR [NAME...]
+Usage: make_packages.py --static DIR [--shared DIR] [--self-contained DIR] --out DIR [NAME...]
 
     debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps and file are needed)
     tarball   sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
     npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
-    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library
+    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library; of the tree of self-contained libraries where
+                                                  there is one: then it needs nothing of the system but its C library
     godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (a Godot 4.6 is needed)
 
 Makes those that are named, all without a name, and prints a table of what was made and, with its reason, what was not. Exit status 1 if
@@ -83,8 +84,8 @@ def write_zip(folder, out):
 class Packages:
     """Each of these leaves files in `out`, or returns why it cannot."""
 
-    def __init__(self, static, shared, out):
-        self.static, self.shared, self.out = static, shared, out
+    def __init__(self, static, shared, self_contained, out):
+        self.static, self.shared, self.self_contained, self.out = static, shared, self_contained, out
         cache = cache_of(static)
         if cache.get("BUILD_SHARED_LIBS") == "ON":
             sys.exit(f"{static} is a tree of shared libraries; --static wants one without BUILD_SHARED_LIBS")
@@ -128,8 +129,9 @@ class Packages:
         return None
 
     def blender(self):
-        run("cmake", "--build", self.static, "--target", "blender-addon")
-        shutil.copyfile(os.path.join(self.static, "soft_body_format.zip"), self.path("blender", ".zip"))
+        tree = self.self_contained or self.static
+        run("cmake", "--build", tree, "--target", "blender-addon")
+        shutil.copyfile(os.path.join(tree, "soft_body_format.zip"), self.path("blender", ".zip"))
         return None
 
     def godot(self):
@@ -172,6 +174,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--static", required=True)
     parser.add_argument("--shared", default="")
+    parser.add_argument("--self-contained", default="")
     parser.add_argument("--out", required=True)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(NAMES))
     asked = parser.parse_args()
@@ -182,7 +185,8 @@ def main():
     os.makedirs(os.path.dirname(out), exist_ok=True)
     beside = tempfile.mkdtemp(prefix=os.path.basename(out) + ".", dir=os.path.dirname(out))
     try:
-        packages = Packages(os.path.abspath(asked.static), asked.shared and os.path.abspath(asked.shared), beside)
+        packages = Packages(os.path.abspath(asked.static), asked.shared and os.path.abspath(asked.shared),
+                            asked.self_contained and os.path.abspath(asked.self_contained), beside)
         missing = make_each(packages, asked.names or NAMES)
         write_sums(beside)
         os.chmod(beside, 0o755)

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Makes the add-on's zip: the add-on, the Python module inside it, and, where one is named, the library beside the module.
-With a library the manifest names the one platform that it runs on, as Blender wants of an extension.
+With a library the manifest names the one platform that it runs on, as Blender wants of an extension. The licences of what is linked
+into the library are the files of a folder.
 
-    pack.py OUT.zip [LIBRARY...]
+    pack.py OUT.zip [--licences FOLDER] [LIBRARY...]
 """
 
+import argparse
 import os
 import sys
 import zipfile
@@ -48,7 +50,7 @@ def add(archive, path, name, change=None):
     archive.writestr(entry, change(content) if change else content)
 
 
-def main(out, libraries):
+def main(out, libraries, licences):
     module = os.path.join(HERE, os.pardir, "python", "sbfmt")
     temporary = f"{out}.{os.getpid()}"
     with zipfile.ZipFile(temporary, "w") as archive:
@@ -58,10 +60,15 @@ def main(out, libraries):
                 add(archive, path, f"{inside}/{os.path.relpath(path, folder).replace(os.sep, '/')}", change)
         for path in libraries:
             add(archive, path, f"{ADDON}/sbfmt/lib/{os.path.basename(path)}")
+        for name in sorted(os.listdir(licences)) if licences else ():
+            add(archive, os.path.join(licences, name), f"{ADDON}/sbfmt/lib/licences/{name}")
     os.replace(temporary, out)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out")
+    parser.add_argument("--licences", default="")
+    parser.add_argument("libraries", nargs="*")
+    asked = parser.parse_intermixed_args()
+    main(asked.out, asked.libraries, asked.licences)

@@ -52,7 +52,8 @@ class Blender:
             opened.extractall(os.path.join(self.folder, "scripts", "addons"))
         if self.packed and self.root:
             lib = os.path.join(self.folder, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
-            for one in [path for own in os.listdir(lib) for path in needed_libraries(os.path.join(lib, own))]:
+            for one in [path for own in os.listdir(lib) if own.endswith(".so")
+                        for path in needed_libraries(os.path.join(lib, own))]:
                 shutil.copy(one, lib)
         shutil.copytree(HERE, self.tests, ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
         shutil.copy(os.path.join(ROOT, "docs", "blender.md"), os.path.join(self.tests, "page.md"))

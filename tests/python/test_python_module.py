@@ -194,6 +194,31 @@ class Binary(ModuleTest):
         self.assertIn("SBFMT_LIBRARY", done.stderr.splitlines()[-2] + done.stderr.splitlines()[-1])
         self.assertIn("ImportError", done.stderr)
 
+    def fault(self, content):
+        """What is said of a library that is such a file; None: of none."""
+        folder = self.path("lib")
+        os.makedirs(folder, exist_ok=True)
+        if content is not None:
+            with open(os.path.join(folder, "libsbfmt-interchange.so"), "wb") as file:
+                file.write(content)
+        environment = {**os.environ, "SBFMT_LIBRARY": folder, "PYTHONPATH": MODULE}
+        return subprocess.run([sys.executable, "-B", "-c", "import sbfmt; print(sbfmt.library_fault())"], env=environment,
+                              capture_output=True, text=True, check=True).stdout.strip()
+
+    def test_why_there_is_no_library(self):
+        self.assertIn("is not there for Linux", self.fault(None))
+        self.assertIn("take the zip for it", self.fault(b"no library at all, whatever its name says" * 40))
+        with open(os.environ["SBFMT_LIBRARY"], "rb") as file:
+            whole = file.read()
+        self.assertEqual(self.fault(whole), "None")
+        renamed = whole.replace(b"libm.so.6\0", b"libm.so.7\0")
+        self.assertNotEqual(renamed, whole)
+        self.assertIn("needs libm.so.7, which this system does not have", self.fault(renamed))
+
+    def test_what_the_loader_says_of_an_older_system(self):
+        said = "/lib/x86_64-linux-gnu/libc.so.6: version `GLIBC_2.35' not found (required by /tmp/x.so)"
+        self.assertIn("needs glibc 2.35 or newer", library.fault_in_words(said))
+
     def test_a_folder_may_be_named(self):
         os.mkdir(self.path("lib"))
         target = os.environ["SBFMT_LIBRARY"]

@@ -119,7 +119,7 @@ class Packages(unittest.TestCase):
         self.assertNotIn("@", typed)
 
     def test_user_without_a_godot_is_told_what_to_type(self):
-        there = {name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "cmake", "clang", "wasm-ld", "npm", "debootstrap",
+        there = {name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "cmake", "clang", "wasm-ld", "npm", "debootstrap", "g++",
                                              "dpkg-shlibdeps", "file")}
         path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 1000", "sudo": "exit 1", **there})
         done = call("package", path=path)

@@ -9,11 +9,7 @@ from .side_files import files_beside
 
 
 def has_library():
-    try:
-        sbfmt.library_path()
-        return True
-    except ImportError:
-        return False
+    return sbfmt.library_fault() is None
 
 
 def refusal(path):
@@ -89,13 +85,13 @@ def check(asset, folder, findings, locator):
 
 def without_library(document, path, findings):
     if path.endswith(".sbfz"):
-        findings.error("packed files need the compiled library, which this add-on does not find: export as .sbf, "
+        findings.error(f"packed files need the compiled library. It {sbfmt.library_fault()}. Or export as .sbf, "
                        "then run: sbfmt build FILE.sbf -o FILE.sbfz")
         return False
     save_whole(path, to_xml(document))
     name = os.path.basename(path)
-    findings.warning("the compiled library is not found, so this file holds source parts alone; finish it with: "
-                     f"sbfmt build {name} -o {name}")
+    findings.warning(f"this file holds source parts alone; finish it with: sbfmt build {name} -o {name}. "
+                     f"The compiled library {sbfmt.library_fault()}")
     return True
 
 

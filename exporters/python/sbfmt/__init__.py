@@ -14,8 +14,8 @@ Different threads may use different assets, and read one asset together.
 """
 
 from .asset import Asset, Validation, convert, load, load_document, propose_gait, stand
-from .library import library_path, library_version
+from .library import library_fault, library_path, library_version
 from .messages import Cancelled, Diagnostic, Error
 
-__all__ = ["Asset", "Cancelled", "Diagnostic", "Error", "Validation", "convert", "library_path", "library_version", "load",
-           "load_document", "propose_gait", "stand"]
+__all__ = ["Asset", "Cancelled", "Diagnostic", "Error", "Validation", "convert", "library_fault", "library_path", "library_version",
+           "load", "load_document", "propose_gait", "stand"]

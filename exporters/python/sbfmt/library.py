@@ -10,6 +10,8 @@ import ctypes.util
 import functools
 import glob
 import os
+import platform
+import re
 import shutil
 import tempfile
 from ctypes import POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, \
@@ -174,17 +176,49 @@ def opened(path):
             os.unlink(copy)
 
 
+def fault_in_words(said):
+    """What the system's loader says of a library, as what to do about it."""
+    system = f"{platform.system()} on {platform.machine()}"
+    newer = re.search(r"version `GLIBC_([\d.]+)' not found", said)
+    lacking = re.search(r"([^\s:]+): cannot open shared object file", said)
+    if newer:
+        return f"needs glibc {newer[1]} or newer, and this system's is older ({platform.libc_ver()[1] or 'of unknown version'}): update the system"
+    if lacking and os.sep not in lacking[1]:
+        return f"needs {lacking[1]}, which this system does not have: install it, or take the zip of a release, which needs none"
+    if re.search(r"wrong ELF class|invalid ELF header|not a valid Win32|incompatible architecture|not a mach-o|slice is not valid", said):
+        return f"is made for another system than this, {system}: take the zip for it"
+    return f"cannot be loaded: {said}"
+
+
 @functools.lru_cache(maxsize=None)
-def library():
-    """The library, loaded once."""
+def loaded_library():
+    """The library, loaded once, or None; and each path that was tried, with what the system's loader said of it."""
     tried = []
     for path in candidates():
         try:
-            return declare(opened(path))
+            return declare(opened(path)), tried
         except OSError as error:
-            tried.append(f"{path}: {error}")
-    raise ImportError(f"lib{NAME} is not found: install sbfmt built with -DBUILD_SHARED_LIBS=ON, or let SBFMT_LIBRARY name the"
-                      " library or its folder" + "".join("\n  " + line for line in tried))
+            tried.append((path, str(error)))
+    return None, tried
+
+
+def library():
+    """The library."""
+    loaded, tried = loaded_library()
+    if loaded is None:
+        raise ImportError(f"lib{NAME} is not found: install sbfmt built with -DBUILD_SHARED_LIBS=ON, or let SBFMT_LIBRARY name the"
+                          " library or its folder" + "".join(f"\n  {path}: {said}" for path, said in tried))
+    return loaded
+
+
+def library_fault():
+    """None where there is a library; else why not and what to do, as the end of a sentence about it."""
+    loaded, tried = loaded_library()
+    if loaded is not None:
+        return None
+    if tried:
+        return fault_in_words(tried[0][1])
+    return f"is not there for {platform.system()} on {platform.machine()}: take the zip for it, or build it (docs/packages.md)"
 
 
 def declare(loaded):

@@ -21,7 +21,7 @@ def find(context):
     findings = Findings()
     whole = write_whole(context, Options(textures="EMBED"), findings)
     if not has_library():
-        findings.info("the compiled library is not found: only what the add-on itself knows was checked")
+        findings.info(f"only what the add-on itself knows was checked: the compiled library {sbfmt.library_fault()}")
     elif not findings.errors:
         try:
             mended = mender(findings, whole.locator) if context.scene.soft_body_format.mends_files else None

@@ -20,7 +20,7 @@ def read_document(path):
         with sbfmt.load(path) as asset:
             return from_xml(asset.to_xml())
     if path.endswith(".sbfz"):
-        raise ValueError("packed files need the compiled library, which this add-on does not find: run sbfmt unpack "
+        raise ValueError(f"packed files need the compiled library. It {sbfmt.library_fault()}. Or run sbfmt unpack "
                          f"{os.path.basename(path)} -o FILE.sbf, and import that")
     with open(path, "rb") as file:
         return from_xml(file.read())

@@ -94,7 +94,7 @@ class SBFMT_OT_propose_gait(bpy.types.Operator):
             cls.poll_message_set("There is no armature: a character walks on its bones")
             return False
         if not has_library():
-            cls.poll_message_set("The compiled library is not found: fill in the legs by hand")
+            cls.poll_message_set(f"The compiled library {sbfmt.library_fault()}. Or fill in the legs by hand")
             return False
         return True
 

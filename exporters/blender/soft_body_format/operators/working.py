@@ -91,6 +91,6 @@ class WithLibrary(Working):
     @classmethod
     def poll(cls, _context):
         if not has_library():
-            cls.poll_message_set(f"The compiled library is not found: run {cls.instead} on the exported file")
+            cls.poll_message_set(f"The compiled library {sbfmt.library_fault()}. Or run {cls.instead} on the exported file")
             return False
         return True

@@ -1,0 +1,96 @@
+#!/bin/sh
+# Builds the libraries that libsbfmt needs as static ones, for an SDK or an add-on that needs nothing of the system but its C library:
+#   static_libraries.sh FOLDER [TOOLCHAIN.cmake]
+# Afterwards: cmake -DSBFMT_STATIC_LIBRARIES=FOLDER. Sources come from Debian's archive, as apt knows it; upstream's archives are those
+# whose SHA-256 stands below, with Debian's patches. Needs apt, dpkg-source and a compiler: else exit status 77 with the reason.
+set -eu
+folder=$1
+toolchain=${2:-}
+# package, SHA-256 of upstream's archive, CMake options
+libraries='
+zlib 71feb7947e3c00ef125f83b79a4e529bde31171e5babe48b391f06758d1ab0a1
+libxml2 4fe913dec8b1ab89d13b489b419a8203176ea39e931eaa0d25b17eafb9c279e9 -DLIBXML2_WITH_ICU=OFF -DLIBXML2_WITH_ICONV=OFF -DLIBXML2_WITH_LZMA=OFF -DLIBXML2_WITH_ZLIB=OFF -DLIBXML2_WITH_PYTHON=OFF -DLIBXML2_WITH_PROGRAMS=OFF -DLIBXML2_WITH_TESTS=OFF -DLIBXML2_WITH_HTTP=OFF -DLIBXML2_WITH_FTP=OFF -DLIBXML2_WITH_MODULES=OFF
+qhull b5c2d7eb833278881b952c8a52d20179eab87766b00b865000469a45c1838b7e
+meshoptimizer 881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3 -DMESHOPT_BUILD_SHARED_LIBS=OFF'
+
+fail() {
+  echo "static_libraries.sh: $1" >&2
+  exit "${2:-1}"
+}
+for program in apt-get dpkg-source cmake ninja sha256sum; do
+  command -v $program >/dev/null 2>&1 || fail "needs $program (Debian's packages apt, dpkg-dev, cmake, ninja-build)" 77
+done
+case $folder in /*) ;; *) folder=$PWD/$folder ;; esac
+case $toolchain in '' | /*) ;; *) toolchain=$PWD/$toolchain ;; esac
+stamp=$(cat "$0" ${toolchain:+"$toolchain"} | sha256sum | cut -d' ' -f1)
+[ "$(cat "$folder/stamp" 2>/dev/null)" != "$stamp" ] || exit 0
+
+work=$folder.unfinished
+rm -rf "$work" "$folder"
+mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/sources" "$work/made"
+log=$work/log
+
+# ---- Sources ----------------------------------------------------------------------------------------------
+
+# The release itself, then its updates: an archive may have dropped files that a list of updates still names.
+# shellcheck disable=SC2016 # apt expands these
+apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 2>/dev/null | sort -u >"$work/all.list"
+grep -v -e '-security ' -e '-updates ' "$work/all.list" >"$work/release.list" || fail "apt knows no archive; try: apt-get update" 77
+
+# apt LIST ARGUMENTS...: with lists and archives of its own, so that the system's stay as they are
+apt() {
+  known=$1
+  shift
+  apt-get -q -o Dir::Etc::SourceList="$known" -o Dir::Etc::SourceParts=/dev/null -o Dir::State::Lists="$work/lists" -o Dir::Cache="$work/cache" \
+    -o Acquire::Check-Valid-Until=false -o APT::Sandbox::User= "$@" >>"$log" 2>&1 </dev/null
+}
+
+# fetch PACKAGE SHA256: its sources, in sources/PACKAGE
+fetch() {
+  for list in release all; do
+    rm -rf "$work/fetched"
+    mkdir "$work/fetched"
+    apt "$work/$list.list" update || continue
+    (cd "$work/fetched" && apt "$work/$list.list" source --download-only "$1") || continue
+    sum=$(sha256sum "$work/fetched/$1"_*.orig.tar.* | cut -d' ' -f1)
+    [ "$sum" = "$2" ] || fail "$1 of this archive is not of the version that is known to work (SHA-256 $sum): use Debian 12's archive"
+    dpkg-source --no-check -x "$work/fetched/$1"_*.dsc "$work/sources/$1" >>"$log" 2>&1 || break
+    return 0
+  done
+  tail -n 5 "$log" >&2
+  fail "the sources of $1 could not be fetched; the end of $log stands above. Is the network there?" 77
+}
+
+# ---- Building ---------------------------------------------------------------------------------------------
+
+build() {
+  package=$1
+  shift
+  tree=$work/build/$package
+  if [ "$package" = zlib ]; then # Debian leaves Windows' files out, which its CMake file names on every system
+    mkdir -p "$work/sources/zlib/win32"
+    touch "$work/sources/zlib/win32/zlib1.rc"
+  fi
+  {
+    cmake -G Ninja -S "$work/sources/$package" -B "$tree" -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
+      -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$work/made$folder" \
+      ${toolchain:+"-DCMAKE_TOOLCHAIN_FILE=$toolchain"} "$@" &&
+      cmake --build "$tree" && DESTDIR=$work/made cmake --install "$tree"
+  } >>"$log" 2>&1 || {
+    tail -n 15 "$log" >&2
+    fail "$package could not be built; all that was printed is in $log"
+  }
+  rm -f "$work/made$folder"/lib/*.so* "$work/made$folder"/lib/*.dll.a # some make both kinds, and the linker would prefer these
+  mkdir -p "$work/made$folder/licences"
+  cp "$work/sources/$package/debian/copyright" "$work/made$folder/licences/$package.txt"
+}
+
+echo "$libraries" | while read -r package sum options; do
+  [ -n "$package" ] || continue
+  fetch "$package" "$sum"
+  # shellcheck disable=SC2086 # options are words
+  build "$package" $options
+done
+echo "$stamp" >"$work/made$folder/stamp"
+mv "$work/made$folder" "$folder"
+rm -rf "$work"
