@@ -349,13 +349,14 @@ START_TEST(test_limits_at_and_past)
   sbf_asset *asset = fill_asset(&(fill_options){.seed = 5, .items = 3000}), *loaded;
   sbf_buffer file = pack(asset, false);
   sbf_load_options base = fill_load_options(asset), options = base;
-  uint64_t inflated = 0, ratio = 0, items = 0;
+  uint64_t inflated = 0, largest = 0, ratio = 0, items = 0;
   for (uint32_t i = 0; i < patch_get(file.at, 40, 4); i++) {
     const uint8_t *entry = file.at + patch_entry(i, 0);
     uint64_t raw = patch_get(entry, PATCH_RAW_SIZE, 8), stored = patch_get(entry, PATCH_STORED_SIZE, 8);
     if (memcmp(entry, "OUTL", 4) == 0) continue; /* not read */
     if (patch_get(entry, PATCH_CODEC, 1)) {
       inflated += raw;
+      if (raw > largest) largest = raw;
       if ((raw + stored - 1) / stored > ratio) ratio = (raw + stored - 1) / stored;
     }
     uint64_t count = patch_get(entry, PATCH_COUNT, 8);
@@ -366,6 +367,11 @@ START_TEST(test_limits_at_and_past)
   options.limits.inflated_bytes = inflated;
   expect_loads(&file, options);
   options.limits.inflated_bytes = inflated - 1;
+  expect_limited(&file, options, SBF_CODE_PACKED_RATIO);
+  const sbf_selection all = {{NULL, 0}, {NULL, 0}, {NULL, 0}}; /* summed as chunks are read */
+  options.selection = &all;
+  options.limits.inflated_bytes = inflated / 2;
+  ck_assert_uint_gt(inflated / 2, largest);
   expect_limited(&file, options, SBF_CODE_PACKED_RATIO);
 
   options = base;
