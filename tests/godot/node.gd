@@ -112,6 +112,11 @@ func dress(one: SoftCharacter3D) -> void:
 	var mesh: MeshInstance3D = one.get_mesh_instance(0)
 	var none: MeshInstance3D = one.get_mesh_instance(99)
 	check(skeleton.get_bone_count() == one.asset.get_bone_names().size() and mesh.mesh.get_surface_count() > 0 and not none, "not its parts")
+	var twin := SoftCharacter3D.new()
+	twin.asset = one.asset
+	parent.add_child(twin)
+	check(twin.get_mesh_instance(0).mesh.surface_get_material(0) == mesh.mesh.surface_get_material(0), "a second node made a material of its own")
+	twin.free()
 	one.material_override = StandardMaterial3D.new()
 	one.layers = 5
 	one.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF

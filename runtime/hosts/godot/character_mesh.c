@@ -43,9 +43,7 @@ struct character_mesh {
 
 /* ---- Material ---- */
 
-static gd_variant texture_of(const sbf_asset *asset, int32_t index) {
-  const sbf_texture *texture = index >= 0 ? &asset->textures.at[index] : NULL;
-  if (!texture || !texture->bytes.count) return gd_nil();
+static gd_variant make_texture(const sbf_texture *texture) {
   gd_variant image = gd_new("Image"), classes = gd_singleton("ClassDB");
   gd_variant bytes = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY, texture->bytes.count);
   memcpy(gd_bytes(&bytes), texture->bytes.at, texture->bytes.count);
@@ -62,17 +60,22 @@ static gd_variant texture_of(const sbf_asset *asset, int32_t index) {
   return made;
 }
 
+/* Decoded once for all nodes that show the asset. Nil: there is none. */
+static gd_variant texture_of(soft_model *model, int32_t index) {
+  gd_variant *kept = soft_model_texture(model, index);
+  if (!kept || !model->asset->textures.at[index].bytes.count) return gd_nil();
+  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL) *kept = make_texture(&model->asset->textures.at[index]);
+  return gd_copy(kept);
+}
+
 /* The file's colours are linear, Godot's albedo is not. */
 static float from_linear(float value) {
   return value <= 0.0031308f ? 12.92f * value : 1.055f * powf(value, 1 / 2.4f) - 0.055f;
 }
 
-static gd_variant material_of(const sbf_asset *asset, const sbf_render_mesh *mesh, uint32_t slot) {
+static gd_variant make_material(soft_model *model, const sbf_material *m) {
   gd_variant made = gd_new("StandardMaterial3D");
-  int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
-  if (index < 0) return made;
-  const sbf_material *m = &asset->materials.at[index];
-  gd_variant texture = texture_of(asset, m->base_color_texture);
+  gd_variant texture = texture_of(model, m->base_color_texture);
   GD_DO(&made, "set_albedo",
       gd_color_value((gd_color){from_linear(m->base_color.x), from_linear(m->base_color.y),
           from_linear(m->base_color.z), m->base_color.w}));
@@ -95,10 +98,19 @@ static gd_variant material_of(const sbf_asset *asset, const sbf_render_mesh *mes
   return made;
 }
 
+/* Shared by all nodes that show the asset, as resources are. */
+static gd_variant material_of(soft_model *model, const sbf_render_mesh *mesh, uint32_t slot) {
+  int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
+  gd_variant *kept = soft_model_material(model, index);
+  if (!kept) return gd_new("StandardMaterial3D");
+  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL)
+    *kept = make_material(model, &model->asset->materials.at[index]);
+  return gd_copy(kept);
+}
+
 /* ---- Making ---- */
 
-static bool add_surface(
-    shown_mesh *shown, const sbf_asset *asset, const sbf_render_mesh *mesh, uint32_t slot) {
+static bool add_surface(shown_mesh *shown, soft_model *model, const sbf_render_mesh *mesh, uint32_t slot) {
   shown_surface *surface = &shown->surfaces[shown->surface_count];
   surface_vertices *v = &surface->vertices;
   if (!surface_vertices_make(v, mesh, slot, shown->corners)) return false;
@@ -124,7 +136,7 @@ static bool add_surface(
   GD_DO(&shown->mesh, "add_surface_from_arrays", gd_int(PRIMITIVE_TRIANGLES), arrays,
       gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY), gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY),
       gd_int(FORMAT_DYNAMIC));
-  GD_DO(&shown->mesh, "surface_set_material", gd_int(shown->surface_count), material_of(asset, mesh, slot));
+  GD_DO(&shown->mesh, "surface_set_material", gd_int(shown->surface_count), material_of(model, mesh, slot));
   int64_t format = gd_take_int(GD_CALL(&shown->mesh, "surface_get_format", gd_int(shown->surface_count)));
   surface->normals_at = (uint32_t)gd_take_int(GD_CALL(
       &server, "mesh_surface_get_format_offset", gd_int(format), gd_int(v->count), gd_int(ARRAY_NORMAL)));
@@ -147,7 +159,7 @@ static bool show(shown_mesh *shown, soft_character *one, uint32_t index) {
   shown->mesh = gd_new("ArrayMesh");
   shown->instance = gd_new("MeshInstance3D");
   for (uint32_t slot = 0; shown->surfaces && slot < slots; slot++)
-    if (!add_surface(shown, asset, mesh, slot)) return false;
+    if (!add_surface(shown, one->model, mesh, slot)) return false;
   GD_DO(&shown->instance, "set_mesh", gd_copy(&shown->mesh));
   GD_DO(&shown->instance, "set_name", gd_string(mesh->name[0] ? mesh->name : mesh->id));
   GD_DO(&shown->instance, "set_as_top_level", gd_bool(true));

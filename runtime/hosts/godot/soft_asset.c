@@ -13,11 +13,19 @@ struct soft_content {
   gd_variant bytes;
   sbf_asset *asset;
   soft_model *models;
+  gd_variant *materials, *textures; /* one of each that the asset has; nil: not made yet */
   uint32_t holders;
 };
 
+static void free_values(gd_variant *values, uint32_t count) {
+  for (uint32_t i = 0; values && i < count; i++) gd_free(&values[i]);
+  free(values);
+}
+
 static void content_release(soft_content *content) {
   if (!content || --content->holders) return;
+  free_values(content->materials, content->asset->materials.count);
+  free_values(content->textures, content->asset->textures.count);
   sbf_asset_free(content->asset);
   gd_free(&content->bytes);
   free(content);
@@ -69,6 +77,24 @@ void soft_model_release(soft_model *model) {
   sbr_model_destroy(model->model);
   content_release(model->content);
   free(model);
+}
+
+/* The value of that number in a list that is made at first use; NULL without memory or such a number. */
+static gd_variant *value_in(gd_variant **values, uint32_t count, int32_t index) {
+  if (index < 0 || (uint32_t)index >= count) return NULL;
+  if (!*values) {
+    *values = malloc(count * sizeof **values);
+    for (uint32_t i = 0; *values && i < count; i++) (*values)[i] = gd_nil();
+  }
+  return *values ? &(*values)[index] : NULL;
+}
+
+gd_variant *soft_model_material(soft_model *model, int32_t index) {
+  return value_in(&model->content->materials, model->asset->materials.count, index);
+}
+
+gd_variant *soft_model_texture(soft_model *model, int32_t index) {
+  return value_in(&model->content->textures, model->asset->textures.count, index);
 }
 
 const sbf_asset *soft_asset_of(const soft_asset *asset) {

@@ -27,7 +27,12 @@ extern const gd_class soft_asset_class;
 
 /* NULL where the resource is empty or the model cannot be made, which is then in Godot's log. */
 soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options);
-void soft_model_release(soft_model *model);              /* NULL does nothing */
+void soft_model_release(soft_model *model); /* NULL does nothing */
+/* Where the content keeps the StandardMaterial3D and the ImageTexture of those numbers of its asset, for all
+ * that show it: nil until the caller has put one there. NULL without memory or such a number. On the main
+ * thread. */
+gd_variant *soft_model_material(soft_model *model, int32_t index);
+gd_variant *soft_model_texture(soft_model *model, int32_t index);
 const sbf_asset *soft_asset_of(const soft_asset *asset); /* NULL: empty */
 /* A file's bytes in it; false, with the reason in Godot's log, leaves it as it was. */
 bool soft_asset_read(soft_asset *asset, const gd_variant *bytes, const char *name);
