@@ -111,6 +111,9 @@ def imported(godot, program):
     godot.provide_program()
     text = os.path.join(godot.folder, "lizard.sbf")
     passed, states = True, set()
+    samples = os.path.join(ROOT, "spec", "samples", "valid")
+    shutil.copy(os.path.join(samples, "jelly.sbf"), godot.folder)
+    shutil.copytree(os.path.join(samples, "textures"), os.path.join(godot.folder, "textures"))
     for name in ("lizard", "stiffer"):
         told = native(program, godot.folder, name)
         states.add(told["state_hash"])
@@ -163,6 +166,7 @@ script = ExtResource("1")
 [node name="Lizard" type="SoftCharacter3D" parent="."]
 asset = ExtResource("2")
 ground = 1
+detail = 1
 forward_speed = 0.25
 """
 

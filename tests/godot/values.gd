@@ -20,6 +20,7 @@ func _initialize() -> void:
 	check(asset.get_bone_names().size() == 29 and "Pelvis" in asset.get_soft_body_names(), "names of parts")
 	character = add_character()
 	character.ground = SoftCharacter3D.GROUND_FLAT
+	character.detail = SoftCharacter3D.DETAIL_FULL # what is selected is a part of the state
 	character.forward_speed = 0.25
 	character.foot_down.connect(func(_leg: int, position: Vector3): downs += 1; last_down = position)
 	character.foot_up.connect(func(_leg: int, _position: Vector3): ups += 1)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "sbrun/animation.h"
+#include "sbrun/detail.h"
 #include "sbrun/rigid.h"
 #include "soft_character.h"
 
@@ -55,6 +56,12 @@ CALL(get_state_hash) {
   snprintf(text, sizeof text, "%016llx",
       one->world ? (unsigned long long)sbr_world_get_state_hash(one->world) : 0);
   gd_assign(result, gd_string(text));
+}
+
+CALL(get_detail_level) {
+  const soft_character *one = self;
+  UNUSED;
+  gd_assign(result, gd_int(one->world ? sbr_character_get_detail_level(one->world, one->id) : 0));
 }
 
 CALL(get_leg_count) {
@@ -207,6 +214,7 @@ const gd_method soft_character_methods[] = {
     {"play", play, NOTHING, 2, {WITH("clip", STRING), WITH("fade", FLOAT)}},
     {"knock_over", knock_over, NOTHING, 0, {{0}}},
     {"get_travelled", get_travelled, ANSWER(FLOAT), 0, {{0}}},
+    {"get_detail_level", get_detail_level, ANSWER(INT), 0, {{0}}},
     {"get_leg_count", get_leg_count, ANSWER(INT), 0, {{0}}},
     {"is_leg_planted", is_leg_planted, ANSWER(BOOL), 1, {WITH("leg", INT)}},
     {"get_skin", get_skin, ANSWER(PACKED_VECTOR3_ARRAY), 1, {WITH("render_mesh", INT)}},

@@ -41,6 +41,7 @@ static bool make_world(soft_character *one) {
   sbf_diagnostic error;
   gd_transform node_transform = one->put;
   one->scale = transform_scale(&node_transform);
+  one->detail = SOFT_DETAIL_UNKNOWN;
   one->loose = soft_asset_is_loose(one->model->asset);
   measure(one);
   one->ground = physics_ground_make();
@@ -108,6 +109,7 @@ void soft_character_make(soft_character *one) {
         .substeps = (uint32_t)s->substeps,
         .free = s->free_bodies,
         .has_gravity = s->gravity_scale != 1,
+        .detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor,
         .gravity = {k * g.x, k * g.y, k * g.z}};
     one->model = soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {

@@ -5,6 +5,7 @@
 #include "soft_character.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,11 @@ enum {
   ARRAY_TEX_UV = 4,
   ARRAY_INDEX = 12,
   ARRAY_MAX = 13,
+  TEXTURE_ALBEDO = 0, /* BaseMaterial3D's */
+  TEXTURE_METALLIC = 1,
+  TEXTURE_ROUGHNESS = 2,
+  CHANNEL_GREEN = 1,
+  CHANNEL_BLUE = 2,
   INTERPOLATION_OFF = 2 /* its vertices move, not its place */
 };
 
@@ -43,12 +49,14 @@ struct character_mesh {
 
 /* ---- Material ---- */
 
-static gd_variant make_texture(const sbf_texture *texture) {
+static gd_variant decoded_texture(const sbf_texture *texture) {
   gd_variant image = gd_new("Image"), classes = gd_singleton("ClassDB");
   gd_variant bytes = gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY, texture->bytes.count);
   memcpy(gd_bytes(&bytes), texture->bytes.at, texture->bytes.count);
-  bool png = !strstr(texture->media_type, "jpeg");
-  int64_t failed = gd_take_int(GD_CALL(&image, png ? "load_png_from_buffer" : "load_jpg_from_buffer", bytes));
+  const char *type = texture->media_type, *load = strstr(type, "jpeg")   ? "load_jpg_from_buffer"
+                                                  : strstr(type, "webp") ? "load_webp_from_buffer"
+                                                                         : "load_png_from_buffer";
+  int64_t failed = gd_take_int(GD_CALL(&image, load, bytes));
   gd_variant made = gd_nil();
   if (!failed) {
     GD_DO(&image, "generate_mipmaps");
@@ -60,12 +68,44 @@ static gd_variant make_texture(const sbf_texture *texture) {
   return made;
 }
 
-/* Decoded once for all nodes that show the asset. Nil: there is none. */
-static gd_variant texture_of(soft_model *model, int32_t index) {
-  gd_variant *kept = soft_model_texture(model, index);
-  if (!kept || !model->asset->textures.at[index].bytes.count) return gd_nil();
-  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL) *kept = make_texture(&model->asset->textures.at[index]);
+/* The project's own resource, beside the bundle's. */
+static gd_variant texture_beside(const soft_character *one, const sbf_texture *texture) {
+  char bundle[512], path[1024], message[1280];
+  gd_variant loader = gd_singleton("ResourceLoader"), from = GD_CALL(&one->asset_value, "get_path");
+  gd_as_text(&from, bundle, sizeof bundle);
+  const char *end = strrchr(bundle, '/');
+  snprintf(path, sizeof path, "%.*s%s", end ? (int)(end + 1 - bundle) : 0, bundle, texture->path);
+  gd_variant found = gd_nil();
+  if (gd_take_bool(GD_CALL(&loader, "exists", gd_string(path), gd_string("Texture2D"))))
+    found = GD_CALL(&loader, "load", gd_string(path), gd_string("Texture2D"));
+  else {
+    snprintf(message, sizeof message,
+        "the texture %s is not there: put it there, or export the character with its textures in it", path);
+    soft_character_warning(one, message);
+  }
+  gd_free(&from);
+  gd_free(&loader);
+  return found;
+}
+
+/* Made once for all nodes that show the asset; false is kept for one that could not be. Nil: there is none.
+ */
+static gd_variant texture_of(const soft_character *one, int32_t index) {
+  gd_variant *kept = soft_model_texture(one->model, index);
+  if (!kept) return gd_nil();
+  const sbf_texture *texture = &one->model->asset->textures.at[index];
+  if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL) {
+    gd_variant made = texture->bytes.count ? decoded_texture(texture)
+                      : texture->path[0]   ? texture_beside(one, texture)
+                                           : gd_nil();
+    *kept = gd_as_object(&made) ? made : gd_bool(false);
+  }
   return gd_copy(kept);
+}
+
+static void set_texture(const gd_variant *material, int64_t parameter, gd_variant texture) {
+  if (gd_as_object(&texture)) GD_DO(material, "set_texture", gd_int(parameter), gd_copy(&texture));
+  gd_free(&texture);
 }
 
 /* The file's colours are linear, Godot's albedo is not. */
@@ -73,15 +113,20 @@ static float from_linear(float value) {
   return value <= 0.0031308f ? 12.92f * value : 1.055f * powf(value, 1 / 2.4f) - 0.055f;
 }
 
-static gd_variant make_material(soft_model *model, const sbf_material *m) {
+static gd_variant make_material(const soft_character *one, const sbf_material *m) {
   gd_variant made = gd_new("StandardMaterial3D");
-  gd_variant texture = texture_of(model, m->base_color_texture);
   GD_DO(&made, "set_albedo",
       gd_color_value((gd_color){from_linear(m->base_color.x), from_linear(m->base_color.y),
           from_linear(m->base_color.z), m->base_color.w}));
   GD_DO(&made, "set_metallic", gd_float(m->metallic));
   GD_DO(&made, "set_roughness", gd_float(m->roughness));
-  if (gd_as_object(&texture)) GD_DO(&made, "set_texture", gd_int(0), gd_copy(&texture));
+  set_texture(&made, TEXTURE_ALBEDO, texture_of(one, m->base_color_texture));
+  if (m->metallic_roughness_texture >= 0) { /* metal in blue, roughness in green, as glTF has them */
+    set_texture(&made, TEXTURE_METALLIC, texture_of(one, m->metallic_roughness_texture));
+    set_texture(&made, TEXTURE_ROUGHNESS, texture_of(one, m->metallic_roughness_texture));
+    GD_DO(&made, "set_metallic_texture_channel", gd_int(CHANNEL_BLUE));
+    GD_DO(&made, "set_roughness_texture_channel", gd_int(CHANNEL_GREEN));
+  }
   if (m->emissive.x > 0 || m->emissive.y > 0 || m->emissive.z > 0) {
     GD_DO(&made, "set_feature", gd_int(0), gd_bool(true));
     GD_DO(&made, "set_emission",
@@ -94,23 +139,23 @@ static gd_variant make_material(soft_model *model, const sbf_material *m) {
     GD_DO(&made, "set_alpha_scissor_threshold", gd_float(m->alpha_cutoff));
   }
   if (m->double_sided) GD_DO(&made, "set_cull_mode", gd_int(2));
-  gd_free(&texture);
   return made;
 }
 
 /* Shared by all nodes that show the asset, as resources are. */
-static gd_variant material_of(soft_model *model, const sbf_render_mesh *mesh, uint32_t slot) {
+static gd_variant material_of(const soft_character *one, const sbf_render_mesh *mesh, uint32_t slot) {
   int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
-  gd_variant *kept = soft_model_material(model, index);
+  gd_variant *kept = soft_model_material(one->model, index);
   if (!kept) return gd_new("StandardMaterial3D");
   if (gd_type(kept) == GDEXTENSION_VARIANT_TYPE_NIL)
-    *kept = make_material(model, &model->asset->materials.at[index]);
+    *kept = make_material(one, &one->model->asset->materials.at[index]);
   return gd_copy(kept);
 }
 
 /* ---- Making ---- */
 
-static bool add_surface(shown_mesh *shown, soft_model *model, const sbf_render_mesh *mesh, uint32_t slot) {
+static bool add_surface(
+    shown_mesh *shown, const soft_character *one, const sbf_render_mesh *mesh, uint32_t slot) {
   shown_surface *surface = &shown->surfaces[shown->surface_count];
   surface_vertices *v = &surface->vertices;
   if (!surface_vertices_make(v, mesh, slot, shown->corners)) return false;
@@ -136,7 +181,7 @@ static bool add_surface(shown_mesh *shown, soft_model *model, const sbf_render_m
   GD_DO(&shown->mesh, "add_surface_from_arrays", gd_int(PRIMITIVE_TRIANGLES), arrays,
       gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY), gd_empty(GDEXTENSION_VARIANT_TYPE_DICTIONARY),
       gd_int(FORMAT_DYNAMIC));
-  GD_DO(&shown->mesh, "surface_set_material", gd_int(shown->surface_count), material_of(model, mesh, slot));
+  GD_DO(&shown->mesh, "surface_set_material", gd_int(shown->surface_count), material_of(one, mesh, slot));
   int64_t format = gd_take_int(GD_CALL(&shown->mesh, "surface_get_format", gd_int(shown->surface_count)));
   surface->normals_at = (uint32_t)gd_take_int(GD_CALL(
       &server, "mesh_surface_get_format_offset", gd_int(format), gd_int(v->count), gd_int(ARRAY_NORMAL)));
@@ -159,7 +204,7 @@ static bool show(shown_mesh *shown, soft_character *one, uint32_t index) {
   shown->mesh = gd_new("ArrayMesh");
   shown->instance = gd_new("MeshInstance3D");
   for (uint32_t slot = 0; shown->surfaces && slot < slots; slot++)
-    if (!add_surface(shown, one->model, mesh, slot)) return false;
+    if (!add_surface(shown, one, mesh, slot)) return false;
   GD_DO(&shown->instance, "set_mesh", gd_copy(&shown->mesh));
   GD_DO(&shown->instance, "set_name", gd_string(mesh->name[0] ? mesh->name : mesh->id));
   GD_DO(&shown->instance, "set_as_top_level", gd_bool(true));

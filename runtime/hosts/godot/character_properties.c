@@ -82,6 +82,7 @@ static void set_material(void *self, const gd_variant *const *arguments, gd_vari
 SETTING(scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
 SETTING(substeps, int, 0, 1024, soft_character_make(one))
 SETTING(level, int, 0, 64, soft_character_make(one))
+SETTING(detail, int, SOFT_DETAIL_AUTOMATIC, SOFT_DETAIL_FULL, soft_character_make(one))
 SETTING(free_bodies, bool, 0, 1, soft_character_make(one))
 SETTING(hold_pose, bool, 0, 1, soft_character_make(one))
 SETTING(use_threads, bool, 0, 1, soft_character_make(one))
@@ -148,6 +149,7 @@ const gd_property soft_character_properties[] = {
         "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", scheme),
     SHOWN("substeps", INT, HINT_RANGE, "0,100,1,or_greater", "get_", substeps),
     SHOWN("level", INT, HINT_RANGE, "0,8,1", "get_", level),
+    CHOICE("detail", "SoftCharacter3D.Detail", "Automatic,Full", detail),
     SHOWN("gravity_scale", FLOAT, HINT_RANGE, "-4,4,0.01,or_less,or_greater", "get_", gravity_scale),
     SHOWN("free_bodies", BOOL, 0, NULL, "is_", free_bodies),
     SHOWN("hold_pose", BOOL, 0, NULL, "is_", hold_pose),

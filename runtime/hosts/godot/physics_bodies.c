@@ -380,3 +380,12 @@ void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_se
   }
   gd_free(&server);
 }
+
+bool physics_bodies_any_rigid(const physics_bodies *bodies) {
+  gd_variant server = gd_singleton("PhysicsServer3D");
+  bool any = false;
+  for (uint32_t i = 0; i < MAX && !any; i++)
+    any = bodies->each[i].body && body_is_rigid(&server, &bodies->each[i].handle);
+  gd_free(&server);
+  return any;
+}

@@ -1,9 +1,11 @@
 /* Worlds of the runtime: one for each node, or one for all nodes of a physics space with contacts between
  * them. Characters of one world share gravity and control tick. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "physics_kinds.h"
+#include "sbrun/detail.h"
 #include "soft_character.h"
 
 enum {
@@ -14,7 +16,7 @@ enum {
 struct shared_world {
   shared_world *next;
   uint64_t space; /* RID; 0: it is one node's own */
-  bool has_gravity, threads;
+  bool has_gravity, threads, selects, has_budget;
   sbf_vec3 gravity;
   double tick_s;
   sbr_world *world;
@@ -24,8 +26,8 @@ struct shared_world {
   int64_t frame;           /* last stepped */
 };
 
-/* Of the main thread alone. */
-static shared_world *shared_worlds;
+/* All there are. Of the main thread alone. */
+static shared_world *worlds;
 
 static uint64_t space_of(const soft_character *one) {
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
@@ -38,7 +40,7 @@ static uint64_t space_of(const soft_character *one) {
 
 static void release(shared_world *shared) {
   if (!shared || --shared->holders) return;
-  for (shared_world **link = &shared_worlds; *link; link = &(*link)->next)
+  for (shared_world **link = &worlds; *link; link = &(*link)->next)
     if (*link == shared) {
       *link = shared->next;
       break;
@@ -73,12 +75,13 @@ static shared_world *make(const sbr_world_definition *given, uint64_t space) {
     release(made);
     return NULL;
   }
-  if (space) made->next = shared_worlds, shared_worlds = made;
+  made->next = worlds;
+  worlds = made;
   return made;
 }
 
 static shared_world *find(const sbr_world_definition *definition, uint64_t space) {
-  for (shared_world *one = space ? shared_worlds : NULL; one; one = one->next)
+  for (shared_world *one = space ? worlds : NULL; one; one = one->next)
     if (one->space == space && one->count < MAX && one->has_gravity == definition->has_gravity &&
         one->threads == (definition->tasks.run != NULL) && one->tick_s == definition->control_tick_s &&
         (!one->has_gravity || !memcmp(&one->gravity, &definition->gravity, sizeof one->gravity)))
@@ -90,6 +93,8 @@ bool shared_world_join(soft_character *one, const sbr_world_definition *definiti
   shared_world *shared =
       find(definition, one->settings.collide_with_others && !one->editor ? space_of(one) : 0);
   if (!shared) return false;
+  if (one->model->options.detail_levels && !shared->selects)
+    shared->selects = level_of_detail_select(shared->world, 0);
   shared->members[shared->count++] = one;
   one->shared = shared;
   one->world = shared->world;
@@ -177,6 +182,25 @@ static void report(shared_world *shared, const sbr_event *e) {
 
 /* ---- A frame ---- */
 
+/* The world's part of the project's budget: what it needs and a part of what is left, or, where all need too
+ * much, in proportion. */
+static double budget_of(const shared_world *shared, double budget_us) {
+  double needed = 0, count = 0, us_per_visit = 1e-3 * (double)sbr_default_detail_definition().ns_per_visit;
+  for (const shared_world *one = worlds; one; one = one->next)
+    needed += us_per_visit * sbr_world_get_element_visits(one->world), count++;
+  double mine = us_per_visit * sbr_world_get_element_visits(shared->world);
+  return needed > budget_us ? mine * budget_us / needed : mine + (budget_us - needed) / count;
+}
+
+static void update_detail(shared_world *shared) {
+  if (!shared->selects) return;
+  double budget_us = level_of_detail_budget_us();
+  if (budget_us > 0 || shared->has_budget)
+    level_of_detail_select(shared->world, budget_us > 0 ? fmax(budget_of(shared, budget_us), 1) : 0);
+  shared->has_budget = budget_us > 0;
+  level_of_detail_update(shared->members, shared->count);
+}
+
 /* Characters whose nodes were scaled are recreated; they are then the last of the world, or in another one.
  */
 static void rescale(shared_world *shared) {
@@ -202,6 +226,7 @@ void shared_world_step(soft_character *one) {
   for (uint32_t i = 0; i < shared->count; i++)
     any = (moves[i] = soft_character_prepare(shared->members[i])) || any;
   if (!any) return;
+  update_detail(shared);
   physics_bodies_move(shared->bodies, shared->world, frame_s, one->settings.push_bodies);
   sbr_world_step(shared->world, (double)frame_s);
   physics_bodies_push(shared->bodies, shared->world, &one->settings);

@@ -33,7 +33,8 @@ static void content_release(soft_content *content) {
 
 static bool same_options(const sbr_model_options *a, const sbr_model_options *b) {
   return a->level == b->level && a->scheme == b->scheme && a->substeps == b->substeps && a->free == b->free &&
-         a->has_gravity == b->has_gravity && !memcmp(&a->gravity, &b->gravity, sizeof a->gravity);
+         a->has_gravity == b->has_gravity && a->detail_levels == b->detail_levels &&
+         !memcmp(&a->gravity, &b->gravity, sizeof a->gravity);
 }
 
 /* Where it was loaded from, for messages. */

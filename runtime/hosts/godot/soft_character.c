@@ -98,6 +98,8 @@ static const gd_constant constants[] = {
     {"Scheme", "SCHEME_EXPLICIT_EULER", SBF_SCHEME_EXPLICIT_EULER},
     {"Scheme", "SCHEME_HEUN", SBF_SCHEME_HEUN},
     {"Scheme", "SCHEME_BLOCK_DESCENT", SBF_SCHEME_BLOCK_DESCENT},
+    {"Detail", "DETAIL_AUTOMATIC", SOFT_DETAIL_AUTOMATIC},
+    {"Detail", "DETAIL_FULL", SOFT_DETAIL_FULL},
     {"Ground", "GROUND_PHYSICS", SOFT_GROUND_PHYSICS},
     {"Ground", "GROUND_FLAT", SOFT_GROUND_FLAT},
     {0},

@@ -16,9 +16,22 @@ typedef enum soft_ground {
   SOFT_GROUND_FLAT     /* a plane at the height where the node began */
 } soft_ground;
 
+/* How finely it is simulated. */
+typedef enum soft_detail {
+  SOFT_DETAIL_AUTOMATIC, /* as the camera sees it (level_of_detail.c) */
+  SOFT_DETAIL_FULL       /* the finest level always */
+} soft_detail;
+typedef enum soft_detail_state {
+  SOFT_DETAIL_UNKNOWN, /* of a character that was just made */
+  SOFT_DETAIL_FINEST,
+  SOFT_DETAIL_BY_VIEW,
+  SOFT_DETAIL_HIDDEN
+} soft_detail_state;
+
 /* What the inspector sets. */
 typedef struct soft_settings {
   int64_t scheme, substeps, level; /* as sbr_model_options has them */
+  int64_t detail;                  /* a soft_detail */
   bool free_bodies, hold_pose, use_threads;
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
   double gravity_scale;
@@ -51,14 +64,15 @@ typedef struct soft_character {
   sbr_character_id id;
   sbf_vec3 low, high; /* of the asset at rest, m */
   float scale;        /* the node's own when it was made */
-  bool loose;         /* nothing holds it (character_loose.c); then, as it was put last: */
-  sbr_double3 frame;  /* its frame in the runtime, y above the ground there */
-  sbf_vec3 middle;    /* of its points at rest, from the node's origin, not turned */
-  bool placed;        /* on the ground, by the first physics frame */
-  bool still;         /* it does not move: paused, or its node does not process */
-  double flat_y;      /* height of the flat ground */
-  gd_transform put;   /* where it was last put by its own motion */
-  bool displaced;     /* its node was moved, which the world has not followed at this tick: */
+  soft_detail_state detail;
+  bool loose;        /* nothing holds it (character_loose.c); then, as it was put last: */
+  sbr_double3 frame; /* its frame in the runtime, y above the ground there */
+  sbf_vec3 middle;   /* of its points at rest, from the node's origin, not turned */
+  bool placed;       /* on the ground, by the first physics frame */
+  bool still;        /* it does not move: paused, or its node does not process */
+  double flat_y;     /* height of the flat ground */
+  gd_transform put;  /* where it was last put by its own motion */
+  bool displaced;    /* its node was moved, which the world has not followed at this tick: */
   uint64_t tick;
   sbf_vec3 looked; /* where that was when it last looked for bodies */
   bool stale;      /* the mesh must be updated */
@@ -180,6 +194,18 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
 /* The object that a collider is of, or null. */
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
+
+/* Whether one of those near is moved by Godot's engine. */
+bool physics_bodies_any_rigid(const physics_bodies *bodies);
+
+/* ---- level_of_detail.c ---- */
+
+/* us a frame of physics for all characters of the project, by its setting; 0: no bound. */
+double level_of_detail_budget_us(void);
+/* Lets the world select the levels of its characters; false without memory. */
+bool level_of_detail_select(sbr_world *world, double budget_us);
+/* Before a step of their world: what is seen of them. */
+void level_of_detail_update(soft_character *const *members, uint32_t count);
 
 /* ---- physics_shapes.c ---- */
 

@@ -211,6 +211,14 @@ double gd_take_float(gd_variant value) {
   return read;
 }
 
+gd_rect gd_take_rect(gd_variant value) {
+  gd_rect rect = {0, 0, 0, 0};
+  if (gd_type(&value) == GDEXTENSION_VARIANT_TYPE_RECT2)
+    read_into(GDEXTENSION_VARIANT_TYPE_RECT2, &value, &rect);
+  gd_free(&value);
+  return rect;
+}
+
 sbf_vec3 gd_take_vector3(gd_variant value) {
   sbf_vec3 read = gd_as_vector3(&value);
   gd_free(&value);

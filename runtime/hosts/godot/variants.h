@@ -26,6 +26,9 @@ typedef struct gd_color {
 typedef struct gd_aabb {
   sbf_vec3 position, size;
 } gd_aabb;
+typedef struct gd_rect {
+  float x, y, width, height;
+} gd_rect;
 
 /* ---- Making ---- */
 
@@ -63,6 +66,7 @@ bool gd_take_bool(gd_variant value);
 int64_t gd_take_int(gd_variant value);
 double gd_take_float(gd_variant value);
 sbf_vec3 gd_take_vector3(gd_variant value);
+gd_rect gd_take_rect(gd_variant value);
 
 /* Of an array or a dictionary; nil where there is none. */
 gd_variant gd_at(const gd_variant *array, int64_t index);

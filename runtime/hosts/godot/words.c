@@ -21,6 +21,10 @@ static const gd_help character_words[] = {
                  "choice. Cost is proportional; stiffer bodies need more."},
     {"level", "Level of detail of the file that is simulated: 0 is the finest; numbers beyond the last mean "
               "the last."},
+    {"detail",
+        "Whether the level follows the size on the screen: coarser levels, bones alone, or, out of view, "
+        "the path alone. Without a camera, and near a [RigidBody3D], it is the finest. Project settings: "
+        "sbfmt/detail/error_pixels (0.5), sbfmt/detail/budget_ms (0: none)."},
     {"gravity_scale", "Factor on the file's gravity. The project's gravity and that of areas are not used."},
     {"free_bodies", "Removes all pins: sections fall off the bones."},
     {"hold_pose", "Keeps the bones in their rest pose; only soft bodies move."},
@@ -52,6 +56,7 @@ static const gd_help character_words[] = {
              "SoftAsset.get_clip_names]."},
     {"knock_over", "Makes the character fall. If it has legs, it gets up again. See [signal landed]."},
     {"get_travelled", "Distance travelled, in metres."},
+    {"get_detail_level", "Its present level of detail: 0 is the finest. See [member detail]."},
     {"get_leg_count", "Number of legs of the gait."},
     {"is_leg_planted", "Whether that leg stands on the ground."},
     {"get_skin", "Vertices of a render mesh in world space. See [method SoftAsset.get_render_mesh_names]."},
@@ -99,6 +104,8 @@ static const gd_help character_words[] = {
     {"SCHEME_EXPLICIT_EULER", "Explicit Euler, for comparison: it gains energy."},
     {"SCHEME_HEUN", "Heun's method, with steps as short as its error requires."},
     {"SCHEME_BLOCK_DESCENT", "Vertex block descent: stiff bodies of tetrahedra."},
+    {"DETAIL_AUTOMATIC", "As fine as the camera sees."},
+    {"DETAIL_FULL", "The finest level always."},
     {"GROUND_PHYSICS", "The bodies of the physics space near the character."},
     {"GROUND_FLAT", "A plane at the node's initial height."},
     {0},
