@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How well an OBJ gets the weights of a rig that has a mesh: cases b (its own mesh, by place) and c (a mesh like it).
+"""How well an OBJ gets the weights of a rig that has a mesh: cases b (its own mesh, by place), c (a mesh like it) and p
+(its limbs in another pose).
 
 Every rigged file is exported as OBJ, changed as other programs would have written it (tests/e2e/obj_variants.py), and
 converted with the file as its rig; the file's own conversion is the truth. Prints CSV, and what is wanted of it:
@@ -27,8 +28,10 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "e2e"))
 import json  # noqa: E402
 
 import obj_variants as variants  # noqa: E402
+import posed_inputs  # noqa: E402
 from rigged_weights import Original, clip_motions, posed_errors, share_of_equal, walk_motions  # noqa: E402
 from sbfmt_program import call  # noqa: E402
+from skinned_glb import SkinnedGlb  # noqa: E402
 
 Z_UP = ("x", "-z", "y")
 MOST_RUNS, ENOUGH_S = 7, 3
@@ -129,6 +132,65 @@ def measure_like(original, folder, rows):
         print(f"c,{original.name},{name},{len(obj.points)},,,,,,{100 * walked:.3f},{100 * posed:.3f},", flush=True)
 
 
+def posed_meshes(original, turns):
+    obj, motions = posed_inputs.pose_of(original, turns)
+    yield "posed", obj, motions
+    yield "posed; simplified to half", variants.simplified(obj), motions
+
+
+def measure_posed(original, turns, case, folder, rows):
+    source, out, rig = os.path.join(folder, "in.obj"), os.path.join(folder, "out.sbf"), original.path
+    if case == "bones":
+        rig = os.path.join(folder, "bones.glb")
+        write_bones(original.path, rig)
+    compared = posed_inputs.motions_to_compare(original, turns)
+    for name, obj, motions in posed_meshes(original, turns):
+        variants.write(variants.moved(obj, 0.01, Z_UP), source, 6)
+        start = f"{case},{original.name},{name},{len(obj.points)},,,,"
+        try:
+            time = convert(source, rig, out, "--no-build")
+        except RuntimeError as error:
+            print(f"{start},,,,{error}", flush=True)
+            rows.append((name, None, None))
+            continue
+        skin = percentile(posed_inputs.skin_errors(original, obj, out, compared))
+        joints = posed_inputs.joint_error(original, out, motions)
+        rows.append((name, skin, joints))
+        print(f"{start}{time:.2f},,{100 * joints:.3f},{100 * skin:.3f},", flush=True)
+
+
+def write_bones(path, bones_path):
+    """The file without its meshes."""
+    file = SkinnedGlb.of(path)
+    for node in file.json["nodes"]:
+        node.pop("mesh", None)
+        node.pop("skin", None)
+    file.json.pop("meshes", None)
+    file.json.pop("skins", None)
+    file.write(bones_path)
+
+
+def print_posed(case, rows):
+    for name in sorted({row[0] for row in rows}):
+        own = [row for row in rows if row[0] == name]
+        right = sum(skin is not None and skin <= 0.02 for _, skin, _ in own)
+        both = sum(skin is not None and skin <= 0.02 and joints <= 0.03 for _, skin, joints in own)
+        print(f"# {case}, {name}: skin within 2 % at 99 % of points in {right} of {len(own)}, and joints within 3 % in "
+              f"{both}; refused {sum(skin is None for _, skin, _ in own)}")
+
+
+def run_posed(cases, picked):
+    for case in cases:
+        rows = []
+        for name, turns in posed_inputs.POSES:
+            path = posed_inputs.path_of(name)
+            if not os.path.exists(path) or (picked and not any(os.path.samefile(path, p) for p in picked)):
+                continue
+            with tempfile.TemporaryDirectory() as folder:
+                measure_posed(Original(path, folder), turns, case, folder, rows)
+        print_posed(case, rows)
+
+
 def percentile(errors):
     return errors[int(0.99 * (len(errors) - 1))] if errors else 0
 
@@ -141,8 +203,9 @@ def default_files():
 def main():
     same, like = [], []
     print("case,file,variant,points,equal_percent,same_kind,distance,time,same_bundle,p99_walk_percent,p99_clip_percent,error")
-    cases = [a for a in sys.argv[1:] if a in ("b", "c")] or ["b", "c"]
-    for path in [a for a in sys.argv[1:] if a not in ("b", "c")] or default_files():
+    known = ("b", "c", "p", "bones")
+    cases, picked = [a for a in sys.argv[1:] if a in known] or ["b", "c", "p"], [a for a in sys.argv[1:] if a not in known]
+    for path in (picked or default_files()) if {"b", "c"} & set(cases) else []:
         with tempfile.TemporaryDirectory() as folder:
             try:
                 original = Original(path, folder)
@@ -164,6 +227,7 @@ def main():
         errors = [row[column] for row in like]
         print(f"# c: by {motion} within 1 % at 99 % of points in {sum(e <= 0.01 for e in errors)} of {len(errors)}, median "
               f"{100 * statistics.median(errors):.3f} %")
+    run_posed([case for case in cases if case in ("p", "bones")], picked)
 
 
 if __name__ == "__main__":

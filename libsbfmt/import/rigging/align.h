@@ -35,6 +35,10 @@ bool sbfi_show_misfit(const sbfi_rigging *r, const sbfi_matrix *to_asset);
  * memory runs out. */
 bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *turned, size_t size);
 
+/* By turning the rig's bones about their joints, from the alignment that there is: `*found` where its mesh
+ * then lies on the input. The rig, its surface and the asset's bones take that pose. */
+bool sbfi_align_pose(sbfi_rigging *r, bool *found);
+
 /* Whether a rig has neither a unit nor a mesh to be measured by, as motion capture: it takes the input's
  * size. */
 bool sbfi_rig_has_no_size(const sbfi_rigging *r);

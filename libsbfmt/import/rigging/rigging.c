@@ -50,6 +50,7 @@ static bool prepare(sbfi_rigging *r) {
     r->names[m] = c->scene->nodes[c->scene->meshes[m].node].name;
   }
   r->alignment = (sbfi_alignment){.to_asset = c->to_asset, .is_stated = true};
+  r->bound = r->rig;
   return true;
 }
 
@@ -284,15 +285,38 @@ static bool has_named_objects(const sbfi_rigging *r) {
   return false;
 }
 
+/* By turning bones, from the alignment that there is: where the input is not like the rig as saved, as bound.
+ */
+static bool align_pose(sbfi_rigging *r, weights_mode mode, double error, bool *posed) {
+  if ((mode != MODE_ANY && mode != MODE_TRANSFER) || !isfinite(error) || !rig_has_weights(r)) return true;
+  if (!r->alignment.pose_worlds) return sbfi_align_pose(r, posed);
+  sbfi_rigging bound = *r;
+  bound.rig = r->bound;
+  bound.alignment = (sbfi_alignment){.to_asset = r->c->to_asset, .is_stated = true};
+  if (error < ALIKE) return true;
+  if (!sbfi_align_by_shape(&bound, &error) || !sbfi_align_pose(&bound, posed)) return false;
+  if (*posed) *r = bound;
+  return true;
+}
+
 /* Lays what has no bones yet over the rig: by the rig's own meshes where those are alike, else by its bones.
  * An input whose objects are named for the rig already stands where its bones are. */
 static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   double error = INFINITY, median = 0;
+  bool posed = false;
   sbfi_alignment stated = r->alignment;
   sbfi_scene_surface bound = r->rig;
-  if (*alike || r->c->rig == r->c->scene || mode == MODE_NAMED || mode == MODE_MATCH || !count_open(r))
-    return SBF_OK;
+  if (r->c->rig == r->c->scene || mode == MODE_NAMED || mode == MODE_MATCH || !count_open(r)) return SBF_OK;
+  if (*alike)
+    return r->alignment.matched >= MATCHED_WELL || align_pose(r, mode, 0, &posed)
+               ? SBF_OK
+               : sbfi_convert_no_memory(r->c);
   if (rig_has_weights(r) && !align_by_shape(r, &error)) return sbfi_convert_no_memory(r->c);
+  if (!align_pose(r, mode, error, &posed)) return sbfi_convert_no_memory(r->c);
+  if (posed) {
+    *alike = true;
+    return SBF_OK;
+  }
   if (error < ALIKE && !sbfi_median_gap(r, &median)) return sbfi_convert_no_memory(r->c);
   *alike = error < ALIKE && median < ALIKE_MEDIAN;
   if (*alike) return SBF_OK;

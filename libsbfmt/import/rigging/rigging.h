@@ -66,7 +66,7 @@ typedef struct sbfi_alignment {
 typedef struct sbfi_rigging {
   sbfi_conversion *c;
   sbfi_scene_surface input;           /* in its own space */
-  sbfi_scene_surface rig;             /* in asset space */
+  sbfi_scene_surface rig, bound;      /* in asset space: in the pose at hand, and as its skins were bound */
   const sbfi_influences *rig_weights; /* (rig points) */
   sbfi_alignment alignment;
   /* Mean distance between the input and the rig's weighted meshes where those are not alike, as a share of

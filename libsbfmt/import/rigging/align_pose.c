@@ -1,0 +1,215 @@
+/* Lays an input over a rig whose mesh stands in another pose, limb by limb.
+ *
+ * The input lies over a part of the rig already. Limbs beside it are turned onto it, and then all joints
+ * together; where nearly all of both surfaces lie on each other, the rig takes that pose: its joints lie
+ * where the input's limbs are, and the input's shape is the one that its skin is bound in. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "import/rigging/align.h"
+#include "import/rigging/pose_fit.h"
+#include "motion/turn.h"
+
+enum { PASSES = 4, MAX_NAMED = 8 };
+
+/* Shares of surfaces that lie beside each other, of both together: so much tells of another pose; so little
+ * is as it should be; with so little no more is tried; a later pass leaves so much of it, the first so much,
+ * or it is the last. */
+static const double POSED = 0.06, WELL = 0.06, FITTED = 0.01, BETTER = 0.8, HOPELESS = 0.5;
+/* Of each, so much may be left, and so much of what there was; what is left of the input's that is reported.
+ */
+static const double FITTING = 0.12, FEWER = 0.5, DOUBTFUL = 0.04;
+/* So near, as a share, a usual transform may be meant. */
+static const double USUAL = 0.1;
+/* Half of the input's surface lies nearer, as a share of the size. */
+static const double NEAR = 0.01;
+/* How far points are drawn in passes after the first, as a share of the size. */
+static const double LATER_WITHIN = 0.05;
+/* Smaller turns, rad, are not reported; where none is wider, the input stands as the rig's mesh does. */
+static const double REPORTED = 0.087, MIN_TURN = 0.17;
+
+/* --- The pose in bones and nodes ----------------------------------------------------------------------- */
+
+static void turn_quaternion(const sbfi_matrix *m, double to[4]) {
+  double trace = m->at[0][0] + m->at[1][1] + m->at[2][2];
+  double squares[4] = {
+      1 + 2 * m->at[0][0] - trace, 1 + 2 * m->at[1][1] - trace, 1 + 2 * m->at[2][2] - trace, 1 + trace};
+  int best = 0;
+  for (int k = 1; k < 4; k++)
+    if (squares[k] > squares[best]) best = k;
+  double twice = sqrt(squares[best]); /* of the largest component */
+  to[best] = twice / 2;
+  for (int k = 0; k < 3; k++) {
+    int next = (k + 1) % 3, last = (k + 2) % 3;
+    double difference = (m->at[last][next] - m->at[next][last]) / (2 * twice);
+    if (best == 3)
+      to[k] = difference;
+    else if (best == k)
+      to[3] = difference;
+    if (best < 3 && k != best) to[k] = (m->at[k][best] + m->at[best][k]) / (2 * twice);
+  }
+}
+
+static void pose_bones(const sbfi_pose_fit *f, sbf_bone *bones) {
+  for (uint32_t b = 0; b < f->bone_count; b++) {
+    sbf_quat *q = &bones[b].rotation;
+    double turn[4], rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
+    turn_quaternion(&f->motions[b], turn);
+    sbfi_turn_product(turn, rotation, rotation);
+    *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
+    bones[b].head = sbfi_d3_rounded(sbfi_pose_fit_joint(f, b));
+  }
+}
+
+/* Nodes that stand for a bone move with it, others with the node above. */
+static bool pose_nodes(const sbfi_pose_fit *f, sbfi_scene_node *nodes, uint32_t count) {
+  const sbfi_conversion *c = f->r->c;
+  sbfi_matrix to_scene, above;
+  if (!sbfi_matrix_invert(&c->rig_to_asset, &to_scene)) return false;
+  for (uint32_t n = 0; n < count; n++) {
+    int32_t bone = c->bone_of_node[n], parent = nodes[n].parent;
+    if (bone != SBF_NONE && c->node_of_bone[bone] == n) {
+      sbfi_matrix motion = sbfi_matrix_multiply(&f->motions[bone], &c->rig_to_asset);
+      motion = sbfi_matrix_multiply(&to_scene, &motion);
+      nodes[n].world = sbfi_matrix_multiply(&motion, &nodes[n].world);
+    } else if (parent != SBF_NONE) {
+      nodes[n].world = sbfi_matrix_multiply(&nodes[parent].world, &nodes[n].local);
+    }
+    if (parent == SBF_NONE)
+      nodes[n].local = nodes[n].world;
+    else if (sbfi_matrix_invert(&nodes[parent].world, &above))
+      nodes[n].local = sbfi_matrix_multiply(&above, &nodes[n].world);
+  }
+  return true;
+}
+
+static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
+  sbfi_arena *arena = &r->c->scratch;
+  sbfi_scene *scene = sbfi_arena_copy(arena, r->rig.scene, 1, sizeof *scene);
+  sbf_vec3 *positions =
+      sbfi_arena_copy(arena, f->posed.mesh.positions.at, f->posed.mesh.positions.count, sizeof *positions);
+  sbfi_scene_surface bound = r->rig;
+  if (!scene || !positions) return false;
+  sbfi_scene_node *nodes = sbfi_arena_copy(arena, scene->nodes, scene->node_count, sizeof *nodes);
+  if (!nodes || !sbfi_surface_with_positions(&r->rig, &bound, positions, arena)) return false;
+  if (!pose_nodes(f, nodes, scene->node_count)) return true;
+  scene->nodes = nodes;
+  r->c->rig = r->rig.scene = scene;
+  pose_bones(f, (sbf_bone *)(uintptr_t)r->c->asset->bones.at); /* ours until the asset is handed out */
+  r->alignment.to_asset = f->to_asset;
+  r->alignment.is_stated = memcmp(&f->to_asset, &r->c->to_asset, sizeof f->to_asset) == 0;
+  return true;
+}
+
+/* --- What was found ------------------------------------------------------------------------------------ */
+
+static double turn_of(const sbfi_pose_fit *f, uint32_t bone) {
+  return 2 * asin(fmin(0.5 * sbfi_d3_length(sbfi_pose_fit_turn_vector(f, bone)), 1));
+}
+
+/* The widest turns first. */
+static void report_pose(const sbfi_pose_fit *f, const sbfi_pose_gaps *gaps) {
+  char text[600] = "";
+  double last = INFINITY;
+  uint32_t named = 0, count = 0;
+  for (uint32_t b = 0; b < f->bone_count; b++) count += turn_of(f, b) >= REPORTED;
+  for (; named < MAX_NAMED; named++) {
+    uint32_t widest = UINT32_MAX;
+    for (uint32_t b = 0; b < f->bone_count; b++) {
+      double angle = turn_of(f, b);
+      if (angle >= REPORTED && angle < last && (widest == UINT32_MAX || angle > turn_of(f, widest)))
+        widest = b;
+    }
+    if (widest == UINT32_MAX) break;
+    last = turn_of(f, widest);
+    size_t used = strlen(text);
+    snprintf(text + used, sizeof text - used, "%s'%.40s' by %.0f degrees", named ? ", " : "",
+        f->bones[widest].name, last * 57.29577951308232);
+  }
+  size_t used = strlen(text);
+  if (count > named) snprintf(text + used, sizeof text - used, " and %u more by less", count - named);
+  sbfi_convert_warn(f->r->c, SBF_CODE_RIG_ALIGNED,
+      "the input stands otherwise than the mesh of %s: bones were turned to meet it, %s, each with all that "
+      "hangs on it",
+      f->r->rig.scene->file, text);
+  if (gaps->input_beside > DOUBTFUL)
+    sbfi_convert_warn(f->r->c, SBF_CODE_RIG_OTHER_MESH,
+        "in that pose %.0f %% of the input's surface still lies beside the mesh of %s: look at its limbs in "
+        "--report; if "
+        "they follow wrong bones, give the input in the pose of the rig's mesh",
+        100 * gaps->input_beside, f->r->rig.scene->file);
+}
+
+static double beside(const sbfi_pose_gaps *gaps) {
+  return gaps->input_beside + gaps->rig_beside;
+}
+
+/* Passes while they bring the surfaces nearer to each other; the gaps that are left. */
+static bool fit(sbfi_pose_fit *f, bool is_free, sbfi_pose_gaps *gaps) {
+  for (int pass = 0; pass < PASSES && beside(gaps) > FITTED; pass++) {
+    double last = beside(gaps);
+    if (!sbfi_pose_search_limbs(f) ||
+        !sbfi_pose_fit_joints(f, pass ? LATER_WITHIN : SBFI_MAX_GAP, is_free && pass > 0))
+      return false;
+    *gaps = sbfi_pose_fit_gaps(f);
+    if (beside(gaps) > (pass ? BETTER * last : HOPELESS)) break;
+  }
+  return true;
+}
+
+/* From a usual unit, axes and no offset, where the alignment is near those: shapes of different poses tell
+ * the place of the whole roughly. */
+static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *arena, sbfi_pose_gaps *gaps) {
+  sbfi_rigging usual = *r;
+  sbfi_pose_fit other;
+  usual.alignment.to_asset = sbfi_similarity_snapped(&r->alignment.to_asset, r->rig.size, USUAL);
+  if (memcmp(&usual.alignment.to_asset, &r->alignment.to_asset, sizeof r->alignment.to_asset) == 0 ||
+      !sbfi_alignment_allowed(r, &usual.alignment.to_asset))
+    return true;
+  bool good = sbfi_pose_fit_begin(&other, &usual, arena);
+  sbfi_pose_gaps found = {0};
+  if (good) found = sbfi_pose_fit_gaps(&other);
+  if (good) good = fit(&other, true, &found);
+  bool better = good && beside(&found) < beside(gaps);
+  sbfi_pose_fit_end(better ? f : &other);
+  if (!better) return good;
+  *f = other;
+  f->r = r;
+  *gaps = found;
+  return true;
+}
+
+static double widest_turn(const sbfi_pose_fit *f) {
+  double widest = 0;
+  for (uint32_t b = 0; b < f->bone_count; b++) widest = fmax(widest, turn_of(f, b));
+  return widest;
+}
+
+static bool is_found(const sbfi_pose_fit *f, const sbfi_pose_gaps *before, const sbfi_pose_gaps *after) {
+  return after->input_beside < FITTING && after->rig_beside < FITTING && after->median < NEAR &&
+         beside(after) < FEWER * beside(before) && widest_turn(f) >= MIN_TURN;
+}
+
+bool sbfi_align_pose(sbfi_rigging *r, bool *found) {
+  sbfi_arena scratch;
+  sbfi_pose_fit f;
+  bool by_points = r->alignment.matched > 0;
+  *found = false;
+  if (!r->rig.mesh.polygon_sizes.count || !r->input.mesh.polygon_sizes.count) return true;
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  bool good = sbfi_pose_fit_begin(&f, r, &scratch);
+  sbfi_pose_gaps before = {0}, after;
+  if (good) before = sbfi_pose_fit_gaps(&f);
+  if (good && beside(&before) > POSED) {
+    after = before;
+    good = fit(&f, !by_points, &after);
+    if (good && !by_points && beside(&after) > WELL) good = fit_from_usual(r, &f, &scratch, &after);
+    *found = good && is_found(&f, &before, &after);
+    if (*found) report_pose(&f, &after);
+    if (*found) good = apply_pose(r, &f);
+  }
+  sbfi_pose_fit_end(&f);
+  sbfi_arena_free(&scratch);
+  return good;
+}

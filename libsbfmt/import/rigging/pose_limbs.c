@@ -1,0 +1,171 @@
+/* Where a limb stands far from the rig's, no nearest surface leads there: of many directions the one is taken
+ * in which the limb lies on the input, on parts of it that no other part of the rig lies on. */
+#include <math.h>
+
+#include "import/rigging/pose_fit.h"
+#include "motion/turn.h"
+
+enum { DIRECTIONS = 600, LIMB_SAMPLES = 80 };
+
+/* Cosine of the widest turn. */
+static const double FARTHEST = 0.0;
+/* A limb reaches so far, as a share of the rig's size, and is so small a share of its samples. */
+static const double MIN_REACH = 0.06, MAX_LIMB = 0.5;
+/* So large a share of a limb's samples lies beside the input where it stands otherwise. */
+static const double BESIDE = 0.25;
+/* What a turn has to gain, of 1 for lying on the input and 1 for covering as much of it as the limb has. */
+static const double GAIN = 0.15;
+static const double PER_RADIAN = 0.1; /* of gain that a wider turn has to have more */
+
+typedef struct limb {
+  sbfi_d3 joint, direction;
+  sbfi_d3 positions[LIMB_SAMPLES], normals[LIMB_SAMPLES]; /* from the joint */
+  uint32_t count, all;                                    /* of those; of the rig's samples */
+} limb;
+
+typedef struct search {
+  sbfi_pose_fit *f;
+  sbfi_d3 bare[SBFI_POSE_SAMPLES], bare_normals[SBFI_POSE_SAMPLES]; /* of the input, beside the rig */
+  uint32_t bare_count;
+  sbfi_d3 directions[DIRECTIONS];
+} search;
+
+static double weight_below(const sbfi_pose_fit *f, const sbfi_surface_sample *s, uint32_t bone) {
+  double sum = 0;
+  for (int k = 0; k < 3; k++) {
+    const sbfi_influences *of = &f->r->rig_weights[s->points[k]];
+    for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && of->at[i].weight > 0; i++)
+      if (sbfi_pose_fit_hangs_on(f, (uint32_t)f->r->c->bone_of_node[of->at[i].node], bone))
+        sum += s->weights[k] * (double)of->at[i].weight;
+  }
+  return sum;
+}
+
+/* The samples that hang on a bone; false where they are none that stands otherwise. */
+static bool take_limb(const search *s, uint32_t bone, limb *l) {
+  const sbfi_pose_fit *f = s->f;
+  uint32_t of_limb[SBFI_POSE_SAMPLES], beside = 0;
+  double reach = 0, size = f->r->rig.size;
+  sbfi_d3 sum = {0, 0, 0};
+  l->all = 0;
+  l->joint = sbfi_pose_fit_joint(f, bone);
+  for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
+    const sbfi_surface_sample *at = &f->rig_samples[i];
+    if (weight_below(f, at, bone) < 0.5) continue;
+    of_limb[l->all++] = i;
+    beside += at->gap > SBFI_ON_SURFACE * size;
+    sbfi_d3 from = sbfi_d3_sub(at->position, l->joint);
+    sum = sbfi_d3_add(sum, from);
+    reach = fmax(reach, sbfi_d3_length(from));
+  }
+  if (l->all < 4 || l->all > MAX_LIMB * SBFI_POSE_SAMPLES || reach < MIN_REACH * size ||
+      beside < BESIDE * l->all)
+    return false;
+  l->direction = sbfi_d3_normal(sum);
+  l->count = l->all < LIMB_SAMPLES ? l->all : LIMB_SAMPLES;
+  for (uint32_t k = 0; k < l->count; k++) {
+    const sbfi_surface_sample *at = &f->rig_samples[of_limb[(uint64_t)k * l->all / l->count]];
+    l->positions[k] = sbfi_d3_sub(at->position, l->joint);
+    l->normals[k] = at->normal;
+  }
+  return sbfi_d3_length(sum) > 0;
+}
+
+static sbfi_d3 turned(const double rotation[4], sbfi_d3 v) {
+  double to[3];
+  sbfi_turn_vector(rotation, (const double[3]){v.x, v.y, v.z}, to);
+  return (sbfi_d3){to[0], to[1], to[2]};
+}
+
+static double squared_distance(sbfi_d3 a, sbfi_d3 b) {
+  sbfi_d3 d = sbfi_d3_sub(a, b);
+  return sbfi_d3_dot(d, d);
+}
+
+/* How well a limb lies on the input, of 1, and how much of it that nothing else covers, of what it has
+ * itself. */
+static double evaluate(const search *s, const limb *l, const double rotation[4]) {
+  const sbfi_pose_fit *f = s->f;
+  double cap = SBFI_MAX_GAP * f->r->rig.size, lies = 0, covers = 0, nearest_of_bare[SBFI_POSE_SAMPLES];
+  for (uint32_t i = 0; i < s->bare_count; i++) nearest_of_bare[i] = cap * cap;
+  for (uint32_t k = 0; k < l->count; k++) {
+    sbfi_d3 p = sbfi_d3_add(l->joint, turned(rotation, l->positions[k])), n = turned(rotation, l->normals[k]);
+    double nearest = cap * cap;
+    for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
+      double squared = squared_distance(f->input_samples[i].position, p);
+      if (squared < nearest && sbfi_d3_dot(f->input_samples[i].normal, n) > 0.5) nearest = squared;
+    }
+    for (uint32_t i = 0; i < s->bare_count; i++) {
+      double squared = squared_distance(s->bare[i], p);
+      if (squared < nearest_of_bare[i] && sbfi_d3_dot(s->bare_normals[i], n) > 0.5)
+        nearest_of_bare[i] = squared;
+    }
+    lies += 1 - sqrt(nearest) / cap;
+  }
+  for (uint32_t i = 0; i < s->bare_count; i++) covers += 1 - sqrt(nearest_of_bare[i]) / cap;
+  return lies / l->count + fmin(covers / l->all, 1);
+}
+
+/* Points spread evenly over the unit sphere, along a spiral. */
+static void spread(sbfi_d3 directions[DIRECTIONS]) {
+  const double cosine = -0.7373688780783197, sine = 0.6754902942615238; /* of the golden angle */
+  double x = 1, z = 0;
+  for (uint32_t i = 0; i < DIRECTIONS; i++) {
+    double height = 1 - 2 * (i + 0.5) / DIRECTIONS, radius = sqrt(1 - height * height),
+           next = cosine * x - sine * z;
+    directions[i] = (sbfi_d3){radius * x, height, radius * z};
+    z = sine * x + cosine * z;
+    x = next;
+  }
+}
+
+static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
+  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
+}
+
+static void take_bare(search *s) {
+  const sbfi_pose_fit *f = s->f;
+  s->bare_count = 0;
+  for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
+    const sbfi_surface_sample *at = &f->input_samples[i];
+    if (at->gap <= SBFI_ON_SURFACE * f->r->rig.size) continue;
+    s->bare[s->bare_count] = at->position;
+    s->bare_normals[s->bare_count++] = at->normal;
+  }
+}
+
+static bool find_turn(const search *s, const limb *l, double best_rotation[4]) {
+  static const double none[4] = {0, 0, 0, 1};
+  double best = evaluate(s, l, none) + GAIN;
+  bool found = false;
+  for (uint32_t i = 0; i < DIRECTIONS; i++) {
+    sbfi_d3 to = s->directions[i];
+    double rotation[4], cosine = sbfi_d3_dot(to, l->direction);
+    if (cosine < FARTHEST) continue;
+    turn_between(l->direction, to, rotation);
+    double sine = sqrt(fmax(1 - rotation[3] * rotation[3], 0)); /* of half the turn */
+    double score = evaluate(s, l, rotation) - PER_RADIAN * 2 * sine;
+    if (score <= best) continue;
+    best = score;
+    found = true;
+    for (int k = 0; k < 4; k++) best_rotation[k] = rotation[k];
+  }
+  return found;
+}
+
+bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
+  search *s = sbfi_arena_allocate(f->arena, 1, sizeof *s);
+  limb *l = sbfi_arena_allocate(f->arena, 1, sizeof *l);
+  if (!s || !l) return false;
+  s->f = f;
+  spread(s->directions);
+  for (uint32_t b = 0; b < f->bone_count; b++) {
+    double rotation[4];
+    if (f->bones[b].parent == SBF_NONE || !take_limb(s, b, l)) continue;
+    take_bare(s);
+    if (!find_turn(s, l, rotation)) continue;
+    sbfi_pose_fit_turn(f, b, rotation);
+    if (!sbfi_pose_fit_update(f)) return false;
+  }
+  return true;
+}
