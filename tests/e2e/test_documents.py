@@ -9,7 +9,7 @@ import sys
 import unittest
 
 from motion_files import read_poses
-from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, needs_lizard, read_bytes, read_text, shared,
+from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, read_bytes, read_text,
                            write_bytes)
 
 DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md", "partial-loading.md",
@@ -63,10 +63,7 @@ class Documents(ProgramTest):
                 write_bytes(self.path("out-and-back.txt"), scripts[0][1].encode())
             self.run_commands(document)
 
-    @needs_lizard
     def test_commands_of_the_readme_work(self):
-        for name, target in (("body.obj", "liz.obj"), ("rig.fbx", "liz.fbx")):
-            os.symlink(os.path.abspath(shared("lizard", target)), self.path(name))
         self.run_commands(README)
 
     def test_pieces_of_the_tour_stand_in_the_file(self):

@@ -383,6 +383,20 @@ class FromFile(ProgramTest):
         for vertex, (weights, _) in weights_by_vertex(self.path("out.sbf")).items():
             self.assertEqual(weights, {bones[vertex % 2]: 1})
 
+    def test_a_file_of_a_few_points_is_a_warning(self):
+        bone = next(iter(self.calf.weights[0]))
+        rows, count = "".join(f"{i},{bone},1\n" for i in range(6)), len(self.calf.obj.points)
+        write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
+        said = self.good(*self.convert(self.path("w.csv"))).err
+        self.assertIn(f"warning: {self.calf.obj_path}: the file of weights has 6 of the {count} points", said)
+        root = Bundle(self.path("out.sbf")).bone_names()[0]
+        self.assertIn(f"the other {count - 6} follow the root bone '{root}'", said)
+        found = weights_by_vertex(self.path("out.sbf"))
+        self.assertEqual([found[i][0] for i in (5, 6)], [{bone: 1}, {root: 1}])
+        rows = "".join(f"{i},{bone},1\n" for i in range(count))
+        write_bytes(self.path("w.csv"), f"vertex,bone,weight\n{rows}".encode())
+        self.assertNotIn("the file of weights has", self.good(*self.convert(self.path("w.csv"))).err)
+
     def test_files_at_fault_are_refused_with_their_line(self):
         bone = next(iter(self.calf.weights[0]))
         faults = {

@@ -260,8 +260,12 @@ static sbf_status convert_other_file(const char *input, bool is_paper, const sbf
   sbfi_paper_model paper;
   readings from = {.scene = &scene};
   if (options->rig)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s: it cannot take a rig", input,
-        is_paper ? "has a skeleton of its own" : "holds tetrahedra alone");
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s: it cannot take a rig; %s", input,
+        is_paper ? "has a skeleton of its own" : "holds tetrahedra alone",
+        is_paper ? "leave out --rig"
+                 : "give the surface as OBJ or PLY with --rig, and the build makes its tetrahedra, or leave "
+                   "out --rig for a "
+                   "body without bones");
   if (!sbfi_scene_init(&scene, options->allocator, 0, input))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
   sbf_status status = is_paper

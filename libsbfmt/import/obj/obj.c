@@ -89,10 +89,21 @@ static bool read_materials(materials *m) {
   return scene->images != NULL;
 }
 
+static bool is_free_form(const sbfi_obj_text *text) {
+  static const char *const keywords[] = {"cstype", "deg", "bmat", "step", "curv", "curv2", "surf"};
+  for (size_t i = 0; text->ignored_count && i < sizeof keywords / sizeof *keywords; i++)
+    if (sbfi_span_is(text->ignored_keyword, keywords[i])) return true;
+  return false;
+}
+
 static sbf_status fill(
     sbfi_scene *scene, const sbfi_obj_text *text, const sbf_allocator *allocator, sbf_diagnostic *error) {
   if (!text->polygons.count) {
-    const char *why = !text->points.count ? "it has no vertices" : "its vertices are joined by no face";
+    const char *why = !text->points.count ? "it has no vertices: export the mesh again"
+                      : is_free_form(text)
+                          ? "it has free-form curves and surfaces alone: export it as a polygon "
+                            "mesh, as Blender does after Convert to Mesh"
+                          : "its vertices are joined by no face: export polygons, not points or edges alone";
     return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the OBJ file holds no surface: %s", why);
   }
   sbf_status status = sbfi_obj_divide(scene, text, allocator, error);

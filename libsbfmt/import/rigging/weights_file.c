@@ -50,6 +50,7 @@ static sbf_status apply_row(sbfi_rigging *r, sbfi_weights_rows *rows, const sbfi
 }
 
 static sbf_status apply_rows(sbfi_rigging *r, sbfi_weights_rows *rows) {
+  const sbf_bone_list *bones = &r->c->asset->bones;
   uint32_t vertex_count, given = 0;
   const uint32_t *points = points_of_vertices(r, &vertex_count);
   const sbfi_weights_row *at = rows->rows.at;
@@ -62,6 +63,13 @@ static sbf_status apply_rows(sbfi_rigging *r, sbfi_weights_rows *rows) {
     sbfi_influences_finish(&r->weights[i]);
     given += r->sources[i] == SBFI_WEIGHTS_FROM_FILE;
   }
+  if (given && given < r->input.mesh.positions.count)
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
+        "the file of weights has %u of the %u points of %s: the other %u follow the root bone '%s', or the "
+        "nearest bone "
+        "as a whole where no point of their object has weights; add their rows, or leave out --weights",
+        given, r->input.mesh.positions.count, r->input.scene->file, r->input.mesh.positions.count - given,
+        bones->at[0].name);
   return given ? SBF_OK : sbfi_weights_rows_fail(rows, 0, "it gives no vertex a weight above 0");
 }
 
