@@ -162,6 +162,13 @@ def measure_posed(original, turns, case, folder, rows):
 def write_bones(path, bones_path):
     """The file without its meshes."""
     file = SkinnedGlb.of(path)
+    drawn = {i for i, node in enumerate(file.json["nodes"]) if "mesh" in node and not node.get("children")}
+    for parent in [*file.json["nodes"], *file.json["scenes"]]:
+        key = "children" if "children" in parent else "nodes"
+        if key in parent:
+            parent[key] = [i for i in parent[key] if i not in drawn]
+            if not parent[key]:
+                del parent[key]
     for node in file.json["nodes"]:
         node.pop("mesh", None)
         node.pop("skin", None)

@@ -196,6 +196,21 @@ class RiggedInputs(ProgramTest):
         self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
         self.assertIn("5 lines of kinds that make no polygon are passed over, the first is \"cstype\"", said)
 
+    def test_what_holds_no_polygon_says_what_to_export(self):
+        rig = Column().glb.write(self.path("rig.glb"))
+        with open(self.path("free.obj"), "w", encoding="ascii") as stream:
+            stream.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n")
+        with open(self.path("points.obj"), "w", encoding="ascii") as stream:
+            stream.write("v 0 0 0\nv 1 0 0\nl 1 2\n")
+        for name, said in (("free.obj", "free-form curves and surfaces alone: export it as a polygon mesh"),
+                           ("points.obj", "export polygons")):
+            self.assertIn(said, self.fails(1, "convert", self.path(name), "--rig", rig, "-o", self.path("no.sbf")))
+        for ending, text in ((".node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n"), (".ele", "1 4 0\n0 0 1 2 3\n")):
+            with open(self.path("tets" + ending), "w", encoding="ascii") as stream:
+                stream.write(text)
+        said = self.fails(2, "convert", self.path("tets.ele"), "--rig", rig, "-o", self.path("no.sbf"))
+        self.assertIn("holds tetrahedra alone: it cannot take a rig; give the surface as OBJ or PLY with --rig", said)
+
     def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
         """They are sections of those bones, whatever bone is nearest; the others are computed."""
         write_bones(self.path("arm.bvh"))
@@ -230,6 +245,36 @@ class RiggedInputs(ProgramTest):
             found, said = self.convert(joined, rig)
             self.assertIn(f"{len(points)} of the bone that their piece touches", said)
             self.assertEqual(f"{len(points)} of {len(found)} points lie beside the mesh" in said, reported)
+
+    def test_what_stands_on_a_joint_follows_one_bone(self):
+        """A saddle that overlaps the skin of two bones: all of it hangs on the one that it touches most."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        points, triangles = tube(0.85, 1.6, 0.12, 9)
+        saddle = [(x + 0.27, y, z) for x, y, z in points], triangles
+        for name in ("saddle", "body"):  # an object of its own, or a shell of the body's
+            obj = obj_of({"body": column.body, "hat": column.hat, "saddle": saddle})
+            obj.faces = [(name if part == "saddle" else part, m, c) for part, m, c in obj.faces]
+            found, said = self.convert(obj, rig)
+            weights = weights_by_vertex(self.path("out.sbf"))
+            first = len(column.body[0]) + len(column.hat[0])
+            for vertex in range(first, first + len(points)):
+                self.assertEqual(weights[vertex][0], {"high": 1.0})
+            self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
+            self.assertIn(f"{len(points)} of the bone that their piece touches", said)
+            self.assertNotIn("RIG_OBJECT_APART", said)
+
+    def test_two_characters_in_one_object(self):
+        """Shells far from the rig are named."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        for shells, apart in (({"twin": 1.2}, 1), ({"twin": 1.2, "third": -2.0}, 2), ({}, 0)):
+            more = {name: ([(x + by, y, z) for x, y, z in column.body[0]], column.body[1]) for name, by in shells.items()}
+            _, said = self.convert(variants.one_object(obj_of({**column.objects(), **more}), "both"), rig)
+            self.assertEqual("RIG_OBJECT_APART" in said, apart > 0, said)
+            if apart:
+                self.assertIn(f"{apart} of {2 + apart} shells of the object 'both' lie apart from the rig", said)
+                self.assertIn("'both#3'", said)
 
     def test_a_skin_of_its_own_is_kept(self):
         """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""
@@ -274,8 +319,13 @@ class ArmOfAnotherFile(ProgramTest):
         variants.write(obj_of({**objects, "bracelet": bracelet}), self.path("both.obj"))
         done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
                          self.path("out.sbf"))
-        self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1)
+        self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
         self.assertIn("lies in the object 'twin' or beside it", done.err)
+        variants.write(variants.one_object(obj_of({**objects, "bracelet": bracelet}), "both"), self.path("both.obj"))
+        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
+                         self.path("out.sbf"))
+        self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
+        self.assertIn("of the object 'both' lie apart from the rig", done.err)
 
 
 if __name__ == "__main__":

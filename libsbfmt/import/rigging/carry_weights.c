@@ -3,11 +3,11 @@
  * A point takes the weights of the nearest surface that faces as it does; where there is none near, as on a
  * brim or between legs that touch, weights spread along the input's own surface from the points that have
  * some (Abdrashitov, Raichstat, Monsen, Hill 2023). Pieces of which little lies on the rig's surface, as a
- * sword, move with the one bone that they touch. */
+ * sword, or that stand on it, as a saddle, move with the one bone that they touch most. */
 #include <math.h>
 
-#include "base/union_find.h"
 #include "import/rigging/surface_finder.h"
+#include "import/rigging/surface_pieces.h"
 #include "import/rigging/weigh.h"
 
 /* As shares of the rig's size: the farthest surface that gives weights; how much farther than the nearest
@@ -17,6 +17,10 @@ static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
 static const double MIN_CARRIED = 0.4;
 /* The least share of a piece's points beside rigid pieces of one bone for all to follow it. */
 static const double MIN_RIGID = 0.75;
+/* A piece stands on the surface, instead of lying along it as clothes do, where so much of it faces the
+ * surface and no more than so much lies along it, which is nearer than this share of the rig's size. It is
+ * smaller than the rig. */
+static const double MIN_FACING = 0.2, MAX_ALONG = 0.35, ALONG = 0.01, MAX_STANDING = 0.6;
 enum { SPREADING_PASSES = 100 };
 
 typedef struct carrying {
@@ -27,50 +31,21 @@ typedef struct carrying {
   float *distances; /* (points) from the rig's surface */
   int32_t *nearest; /* (points) node of the rigid piece of the rig that is nearest, or SBF_NONE */
   int32_t *rigid;   /* (rig points) node that moves all of the piece alone, or SBF_NONE */
+  bool *is_stiff;   /* (points) of the first of each piece: rigid pieces of one bone move it */
+  uint8_t *stands;  /* (points) whether it faces the surface beside it, or lies along it */
   sbfi_arena *scratch;
 } carrying;
+
+enum { FACES_SURFACE = 1, LIES_ALONG };
 
 static bool is_open(const carrying *c, uint32_t point) {
   return c->r->sources[point] == SBFI_WEIGHTS_NONE;
 }
 
-/* The first of all points that hang together with each: points that share a polygon, and points in one place.
- * NULL where memory runs out. */
-static uint32_t *find_pieces(const sbfi_scene_surface *s, sbfi_arena *arena) {
-  uint32_t count = s->mesh.positions.count, slots = 16;
-  while (slots < 2 * count) slots *= 2;
-  uint32_t *table = sbfi_arena_allocate(arena, slots, sizeof *table); /* point + 1 */
-  uint32_t *pieces = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *pieces);
-  if (!table || !pieces) return NULL;
-  sbfi_sets_begin(pieces, count);
-  for (uint32_t i = 0; i < count; i++) {
-    for (uint32_t k = s->neighbour_starts[i]; k < s->neighbour_starts[i + 1]; k++)
-      sbfi_sets_join(pieces, i, s->neighbours[k]);
-    const sbf_vec3 p = s->mesh.positions.at[i];
-    uint64_t hash = 1469598103934665603u;
-    const float at[3] = {p.x, p.y, p.z};
-    for (int k = 0; k < 3; k++) hash = (hash ^ (uint64_t)(int64_t)((double)at[k] * 1e6)) * 1099511628211u;
-    uint32_t slot = (uint32_t)(hash >> 32) & (slots - 1);
-    for (;; slot = (slot + 1) & (slots - 1)) {
-      if (!table[slot]) {
-        table[slot] = i + 1;
-        break;
-      }
-      const sbf_vec3 q = s->mesh.positions.at[table[slot] - 1];
-      if (q.x == p.x && q.y == p.y && q.z == p.z) {
-        sbfi_sets_join(pieces, i, table[slot] - 1);
-        break;
-      }
-    }
-  }
-  for (uint32_t i = 0; i < count; i++) pieces[i] = sbfi_set_root(pieces, i);
-  return pieces;
-}
-
 /* Of each point of the rig the node that moves all of its piece alone, or SBF_NONE. */
 static bool find_rigid_pieces(carrying *c) {
   const sbfi_scene_surface *s = &c->r->rig;
-  const uint32_t *pieces = find_pieces(s, c->scratch);
+  const uint32_t *pieces = sbfi_surface_pieces(s, c->scratch);
   c->rigid = sbfi_arena_allocate(c->scratch, (size_t)s->mesh.positions.count + 1, sizeof *c->rigid);
   if (!pieces || !c->rigid) return false;
   for (uint32_t i = 0; i < s->mesh.positions.count; i++) {
@@ -118,10 +93,13 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
   if (!sbfi_surface_nearest(&c->finder, position, NULL, size, &near)) return;
   c->distances[point] = (float)near.distance;
   c->nearest[point] = c->rigid[near.points[0]];
+  if (near.distance <= FARTHEST * size && sbfi_d3_dot(sbfi_surface_normal(&c->r->rig, &near), normal) < 0)
+    c->stands[point] = FACES_SURFACE;
   double within = fmin(FARTHEST * size, near.distance + DETOUR * size);
   if (near.distance > within ||
       !sbfi_surface_nearest(&c->finder, position, &normal, within * (1 + 1e-9), &facing))
     return;
+  if (facing.distance <= ALONG * size) c->stands[point] = LIES_ALONG;
   blend(c, &facing, &c->r->weights[point]);
   if (c->r->weights[point].at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
 }
@@ -191,9 +169,26 @@ static bool spread(carrying *c) {
 
 typedef struct piece {
   uint32_t points, weighted;
-  float nearest; /* to the rig's surface */
+  uint32_t facing, along; /* points that face the rig's surface, and that lie along it */
+  float nearest;          /* to the rig's surface */
+  sbf_vec3 low, high;
+  bool is_stiff; /* it has its bone */
   sbfi_influences touched;
 } piece;
+
+static void widen(piece *p, sbf_vec3 at) {
+  bool first = p->points == 0;
+  p->low = first ? at : (sbf_vec3){fminf(p->low.x, at.x), fminf(p->low.y, at.y), fminf(p->low.z, at.z)};
+  p->high = first ? at : (sbf_vec3){fmaxf(p->high.x, at.x), fmaxf(p->high.y, at.y), fmaxf(p->high.z, at.z)};
+}
+
+/* Whether it is a thing of its own that no bone bends. */
+static bool is_attached(const carrying *c, const piece *p) {
+  double length = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(p->high), sbfi_d3_of(p->low)));
+  if (p->weighted < MIN_CARRIED * p->points) return true;
+  return !p->is_stiff && p->facing >= MIN_FACING * p->points && p->along <= MAX_ALONG * p->points &&
+         length <= MAX_STANDING * c->r->rig.size;
+}
 
 static uint32_t strongest(const sbfi_influences *of) {
   uint32_t best = 0;
@@ -221,12 +216,16 @@ static bool attach_pieces(carrying *c) {
   for (uint32_t i = 0; i < count; i++) {
     piece *p = &pieces[c->pieces[i]];
     if (p->points == 0 || c->distances[i] < p->nearest) p->nearest = c->distances[i];
+    widen(p, c->moved->mesh.positions.at[i]);
     p->points++;
     p->weighted += c->r->sources[i] != SBFI_WEIGHTS_NONE;
+    p->facing += c->stands[i] == FACES_SURFACE;
+    p->along += c->stands[i] == LIES_ALONG || c->r->sources[i] == SBFI_WEIGHTS_MATCHED;
+    p->is_stiff |= c->is_stiff[c->pieces[i]];
   }
   for (uint32_t i = 0; i < count; i++) {
     piece *p = &pieces[c->pieces[i]];
-    if (p->weighted < MIN_CARRIED * p->points) overlaps(c, i, p);
+    if (is_attached(c, p)) overlaps(c, i, p);
   }
   for (uint32_t i = 0; i < count; i++) {
     const piece *p = &pieces[c->pieces[i]];
@@ -266,6 +265,7 @@ static bool stiffen_pieces(carrying *c) {
     if (!is_open(c, i) && c->r->sources[i] != SBFI_WEIGHTS_CARRIED) continue;
     c->r->weights[i] = (sbfi_influences){{{(uint32_t)v->node, 1}}};
     c->r->sources[i] = SBFI_WEIGHTS_CARRIED;
+    c->is_stiff[c->pieces[i]] = true;
   }
   return true;
 }
@@ -296,8 +296,10 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
   carrying c = {.r = r, .moved = moved, .scratch = &scratch};
   c.distances = sbfi_arena_allocate(&scratch, count + 1, sizeof *c.distances);
   c.nearest = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.nearest);
-  c.pieces = find_pieces(moved, &scratch);
-  bool good = c.distances && c.nearest && c.pieces && find_rigid_pieces(&c) &&
+  c.pieces = sbfi_surface_pieces(moved, &scratch);
+  c.is_stiff = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.is_stiff);
+  c.stands = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.stands);
+  bool good = c.distances && c.nearest && c.pieces && c.is_stiff && c.stands && find_rigid_pieces(&c) &&
               sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
   for (uint32_t i = 0; good && i < count; i++) /* points by place have the node that they have */
     c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0

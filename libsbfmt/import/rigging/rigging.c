@@ -7,6 +7,7 @@
 
 #include "import/rigging/align.h"
 #include "import/rigging/clip_moments.h"
+#include "import/rigging/report_separated.h"
 #include "import/rigging/rig_pose.h"
 #include "import/rigging/rigged_scene.h"
 #include "import/rigging/weigh.h"
@@ -42,8 +43,10 @@ static bool prepare(sbfi_rigging *r) {
   r->carriers = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->carriers);
   r->lies_on = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->lies_on);
   r->names = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->names);
+  r->separated = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->separated);
   r->turned = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->turned);
-  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->lies_on || !r->names || !r->turned)
+  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->lies_on || !r->names ||
+      !r->separated || !r->turned)
     return false;
   for (uint32_t m = 0; m < meshes; m++) {
     r->carriers[m] = r->lies_on[m] = SBF_NONE;
@@ -400,6 +403,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
   say_weights(r);
   warn_of_attached(r, mode);
+  if (mode != MODE_NAMED && !sbfi_report_separated(r, &moved, alike)) return sbfi_convert_no_memory(c);
   return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
 }
 

@@ -77,6 +77,7 @@ typedef struct sbfi_rigging {
   int32_t *carriers;  /* (input meshes) node of the rig that carries all of it without a skin, or SBF_NONE */
   int32_t *lies_on;   /* (input meshes) node of the rig's mesh without a skin that has all its points */
   const char **names; /* (input meshes) */
+  bool *separated;    /* (input meshes) its message that it lies apart from the rig was sent */
   bool *turned;       /* (input meshes) its polygons face away from those of the rig */
 } sbfi_rigging;
 

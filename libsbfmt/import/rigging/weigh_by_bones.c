@@ -95,6 +95,7 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
     }
     double margin = size_of(&object) < LARGE * size ? BESIDE * size : 0;
     if (!count || is_beside_bones(bones, &object, margin)) continue;
+    r->separated[m] = true;
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OBJECT_APART,
         "no bone of %s lies in the object '%.60s' or beside it: if it is another character, convert it from "
         "a "
