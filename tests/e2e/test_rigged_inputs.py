@@ -151,7 +151,7 @@ class RiggedInputs(ProgramTest):
         objects["body"] = ([(1.08 * x, y, 1.08 * z) for x, y, z in points], triangles)
         _, said = self.convert(obj_of(objects), rig)
         self.assertIn(f"{len(column.hat[0])} of the rig's own mesh, by place", said)
-        self.assertRegex(said, r"resembles the input, but half of the input's points lie farther from it than \d")
+        self.assertRegex(said, r"resembles the input, but half of the input's surface lies farther from it than \d")
         self.assertIn("RIG_OTHER_MESH", said)
         _, said = self.convert(obj_of(objects), rig, "--weights", "transfer")
         self.assertNotIn("RIG_OTHER_MESH", said)
@@ -159,6 +159,17 @@ class RiggedInputs(ProgramTest):
             _, said = self.convert(edited, rig)
             self.assertIn("carried over from the nearest surface", said)
             self.assertNotIn("RIG_OTHER_MESH", said)
+
+    def test_a_part_that_is_another_characters(self):
+        """Most of the input lies on the rig's mesh, but a hat is wider, as clothes of two people of one maker are."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        for radius, reported in ((0.3, False), (0.32, False), (0.36, True)):
+            edited = {"body": tube(0, 2, 0.2, 12), "hat": tube(2.1, 2.5, radius, 7)}
+            _, said = self.convert(obj_of(edited), rig)
+            self.assertIn("carried over from the nearest surface", said)
+            self.assertEqual("RIG_OTHER_MESH" in said, reported, said)
+        self.assertRegex(said, r"and \d+ % of it farther than 1.5 %: it may be another character's")
 
     def test_the_mesh_of_one_bone_is_another_characters(self):
         """A rig too small for joints to lie inside of anything."""
@@ -321,6 +332,7 @@ class ArmOfAnotherFile(ProgramTest):
                          self.path("out.sbf"))
         self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
         self.assertIn("lies in the object 'twin' or beside it", done.err)
+        objects["twin"] = ([(x, y + 1.5, z) for x, y, z in arm.points], objects["twin"][1])
         variants.write(variants.one_object(obj_of({**objects, "bracelet": bracelet}), "both"), self.path("both.obj"))
         done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
                          self.path("out.sbf"))

@@ -45,13 +45,13 @@ static void take_samples(const sbfi_scene_surface *s, sbfi_surface_sample *sampl
   for (; count && count < SBFI_POSE_SAMPLES; count++) samples[count] = samples[count - 1];
 }
 
-static void locate_samples(const sbfi_scene_surface *s, sbfi_surface_sample *samples) {
+static void locate_samples(const sbfi_scene_surface *s, double sign, sbfi_surface_sample *samples) {
   for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
     sbfi_surface_sample *to = &samples[i];
     sbfi_d3 a = corner(s, to->points[0]), b = corner(s, to->points[1]), c = corner(s, to->points[2]);
     to->position = sbfi_d3_add(sbfi_d3_scale(a, to->weights[0]),
         sbfi_d3_add(sbfi_d3_scale(b, to->weights[1]), sbfi_d3_scale(c, to->weights[2])));
-    to->normal = sbfi_d3_normal(sbfi_d3_cross(sbfi_d3_sub(b, a), sbfi_d3_sub(c, a)));
+    to->normal = sbfi_d3_scale(sbfi_d3_normal(sbfi_d3_cross(sbfi_d3_sub(b, a), sbfi_d3_sub(c, a))), sign);
   }
 }
 
@@ -94,17 +94,36 @@ static bool make_posed(sbfi_pose_fit *f) {
          sbfi_surface_finder_make(&f->posed_finder, &f->posed, &f->posed_arena);
 }
 
+/* Normals of the points outwards. */
+static void turn_normals(sbfi_pose_fit *f) {
+  sbf_vec3 *normals = (sbf_vec3 *)(uintptr_t)f->input.normals; /* of `input_arena` */
+  for (uint32_t i = 0; f->sign < 0 && i < f->input.mesh.positions.count; i++)
+    normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
+}
+
 bool sbfi_pose_fit_move_input(sbfi_pose_fit *f) {
   sbfi_arena_free(&f->input_arena);
   sbfi_arena_init(&f->input_arena, &f->arena->allocator, 0);
-  return sbfi_surface_move(&f->input, &f->r->input, &f->to_asset, &f->input_arena) &&
-         sbfi_surface_finder_make(&f->input_finder, &f->input, &f->input_arena);
+  if (!sbfi_surface_move(&f->input, &f->r->input, &f->to_asset, &f->input_arena)) return false;
+  turn_normals(f);
+  return sbfi_surface_finder_make(&f->input_finder, &f->input, &f->input_arena);
+}
+
+static void find_sign(sbfi_pose_fit *f) {
+  double sum = 0;
+  sbfi_surface_location near;
+  for (uint32_t i = 0; i < SBFI_POSE_SAMPLES; i++) {
+    const sbfi_surface_sample *s = &f->input_samples[i];
+    if (sbfi_surface_nearest(&f->posed_finder, s->position, NULL, SBFI_ON_SURFACE * f->r->rig.size, &near))
+      sum += sbfi_d3_dot(sbfi_surface_normal(&f->posed, &near), s->normal);
+  }
+  f->sign = sum < 0 ? -1 : 1;
 }
 
 bool sbfi_pose_fit_update(sbfi_pose_fit *f) {
   if (!make_posed(f)) return false;
-  locate_samples(&f->posed, f->rig_samples);
-  locate_samples(&f->input, f->input_samples);
+  locate_samples(&f->posed, 1, f->rig_samples);
+  locate_samples(&f->input, f->sign, f->input_samples);
   measure_gaps(&f->input_finder, f->r->rig.size, f->rig_samples);
   measure_gaps(&f->posed_finder, f->r->rig.size, f->input_samples);
   return true;
@@ -116,6 +135,7 @@ bool sbfi_pose_fit_begin(sbfi_pose_fit *f, const sbfi_rigging *r, sbfi_arena *ar
   sbfi_arena_init(&f->posed_arena, &arena->allocator, 0);
   sbfi_arena_init(&f->input_arena, &arena->allocator, 0);
   f->to_asset = r->alignment.to_asset;
+  f->sign = 1;
   f->motions = sbfi_arena_allocate(arena, (size_t)bones.count + 1, sizeof *f->motions);
   f->input_samples = sbfi_arena_allocate(arena, SBFI_POSE_SAMPLES, sizeof *f->input_samples);
   f->rig_samples = sbfi_arena_allocate(arena, SBFI_POSE_SAMPLES, sizeof *f->rig_samples);
@@ -123,6 +143,10 @@ bool sbfi_pose_fit_begin(sbfi_pose_fit *f, const sbfi_rigging *r, sbfi_arena *ar
   for (uint32_t b = 0; b < bones.count; b++) f->motions[b] = sbfi_matrix_identity();
   take_samples(&f->input, f->input_samples);
   take_samples(&r->rig, f->rig_samples);
+  if (!make_posed(f)) return false;
+  locate_samples(&f->input, 1, f->input_samples);
+  find_sign(f);
+  turn_normals(f);
   return sbfi_pose_fit_update(f);
 }
 

@@ -28,8 +28,9 @@ typedef struct sbfi_pose_fit {
   sbfi_arena posed_arena, input_arena;
   const sbf_bone *bones; /* in the pose that the skin was bound in */
   uint32_t bone_count;
-  sbfi_matrix *motions;            /* (bones) from that pose, asset space; rotations and offsets */
-  sbfi_matrix to_asset;            /* of the input */
+  sbfi_matrix *motions; /* (bones) from that pose, asset space; rotations and offsets */
+  sbfi_matrix to_asset; /* of the input */
+  double sign;          /* -1 where the input's polygons face inwards, as those of a mirrored one do */
   sbfi_scene_surface input, posed; /* in asset space */
   sbfi_surface_finder input_finder, posed_finder;
   sbfi_surface_sample *input_samples, *rig_samples; /* (SBFI_POSE_SAMPLES) spread over the area */

@@ -18,7 +18,12 @@ typedef struct piece {
   uint32_t points, far, number; /* from 1, of the object's, as --shell counts */
   double nearest;
   sbfi_d3 low, high;
+  bool is_separated;
 } piece;
+
+static double length_of(const piece *p) {
+  return sbfi_d3_length(sbfi_d3_sub(p->high, p->low));
+}
 
 typedef struct separation_search {
   const sbfi_rigging *r;
@@ -69,9 +74,43 @@ static void add_point(separation_search *a, uint32_t point) {
   p->far += distance > a->far_m;
 }
 
-static bool is_separated(const separation_search *a, const piece *p) {
-  double length = sbfi_d3_length(sbfi_d3_sub(p->high, p->low));
-  return 2 * p->far > p->points && (p->nearest > BESIDE * a->size || length > LARGE * a->size);
+/* Far from the rig. Bones may be short against their body: what holds some is never far. */
+static bool is_far(const separation_search *a, const piece *p) {
+  bool large = a->by_surface && length_of(p) > LARGE * a->size;
+  return 2 * p->far > p->points && (p->nearest > BESIDE * a->size || large);
+}
+
+static double gap_between(const piece *a, const piece *b) {
+  double x = fmax(a->low.x - b->high.x, b->low.x - a->high.x),
+         y = fmax(a->low.y - b->high.y, b->low.y - a->high.y);
+  double z = fmax(a->low.z - b->high.z, b->low.z - a->high.z);
+  return fmax(x, fmax(y, z));
+}
+
+/* What is far from the rig, and from all that is near it, piece by piece: a fin is beside its fish, a lock of
+ * hair beside another. */
+static bool find_separated(separation_search *a, sbfi_arena *arena) {
+  uint32_t count = a->moved->mesh.positions.count, near_count = 0, far_count = 0;
+  piece **near = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *near);
+  piece **far = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *far);
+  if (!near || !far) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    piece *p = &a->all[i];
+    if (!p->points) continue;
+    p->is_separated = is_far(a, p);
+    if (p->is_separated)
+      far[far_count++] = p;
+    else
+      near[near_count++] = p;
+  }
+  for (uint32_t i = 0; i < near_count; i++) /* grows */
+    for (uint32_t k = 0; k < far_count; k++) {
+      if (!far[k]->is_separated || (a->by_surface && length_of(far[k]) > LARGE * a->size)) continue;
+      if (gap_between(near[i], far[k]) > BESIDE * a->size) continue;
+      far[k]->is_separated = false;
+      near[near_count++] = far[k];
+    }
+  return true;
 }
 
 /* Numbers shells by their first points, as --shell does: points in one place are several. */
@@ -100,7 +139,7 @@ static void report_object(const separation_search *a, uint32_t mesh) {
   for (uint32_t i = from; i < to; i++) {
     if (a->pieces[i] != i || a->moved->neighbour_starts[i] == a->moved->neighbour_starts[i + 1]) continue;
     pieces++;
-    if (!is_separated(a, &a->all[i])) continue;
+    if (!a->all[i].is_separated) continue;
     nearest = fmin(nearest, a->all[i].nearest);
     points += a->all[i].points;
     size_t used = strlen(names);
@@ -139,6 +178,7 @@ bool sbfi_report_separated(const sbfi_rigging *r, const sbfi_scene_surface *move
               (!a.by_surface || sbfi_surface_finder_make(&a.finder, &r->rig, &scratch));
   for (uint32_t i = 0; good && a.size > 0 && i < count; i++)
     if (is_guessed(&a, i)) add_point(&a, i);
+  if (good) good = find_separated(&a, &scratch);
   for (uint32_t m = 0; good && m < moved->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE && !r->separated[m]) report_object(&a, m);
   sbfi_arena_free(&scratch);

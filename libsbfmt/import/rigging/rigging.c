@@ -3,10 +3,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "import/rigging/align.h"
 #include "import/rigging/clip_moments.h"
+#include "import/rigging/pose_fit.h"
 #include "import/rigging/report_separated.h"
 #include "import/rigging/rig_pose.h"
 #include "import/rigging/rigged_scene.h"
@@ -147,10 +149,12 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
 
 /* Surfaces farther from each other than this share of the rig's size are not alike. */
 static const double ALIKE = 0.03;
-/* Half of the points of a mesh like the rig's lie nearer to it than this share of the rig's size; farther
- * than the other one, it may be another character's. Edited meshes measured at most 0.001, others at least
- * 0.003. */
-static const double ALIKE_MEDIAN = 0.01, SAME_MEDIAN = 0.0025;
+/* Half of the points of a mesh like the rig's lie nearer to it than this share of the rig's size. */
+static const double ALIKE_MEDIAN = 0.01;
+/* Of an edited mesh half of the surface lies nearer than this share of the size, and no more than this share
+ * of it lies beside the rig's, or it may be another character's; where more points than this are the rig's
+ * own it is not. */
+static const double SAME_MEDIAN = 0.0015, SAME_BESIDE = 0.02, SAME_MATCHED = 0.5;
 /* The least share of points beside a surface of the rig for all to take weights from it. */
 static const double MIN_BESIDE = 0.6, MIN_FORCED = 0.25;
 /* The least share of points on the rig's own for --weights match. */
@@ -329,21 +333,51 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 
+/* Of a sample of the input's surface, whether its points have weights of the rig's mesh beside them. */
+static bool is_on_rig(const sbfi_rigging *r, const sbfi_surface_sample *s) {
+  for (int k = 0; k < 3; k++) {
+    uint8_t source = r->sources[s->points[k]];
+    if (source != SBFI_WEIGHTS_CARRIED && source != SBFI_WEIGHTS_MATCHED) return false;
+  }
+  return true;
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 /* A mesh that only resembles the rig's may have bones in other places. */
 static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
-  double median;
-  if (mode != MODE_ANY || r->c->rig == r->c->scene || r->alignment.matched > 0.5 || !count_open(r))
+  sbfi_arena scratch;
+  sbfi_pose_fit f;
+  double gaps[SBFI_POSE_SAMPLES], size = r->rig.size;
+  uint32_t count = 0, beside = 0;
+  if (mode != MODE_ANY || r->c->rig == r->c->scene || r->alignment.matched > SAME_MATCHED ||
+      !r->rig.mesh.polygon_sizes.count || !r->input.mesh.polygon_sizes.count)
     return true;
-  if (!sbfi_median_gap(r, &median)) return false;
-  if (median > SAME_MEDIAN)
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  bool good = sbfi_pose_fit_begin(&f, r, &scratch);
+  for (uint32_t i = 0; good && i < SBFI_POSE_SAMPLES; i++) {
+    sbfi_surface_location near;
+    if (!is_on_rig(r, &f.input_samples[i])) continue;
+    bool found = sbfi_surface_nearest(&f.posed_finder, f.input_samples[i].position, NULL, size, &near);
+    gaps[count] = found ? near.distance / size : 1;
+    beside += gaps[count++] > SBFI_ON_SURFACE;
+  }
+  qsort(gaps, count, sizeof *gaps, compare);
+  double median = count ? gaps[count / 2] : 0;
+  if (median > SAME_MEDIAN || beside > SAME_BESIDE * SBFI_POSE_SAMPLES)
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,
-        "the mesh of %s resembles the input, but half of the input's points lie farther from it than %.2g %% "
-        "of "
-        "its size: it may be another character's; give the rig of this character, or --weights transfer if "
-        "it "
-        "is right",
-        r->rig.scene->file, 100 * median);
-  return true;
+        "the mesh of %s resembles the input, but half of the input's surface lies farther from it than %.2g "
+        "%% of its "
+        "size, and %.0f %% of it farther than %.2g %%: it may be another character's; give the rig of this "
+        "character, or "
+        "--weights transfer if it is right",
+        r->rig.scene->file, 100 * median, 100.0 * beside / SBFI_POSE_SAMPLES, 100 * SBFI_ON_SURFACE);
+  sbfi_pose_fit_end(&f);
+  sbfi_arena_free(&scratch);
+  return good;
 }
 
 /* Of an object that lies on the rig's mesh elsewhere, a large part beside it may be limbs in another pose. */
@@ -394,7 +428,6 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
   say_alignment(r);
-  if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   if (!sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
     return sbfi_convert_no_memory(c);
   status = weigh_objects(r, &moved, mode, by_points, alike);
@@ -402,6 +435,7 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
   say_weights(r);
+  if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   warn_of_attached(r, mode);
   if (mode != MODE_NAMED && !sbfi_report_separated(r, &moved, alike)) return sbfi_convert_no_memory(c);
   return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
