@@ -31,7 +31,6 @@ import obj_variants as variants  # noqa: E402
 import posed_inputs  # noqa: E402
 from rigged_weights import Original, clip_motions, posed_errors, share_of_equal, walk_motions  # noqa: E402
 from sbfmt_program import call  # noqa: E402
-from skinned_glb import SkinnedGlb  # noqa: E402
 
 Z_UP = ("x", "-z", "y")
 MOST_RUNS, ENOUGH_S = 7, 3
@@ -142,7 +141,7 @@ def measure_posed(original, turns, case, folder, rows):
     source, out, rig = os.path.join(folder, "in.obj"), os.path.join(folder, "out.sbf"), original.path
     if case == "bones":
         rig = os.path.join(folder, "bones.glb")
-        write_bones(original.path, rig)
+        posed_inputs.write_bones(original.path, rig)
     compared = posed_inputs.motions_to_compare(original, turns)
     for name, obj, motions in posed_meshes(original, turns):
         variants.write(variants.moved(obj, 0.01, Z_UP), source, 6)
@@ -157,24 +156,6 @@ def measure_posed(original, turns, case, folder, rows):
         joints = posed_inputs.joint_error(original, out, motions)
         rows.append((name, skin, joints))
         print(f"{start}{time:.2f},,{100 * joints:.3f},{100 * skin:.3f},", flush=True)
-
-
-def write_bones(path, bones_path):
-    """The file without its meshes."""
-    file = SkinnedGlb.of(path)
-    drawn = {i for i, node in enumerate(file.json["nodes"]) if "mesh" in node and not node.get("children")}
-    for parent in [*file.json["nodes"], *file.json["scenes"]]:
-        key = "children" if "children" in parent else "nodes"
-        if key in parent:
-            parent[key] = [i for i in parent[key] if i not in drawn]
-            if not parent[key]:
-                del parent[key]
-    for node in file.json["nodes"]:
-        node.pop("mesh", None)
-        node.pop("skin", None)
-    file.json.pop("meshes", None)
-    file.json.pop("skins", None)
-    file.write(bones_path)
 
 
 def print_posed(case, rows):

@@ -222,7 +222,7 @@ static const sbf_code_info table[] = {
   {"RIG_WEIGHTS_LOST", SBF_CODE_RIG_WEIGHTS_LOST, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Weights of points sum to much less than one, for example because joints are missing: export the skin again."},
   {"RIG_OBJECT_APART", SBF_CODE_RIG_OBJECT_APART, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No bone is in or near an object whose weights were computed: convert another character with a rig of its own."},
   {"SOFTNESS_PROPOSED", SBF_CODE_SOFTNESS_PROPOSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "What is soft and what moves with its bones was chosen: --soft and --rigid change it."},
-  {"RIG_OTHER_MESH", SBF_CODE_RIG_OTHER_MESH, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The rig's own mesh is not like the input, or only resembles it: give the rig of this character, or --weights compute or transfer if it is right."},
+  {"RIG_OTHER_MESH", SBF_CODE_RIG_OTHER_MESH, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The rig's own mesh is not like the input, or only resembles it, or bones lie outside: give the rig of this character in the same pose, or --weights compute or transfer if it is right."},
   {"GAIT_NOTHING_MOVES", SBF_CODE_GAIT_NOTHING_MOVES, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A gait has nothing that moves for its kind: add it, or choose kind none."},
   {"GAIT_CHAIN_SHORT", SBF_CODE_GAIT_CHAIN_SHORT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A wave or a tread needs two bones or more, a fin one or more: name them."},
   {"GAIT_AXIS_ZERO", SBF_CODE_GAIT_AXIS_ZERO, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An axis has no length: give it a direction."},

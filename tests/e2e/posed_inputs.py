@@ -6,6 +6,7 @@ import os
 from bundle_file import Bundle, apply, matrix_of, product
 from rigged_weights import clip_motions, posed, weights_by_vertex
 from sbfmt_program import ROOT, shared
+from skinned_glb import SkinnedGlb
 
 # Examples and, where it is there, ../shared/zoo. File, and degrees about an axis of the asset for the bones of its left side: those of the right are their mirror
 # image. "x", "y" and "z" turn forwards, about the vertical and sidewards; "stride" forwards, and backwards on the right.
@@ -31,6 +32,9 @@ POSES = [
     ("examples/yeti/yeti.glb", {"upper_arm": ("z", 45)}),
     ("examples/spider/spider.glb", {"leg1_upper": ("z", 25), "leg4_upper": ("z", -20)}),
 ]
+
+
+STILL = matrix_of()  # of nodes above the bones, which become bones where no skin says which nodes are
 
 
 def path_of(name):
@@ -85,7 +89,7 @@ def skin_errors(original, variant, path, motions):
         if not expected:
             continue
         for motion in motions:
-            there, wanted = (tuple(sum(apply(motion[b], place)[k] * w for b, w in of.items()) for k in range(3))
+            there, wanted = (tuple(sum(apply(motion.get(b, STILL), place)[k] * w for b, w in of.items()) for k in range(3))
                              for of in (weights, expected))
             errors.append(math.dist(there, wanted) / size)
     return sorted(errors)
@@ -114,3 +118,21 @@ def joint_error(original, path, motions):
             offsets.append(tuple(a - b for a, b in zip(joints[name], wanted)))
     middle = [sorted(o[k] for o in offsets)[len(offsets) // 2] for k in range(3)]
     return max(math.dist(o, middle) for o in offsets) / longest_side(original)
+
+
+def write_bones(path, bones_path):
+    """The file without its meshes."""
+    file = SkinnedGlb.of(path)
+    drawn = {i for i, node in enumerate(file.json["nodes"]) if "mesh" in node and not node.get("children")}
+    for parent in [*file.json["nodes"], *file.json["scenes"]]:
+        key = "children" if "children" in parent else "nodes"
+        if key in parent:
+            parent[key] = [i for i in parent[key] if i not in drawn]
+            if not parent[key]:
+                del parent[key]
+    for node in file.json["nodes"]:
+        node.pop("mesh", None)
+        node.pop("skin", None)
+    file.json.pop("meshes", None)
+    file.json.pop("skins", None)
+    file.write(bones_path)

@@ -45,7 +45,7 @@ def write_bones(path, shift=0.0):
     write_bvh(path, [(name, BONES[i - 1][0] if i else None, (x, shift, 0)) for i, (name, x) in enumerate(BONES)], (0.9, 0, 0))
 
 
-def write_person(obj_path, bvh_path, angle=45):
+def write_person(obj_path, bvh_path, angle=45, collarbones=False):
     """A body of tubes whose arms hang by an angle, and bones whose arms are stretched out, for two frames."""
     parts = {"body": (tube_y(0.9, 2.4, 0.25, 13), (0, 0, 0), 0)}
     for side, name in ((1, "left"), (-1, "right")):
@@ -63,10 +63,12 @@ def write_person(obj_path, bvh_path, angle=45):
     joints = [("Hips", None, (0, 1, 0)), ("Spine", "Hips", (0, 1.8, 0)), ("Head", "Spine", (0, 2.1, 0)),
               ("Head_end", "Head", (0, 2.3, 0))]
     for side, name in ((1, "Left"), (-1, "Right")):
+        if collarbones:
+            joints.append((name + "Shoulder", "Spine", (side * 0.05, 1.85, 0)))
         joints += [(name + "UpLeg", "Hips", (side * 0.15, 1, 0)), (name + "Leg", name + "UpLeg", (side * 0.15, 0.5, 0)),
                    (name + "Foot", name + "Leg", (side * 0.15, 0.05, 0)),
                    (name + "Foot_end", name + "Foot", (side * 0.15, 0.05, 0.1)),
-                   (name + "Arm", "Spine", (side * 0.2, 1.85, 0)), (name + "ForeArm", name + "Arm", (side * 0.8, 1.85, 0)),
+                   (name + "Arm", name + "Shoulder" if collarbones else "Spine", (side * 0.2, 1.85, 0)), (name + "ForeArm", name + "Arm", (side * 0.8, 1.85, 0)),
                    (name + "Hand", name + "ForeArm", (side * 1.3, 1.85, 0)),
                    (name + "Hand_end", name + "Hand", (side * 1.5, 1.85, 0))]
     write_bvh(bvh_path, joints, frames=2)
@@ -198,6 +200,21 @@ class ComputedWeights(ProgramTest):
         done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
                          self.path("person.sbf"))
         self.assertNotIn("limbs were turned", done.err)
+
+    def test_an_arm_turns_in_its_own_joint(self):
+        """Not in the collarbone's, which would bring it inside as well, and not into the trunk."""
+        for angle in (30, 60):
+            write_person(self.path("person.obj"), self.path("person.bvh"), angle, True)
+            done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
+                             self.path("person.sbf"))
+            self.assertIn("limbs were turned to lie inside it, 'LeftArm', 'RightArm', each", done.err)
+            self.assertNotIn("RIG_OTHER_MESH", done.err)
+            bundle = Bundle(self.path("person.sbf"))
+            heads = {name: tuple(row[3] for row in frame) for name, frame in zip(bundle.bone_names(), bundle.rest)}
+            down = math.radians(angle)
+            for name, side in (("Left", 1), ("Right", -1)):
+                hand = tuple(a - b for a, b in zip(heads[name + "Hand"], heads[name + "Arm"]))
+                self.assertLess(math.dist(hand, (side * 1.1 * math.cos(down), -1.1 * math.sin(down), 0)), 0.1)
 
     def test_targets_that_lie_outside_do_not_count(self):
         """Animators pull feet and hands by bones that hang on the root: they lie in no body, and most of their length

@@ -50,6 +50,19 @@ class PosedInputs(ProgramTest):
     def test_bent_legs_of_an_edited_mesh(self):
         self.assert_right("examples/pup/pup.glb", variants.jiggled, 0.015, 0.005)
 
+    def test_bones_alone_that_lie_outside_are_reported(self):
+        for turned in (True, False):
+            name = "examples/yeti/yeti.glb"
+            original = Original(posed_inputs.path_of(name), self.folder)
+            posed_inputs.write_bones(original.path, self.path("bones.glb"))
+            obj = posed_inputs.pose_of(original, POSES[name])[0] if turned else original.obj
+            variants.write(obj, self.path("in.obj"), 6)
+            said = self.good("convert", self.path("in.obj"), "--rig", self.path("bones.glb"), "--no-build", "-o",
+                             self.path("out.sbf")).err
+            self.assertEqual("RIG_OTHER_MESH" in said, turned, said)
+            if turned:
+                self.assertRegex(said, r"warning: .* only \d+ % of the bones' length lies inside the mesh; outside lie '")
+
     def test_an_input_in_the_pose_of_the_rig_turns_nothing(self):
         original = Original(posed_inputs.path_of("examples/yeti/yeti.glb"), self.folder)
         for change in (variants.jiggled, variants.simplified):

@@ -21,11 +21,14 @@ enum {
   ROTATIONS = SBFI_AXIS_ROTATIONS / 2
 };
 
-static const double GOOD = 0.95; /* so much of the length inside is as it should be */
+static const double CERTAIN = 0.85; /* with less, the rig may stand otherwise */
+static const double GOOD = 0.95;    /* so much of the length inside is as it should be */
 
 /* Shares inside before limbs are turned and after; share of the points that may be without a bone; how thick
  * a body is around its bones, as a share of its longest side. */
-static const double MIN_TRUNK = 0.3, MIN_TURNED = 0.9, MAX_UNCOVERED = 0.2;
+static const double MIN_TRUNK = 0.25, MIN_TURNED = 0.9, MAX_UNCOVERED = 0.2;
+static const double MIN_COVERING = 0.8,
+                    COVERED = 0.05; /* fewer inside do where nearly all points have a bone */
 static const double THICK = 0.15;
 static const double BETTER = 0.02;  /* by which a later candidate has to be better */
 static const double NEARNESS = 2;   /* of a mean distance, by a share inside */
@@ -396,6 +399,18 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
       100 * s->best.fraction, outside);
 }
 
+/* Of bones that fit, 89 % of their length and more was measured inside. */
+static sbf_status warn_of_misfit(const search *s, sbfi_arena *arena) {
+  char outside[260] = "";
+  if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
+  sbfi_convert_warn(s->r->c, SBF_CODE_RIG_OTHER_MESH,
+      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s: if limbs of the rig stand "
+      "otherwise or it is another character's, give a rig in the pose of the mesh; --weights compute takes "
+      "these bones as they lie",
+      100 * s->best.fraction, outside[0] ? outside : "bones on its surface");
+  return SBF_OK;
+}
+
 /* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
 static void scale_rig(sbfi_rigging *r) {
   double factor = sbfi_similarity_scale(&r->c->to_asset) / sbfi_similarity_scale(&r->alignment.to_asset);
@@ -449,7 +464,9 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
   if (!before || !sbfi_align_limbs(r, &s->winding, turned, sizeof turned) || !make_lines(s, arena))
     return sbfi_convert_no_memory(c);
   s->best.fraction = inside_fraction(s, &s->best.m, 0);
-  if (turned[0] && s->best.fraction >= MIN_TURNED && uncovered_fraction(s) <= MAX_UNCOVERED) {
+  double uncovered = uncovered_fraction(s);
+  bool fits = s->best.fraction >= MIN_TURNED && uncovered <= MAX_UNCOVERED;
+  if (turned[0] && (fits || (s->best.fraction >= MIN_COVERING && uncovered <= COVERED))) {
     sbfi_convert_warn(c, SBF_CODE_RIG_ALIGNED,
         "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
         "hangs on it",
@@ -508,7 +525,10 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
     r->alignment.inside = s.best.fraction;
     if (s.best.fraction >= SBFI_MIN_BONES_INSIDE) scale_rig(r);
     r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
-    if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE) status = refuse(&s, &scratch);
+    if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE)
+      status = refuse(&s, &scratch);
+    else if (status == SBF_OK && s.best.fraction < CERTAIN && !r->c->options->weights)
+      status = warn_of_misfit(&s, &scratch);
   }
   sbfi_arena_free(&scratch);
   return status;

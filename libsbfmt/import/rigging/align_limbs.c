@@ -2,8 +2,9 @@
  * arms hang, or the other way round.
  *
  * From the trunk to the tips each limb is turned as a whole about its joint: of many directions the nearest
- * to where it points that brings nearly as much of its length inside as any. Where little is gained it stays.
- */
+ * to where it points that brings nearly as much of its length inside as any, and along parts of the input
+ * that no other bone is near to: a leg lies inside the trunk and inside the other leg as well. Where little
+ * is gained it stays. */
 #include "import/rigging/align.h"
 
 #include <math.h>
@@ -13,13 +14,18 @@
 #include "motion/carried_motion.h"
 #include "motion/turn.h"
 
-enum { DIRECTIONS = 600, PER_BONE = 8, REFINED = 24 };
+enum { DIRECTIONS = 600, PER_BONE = 8, REFINED = 24, COVERED_SAMPLES = 300 };
 
 /* Inside as it should be; what a turn has to gain; how much worse than the best a lesser turn may be; the
  * greatest turn, as a cosine. All but the last in shares of the limb's length. */
 static const double GOOD = 0.9, GAIN = 0.2, NEARLY = 0.05, FARTHEST = 0.2;
-/* A limb is no more than this share of all bones. */
-static const double LIMB = 0.45;
+/* A limb is no more than this share of all bones, and no less than that: fingers do not show in a winding
+ * number. */
+static const double LIMB = 0.45, MIN_LIMB = 0.02;
+/* A bone on which so much of a limb hangs may turn for it, if that is no worse than by so much. */
+static const double CHAIN_OF_LIMB = 0.7, SLIGHTLY = 0.1;
+/* Farther from a bone, as a share of the input's size, is no worse. */
+static const double FAR = 0.15;
 /* So far from the middle, as a share of its length, all of a limb lies that no name gives a side. */
 static const double ASIDE = 0.02;
 
@@ -29,8 +35,11 @@ typedef struct limbs {
   sbfi_matrix back; /* asset space to that of the input */
   sbf_bone *bones;
   uint32_t bone_count;
-  bool *below;        /* (bone_count) of the limb at hand, its first bone included */
-  double length, all; /* of its bones; of all bones */
+  bool *below;                       /* (bone_count) of the limb at hand, its first bone included */
+  double length, all;                /* of its bones; of all bones */
+  sbfi_d3 samples[COVERED_SAMPLES];  /* of the input's points, asset space */
+  double distances[COVERED_SAMPLES]; /* to the nearest other bone, at most `far` */
+  double far;
 } limbs;
 
 static sbfi_d3 turned(const double rotation[4], sbfi_d3 about, sbfi_d3 p) {
@@ -64,6 +73,44 @@ static double inside_fraction(const limbs *l, uint32_t first, const double rotat
   return inside / l->length;
 }
 
+static double squared_distance_to_bone(sbfi_d3 p, sbfi_d3 from, sbfi_d3 to) {
+  sbfi_d3 along = sbfi_d3_sub(to, from), displacement = sbfi_d3_sub(p, from);
+  double squared = sbfi_d3_dot(along, along);
+  double t = squared > 0 ? fmin(fmax(sbfi_d3_dot(displacement, along) / squared, 0), 1) : 0;
+  displacement = sbfi_d3_sub(displacement, sbfi_d3_scale(along, t));
+  return sbfi_d3_dot(displacement, displacement);
+}
+
+static double nearest_bone(const limbs *l, bool below, sbfi_d3 p, double squared) {
+  for (uint32_t b = 0; b < l->bone_count; b++) {
+    int32_t parent = l->bones[b].parent;
+    if (parent == SBF_NONE || (l->below[b] && l->below[parent]) != below) continue;
+    squared = fmin(squared, squared_distance_to_bone(p, head_of(l, (uint32_t)parent), head_of(l, b)));
+  }
+  return squared;
+}
+
+static void measure_others(limbs *l) {
+  for (uint32_t i = 0; i < COVERED_SAMPLES; i++)
+    l->distances[i] = sqrt(nearest_bone(l, false, l->samples[i], l->far * l->far));
+}
+
+/* How much of the input comes nearer to a bone by the turned limb, by the share of all bones that it is. */
+static double covered_fraction(const limbs *l, uint32_t first, const double rotation[4]) {
+  const double back[4] = {-rotation[0], -rotation[1], -rotation[2], rotation[3]};
+  double sum = 0;
+  for (uint32_t i = 0; i < COVERED_SAMPLES; i++) {
+    sbfi_d3 p = turned(back, head_of(l, first), l->samples[i]);
+    double distance = l->distances[i];
+    sum += distance - sqrt(nearest_bone(l, true, p, distance * distance));
+  }
+  return fmin(sum / (COVERED_SAMPLES * l->far) * l->all / l->length, 1);
+}
+
+static double score(const limbs *l, uint32_t first, const double rotation[4]) {
+  return inside_fraction(l, first, rotation) + covered_fraction(l, first, rotation);
+}
+
 /* The bones that hang on one, their length, and the unit vector to the farthest of their joints. */
 static bool take_limb(limbs *l, uint32_t first, sbfi_d3 *direction) {
   double farthest = 0;
@@ -78,7 +125,8 @@ static bool take_limb(limbs *l, uint32_t first, sbfi_d3 *direction) {
     farthest = sbfi_d3_length(displacement);
     *direction = sbfi_d3_scale(displacement, 1 / farthest);
   }
-  return farthest > 0 && l->bones[first].parent != SBF_NONE && l->length <= LIMB * l->all;
+  return farthest > 0 && l->bones[first].parent != SBF_NONE && l->length <= LIMB * l->all &&
+         l->length >= MIN_LIMB * l->all;
 }
 
 /* Whether a limb is a left or a right one, by its name or because all of it lies on one side of the root: a
@@ -120,7 +168,7 @@ static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, doubl
     fractions[i] = 0;
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
     turn_to(direction, to, rotation);
-    fractions[i] = inside_fraction(l, first, rotation);
+    fractions[i] = score(l, first, rotation);
     max = fmax(max, fractions[i]);
   }
   for (uint32_t i = 0; i < DIRECTIONS; i++) {
@@ -130,19 +178,42 @@ static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, doubl
     chosen = spread(i);
   }
   turn_to(direction, chosen, rotation);
-  double best = inside_fraction(l, first, rotation), step = 0.08;
+  double best = score(l, first, rotation), step = 0.08;
   for (int i = 0; i < REFINED; i++, step *= 0.85) {
     sbfi_d3 aside = spread((uint32_t)(i * 173) % DIRECTIONS);
     sbfi_d3 to = sbfi_d3_normal(sbfi_d3_add(chosen, sbfi_d3_scale(aside, step)));
     double other[4];
     turn_to(direction, to, other);
-    double fraction = inside_fraction(l, first, other);
+    double fraction = score(l, first, other);
     if (fraction <= best) continue;
     best = fraction;
     chosen = to;
     memcpy(rotation, other, sizeof other);
   }
   return best;
+}
+
+/* Whether a bone lies on the way to nearly all of a limb, whose length is given, and a turn about its joint
+ * does as well: collarbones lie still. */
+static bool is_child_better(limbs *l, uint32_t child, double length, double with_parent) {
+  sbfi_d3 direction = {0, 0, 0};
+  double rotation[4];
+  if (!take_limb(l, child, &direction) || l->length < CHAIN_OF_LIMB * length ||
+      !is_inside(l, head_of(l, child)))
+    return false;
+  measure_others(l);
+  double alone = find_turn(l, child, direction, rotation);
+  return alone * l->length + 2 * (length - l->length) >= (with_parent - SLIGHTLY) * length;
+}
+
+static bool has_better_child(limbs *l, uint32_t first, double with_parent) {
+  double length = l->length;
+  sbfi_d3 direction;
+  bool found = false;
+  for (uint32_t b = first + 1; b < l->bone_count && !found; b++)
+    found = l->bones[b].parent == (int32_t)first && is_child_better(l, b, length, with_parent);
+  if (!take_limb(l, first, &direction)) return false;
+  return found;
 }
 
 /* --- The turn in bones and nodes ----------------------------------------------------------------------- */
@@ -204,6 +275,15 @@ static sbfi_scene_node *own_nodes(sbfi_rigging *r) {
   return nodes;
 }
 
+static void take_samples(limbs *l) {
+  const sbf_vec3_list points = l->r->input.mesh.positions;
+  l->far = FAR * l->r->input.size * sbfi_similarity_scale(&l->r->alignment.to_asset);
+  for (uint32_t i = 0; i < COVERED_SAMPLES; i++) {
+    uint32_t at = (uint32_t)((double)points.count * fmod(0.5 + i * 0.6180339887498949, 1.0));
+    l->samples[i] = sbfi_similarity_apply(&l->r->alignment.to_asset, sbfi_d3_of(points.at[at]));
+  }
+}
+
 bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, size_t size) {
   limbs l = {.r = r, .winding = winding, .bone_count = r->c->asset->bones.count};
   l.bones = (sbf_bone *)(uintptr_t)r->c->asset->bones.at; /* ours until the asset is handed out */
@@ -212,6 +292,7 @@ bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, 
   text[0] = 0;
   if (!l.below || !nodes) return false;
   if (!sbfi_matrix_invert(&r->alignment.to_asset, &l.back)) return true;
+  take_samples(&l);
   for (uint32_t b = 0; b < l.bone_count; b++)
     if (l.bones[b].parent != SBF_NONE)
       l.all += sbfi_d3_length(sbfi_d3_sub(head_of(&l, b), head_of(&l, (uint32_t)l.bones[b].parent)));
@@ -222,7 +303,9 @@ bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, 
     if (!take_limb(&l, b, &direction) || !is_sided(&l, b)) continue;
     double before = inside_fraction(&l, b, none);
     if (before >= GOOD || !is_inside(&l, head_of(&l, b))) continue;
-    if (find_turn(&l, b, direction, rotation) < before + GAIN) continue;
+    measure_others(&l);
+    double with_turn = find_turn(&l, b, direction, rotation);
+    if (with_turn < score(&l, b, none) + GAIN || has_better_child(&l, b, with_turn)) continue;
     sbfi_matrix matrix = matrix_of(rotation, head_of(&l, b));
     turn_nodes(&l, b, &matrix, nodes);
     turn_bones(&l, b, rotation);

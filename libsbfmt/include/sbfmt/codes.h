@@ -233,7 +233,7 @@ typedef enum sbf_code {
   SBF_CODE_RIG_WEIGHTS_LOST = 785, /* Weights of points sum to much less than one, for example because joints are missing: export the skin again. */
   SBF_CODE_RIG_OBJECT_APART = 786, /* No bone is in or near an object whose weights were computed: convert another character with a rig of its own. */
   SBF_CODE_SOFTNESS_PROPOSED = 787, /* What is soft and what moves with its bones was chosen: --soft and --rigid change it. */
-  SBF_CODE_RIG_OTHER_MESH = 788, /* The rig's own mesh is not like the input, or only resembles it: give the rig of this character, or --weights compute or transfer if it is right. */
+  SBF_CODE_RIG_OTHER_MESH = 788, /* The rig's own mesh is not like the input, or only resembles it, or bones lie outside: give the rig of this character in the same pose, or --weights compute or transfer if it is right. */
   SBF_CODE_GAIT_NOTHING_MOVES = 790, /* A gait has nothing that moves for its kind: add it, or choose kind none. */
   SBF_CODE_GAIT_CHAIN_SHORT = 791, /* A wave or a tread needs two bones or more, a fin one or more: name them. */
   SBF_CODE_GAIT_AXIS_ZERO = 792, /* An axis has no length: give it a direction. */
