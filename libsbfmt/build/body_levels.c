@@ -213,10 +213,18 @@ static sbf_status make_regions(
   return sbfi_region_level_make(level, body, b->asset, scratch) ? SBF_OK : sbfi_build_no_memory(b);
 }
 
+/* What the options ask for, else the recipe of a section; 0: neither does. */
+static uint32_t elements_of(const sbfi_build *b, const sbf_soft_body *body) {
+  bool is_cut = body->derived != SBF_NONE && b->options.interior == SBF_BUILD_INTERIOR_AUTOMATIC;
+  if (b->options.elements || !is_cut) return b->options.elements;
+  const sbf_section_recipe *recipe = sbfi_section_recipe_find(b->asset, body->bone);
+  return recipe ? recipe->elements : 0;
+}
+
 /* A section that was cut here; where it encloses nothing, as a sheet does, springs to its centre hold it. */
 static sbf_status make_section(sbfi_build *b, uint32_t number, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
-  const sbfi_section_recipe recipe = {b->options.cell_m, b->options.elements, SBFI_BUILD_DERIVATION};
+  const sbfi_section_recipe recipe = {b->options.cell_m, elements_of(b, body), SBFI_BUILD_DERIVATION};
   sbfi_section_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return sbfi_build_no_memory(b);
@@ -238,7 +246,7 @@ static sbf_status make_level(sbfi_build *b, uint32_t number, sbfi_level_findings
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
-  bool is_sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0;
+  bool is_sized = o->cell_m > 0 || o->error_m > 0 || elements_of(b, &b->bodies[number]) > 0;
   const sbfi_level_set_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
       .error = o->error_m,
       .calibrate = !o->without_calibration && sbfi_body_is_calibrated(&b->bodies[number], interior),
@@ -336,7 +344,7 @@ static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body)
                 interior >= SBF_BUILD_INTERIOR_TETRAHEDRA;
   if (!filled || body->levels.count > 0) return 0;
   double cell = b->options.cell_m;
-  if (!(cell > 0)) return b->options.elements;
+  if (!(cell > 0)) return elements_of(b, body);
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   return measures.sheet ? 0 : ELEMENTS_OF_CELL * fabs(measures.volume) / (cell * cell * cell);
@@ -355,7 +363,8 @@ static sbf_status check_elements(sbfi_build *b) {
   return sbfi_build_report_of_body(b, largest, SBF_CODE_LATTICE_TOO_FINE,
       "the bodies would get about %.2g tetrahedra, %.2g of them in soft body \"%s\", and %.0f are the most "
       "for "
-      "all together: give a larger cell (--cell) or fewer elements (--elements)",
+      "all together: give a larger cell (--cell) or fewer elements (--elements, or `elements` of a section "
+      "recipe)",
       sum, max, b->bodies[largest].name, MAX_ELEMENTS);
 }
 

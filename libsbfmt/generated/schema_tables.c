@@ -777,8 +777,9 @@ static const sbfi_field section_recipe_fields[] = {
   {.name = "collision", .type = SBFI_ONE, .number = 3, .since_minor = 0, .offset = offsetof(sbf_section_recipe, collision), .width = 1, .unit = "", .element = &collision_element, .xml = "collision"},
   {.name = "rigid", .type = SBFI_BOOL, .number = 4, .since_minor = 2, .offset = offsetof(sbf_section_recipe, rigid), .width = 1, .unit = "", .default_integer = 0},
   {.name = "proposed", .type = SBFI_BOOL, .number = 5, .since_minor = 2, .offset = offsetof(sbf_section_recipe, proposed), .width = 1, .unit = "", .default_integer = 0},
+  {.name = "elements", .type = SBFI_UINT, .number = 6, .since_minor = 3, .offset = offsetof(sbf_section_recipe, elements), .width = 1, .unit = "", .default_integer = 0u},
 };
-static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 5, section_recipe_fields, NULL};
+static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 6, section_recipe_fields, NULL};
 
 static const sbfi_field asset_fields[] = {
   {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .default_text = "1.0"},

@@ -564,13 +564,14 @@ section_recipe
   collision: one(collision)
   rigid: bool default=false since=2
   proposed: bool default=false since=2
+  elements: uint default=0 since=3
 extension
   name: string required
   required: bool default=false
   data: text
 """
 
-KNOWN_VERSION = (1, 2)  # the version of the format that this reader knows
+KNOWN_VERSION = (1, 3)  # the version of the format that this reader knows
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4, "quat": 4, "uint2": 2, "uint4": 4}
 CHILDREN = ("one", "optional", "many")
 

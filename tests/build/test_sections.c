@@ -185,6 +185,41 @@ START_TEST(a_sliver_joins_and_still_moves)
 }
 END_TEST
 
+static uint32_t springs_of(const sbf_asset *built, uint32_t body) {
+  return built->soft_bodies.at[body].levels.at[0].springs.at[0].ends.count;
+}
+
+START_TEST(recipes_state_elements)
+{
+  sbf_asset *asset = skinned_limb_make(&smooth), *usual = build(asset, (sbf_build_options){0});
+  sbf_section_recipe recipes[2];
+  for (int i = 0; i < 2; i++) sbf_section_recipe_init(&recipes[i]);
+  recipes[0].elements = 40; /* of all without a recipe */
+  recipes[1].elements = 1000, recipes[1].bone = 2;
+  asset->section_recipes = (sbf_section_recipe_list){recipes, 2};
+  sbf_asset *stated = build(asset, (sbf_build_options){0}), *again = build(stated, (sbf_build_options){0});
+  sbf_asset *asked = build(asset, (sbf_build_options){.elements = 40}),
+            *cells = build(asset, (sbf_build_options){.cell_m = 0.09});
+  for (uint32_t i = 0; i < 4; i++) {
+    if (i == 2)
+      ck_assert_uint_gt(springs_of(stated, i), 2 * springs_of(usual, i));
+    else
+      ck_assert_uint_lt(3 * springs_of(stated, i), 2 * springs_of(usual, i));
+    ck_assert_uint_eq(springs_of(asked, i) == springs_of(stated, i), i != 2); /* options go before recipes */
+    ck_assert_float_eq_tol(cells->soft_bodies.at[i].levels.at[0].cell, 0.09f, 1e-6f);
+  }
+  char where[256] = "";
+  ck_assert_msg(sbf_asset_equal(stated, again, where, sizeof where), "%s", where);
+  sbf_asset *built;
+  sbf_diagnostic error;
+  recipes[0].elements = 4000000000;
+  ck_assert_int_eq(sbf_build(asset, NULL, &built, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_LATTICE_TOO_FINE);
+  sbf_asset *const all[] = {usual, stated, again, asked, cells, asset};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) sbf_asset_free(all[i]);
+}
+END_TEST
+
 START_TEST(memory_may_run_out)
 {
   skinned_limb of = smooth;
@@ -220,6 +255,7 @@ static Suite *suite(void) {
   tcase_add_test(c, none_where_none_are_wanted);
   tcase_add_test(c, what_is_worn_leaves_the_skin_whole);
   tcase_add_test(c, a_sliver_joins_and_still_moves);
+  tcase_add_test(c, recipes_state_elements);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);
   return s;

@@ -51,8 +51,7 @@ static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) 
   sbfi_report(w->reporter, &diagnostic);
 }
 
-/* What the author says of the sections on a bone: by name, or of all; NULL: nothing. */
-static const sbf_section_recipe *recipe_of(const sbf_asset *asset, int32_t bone) {
+const sbf_section_recipe *sbfi_section_recipe_find(const sbf_asset *asset, int32_t bone) {
   const sbf_section_recipe *general = NULL;
   for (uint32_t i = asset->section_recipes.count; i-- > 0;) {
     const sbf_section_recipe *recipe = &asset->section_recipes.at[i];
@@ -141,7 +140,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
   body->bone = (int32_t)bone;
   body->derived = w->derivation;
   if (!make_pins(w, cutter, body)) return false;
-  const sbf_section_recipe *recipe = recipe_of(w->asset, body->bone);
+  const sbf_section_recipe *recipe = sbfi_section_recipe_find(w->asset, body->bone);
   if (recipe) {
     body->attributes = recipe->attributes;
     body->collision = recipe->collision;
@@ -166,7 +165,7 @@ static bool make_rigid_parts(work *w, sbfi_section_cutter *cutter, const uint8_t
   for (uint32_t b = 0; b < bones; b++) {
     if (!used[b] || !w->rigid[b]) continue;
     sbf_soft_body *part = &w->made->rigid_parts[w->made->rigid_count++];
-    const sbf_section_recipe *recipe = recipe_of(w->asset, (int32_t)b);
+    const sbf_section_recipe *recipe = sbfi_section_recipe_find(w->asset, (int32_t)b);
     sbf_soft_body_init(part);
     part->name = w->asset->bones.at[b].name;
     part->id = sbfi_unique_id(w->ids, "section_", w->asset->bones.at[b].id, b, w->asset);
@@ -409,7 +408,7 @@ static bool divide(work *w, bool *wanted) {
   w->rigid = sbfi_arena_allocate(w->scratch, (size_t)asset->bones.count + 1, 1);
   if (!w->rigid) return false;
   for (uint32_t b = 0; b < asset->bones.count; b++) {
-    const sbf_section_recipe *recipe = recipe_of(asset, (int32_t)b);
+    const sbf_section_recipe *recipe = sbfi_section_recipe_find(asset, (int32_t)b);
     w->rigid[b] = recipe && recipe->rigid;
   }
   return w->labels && w->owners &&

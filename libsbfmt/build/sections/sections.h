@@ -48,6 +48,9 @@ typedef struct sbfi_sections {
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
     sbfi_ids *ids, sbfi_reporter *reporter, sbfi_progress progress, sbfi_arena *scratch);
 
+/* The recipe of the section on a bone: the last for that bone, else the last for all; NULL: there is none. */
+const sbf_section_recipe *sbfi_section_recipe_find(const sbf_asset *asset, int32_t bone);
+
 /* Whether sbfi_sections_make would cut something. False where memory runs out. */
 bool sbfi_sections_are_wanted(const sbf_asset *asset, bool *wanted, sbfi_arena *scratch);
 

@@ -31,7 +31,7 @@ extern "C" {
 // clang-format off
 
 /* Of the format this library writes. */
-#define SBF_FORMAT_VERSION "1.2"
+#define SBF_FORMAT_VERSION "1.3"
 
 /* A whole file: metres, kilograms, seconds, radians; right-handed, +Y up, +Z forward, rest pose. */
 typedef struct sbf_asset {

@@ -125,6 +125,7 @@ typedef struct sbf_section_recipe {
   sbf_collision collision;    /* Collision. */
   bool rigid;                 /* No section: the skin moves with its bones there. [default false] */
   bool proposed;              /* Guessed from the rig, for a person to confirm. [default false] */
+  uint32_t elements;          /* About how many tetrahedra its lattice has; 0: the program chooses. [default 0] */
 } sbf_section_recipe;
 typedef struct sbf_section_recipe_list { const sbf_section_recipe *at; uint32_t count; } sbf_section_recipe_list;
 

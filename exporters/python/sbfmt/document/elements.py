@@ -2,7 +2,7 @@
 
 from .fields import Element, Field
 
-VERSION = "1.2"
+VERSION = "1.3"
 
 ENUMS = {
     'alpha_mode': ('opaque', 'mask', 'blend'),
@@ -426,6 +426,7 @@ ELEMENTS = {element.name: element for element in (
         Field('collision', 'one', 'collision', xml='collision'),
         Field('rigid', 'bool', default=False),
         Field('proposed', 'bool', default=False),
+        Field('elements', 'uint', default=0),
     )),
     Element('ik_chain', 'ik_chain', (
         Field('id', 'id', default='', required=True),
