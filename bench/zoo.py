@@ -2,7 +2,7 @@
 """Converts rigged characters that nobody edits, and drives each: on flat ground, uneven ground, through water or air.
 
     ./run zoo
-    SBFMT_BUILD_DIR=build/release python3 -B bench/zoo.py [-o DIR] [--seconds S] [FILE|FOLDER ...]
+    SBFMT_BUILD_DIR=build/release python3 -B bench/zoo.py [-o DIR] [--seconds S] [--jobs N] [--convert OPTIONS] [FILE|FOLDER ...]
 
 Without files: examples/ and, where it is there, ../shared/zoo. Writes DIR/zoo.csv (default out/zoo), a row a character,
 DIR/sheet.png, a picture of each in the order of the rows, and the bundles. A table truth.tsv in a folder (columns file, kind
@@ -14,6 +14,7 @@ import csv
 import glob
 import json
 import os
+import shlex
 import shutil
 import statistics
 import subprocess
@@ -24,8 +25,8 @@ SBFMT = os.path.join(os.environ.get("SBFMT_BUILD_DIR", os.path.join(ROOT, "build
 ZOO = os.path.join(ROOT, os.pardir, "shared", "zoo")
 MEDIA = ("swim", "fly")
 LEGS_A_SECOND, SIZES_A_SECOND = 1.0, 0.5  # wanted speeds: of legs by their length, of others by the largest extent
-COLUMNS = ("file", "kind", "true_kind", "legs", "true_legs", "bodies", "elements", "substeps", "visits", "us_per_frame", "size_m",
-           "volume_least", "max_strain", "seam_gap_mm_per_m", "slip_mm", "distance_share", "uneven_volume_least",
+COLUMNS = ("file", "kind", "true_kind", "legs", "true_legs", "bodies", "elements", "substeps", "visits", "us_per_frame", "convert_s",
+           "size_m", "volume_least", "max_strain", "seam_gap_mm_per_m", "slip_mm", "distance_share", "uneven_volume_least",
            "uneven_max_strain", "uneven_distance_share", "valid", "note")
 
 
@@ -119,6 +120,15 @@ def make_sheet(pictures, path):
     return made.returncode == 0
 
 
+def times_of(folder):
+    """File name -> seconds that its conversion took."""
+    table = os.path.join(folder, "summary.tsv")
+    if not os.path.isfile(table):
+        return {}
+    with open(table, encoding="utf-8", newline="") as file:
+        return {row["file"]: row["seconds"] for row in csv.DictReader(file, delimiter="\t")}
+
+
 def share(rows, good):
     return f"{sum(map(good, rows))} of {len(rows)}"
 
@@ -138,6 +148,12 @@ def conclude(rows):
     if measured:
         times = [float(row["us_per_frame"]) for row in measured]
         print(f"time a frame                 {statistics.median(times):.0f} us (median), {max(times):.0f} us (most)")
+        visits = [row["visits"] for row in measured]
+        print(f"element visits a tick        {statistics.median(visits):.0f} (median), {max(visits)} (most)")
+        print(f"substeps                     {max(row['substeps'] for row in measured)} (most)")
+    seconds = [float(row["convert_s"]) for row in rows if row.get("convert_s")]
+    if seconds:
+        print(f"conversion                   {statistics.median(seconds):.2f} s (median), {max(seconds):.2f} s (most)")
     return not wrong and all(row["valid"] == "yes" for row in rows)
 
 
@@ -146,6 +162,8 @@ def main():
     parser.add_argument("places", nargs="*", metavar="FILE|FOLDER")
     parser.add_argument("-o", dest="out", default=os.path.join("out", "zoo"), metavar="DIR")
     parser.add_argument("--seconds", type=float, default=4)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="at once; times a frame are true with one")
+    parser.add_argument("--convert", default="", metavar="OPTIONS", help="for every conversion, in one word")
     given = parser.parse_args()
     places = given.places or [os.path.join(ROOT, "examples"), *([ZOO] if os.path.isdir(ZOO) else [])]
     sources, truth = list(inputs_of(places)), truth_of(places)
@@ -156,17 +174,19 @@ def main():
     folders = {}
     for source in sources:
         folders.setdefault(os.path.dirname(os.path.realpath(source)), []).append(source)
-    jobs = []
+    jobs, seconds = [], {}
     for folder, files in folders.items():
         out = os.path.join(given.out, os.path.relpath(folder, os.path.commonpath([*folders, os.path.dirname(folder)])).replace(os.sep, "."))
-        made = program("convert", *files, "--out-dir", out)
+        made = program("convert", *files, "--out-dir", out, "--jobs", given.jobs, *shlex.split(given.convert))
         if made.returncode:
             print(f"{os.path.basename(folder)}: convert ended with {made.returncode}", file=sys.stderr)
+        took = times_of(out)
         for source in files:
+            seconds[source] = took.get(os.path.basename(source), "")
             path = os.path.join(out, os.path.splitext(os.path.basename(source))[0])
             jobs.append((source, path + ".sbf", path + ".png", truth.get(os.path.realpath(source)), given.seconds))
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        rows = list(pool.map(lambda job: visit(*job), jobs))
+    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+        rows = [{**row, "convert_s": seconds[job[0]]} for job, row in zip(jobs, pool.map(lambda job: visit(*job), jobs))]
     with open(os.path.join(given.out, "zoo.csv"), "w", encoding="utf-8", newline="") as file:
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         table.writeheader()
