@@ -1,6 +1,7 @@
 #include "building.h"
 
 #include <inttypes.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "chart/out_folder.h"
@@ -155,9 +156,13 @@ static void say_choice(const cli_call *call, const section_budget *choice) {
     snprintf(off, sizeof off, "99 of 100 skin vertices within %.2g %% of the size of what %u give, ",
         100 * choice->p99_fraction, (unsigned)choice->finest);
   if (choice->left_out)
-    snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)%s",
-        (unsigned)choice->left_out, choice->names,
-        choice->visits > choice->max_visits ? ", and the skin alone takes more: give it fewer vertices" : "");
+    snprintf(left, sizeof left, "; rigid to keep the budget: %u of the smallest parts (%s)",
+        (unsigned)choice->left_out, choice->names);
+  size_t length = strlen(left);
+  if (choice->visits > choice->max_visits)
+    snprintf(left + length, sizeof left - length, "; %s",
+        choice->soft ? "the parts that you asked for take more: ask for fewer, or --budget none"
+                     : "the skin alone takes more: give it fewer vertices");
   snprintf(diagnostic.message, sizeof diagnostic.message,
       "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "
       "us of "
@@ -168,17 +173,19 @@ static void say_choice(const cli_call *call, const section_budget *choice) {
   cli_print_diagnostic(call, &diagnostic);
 }
 
-static sbf_status choose(const cli_call *call, sbf_asset *source, double budget_us,
-    sbf_build_options *options, sbf_diagnostic *error) {
+sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, sbf_diagnostic *error) {
+  sbf_build_options options;
   section_budget choice;
+  if (!read_options(call, &options)) return SBF_FAILED;
+  if (!(budget_us > 0) || !section_budget_applies(source, &options)) return SBF_OK;
   cli_progress("budget", 0);
-  sbf_status status = section_budget_choose(source, options, budget_us, &choice, error);
-  if (status == SBF_OK) say_choice(call, &choice);
-  options->elements = choice.elements;
+  sbf_status status = section_budget_choose(source, &options, budget_us, &choice, error);
+  if (status == SBF_OK && choice.elements) say_choice(call, &choice);
+  cli_progress_end();
   return status;
 }
 
-sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf_diagnostic *error) {
+sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error) {
   sbf_build_options options;
   sbf_build_report made;
   sbf_asset *built = NULL;
@@ -186,10 +193,8 @@ sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf
   options.progress = progress;
   options.report = cli_report;
   options.user = call;
-  bool chosen = budget_us > 0 && section_budget_applies(*asset, &options);
-  sbf_status status = chosen ? choose(call, *asset, budget_us, &options, error) : SBF_OK;
-  if (status == SBF_OK) status = sbf_build(*asset, &options, &built, &made, error);
-  if (status == SBF_OK && chosen) section_budget_state_costs(built);
+  sbf_status status = sbf_build(*asset, &options, &built, &made, error);
+  if (status == SBF_OK) section_budget_state_costs(built);
   cli_print_counted(call);
   cli_progress_end();
   sbf_asset_free(*asset);

@@ -26,9 +26,12 @@
 /* Checks the options; false, with a message, if they are wrong. */
 bool building_check(const cli_call *call);
 
-/* Runs the build passes on *asset, replaces it by the result and prints what was made. If `budget_us` is
- * above 0, chooses the number and resolution of sections within that budget (section_budget.h) and stores the
- * cost of their levels. Frees *asset on failure. */
-sbf_status building_run(cli_call *call, sbf_asset **asset, double budget_us, sbf_diagnostic *error);
+/* Chooses the number and resolution of the sections of a skin within a budget (section_budget.h) and stores
+ * both in the section recipes. Does nothing if `budget_us` is 0 or the call's options choose a resolution. */
+sbf_status building_choose(cli_call *call, sbf_asset *source, double budget_us, sbf_diagnostic *error);
+
+/* Runs the build passes on *asset, replaces it by the result and prints what was made. Frees *asset on
+ * failure. */
+sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error);
 
 #endif

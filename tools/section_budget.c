@@ -18,7 +18,7 @@ static const double ALIKE = 1.15;    /* ratio of volumes of left and right */
 static const double SKIN_VISITS = 2; /* that the skin takes for a vertex, with its normal: 8 to 14 ns */
 
 typedef struct candidate {
-  sbf_asset *asset; /* NULL: it could not be built */
+  uint32_t elements;
   double visits;
   tune_error is;
 } candidate;
@@ -28,11 +28,13 @@ static bool is_soft(const sbf_section_recipe *recipe) {
 }
 
 bool section_budget_applies(const sbf_asset *source, const sbf_build_options *build) {
-  uint32_t soft = 0;
+  uint32_t soft = 0, authored = 0;
   bool sized = build->elements || build->cell_m > 0 || build->error_m > 0 || build->levels > 1;
   for (uint32_t i = 0; i < source->section_recipes.count; i++)
     soft += is_soft(&source->section_recipes.at[i]);
-  return soft && !sized && !source->soft_bodies.count && build->interior == SBF_BUILD_INTERIOR_AUTOMATIC &&
+  for (uint32_t i = 0; i < source->soft_bodies.count; i++)
+    authored += source->soft_bodies.at[i].derived == SBF_NONE;
+  return soft && !sized && !authored && build->interior == SBF_BUILD_INTERIOR_AUTOMATIC &&
          build->sections == SBF_BUILD_SECTIONS_AUTOMATIC;
 }
 
@@ -59,55 +61,81 @@ static sbf_status build_one(const sbf_asset *source, const sbf_build_options *bu
   return sbf_build(source, &options, asset, NULL, error);
 }
 
+static bool is_firm(const candidate *c) {
+  return c->is.min_volume >= MIN_VOLUME && c->is.max_strain <= MAX_STRAIN;
+}
+
 static bool is_near(const candidate *c, double size_m) {
-  return c->is.sound && c->is.off.p99_m <= NEAR_FRACTION * size_m && c->is.min_volume >= MIN_VOLUME &&
-         c->is.max_strain <= MAX_STRAIN;
+  return is_firm(c) && c->is.off.p99_m <= NEAR_FRACTION * size_m;
 }
 
-static void take(section_budget *choice, const candidate *c, uint32_t elements, double size_m) {
-  choice->elements = elements;
+/* What keeps its shape goes before what is near. */
+static bool is_better(const candidate *c, const candidate *than) {
+  if (!than->elements || !than->is.sound) return true;
+  if (!c->is.sound || is_firm(c) != is_firm(than)) return c->is.sound && is_firm(c);
+  return c->is.off.p99_m < than->is.off.p99_m;
+}
+
+static void take(section_budget *choice, const candidate *c, double size_m) {
+  choice->elements = c->elements;
   choice->visits = c->visits;
-  choice->p99_fraction = c->is.off.p99_m / size_m;
-  choice->near = is_near(c, size_m);
+  if (c->is.sound) choice->p99_fraction = c->is.off.p99_m / size_m;
+  choice->near = c->is.sound && is_near(c, size_m);
 }
 
-/* The cheapest that is near, else the nearest, of what the budget allows; false: it allows none. */
-static bool choose(const candidate *all, const tune_yardstick *yard, section_budget *choice) {
-  int best = -1;
-  for (int i = 0; i < SIZE_COUNT; i++) {
-    const candidate *c = &all[i];
-    if (!c->asset || !c->is.sound || !(c->visits <= choice->max_visits)) continue;
-    if (is_near(c, yard->size_m)) {
-      best = i;
-      break;
-    }
-    if (best < 0 || c->is.off.p99_m < all[best].is.off.p99_m) best = i;
-  }
-  if (best >= 0) take(choice, &all[best], sizes[best], yard->size_m);
-  return best >= 0;
-}
-
-static sbf_status measure(
-    const sbf_asset *finest, candidate *all, section_budget *choice, bool *chosen, sbf_diagnostic *error) {
-  tune_yardstick yard;
-  const tune_measure measure = {.by = TUNE_BY_P99, .may_be_empty = true};
-  sbf_status status = tune_yardstick_make(&yard, finest, &measure, error);
-  for (int i = 0; status == SBF_OK && i < SIZE_COUNT; i++)
-    if (all[i].asset)
-      status =
-          tune_yardstick_hold(&yard, all[i].asset, &(chart_setting){.level = 0}, NULL, &all[i].is, error);
-  *chosen = status == SBF_OK && choose(all, &yard, choice);
-  tune_yardstick_free(&yard);
+/* One number of elements; `*best` is the better of the two. */
+static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elements,
+    const tune_yardstick *yard, candidate *best, sbf_diagnostic *error) {
+  candidate c = {.elements = elements, .visits = visits};
+  sbf_status status = tune_yardstick_hold(yard, built, &(chart_setting){.level = 0}, NULL, &c.is, error);
+  if (status == SBF_OK && is_better(&c, best)) *best = c;
   return status;
+}
+
+/* The cheapest within the budget that is near the finest, else the best; elements stay 0 where none is
+ * within. */
+static sbf_status choose(
+    const sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
+  sbf_asset *finest = NULL;
+  tune_yardstick yard = {.rest = NULL};
+  candidate best = {.elements = 0};
+  const tune_measure measure = {.by = TUNE_BY_P99, .may_be_empty = true, .once = true};
+  sbf_status status = SBF_OK;
+  for (int i = 0; status == SBF_OK && i < SIZE_COUNT && !choice->near; i++) {
+    sbf_asset *built = NULL;
+    status = build_one(source, build, sizes[i], &built, error);
+    if (status != SBF_OK) break;
+    double visits = visits_of(built);
+    bool may = visits <= choice->max_visits && built->soft_bodies.count;
+    if (may && !finest) {
+      status = build_one(source, build, FINEST, &finest, error);
+      if (status == SBF_OK) status = tune_yardstick_make(&yard, finest, &measure, error);
+    }
+    if (status == SBF_OK && may) status = try_one(built, visits, sizes[i], &yard, &best, error);
+    if (status == SBF_OK && best.elements) take(choice, &best, yard.size_m);
+    sbf_asset_free(built);
+    if (!may) break; /* finer ones cost more */
+  }
+  tune_yardstick_free(&yard);
+  sbf_asset_free(finest);
+  return status;
+}
+
+/* Only a part that the conversion proposed: what somebody asked for stays soft. */
+static bool may_leave_out(const sbf_asset *source, int32_t bone) {
+  for (uint32_t i = source->section_recipes.count; i-- > 0;)
+    if (source->section_recipes.at[i].bone == bone) return source->section_recipes.at[i].proposed;
+  return false;
+}
+
+static sbf_section_recipe *recipe_at(sbf_asset *source, uint32_t index) {
+  return (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[index]; /* the caller's */
 }
 
 /* Its name goes to what is reported. */
 static void leave_out(sbf_asset *source, int32_t bone, section_budget *choice) {
-  for (uint32_t i = 0; i < source->section_recipes.count; i++) {
-    sbf_section_recipe *recipe =
-        (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[i]; /* the caller's */
-    if (recipe->bone == bone) recipe->rigid = true;
-  }
+  for (uint32_t i = 0; i < source->section_recipes.count; i++)
+    if (recipe_at(source, i)->bone == bone) recipe_at(source, i)->rigid = true;
   size_t length = strlen(choice->names);
   snprintf(choice->names + length, sizeof choice->names - length, "%s%.40s", length ? ", " : "",
       source->bones.at[bone].name);
@@ -124,62 +152,64 @@ static double volume_of(const sbf_soft_body *body) {
  */
 static bool leave_out_smallest(sbf_asset *source, const sbf_asset *built, section_budget *choice) {
   double min = INFINITY;
+  uint32_t before = choice->left_out;
   for (uint32_t i = 0; i < built->soft_bodies.count; i++)
-    min = fmin(min, volume_of(&built->soft_bodies.at[i]));
-  for (uint32_t i = 0; i < built->soft_bodies.count; i++)
-    if (volume_of(&built->soft_bodies.at[i]) <= ALIKE * min)
-      leave_out(source, built->soft_bodies.at[i].bone, choice);
-  return built->soft_bodies.count > 0;
+    if (may_leave_out(source, built->soft_bodies.at[i].bone))
+      min = fmin(min, volume_of(&built->soft_bodies.at[i]));
+  for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &built->soft_bodies.at[i];
+    if (may_leave_out(source, body->bone) && volume_of(body) <= ALIKE * min)
+      leave_out(source, body->bone, choice);
+  }
+  return choice->left_out > before;
 }
 
-/* The finest within the budget; where none is, parts become rigid until the coarsest of all fits. */
-static sbf_status fit(sbf_asset *source, const sbf_build_options *build, const candidate *all,
-    section_budget *choice, sbf_diagnostic *error) {
-  for (int i = SIZE_COUNT; i-- > 0;)
-    if (all[i].visits <= choice->max_visits) {
-      choice->elements = sizes[i], choice->visits = all[i].visits;
-      return SBF_OK;
-    }
+/* Parts become rigid until the coarsest of all fits. */
+static sbf_status fit(
+    sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   choice->elements = sizes[0];
   for (;;) {
     sbf_asset *built = NULL;
     sbf_status status = build_one(source, build, choice->elements, &built, error);
     if (status != SBF_OK) return status;
     choice->visits = visits_of(built);
+    choice->soft = built->soft_bodies.count;
     bool done = choice->visits <= choice->max_visits || !leave_out_smallest(source, built, choice);
     sbf_asset_free(built);
+    if (!choice->soft && !choice->left_out) choice->elements = 0; /* nothing is cut */
     if (done) return SBF_OK;
   }
 }
 
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
     section_budget *choice, sbf_diagnostic *error) {
-  candidate all[SIZE_COUNT] = {{.asset = NULL}};
-  sbf_asset *finest = NULL;
-  bool chosen = false;
   *choice = (section_budget){
       .max_visits = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, .finest = FINEST, .p99_fraction = NAN};
-  sbf_status status = build_one(source, build, FINEST, &finest, error);
-  for (int i = 0; status == SBF_OK && i < SIZE_COUNT; i++) {
-    status = build_one(source, build, sizes[i], &all[i].asset, error);
-    if (status == SBF_OK) all[i].visits = visits_of(all[i].asset);
-  }
-  if (status == SBF_OK && finest->soft_bodies.count) status = measure(finest, all, choice, &chosen, error);
-  if (status == SBF_OK && !chosen) status = fit(source, build, all, choice, error);
-  for (int i = 0; i < SIZE_COUNT; i++) sbf_asset_free(all[i].asset);
-  sbf_asset_free(finest);
+  sbf_status status = choose(source, build, choice, error);
+  if (status == SBF_OK && !choice->elements) status = fit(source, build, choice, error);
+  for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++)
+    recipe_at(source, i)->elements = is_soft(recipe_at(source, i)) ? choice->elements : 0;
   return status;
+}
+
+static bool is_chosen(const sbf_asset *asset) {
+  for (uint32_t i = 0; i < asset->section_recipes.count; i++)
+    if (asset->section_recipes.at[i].elements) return true;
+  return false;
 }
 
 void section_budget_state_costs(sbf_asset *built) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
   const chart_setting setting = {.level = 0};
-  if (sbr_model_create(built, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK) return;
+  if (!is_chosen(built) || sbr_model_create(built, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK)
+    return;
   for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &built->soft_bodies.at[i];
     double cost = chart_body_visits(model, built, i, &setting);
-    sbf_level *level = (sbf_level *)(uintptr_t)built->soft_bodies.at[i].levels.at; /* the build's own */
-    if (built->soft_bodies.at[i].levels.count && isfinite(cost)) level->simulation.cost = (float)cost;
+    sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at; /* the build's own */
+    if (body->derived != SBF_NONE && body->levels.count && isfinite(cost))
+      level->simulation.cost = (float)cost;
   }
   sbr_model_destroy(model);
 }

@@ -9,11 +9,12 @@
 #define SECTION_BUDGET_NS_PER_VISIT 6.0
 
 typedef struct section_budget {
-  uint32_t elements;   /* tetrahedra of the lattice that a section's springs follow */
+  uint32_t elements;   /* tetrahedra of the lattice that a section's springs follow; 0: nothing to choose */
   double visits;       /* of the whole character with skin, a tick */
   double max_visits;   /* that the budget allows */
   double p99_fraction; /* of the size: 99 of 100 vertices and ticks are no farther off the finest */
   uint32_t finest;     /* elements of that */
+  uint32_t soft;       /* parts that are left, if some had to be made rigid */
   bool near;           /* within 1 % of the size, nine tenths of its volume, strains of half */
   uint32_t left_out;   /* parts that were made rigid to keep the budget */
   char names[160];     /* of those */
@@ -24,13 +25,13 @@ typedef struct section_budget {
 bool section_budget_applies(const sbf_asset *source, const sbf_build_options *build);
 
 /* Builds the sections with several numbers of elements, runs each through the character's own walk, hop and
- * shake, and takes the cheapest that stays near the finest; else the nearest within the budget, the finest of
- * them where none holds. Where nothing is within it, marks the smallest parts in `source`, which is the
- * caller's own, as rigid until it is kept. */
+ * shake, and takes the cheapest that stays near the finest; else the best within the budget. Where nothing is
+ * within it, the smallest parts that the conversion proposed become rigid until it is kept. Writes both into
+ * the section recipes of `source`, which is the caller's own. */
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
     section_budget *choice, sbf_diagnostic *error);
 
-/* States the cost of each level in element visits. */
+/* States the cost of each level in element visits, where section recipes state elements. */
 void section_budget_state_costs(sbf_asset *built);
 
 #endif

@@ -17,7 +17,7 @@ static int run(cli_call *call) {
     sbf_asset_free(asset);
     return SBF_FAILED;
   }
-  if (status == SBF_OK) status = building_run(call, &asset, 0, &error);
+  if (status == SBF_OK) status = building_run(call, &asset, &error);
   if (status != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return (int)status;

@@ -18,7 +18,7 @@
 #include "sbfmt/mechanics.h"
 
 enum { MAX_PATH = 4096 };
-static const double MIN_BUDGET_US = 1, MAX_BUDGET_US = 1e6;
+static const double MIN_BUDGET_US = 1, MAX_BUDGET_US = 1e6, USUAL_BUDGET_US = 100;
 
 /* Writes the output path OUT-DIR/NAME.sbf of an input NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
@@ -79,13 +79,15 @@ static void state_figures(sbf_asset *asset) {
   asset->info.high = measures.high;
 }
 
-/* Reads the budget in microseconds; 0: default sections. False, with a message, if it is not a number or
- * conflicts with other options. */
-static bool read_budget(const cli_call *call, double *budget_us) {
+/* Reads the budget in microseconds; 0: none. False, with a message, if it is not a number or conflicts with
+ * other options. The sections of a bundle stay as they are unless a budget is stated. */
+static bool read_budget(const cli_call *call, const char *input, double *budget_us) {
   static const char *const chosen[] = {
       "--elements", "--cell", "--error", "--levels", "--springs", "--sections"};
-  *budget_us = 0;
-  for (size_t i = 0; cli_value(call, "--budget") && i < sizeof chosen / sizeof *chosen; i++)
+  const char *value = cli_value(call, "--budget");
+  *budget_us = value || is_bundle(input) ? 0 : USUAL_BUDGET_US;
+  if (!value || strcmp(value, "none") == 0) return true;
+  for (size_t i = 0; i < sizeof chosen / sizeof *chosen; i++)
     if (cli_value(call, chosen[i]))
       return cli_wrong(call, "--budget chooses the sections' elements: leave out %s, or --budget", chosen[i]),
              false;
@@ -103,12 +105,14 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
     sbf_asset_free(asset);
     return SBF_FAILED;
   }
-  if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
-  if (status == SBF_OK && !cli_switch(call, "--no-build")) {
+  if (status == SBF_OK) {
     double budget_us;
-    read_budget(call, &budget_us);
-    status = building_run(call, &asset, budget_us, &error);
+    read_budget(call, input, &budget_us);
+    status = building_choose(call, asset, budget_us, &error);
+    if (status != SBF_OK) sbf_asset_free(asset);
   }
+  if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
+  if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
     int saved = saving_run(call, input, out, asset, NULL);
     if (saved == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
@@ -177,7 +181,7 @@ static int run(cli_call *call) {
   if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
       !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--forward", fronts, 6, &front) ||
       !cli_word(call, "--limits", animals, 4, &limits) || !cli_word(call, "--gait", kinds, 7, &kind) ||
-      !read_budget(call, &budget_us) || !building_check(call) || !materials_check(call))
+      !read_budget(call, call->inputs[0], &budget_us) || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
@@ -218,10 +222,10 @@ static const cli_option options[] = {
     {"--limits", "none|human|quadruped|reptile",
         "propose joint limits by the bones' names and places (none)"},
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
-    {"--budget", "MICROSECONDS",
+    {"--budget", "MICROSECONDS|none",
         "what a tick may cost with skin, at 6 ns an element visit: the cheapest sections whose skin stays "
-        "within "
-        "1 % of the finest, else fewer soft parts (usual sections, whatever they cost)"},
+        "within 1 % of the finest, else fewer soft parts; none: 160 elements a section, whatever they cost "
+        "(100)"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,
     {NULL, NULL, NULL},

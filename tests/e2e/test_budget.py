@@ -1,4 +1,4 @@
-"""`sbfmt convert --budget`: the cheapest sections near the finest, the same each time, and fewer parts where that is too much."""
+"""What the sections of a skin may cost: the cheapest near the finest, the same each time, and fewer parts where that is too much."""
 
 import os
 import re
@@ -11,6 +11,12 @@ SAID = re.compile(r"lattices of about (\d+) tetrahedra: (?:99 of 100 skin vertic
                   r"(\d+) element visits a tick of at most (\d+)")
 
 
+def elements_of(path):
+    """What the recipes of soft parts state."""
+    recipes = ElementTree.parse(path).getroot().findall("section_recipes/section_recipe")
+    return {r.get("elements") for r in recipes if r.get("rigid") != "true"}
+
+
 class Budget(ProgramTest):
     def converted(self, name, *options, source=CALF):
         out = self.path(name + ".sbf")
@@ -19,9 +25,11 @@ class Budget(ProgramTest):
         return out, said and [float(number) if number else None for number in said.groups()], result.err
 
     def test_it_takes_the_cheapest_that_is_near_the_finest(self):
-        usual, said, _ = self.converted("usual")
+        usual, said, _ = self.converted("usual", "--budget", "none")
         self.assertIsNone(said)
-        made, (elements, share, visits, most), err = self.converted("made", "--budget", "100")
+        self.assertEqual(elements_of(usual), {None})
+        made, (elements, share, visits, most), err = self.converted("made")
+        self.assertEqual(elements_of(made), {str(int(elements))})
         self.assertIn(elements, (40, 80, 160))
         self.assertLessEqual(share, 1)
         self.assertLessEqual(visits, most)
@@ -38,14 +46,36 @@ class Budget(ProgramTest):
 
     def test_the_file_states_the_cost_and_how_to_make_it_again(self):
         made, (elements, *_), _ = self.converted("stated", "--budget", "100")
+        self.assertEqual(read_bytes(made), read_bytes(self.converted("usual")[0]), "100 is the default")
         for section in self.json_of("info", made)["sections"]:
             level = section["levels"][0]
             self.assertEqual(level["cost"] % level["springs"], 0, "a visit of each spring in each substep")
             self.assertGreater(level["cost"], 0)
-        again = self.path("again.sbf")
-        self.good("build", made, "--elements", int(elements), "-o", again)
-        springs = [self.json_of("info", path)["springs"] for path in (made, again)]
-        self.assertEqual(*springs)
+        again, source = self.path("again.sbf"), self.path("source.sbf")
+        self.good("build", made, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(made))
+        self.good("convert", CALF, "--no-build", "-o", source)
+        self.good("build", source, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(made), "source parts alone hold the choice")
+        self.good("build", made, "--elements", 2 * int(elements), "-o", again)
+        springs = [self.json_of("info", path)["sections"][0]["levels"][0]["springs"] for path in (made, again)]
+        self.assertLess(*springs, "who asks for elements gets them")
+
+    def test_a_bundle_keeps_its_sections(self):
+        for options in (("--budget", "none"), ()):
+            made = self.converted("bundle", *options)[0]
+            again, said, _ = self.converted("again", source=made)
+            self.assertIsNone(said)
+            self.assertEqual(read_bytes(again), read_bytes(made))
+        _, said, _ = self.converted("asked", "--budget", "100", source=made)
+        self.assertTrue(said)
+
+    def test_what_was_asked_for_stays_soft(self):
+        made, _, err = self.converted("asked", "--soft", "tail3", "--budget", "10")
+        self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, {"tail3"})
+        self.assertIn("the parts that you asked for take more", err)
+        recipes = ElementTree.parse(made).getroot().findall("section_recipes/section_recipe")
+        self.assertEqual([r.get("rigid") for r in recipes if r.get("proposed") != "true"], [None])
 
     def test_it_is_the_same_each_time(self):
         first, second = (self.converted(name, "--budget", "90")[0] for name in ("first", "second"))
@@ -84,7 +114,7 @@ class Budget(ProgramTest):
             file.write("f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
         with_it, said, _ = self.converted("with", "--budget", "100", source=cube)
         self.assertIsNone(said)
-        self.assertEqual(read_bytes(with_it), read_bytes(self.converted("without", source=cube)[0]))
+        self.assertEqual(read_bytes(with_it), read_bytes(self.converted("without", "--budget", "none", source=cube)[0]))
 
 
 if __name__ == "__main__":

@@ -157,7 +157,8 @@ class SkinSections(ProgramTest):
 
     def test_what_is_painted_on_the_skin_is_held(self):
         out, again = self.path("held.sbf"), self.path("again.sbf")
-        self.good("convert", CALF, "-o", out, "--soft", "*", "--hold", "head", "--hold", "tail3=tail2", "--goal", "0,0.8")
+        self.good("convert", CALF, "-o", out, "--soft", "*", "--budget", "none", "--hold", "head", "--hold", "tail3=tail2",
+                  "--goal", "0,0.8")
         root = ElementTree.parse(out).getroot()
         painted = {s.get("name"): s for s in root.findall("render_mesh/pins/pin_set")}
         self.assertEqual({name: s.get("bone") for name, s in painted.items()}, {"head": None, "tail3": "bone.tail2"})

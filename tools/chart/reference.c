@@ -141,6 +141,11 @@ sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const
              : find_by_runtime(truth, charted, scene, rest, 4 * max_substeps, error);
 }
 
+static void name_mesh(chart_reference *stated, const chart_scene *scene, uint32_t substeps) {
+  snprintf(stated->what, sizeof stated->what, "%u tetrahedra as they are, symplectic, %u substeps a frame",
+      (unsigned)chart_all_elements_of(scene->asset), (unsigned)substeps);
+}
+
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, chart_reference *stated, sbf_diagnostic *error) {
   chart_track tracks[2] = {{.ticks = 0}, {.ticks = 0}};
@@ -152,8 +157,19 @@ sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, 
   if (status == SBF_OK) status = refine(&pair, tracks, stated->errors, BODY_ADVICE, error);
   chart_track_free(&tracks[0]);
   truth->track = tracks[1];
-  snprintf(stated->what, sizeof stated->what, "%u tetrahedra as they are, symplectic, %u substeps a frame",
-      (unsigned)chart_all_elements_of(scene->asset), (unsigned)pair.substeps[1]);
+  name_mesh(stated, scene, pair.substeps[1]);
+  return status;
+}
+
+sbf_status chart_truth_take_mesh(
+    chart_truth *truth, const chart_scene *scene, chart_reference *stated, sbf_diagnostic *error) {
+  uint32_t needed = 0;
+  *truth = (chart_truth){.stated = stated};
+  sbf_status status = needed_substeps(scene, &needed, error);
+  if (status == SBF_OK)
+    status = check(&truth->track, scene, SBF_SCHEME_SYMPLECTIC, needed, BODY_ADVICE, error);
+  memset(stated->errors, 0, sizeof stated->errors);
+  name_mesh(stated, scene, needed);
   return status;
 }
 

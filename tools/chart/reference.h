@@ -25,6 +25,9 @@ sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const
  * not in that. */
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, chart_reference *stated, sbf_diagnostic *error);
+/* The same mesh once, with as many substeps as it needs; what it is off itself is not known: 0. */
+sbf_status chart_truth_take_mesh(
+    chart_truth *truth, const chart_scene *scene, chart_reference *stated, sbf_diagnostic *error);
 void chart_truth_free(chart_truth *truth);
 
 static inline const chart_track *chart_truth_for(const chart_truth *truth, sbf_scheme scheme) {

@@ -62,8 +62,11 @@ static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *
   if (measure->progress) scene.looked = show, scene.looked_user = &f;
   if (!yard->rest) yard->rest = chart_motion_begins(&scene);
   if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
-  sbf_status status = chart_truth_find_mesh(
-      &yard->truths[number], &yard->cases[number], &scene, yard->rest, &yard->stated[number], error);
+  chart_truth *truth = &yard->truths[number];
+  chart_reference *stated = &yard->stated[number];
+  sbf_status status =
+      measure->once ? chart_truth_take_mesh(truth, &scene, stated, error)
+                    : chart_truth_find_mesh(truth, &yard->cases[number], &scene, yard->rest, stated, error);
   if (status == SBF_OK) add_own_error(yard, number, measure->by);
   if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
   snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);

@@ -37,6 +37,7 @@ typedef struct tune_measure {
   const chart_drive *drive; /* NULL: the usual one */
   tune_by by;               /* what an error is */
   bool may_be_empty;        /* no failure where nothing is measured by any motion */
+  bool once;                /* the reference runs once: `own` is not measured, and 0 */
   void (*progress)(
       void *user, const char *motion, uint32_t substeps, double fraction); /* may be NULL: of one look
                                                                            at the reference */

@@ -60,6 +60,7 @@ typedef struct part {
   double hard_area;       /* m^2 */
   double lowest;          /* m: y of its lowest vertex */
   bool twin;              /* measured with its mirror image */
+  bool asked;             /* the caller names it */
   reason why;
 } part;
 
@@ -287,7 +288,9 @@ static sbf_status take_wishes(work *w, const char *const *names, uint32_t count,
         continue;
       found++;
       uint32_t owner = w->skin.owners[b];
-      if (owner != SBFI_NO_INDEX) w->parts[owner].why = why;
+      if (owner == SBFI_NO_INDEX) continue;
+      w->parts[owner].why = why;
+      w->parts[owner].asked = true;
     }
     for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++)
       found += strcmp(w->asset->soft_bodies.at[b].name, names[i]) == 0;
@@ -323,7 +326,7 @@ static bool write_recipes(const work *w) {
     sbf_section_recipe *recipe = &recipes[count++];
     sbf_section_recipe_init(recipe);
     recipe->bone = (int32_t)b;
-    recipe->proposed = true;
+    recipe->proposed = !w->parts[b].asked;
     recipe->rigid = w->parts[b].why != SOFT;
     recipe->attributes.young_modulus = (float)w->modulus;
     recipe->attributes.sag_free = true;
