@@ -261,8 +261,8 @@ class RiggedInputs(ProgramTest):
         """A saddle that overlaps the skin of two bones: all of it hangs on the one that it touches most."""
         column = Column()
         rig = column.glb.write(self.path("rig.glb"))
-        points, triangles = tube(0.85, 1.6, 0.12, 9)
-        saddle = [(x + 0.27, y, z) for x, y, z in points], triangles
+        points, triangles = tube(0.85, 1.6, 0.07, 9)
+        saddle = [(x + 0.25, y, z) for x, y, z in points], triangles
         for name in ("saddle", "body"):  # an object of its own, or a shell of the body's
             obj = obj_of({"body": column.body, "hat": column.hat, "saddle": saddle})
             obj.faces = [(name if part == "saddle" else part, m, c) for part, m, c in obj.faces]
