@@ -471,6 +471,14 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, boo
         "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
         "hangs on it",
         turned);
+    if (s->best.fraction < GOOD)
+      sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
+          "with its limbs turned, %.0f %% of the length of the rig's bones lies inside the mesh, and without "
+          "a mesh "
+          "like the input nothing tells whether each lies in its own limb: look at the bones in --report; a "
+          "rig in the "
+          "pose of the input needs no turn",
+          100 * s->best.fraction);
     *matched = true;
     return SBF_OK;
   }
@@ -527,7 +535,7 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
     r->alignment.is_stated = memcmp(&s.best.m, &r->c->to_asset, sizeof s.best.m) == 0;
     if (status == SBF_OK && s.best.fraction < SBFI_MIN_BONES_INSIDE)
       status = refuse(&s, &scratch);
-    else if (status == SBF_OK && s.best.fraction < CERTAIN && !r->c->options->weights)
+    else if (status == SBF_OK && s.best.fraction < CERTAIN && !matched && !r->c->options->weights)
       status = warn_of_misfit(&s, &scratch);
   }
   sbfi_arena_free(&scratch);
