@@ -16,6 +16,8 @@ static const float SLIDING_FRACTION = 0.999f;
 /* Soft contacts deeper than this fraction of the smaller body, or of the margin, use the learnt bias;
  * fraction of a change that a step learns. */
 static const float DEEP_FRACTION = 0.003f, DEEP_MARGIN_FRACTION = 0.1f, BIAS_GAIN = 0.3f;
+/* A soft body with an element of less of its volume, or a spring that is stretched by more, is crushed. */
+static const float CRUSHED_RATIO = 0.15f, CRUSHED_STRETCH = 0.8f;
 static const sbf_vec3 zero = {0, 0, 0};
 
 static bool is_plane(const sbri_contact *t) {
@@ -87,6 +89,28 @@ static float predicted_bias(const sbri_contact_constraint *r, float acceleration
   return both_are_soft(t) ? -bias * sbri_clamp(-r->separation / deep_threshold(t) - 1, 0, 1) : -bias;
 }
 
+/* Whether a contact of a crushed soft body with a body pinned to bones is left out. Nothing stops bones, so
+ * there may be no room for the soft body. Impulses would then add energy in each step until it is unstable,
+ * so it overlaps instead. */
+static bool overlaps_by_pins(
+    const sbr_world *world, const sbri_contact_group *group, const sbri_contact_constraint *r) {
+  const sbri_contact_side *sides[2] = {&r->contact->a, &r->contact->b};
+  const sbri_solver_body *rigid[2] = {r->a.body, r->b.body};
+  bool is_crushed = false, is_pinned = false;
+  for (int k = 0; k < 2 && !is_plane(r->contact); k++) {
+    const sbri_character *c = world->body_contacts->members[group->first_member + sides[k]->member].character;
+    if (sides[k]->rigid_body != SBRI_CONTACT_SOFT) {
+      is_pinned = is_pinned || !rigid[k];
+      continue;
+    }
+    const sbri_island *island = &c->model->islands[sides[k]->island];
+    const sbri_island_state *state = &sbri_island_states(c)[sides[k]->island];
+    is_crushed = is_crushed || state->min_ratio < CRUSHED_RATIO || state->stretch > CRUSHED_STRETCH;
+    is_pinned = is_pinned || island->slot_count > island->free_count;
+  }
+  return is_crushed && is_pinned;
+}
+
 /* Sets the target velocity and the warm-start impulses. */
 static void prepare_target(
     const sbr_world *world, const sbri_contact_group *group, sbri_contact_constraint *r) {
@@ -108,7 +132,9 @@ static void prepare_target(
   }
   bool rebounds = is_plane(t) && speed < -MIN_BOUNCE_SPEED_M_S; /* the body's own step makes it bounce */
   if (rebounds) t->is_loaded = false;
-  r->is_active = r->normal_mass > 0 && !rebounds;
+  bool is_open = overlaps_by_pins(world, group, r);
+  if (is_open) t->is_loaded = false;
+  r->is_active = r->normal_mass > 0 && !rebounds && !is_open;
   if (!t->is_loaded) t->normal_impulse = 0, t->friction_impulse = zero;
   r->normal_impulse = t->normal_impulse, r->friction_impulse = t->friction_impulse;
 }
