@@ -7,7 +7,7 @@ import os
 import obj_variants
 from bundle_file import Bundle, apply, inverse, matrix_of, product
 from glb_file import Glb
-from sbfmt_program import call
+from sbfmt_program import SOURCE_PARTS, call
 from skinned_glb import SkinnedGlb
 
 
@@ -35,7 +35,7 @@ class Original:
     def __init__(self, path, folder):
         self.path, self.name = path, os.path.splitext(os.path.basename(path))[0]
         self.bundle, self.obj_path = os.path.join(folder, self.name + ".sbf"), os.path.join(folder, self.name + ".obj")
-        made = call("convert", path, "--no-build", "-o", self.bundle)
+        made = call("convert", path, *SOURCE_PARTS, "-o", self.bundle)
         if made.status == 0:
             made = call("export", self.bundle, "-o", self.obj_path)
         if made.status:

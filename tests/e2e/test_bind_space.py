@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ElementTree
 from bundle_file import apply, inverse, matrix_of, numbers, product, rows
 from glb_file import Glb
 from play_files import blender, needs_blender, needs_node, node
-from sbfmt_program import ProgramTest, main, shared
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main, shared
 from skinned_glb import SkinnedGlb, box, inverse_binds, moved, tube
 
 H = math.sqrt(0.5)
@@ -102,7 +102,7 @@ class FilesOfBlender(ProgramTest):
         for file, expected in self.made.items():
             with self.subTest(file):
                 out = self.path("out.sbf")
-                self.good("convert", os.path.join(self.class_folder.name, file), "--no-build", "-o", out)
+                self.good("convert", os.path.join(self.class_folder.name, file), *SOURCE_PARTS, "-o", out)
                 found = [p for _, _, points in placed_points(out) for p in points]
                 rest = [tuple(p) for points in expected["rest"].values() for p in points]
                 gaps = []
@@ -125,7 +125,7 @@ class FilesOfBlender(ProgramTest):
 class BindSpace(ProgramTest):
     def placed(self, source):
         out = self.path("out.sbf")
-        self.good("convert", source, "--no-build", "-o", out)
+        self.good("convert", source, *SOURCE_PARTS, "-o", out)
         return {name: (sources, points) for name, sources, points in placed_points(out)}
 
     def assert_placed(self, found, expected, size):
@@ -251,7 +251,7 @@ class SharedFiles(ProgramTest):
         for path in shared_files():
             with self.subTest(file=os.path.relpath(path, shared(".."))):
                 out, drawn = self.path("out.sbf"), self.shown(Glb(path))
-                posed = "middle of a movement" in self.good("convert", path, "--no-build", "-o", out).err
+                posed = "middle of a movement" in self.good("convert", path, *SOURCE_PARTS, "-o", out).err
                 pairs = [(p, drawn[name][s]) for name, sources, points in placed_points(out) if name in drawn
                          for p, s in zip(points, sources) if drawn[name][s]]
                 self.assertTrue(pairs)

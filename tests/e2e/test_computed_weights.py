@@ -8,7 +8,7 @@ from bundle_file import Bundle
 from bvh_file import Bvh, write_bvh
 from rigged_weights import weights_by_vertex
 from skinned_glb import tube as tube_y
-from sbfmt_program import ProgramTest, main
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 
 BONES = (("upper", 0.0), ("fore", 1.0), ("hand", 2.0))
 
@@ -116,7 +116,7 @@ class ComputedWeights(ProgramTest):
 
     def weights(self, *options):
         out = self.path("arm.sbf")
-        done = self.good("convert", self.obj, "--rig", self.rig, "--no-build", "-o", out, *options)
+        done = self.good("convert", self.obj, "--rig", self.rig, *SOURCE_PARTS, "-o", out, *options)
         return {i: weight for i, (weight, _) in weights_by_vertex(out).items()}, done.err
 
     def test_each_bone_holds_its_part(self):
@@ -197,7 +197,7 @@ class ComputedWeights(ProgramTest):
         keyed = {track.get("bone") for track in bundle.root.iter("track")}
         self.assertEqual(keyed, {"bone.LeftArm", "bone.RightArm"})  # out again; all else stays at rest
         write_person(self.path("person.obj"), self.path("person.bvh"), 0)
-        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
+        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), *SOURCE_PARTS, "-o",
                          self.path("person.sbf"))
         self.assertNotIn("limbs were turned", done.err)
 
@@ -205,7 +205,7 @@ class ComputedWeights(ProgramTest):
         """Not in the collarbone's, which would bring it inside as well, and not into the trunk."""
         for angle in (30, 60):
             write_person(self.path("person.obj"), self.path("person.bvh"), angle, True)
-            done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
+            done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), *SOURCE_PARTS, "-o",
                              self.path("person.sbf"))
             self.assertIn("limbs were turned to lie inside it, 'LeftArm', 'RightArm', each", done.err)
             self.assertNotIn("RIG_OTHER_MESH", done.err)

@@ -6,7 +6,7 @@ import obj_variants as variants
 import posed_inputs
 from bundle_file import Bundle
 from rigged_weights import Original
-from sbfmt_program import ProgramTest, main
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 
 POSES = dict(posed_inputs.POSES)
 
@@ -18,7 +18,7 @@ class PosedInputs(ProgramTest):
         obj, motions = posed_inputs.pose_of(original, POSES[name])
         obj = change(obj)
         variants.write(variants.moved(obj, 0.01, ("x", "-z", "y")), self.path("in.obj"), 6)
-        done = self.good("convert", self.path("in.obj"), "--rig", original.path, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", original.path, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         return original, obj, motions, done.err
 
     def assert_right(self, name, change=lambda obj: obj, skin=0.002, joints=0.005):
@@ -57,7 +57,7 @@ class PosedInputs(ProgramTest):
             posed_inputs.write_bones(original.path, self.path("bones.glb"))
             for obj in (posed_inputs.pose_of(original, POSES[name])[0], original.obj):
                 variants.write(obj, self.path("in.obj"), 6)
-                said = self.good("convert", self.path("in.obj"), "--rig", self.path("bones.glb"), "--no-build", "-o",
+                said = self.good("convert", self.path("in.obj"), "--rig", self.path("bones.glb"), *SOURCE_PARTS, "-o",
                                  self.path("out.sbf")).err
                 self.assertEqual("RIG_OTHER_MESH" in said, obj is not original.obj, said)
                 if obj is not original.obj:
@@ -67,7 +67,7 @@ class PosedInputs(ProgramTest):
         original = Original(posed_inputs.path_of("examples/yeti/yeti.glb"), self.folder)
         for change in (variants.jiggled, variants.simplified):
             variants.write(change(original.obj), self.path("in.obj"))
-            done = self.good("convert", self.path("in.obj"), "--rig", original.path, "--no-build", "-o", self.path("out.sbf"))
+            done = self.good("convert", self.path("in.obj"), "--rig", original.path, *SOURCE_PARTS, "-o", self.path("out.sbf"))
             self.assertNotIn("stands otherwise", done.err)
 
 

@@ -8,7 +8,7 @@ import obj_variants as variants
 from bundle_file import Bundle
 from rigged_weights import weights_by_vertex
 from skinned_glb import SkinnedGlb, box, inverse_binds, tube
-from sbfmt_program import ProgramTest, main, read_text
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main, read_text
 from test_computed_weights import write_arm, write_bones
 
 
@@ -52,7 +52,7 @@ class RiggedInputs(ProgramTest):
         if isinstance(obj, variants.Obj):
             variants.write(obj, self.path("in.obj"))
             obj = self.path("in.obj")
-        done = self.good("convert", obj, "--rig", rig, "--no-build", *options, "-o", self.path("out.sbf"))
+        done = self.good("convert", obj, "--rig", rig, *SOURCE_PARTS, *options, "-o", self.path("out.sbf"))
         return [max(w, key=w.get) for _, (w, _) in sorted(weights_by_vertex(self.path("out.sbf")).items())], done.err
 
     def test_a_rig_with_two_skins(self):
@@ -95,7 +95,7 @@ class RiggedInputs(ProgramTest):
         for name, mesh in column.objects().items():
             variants.write(obj_of({name: mesh}), self.path(name + ".obj"))
         os.mkdir(self.path("out"))
-        self.good("convert", self.path("body.obj"), self.path("hat.obj"), "--rig", rig, "--no-build", "--out-dir",
+        self.good("convert", self.path("body.obj"), self.path("hat.obj"), "--rig", rig, *SOURCE_PARTS, "--out-dir",
                   self.path("out"))
         for name, wanted in column.wanted.items():
             found = weights_by_vertex(os.path.join(self.path("out"), name + ".sbf"))
@@ -312,7 +312,7 @@ class ArmOfAnotherFile(ProgramTest):
             points, triangles = box((0, 5, 0), (0.3, 5.3, 0.3))
             stream.write("o far\n" + "".join("v %g %g %g\n" % p for p in points) +
                          "".join("f %d %d %d\n" % tuple(i - 8 for i in t) for t in triangles))
-        self.good("convert", self.path("arm.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--report",
+        self.good("convert", self.path("arm.obj"), "--rig", self.path("arm.bvh"), *SOURCE_PARTS, "--report",
                   self.path("why.json"), "-o", self.path("out.sbf"))
         notes = [n for n in json.loads(read_text(self.path("why.json")))["notes"] if n["code"] == "RIG_OBJECT_APART"]
         self.assertEqual(len(notes), 1)
@@ -328,13 +328,13 @@ class ArmOfAnotherFile(ProgramTest):
         objects = {name: (points, [[p for p, _, _ in corners] for part, _, corners in arm.faces if part == "arm"])
                    for name, points in (("arm", arm.points), ("twin", twin))}
         variants.write(obj_of({**objects, "bracelet": bracelet}), self.path("both.obj"))
-        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
+        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), *SOURCE_PARTS, "--verbose", "-o",
                          self.path("out.sbf"))
         self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
         self.assertIn("lies in the object 'twin' or beside it", done.err)
         objects["twin"] = ([(x, y + 1.5, z) for x, y, z in arm.points], objects["twin"][1])
         variants.write(variants.one_object(obj_of({**objects, "bracelet": bracelet}), "both"), self.path("both.obj"))
-        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--verbose", "-o",
+        done = self.good("convert", self.path("both.obj"), "--rig", self.path("arm.bvh"), *SOURCE_PARTS, "--verbose", "-o",
                          self.path("out.sbf"))
         self.assertEqual(done.err.count("RIG_OBJECT_APART"), 1, done.err)
         self.assertIn("of the object 'both' lie apart from the rig", done.err)

@@ -9,7 +9,7 @@ import obj_variants as variants
 from bundle_file import Bundle
 from bvh_file import write_bvh
 from rigged_weights import Original, weights_by_vertex
-from sbfmt_program import ProgramTest, main, shared
+from sbfmt_program import SOURCE_PARTS, ProgramTest, main, shared
 
 
 def mirrored(joints):
@@ -87,7 +87,7 @@ class Cow(ProgramTest):
 class Armadillo(ProgramTest):
     def weights(self, obj):
         write_bvh(self.path("armadillo.bvh"), ARMADILLO)
-        self.good("convert", obj, "--rig", self.path("armadillo.bvh"), "--no-build", "-o", self.path("out.sbf"))
+        self.good("convert", obj, "--rig", self.path("armadillo.bvh"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
         points = variants.read(obj).points
         return [(points[vertex], strongest(weights))
                 for vertex, (weights, _) in weights_by_vertex(self.path("out.sbf")).items()]
@@ -140,7 +140,7 @@ class Person(ProgramTest):
         for path in PEOPLE:
             with self.subTest(path):
                 original = Original(path, self.folder)
-                done = self.good("convert", original.obj_path, "--rig", MOCAP, "--no-build", "-o", self.path("person.sbf"))
+                done = self.good("convert", original.obj_path, "--rig", MOCAP, *SOURCE_PARTS, "-o", self.path("person.sbf"))
                 self.assertNotIn("turned by 180", done.err)
                 self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"]["legs"], 2)
 

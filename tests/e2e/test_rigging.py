@@ -11,7 +11,7 @@ from bvh_file import write_bvh
 from glb_file import Glb
 from rigged_weights import (Original, add_clip, difference, posed, posed_errors, save_in_a_pose, share_of_equal,
                             walk_motions, weights_by_vertex)
-from sbfmt_program import ROOT, ProgramTest, main, read_text, shared, write_bytes
+from sbfmt_program import ROOT, SOURCE_PARTS, ProgramTest, main, read_text, shared, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
@@ -73,7 +73,7 @@ class ByPlace(ProgramTest):
     def test_weights_are_those_of_the_rig(self):
         for name, (obj, said) in same_mesh(self.calf.obj).items():
             with self.subTest(name):
-                result = self.convert(obj, "--no-build")
+                result = self.convert(obj, *SOURCE_PARTS)
                 self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
                 self.assertIn(" of the rig's own mesh, by place", result.err)
                 if said:
@@ -94,7 +94,7 @@ class ByPlace(ProgramTest):
     def test_names_tell_left_from_right(self):
         """A symmetric character of named objects fits as well unmirrored: its left would hang on the right."""
         lizard = Original(LIZARD, self.class_folder.name)
-        result = self.convert(variants.moved(lizard.obj, 1, ("-x", "y", "z"), (5, 1, -2)), "--no-build", rig=LIZARD)
+        result = self.convert(variants.moved(lizard.obj, 1, ("-x", "y", "z"), (5, 1, -2)), *SOURCE_PARTS, rig=LIZARD)
         self.assertIn("mirrored in x, moved by (5, -1, 2) m", result.err)
         self.assertGreaterEqual(share_of_equal(lizard, lizard.obj, self.path("out.sbf")), 0.999)
         self.assertEqual(self.json_of("info", self.path("out.sbf"))["gait"], {"kind": "walk", "legs": 4})
@@ -107,21 +107,21 @@ class ByPlace(ProgramTest):
         numbers = {name: f"piece{i}" for i, name in enumerate(sorted({name for name, _, _ in cut.faces}))}
         nameless.faces = [(numbers[name], material, corners) for name, material, corners in cut.faces]
         self.assertGreater(len(numbers), len({name for name, _, _ in lizard.obj.faces}))
-        self.good("convert", LIZARD, "--no-build", "-o", self.path("original.sbf"))
+        self.good("convert", LIZARD, *SOURCE_PARTS, "-o", self.path("original.sbf"))
         wanted = sections_of(self.path("original.sbf"))
         self.assertEqual(len(wanted), 22)
         for obj in cut, nameless, variants.moved(nameless, 0.01, ("x", "-z", "y")):
-            self.convert(obj, "--no-build", rig=LIZARD)
+            self.convert(obj, *SOURCE_PARTS, rig=LIZARD)
             self.assertEqual(sections_of(self.path("out.sbf")), wanted)
             self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
             back = variants.read(self.path("back.obj"))
             self.assertEqual(shapes_of(back), shapes_of(lizard.obj))
-        self.convert(variants.by_material(variants.jiggled(lizard.obj)), "--no-build", rig=LIZARD)
+        self.convert(variants.by_material(variants.jiggled(lizard.obj)), *SOURCE_PARTS, rig=LIZARD)
         self.assertEqual(sections_of(self.path("out.sbf")), wanted)  # by their borders alone
 
     def test_numbers_rounded_to_six_decimals(self):
         obj = variants.moved(self.calf.obj, 1000)  # a calf of a thousandth of a unit
-        self.convert(obj, "--no-build", digits=6)
+        self.convert(obj, *SOURCE_PARTS, digits=6)
         self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.99)
 
     def test_a_part_of_the_mesh(self):
@@ -132,12 +132,12 @@ class ByPlace(ProgramTest):
                       if all(part.points[p][1] > (low + high) / 2 for p, _, _ in face[2])]
         part = variants.renumbered(part, sorted({p for _, _, c in part.faces for p, _, _ in c}))
         obj = variants.shuffled(variants.moved(part, 0.0371, ("z", "x", "y"), (3, 0, 0)))
-        self.convert(obj, "--no-build")
+        self.convert(obj, *SOURCE_PARTS)
         self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
 
     def test_normals_uvs_materials_and_order_stay(self):
         obj = variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")))
-        self.convert(obj, "--no-build")
+        self.convert(obj, *SOURCE_PARTS)
         self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
         back = variants.read(self.path("back.obj"))
         self.assertEqual(sorted(weights_by_vertex(self.path("out.sbf"))), list(range(len(obj.points))))
@@ -178,7 +178,7 @@ class InSavedPose(ProgramTest):
         obj = posed(self.calf, self.motions)
         self.assertGreater(max(map(math.dist, obj.points, self.calf.obj.points)), 0.1)
         variants.write(obj, self.path("in.obj"))
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("stands as", done.err)
         self.assertIn(f"{len(obj.points)} of the rig's own mesh, by place", done.err)
         self.check(obj, 1e-5)
@@ -192,20 +192,20 @@ class InSavedPose(ProgramTest):
     def test_units_axes_and_order_are_found_there_too(self):
         obj = variants.shuffled(variants.moved(posed(self.calf, self.motions), 0.01, ("x", "-z", "y")))
         variants.write(obj, self.path("in.obj"), 6)
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("turned by -90 degrees about x", done.err)
         self.check(obj, 1e-4)
 
     def test_the_bind_pose_is_found_in_such_a_file(self):
         variants.write(self.calf.obj, self.path("in.obj"))
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertNotIn("stands as", done.err)
         self.check(self.calf.obj, 1e-5)
 
     def test_an_edited_mesh_is_taken_back_by_the_weights_beside_it(self):
         obj = variants.jiggled(posed(self.calf, self.motions), 1, 0.003)
         variants.write(obj, self.path("in.obj"), 6)
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("stands as", done.err)
         self.assertIn("carried over from the nearest surface", done.err)
         gaps = sorted(math.dist(place, self.calf.places[vertex]) / variants.size_of(self.calf.obj)
@@ -222,7 +222,7 @@ class InSavedPose(ProgramTest):
             with self.subTest(path):
                 places, faces, stated = drawn_mesh(Glb(path))
                 variants.write(variants.Obj(places, [], [], faces), self.path("in.obj"))
-                done = self.good("convert", self.path("in.obj"), "--rig", path, "--no-build", "-o", self.path("out.sbf"))
+                done = self.good("convert", self.path("in.obj"), "--rig", path, *SOURCE_PARTS, "-o", self.path("out.sbf"))
                 self.assertIn("stands as", done.err)
                 found = weights_by_vertex(self.path("out.sbf"))
                 equal = sum(difference(weights, stated[v]) <= 1e-3 for v, (weights, _) in found.items())
@@ -272,7 +272,7 @@ class AtAMomentOfAClip(ProgramTest):
         return obj
 
     def check(self, obj, time):
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn(f"{time:.3f} s after the start of its clip 'kick'", done.err)
         self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
         size = variants.size_of(self.calf.obj)
@@ -292,7 +292,7 @@ class AtAMomentOfAClip(ProgramTest):
     def test_a_mesh_of_another_pose_is_not_taken_for_one(self):
         motions = save_in_a_pose(CALF, self.path("pose.glb"), {b: (0, 0, 0.2, 0.98) for b in self.bones[::3]})
         variants.write(posed(self.calf, motions), self.path("in.obj"), 6)
-        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.rig, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertNotIn("of its clip", done.err)
 
 
@@ -311,7 +311,7 @@ class ByNearness(ProgramTest):
             with self.subTest(name):
                 obj = variants.moved(change(self.calf.obj), 0.01, ("x", "-z", "y"))
                 variants.write(obj, self.path("in.obj"), 6)
-                result = self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o",
+                result = self.good("convert", self.path("in.obj"), "--rig", CALF, *SOURCE_PARTS, "-o",
                                    self.path("out.sbf"))
                 self.assertIn("carried over from the nearest surface", result.err)
                 errors = posed_errors(self.calf, obj, self.path("out.sbf"), motions)
@@ -323,7 +323,7 @@ class ByNearness(ProgramTest):
     def test_nothing_in_common_but_the_shape(self):
         obj = variants.moved(variants.jiggled(self.calf.obj, 1, 0.004), 0.01, ("-x", "z", "y"))
         variants.write(obj, self.path("in.obj"), 6)
-        result = self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o", self.path("out.sbf"))
+        result = self.good("convert", self.path("in.obj"), "--rig", CALF, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("scaled by 0.01 (it is in centimetres)", result.err)
         found = weights_by_vertex(self.path("out.sbf"))
         unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
@@ -343,7 +343,7 @@ class ByNearness(ProgramTest):
         for quad in ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)):
             obj.faces.append(("pole", None, [(base + i, None, None) for i in quad]))
         variants.write(obj, self.path("in.obj"))
-        self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o", self.path("out.sbf"))
+        self.good("convert", self.path("in.obj"), "--rig", CALF, *SOURCE_PARTS, "-o", self.path("out.sbf"))
         found = weights_by_vertex(self.path("out.sbf"))
         poles = [found[v][0] for v in range(base, base + 8)]
         self.assertEqual({len(weights) for weights in poles}, {1})
@@ -365,7 +365,7 @@ class FromFile(ProgramTest):
         cls.calf = Original(CALF, cls.class_folder.name)
 
     def convert(self, weights, *options):
-        return ("convert", self.calf.obj_path, "--rig", CALF, "--weights", weights, "--no-build", *options, "-o",
+        return ("convert", self.calf.obj_path, "--rig", CALF, "--weights", weights, *SOURCE_PARTS, *options, "-o",
                 self.path("out.sbf"))
 
     def test_what_export_writes_comes_back(self):
@@ -428,7 +428,7 @@ class FromFile(ProgramTest):
         bone = lines[1].split(",")[1]
         with open(self.path("weights.csv"), "w", encoding="utf-8") as stream:
             stream.write("vertex,bone,weight\n" + "".join(f"{i},{bone},1\n" for i in range(len(self.calf.places))))
-        self.good("convert", CALF, "--weights", self.path("weights.csv"), "--no-build", "-o", self.path("out.sbf"))
+        self.good("convert", CALF, "--weights", self.path("weights.csv"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertEqual({b for w, _ in weights_by_vertex(self.path("out.sbf")).values() for b in w}, {bone})
 
     def test_ways_without_anything_to_choose_from(self):
@@ -462,7 +462,7 @@ class FromBones(ProgramTest):
                 "an odd unit, elsewhere": (variants.moved(self.calf.obj, 0.37, offset=(3, 0, 5)), "moved by"),
         }.items():
             with self.subTest(name):
-                result = self.good(*self.convert(obj, "--no-build"))
+                result = self.good(*self.convert(obj, *SOURCE_PARTS))
                 self.assertIn("computed from the bones", result.err)
                 if said:
                     self.assertIn(said, result.err)
@@ -478,7 +478,7 @@ class FromBones(ProgramTest):
             with self.subTest(name):
                 write_bones(self.calf.bundle, self.path("scaled.bvh"), scale)
                 variants.write(self.calf.obj, self.path("in.obj"), 6)
-                done = self.good("convert", self.path("in.obj"), "--rig", self.path("scaled.bvh"), "--no-build",
+                done = self.good("convert", self.path("in.obj"), "--rig", self.path("scaled.bvh"), *SOURCE_PARTS,
                                  *(["--unit", unit] if unit else []), "-o", self.path("out.sbf"))
                 self.assertIn("states no unit: it was " + told, done.err)
                 bundle = Bundle(self.path("out.sbf"))
@@ -514,7 +514,7 @@ class FromBones(ProgramTest):
         for name in "koi", "snake":
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 write_bones(Original(os.path.join(ROOT, "examples", name, name + ".glb"), folder).bundle, self.path("other.bvh"))
-                call = ("convert", self.path("in.obj"), "--rig", self.path("other.bvh"), "--no-build")
+                call = ("convert", self.path("in.obj"), "--rig", self.path("other.bvh"), *SOURCE_PARTS)
                 said = self.fails(1, *call, "-o", self.path("out.sbf"))
                 self.assertRegex(said, r"reach over \d+ % of its length alone.*RIG_MISFIT|only \d+ % of the bones' length")
                 self.assert_empty_folder(but=["in.obj", "other.bvh"])
@@ -524,7 +524,7 @@ class FromBones(ProgramTest):
         dragon = Original(os.path.join(ROOT, "examples", "dragon", "dragon.glb"), self.folder)
         write_bones(dragon.bundle, self.path("dragon.bvh"), 37)
         variants.write(variants.moved(dragon.obj, 0.01, ("x", "-z", "y")), self.path("in.obj"), 6)
-        done = self.good("convert", self.path("in.obj"), "--rig", self.path("dragon.bvh"), "--no-build", "-o", self.path("out.sbf"))
+        done = self.good("convert", self.path("in.obj"), "--rig", self.path("dragon.bvh"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
         self.assertIn("laid over the rig: turned by -90 degrees about x", done.err)
 
     def test_a_mesh_of_one_triangle_is_refused(self):
@@ -536,7 +536,7 @@ class FromBones(ProgramTest):
     def test_forward_says_where_it_looks(self):
         """The calf looks along +Z: told that its tail is ahead, it is laid the other way round."""
         for forward, sign in ("z", 1), ("-z", -1):
-            self.good(*self.convert(self.calf.obj, "--no-build", "--forward", forward))
+            self.good(*self.convert(self.calf.obj, *SOURCE_PARTS, "--forward", forward))
             found = weights_by_vertex(self.path("out.sbf"))
             middle = sum(p[2] for p in self.calf.places) / len(self.calf.places)
             there = sum(p[2] for _, p in found.values()) / len(found)

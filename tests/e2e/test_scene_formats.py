@@ -5,7 +5,7 @@ import unittest
 
 from bundle_file import Bundle, numbers
 import scene_files
-from sbfmt_program import ProgramTest, call, main, write_bytes
+from sbfmt_program import SOURCE_PARTS, ProgramTest, call, main, write_bytes
 
 TURNED = {"box.3ds", "box.ase", "box.dxf"}  # +Z up in the form itself: assimp turns them
 MIRRORED = {"box.x"}  # left-handed in the form itself: assimp mirrors them, we turn the polygons
@@ -36,7 +36,7 @@ def volume(points, sizes, corners):
 class Boxes(ProgramTest):
     def converted(self, name, content, *options):
         path = write_bytes(self.path(name), content)
-        said = self.good("convert", "--no-build", path, "-o", self.path("out.sbf"), *options).err
+        said = self.good("convert", *SOURCE_PARTS, path, "-o", self.path("out.sbf"), *options).err
         return Bundle(self.path("out.sbf")), said
 
     def check_box(self, bundle, low, high):
@@ -101,7 +101,7 @@ class Boxes(ProgramTest):
                              r"cut\.ply: the header of the PLY file does not end.* \[IMPORT_SYNTAX\]")
 
     def call_convert(self, path):
-        return call("convert", "--no-build", path, "-o", self.path("out.sbf"))
+        return call("convert", *SOURCE_PARTS, path, "-o", self.path("out.sbf"))
 
 
 if __name__ == "__main__":

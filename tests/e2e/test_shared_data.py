@@ -11,7 +11,7 @@ import unittest
 
 from bundle_file import Bundle, numbers
 from glb_file import Glb
-from sbfmt_program import SHARED, ProgramTest, call, main, read_text, shared
+from sbfmt_program import SHARED, SOURCE_PARTS, ProgramTest, call, main, read_text, shared
 
 PASSED_OVER = (".md", ".mtl")
 
@@ -132,7 +132,7 @@ class EveryFile(ProgramTest):
 
     def test_files_at_fault_end_in_their_error(self):
         for path, (code, word) in ERRORS.items():
-            for options in ((), ("--no-build",)):
+            for options in ((), (*SOURCE_PARTS,)):
                 with self.subTest(path, options=options):
                     message = self.fails(1, "convert", shared(path), "-o", self.path("out.sbf"), *options)
                     self.assertRegex(message, rf"error: .*{os.path.basename(path)}.*{word}.*\[{code}\]")
@@ -146,7 +146,7 @@ class EveryFile(ProgramTest):
 
     def check_counts(self, path, row):
         out = self.path("out.sbf")
-        said = self.good("convert", "--no-build", shared(path), "-o", out).err
+        said = self.good("convert", *SOURCE_PARTS, shared(path), "-o", out).err
         bundle = Bundle(out)
         if is_of_tetrahedra(path):
             self.check_tetrahedra(bundle, row)
