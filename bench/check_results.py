@@ -96,7 +96,7 @@ def converted(program, table, folder):
     if not table.example:
         return []
     path = os.path.join(folder, table.example + ".sbf")
-    run([program, "convert", os.path.join(ROOT, "examples", table.example, table.example + ".glb"), "-o", path])
+    run([program, "convert", os.path.join(ROOT, "examples", table.example, table.example + ".glb"), "--budget", "none", "-o", path])
     return [path]
 
 

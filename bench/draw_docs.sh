@@ -31,7 +31,7 @@ chart chart-beam beam-amplitude
 chart chart-drop drop-volume
 chart chart-pendulum pendulum-period
 if wanted chart-character; then
-  "$sbfmt" convert examples/pup/pup.glb -o "$folder/pup.sbf" >/dev/null 2>&1
+  "$sbfmt" convert examples/pup/pup.glb --budget none -o "$folder/pup.sbf" >/dev/null 2>&1
   chart chart-character walk-path_px "$folder/pup.sbf"
 fi
 map damping 96
