@@ -23,7 +23,7 @@ static inline sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t 
   return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
 }
 
-/* A sample as it is carried now: what tears is carried by other points than at first, and they weigh less. */
+/* A sample with its present points: after a tear it may have other points, with other masses. */
 static inline sbri_sample sbri_sample_now(
     const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
   sbri_sample s = *first;

@@ -174,8 +174,8 @@ static void convert_planes_to_contacts(
   }
 }
 
-/* Marks touches of points that nothing else pushes. A body with samples has points that several of them are
- * carried by. */
+/* Marks contacts whose points have no other contact. In a body with samples several of them may share points.
+ */
 static void find_alone(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   sbri_soft_contact *contacts = tables->contacts + body->first_soft_contact;
   uint32_t count = tables->contact_counts[body - t->model->bodies];

@@ -1,18 +1,21 @@
-/* Once a tick each point looks for the triangle of its own surface that it comes near to or goes through, and
- * gets a touch with it: a sample whose weights are 1 for the point and below 0 for the corners, so that its
- * place is the point's against the triangle, and a push on it acts on both sides alike and keeps momentum.
+/* Self-contact of points and triangles. Once a tick each point is tested against the triangles of its own
+ * surface. One that it approaches or crosses becomes a contact: a sample with weight 1 for the point and
+ * negative weights for the corners. Its position is the point's relative to the triangle, so an impulse on it
+ * acts on both sides and conserves momentum.
  *
- * A point does not meet triangles with a corner that a side joins it to: where a fold is so sharp that it
- * would, the row of points beyond keeps the two legs apart, and what is pushed off by what it hangs on
- * swings.
+ * Triangles with a corner that is connected to the point by a side are skipped. In a fold sharp enough for
+ * such a contact, the next row of points keeps the two legs apart, and a contact between neighbours would
+ * oscillate.
  *
- * What is nearer at rest than the thickness is kept no further off than it was: parts that overlap at rest do
- * not fight. */
+ * Parts that are closer at rest than the thickness keep their rest distance as thickness, so that they do not
+ * push each other apart. */
 #include "contact/self_contacts.h"
 
 #include "contact/self_query.h"
 
-/* What lies at the thickness would else be let go each other tick, and fall: of the body's size. */
+/* Hysteresis, as a fraction of the body's size: without it a contact at the thickness would end every other
+ * tick.
+ */
 static const float NEAR_FRACTION = 0.01f;
 
 /* Of the thickness, that a point keeps from triangles with a corner that a side joins it to. */
@@ -64,7 +67,7 @@ static location position_of(const sbri_self_looking *l, uint32_t slot) {
   return p;
 }
 
-/* Whether a triangle of the tree may be one that it comes near to, or lies behind. */
+/* Whether a triangle of the tree may be one that the point approaches or is behind. */
 static bool may_intersect(const sbri_self_looking *l, const location *p, uint32_t number) {
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   const sbri_moving_ball *ball = &l->balls[number];
@@ -105,7 +108,7 @@ static bool hangs_on(const sbri_body *body, uint32_t slot, const uint32_t *c) {
 enum { OTHERS = 128 };
 typedef struct around {
   sbri_surface_hit best, joined, others[OTHERS];
-  uint32_t other_count; /* more than there is room for: they are looked for anew */
+  uint32_t other_count; /* more than the list holds: they are searched again */
 } around;
 
 /* As if one look had followed the other. */

@@ -1,16 +1,18 @@
-/* What has gone through itself comes out again: a sheet has no right side to be led back to, but what goes
- * through it does so along a line, and that can be made shorter until nothing is left of it.
+/* Resolves self-intersections. A sheet has no inside to be pushed out of, but its intersection is a contour,
+ * which can be shortened until it vanishes.
  *
- * The line has a corner wherever a side of the surface goes through a triangle. Moved by d against the
- * triangle, the side takes the corner along by d - (d.n / e.n) e, with e along the side and n across the
- * triangle. The two pieces of the line that end there lead by R1 and R2 into the triangles that the side
- * belongs to, and get shorter by (R1 + R2) times that: so d is along R1 + R2 - ((R1 + R2).e / e.n) n (by the
- * idea of P. Volino and N. Magnenat-Thalmann, Resolving Surface Collisions through Intersection Contour
- * Minimization, 2006). Points meet the surface meanwhile as ever, on the side that they are on. */
+ * The contour has a corner wherever a side of the surface crosses a triangle. If the side moves by d relative
+ * to the triangle, the corner moves by d - (d.n / e.n) e, with e along the side and n normal to the triangle.
+ * The two pieces of the contour at the corner run along R1 and R2 in the triangles beside the side, and
+ * shorten by (R1 + R2) times that motion. So d is along R1 + R2 - ((R1 + R2).e / e.n) n (after P. Volino and
+ * N. Magnenat-Thalmann, Resolving Surface Collisions through Intersection Contour Minimization, 2006).
+ * Contacts of points and triangles stay active meanwhile, on the side that each point is on. */
 #include "collide/sides.h"
 #include "contact/self_query.h"
 
-/* So fast sides go out of triangles, m/s, where the line is as crooked as this, and else by a share of it. */
+/* Speed at which sides leave triangles, m/s, where the contour bends this much; in proportion where it bends
+ * less.
+ */
 static const float OUT_M_S = 0.2f, CROOKED = 0.5f;
 /* As steep as this, at least, a side is taken to stand on a triangle: sine of the angle. */
 static const float STEEP = 0.1f;
@@ -35,7 +37,7 @@ static side side_of(const sbri_self_looking *l, uint32_t number) {
   return s;
 }
 
-/* Adds the way by which the line leads along n's triangle into that beside the side. */
+/* Adds the direction in which the contour runs along n's triangle into the one beside the side. */
 static sbf_vec3 with_line(const side *s, sbf_vec3 e, sbf_vec3 n, uint32_t beside, sbf_vec3 sum) {
   if (beside == SBRI_RIM) return sum;
   sbf_vec3 across = sbri_sub(position(s, beside), s->from);
@@ -67,8 +69,8 @@ static bool are_one(const side *s, const uint32_t *c) {
   return false;
 }
 
-/* A touch has four points: of the triangle's corners that which has the least share gives it to the others.
- */
+/* A contact has four points: the triangle's corner of least weight is dropped, and its weight divided among
+ * the others. */
 static sbri_sample sample_of(const side *s, float fraction, const uint32_t *c, const float weights[3]) {
   int min = weights[1] < weights[0] ? 1 : 0;
   if (weights[2] < weights[min]) min = 2;
@@ -104,7 +106,7 @@ static void cross(const side *s, uint32_t number) {
       .crosses = true};
 }
 
-/* A triangle, and the plane that it lies in. */
+/* A triangle and its plane. */
 typedef struct flat {
   uint32_t number;
   const uint32_t *c;
@@ -121,7 +123,7 @@ static flat flat_of(const sbri_self_looking *l, uint32_t number) {
       sbri_box_with(sbri_box_with(sbri_box_of_point(p[0]), p[1]), p[2])};
 }
 
-/* Whether another triangle lies on one side of it, or goes on from a side of it. */
+/* Whether another triangle is on one side of its plane, or shares a side with it. */
 static bool is_clear(const sbri_self_looking *l, const flat *f, const uint32_t *c) {
   int shared = 0, over = 0, below = 0;
   for (int k = 0; k < 3; k++) {

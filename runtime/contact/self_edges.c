@@ -1,12 +1,11 @@
-/* A sheet's rims, and the ridges that it is folded to, against each other: where edges cross and no corner
- * comes near a face, points meet nothing. A touch is a sample whose weights are above 0 for the one edge and
- * below for the other. */
+/* Self-contact of edges: a sheet's rims and the ridges of its folds. Crossing edges have no vertex near a
+ * face. A contact is a sample with positive weights for one edge and negative ones for the other. */
 #include "collide/edge_query.h"
 #include "collide/sides.h"
 #include "contact/self_query.h"
 
-/* Edges that are nearer than the thickness, as rims are that lie beside each other, come to it by this share
- * of what is missing a tick: they are there to stay on their sides, and points to keep the distance. */
+/* Fraction of the missing distance that is regained a tick by edges closer than the thickness, as
+ * neighbouring rims are. Edge contacts keep edges on their sides; point contacts keep the distance. */
 static const float COMES_OUT_FRACTION = 0.05f;
 
 typedef struct edge {

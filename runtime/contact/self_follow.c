@@ -1,14 +1,14 @@
-/* A body's touches with itself go along with both sides of it from substep to substep. What stood for a whole
- * tick would let a row of points that swings about a fold come nearer on its way, and be lifted in the next:
- * that puts in energy, and the row swings on for ever. */
+/* Updates self-contacts in every substep. With planes fixed for a whole tick, points that rotate about a fold
+ * would approach within the tick and be lifted in the next; that adds energy, and they would swing for ever.
+ */
 #include "collide/edge_query.h"
 #include "contact/self_contacts.h"
 #include "contact/self_query.h"
 
-/* A place so far beside its triangle, as a share of that, stays what it was found as. */
+/* A contact point farther beside its triangle than this fraction of it keeps its barycentric weights. */
 static const float BESIDE = 0.5f;
 
-/* Weights of the place over which x is, on a triangle's plane; the way along a side leads from one corner. */
+/* Barycentric weights of x projected onto a triangle's plane. */
 static void over_plane(sbf_vec3 x, const sbf_vec3 p[3], float weights[3]) {
   sbf_vec3 ab = sbri_sub(p[1], p[0]), ac = sbri_sub(p[2], p[0]), off = sbri_sub(x, p[0]);
   float bb = sbri_dot(ab, ab), bc = sbri_dot(ab, ac), cc = sbri_dot(ac, ac), b = sbri_dot(ab, off),

@@ -15,7 +15,7 @@ typedef struct sbri_self_looking {
   const sbri_island_tick *tick;
   const sbri_body *body;
   const sbri_contact_tables *tables;
-  const sbri_bounds_tree *tree; /* over the boxes of the triangles' ways */
+  const sbri_bounds_tree *tree; /* over the swept boxes of the triangles */
   const sbri_box *boxes;
   const sbri_moving_ball *balls; /* about them when the tick begins */
   sbri_surface_rule rule;
@@ -44,7 +44,7 @@ static inline bool sbri_self_are_joined(const sbri_body *body, uint32_t a, uint3
   return false;
 }
 
-/* Four points by their weights, and the mass that a push on them meets; 0: nothing moves. */
+/* Four points with weights, and their effective mass for an impulse; 0: nothing moves. */
 static inline sbri_sample sbri_self_sample(
     const sbri_island *island, const uint32_t slots[4], const float weights[4]) {
   sbri_sample s = {.vertex = UINT32_MAX};

@@ -1,7 +1,7 @@
-/* What is across an edge of the body and a ridge of the shape parts them if it leads out of the shape: if it
- * lies between the normals of the faces beside the ridge (D. Gregorius, The Separating Axis Test between
- * Convex Polyhedra, 2013). An edge that is past the ridge goes back over it, if no face is a nearer way out
- * for all of it. */
+/* Contacts of a body's edges with convex edges of shapes. The cross product of both is a separating axis if
+ * it lies between the normals of the faces beside the shape's edge (D. Gregorius, The Separating Axis Test
+ * between Convex Polyhedra, 2013). An edge that has passed is pushed back over it, if no face is a shorter
+ * way out. */
 #include "contact/shape_edges.h"
 
 #include "collide/colliders.h"
@@ -33,7 +33,7 @@ static sbf_vec3 position(const sbri_island_tick *t, uint32_t slot) {
   return sbri_vec3(p->x, p->y, p->z);
 }
 
-/* x by the points that carry a place near it, as what moves evenly goes on beyond them. */
+/* x as a combination of the points of a nearby sample, extrapolated affinely. */
 static bool carry_by(const sbri_island_tick *t, const sbri_sample *near, sbf_vec3 x, sbri_sample *to) {
   sbf_vec3 at = position(t, near->slots[0]), off = sbri_sub(x, at), e[3];
   for (int k = 0; k < 3; k++) e[k] = sbri_sub(position(t, near->slots[k + 1]), at);

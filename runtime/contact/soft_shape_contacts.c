@@ -16,7 +16,7 @@ static bool find_plane(
   float fraction;
   bool near = sbri_shape_nearest(shape, begin, reach, depth, found);
   if (near && found->gap <= 0) return true;
-  /* A long way may go round what is nearest, or through what is far. */
+  /* A long displacement may pass the nearest triangle, or cross a distant one. */
   if (sbri_shape_enter(shape, begin, displacement, &fraction, &found->normal)) {
     found->position = sbri_add_scaled(begin, displacement, fraction);
     return true;
@@ -53,7 +53,7 @@ static void add_all(const shape_pair *m) {
   }
 }
 
-/* Where the ways of the body's places may take them, and the greatest of these. */
+/* Bounds of the positions that samples may reach in the tick, and their greatest displacement. */
 static sbri_box travel_bounds(
     const sbri_island_tick *t, const sbri_body *body, float *fastest, float *longest) {
   sbri_box box = sbri_box_of_point(sbri_vec3(

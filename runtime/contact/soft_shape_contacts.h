@@ -13,9 +13,9 @@ typedef struct sbri_shape_pair {
   const sbri_contact_tables *tables;
   sbri_collider_frame frame;
   uint32_t number; /* of the collider */
-  sbri_box near;   /* of the collider's way in the tick in the body's space, grown by the same */
-  sbri_box bounds; /* of the shape, grown by the ways that touches may have */
-  float fastest_m; /* the way of the body's fastest point in the tick, m of the world */
+  sbri_box near;   /* of the collider's motion in the tick, in the body's space, enlarged by the same */
+  sbri_box bounds; /* of the shape, enlarged by the contacts' possible displacements */
+  float fastest_m; /* displacement of the body's fastest point in the tick, m, world */
 } sbri_shape_pair;
 
 /* Adds a touch of the sample with a place of the shape, in that one's frame, if there is room. */

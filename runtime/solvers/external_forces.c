@@ -5,7 +5,7 @@
 #include "math/quat.h"
 #include "solvers/surface_forces.h"
 
-/* A gas pushes no harder than at this share of its rest volume, inside out or not. */
+/* Fraction of its rest volume below which a gas's pressure does not grow further, inverted or not. */
 static const double MIN_GAS_FRACTION = 0.02;
 
 /* What a gas may stiffen by from one look to the next. */

@@ -1,10 +1,10 @@
-/* Forces and holds of a host, as impulses on the velocities that a substep is about to move places by: where
- * contacts act, and before them, so that a wall stops what is drawn into it.
+/* Forces and holds of the host, as impulses on the velocities of a substep, before the contacts, so that a
+ * wall stops a body that is pulled into it.
  *
- * A hold is a damped spring to its target by an implicit step of its own: J = -h (k (x - p) + (h k + c) v) /
- * (1 + h (h k + c) / m), m the mass that answers at the vertex, |J| no more than the greatest force times h.
- * So it is stable however light the vertex is against the body that k and c are meant for (E. Catto, Soft
- * Constraints, 2011). */
+ * A hold is a damped spring to its target, integrated implicitly: J = -h (k (x - p) + (h k + c) v) /
+ * (1 + h (h k + c) / m), with m the effective mass at the vertex and |J| at most the greatest force times h.
+ * It is stable even if the vertex is much lighter than the body, from which k and c are chosen (E. Catto,
+ * Soft Constraints, 2011). */
 #ifndef SBRI_LOADS_H
 #define SBRI_LOADS_H
 

@@ -2,9 +2,9 @@
 #include "model/kernels.h"
 #include "solvers/scheme.h"
 
-/* A sweep leaves a network too soft: by a third in bending with as many substeps as are stable for symplectic
- * Euler, and four times less with each twice as many. Four times as many are within 3 %, and tetrahedra,
- * which are swept whole, within 2 % with twice.
+/* A sweep leaves a network too soft: by a third in bending with the number of substeps that is stable for
+ * symplectic Euler, and by a quarter of that with each doubling. Four times as many are within 3 %.
+ * Tetrahedra, which are swept as a whole, are within 2 % with twice as many.
  *
  * Tetrahedra never get fewer than are stable for symplectic Euler. Elements share points, and a sweep over
  * them is not symmetric: where it does not resolve the fastest mode, it turns some modes' errors into motion.

@@ -42,7 +42,7 @@ static inline void sbri_moves_begin(const sbri_island_tick *t) {
     }
 }
 
-/* Held points on their way through the tick. */
+/* Moves pinned points through the tick. */
 static inline void sbri_moves_move_pinned(const sbri_island_tick *t, float fraction) {
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
     const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
@@ -132,8 +132,8 @@ static inline sbri_mask sbri_differ(sbri_wide3 a, sbri_wide3 b) {
   return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
-/* The same as sbri_moves_end_body for a body whose surface is carried and may touch the ground: contacts want
- * all velocities at once, from the places before the substep. */
+/* sbri_moves_end_body for a body with an embedded surface that may touch the ground: its contacts need all
+ * velocities at once, at the positions before the substep. */
 static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);

@@ -1,8 +1,8 @@
-/* Moves bodies without deforming them, for those that no scheme can step: see soft/recovery.c.
+/* Moves bodies rigidly that no scheme can step: see soft/recovery.c.
  *
- * What is held goes with its guides. What is loose falls and turns freely; where one of its points gets below
- * a plane that it may touch, the body as a whole is moved back onto that, loses its speed into it, Coulomb's
- * share of its speed along it, and all of its spin. */
+ * Pinned bodies follow their pin frames. Loose bodies fall and rotate freely. If a point gets below a contact
+ * plane, the body is moved back onto it and loses its velocity into the plane, Coulomb's part of the velocity
+ * along it, and all of its angular velocity. */
 #include "math/quat.h"
 #include "math/vec3.h"
 #include "solvers/rigid_motion.h"

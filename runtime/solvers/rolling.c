@@ -7,7 +7,7 @@
 
 static const float PI = 3.14159265f;
 
-/* Points this near to the ground touch it: a share of the body's size. */
+/* Distance from the ground, as a fraction of the body's size, within which points touch it. */
 static const float TOUCHING_FRACTION = 1e-3f;
 
 float sbri_rolling_fraction(float damping_ratio) {

@@ -1,14 +1,14 @@
-/* Rolling resistance of bodies that nothing holds and that lie on the ground.
+/* Rolling resistance of loose bodies on the ground.
  *
- * A soft body that rolls is pressed flat anew all the time, and its damping takes a share of the work each
- * time: of its weight N, a moment up to
+ * A rolling soft body is flattened continuously, and its damping dissipates a fraction of that work. With its
+ * weight N this is a moment of up to
  *
  *     M = H 2 a / (3 pi) N
  *
- * with `a` half the width of what touches, along the way that it rolls, and H the share of the work that is
- * lost as the load comes and goes, 1 - exp(-2 pi z) at the damping ratio z (the line contact of K. L.
- * Johnson, Contact Mechanics, 1985, chapter 9). Few points of a coarse surface touch at once, so that the
- * passes of the points alone would lose far less than flesh does, and bodies would rock for long. */
+ * with `a` half the width of the contact along the rolling direction, and H the fraction of the work that a
+ * load cycle dissipates, 1 - exp(-2 pi z) at the damping ratio z (the line contact of K. L. Johnson, Contact
+ * Mechanics, 1985, chapter 9). A coarse surface has few points in contact at once, so the points alone would
+ * dissipate far less than a fine one, and bodies would rock for long. */
 #ifndef SBRI_ROLLING_H
 #define SBRI_ROLLING_H
 

@@ -61,8 +61,8 @@ static sbf_vec3 velocity_under(const touching *c, const sbri_soft_contact *conta
                                 : contact->velocity;
 }
 
-/* Whether simulated bodies that hold points of the touch feel it: what flesh does to itself, they get back.
- */
+/* Whether simulated rigid bodies that hold points of the contact get its impulse: in self-contact they get
+ * the reaction. */
 static bool is_felt(const touching *c, const sbri_soft_contact *contact) {
   return c->tick->reactions && contact->collider == SBRI_ITSELF;
 }
@@ -170,7 +170,7 @@ static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
   return sum;
 }
 
-/* The mass that a push on the body itself meets where bodies that hold it give way. */
+/* Effective mass of a self-contact if the rigid bodies that hold the body move. */
 static float mass_of(const touching *c, const sbri_sample *s) {
   float sum = pinned_inverse_mass(c, s);
   for (int k = 0; k < 4; k++)
@@ -331,7 +331,7 @@ static void push_as_before(const touching *c) {
 
 static void lift(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   if (!(contact->velocity_change > 0 && lift_of(contact, rule) > 0)) return;
-  contact->gap = gap_of(c, contact); /* of what others that share its points have left */
+  contact->gap = gap_of(c, contact); /* remaining after contacts that share its points */
   float up = lift_of(contact, rule);
   if (up > 0) move(c, contact, sbri_scale(contact->normal, up), is_felt(c, contact));
 }

@@ -14,14 +14,14 @@
 #include "mechanics/solid_strain.h"
 #include "solvers/strain_limit.h"
 
-/* No side of a rest shape becomes so many times as thin (the square of it): what is as crushed yields no
- * more. */
+/* Greatest thinning of a rest shape in a direction (squared): elements crushed that far do not yield further.
+ */
 #define SBRI_MAX_FLOW_STRETCH 64.0
 /* Limits are swept until none is off by more than this strain. */
 #define SBRI_LIMIT_TOLERANCE 1e-3
 enum { SBRI_LIMIT_SWEEPS = 4 };
 
-/* One element, and where it lies in the blocks for forces. */
+/* One element, and its position in the blocks for forces. */
 typedef struct sbri_solid_lane {
   uint32_t block, lane;
   const uint32_t *corners[4];
@@ -191,9 +191,9 @@ SBRI_INLINE sbri_mask sbri_solids_beyond(
   return (sum > sbri_wide_load(squares + lane)) | (ratio < zero);
 }
 
-/* One pass over what may be beyond: limits where `h` is 0, else yield and tear over h seconds. Returns
- * whether a limit moved anything. All lanes of a block are looked at before any is moved: some blocks' lanes
- * share points, and what one does to another must not depend on how many are looked at together. */
+/* One pass over the elements that may be beyond a limit: applies the limits if `h` is 0, else yield and tear
+ * over h seconds. Returns whether a limit moved anything. All lanes of a block are evaluated before any is
+ * moved: lanes of some blocks share points, and the result must not depend on the SIMD width. */
 static inline bool sbri_pass_solids(const sbri_island_tick *t, float h) {
   bool moved = false;
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {

@@ -1,13 +1,11 @@
-/* Walls in the energy of springs: what is longer or shorter than its strain limits allow is brought to them,
- * and the speed with which it was leaving them is taken (Provot, Deformation Constraints in a Mass-Spring
- * Model, 1995, moves the points alike). What turns about the other end as it is brought nearer turns so much
- * faster, and what holds a held end takes its part of the push: momentum and angular momentum are kept. One
- * sweep a substep: of springs that pull at the same points some may stay a little beyond. What is within its
- * limits is not touched, so that a second sweep over a state that the first one has put right changes
- * nothing.
+/* Strain limits of springs: a spring longer or shorter than its limits is moved to them, and its rate of
+ * change beyond them becomes 0 (Provot, Deformation Constraints in a Mass-Spring Model, 1995, moves the
+ * points likewise). An end that comes closer while it rotates about the other speeds up accordingly, and the
+ * rigid body of a pinned end gets the reaction: linear and angular momentum are conserved. One sweep a
+ * substep: springs with common points may stay slightly beyond their limits. Springs within their limits are
+ * not changed, so a second sweep over a corrected state changes nothing.
  *
- * Bias against the energy: such a wall would throw a spring back with the speed it came with; here it takes
- * it.
+ * Bias against the energy: an elastic wall would return the spring's velocity; this one is inelastic.
  *
  * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_STRAIN_LIMIT_H

@@ -10,7 +10,7 @@
 typedef struct sbri_hinge_shape {
   sbf_vec3 normals[2]; /* twice the vector areas */
   float length;        /* of the side */
-  float angle;         /* between the normals, rad; positive where the fold is a ridge, seen from outside */
+  float angle;         /* angle between the normals, rad; positive for a convex fold, seen from outside */
 } sbri_hinge_shape;
 
 static inline sbri_hinge_shape sbri_hinge_shape_of(const sbf_vec3 x[4]) {
@@ -61,7 +61,7 @@ static inline sbri_face_shape sbri_face_shape_of(const sbf_vec3 c[4]) {
   return f;
 }
 
-/* Six times what a face adds to the volume as seen from `from`. */
+/* Six times a face's contribution to the volume about `from`. */
 static inline double sbri_face_volume(const sbri_face_shape *f, sbf_vec3 from) {
   return 2 * (double)sbri_dot(sbri_sub(f->mean, from), f->area);
 }

@@ -3,18 +3,18 @@
  *
  * The constraint V(x) = V0, by Newton steps at the end of a substep: dx_i = s w_i g_i with g the gradient of
  * the volume, w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast
- * Volume Preservation for a Mass-Spring System, 2006, use the same multiplier). It holds whatever pressure
- * that takes, and needs no more substeps, as a bulk modulus would. What a step leaves is of second order in
- * it: one is enough but where a body strikes the ground.
+ * Volume Preservation for a Mass-Spring System, 2006, use the same multiplier). The constraint exerts any
+ * pressure that it needs, without the additional substeps of a bulk modulus. The error of a step is of second
+ * order: one is enough except where a body strikes the ground.
  *
- * Held points stay where they are, but simulated bodies that carry them take their part of the push, and give
- * way to it as far as their weight lets them (pinned_impulse.h): that part of the volume is theirs to bring
- * back. Where one body holds all that is held, or all on which the surface hangs, it takes what the free
- * points gain, with the other sign, of momentum and of angular momentum. Several could not share that out:
- * the gradient is then that where the substep began, by which the held points' parts add up to it (SHAKE).
+ * Pinned points do not move, but simulated rigid bodies that hold them get the reaction and move in
+ * proportion to their inverse mass (pinned_impulse.h); their motion restores the corresponding part of the
+ * volume. If one rigid body holds all pinned points, or all points of the surface, it gets the opposite of
+ * the free points' linear and angular momentum. Several rigid bodies could not divide that; then the gradient
+ * at the beginning of the substep is used, for which the pinned points' parts add up to it (SHAKE).
  *
- * Points on the ground have nowhere to go below it. They count in the sum with that of their gradient which
- * leads along the ground or off it; what presses them down is taken by the ground, and rubs.
+ * Points on the ground cannot move below it. They count in the sum with the part of their gradient along the
+ * ground or away from it; the ground takes the normal part, with friction.
  *
  * Bias against the energy: none in the volume; the multiplier acts along the gradient at the end of the
  * substep instead of its beginning, which is of first order in h. */
@@ -26,11 +26,11 @@
 #include "solvers/motion.h"
 #include "solvers/pinned_impulse.h"
 
-/* No more than this share of the volume is regained in a step: a body turned inside out comes back slowly. */
+/* Greatest fraction of the volume that is regained in a step: an inverted body recovers slowly. */
 #define SBRI_MAX_VOLUME_FRACTION 0.1f
 
-/* Steps in a substep, while more than this share of the volume was missing before the last one: that leaves
- * about its square. */
+/* Further steps in a substep follow while more than this fraction of the volume was missing before the last
+ * one; the rest is about its square. */
 enum { SBRI_MAX_VOLUME_STEPS = 4 };
 #define SBRI_VOLUME_FRACTION_LEFT 0.01f
 
@@ -60,7 +60,7 @@ static inline sbri_wide3 sbri_positions_before(const sbri_island_tick *t, uint32
 /* What one body holds it with: gradients of the free points and their moments about the body's place, where
  * the points were when the substep began. */
 typedef struct sbri_volume_hold {
-  sbri_reaction *by; /* NULL: several, or it does not give way */
+  sbri_reaction *by; /* NULL: several, or it is not simulated */
   float h;
   sbri_lane_sums sums;
 } sbri_volume_hold;
@@ -100,7 +100,7 @@ static inline sbf_vec3 sbri_pinned_gradient(const sbri_point *faces, const sbri_
   return sbri_scale(sbri_vec3(n->x, n->y, n->z), face_weight->weight);
 }
 
-/* Whether it hangs on several bodies, of which at least one gives way. */
+/* Whether it is pinned to several bodies, at least one of them simulated. */
 static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
   if (!t->reactions || body->volume_carrier >= 0) return false;
   for (uint32_t k = 0; k < t->island->carrier_count; k++)
@@ -112,7 +112,7 @@ static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 
   return r->inverse_mass * sbri_dot(push, push) + r->inverse_inertia * sbri_dot(turn, turn);
 }
 
-/* What the held points' bodies add to that sum where they give way. */
+/* Contribution of the simulated bodies of pinned points to that sum. */
 static inline float sbri_volume_pinned_inverse_mass(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
   float sum = 0;
@@ -175,8 +175,8 @@ static inline void sbri_compute_volume_faces_before(
   (void)sbri_volume_within(t, body, before, faces);
 }
 
-/* One step at the end of a substep; the share of the volume that was missing before it. `owed`: what
- * simulated bodies will bring back, by what the steps before have pushed them with. */
+/* One step at the end of a substep; returns the fraction of the volume that was missing before it. `owed`:
+ * volume that simulated bodies will restore, by the impulses of earlier steps. */
 static inline float sbri_volume_step(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
   sbri_point *faces = t->surface_faces + body->first_face;
