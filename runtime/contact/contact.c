@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "collide/external_body.h"
 #include "collide/ground.h"
-#include "contact/carried.h"
+#include "contact/sample_motion.h"
 #include "contact/self_contacts.h"
 #include "contact/soft_shape_contacts.h"
 
@@ -32,7 +32,7 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   extent e = {{0}, {0}, 0, false};
   float squares = 0;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 v = sbri_carried_velocity(t, slot);
+    sbf_vec3 v = sbri_point_velocity(t, slot);
     float square = sbri_dot(v, v);
     squares = square > squares ? square : squares;
     extend(&e, &t->positions[slot]);
@@ -46,7 +46,7 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
 static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
   extent e = extent_of(t, body);
   for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
-    e.speed = fmaxf(e.speed, sbri_length(sbri_carried_velocity(t, slot)));
+    e.speed = fmaxf(e.speed, sbri_length(sbri_point_velocity(t, slot)));
     extend(&e, &t->positions[slot]);
   }
   for (int k = 0; k < 3; k++) {

@@ -6,7 +6,7 @@
 
 #include "collide/colliders.h"
 #include "collide/ridge_query.h"
-#include "contact/carried.h"
+#include "contact/sample_motion.h"
 #include "model/reach.h"
 
 /* So far beyond the normals (a sine) it is between them. */

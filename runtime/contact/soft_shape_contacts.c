@@ -1,7 +1,7 @@
 #include "contact/soft_shape_contacts.h"
 
 #include "collide/colliders.h"
-#include "contact/carried.h"
+#include "contact/sample_motion.h"
 #include "contact/shape_edges.h"
 #include "model/reach.h"
 

@@ -218,18 +218,6 @@ static bool has_better_child(limbs *l, uint32_t first, double with_parent) {
 
 /* --- The turn in bones and nodes ----------------------------------------------------------------------- */
 
-static sbfi_matrix matrix_of(const double rotation[4], sbfi_d3 about) {
-  sbfi_matrix m = sbfi_matrix_identity();
-  for (int k = 0; k < 3; k++) {
-    double to[3];
-    sbfi_turn_vector(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
-    for (int row = 0; row < 3; row++) m.at[row][k] = to[row];
-  }
-  sbfi_d3 moved = sbfi_d3_sub(about, sbfi_similarity_apply(&m, about));
-  m.at[0][3] = moved.x, m.at[1][3] = moved.y, m.at[2][3] = moved.z;
-  return m;
-}
-
 static void turn_bones(limbs *l, uint32_t first, const double orientation[4]) {
   sbfi_d3 about = head_of(l, first);
   for (uint32_t b = first; b < l->bone_count; b++) {
@@ -306,7 +294,7 @@ bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, 
     measure_others(&l);
     double with_turn = find_turn(&l, b, direction, rotation);
     if (with_turn < score(&l, b, none) + GAIN || has_better_child(&l, b, with_turn)) continue;
-    sbfi_matrix matrix = matrix_of(rotation, head_of(&l, b));
+    sbfi_matrix matrix = sbfi_rotation_about(rotation, head_of(&l, b));
     turn_nodes(&l, b, &matrix, nodes);
     turn_bones(&l, b, rotation);
     size_t used = strlen(text);

@@ -158,8 +158,8 @@ static bool fit(sbfi_pose_fit *f, bool is_free, sbfi_pose_gaps *gaps) {
   return true;
 }
 
-/* From a usual unit, axes and no offset, where the alignment is near those: shapes of different poses tell
- * the place of the whole roughly. */
+/* From a usual unit, axes and no offset, where the alignment is near those: shapes of different poses give
+ * the position of the whole roughly. */
 static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *arena, sbfi_pose_gaps *gaps) {
   sbfi_rigging usual = *r;
   sbfi_pose_fit other;

@@ -166,15 +166,7 @@ bool sbfi_pose_fit_hangs_on(const sbfi_pose_fit *f, uint32_t bone, uint32_t abov
 }
 
 void sbfi_pose_fit_turn(sbfi_pose_fit *f, uint32_t bone, const double rotation[4]) {
-  sbfi_matrix turn = sbfi_matrix_identity();
-  sbfi_d3 joint = sbfi_pose_fit_joint(f, bone);
-  for (int k = 0; k < 3; k++) {
-    double to[3];
-    sbfi_turn_vector(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
-    for (int row = 0; row < 3; row++) turn.at[row][k] = to[row];
-  }
-  sbfi_d3 moved = sbfi_d3_sub(joint, sbfi_similarity_apply(&turn, joint));
-  turn.at[0][3] = moved.x, turn.at[1][3] = moved.y, turn.at[2][3] = moved.z;
+  sbfi_matrix turn = sbfi_rotation_about(rotation, sbfi_pose_fit_joint(f, bone));
   for (uint32_t b = bone; b < f->bone_count; b++)
     if (sbfi_pose_fit_hangs_on(f, b, bone)) f->motions[b] = sbfi_matrix_multiply(&turn, &f->motions[b]);
 }

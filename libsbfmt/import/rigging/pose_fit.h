@@ -18,7 +18,8 @@ typedef struct sbfi_surface_sample {
 
 enum { SBFI_POSE_SAMPLES = 1000 };
 
-/* As shares of the rig's size: the widest gap that is told apart; the widest of points that lie on a surface.
+/* As shares of the rig's size: the widest gap that is distinguished; the widest of points that lie on a
+ * surface.
  */
 static const double SBFI_MAX_GAP = 0.1, SBFI_ON_SURFACE = 0.015;
 

@@ -1,7 +1,7 @@
 /* All joints of a pose together, by Gauss-Newton steps: points of either surface are drawn to the nearest
- * place of the other that faces alike, near ones more, and turns are held back as far as the surface does not
- * tell them (Besl and McKay 1992, with joints as Pellegrini, Schindler and Nardi 2008 have them). Lengths are
- * fractions of the rig's size. */
+ * point of the other that faces alike, near ones more, and rotations are damped as far as the surface does
+ * not determine them (Besl and McKay 1992, with joints as Pellegrini, Schindler and Nardi 2008 have them).
+ * Lengths are fractions of the rig's size. */
 #include <math.h>
 #include <string.h>
 

@@ -7,6 +7,7 @@
 #include "base/diagnostic.h"
 #include "import/scene/trs.h"
 #include "mechanics/symmetric_eigen.h"
+#include "motion/turn.h"
 
 const sbfi_usual_unit sbfi_usual_units[SBFI_USUAL_UNITS] = {{1, "metres"}, {0.01, "centimetres"},
     {0.001, "millimetres"}, {0.0254, "inches"}, {0.3048, "feet"}, {0.1, "decimetres"}, {100, NULL},
@@ -202,4 +203,16 @@ sbfi_similarity_text sbfi_similarity_describe(const sbfi_matrix *m, double size)
     add_text(&text, part);
   }
   return text;
+}
+
+sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about) {
+  sbfi_matrix m = sbfi_matrix_identity();
+  for (int k = 0; k < 3; k++) {
+    double to[3];
+    sbfi_turn_vector(rotation, (const double[3]){k == 0, k == 1, k == 2}, to);
+    for (int row = 0; row < 3; row++) m.at[row][k] = to[row];
+  }
+  sbfi_d3 moved = sbfi_d3_sub(about, sbfi_similarity_apply(&m, about));
+  m.at[0][3] = moved.x, m.at[1][3] = moved.y, m.at[2][3] = moved.z;
+  return m;
 }

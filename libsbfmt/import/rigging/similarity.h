@@ -9,6 +9,8 @@
 enum { SBFI_AXIS_ROTATIONS = 48 };
 sbfi_matrix sbfi_axis_rotation(uint32_t number);
 
+/* A rotation (quaternion x, y, z, w) about a point. */
+sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about);
 sbfi_d3 sbfi_similarity_apply(const sbfi_matrix *m, sbfi_d3 p);
 /* The same rotation with another scale, or with another offset. */
 sbfi_matrix sbfi_similarity_scaled(const sbfi_matrix *rotation, double scale, sbfi_d3 offset);

@@ -1,12 +1,12 @@
-/* Places of a surface as the points of an island carry them now. */
-#ifndef SBRI_CARRIED_H
-#define SBRI_CARRIED_H
+/* Samples of a surface by the present points of an island. */
+#ifndef SBRI_SAMPLE_MOTION_H
+#define SBRI_SAMPLE_MOTION_H
 
 #include "math/vec3.h"
 #include "model/island_tick.h"
 
-/* Of a point, which is held where it has a target: m/s. */
-static inline sbf_vec3 sbri_carried_velocity(const sbri_island_tick *t, uint32_t slot) {
+/* Velocity of a point, m/s; a pinned one moves to its target. */
+static inline sbf_vec3 sbri_point_velocity(const sbri_island_tick *t, uint32_t slot) {
   if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
   const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
   return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
@@ -14,7 +14,7 @@ static inline sbf_vec3 sbri_carried_velocity(const sbri_island_tick *t, uint32_t
 
 static inline sbf_vec3 sbri_sample_velocity(const sbri_island_tick *t, const sbri_sample *s) {
   sbf_vec3 v = {0, 0, 0};
-  for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, sbri_carried_velocity(t, s->slots[k]), s->weights[k]);
+  for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, sbri_point_velocity(t, s->slots[k]), s->weights[k]);
   return v;
 }
 
