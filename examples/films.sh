@@ -43,9 +43,11 @@ film snake 32,30 3.8
 film koi 48,26 4
 film dragon 48,26 3.8
 film pudding 55,16 3.8
-if wanted lizard || wanted gait; then bundle lizard; fi
-if wanted lizard; then draw lizard lizard --drive 0.4,-0.12 --ground noise:0.25,7 --seconds 4.5 --size 720x405; fi
-if wanted gait; then draw gait lizard --drive 0.3,0.35 --show surface,feet --view 75,22 --seconds 3 --size 640x392; fi
+if wanted lizard; then
+  "$sbfmt" convert lizard/lizard_skin.obj --rig lizard/lizard_skin.glb -o "$folder/lizard_skin.sbf" >/dev/null
+  draw lizard lizard_skin --drive 0.4,-0.12 --ground noise:0.25,7 --seconds 4.5 --size 720x405
+fi
+if wanted gait; then bundle lizard && draw gait lizard --drive 0.3,0.35 --show surface,feet --view 75,22 --seconds 3 --size 640x392; fi
 if wanted crowd; then
   crowd=${CROWD:?name the program of examples/crowd in CROWD}
   bundle lizard

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Models the example lizard: writes lizard.obj, lizard.mtl and the rigged lizard.glb beside this file.
+"""Models the example lizard: writes lizard.obj, lizard.mtl and the rigged lizard.glb beside this file, its parts closed
+each; and lizard_skin.obj and lizard_skin.glb, one skin.
 
-  make_lizard.py            write the three files
+  make_lizard.py            write the files
   make_lizard.py --check    build it again, test it, compare it with the files and print the counts; writes nothing,
                             exit status 1 if anything is off
   make_lizard.py -o DIR     write to, or with --check compare with, another folder
@@ -22,8 +23,10 @@ from lizard_foot import foot  # noqa: E402
 from lizard_head import head  # noqa: E402
 from lizard_rig import bone_of_section, build_bones  # noqa: E402
 from lizard_shape import LEGS, MATERIALS  # noqa: E402
+from lizard_skin import lizard_skin, skin_weights  # noqa: E402
 from model_files import glb_bytes, mtl_text, obj_text  # noqa: E402
-from quad_mesh import check_mirror, check_section  # noqa: E402
+from quad_mesh import check_mirror, check_section, check_surface  # noqa: E402
+from skin_files import skinned_glb_bytes  # noqa: E402
 
 TITLE = "Lizard: the example character of sbfmt"
 LICENCE = "MIT, as the rest of the repository"
@@ -40,15 +43,17 @@ def build_sections():
     return sections
 
 
-def build_files(sections, bones, bone_of):
+def build_files(sections, skin, bones, bone_of):
     return {
+        "lizard_skin.obj": obj_text([skin], "lizard.mtl", TITLE).encode("ascii"),
+        "lizard_skin.glb": skinned_glb_bytes("Lizard", bones, skin, skin_weights(skin.points, bones), MATERIALS, TITLE, LICENCE),
         "lizard.obj": obj_text(sections, "lizard.mtl", TITLE).encode("ascii"),
         "lizard.mtl": mtl_text(MATERIALS, TITLE).encode("ascii"),
         "lizard.glb": glb_bytes("Lizard", bones, sections, bone_of, MATERIALS, TITLE, LICENCE),
     }
 
 
-def check(sections, bones, bone_of, files, folder):
+def check(sections, skin, bones, bone_of, files, folder):
     """Sentences on everything that is not as it must be."""
     found = [f"{mesh.name}: {fault}" for mesh in sections for fault in check_section(mesh)]
     by_name = {mesh.name: mesh for mesh in sections}
@@ -56,6 +61,7 @@ def check(sections, bones, bone_of, files, folder):
         stem, _, side = mesh.name.partition(".")
         if side != "R":
             found += check_mirror(mesh, by_name[stem + ".R"] if side else mesh)
+    found += [f"{skin.name}: {fault}" for fault in check_surface(skin)] + check_mirror(skin, skin)
     quads = sum(len(mesh.faces) for mesh in sections)
     if not QUADS_LEAST <= quads <= QUADS_MOST:
         found.append(f"{quads} quads, not between {QUADS_LEAST} and {QUADS_MOST}")
@@ -75,13 +81,14 @@ def check(sections, bones, bone_of, files, folder):
     return found
 
 
-def print_counts(sections, bones, bone_of):
+def print_counts(sections, skin, bones, bone_of):
     print(f"{'section':12} {'bone':12} {'points':>6} {'quads':>6} {'litres':>7}")
     for mesh in sections:
         print(f"{mesh.name:12} {bone_of[mesh.name]:12} {len(mesh.points):6} {len(mesh.faces):6} "
               f"{1000.0 * mesh.volume():7.3f}")
     print(f"{len(sections)} sections, {len(bones)} bones (of them {sum(b.tail is None for b in bones)} bare ends), "
           f"{sum(len(m.points) for m in sections)} points, {sum(len(m.faces) for m in sections)} quads")
+    print(f"one skin: {len(skin.points)} points, {len(skin.faces)} faces, {1000.0 * skin.volume():.3f} litres")
 
 
 def main():
@@ -91,12 +98,12 @@ def main():
     parser.add_argument("-o", "--out", default=HERE, metavar="DIR",
                         help="where the files are (default: beside this script)")
     options = parser.parse_args()
-    sections, bones = build_sections(), build_bones()
+    sections, skin, bones = build_sections(), lizard_skin(), build_bones()
     bone_of = {mesh.name: bone_of_section(mesh.name) for mesh in sections}
-    files = build_files(sections, bones, bone_of)
+    files = build_files(sections, skin, bones, bone_of)
     if options.check:
-        print_counts(sections, bones, bone_of)
-        found = check(sections, bones, bone_of, files, options.out)
+        print_counts(sections, skin, bones, bone_of)
+        found = check(sections, skin, bones, bone_of, files, options.out)
         for fault in found:
             print(f"make_lizard: {fault}", file=sys.stderr)
         return 1 if found else 0

@@ -44,6 +44,11 @@ def quaternion(columns):
     return [sign * c for c in (x, y, z, w)]
 
 
+def limits_extras(bone):
+    """A joint's limits as sbfmt reads them from the extras of a node."""
+    return {"sbf_limits": {key: list(bone.limits[key]) for key in ("swing_y", "swing_z", "twist")}}
+
+
 def float32(value):
     return struct.unpack("<f", struct.pack("<f", value))[0] + 0.0
 
@@ -133,7 +138,7 @@ def glb_bytes(armature, bones, sections, bone_of_section, materials, title, lice
         node = {"name": bone.name, "translation": [float32(round(c, 7)) for c in offset],
                 "rotation": [float32(c if abs(c) > 1e-9 else 0.0) for c in rotation]}
         if bone.limits:
-            node["extras"] = {"sbf_limits": {key: list(bone.limits[key]) for key in ("swing_y", "swing_z", "twist")}}
+            node["extras"] = limits_extras(bone)
         node_of[bone.name] = len(nodes)
         owner = nodes[node_of[bone.parent] if parent else 0]
         owner.setdefault("children", []).append(len(nodes))

@@ -3,7 +3,7 @@
 import json
 import struct
 
-from model_files import Buffer, bone_frame, float32, quaternion
+from model_files import Buffer, bone_frame, float32, limits_extras, quaternion
 from quad_mesh import cross, dot, sub
 
 
@@ -62,14 +62,16 @@ def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence)
     once for each texture coordinate it has, as glTF wants it: those in one place are one point of the surface."""
     buffer, nodes = Buffer(), [{"name": armature, "children": []}]
     by_name = {bone.name: bone for bone in bones}
-    matrices = []
+    matrices, frame_of = [], {None: ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))}
     for bone in bones:
-        frame, parent = bone_frame(bone), by_name.get(bone.parent)
-        outer = bone_frame(parent) if parent else ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+        frame = frame_of[bone.name] = frame_of[bone.parent] if bone.tail is None else bone_frame(bone)
+        parent, outer = by_name.get(bone.parent), frame_of[bone.parent]
         offset = tuple(dot(axis, sub(bone.head, parent.head if parent else (0.0, 0.0, 0.0))) for axis in outer)
         basis = tuple(tuple(dot(axis, column) for axis in outer) for column in frame)
         nodes.append({"name": bone.name, "translation": [float32(round(c, 7)) for c in offset],
                       "rotation": [float32(c if abs(c) > 1e-9 else 0.0) for c in quaternion(basis)]})
+        if bone.limits:
+            nodes[-1]["extras"] = limits_extras(bone)
         owner = nodes[1 + [b.name for b in bones].index(bone.parent)] if parent else nodes[0]
         owner.setdefault("children", []).append(len(nodes) - 1)
         # columns of the inverse of the bone's rest transform

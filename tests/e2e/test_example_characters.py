@@ -41,6 +41,17 @@ class Characters(ProgramTest):
                 self.assertEqual(len(report["steps_taken"]), WALKERS[name][0])
                 self.assertLessEqual(report["limit_excess"], 0.02, name)
 
+    def test_the_lizard_is_one_skin_without_seams(self):
+        path, lizard = self.path("lizard.sbf"), os.path.join(ROOT, "examples", "lizard", "lizard_skin")
+        self.assertNotIn("warning", self.good("convert", lizard + ".obj", "--rig", lizard + ".glb", "-o", path).err)
+        report = self.json_of("run", path, "--seconds", "6", "--drive", "0.4,-0.12", "--ground", "noise:0.25,7")
+        self.assertTrue(report["valid"])
+        self.assertLess(report["seam_gap"], 1e-4)
+        self.assertGreater(report["volume_ratio_least"], 0.9)
+        self.assertLess(report["max_strain"], 0.5)
+        self.assertGreater(report["distance"], 2)
+        self.assertEqual(len(report["steps_taken"]), 4)
+
     def test_a_ragdoll_of_sections_keeps_its_joints(self):
         report = self.json_of("run", self.bundle("lizard"), "--seconds", "3", "--ragdoll")
         self.assertTrue(report["valid"])

@@ -178,6 +178,32 @@ class Files(unittest.TestCase):
             self.assertLess(math.dist(hip, [a + b for a, b in zip(knee, moved)]), math.dist(hip, ankle) - 1e-3)
 
 
+class Skin(unittest.TestCase):
+    """The files of the animal as one skin."""
+
+    def test_one_closed_surface(self):
+        (name, (points, faces)), = read_obj(os.path.join(LIZARD, "lizard_skin.obj")).items()
+        sides = collections.Counter((f[i - 1], f[i]) for f, _ in faces for i in range(len(f)))
+        self.assertEqual((name, set(sides.values())), ("Lizard", {1}))
+        self.assertEqual(set(sides), {(b, a) for a, b in sides})
+        self.assertEqual(len(points) - len(sides) // 2 + len(faces), 2)
+        self.assertEqual({(-x + 0.0, y, z) for x, y, z in points}, set(points))
+
+    def test_the_glb_holds_the_same_points_on_the_same_bones(self):
+        document, binary = read_glb(os.path.join(LIZARD, "lizard_skin.glb"))
+        points = set(read_obj(os.path.join(LIZARD, "lizard_skin.obj"))["Lizard"][0])
+        rows = [p for primitive in document["meshes"][0]["primitives"]
+                for p in accessor(document, binary, primitive["attributes"]["POSITION"])]
+        self.assertEqual({tuple(round(c, 6) + 0.0 for c in p) for p in rows}, points)
+        of_sections = Placed(read_glb(os.path.join(LIZARD, "lizard.glb"))[0])
+        placed = Placed(document)
+        for joint in document["skins"][0]["joints"]:
+            name = document["nodes"][joint]["name"]
+            for a, b in zip(placed.world(name), of_sections.world(name)):
+                self.assertAlmostEqual(a, b, delta=1e-6)
+            self.assertEqual(document["nodes"][joint].get("extras"), of_sections.chain[name][-1].get("extras"), name)
+
+
 def box():
     mesh = QuadMesh("box")
     for i in range(8):
