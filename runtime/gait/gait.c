@@ -79,7 +79,7 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   keep_stance(state, &stance);
   state->rise = 0;
   sbri_fall_note_level(rig, state, input);
-  sbri_tails_reset(rig, state, &stance);
+  sbri_tails_reset(rig, state, input, &stance);
 }
 
 /* Change of speed and turn rate in a tick. */
@@ -225,7 +225,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     stance = sbri_body_stance(rig, state, input);
   if (!in_air) sbri_fall_note_level(rig, state, input);
   lead_head(rig, state, input);
-  sbri_tails_tick(rig, state, &stance, turned, input->tick_s);
+  sbri_tails_tick(rig, state, input, &stance, turned);
   state->rise = (stance.root.position.y - state->root.position.y) / input->tick_s;
   keep_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);

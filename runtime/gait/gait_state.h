@@ -420,10 +420,12 @@ void sbri_followers_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3
 
 /* ---- gait/tail.c ---- */
 
-/* Resets tails to the heading and the body's slope. */
-void sbri_tails_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance);
-/* Followers of the tails' bones: each goes after the one before it, the first after the hips. */
-void sbri_tails_tick(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance, float turned_by, float tick_s);
+/* Resets tails to the heading and the body's slope, clear of the ground. */
+void sbri_tails_reset(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbri_stance *stance);
+/* Followers of the tails' bones: each follows the one before it, the first the hips, and all keep their ends
+ * over the ground. */
+void sbri_tails_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stance *stance, float turned_by);
 
 #endif

@@ -29,7 +29,7 @@ static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, con
   for (uint32_t t = 0; t < rig->tail_count; t++) {
     const sbri_tail *tail = &rig->tails[t];
     for (uint32_t k = 0; k < tail->bone_count; k++) {
-      if (tail->bones[k] != bone) continue;
+      if (tail->bone_indices[k] != bone) continue;
       const sbri_lag *lag = &lags[2 * (tail->first_state + k)];
       /* A first bone may hang on the root rather than on the hips: what it already turned is taken off. */
       float yaw_done = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;

@@ -1,15 +1,17 @@
 /* Tails: every bone follows the one before it as a second-order system, the first follows the hips, so that a
- * turn, or a rise of the ground, runs down the tail late and swings over. */
+ * turn, or a rise of the ground, runs down the tail late and swings over. Where the tail would dip into the
+ * ground, now or soon, what its bones follow is raised. */
 #include "gait/gait_state.h"
+#include "gait/motion_kinds.h"
+#include "math/quat.h"
 #include "math/vec3.h"
 
-void sbri_tails_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance) {
-  sbri_lag *lags = sbri_tail_lags(state);
-  for (uint32_t k = 0; k < rig->tail_bone_count; k++) {
-    lags[2 * k] = (sbri_lag){0, 0};
-    lags[2 * k + 1] = (sbri_lag){stance->hips_pitch, 0};
-  }
-}
+/* Bones of a tail whose ends are kept over the ground. */
+enum { MAX_CLEARED = 32 };
+
+/* Times at which the ground is looked up ahead of the motion: a tail needs about so long to rise. */
+static const float AHEAD_S[] = {0, 0.15f, 0.3f};
+enum { LOOKUPS = sizeof AHEAD_S / sizeof *AHEAD_S };
 
 /* Follows `leader` and bends no farther than `limit` from it; returns where it has come to. */
 static float lag_behind(sbri_lag *lag, float leader, float limit, const sbri_follower_step *step) {
@@ -19,17 +21,95 @@ static float lag_behind(sbri_lag *lag, float leader, float limit, const sbri_fol
   return limited;
 }
 
-void sbri_tails_tick(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance, float turned_by, float tick_s) {
-  sbri_lag *lags = sbri_tail_lags(state);
+/* A bone's step in world axes with this yaw and pitch; pitch above 0 raises what points back. */
+static sbf_vec3 step_at(const sbri_stance *stance, sbf_vec3 step, float yaw, float pitch) {
+  sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), yaw));
+  sbf_vec3 level = sbri_rotate(stance->root.rotation, sbri_turned(step, yaw));
+  return sbri_rotate(sbri_quat_about(side, pitch - stance->hips_pitch), level);
+}
+
+/* What must be added to a bone's pitch so that a point at `offset` from its head comes up by `rise`. */
+static float pitch_for(sbf_vec3 offset, float rise) {
+  float level = sqrtf(offset.x * offset.x + offset.z * offset.z);
+  return atan2f(offset.y + rise, level) - atan2f(offset.y, level);
+}
+
+/* A tail as it is posed now, and the height that the end of each bone must have. */
+typedef struct cleared_tail {
+  sbf_vec3
+      ends[MAX_CLEARED + 1]; /* the first bone's head, then the end of each bone; relative to the origin */
+  float lowest[MAX_CLEARED];
+  uint32_t count;
+} cleared_tail;
+
+static void find_ground(const sbri_rig *rig, const sbri_tail *tail, const sbri_lag *lags,
+    const sbri_gait_state *state, const sbri_gait_input *input, const sbri_stance *stance, cleared_tail *to) {
+  sbf_vec3 root = stance->root.position, velocity = sbri_vec3(state->sideways, 0, state->forward);
+  velocity = sbri_turned(velocity, state->heading);
+  sbf_vec3 head = sbri_scale(rig->rest[tail->bone_indices[0]].position, input->scale);
+  to->ends[0] = sbri_add(root, sbri_rotate(stance->root.rotation, sbri_turned(head, stance->hips_yaw)));
+  to->count = tail->bone_count < MAX_CLEARED ? tail->bone_count : MAX_CLEARED;
+  for (uint32_t k = 0; k < to->count; k++) {
+    sbf_vec3 step = sbri_scale(tail->bones[k].step, input->scale);
+    sbf_vec3 end = sbri_add(to->ends[k], step_at(stance, step, lags[2 * k].value, lags[2 * k + 1].value));
+    to->ends[k + 1] = end;
+    to->lowest[k] = -INFINITY;
+    for (int i = 0; i < LOOKUPS; i++) {
+      sbf_vec3 at = sbri_add(end, sbri_scale(velocity, AHEAD_S[i]));
+      to->lowest[k] = fmaxf(to->lowest[k], sbri_ground_below(input, at, NULL).y);
+    }
+    to->lowest[k] += tail->bones[k].clearance * input->scale;
+  }
+}
+
+/* By how much bone `k` must be raised against the pitch `leader` so that it and those behind it, straight on
+ * from it, stay clear. */
+static float raise_of(const sbri_tail *tail, const cleared_tail *cleared, const sbri_gait_input *input,
+    const sbri_stance *stance, uint32_t k, float yaw, float leader) {
+  float raise = 0;
+  sbf_vec3 offset = {0, 0, 0};
+  for (uint32_t j = k; j < cleared->count; j++) {
+    offset = sbri_add(offset, step_at(stance, sbri_scale(tail->bones[j].step, input->scale), yaw, leader));
+    float missing = cleared->lowest[j] - (cleared->ends[k].y + offset.y);
+    if (missing > 0) raise = fmaxf(raise, pitch_for(offset, missing));
+  }
+  return raise;
+}
+
+void sbri_tails_reset(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbri_stance *stance) {
+  sbri_lag *all = sbri_tail_lags(state);
   for (uint32_t t = 0; t < rig->tail_count; t++) {
     const sbri_tail *tail = &rig->tails[t];
-    sbri_follower_step step = sbri_follower_step_of(tail->frequency, tail->damping_ratio, 0, tick_s);
+    sbri_lag *lags = &all[2 * tail->first_state];
+    for (uint32_t k = 0; k < tail->bone_count; k++)
+      lags[2 * k] = (sbri_lag){0, 0}, lags[2 * k + 1] = (sbri_lag){stance->hips_pitch, 0};
+    cleared_tail cleared = {.count = 0};
+    if (!sbri_is_afloat(rig)) find_ground(rig, tail, lags, state, input, stance, &cleared);
+    float pitch = stance->hips_pitch;
+    for (uint32_t k = 0; k < tail->bone_count; k++) {
+      float raise = k < cleared.count ? raise_of(tail, &cleared, input, stance, k, 0, pitch) : 0;
+      pitch += fminf(raise, tail->limit);
+      lags[2 * k + 1].value = pitch;
+    }
+  }
+}
+
+void sbri_tails_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stance *stance, float turned_by) {
+  sbri_lag *all = sbri_tail_lags(state);
+  for (uint32_t t = 0; t < rig->tail_count; t++) {
+    const sbri_tail *tail = &rig->tails[t];
+    sbri_lag *lags = &all[2 * tail->first_state];
+    sbri_follower_step step = sbri_follower_step_of(tail->frequency, tail->damping_ratio, 0, input->tick_s);
+    cleared_tail cleared = {.count = 0};
+    if (!sbri_is_afloat(rig)) find_ground(rig, tail, lags, state, input, stance, &cleared);
     float yaw = stance->hips_yaw, pitch = stance->hips_pitch;
     for (uint32_t k = 0; k < tail->bone_count; k++) {
-      sbri_lag *lag = &lags[2 * (tail->first_state + k)];
+      sbri_lag *lag = &lags[2 * k];
       lag[0].value -= turned_by; /* it stays where it pointed while the body turns under it */
       yaw = lag_behind(&lag[0], yaw, tail->limit, &step);
+      if (k < cleared.count) pitch += raise_of(tail, &cleared, input, stance, k, yaw, pitch);
       pitch = lag_behind(&lag[1], pitch, tail->limit, &step);
     }
   }

@@ -49,8 +49,14 @@ typedef struct sbri_leg {
   bool last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
 } sbri_leg;
 
+typedef struct sbri_tail_bone {
+  sbf_vec3 step;   /* from its head to the next one's, of the last to its end; asset space, at rest */
+  float clearance; /* that its end keeps over the ground, m */
+} sbri_tail_bone;
+
 typedef struct sbri_tail {
-  const uint32_t *bones; /* bone_count, from the leading one */
+  const uint32_t *bone_indices; /* bone_count, from the leading one */
+  const sbri_tail_bone *bones;  /* bone_count */
   uint32_t bone_count;
   uint32_t first_state; /* place of its first bone among all tails' bones */
   float frequency, damping_ratio, limit;

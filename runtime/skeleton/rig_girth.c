@@ -5,6 +5,8 @@
  * feet step onto things that low; lower vertices count as if they were at that height. */
 #include "skeleton/rig_girth.h"
 
+#include "skeleton/bone_points.h"
+
 static const float STEP_UP = 0.6f;         /* of the legs' mean length, or of a height that is less */
 static const float STEP_UP_LEGLESS = 0.2f; /* of the height of what has no legs */
 static const float NOSE = 0.25f;           /* of its length: what leads in a body that follows its nose */
@@ -20,8 +22,6 @@ static bool is_stiff(const sbri_rig *rig, int32_t bone) {
   return bone >= 0;
 }
 
-typedef void take_point(void *user, sbf_vec3 position);
-
 /* From the rest pose into that of the gait, by the bones' chain up to the root. */
 static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
   const sbr_transform *rest = &rig->rest[bone];
@@ -33,44 +33,6 @@ static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
   return x;
 }
 
-static void each_body_point(const sbri_rig *rig, take_point *take, void *user) {
-  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
-    const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
-    if (!is_stiff(rig, body->bone)) continue;
-    for (uint32_t i = 0; i < body->surface.positions.count; i++)
-      take(user, posed(rig, body->bone, body->surface.positions.at[i]));
-  }
-}
-
-/* Each skin vertex goes with the bone that holds most of it; a mesh without a skin stands as it is. */
-static void each_skin_point(const sbri_rig *rig, take_point *take, void *user) {
-  for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
-    const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
-    uint32_t at = 0;
-    for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
-      int32_t bone = -1;
-      float limited = 0;
-      for (uint32_t k = 0; mesh->skin && k < mesh->skin->influence_counts.at[i]; k++, at++)
-        if (mesh->skin->weights.at[at] > limited)
-          limited = mesh->skin->weights.at[at], bone = (int32_t)mesh->skin->bones.at[at];
-      if (mesh->skin && is_stiff(rig, bone)) take(user, posed(rig, bone, mesh->mesh.positions.at[i]));
-    }
-  }
-}
-
-static void each_point(const sbri_rig *rig, take_point *take, void *user) {
-  bool bodies = false;
-  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
-    bodies = bodies || rig->asset->soft_bodies.at[b].bone >= 0;
-  bool skins = false;
-  for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++)
-    skins = skins || rig->asset->render_meshes.at[m].skin;
-  if (skins)
-    each_skin_point(rig, take, user);
-  else if (bodies)
-    each_body_point(rig, take, user);
-}
-
 /* ---- Bounds ---- */
 
 typedef struct bounds {
@@ -78,8 +40,10 @@ typedef struct bounds {
   bool any;
 } bounds;
 
-static void extend(void *user, sbf_vec3 p) {
+static void extend(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
   bounds *b = user;
+  if (!is_stiff(rig, bone)) return;
+  sbf_vec3 p = posed(rig, bone, rest);
   if (!b->any) b->low = b->high = p;
   b->any = true;
   b->low = sbri_vec3(fminf(b->low.x, p.x), fminf(b->low.y, p.y), fminf(b->low.z, p.z));
@@ -96,9 +60,11 @@ typedef struct cubes {
   uint32_t count; /* SBRI_BUMPERS + 1: there are too many */
 } cubes;
 
-static void fill(void *user, sbf_vec3 p) {
+static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
   cubes *c = user;
-  if (c->count > SBRI_BUMPERS || p.z < c->body.low.z) return;
+  if (c->count > SBRI_BUMPERS || !is_stiff(rig, bone)) return;
+  sbf_vec3 p = posed(rig, bone, rest);
+  if (p.z < c->body.low.z) return;
   if (p.y < c->lowest) p.y = c->lowest; /* feet too: above them they would be in a wall */
   int32_t cell[3] = {(int32_t)((p.x - c->body.low.x) / c->edge), (int32_t)((p.y - c->body.low.y) / c->edge),
       (int32_t)((p.z - c->body.low.z) / c->edge)};
@@ -146,7 +112,7 @@ void sbri_rig_find_girth(sbri_rig *rig) {
     girth->layer |= rig->asset->rigid_bodies.at[b].layer, girth->mask |= rig->asset->rigid_bodies.at[b].mask;
   if (!girth->layer && !girth->mask) girth->layer = 1, girth->mask = UINT32_MAX;
   cubes all = {.lowest = -INFINITY};
-  each_point(rig, extend, &all.body);
+  sbri_rig_each_point(rig, extend, &all.body);
   if (kind == SBF_GAIT_KIND_NONE || !all.body.any) return;
   sbf_vec3 size = sbri_sub(all.body.high, all.body.low);
   girth->mass = DENSITY * FILLED * size.x * size.y * size.z;
@@ -157,7 +123,7 @@ void sbri_rig_find_girth(sbri_rig *rig) {
   size.z = all.body.high.z - all.body.low.z;
   for (all.edge = largest(size) / FINEST; all.edge > 0; all.edge *= COARSER) {
     all.count = 0;
-    each_point(rig, fill, &all);
+    sbri_rig_each_point(rig, fill, &all);
     if (all.count <= SBRI_BUMPERS) break;
   }
   if (all.edge > 0) set_balls(&all, girth);

@@ -7,6 +7,7 @@
 #include "skeleton/rig_mass.h"
 #include "skeleton/rig_soles.h"
 #include "skeleton/rig_spine.h"
+#include "skeleton/rig_tails.h"
 #include "skeleton/rig_walks.h"
 
 /* Share of what a leg stretches from its rest that a long foot's lean adds to its reach. */
@@ -16,14 +17,10 @@ static size_t rounded(size_t size) {
   return (size + 15) & ~(size_t)15;
 }
 
-static uint32_t tail_count(const sbf_asset *asset) {
-  return asset->gaits.count ? asset->gaits.at[0].tails.count : 0;
-}
-
 size_t sbri_rig_size(const sbf_asset *asset) {
   size_t n = asset->bones.count;
   return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
-         rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
+         rounded(sbri_rig_tails_size(asset)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
          3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
          rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) +
          rounded(sbri_rig_spine_size(asset)) + 16;
@@ -132,16 +129,6 @@ static void init_legs(sbri_rig *rig) {
   rig->half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
 }
 
-static void init_tails(sbri_rig *rig, sbri_tail *tails) {
-  for (uint32_t i = 0; i < rig->tail_count; i++) {
-    const sbf_tail *from = &rig->gait->tails.at[i];
-    const sbf_chain *chain = &rig->asset->chains.at[from->chain];
-    tails[i] = (sbri_tail){chain->bones.at, chain->bones.count, rig->tail_bone_count, from->frequency,
-        from->damping_ratio, from->limit};
-    rig->tail_bone_count += chain->bones.count;
-  }
-}
-
 static bool moves_as_tail(const sbri_rig *rig, uint32_t chain) {
   for (uint32_t t = 0; rig->gait && t < rig->gait->tails.count; t++)
     if (rig->gait->tails.at[t].chain == (int32_t)chain) return true;
@@ -197,7 +184,8 @@ static void find_roles(const sbri_rig *rig, uint8_t *roles) {
     roles[i] = rig->spine_fraction[i] >= 0 ? SBRI_ROLE_SPINE : SBRI_ROLE_NONE;
   if (rig->gait && rig->gait->head) roles[rig->gait->head->bone] = SBRI_ROLE_HEAD;
   for (uint32_t t = 0; t < rig->tail_count; t++)
-    for (uint32_t k = 0; k < rig->tails[t].bone_count; k++) roles[rig->tails[t].bones[k]] = SBRI_ROLE_TAIL;
+    for (uint32_t k = 0; k < rig->tails[t].bone_count; k++)
+      roles[rig->tails[t].bone_indices[k]] = SBRI_ROLE_TAIL;
 }
 
 static bool on_chain(const sbri_rig *rig, uint32_t bone) {
@@ -248,7 +236,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbr_transform *rest = carve(&free_memory, n * sizeof *rest),
                 *local = carve(&free_memory, n * sizeof *local);
   float *fraction = carve(&free_memory, n * sizeof *fraction);
-  sbri_tail *tails = carve(&free_memory, tail_count(asset) * sizeof *tails);
+  void *tails = carve(&free_memory, sbri_rig_tails_size(asset));
   uint8_t *roles = carve(&free_memory, n);
   sbri_joint_limit *limits = carve(&free_memory, n * sizeof *limits);
   uint32_t *subtree = carve(&free_memory, n * sizeof *subtree),
@@ -261,7 +249,6 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .rest = rest,
       .rest_local = local,
       .spine_fraction = fraction,
-      .tails = tails,
       .roles = roles,
       .limits = limits,
       .subtree = subtree,
@@ -269,7 +256,6 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .subtree_end = end,
       .masses = masses,
       .chains = chains,
-      .tail_count = tail_count(asset),
       .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
   init_bones(asset, parents, rest, local);
   order_bones(rig, subtree, begin, end);
@@ -278,7 +264,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   sbri_rig_find_masses(rig, masses);
   if (rig->gait) {
     if (rig->gait->kind == SBF_GAIT_KIND_WALK) init_legs(rig);
-    init_tails(rig, tails);
+    sbri_rig_find_tails(rig, tails);
   }
   init_chains(rig, chains);
   find_carriers(rig);

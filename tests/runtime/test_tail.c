@@ -50,6 +50,13 @@ static double answer(double f, double z, double t) {
   return 1 - exp(-z * w * t) * (cos(u * t) + z * w / u * sin(u * t));
 }
 
+/* In the air, where no ground is in the way. */
+static void tick(gait_stage *t, sbri_stance *stance, float tick_s) {
+  t->input.tick_s = tick_s;
+  stance->root = (sbr_transform){{0, 10, 0}, sbri_quat_identity()};
+  sbri_tails_tick(&t->rig, t->state, &t->input, stance, 0);
+}
+
 START_TEST(first_bone_follows_the_hips_at_any_frame_time)
 {
   static const int frames[] = {120, 60, 30, 4};
@@ -61,8 +68,7 @@ START_TEST(first_bone_follows_the_hips_at_any_frame_time)
       tail = &t.rig.tails[0];
       sbri_stance stance = {.hips_yaw = 0};
       aim(&stance, about, 0.3f);
-      for (int k = 0; k < frames[i] / 2; k++)
-        sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / (float)frames[i]);
+      for (int k = 0; k < frames[i] / 2; k++) tick(&t, &stance, 1.0f / (float)frames[i]);
       double expected = 0.3 * answer((double)tail->frequency, (double)tail->damping_ratio, 0.5);
       ck_assert_float_eq_tol(bent(&t, 0, about), (float)expected, 2e-5f);
       ck_assert_float_eq(bent(&t, 0, !about), 0);
@@ -81,7 +87,7 @@ START_TEST(bones_lag_one_after_the_other_and_swing_over)
     int half_way[TAIL_BONES] = {0};
     float max[TAIL_BONES] = {0};
     for (int k = 1; k <= 1200; k++) {
-      sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / 120);
+      tick(&t, &stance, 1.0f / 120);
       for (int b = 0; b < TAIL_BONES; b++) {
         if (!half_way[b] && bent(&t, b, about) >= 0.1f) half_way[b] = k;
         max[b] = fmaxf(max[b], bent(&t, b, about));
@@ -107,7 +113,7 @@ START_TEST(no_bone_bends_beyond_its_limit)
     for (int k = 0; k < 600; k++) {
       sbri_stance stance = {.hips_yaw = 0};
       aim(&stance, about, k / 50 % 2 ? 1.2f : -1.2f); /* to and fro near the frequency of the tail */
-      sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / 120);
+      tick(&t, &stance, 1.0f / 120);
       for (int b = 0; b < TAIL_BONES; b++) {
         float leader = b ? bent(&t, b - 1, about) : about ? stance.hips_pitch : stance.hips_yaw;
         float bend = fabsf(bent(&t, b, about) - leader);
@@ -157,6 +163,31 @@ START_TEST(placed_on_a_slope_it_is_straight_at_once)
 }
 END_TEST
 
+/* The body on a rise, the tail still over the level before it: the end of the tail, of the character that
+ * starts there and of the one that walks there, keeps over the ground. */
+START_TEST(tail_stays_over_the_ground_where_it_bends)
+{
+  static const float starts[] = {1.1f, -0.3f};
+  for (int i = 0; i < 2; i++) {
+    gait_stage t;
+    begin(&t, 0.9, starts[i]);
+    for (int b = 0; b < TAIL_BONES; b++)
+      ((sbri_tail_bone *)(uintptr_t)t.rig.tails[0].bones)[b].clearance = 0.25f;
+    sbri_gait_reset(&t.rig, t.state, &t.input, (sbf_vec3){0, 0, starts[i]}, 0);
+    t.input.forward = 0.5f;
+    float lowest = INFINITY;
+    for (int k = 0; k < 480; k++) {
+      gait_stage_ticks(&t, 1);
+      sbf_vec3 end = t.pose[LAST].position;
+      float ground = (float)ramp(t.input.ground, 0, (double)end.z, &(sbf_vec3){0});
+      lowest = fminf(lowest, end.y - ground);
+    }
+    ck_assert_float_gt(lowest, i ? 0.2f : 0.22f); /* m of 0.25 */
+    gait_stage_end(&t);
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("tail");
   TCase *tests = tcase_create("all");
@@ -165,6 +196,7 @@ int main(void) {
   tcase_add_test(tests, no_bone_bends_beyond_its_limit);
   tcase_add_test(tests, tail_stays_behind_where_the_ground_rises_and_swings_over);
   tcase_add_test(tests, placed_on_a_slope_it_is_straight_at_once);
+  tcase_add_test(tests, tail_stays_over_the_ground_where_it_bends);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
