@@ -43,7 +43,8 @@ class EmbeddedVertices(ProgramTest):
         self.assertGreater(self.check_bundle(path, "--soft", "*"), 0)
 
     def check_bundle(self, path, *options):
-        bundle = convert_once(self.class_folder.name, "".join(options).replace("*", "all") + os.path.basename(path) + ".sbf", path, *options)
+        bundle = convert_once(self.class_folder.name, "".join(options).replace("*", "all") + os.path.basename(path) + ".sbf", path,
+                              "--budget", "none", *options)
         worst = far = items = 0
         for mesh, vertex, weights, at in embedded(ElementTree.parse(bundle).getroot()):
             items += 1

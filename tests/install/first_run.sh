@@ -1,11 +1,12 @@
 #!/bin/sh
 # The first run of a stranger: makes a fresh system with debootstrap, clones this checkout into it, and does what README.md says.
-#   first_run.sh [--full] FOLDER SYSTEM...
+#   first_run.sh [--full] [--cache DIR] FOLDER SYSTEM...
 #     bookworm        Debian 12, nothing but its smallest set of packages
 #     bookworm-tools  the same with a compiler, cmake and some libraries installed
 #     sid             Debian unstable, its smallest set
 # In each: a user without sudo is told one line to type; root (and with --full also that user, once the line is typed) runs the demo,
-# the README's C program and the page export. --full adds `./run test` and `./run package`.
+# the README's C program and the page export. --full adds `./run test` and `./run package`. With --cache these systems have ccache as
+# well, and its folder DIR: what this checkout compiled already is not compiled again.
 # Needs root, debootstrap and the archive of packages that apt is configured for: else exit status 77 with the reason.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
@@ -27,12 +28,14 @@ mirror() {
     awk -v name="$(. /etc/os-release && echo "$VERSION_CODENAME")" '$1 == name {print $2; exit}'
 }
 
-# within SYSTEM COMMAND...: as root in that system, with a /proc that is gone with the command
+# within SYSTEM COMMAND...: as root in that system, with a /proc and a compiler's cache that are gone with the command
 within() {
   where=$1
   shift
   # shellcheck disable=SC2016 # the inner shell fills these in
-  unshare --mount --propagation private sh -c 'mount -t proc proc "$0/proc" && exec chroot "$0" /usr/bin/env -i \
+  cache=$cache unshare --mount --propagation private sh -c 'mount -t proc proc "$0/proc" &&
+    { [ -z "$cache" ] || { mkdir -p "$0/srv/cache" && mount --bind "$cache" "$0/srv/cache"; }; } && exec chroot "$0" /usr/bin/env -i \
+    ${cache:+CC=gcc CCACHE_DIR=/srv/cache CCACHE_BASEDIR=/srv/first/sbfmt} $(env | grep "^CCACHE_[NIC]") \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive CI=1 \
     http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" "$@"' "$where" "$@" </dev/null
 }
@@ -124,9 +127,10 @@ try() {
   rm -rf --one-file-system "$folder/$1.root"
 }
 
-full=
+full= cache=
 [ "${1:-}" != --full ] || { full=yes && shift; }
-[ $# -ge 2 ] || fail 'usage: first_run.sh [--full] FOLDER SYSTEM...'
+[ "${1:-}" != --cache ] || { cache=$2 && tools="$tools ccache" && shift 2; }
+[ $# -ge 2 ] || fail 'usage: first_run.sh [--full] [--cache DIR] FOLDER SYSTEM...'
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
