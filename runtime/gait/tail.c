@@ -4,6 +4,7 @@
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
+#include "math/trig.h"
 #include "math/vec3.h"
 
 /* Bones of a tail whose ends are kept over the ground. */
@@ -31,7 +32,7 @@ static sbf_vec3 step_at(const sbri_stance *stance, sbf_vec3 step, float yaw, flo
 /* What must be added to a bone's pitch so that a point at `offset` from its head comes up by `rise`. */
 static float pitch_for(sbf_vec3 offset, float rise) {
   float level = sqrtf(offset.x * offset.x + offset.z * offset.z);
-  return atan2f(offset.y + rise, level) - atan2f(offset.y, level);
+  return sbri_atan2(offset.y + rise, level) - sbri_atan2(offset.y, level);
 }
 
 /* A tail as it is posed now, and the height that the end of each bone must have. */

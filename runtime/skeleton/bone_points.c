@@ -21,7 +21,7 @@ static void each_skin_point(
   }
 }
 
-void sbri_rig_each_point(const sbri_rig *rig, sbri_take_point *take, void *user) {
+void sbri_rig_visit_points(const sbri_rig *rig, sbri_take_point *take, void *user) {
   bool skins = false;
   for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];

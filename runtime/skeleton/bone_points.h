@@ -9,6 +9,6 @@
 typedef void sbri_take_point(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 position);
 
 /* Calls `take` for the vertices of all skins; without skins, for the surfaces of soft bodies on bones. */
-void sbri_rig_each_point(const sbri_rig *rig, sbri_take_point *take, void *user);
+void sbri_rig_visit_points(const sbri_rig *rig, sbri_take_point *take, void *user);
 
 #endif

@@ -112,7 +112,7 @@ void sbri_rig_find_girth(sbri_rig *rig) {
     girth->layer |= rig->asset->rigid_bodies.at[b].layer, girth->mask |= rig->asset->rigid_bodies.at[b].mask;
   if (!girth->layer && !girth->mask) girth->layer = 1, girth->mask = UINT32_MAX;
   cubes all = {.lowest = -INFINITY};
-  sbri_rig_each_point(rig, extend, &all.body);
+  sbri_rig_visit_points(rig, extend, &all.body);
   if (kind == SBF_GAIT_KIND_NONE || !all.body.any) return;
   sbf_vec3 size = sbri_sub(all.body.high, all.body.low);
   girth->mass = DENSITY * FILLED * size.x * size.y * size.z;
@@ -123,7 +123,7 @@ void sbri_rig_find_girth(sbri_rig *rig) {
   size.z = all.body.high.z - all.body.low.z;
   for (all.edge = largest(size) / FINEST; all.edge > 0; all.edge *= COARSER) {
     all.count = 0;
-    sbri_rig_each_point(rig, fill, &all);
+    sbri_rig_visit_points(rig, fill, &all);
     if (all.count <= SBRI_BUMPERS) break;
   }
   if (all.edge > 0) set_balls(&all, girth);

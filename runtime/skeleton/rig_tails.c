@@ -75,6 +75,6 @@ void sbri_rig_find_tails(sbri_rig *rig, void *memory) {
     for (uint32_t k = 0; k < chain->bones.count; k++)
       bones[tails[t].first_state + k] = (sbri_tail_bone){.step = step_of(rig, &tails[t], k)};
   }
-  sbri_rig_each_point(rig, deepen, &(depths){tails, bones});
+  sbri_rig_visit_points(rig, deepen, &(depths){tails, bones});
   for (uint32_t t = 0; t < rig->tail_count; t++) set_clearances(rig, &tails[t], bones + tails[t].first_state);
 }
