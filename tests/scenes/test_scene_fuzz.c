@@ -1,7 +1,7 @@
 /* No number that is none is ever read of scenes by chance (chance_scene.h), and the same scene gives the same
  * bits twice.
  *
- * SBFMT_SCENES says how many scenes of 100 frames each (default 1500), SBFMT_SEED where to begin. A scene
+ * SBFMT_SCENES says how many scenes of 100 frames each (default 600), SBFMT_SEED where to begin. A scene
  * that fails is told by its seed. CK_FORK=no for what takes more than half an hour, which Check cannot count.
  */
 #include <stdio.h>
@@ -17,7 +17,7 @@ static uint32_t number_of(const char *name, uint32_t otherwise) {
 
 START_TEST(no_scene_gives_what_is_no_number)
 {
-  uint32_t first = number_of("SBFMT_SEED", 1000), count = number_of("SBFMT_SCENES", 1500), made = 0;
+  uint32_t first = number_of("SBFMT_SEED", 1000), count = number_of("SBFMT_SCENES", 600), made = 0;
   for (uint32_t seed = first; seed < first + count; seed++) {
     uint64_t hash = chance_scene_run(seed);
     made += hash != 0;
