@@ -218,14 +218,15 @@ static double rest_energy(const sbri_character *c, const sbri_island *island, sb
   return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
 }
 
-/* The island's weight times the size of its largest body, J. */
-static double load_of(const sbri_character *c, const sbri_island *island, sbf_vec3 g) {
-  double weight = 0, size = 0;
+/* The force of that acceleration on the island, as of its weight, times the size of its largest body, J. */
+static double load_of(
+    const sbri_character *c, const sbri_island *island, float acceleration, bool is_weight) {
+  double mass = 0, size = 0;
   for (uint32_t slot = 0; slot < island->free_count; slot++)
-    weight += (double)(island->masses[slot] * fabsf(island->gravity_scales[slot]));
+    mass += (double)(island->masses[slot] * (is_weight ? fabsf(island->gravity_scales[slot]) : 1));
   for (uint32_t b = 0; b < island->body_count; b++)
     size = fmax(size, (double)c->model->bodies[island->bodies[b]].rest_size_m);
-  return weight * (double)sbri_length(g) * size;
+  return mass * (double)acceleration * size;
 }
 
 /* More than what bodies of that size hold that lie in their own weight: a column strained by e bears m g l e
@@ -267,12 +268,15 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
     more += weight_of(island, positions, g) - rest_energy(c, island, g);
   else
     more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_FRACTION * elements.tenth_j;
-  double load = is_reported ? 0 : load_of(c, island, g);
+  double inertial = load_of(c, island, state->recovery.acceleration_m_s2, false);
+  double accelerated = weight_bears(inertial, elements.tenth_j);
+  min += accelerated;
+  double load = is_reported ? 0 : load_of(c, island, sbri_length(g), true);
   if (!is_reported && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
   bool strained = more > min, stuck = more > STUCK_FRACTION * (double)state->excess_j;
   sbri_shape shape = {.is_reported = is_reported,
       .excess_j = (float)more,
-      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j};
+      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j + accelerated};
   shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
   shape.collapsed = strained && stuck && (is_reported || (unstable && !island->has_external_forces)) &&

@@ -31,6 +31,14 @@ static bool find_velocities(
   return !(farthest > max * max);
 }
 
+/* Bound of the change of velocity of the driver of any point in the tick, m/s. */
+static float change_of(
+    const sbri_body *body, const sbri_rigid_motion *is, const sbri_driver_motion *was, float tick_s) {
+  float turn = sbri_length(sbri_sub(is->angular_velocity, was->angular_velocity));
+  turn += sbri_dot(was->angular_velocity, was->angular_velocity) * tick_s;
+  return sbri_length(sbri_sub(is->velocity, was->velocity)) + turn * body->rest_size_m;
+}
+
 /* Gives the body's points what its guides' velocity, as that of a rigid body, has changed by in the tick
  * beyond what it is made to feel: bones that are thrown about and whipped round take it along. Guides change
  * their velocity when a tick begins, all at once. */
@@ -41,10 +49,7 @@ static void soften_start(sbri_character *c, const sbri_island *island, const sbr
   sbf_vec3 push = sbri_sub(is->velocity, was->velocity),
            turn = sbri_sub(is->angular_velocity, was->angular_velocity);
   if (island->scheme->forceless || !(max > 0)) return;
-  float bound = sbri_length(push) +
-                (sbri_length(turn) + sbri_dot(was->angular_velocity, was->angular_velocity) * tick_s) *
-                    body->rest_size_m;
-  if (!(bound > max)) return;
+  if (!(change_of(body, is, was, tick_s) > max)) return;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -90,6 +95,14 @@ static void ride(sbri_character *c, const sbri_island *island, uint32_t index, f
  */
 enum { JUMPED_TICKS = 240 };
 
+/* What acceleration has strained stays so for some swings. */
+static const float FORGOTTEN_PER_S = 3;
+
+static void note_acceleration(sbri_recovery *recovery, float change, float tick_s) {
+  float kept = recovery->acceleration_m_s2 * (1 - fminf(FORGOTTEN_PER_S * tick_s, 1));
+  recovery->acceleration_m_s2 = fmaxf(kept, change / tick_s);
+}
+
 /* Whether pin frames move by more than half a cell against the body's rigid motion; with two frames each
  * moves by half of the displacement. */
 static bool is_fully_torn(const sbri_character *c, const sbri_island *island, const sbri_body *body,
@@ -131,6 +144,7 @@ bool sbri_island_update_drivers(sbri_character *c, const sbri_island *island, ui
     if (!body->is_pinned) continue;
     sbri_rigid_motion now = motion_of(c, island, body);
     soften_start(c, island, body, &now, motion, tick_s);
+    note_acceleration(&sbri_island_states(c)[index].recovery, change_of(body, &now, motion, tick_s), tick_s);
     if (body->drivers && island->cell_m > 0 && is_fully_torn(c, island, body, &now, tick_s))
       sbri_island_states(c)[index].recovery.jumped_ticks = JUMPED_TICKS;
     *motion = (sbri_driver_motion){now.velocity, now.angular_velocity};

@@ -1,6 +1,8 @@
 """`sbfmt run` tells of bodies that were put back into their rest shape, how often, and which."""
 
-from sbfmt_program import ProgramTest, call, main, write_bytes
+import os
+
+from sbfmt_program import ROOT, ProgramTest, call, main, write_bytes
 
 EDGES = (-0.1, 0.1)
 FACES = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
@@ -34,6 +36,14 @@ class Recoveries(ProgramTest):
         self.assertEqual(report["recovered"]["cube"]["recoveries"], report["recoveries"])
         self.assertLess(report["crushed"]["cube"]["min_element_ratio"], 0.2)
         self.assertGreater(report["crushed"]["cube"]["frames"], 0)
+
+    def test_what_its_own_walk_strains_is_left_alone(self):
+        """A calf of 7 m on stairs: the pins of its soft parts accelerate by more than gravity."""
+        large = self.path("large.sbf")
+        self.good("convert", os.path.join(ROOT, "examples", "calf", "calf.glb"), "--unit", 10, "-o", large)
+        report = self.json_of("run", large, "--seconds", 6, "--drive", "7.42,0", "--ground", "stairs:1,3")
+        self.assertGreater(report["max_strain"], 0.4)
+        self.assertEqual((report["valid"], report["recoveries"]), (True, 0))
 
     def test_a_body_that_cannot_be_stepped_falls_as_a_rigid_one(self):
         """No frame of it is inverted, infinite or strained, and yet the run is not valid."""
