@@ -99,9 +99,7 @@ void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) 
       layer->time_s = sbri_clamp(layer->time_s, 0, clip->duration);
       continue;
     }
-    if (layer->time_s >= clip->duration || layer->time_s < 0)
-      layer->time_s -= clip->duration * (float)(int32_t)(layer->time_s / clip->duration);
-    if (layer->time_s < 0) layer->time_s += clip->duration;
+    layer->time_s = sbri_wrap(layer->time_s, clip->duration);
   }
 }
 

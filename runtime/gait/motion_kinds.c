@@ -52,7 +52,7 @@ float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   float before = m->hop;
   m->hop += input->tick_s / rig->gait->step_duration;
   if (before < 0.5f && m->hop >= 0.5f && !wanted) m->hop = 0;
-  if (m->hop >= 1) m->hop = wanted ? m->hop - (float)(int32_t)m->hop : 0;
+  if (m->hop >= 1) m->hop = wanted ? sbri_wrap(m->hop, 1) : 0;
   /* The fraction of the tick for which it has been in the air. */
   float end = m->hop < before ? m->hop + 1 : m->hop, span = end - before;
   float air = (end < 1 ? end : 1) - (before > 0.5f ? before : 0.5f);
@@ -67,9 +67,7 @@ static float hop_height(const sbri_rig *rig, const sbri_gait_state *state, const
 }
 
 static float wrapped(float time, float duration) {
-  if (!(duration > 0)) return 0;
-  time -= duration * (float)(int32_t)(time / duration);
-  return time < 0 ? time + duration : time;
+  return duration > 0 ? sbri_wrap(time, duration) : 0;
 }
 
 /* Times of the gait's own clips. */

@@ -23,12 +23,6 @@ static float speed_of(const sbri_gait_state *state, float scale) {
   return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->pace / scale;
 }
 
-/* Into 0 to below 1. */
-static float wrapped(float fraction) {
-  fraction -= (float)(int32_t)fraction;
-  return fraction < 0 ? fraction + 1 : fraction;
-}
-
 /* A foot that has just come down says where in its cycle the walk ought to be, and how long half a cycle is.
  */
 static void keep_step(const sbri_walks *walks, sbri_gait_state *state, float half_cycle_m) {
@@ -36,7 +30,7 @@ static void keep_step(const sbri_walks *walks, sbri_gait_state *state, float hal
   for (int half = 0; half < 2 && legs[half] >= 0; half++) {
     const sbri_foot *foot = &state->feet[legs[half]];
     if (!foot->planted || foot->was_planted) continue;
-    state->walk_ahead = wrapped(state->walk_phase - 0.5f * (float)half + 0.5f) - 0.5f;
+    state->walk_ahead = sbri_wrap(state->walk_phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
     float gone = state->walk_since_m;
     bool other = state->walk_landed == (uint32_t)(2 - half); /* a step of each in turn */
     state->walk_half_m = other && gone > MIN_STEP * half_cycle_m && gone < MAX_STEP * half_cycle_m ? gone : 0;
@@ -62,7 +56,7 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
     fraction -= back;
     state->walk_ahead -= back;
   }
-  state->walk_phase = wrapped(state->walk_phase + (backwards ? -fraction : fraction));
+  state->walk_phase = sbri_wrap(state->walk_phase + (backwards ? -fraction : fraction), 1);
 }
 
 /* Four frames about a phase, and what each counts there. */

@@ -32,11 +32,6 @@ void sbri_wheels_allow(const sbri_rig *rig, sbri_gait_input *input) {
   input->sideways = -input->turn * fixed * input->scale; /* the axle that does not steer goes straight */
 }
 
-static float wrapped(float value, float period) {
-  value -= period * (float)(int32_t)(value / period);
-  return value < 0 ? value + period : value;
-}
-
 /* Velocity of a wheel's head over the ground, along the body's axes. */
 static sbf_vec3 velocity_at(const sbri_gait_state *state, sbf_vec3 position, float scale) {
   return sbri_vec3(state->sideways + state->turn * position.z * scale, 0,
@@ -77,13 +72,13 @@ void sbri_wheels_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     sbf_vec3 v = velocity_at(state, rig->rest[wheel->bone].position, input->scale);
     float s = 0, c = 1;
     if (wheel->steer_limit > 0) sbri_sincos(steer_of(wheel, v), &s, &c);
-    angles[i] = wrapped(angles[i] + (v.z * c + v.x * s) * h / (wheel->radius * input->scale), TURN);
+    angles[i] = sbri_wrap(angles[i] + (v.z * c + v.x * s) * h / (wheel->radius * input->scale), TURN);
   }
   for (uint32_t i = 0; i < rig->gait->treads.count; i++) {
     const sbf_tread *tread = &rig->gait->treads.at[i];
     float length = tread_length(rig, tread);
     sbf_vec3 v = velocity_at(state, tread_middle(rig, tread), input->scale);
-    distances[i] = length > 0 ? wrapped(distances[i] + v.z * h / input->scale, length) : 0;
+    distances[i] = length > 0 ? sbri_wrap(distances[i] + v.z * h / input->scale, length) : 0;
   }
 }
 

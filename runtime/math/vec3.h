@@ -44,4 +44,12 @@ static inline float sbri_clamp(float value, float low, float high) {
   return value < low ? low : value > high ? high : value;
 }
 
+/* Remainder by a period greater than 0, in [0, period]; 0 where the value's rounding exceeds the period. */
+static inline float sbri_wrap(float value, float period) {
+  float periods = value / period;
+  if (!(fabsf(periods) < 0x1p24f)) return 0;
+  value -= period * (float)(int32_t)periods;
+  return value < 0 ? value + period : value;
+}
+
 #endif

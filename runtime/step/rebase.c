@@ -22,6 +22,7 @@ static float step_of(float scale) {
 
 static float whole(float metres, float step) {
   float steps = metres / step;
+  if (fabsf(steps) >= 0x1p23f) return metres; /* floats of this size are whole */
   return step * (float)(int32_t)(steps < 0 ? steps - 0.5f : steps + 0.5f);
 }
 
