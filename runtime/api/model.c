@@ -41,6 +41,7 @@ sbf_status sbr_model_create(
   *model = NULL;
   if (!options) options = &defaults;
   sbf_status status = check_options(options, error);
+  if (status == SBF_OK) status = sbri_number_limits_check(asset, error);
   if (status != SBF_OK) return status;
   sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);

@@ -7,6 +7,8 @@
 
 /* All tables but the layout of a character's state, into a model that has its asset and arena. */
 sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+/* Lengths beyond 1e6 m and other numbers beyond 1e15 are refused. */
+sbf_status sbri_number_limits_check(const sbf_asset *asset, sbf_diagnostic *error);
 
 /* ---- Bodies and islands ---- */
 

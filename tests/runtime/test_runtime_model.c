@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "harness.h"
+#include "sbfmt/codes.h"
 #include "scenes.h"
 #include "solvers/scheme.h"
 #include "world/world.h"
@@ -29,6 +30,30 @@ START_TEST(calls_are_checked)
   ck_assert_uint_eq(sbr_model_get_substeps(NULL), 1);
   ck_assert_uint_eq(sbr_model_get_body_substeps(NULL, 0), 0);
   scene_free(&s);
+}
+END_TEST
+
+START_TEST(numbers_too_large_to_simulate_are_refused)
+{
+  static const sbf_vec3 near = {0, 1e6f, 0}, far = {0, -2e6f, 0};
+  const float kg = 1;
+  sbf_diagnostic error;
+  for (int i = 0; i < 3; i++) {
+    scene s = scene_begin();
+    scene_points(&s, 0, i == 1 ? &far : &near, &kg, 1);
+    if (i == 2) scene_body(&s, 0)->attributes.density = 2e15f;
+    sbf_status status = sbr_model_create(s.asset, &s.model_options, &s.model, &error);
+    ck_assert_int_eq(status, i == 0 ? SBF_OK : SBF_BAD_INPUT);
+    if (i > 0) {
+      ck_assert_int_eq(error.code, SBF_CODE_VALUE_OUT_OF_RANGE);
+      ck_assert_msg(strstr(error.message, i == 1 ? "1e+06 m" : "1e+15 kg/m^3"), "%s", error.message);
+      ck_assert_str_eq(error.path,
+          i == 1 ? "/sbf/soft_body[1]/level[1]/positions" : "/sbf/soft_body[1]/attributes/@density");
+      ck_assert_ptr_null(s.model);
+    }
+    sbr_model_destroy(s.model);
+    sbf_asset_free(s.asset);
+  }
 }
 END_TEST
 
@@ -160,6 +185,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("runtime model");
   TCase *c = tcase_create("runtime model");
   tcase_add_test(c, calls_are_checked);
+  tcase_add_test(c, numbers_too_large_to_simulate_are_refused);
   tcase_add_test(c, scheme_and_substeps_come_from_the_call_or_the_level);
   tcase_add_test(c, a_scheme_that_cannot_step_a_level_is_refused);
   tcase_add_test(c, points_of_a_block_have_about_as_many_springs);

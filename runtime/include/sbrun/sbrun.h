@@ -127,7 +127,7 @@ typedef struct sbr_model_options {
 /* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or
  * the scheme is not one of the runtime's (symplectic, position_based, relaxation, explicit_euler, heun,
  * block_descent) or cannot step a body; SBF_BAD_INPUT where the asset asks for something the runtime cannot
- * simulate. */
+ * simulate, or has a length beyond 1e6 m or another number beyond 1e15. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
