@@ -8,6 +8,7 @@
 #include "harness.h"
 #include "model/schema.h"
 #include "packed/packed_codec.h"
+#include "sbfmt/build.h"
 #include "shapes.h"
 #include "small_asset.h"
 #include "stream_builder.h"
@@ -26,8 +27,8 @@ static void put(const char *folder, const char *const *targets, const char *name
 }
 
 static void put_forms(const char *folder, const char *name, const sbf_asset *asset) {
-  static const char *const of_packed[] = {"packed", "table", "validate", "build", NULL};
-  static const char *const of_xml[] = {"xml", "validate", "build", NULL};
+  static const char *const of_packed[] = {"packed", "table", "validate", "build", "run", NULL};
+  static const char *const of_xml[] = {"xml", "validate", "build", "run", NULL};
   char full[64];
   for (int store = 0; store < 2; store++) {
     sbf_buffer bytes = {0};
@@ -62,6 +63,25 @@ static sbf_asset *bodies_to_build(void) {
   shape_add_body(asset, "cube", &cube, true);
   shape_add_body(asset, "sheet", &sheet, false);
   return asset;
+}
+
+/* The same bodies, built to be simulated: a file for each kind of interior. */
+static void put_built(const char *folder, const sbf_asset *bodies) {
+  static const char *const targets[] = {"run", NULL};
+  for (int interior = 0; interior <= SBF_BUILD_INTERIOR_TETRAHEDRA; interior++) {
+    const sbf_build_options options = {
+        .interior = (sbf_build_interior)interior, .elements = 60, .without_calibration = true};
+    sbf_build_report report;
+    sbf_asset *built = NULL;
+    sbf_buffer bytes = {0};
+    char name[32];
+    FUZZ_MUST(sbf_build(bodies, &options, &built, &report, NULL) == SBF_OK);
+    FUZZ_MUST(sbf_xml_save_memory(built, NULL, NULL, &bytes, NULL) == SBF_OK);
+    snprintf(name, sizeof name, "built_%d.sbf", interior);
+    put(folder, targets, name, &bytes);
+    sbf_buffer_free(&bytes);
+    sbf_asset_free(built);
+  }
 }
 
 /* A stream of each filter, behind the bytes that fuzz_inflate takes for its arguments. */
@@ -135,6 +155,7 @@ int main(int argc, char **argv) {
   put_forms(argv[1], "small", small);
   put_forms(argv[1], "full", full);
   put_forms(argv[1], "bodies", bodies);
+  put_built(argv[1], bodies);
   sbf_asset_free(small);
   sbf_asset_free(full);
   sbf_asset_free(bodies);
