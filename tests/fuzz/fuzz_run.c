@@ -13,7 +13,7 @@
 /* Frames of one input; visits of elements and points that they may take, so that inputs stay short; visits
  * that a tick of a rigid body costs as much as, with its joints and contacts. */
 enum { MAX_FRAMES = 60, CHARACTERS = 2, READ_CAPACITY = 4096 };
-static const double MAX_VISITS = 3e6, RIGID_VISITS = 1e5;
+static const double MAX_VISITS = 3e6, RIGID_VISITS = 4e5;
 
 typedef struct simulation {
   const sbf_asset *asset;
@@ -186,7 +186,7 @@ static void check_frame(const simulation *s, sbr_character_id c) {
 }
 
 static void step_frame(simulation *s) {
-  static const double seconds[] = {1.0 / 60, 1.0 / 30, 1.0 / 240, 0, 0.2};
+  static const double seconds[] = {1.0 / 60, 1.0 / 30, 1.0 / 240, 0, 0.05};
   sbf_diagnostic error = {0};
   disturb(s);
   sbr_world_step(s->world, seconds[pick(s, 4) ? 0 : pick(s, 5)]);
