@@ -13,7 +13,7 @@
 /* Frames of one input; visits of elements and points that they may take, so that inputs stay short; visits
  * that a tick of a rigid body costs as much as, with its joints and contacts. */
 enum { MAX_FRAMES = 60, CHARACTERS = 2, READ_CAPACITY = 4096 };
-static const double MAX_VISITS = 3e6, RIGID_VISITS = 4e5;
+static const double MAX_VISITS = 1e6, RIGID_VISITS = 4e5;
 
 typedef struct simulation {
   const sbf_asset *asset;
