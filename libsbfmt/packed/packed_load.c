@@ -74,6 +74,18 @@ static sbf_status check_unread(sbfi_packed_reader *reader) {
 }
 
 /* Loads from `bytes`; `*in_place` says whether the asset points into them. */
+/* The header's version decides which fields may follow, so an asset that states an earlier one gets that. */
+static sbf_status take_header_version(
+    sbf_asset *made, const sbfi_packed_header *header, sbf_diagnostic *error) {
+  char stated[16];
+  snprintf(stated, sizeof stated, "1.%u", header->minor);
+  if (sbfi_version_check(stated) != SBFI_VERSION_KNOWN || sbfi_version_minor(made->version) >= header->minor)
+    return SBF_OK;
+  made->version = sbf_asset_copy_text(made, stated);
+  return made->version ? SBF_OK
+                       : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the version's text");
+}
+
 static sbf_status load(const void *bytes, size_t size, const sbf_load_options *options, sbf_asset **asset,
     bool *in_place, sbf_diagnostic *error) {
   if (options->read_bytes) *options->read_bytes = 0;
@@ -102,6 +114,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
     snprintf(stated, sizeof stated, "1.%u", reader.table.header.minor);
     sbfi_report_left_out(options, stated, reader.left_out, reader.first_left_out);
     if (sbfi_version_check(made->version) == SBFI_VERSION_NEWER_MINOR) made->version = SBF_FORMAT_VERSION;
+    status = take_header_version(made, &reader.table.header, error);
   }
   if (status != SBF_OK) {
     sbf_asset_free(made);

@@ -279,6 +279,25 @@ START_TEST(test_checksum_of_a_chunk_is_checked_when_asked)
 }
 END_TEST
 
+/* The header decides on the fields; a record that states an earlier version is of the header's. */
+START_TEST(test_the_version_is_at_least_that_of_the_header)
+{
+  sbf_asset *asset = small_asset(), *loaded;
+  asset->version = "1.2";
+  sbf_buffer file = pack(asset, true);
+  uint8_t *text = file.at + patch_get(file.at, patch_entry(0, PATCH_OFFSET), 8);
+  while (memcmp(text, "1.2", 3) != 0) text++;
+  text[2] = '0';
+  patch_seal(file.at, file.size);
+  sbf_load_options options = {.check_crc = true};
+  ck_assert_int_eq(sbf_packed_load_memory(file.at, file.size, &options, &loaded, NULL), SBF_OK);
+  ck_assert_str_eq(loaded->version, "1.2");
+  sbf_asset_free(loaded);
+  sbf_buffer_free(&file);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 START_TEST(test_numbers_of_a_mapped_list_are_checked)
 {
   sbf_buffer file = small_file(true);
@@ -535,6 +554,7 @@ int main(void) {
   tcase_add_loop_test(tests, test_damage_never_breaks_the_promise, 0, 8);
   tcase_add_test(tests, test_random_damage_of_a_filled_asset);
   tcase_add_test(tests, test_checksum_of_a_chunk_is_checked_when_asked);
+  tcase_add_test(tests, test_the_version_is_at_least_that_of_the_header);
   tcase_add_test(tests, test_numbers_of_a_mapped_list_are_checked);
   tcase_add_test(tests, test_every_failed_allocation_leaves_nothing);
   tcase_add_test(tests, test_limits_at_and_past);
