@@ -242,11 +242,13 @@ void sbri_group_run(sbr_world *world, sbri_contact_group *group) {
     uint32_t own = count_steps(world, &members[i]);
     steps = own > steps ? own : steps;
   }
+  group->step_s =
+      (float)world->tick_s; /* bodies that bones move are not stepped, but their contacts stored */
   if (steps > 0) {
     steps = rounded_steps(steps);
     for (uint32_t i = 0; i < group->member_count; i++)
       if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
-    group->step_s = (float)world->tick_s / (float)steps;
+    group->step_s /= (float)steps;
     sbri_contacts_load_cached(world->body_contacts, group, group->step_s);
     run_steps(world, group, steps);
     sbri_contacts_finish_tick(world->body_contacts, group);
