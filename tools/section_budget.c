@@ -38,18 +38,23 @@ bool section_budget_applies(const sbf_asset *source, const sbf_build_options *bu
          build->sections == SBF_BUILD_SECTIONS_AUTOMATIC;
 }
 
+/* Of the skin alone, with its normals. */
+static double skin_visits_of(const sbf_asset *asset) {
+  double skin = 0;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    skin += SKIN_VISITS * asset->render_meshes.at[i].mesh.positions.count;
+  return skin;
+}
+
 /* Of a tick of the whole character, with its skin; NAN where the runtime refuses it. */
 static double visits_of(const sbf_asset *asset) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
   sbr_detail_level detail_level;
-  double skin = 0;
   if (sbr_model_create(asset, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK) return NAN;
   sbr_model_get_detail_levels(model, &detail_level, 1);
   sbr_model_destroy(model);
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    skin += SKIN_VISITS * asset->render_meshes.at[i].mesh.positions.count;
-  return (double)detail_level.visits + skin;
+  return (double)detail_level.visits + skin_visits_of(asset);
 }
 
 static sbf_status build_one(const sbf_asset *source, const sbf_build_options *build, uint32_t elements,
@@ -124,7 +129,8 @@ static sbf_status choose(
 /* Only a part that the conversion proposed: what somebody asked for stays soft. */
 static bool may_leave_out(const sbf_asset *source, int32_t bone) {
   for (uint32_t i = source->section_recipes.count; i-- > 0;)
-    if (source->section_recipes.at[i].bone == bone) return source->section_recipes.at[i].proposed;
+    if (source->section_recipes.at[i].bone == bone)
+      return source->section_recipes.at[i].proposed && is_soft(&source->section_recipes.at[i]);
   return false;
 }
 
@@ -164,7 +170,7 @@ static bool leave_out_smallest(sbf_asset *source, const sbf_asset *built, sectio
   return choice->left_out > before;
 }
 
-/* Parts become rigid until the coarsest of all fits. */
+/* Parts become rigid until the coarsest of all fits: all at once where the skin alone takes too much. */
 static sbf_status fit(
     sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   choice->elements = sizes[0];
@@ -175,6 +181,8 @@ static sbf_status fit(
     choice->visits = visits_of(built);
     choice->soft = built->soft_bodies.count;
     bool done = choice->visits <= choice->max_visits || !leave_out_smallest(source, built, choice);
+    while (!done && skin_visits_of(built) > choice->max_visits)
+      if (!leave_out_smallest(source, built, choice)) break;
     sbf_asset_free(built);
     if (!choice->soft && !choice->left_out) choice->elements = 0; /* nothing is cut */
     if (done) return SBF_OK;
@@ -185,7 +193,8 @@ sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *bui
     section_budget *choice, sbf_diagnostic *error) {
   *choice = (section_budget){
       .max_visits = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, .finest = FINEST, .p99_fraction = NAN};
-  sbf_status status = choose(source, build, choice, error);
+  sbf_status status = SBF_OK;
+  if (skin_visits_of(source) <= choice->max_visits) status = choose(source, build, choice, error);
   if (status == SBF_OK && !choice->elements) status = fit(source, build, choice, error);
   for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++)
     recipe_at(source, i)->elements = is_soft(recipe_at(source, i)) ? choice->elements : 0;
