@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "sbfmt/packed.h"
-#include "sbrun/sbrun.h"
+#include "sbrun/events.h"
 
 static int failed(const sbf_diagnostic *error) {
   fprintf(stderr, "%s: %s\n", error->file, error->message);
@@ -30,15 +30,13 @@ int main(int argc, char **argv) {
 
   uint32_t count = sbr_character_get_skin(world, character, 0, NULL, NULL, NULL, 0);
   sbf_vec3 *skin = (sbf_vec3 *)calloc(count + 1, sizeof *skin);
-  sbr_event events[64];
   uint32_t steps = 0;
   if (!skin) return 2;
 
   sbr_character_set_drive(world, character, 0.5f, 0, 0); /* half a metre a second, straight on */
   for (int frame = 1; frame <= 300; frame++) {
     sbr_world_step(world, 1.0 / 60); /* an engine gives its frame time */
-    uint32_t event_count = sbr_world_take_events(world, events, 64);
-    for (uint32_t i = 0; i < event_count; i++) steps += events[i].kind == SBR_EVENT_FOOT_DOWN;
+    steps += sbr_world_get_foot_events(world).down_count;
     if (frame % 60) continue;
     sbr_double3 origin = sbr_character_get_origin(world, character); /* what follows is relative to it */
     sbr_transform root;

@@ -13,8 +13,10 @@ enum {
   WORLD_COOKIE = 0x5b72776f,
   DEFAULT_CAPACITY = 16,
   DEFAULT_COLLIDERS = 64,
+  DEFAULT_EVENTS = 256,
   MAX_CHARACTERS = 65534,
-  MAX_COLLIDERS = 65534
+  MAX_COLLIDERS = 65534,
+  MAX_EVENTS = 1 << 20
 };
 /* No frame is longer. */
 static const double LONGEST_S = 3600;
@@ -26,7 +28,9 @@ sbr_world_definition sbr_default_world_definition(void) {
       .control_tick_s = 1.0 / 60,
       .longest_frame_s = 0.25,
       .character_capacity = DEFAULT_CAPACITY,
-      .sleep_after_s = 0.5};
+      .sleep_after_s = 0.5,
+      .event_capacity = DEFAULT_EVENTS,
+      .hit_speed = 1};
 }
 
 static int64_t units_of(double seconds) {
@@ -45,12 +49,14 @@ sbf_status sbr_world_create(
   double longest = definition->longest_frame_s != 0 ? definition->longest_frame_s : 0.25;
   uint32_t capacity = definition->character_capacity ? definition->character_capacity : DEFAULT_CAPACITY;
   uint32_t colliders = definition->collider_capacity ? definition->collider_capacity : DEFAULT_COLLIDERS;
+  uint32_t events = definition->event_capacity ? definition->event_capacity : DEFAULT_EVENTS;
   if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= LONGEST_S) || capacity > MAX_CHARACTERS ||
-      colliders > MAX_COLLIDERS)
+      colliders > MAX_COLLIDERS || events > MAX_EVENTS || !(definition->hit_speed >= 0))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u or %u "
-        "(to %d)",
-        tick, longest, capacity, colliders, (int)MAX_CHARACTERS);
+        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600), capacity %u or %u "
+        "(to %d), event_capacity %u (to %d) or hit_speed %g m/s (not below 0)",
+        tick, longest, capacity, colliders, (int)MAX_CHARACTERS, events, (int)MAX_EVENTS,
+        (double)definition->hit_speed);
   const double gravity[3] = {
       (double)definition->gravity.x, (double)definition->gravity.y, (double)definition->gravity.z};
   if ((definition->has_gravity && !sbri_usable(gravity, 3)) || !sbri_usable(&definition->sleep_after_s, 1))
@@ -61,8 +67,11 @@ sbf_status sbr_world_create(
   sbr_world *made = sbfi_allocate(&allocator, sizeof *made);
   sbri_character *characters = sbfi_allocate(&allocator, capacity * sizeof *characters);
   sbri_collider_set set;
+  sbri_events lists;
   bool has_set = sbri_collider_set_make(&set, colliders, &allocator);
-  if (!made || !characters || !has_set) {
+  bool has_events = sbri_events_create(&lists, events, &allocator);
+  if (!made || !characters || !has_set || !has_events) {
+    if (has_events) sbri_events_free(&lists, &allocator);
     if (has_set) sbri_collider_set_free(&set, &allocator);
     sbfi_free(&allocator, made, sizeof *made);
     sbfi_free(&allocator, characters, capacity * sizeof *characters);
@@ -81,6 +90,8 @@ sbf_status sbr_world_create(
           definition->sleep_after_s > 0 ? 1 + (uint32_t)(fmin(definition->sleep_after_s, 1e6) / tick) : 0,
       .stamp = 1,
       .colliders = set,
+      .events = lists,
+      .hit_speed = definition->hit_speed,
       .characters = characters,
       .character_capacity = capacity,
       .user_data = definition->user_data};
@@ -95,6 +106,7 @@ void sbr_world_destroy(sbr_world *world) {
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
   sbri_collider_set_free(&world->colliders, &allocator);
+  sbri_events_free(&world->events, &allocator);
   sbri_body_contacts_free(world);
   sbri_detail_free(world);
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
@@ -111,7 +123,9 @@ void *sbr_world_get_user_data(const sbr_world *world) {
 }
 
 void sbr_world_step(sbr_world *world, double seconds) {
-  if (!world || !(seconds > 0) || !sbri_usable(&seconds, 1)) return;
+  if (!world) return;
+  sbri_events_clear(&world->events);
+  if (!(seconds > 0) || !sbri_usable(&seconds, 1)) return;
   if (seconds > LONGEST_S) seconds = LONGEST_S;
   sbri_record(world, SBRI_RECORDED_STEP, &seconds);
   double longest = (double)world->longest_units / SBRI_TIME_UNITS;
@@ -126,6 +140,7 @@ void sbr_world_step(sbr_world *world, double seconds) {
 
 void sbr_world_tick(sbr_world *world) {
   if (!world) return;
+  sbri_events_clear(&world->events);
   sbri_record(world, SBRI_RECORDED_TICK, NULL);
   sbri_step_tick(world);
   world->stamp++;

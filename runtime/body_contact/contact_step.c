@@ -148,7 +148,8 @@ static void report_plane_contact(
   sbf_vec3 impulse = sbri_scale(
       sbri_add_scaled(r->friction_impulse, r->normal, r->normal_impulse), 1 / (m->mass * m->velocity_scale));
   sbri_touching_one *touching = sbri_touching_add(&sbri_rigid_touching(m->character)[t->a.rigid_body],
-      sbri_contact_collider_index(t->body_ids[1]), position, r->normal, sbri_dot(impulse, r->normal));
+      sbri_contact_collider_index(t->body_ids[1]), position, r->normal, sbri_dot(impulse, r->normal),
+      -r->initial_normal_speed / m->velocity_scale);
   if (touching) sbri_touching_push(touching, position, impulse);
 }
 

@@ -89,29 +89,25 @@ static void list_resting(sbr_world *world, const sbri_touching_pair *before, uin
 
 /* ---- Events ---- */
 
-static void report(sbr_world *world, const sbri_touching_pair *c, sbr_event_kind kind) {
-  const sbri_character *one = &world->characters[c->body_ids[0] >> 32],
-                       *other = &world->characters[c->body_ids[1] >> 32];
-  uint32_t soft_indices[2];
-  int32_t rigid_indices[2];
-  if (!one->model || !other->model) return;
-  for (int k = 0; k < 2; k++) {
-    uint32_t index = (uint32_t)c->body_ids[k] & 0x7fffffffu;
-    bool is_rigid = c->body_ids[k] >> 31 & 1;
-    soft_indices[k] = is_rigid ? 0 : index;
-    rigid_indices[k] = is_rigid ? (int32_t)index : -1;
-  }
-  sbri_event_add(world, (sbr_event){.kind = kind,
-                            .character = sbri_id_of(world, one),
-                            .position = c->position,
-                            .soft_body = soft_indices[0],
-                            .rigid_body = rigid_indices[0],
-                            .normal = c->normal,
-                            .impulse = c->impulse,
-                            .other = sbri_id_of(world, other),
-                            .other_soft_body = soft_indices[1],
-                            .other_rigid_body = rigid_indices[1],
-                            .speed = c->speed});
+static sbr_object object_of(const sbr_world *world, uint64_t body_id) {
+  int32_t index = (int32_t)(body_id & 0x7fffffffu);
+  bool is_rigid = body_id >> 31 & 1;
+  return (sbr_object){.character = sbri_id_of(world, &world->characters[body_id >> 32]),
+      .soft_body = is_rigid ? -1 : index,
+      .rigid_body = is_rigid ? index : -1};
+}
+
+static void report(sbr_world *world, const sbri_touching_pair *c, sbri_event_kind kind) {
+  if (!world->characters[c->body_ids[0] >> 32].model || !world->characters[c->body_ids[1] >> 32].model)
+    return;
+  sbr_contact_event event = {.tick = world->ticks,
+      .a = object_of(world, c->body_ids[0]),
+      .b = object_of(world, c->body_ids[1]),
+      .position = c->position,
+      .normal = c->normal,
+      .impulse = c->impulse,
+      .speed = c->speed};
+  sbri_event_add(world, kind, &event);
 }
 
 void sbri_report_touching_pairs(sbr_world *world) {
@@ -125,16 +121,17 @@ void sbri_report_touching_pairs(sbr_world *world) {
   sort(now, all->touching_count);
   for (uint32_t i = 0; i < all->touching_count; i++) {
     sbri_touching_pair c = now[i];
-    while (b < before_count && order(&before[b], &c) < 0) report(world, &before[b++], SBR_EVENT_CONTACT_END);
+    while (b < before_count && order(&before[b], &c) < 0) report(world, &before[b++], SBRI_EVENT_CONTACT_END);
     bool was_touching = b < before_count && order(&before[b], &c) == 0;
     if (was_touching && !(c.impulse > 0)) c.position = before[b].position, c.normal = before[b].normal;
     if (was_touching) b++;
     if (!was_touching && !(c.impulse > 0)) continue;
-    if (!was_touching) report(world, &c, SBR_EVENT_CONTACT_BEGIN);
+    if (!was_touching) report(world, &c, SBRI_EVENT_CONTACT_BEGIN);
+    if (c.impulse > 0 && c.speed >= world->hit_speed) report(world, &c, SBRI_EVENT_CONTACT_HIT);
     c.impulse = c.speed = 0; /* of this tick only */
     now[kept++] = c;
   }
-  while (b < before_count) report(world, &before[b++], SBR_EVENT_CONTACT_END);
+  while (b < before_count) report(world, &before[b++], SBRI_EVENT_CONTACT_END);
   all->touching_count = kept;
 }
 

@@ -12,38 +12,52 @@ typedef struct sbri_touching_one {
   uint32_t thing; /* index of the collider; UINT32_MAX: the ground */
   bool fresh;     /* not touched in the previous tick */
   sbf_vec3 position, normal;
+  float speed;           /* greatest closing speed in the tick, m/s */
   float impulse;         /* sum over contact points of the maximum impulse of a substep, N s */
   sbf_vec3 push, moment; /* impulse and angular impulse about `position` that the body received in the tick, N
                             s and N m s */
 } sbri_touching_one;
 
 typedef struct sbri_touching {
-  sbri_touching_one now[SBRI_TOUCHING];
-  uint32_t before[SBRI_TOUCHING];
+  sbri_touching_one now[SBRI_TOUCHING], before[SBRI_TOUCHING];
   uint32_t count, before_count;
-  bool stepped; /* the impulses are of this tick */
+  /* The fastest of the body's points that reach the ground in this tick by their velocity and gravity, for
+   * bodies whose points meet planes (contact/contact.h): closing speed in m/s, 0 for none. */
+  float ground_speed;
+  sbf_vec3 ground_position, ground_normal;
+  bool stepped;    /* the impulses are of this tick */
+  bool unreported; /* no events have been made of it yet */
 } sbri_touching;
 
 static inline void sbri_touching_begin(sbri_touching *t) {
-  for (uint32_t i = 0; i < t->count; i++) t->before[i] = t->now[i].thing;
+  for (uint32_t i = 0; i < t->count; i++) t->before[i] = t->now[i];
   t->before_count = t->count;
   t->count = 0;
-  t->stepped = true;
+  t->stepped = t->unreported = true;
+}
+
+static inline bool sbri_touching_has(const sbri_touching_one *list, uint32_t count, uint32_t thing) {
+  bool has = false;
+  for (uint32_t i = 0; i < count; i++) has = has || list[i].thing == thing;
+  return has;
 }
 
 /* Returns the entry of the thing, a new one if necessary; NULL if all are used. */
 static inline sbri_touching_one *sbri_touching_add(
-    sbri_touching *t, uint32_t thing, sbf_vec3 position, sbf_vec3 normal, float impulse) {
+    sbri_touching *t, uint32_t thing, sbf_vec3 position, sbf_vec3 normal, float impulse, float speed) {
   for (uint32_t i = 0; i < t->count; i++) {
     if (t->now[i].thing != thing) continue;
     t->now[i].impulse += impulse;
+    t->now[i].speed = speed > t->now[i].speed ? speed : t->now[i].speed;
     return &t->now[i];
   }
   if (t->count == SBRI_TOUCHING) return NULL;
-  bool fresh = true;
-  for (uint32_t i = 0; i < t->before_count; i++) fresh = fresh && t->before[i] != thing;
-  t->now[t->count] = (sbri_touching_one){
-      .thing = thing, .fresh = fresh, .position = position, .normal = normal, .impulse = impulse};
+  t->now[t->count] = (sbri_touching_one){.thing = thing,
+      .fresh = !sbri_touching_has(t->before, t->before_count, thing),
+      .position = position,
+      .normal = normal,
+      .speed = speed,
+      .impulse = impulse};
   return &t->now[t->count++];
 }
 

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "collide/external_body.h"
 #include "collide/ground.h"
+#include "collide/touching.h"
 #include "contact/sample_motion.h"
 #include "contact/self_contacts.h"
 #include "contact/soft_shape_contacts.h"
@@ -80,9 +81,23 @@ static float reach_of(const sbri_island_tick *t, const extent *e, float motion) 
   return high + (high - low) + motion;
 }
 
+/* For events: notes a point that reaches its plane within the tick, unless a faster one does. */
+static void note_ground_speed(
+    const sbri_island_tick *t, uint32_t slot, sbf_vec3 normal, float height, sbri_touching *touched) {
+  float closing = -sbri_dot(normal, sbri_point_velocity(t, slot)), gap = height * normal.y;
+  float gained = sbri_length(t->gravity) * t->tick_s; /* slower points may hover, pinned, above it */
+  float mean = closing > gained ? closing + 0.5f * gained : closing;
+  if (!(closing > touched->ground_speed) || gap > mean * t->tick_s) return;
+  const sbri_point *p = &t->positions[slot];
+  touched->ground_speed = closing;
+  touched->ground_normal = normal;
+  touched->ground_position = sbri_add_scaled(sbri_vec3(p->x, p->y, p->z), normal, -gap);
+}
+
 static void prepare_points(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   extent e = extent_of(t, body);
   float motion = 2 * e.speed * t->tick_s + SBRI_MOTION_FRACTION * body->rest_size_m;
+  to->touched->ground_speed = 0;
   float reach = reach_of(t, &e, motion);
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
     const sbri_point *points = t->positions + block * SBRI_BLOCK;
@@ -96,6 +111,8 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
       float y = height_at(t, points[lane].x, points[lane].z, &n);
       plane[lane] = n.x, plane[SBRI_BLOCK + lane] = n.y, plane[2 * SBRI_BLOCK + lane] = n.z;
       plane[3 * SBRI_BLOCK + lane] = n.x * points[lane].x + n.y * y + n.z * points[lane].z;
+      uint32_t slot = block * SBRI_BLOCK + (uint32_t)lane;
+      if (slot < body->slot_real_end) note_ground_speed(t, slot, n, points[lane].y - y, to->touched);
     }
   }
 }

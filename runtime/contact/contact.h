@@ -22,7 +22,7 @@ typedef struct sbri_contact_tables {
   sbri_soft_contact *contacts;
   uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
-  const struct sbri_touching *touched;          /* contacts of the body in the previous tick */
+  struct sbri_touching *touched;                /* contacts of the body in the previous tick; for events */
   uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
   const sbri_skin *surface;    /* of the body, at its present positions */
   struct sbri_box *self_boxes; /* scratch of the body for self contact */

@@ -156,8 +156,10 @@ static void check_body_contacts(checking *k) {
 sbf_status sbr_world_validate(const sbr_world *world, sbf_diagnostic *error) {
   if (!world) return SBF_OK;
   checking k = {.world = world};
-  enter(&k, "events", 0);
-  expect(&k, world->event_tail <= world->event_head, "more were read than were written");
+  for (uint32_t i = 0; i < SBRI_EVENT_KINDS; i++) {
+    enter(&k, "events", i);
+    expect(&k, world->events.counts[i] <= world->events.capacity, "there are more than there is space for");
+  }
   check_colliders(&k);
   check_body_contacts(&k);
   if (k.fault) return sbfi_diagnose(error, SBF_CODE_WORLD_INVALID, "world, %s: %s", k.position, k.fault);

@@ -285,6 +285,7 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
   if (returns) sbri_away_arrive(world, c);
   if (!same) go_over(world, c);
   head = sbri_header(c);
+  c->left_detail_level_plus_1 = head->detail_level + 1;
   head->detail_level = detail_level;
   head->detail_level_ticks = 0;
   head->asleep = 0;

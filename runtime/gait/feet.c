@@ -130,7 +130,7 @@ static int32_t choose(
   return best;
 }
 
-static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacity, sbr_event_kind kind,
+static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacity, sbri_gait_event_kind kind,
     uint32_t leg, sbf_vec3 position) {
   if (count < capacity) events[count] = (sbri_gait_event){kind, leg, position};
   return count < capacity ? count + 1 : count;
@@ -158,7 +158,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     foot->was_planted = foot->planted;
     bool set_down = catch_up(rig, state, input, &c.stride, i);
     if (!foot->planted && sbri_swing_tick(rig, state, input, &c.stride, i)) {
-      count = report(events, count, capacity, SBR_EVENT_FOOT_DOWN, i, foot->ground);
+      count = report(events, count, capacity, SBRI_GAIT_FOOT_DOWN, i, foot->ground);
       set_down = true;
     }
     if (set_down) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
@@ -171,7 +171,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     if (leg < 0) break;
     if (feet_in_air(rig, state, &groups) == 0) state->since_lift_m = 0;
     sbri_swing_begin(rig, state, input, &c.stride, (uint32_t)leg);
-    count = report(events, count, capacity, SBR_EVENT_FOOT_UP, (uint32_t)leg, state->feet[leg].ground);
+    count = report(events, count, capacity, SBRI_GAIT_FOOT_UP, (uint32_t)leg, state->feet[leg].ground);
     unbalanced = false;
     state->waiting_s = 0;
   }

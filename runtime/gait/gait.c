@@ -216,7 +216,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   sbri_stance stance;
   bool fell = state->falls, in_air = sbri_fall_tick(rig, state, input);
   if (fell && !state->falls && count < capacity)
-    events[count++] = (sbri_gait_event){.kind = SBR_EVENT_LANDED, .position = state->position};
+    events[count++] = (sbri_gait_event){.kind = SBRI_GAIT_LANDED, .position = state->position};
   if (in_air && rig->leg_count)
     stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   else if (!input->hold && rig->leg_count)

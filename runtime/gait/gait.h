@@ -20,8 +20,14 @@ typedef struct sbri_gait_input {
   float gravity;                   /* m/s^2, downwards */
 } sbri_gait_input;
 
+typedef enum sbri_gait_event_kind {
+  SBRI_GAIT_FOOT_DOWN,
+  SBRI_GAIT_FOOT_UP,
+  SBRI_GAIT_LANDED
+} sbri_gait_event_kind;
+
 typedef struct sbri_gait_event {
-  sbr_event_kind kind;
+  sbri_gait_event_kind kind;
   uint32_t leg;
   sbf_vec3 position;
 } sbri_gait_event;

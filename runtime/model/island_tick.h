@@ -53,6 +53,7 @@ typedef struct sbri_soft_contact {
   float velocity_change; /* normal velocity change by the contact, m/s */
   sbf_vec3 friction_impulse; /* friction, tangential */
   float pushed;              /* maximum velocity_change in the tick */
+  float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
   sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
   float fast_m_s;            /* bound of its approach speed in the tick, without forces, m/s; 0: unbounded */
   float idle_s;              /* time until it may touch, s */

@@ -157,6 +157,7 @@ void sbri_rigid_contacts_linearise(
     contact->target = sbri_sub(sbri_scale(n, wanted), u);
     contact->more = sbri_vec3(0, 0, 0);
     contact->bounce_m_s = 0;
+    contact->closing_speed = -speed;
     if (speed < wanted && -speed > bounce_from) {
       /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
       sbf_vec3 falls = external_body ? sbri_sub(t->gravity, external_body->is.acceleration) : t->gravity;
@@ -387,8 +388,8 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *wo
     contact->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
     if (!(normal > 0)) continue;
     sbf_vec3 position = sbri_add(t->bodies[contact->body].pose.position, contact->arm);
-    sbri_touching_one *one =
-        sbri_touching_add(&t->touching[contact->body], contact->collider, position, contact->normal, normal);
+    sbri_touching_one *one = sbri_touching_add(&t->touching[contact->body], contact->collider, position,
+        contact->normal, normal, contact->closing_speed);
     sbf_vec3 push = sbri_add(sbri_add_scaled(across, contact->normal, normal), contact->more);
     if (one) sbri_touching_push(one, position, push);
   }

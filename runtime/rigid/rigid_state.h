@@ -69,6 +69,7 @@ typedef struct sbri_rigid_contact {
   sbf_vec3 target;     /* target velocity change of the contact point */
   float gap;           /* m */
   float bounce_m_s;    /* bounce speed; 0: none */
+  float closing_speed; /* m/s at the beginning of the substep; for events */
   float inverse_mass;  /* inverse effective mass along the normal, body alone, 1/kg */
   float stiff, grip;   /* effective mass along the normal, and tangential while it sticks, kg */
   sbf_vec3 hold;       /* friction impulse of the previous step, about which sticking yields */

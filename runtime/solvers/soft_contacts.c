@@ -179,6 +179,12 @@ static float mass_of(const touching *c, const sbri_sample *s) {
   return 1 / sum;
 }
 
+/* Of the first push in the tick: later ones answer the body's own vibration. */
+static void note_closing_speed(sbri_soft_contact *contact, float normal_speed) {
+  if (!(contact->pushed > 0) && -normal_speed > contact->closing_speed)
+    contact->closing_speed = -normal_speed;
+}
+
 /* Says whether it may touch. */
 static bool begin(touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   if (contact->collider == SBRI_ITSELF && !contact->crosses) sbri_self_contact_update(c->tick, contact);
@@ -187,6 +193,7 @@ static bool begin(touching *c, sbri_soft_contact *contact, const sbri_contact_ru
   float speed = sbri_dot(
       contact->normal, sbri_sub(v, c->external_bodies ? velocity_under(c, contact) : contact->velocity));
   contact->gap = gap_of(c, contact);
+  if (contact->gap + rule->step_s * speed < 0) note_closing_speed(contact, speed);
   contact->wanted = wanted_of(contact, speed, rule);
   c->in_turn = c->in_turn || contact->collider == SBRI_ITSELF;
   bool pushes = contact->velocity_change > 0 || contact->gap + rule->step_s * speed < 0;
@@ -217,6 +224,7 @@ static void answer_alone(const touching *c, sbri_soft_contact *contact, const sb
     contact->velocity_change = 0;
     return;
   }
+  note_closing_speed(contact, speed);
   sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
   float size = sbri_length(sideways), max = friction_of(c, contact, rule) * contact->velocity_change;
   contact->friction_impulse = sbri_scale(sideways, size > max ? -max / size : -1);
@@ -390,6 +398,10 @@ void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body
 }
 
 static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
+  if (to->ground_speed > 0) {
+    sbri_touching_add(to, SBRI_NO_COLLIDER, to->ground_position, to->ground_normal, 0, to->ground_speed);
+    to->ground_speed = 0;
+  }
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     if (!t->near_ground[block]) continue;
@@ -397,7 +409,7 @@ static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
     sbf_vec3 x = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
     if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] <= CONTACT_DISTANCE_M)
-      sbri_touching_add(to, SBRI_NO_COLLIDER, x, n, 0);
+      sbri_touching_add(to, SBRI_NO_COLLIDER, x, n, 0, 0);
   }
 }
 
@@ -409,8 +421,8 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
         !(contact->pushed > 0 || sbri_dot(contact->normal, contact->given) > 0))
       continue;
     sbf_vec3 position = sbri_sample_position(t, &contact->sample);
-    sbri_touching_one *one = sbri_touching_add(
-        to, contact->collider, position, contact->normal, contact->pushed * contact->sample.mass_kg);
+    sbri_touching_one *one = sbri_touching_add(to, contact->collider, position, contact->normal,
+        contact->pushed * contact->sample.mass_kg, contact->closing_speed);
     if (one) sbri_touching_push(one, position, sbri_scale(contact->given, contact->sample.mass_kg));
   }
   report_planes(t, body, to);

@@ -14,7 +14,7 @@ bool sbri_character_is_grouped(const sbr_world *world, const sbri_character *c) 
 static void note_landing(sbri_character *c) {
   float heading;
   sbri_gait_event *event = &c->events[c->event_count++];
-  *event = (sbri_gait_event){.kind = SBR_EVENT_LANDED};
+  *event = (sbri_gait_event){.kind = SBRI_GAIT_LANDED};
   sbri_gait_get_placement(sbri_gait(c), &event->position, &heading);
 }
 

@@ -9,15 +9,10 @@
 static const float KEPT_S = 1, AGAIN_S = 0.5f;
 
 /* The host hears of it. */
-static void refuse(sbr_world *world, sbri_character *c) {
-  sbri_character_state *head = sbri_header(c);
-  sbf_vec3 at = sbri_pose(c)[sbri_root_frame(c->model)].position;
+static void refuse(sbr_world *world, sbri_character *c, sbr_memory_use use) {
   c->refused_ticks = sbri_ticks_of(world, AGAIN_S);
-  sbri_event_add(world, (sbr_event){.kind = SBR_EVENT_NO_MEMORY,
-                            .character = sbri_id_of(world, c),
-                            .position = {head->origin.x + (double)at.x, head->origin.y + (double)at.y,
-                                head->origin.z + (double)at.z},
-                            .rigid_body = -1});
+  sbr_memory_event event = {.tick = world->ticks, .character = sbri_id_of(world, c), .use = use};
+  sbri_event_add(world, SBRI_EVENT_MEMORY_REFUSED, &event);
 }
 
 static bool is_old(const sbr_world *world, uint32_t *ticks) {
@@ -37,7 +32,7 @@ static void update_storage(sbr_world *world, sbri_character *c) {
   if (c->spare.model == ahead) return;
   sbri_character_storage_free(&world->allocator, &c->spare);
   if (c->refused_ticks == 0 && !sbri_character_storage_create(&world->allocator, ahead, &c->spare))
-    refuse(world, c);
+    refuse(world, c, SBR_MEMORY_DETAIL_LEVEL);
   if (c->spare.model) return;
   head->fade_kept = 0;
   if (!head->set_detail_level_plus_1) head->next_detail_level = head->detail_level; /* it is chosen again */
@@ -50,7 +45,7 @@ static void update_rigid_storage(sbr_world *world, sbri_character *c) {
     c->rigid_ticks = 0;
     if (c->rigid_work || c->refused_ticks > 0) return;
     c->rigid_work = sbfi_allocate(&world->allocator, size);
-    if (!c->rigid_work) refuse(world, c);
+    if (!c->rigid_work) refuse(world, c, SBR_MEMORY_RIGID_BODIES);
   } else if (c->rigid_work && is_old(world, &c->rigid_ticks)) {
     sbri_rigid_work_free(&world->allocator, c);
   }

@@ -1,13 +1,21 @@
-/* What a tick leaves to tell: steps, touches, tears, sleep. */
+/* Events of a tick: feet, contacts, tears, sleep, levels of detail; and impulses on colliders. */
 #include "math/vec3.h"
 #include "step/step.h"
 
-static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 position) {
+/* World position of a point in metres from the character's origin. */
+static sbr_double3 in_world(const sbri_character *c, sbf_vec3 position) {
   sbr_double3 origin = sbri_header(c)->origin;
-  event.character = sbri_id_of(world, c);
-  event.position = (sbr_double3){
+  return (sbr_double3){
       origin.x + (double)position.x, origin.y + (double)position.y, origin.z + (double)position.z};
-  sbri_event_add(world, event);
+}
+
+static void add_soft_body_event(
+    sbr_world *world, const sbri_character *c, sbri_event_kind kind, uint32_t soft_body, sbf_vec3 position) {
+  sbr_soft_body_event event = {.tick = world->ticks,
+      .character = sbri_id_of(world, c),
+      .soft_body = soft_body,
+      .position = in_world(c, sbri_scale(position, c->scale))};
+  sbri_event_add(world, kind, &event);
 }
 
 /* The body that lists the element: of a spring between bodies, the first. */
@@ -77,19 +85,38 @@ static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touch
   }
 }
 
-/* What has begun to be touched; `soft` and `rigid` name the body. */
+/* `is_over`: the contact was in the tick before, whose impulse and speed are not reported again. */
+static void add_contact(sbr_world *world, const sbri_character *c, const sbr_object *body,
+    const sbri_touching_one *one, sbri_event_kind kind) {
+  bool is_over = kind == SBRI_EVENT_CONTACT_END;
+  sbr_contact_event event = {.tick = world->ticks,
+      .a = *body,
+      .b = {.soft_body = -1, .rigid_body = -1},
+      .position = in_world(c, sbri_scale(one->position, c->scale)),
+      .normal = one->normal,
+      .impulse = is_over ? 0 : one->impulse * c->scale * c->scale * c->scale / c->time_scale,
+      .speed = is_over ? 0 : one->speed / c->time_scale};
+  if (one->thing < world->colliders.capacity) {
+    if (is_over && !world->colliders.at[one->thing].shape) return; /* destroyed */
+    event.b.collider = sbri_collider_name(&world->colliders, one->thing);
+  }
+  sbri_event_add(world, kind, &event);
+}
+
+/* Contacts of a body with the ground and colliders that begin, hit or end in this tick. */
 static void add_contacts(
-    sbr_world *world, const sbri_character *c, sbri_touching *touching, uint32_t soft, int32_t rigid) {
+    sbr_world *world, const sbri_character *c, sbri_touching *touching, sbr_object body) {
+  if (!touching->unreported) return;
+  touching->unreported = false;
+  body.character = sbri_id_of(world, c);
+  for (uint32_t i = 0; i < touching->before_count; i++)
+    if (!sbri_touching_has(touching->now, touching->count, touching->before[i].thing))
+      add_contact(world, c, &body, &touching->before[i], SBRI_EVENT_CONTACT_END);
   for (uint32_t i = 0; i < touching->count; i++) {
-    sbri_touching_one *one = &touching->now[i];
-    if (!one->fresh) continue;
-    one->fresh = false;
-    sbr_event event = {.kind = SBR_EVENT_CONTACT_BEGIN, .soft_body = soft, .rigid_body = rigid};
-    if (one->thing < world->colliders.capacity)
-      event.collider = sbri_collider_name(&world->colliders, one->thing);
-    event.normal = one->normal;
-    event.impulse = one->impulse * c->scale * c->scale * c->scale / c->time_scale;
-    add_event(world, c, event, sbri_scale(one->position, c->scale));
+    const sbri_touching_one *one = &touching->now[i];
+    if (one->fresh) add_contact(world, c, &body, one, SBRI_EVENT_CONTACT_BEGIN);
+    if (one->speed / c->time_scale >= world->hit_speed)
+      add_contact(world, c, &body, one, SBRI_EVENT_CONTACT_HIT);
   }
 }
 
@@ -106,33 +133,55 @@ static void push_from(sbr_world *world, const sbri_character *c) {
   for (uint32_t b = 0; b < rigid; b++) push_colliders(world, c, &sbri_rigid_touching(c)[b], asleep);
 }
 
+static void add_feet(sbr_world *world, const sbri_character *c) {
+  static const sbri_event_kind kinds[] = {[SBRI_GAIT_FOOT_DOWN] = SBRI_EVENT_FOOT_DOWN,
+      [SBRI_GAIT_FOOT_UP] = SBRI_EVENT_FOOT_UP,
+      [SBRI_GAIT_LANDED] = SBRI_EVENT_LANDED};
+  for (uint32_t e = 0; e < c->event_count; e++) {
+    const sbri_gait_event *from = &c->events[e];
+    sbr_foot_event event = {.tick = world->ticks,
+        .character = sbri_id_of(world, c),
+        .leg = from->leg,
+        .position = in_world(c, from->position)};
+    sbri_event_add(world, kinds[from->kind], &event);
+  }
+}
+
+static void add_tears(sbr_world *world, const sbri_character *c, uint32_t index) {
+  const sbri_tears *tears = &sbri_tears_of(c)[index];
+  const sbri_island *island = &c->model->islands[index];
+  for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++)
+    add_soft_body_event(
+        world, c, SBRI_EVENT_TORN, body_of_tear(c->model, island, &tears->at[e]), tears->at[e].position);
+  if (tears->unsplit)
+    add_soft_body_event(world, c, SBRI_EVENT_UNSPLIT, island->bodies[0], tears->at[0].position);
+}
+
+static void add_detail_change(sbr_world *world, sbri_character *c) {
+  if (!c->left_detail_level_plus_1) return;
+  sbr_detail_event event = {.tick = world->ticks,
+      .character = sbri_id_of(world, c),
+      .from = c->left_detail_level_plus_1 - 1,
+      .to = sbri_header(c)->detail_level};
+  c->left_detail_level_plus_1 = 0;
+  sbri_event_add(world, SBRI_EVENT_DETAIL_CHANGED, &event);
+}
+
 void sbri_tick_events_gather(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
-    const sbri_character *c = &world->characters[i];
+    sbri_character *c = &world->characters[i];
     if (!c->model) continue;
     if (world->colliders.end) push_from(world, c);
-    for (uint32_t e = 0; e < c->event_count; e++) {
-      const sbri_gait_event *from = &c->events[e];
-      add_event(
-          world, c, (sbr_event){.kind = from->kind, .leg = from->leg, .rigid_body = -1}, from->position);
-    }
+    add_detail_change(world, c);
+    add_feet(world, c);
     uint32_t soft_count = c->model->island_count ? c->model->asset->soft_bodies.count : 0;
-    for (uint32_t b = 0; b < soft_count; b++) add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
+    for (uint32_t b = 0; b < soft_count; b++)
+      add_contacts(
+          world, c, &sbri_soft_touching(c)[b], (sbr_object){.soft_body = (int32_t)b, .rigid_body = -1});
     for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
-      add_contacts(world, c, &sbri_rigid_touching(c)[b], 0, (int32_t)b);
-    for (uint32_t k = 0; !sbri_header(c)->asleep && k < c->model->island_count; k++) {
-      const sbri_tears *tears = &sbri_tears_of(c)[k];
-      for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
-        uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
-        add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body, .rigid_body = -1},
-            sbri_scale(tears->at[e].position, c->scale));
-      }
-      if (tears->unsplit)
-        add_event(world, c,
-            (sbr_event){
-                .kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0], .rigid_body = -1},
-            sbri_scale(tears->at[0].position, c->scale));
-    }
+      add_contacts(
+          world, c, &sbri_rigid_touching(c)[b], (sbr_object){.soft_body = -1, .rigid_body = (int32_t)b});
+    for (uint32_t k = 0; !sbri_header(c)->asleep && k < c->model->island_count; k++) add_tears(world, c, k);
   }
 }
 
@@ -146,10 +195,7 @@ void sbri_tick_sleep_note(sbr_world *world) {
     if (state->asleep == state->reported_asleep) continue;
     state->reported_asleep = state->asleep;
     const sbri_point *p = sbri_positions(c) + island->first_slot;
-    add_event(world, c,
-        (sbr_event){.kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE,
-            .soft_body = island->bodies[0],
-            .rigid_body = -1},
-        sbri_scale(sbri_vec3(p->x, p->y, p->z), c->scale));
+    add_soft_body_event(world, c, state->asleep ? SBRI_EVENT_ASLEEP : SBRI_EVENT_AWAKE, island->bodies[0],
+        sbri_vec3(p->x, p->y, p->z));
   }
 }

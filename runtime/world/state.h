@@ -91,11 +91,12 @@ typedef struct sbri_character {
   sbri_character_storage spare; /* of its previous or next detail level */
   uint32_t spare_ticks;         /* ticks for which it has not been needed */
   void *rigid_work; /* (rigid_work_size) work memory of the rigid body solver; NULL: no simulated bodies */
-  uint32_t rigid_ticks;   /* ticks without simulated bodies */
-  uint32_t refused_ticks; /* ticks until a failed allocation is retried */
-  uint64_t sampled_at;    /* stamp of the time that `sampled` belongs to; 0: none */
-  void *user_data;        /* the host's */
-  uint32_t event_count;   /* of the last tick */
+  uint32_t rigid_ticks;              /* ticks without simulated bodies */
+  uint32_t refused_ticks;            /* ticks until a failed allocation is retried */
+  uint64_t sampled_at;               /* stamp of the time that `sampled` belongs to; 0: none */
+  void *user_data;                   /* the host's */
+  uint32_t left_detail_level_plus_1; /* in the last tick; 0: it did not change */
+  uint32_t event_count;              /* of the last tick */
   sbri_gait_event events[SBRI_TICK_EVENTS];
 } sbri_character;
 

@@ -4,10 +4,33 @@
 
 #include "collide/colliders.h"
 #include "sbrun/debug.h"
+#include "sbrun/events.h"
 #include "world/recorder.h"
 #include "world/state.h"
 
-enum { SBRI_EVENTS = 256 };
+/* Events of the last step: an array for each kind. */
+typedef enum sbri_event_kind {
+  SBRI_EVENT_CONTACT_BEGIN,
+  SBRI_EVENT_CONTACT_END,
+  SBRI_EVENT_CONTACT_HIT,
+  SBRI_EVENT_FOOT_DOWN,
+  SBRI_EVENT_FOOT_UP,
+  SBRI_EVENT_LANDED,
+  SBRI_EVENT_TORN,
+  SBRI_EVENT_UNSPLIT,
+  SBRI_EVENT_ASLEEP,
+  SBRI_EVENT_AWAKE,
+  SBRI_EVENT_DETAIL_CHANGED,
+  SBRI_EVENT_MEMORY_REFUSED,
+  SBRI_EVENT_KINDS
+} sbri_event_kind;
+
+typedef struct sbri_events {
+  void *at[SBRI_EVENT_KINDS]; /* (capacity) each, of the kind's public struct */
+  uint32_t counts[SBRI_EVENT_KINDS];
+  uint32_t capacity;
+  uint32_t lost; /* events without space */
+} sbri_events;
 
 /* Time is counted in units of 2^-32 s, so that frames add up without rounding. */
 #define SBRI_TIME_UNITS 4294967296.0
@@ -41,13 +64,13 @@ struct sbr_world {
   size_t work_count, work_capacity;
   uint32_t sleep_ticks; /* ticks at rest before sleep; 0: no sleep */
   uint32_t awake_count; /* soft bodies stepped in the last tick */
-  sbr_event events[SBRI_EVENTS];
-  sbr_clock clock;                 /* now_s NULL: no timing */
-  sbr_profile profile;             /* of the last tick that was timed */
-  sbr_record_output record;        /* write NULL: no recording */
-  uint64_t recorded_at;            /* tick of the last recorded hash */
-  void *user_data;                 /* the host's */
-  uint64_t event_head, event_tail; /* sequence numbers of the next event to write and to read */
+  sbri_events events;
+  float hit_speed;          /* m/s */
+  sbr_clock clock;          /* now_s NULL: no timing */
+  sbr_profile profile;      /* of the last tick that was timed */
+  sbr_record_output record; /* write NULL: no recording */
+  uint64_t recorded_at;     /* tick of the last recorded hash */
+  void *user_data;          /* the host's */
 };
 
 /* ---- world/character_pool.c ---- */
@@ -63,7 +86,10 @@ void sbri_work_list(sbr_world *world);
 
 /* ---- world/events.c ---- */
 
-/* Adds an event of this tick; its position is in world space. */
-void sbri_event_add(sbr_world *world, sbr_event event);
+bool sbri_events_create(sbri_events *events, uint32_t capacity, const sbf_allocator *allocator);
+void sbri_events_free(sbri_events *events, const sbf_allocator *allocator);
+void sbri_events_clear(sbri_events *events);
+/* Copies an event: the public struct of its kind. */
+void sbri_event_add(sbr_world *world, sbri_event_kind kind, const void *event);
 
 #endif

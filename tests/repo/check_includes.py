@@ -74,7 +74,7 @@ HEADER_BOX = {
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange",
     "sbrun/sbrun.h": "runtime", "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime",
     "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
-    "sbrun/soft_body.h": "runtime", "sbrun/debug.h": "runtime",
+    "sbrun/soft_body.h": "runtime", "sbrun/debug.h": "runtime", "sbrun/events.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

@@ -1,6 +1,7 @@
 #include <stdlib.h>
 
 #include "detail_scenes.h"
+#include "event_log.h"
 #include "harness.h"
 #include "host_threads.h"
 #include "rigid_person.h"
@@ -63,17 +64,14 @@ START_TEST(ticks_ask_for_nothing_but_at_a_change)
 }
 END_TEST
 
-/* How often the host is told that there was no memory. */
-static uint32_t refusals(const scene *s) {
-  sbr_event events[64];
-  uint32_t count = 0;
-  for (uint32_t n; (n = sbr_world_take_events(s->world, events, 64)) > 0;)
-    for (uint32_t i = 0; i < n; i++)
-      if (events[i].kind == SBR_EVENT_NO_MEMORY) {
-        ck_assert_uint_eq(events[i].character.value, s->character.value);
-        count++;
-      }
-  return count;
+/* Refusals of memory in the last tick, all of one use. */
+static uint32_t refusals(const scene *s, sbr_memory_use use) {
+  sbr_memory_events events = sbr_world_get_memory_events(s->world);
+  for (uint32_t i = 0; i < events.refused_count; i++) {
+    ck_assert_uint_eq(events.refused[i].character.value, s->character.value);
+    ck_assert_int_eq(events.refused[i].use, use);
+  }
+  return events.refused_count;
 }
 
 /* It goes on as if nobody had asked, and goes over as soon as it may. */
@@ -85,14 +83,20 @@ START_TEST(without_memory_it_stays_on_its_detail_level_and_says_so)
   detail_scene_ticks(&s, &stays, 30);
   memory.allowed = memory.calls;
   sbr_character_set_detail_level(s.world, s.character, to);
-  detail_scene_ticks(&s, &stays, 75);
-  ck_assert_uint_eq(refusals(&s), 3); /* at once, and every half second */
+  uint32_t refused = 0;
+  for (int i = 0; i < 75; i++) {
+    detail_scene_ticks(&s, &stays, 1);
+    refused += refusals(&s, SBR_MEMORY_DETAIL_LEVEL);
+  }
+  ck_assert_uint_eq(refused, 3); /* at once, and every half second */
   ck_assert(detail_scene_apart(&s, &stays) == 0);
   ck_assert(sbr_character_get_detail_fade(s.world, s.character) == 0);
   ck_assert((detail_scene_elastic(&s) > 0) == (from == DETAIL_FINE));
   memory.allowed = SIZE_MAX;
-  scene_ticks(&s, 40);
-  ck_assert_uint_eq(refusals(&s), 0);
+  event_log log = {.memory_count = 0};
+  scene_ticks_logged(&s, 40, &log);
+  ck_assert_uint_eq(log.memory_count, 0);
+  ck_assert_uint_eq(log.detail_count, 1);
   ck_assert((detail_scene_elastic(&s) > 0) == (to == DETAIL_FINE));
   scene_free(&s);
   scene_free(&stays);
@@ -261,13 +265,18 @@ START_TEST(rigid_parts_stand_still_without_memory)
   scene_start(&s);
   size_t pinned = memory.held_bytes;
   memory.allowed = memory.calls;
-  scene_ticks(&s, 45);
-  ck_assert_uint_eq(refusals(&s), 2);
+  uint32_t refused = 0;
+  for (int i = 0; i < 45; i++) {
+    scene_ticks(&s, 1);
+    refused += refusals(&s, SBR_MEMORY_RIGID_BODIES);
+  }
+  ck_assert_uint_eq(refused, 2);
   ck_assert(person_fastest(&s) == 0);
   ck_assert_uint_eq(memory.held_bytes, pinned);
   memory.allowed = SIZE_MAX;
-  scene_ticks(&s, 45);
-  ck_assert_uint_eq(refusals(&s), 0);
+  event_log log = {.memory_count = 0};
+  scene_ticks_logged(&s, 45, &log);
+  ck_assert_uint_eq(log.memory_count, 0);
   ck_assert(person_fastest(&s) > 0.01f);
   size_t more = memory.held_bytes, calls = memory.calls;
   ck_assert_uint_gt(more, pinned);

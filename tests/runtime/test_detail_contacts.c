@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "detail_scenes.h"
+#include "event_log.h"
 #include "harness.h"
 #include "host_threads.h"
 #include "sbrun/collision.h"
@@ -44,14 +45,6 @@ static double bent(const pair *p, int who) {
   return sbr_character_get_body_health(p->s.world, p->ids[who], 0).elastic_j;
 }
 
-static uint32_t count_contacts(const pair *p) {
-  sbr_event events[32];
-  uint32_t found = 0;
-  for (uint32_t n; (n = sbr_world_take_events(p->s.world, events, 32)) > 0;)
-    for (uint32_t i = 0; i < n && i < 32; i++) found += events[i].kind == SBR_EVENT_CONTACT_BEGIN;
-  return found;
-}
-
 /* The first goes to where their boxes would be this deep in each other if they did not give way. */
 static void go(pair *p, int tick, double deep) {
   double left = 2 * (position_of(p, 1) - position_of(p, 0) - 0.2 + deep);
@@ -68,7 +61,7 @@ START_TEST(who_is_alone_is_bones_and_comes_back_before_it_is_met)
   for (int t = 0; t < 900; t++) {
     go(&p, t, 0.05);
     scene_ticks(&p.s, 1);
-    contacts += count_contacts(&p);
+    contacts += sbr_world_get_contact_events(p.s.world).begin_count;
     double separation = position_of(&p, 1) - position_of(&p, 0);
     nearest = fmin(nearest, separation);
     for (int k = 0; k < 2; k++) {

@@ -3,6 +3,7 @@
 
 #include "harness.h"
 #include "rigid_person.h"
+#include "sbrun/events.h"
 
 static float larger(float a, float b) {
   return a > b ? a : b;
@@ -41,14 +42,11 @@ static float worst_jump(const scene *s, sbf_vec3 positions[PARTS], sbf_vec3 dire
   return max;
 }
 
-/* The events of landing since the last call, and where the last of them was. */
+/* The landings in the last tick, and the position of the last one. */
 static uint32_t landings(const scene *s, sbr_double3 *position) {
-  sbr_event events[64];
-  uint32_t count, landed = 0;
-  while ((count = sbr_world_take_events(s->world, events, 64)))
-    for (uint32_t e = 0; e < count; e++)
-      if (events[e].kind == SBR_EVENT_LANDED) landed++, *position = events[e].position;
-  return landed;
+  sbr_foot_events events = sbr_world_get_foot_events(s->world);
+  if (events.landed_count) *position = events.landed[events.landed_count - 1].position;
+  return events.landed_count;
 }
 
 /* Down within two seconds, up again within eight, which is told of when it has landed and where, no joint

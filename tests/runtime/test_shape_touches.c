@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "collision_scenes.h"
+#include "event_log.h"
 #include "harness.h"
 #include "rigid_scenes.h"
 
@@ -136,19 +137,20 @@ START_TEST(a_moving_ball_pushes)
   ck_assert_uint_eq(
       sbr_world_overlap_aabb(s.world, (sbr_double3){-2, -1, -1}, (sbr_double3){1, 1, 1}, UINT32_MAX, &hit, 1),
       2);
+  event_log log = {.begin_count = 0};
   for (int i = 1; i <= 60; i++) {
     sbr_collider_move(s.world, id, (sbr_double3){-1 + i / 60.0, 0, 0}, (sbf_quat){0, 0, 0, 1});
-    scene_ticks(&s, 1);
+    scene_ticks_logged(&s, 1, &log);
     ck_assert_float_ge(rigid_state(&s, 0).center.x - (float)(-1 + i / 60.0), 0.6f - 2e-3f);
   }
   ck_assert_double_eq_tol((double)rigid_state(&s, 0).velocity.x, 1, 0.02);
-  sbr_event event;
-  ck_assert_uint_eq(sbr_world_take_events(s.world, &event, 1), 1);
-  ck_assert_int_eq(event.kind, SBR_EVENT_CONTACT_BEGIN);
-  ck_assert_int_eq(event.rigid_body, 0);
-  ck_assert_uint_eq(event.collider.value, id.value);
-  ck_assert_float_ge(event.normal.x, 0.999f);
-  ck_assert_float_eq_tol(event.impulse, 1, 0.05f); /* 1 kg to 1 m/s */
+  ck_assert_uint_ge(log.begin_count, 1);
+  const sbr_contact_event *event = &log.begin[0];
+  ck_assert_int_eq(event->a.rigid_body, 0);
+  ck_assert_int_eq(event->a.soft_body, -1);
+  ck_assert_uint_eq(event->b.collider.value, id.value);
+  ck_assert_float_ge(event->normal.x, 0.999f);
+  ck_assert_float_eq_tol(event->impulse, 1, 0.05f); /* 1 kg to 1 m/s */
   scene_free(&s);
   sbr_shape_destroy(shape);
 }

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "event_log.h"
 #include "harness.h"
 #include "scenes.h"
 #include "world/world.h"
@@ -67,27 +68,21 @@ static void expect_no_velocity(const scene *s) {
   }
 }
 
-static uint32_t count_events(const scene *s, sbr_event_kind kind) {
-  sbr_event events[64];
-  uint32_t count = sbr_world_take_events(s->world, events, 64), found = 0;
-  for (uint32_t i = 0; i < count; i++) found += events[i].kind == kind;
-  return found;
-}
-
 START_TEST(what_rests_sleeps_without_a_jump_of_energy)
 {
   scene s = make_scene(sbr_ground_flat(0), 0.5), twin = make_scene(sbr_ground_flat(0), 0);
   double before = 0;
   uint32_t ticks = 0, awake = 2;
+  static event_log log;
   for (; ticks < 1200 && awake; ticks++) {
     before = energy(&s);
-    scene_ticks(&s, 1);
+    scene_ticks_logged(&s, 1, &log);
     scene_ticks(&twin, 1);
     awake = sbr_world_count_awake_bodies(s.world);
   }
   ck_assert_uint_lt(ticks, 1200);
   ck_assert_uint_gt(ticks, 30);
-  ck_assert_uint_eq(count_events(&s, SBR_EVENT_ASLEEP), 2);
+  ck_assert_uint_eq(log.asleep_count, 2);
   double slow = 0.5 * 15 * pow(0.01 * 0.6, 2); /* what bodies of 12 and 3 kg hold at the speed of sleep */
   ck_assert_double_le(energy(&s), before + 1e-6);
   ck_assert_double_ge(energy(&s), before - slow);
@@ -102,7 +97,7 @@ START_TEST(what_rests_sleeps_without_a_jump_of_energy)
   sbr_character_wake(s.world, s.character);
   scene_ticks(&s, 1);
   ck_assert_uint_eq(sbr_world_count_awake_bodies(s.world), 2);
-  ck_assert_uint_eq(count_events(&s, SBR_EVENT_AWAKE), 2);
+  ck_assert_uint_eq(sbr_world_get_sleep_events(s.world).awake_count, 2);
   ck_assert_double_le(energy(&s), asleep + 1e-4);
   scene_ticks(&twin, 300);
   for (uint32_t p = 0; p < 10; p++) {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "event_log.h"
 #include "harness.h"
 #include "model/kernels.h"
 #include "momentum.h"
@@ -222,14 +223,9 @@ START_TEST(want_of_room_is_told)
   sbr_character_reset(s.world, s.character);
   sbri_origins(c)[s.model->bodies[0].first_spare] = 0; /* taken */
   pull_apart();
-  sbr_event events[256];
-  uint32_t unsplit = 0;
-  for (int i = 0; i < 60; i++) {
-    scene_ticks(&s, 1);
-    uint32_t count = sbr_world_take_events(s.world, events, 256);
-    for (uint32_t e = 0; e < count; e++) unsplit += events[e].kind == SBR_EVENT_UNSPLIT;
-  }
-  ck_assert_uint_gt(unsplit, 0);
+  event_log log = {.unsplit_count = 0};
+  scene_ticks_logged(&s, 60, &log);
+  ck_assert_uint_gt(log.unsplit_count, 0);
   sbr_body_health health = sbr_character_get_body_health(s.world, s.character, 0);
   ck_assert_uint_gt(health.unsplit, 0);
   ck_assert(health.finite);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "event_log.h"
 #include "harness.h"
 #include "scenes.h"
 #include "world/world.h"
@@ -151,19 +152,19 @@ START_TEST(a_torn_spring_stops_and_is_told)
   size_t size = sbr_world_get_snapshot_size(s.world);
   void *before = malloc(size);
   ck_assert_int_eq(sbr_world_save_snapshot(s.world, before, size), SBF_OK);
-  sbr_event events[8];
-  uint32_t count = 0, torn_at = 0;
-  for (uint32_t i = 1; i <= 60 && count == 0; i++) {
+  sbr_tear_events events = {0};
+  uint32_t torn_at = 0;
+  for (uint32_t i = 1; i <= 60 && events.torn_count == 0; i++) {
     scene_ticks(&s, 1);
-    count = sbr_world_take_events(s.world, events, 8);
+    events = sbr_world_get_tear_events(s.world);
     torn_at = i;
   }
-  ck_assert_uint_eq(count, 1);
-  ck_assert_int_eq(events[0].kind, SBR_EVENT_TEAR);
-  ck_assert_uint_eq(events[0].soft_body, 0);
-  ck_assert_uint_eq(events[0].tick, torn_at);
-  ck_assert_double_eq_tol(events[0].position.x, 3, 1e-5);
-  ck_assert_double_eq_tol(events[0].position.y, 0 - 0.65, 0.02); /* its middle; the asset's origin is at 0 */
+  ck_assert_uint_eq(events.torn_count, 1);
+  ck_assert_uint_eq(events.torn[0].soft_body, 0);
+  ck_assert_uint_eq(events.torn[0].tick, torn_at);
+  ck_assert_double_eq_tol(events.torn[0].position.x, 3, 1e-5);
+  ck_assert_double_eq_tol(
+      events.torn[0].position.y, 0 - 0.65, 0.02); /* its middle; the asset's origin is at 0 */
   /* 0.245 (1 - cos w t) = 0.3: w t = 1.797, and w = 6.32 */
   ck_assert_double_eq_tol(torn_at / 60.0, 1.797 / 6.3246, 0.03);
   ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, 1);
@@ -202,9 +203,9 @@ START_TEST(events_of_tears_are_bounded)
   scene_pin(&s, level, -1, pinned, POINTS);
   scene_body(&s, 0)->attributes.tear_strain = 0.2f;
   scene_start(&s);
-  scene_ticks(&s, 60);
-  sbr_event events[64];
-  ck_assert_uint_eq(sbr_world_take_events(s.world, events, 64), SBRI_TEARS);
+  event_log log = {.torn_count = 0};
+  scene_ticks_logged(&s, 60, &log);
+  ck_assert_uint_eq(log.torn_count, SBRI_TEARS);
   ck_assert_uint_eq(sbr_character_get_body_health(s.world, s.character, 0).torn, POINTS);
   scene_free(&s);
 }

@@ -6,6 +6,7 @@
 
 #include "physics_kinds.h"
 #include "sbrun/detail.h"
+#include "sbrun/events.h"
 #include "soft_character.h"
 
 enum {
@@ -135,49 +136,67 @@ static soft_character *member_of(const shared_world *shared, sbr_character_id id
   return NULL;
 }
 
-static void emit_contact(const gd_variant *node, int32_t rigid, uint32_t soft, const gd_variant *at,
-    sbf_vec3 normal, float impulse, gd_variant with) {
-  GD_DO(node, "emit_signal", gd_name("contact"), gd_int(rigid < 0 ? (int64_t)soft : -1), gd_copy(at),
-      gd_vector3(normal), gd_float((double)impulse), with);
+static gd_variant variant_of(sbr_double3 position) {
+  return gd_vector3((sbf_vec3){(float)position.x, (float)position.y, (float)position.z});
+}
+
+static void emit_contact(const gd_variant *node, int32_t soft_body, const gd_variant *at, sbf_vec3 normal,
+    float impulse, gd_variant with) {
+  GD_DO(node, "emit_signal", gd_name("contact"), gd_int(soft_body), gd_copy(at), gd_vector3(normal),
+      gd_float((double)impulse), with);
 }
 
 /* Both nodes emit the signal. Handlers may free any node. */
-static void emit_contacts(shared_world *shared, const sbr_event *e, const gd_variant *at) {
-  soft_character *one = member_of(shared, e->character), *other = member_of(shared, e->other);
+static void emit_contacts(shared_world *shared, const sbr_contact_event *e) {
+  soft_character *one = member_of(shared, e->a.character), *other = member_of(shared, e->b.character);
+  gd_variant at = variant_of(e->position);
   sbf_vec3 n = e->normal, back = {-n.x, -n.y, -n.z};
   if (one && one != other)
-    emit_contact(&one->node, e->rigid_body, e->soft_body, at, n, e->impulse,
-        other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(shared->bodies, e->collider));
-  one = member_of(shared, e->character), other = member_of(shared, e->other);
+    emit_contact(&one->node, e->a.soft_body, &at, n, e->impulse,
+        other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(shared->bodies, e->b.collider));
+  one = member_of(shared, e->a.character), other = member_of(shared, e->b.character);
   if (other && one != other)
-    emit_contact(&other->node, e->other_rigid_body, e->other_soft_body, at, back, e->impulse,
+    emit_contact(&other->node, e->b.soft_body, &at, back, e->impulse,
         gd_object(one ? gd_as_object(&one->node) : NULL));
+  gd_free(&at);
 }
 
-static void report(shared_world *shared, const sbr_event *e) {
-  soft_character *one = member_of(shared, e->character);
+/* A signal with a number and a position; without the number where `index` is negative. */
+static void emit_at(shared_world *shared, sbr_character_id character, const char *signal, int64_t index,
+    sbr_double3 position) {
+  soft_character *one = member_of(shared, character);
   if (!one) return;
-  gd_variant at = gd_vector3((sbf_vec3){(float)e->position.x, (float)e->position.y, (float)e->position.z});
-  switch (e->kind) {
-  case SBR_EVENT_FOOT_DOWN:
-    GD_DO(&one->node, "emit_signal", gd_name("foot_down"), gd_int(e->leg), gd_copy(&at));
-    break;
-  case SBR_EVENT_FOOT_UP:
-    GD_DO(&one->node, "emit_signal", gd_name("foot_up"), gd_int(e->leg), gd_copy(&at));
-    break;
-  case SBR_EVENT_LANDED:
-    GD_DO(&one->node, "emit_signal", gd_name("landed"), gd_copy(&at));
-    break;
-  case SBR_EVENT_TEAR:
-    GD_DO(&one->node, "emit_signal", gd_name("torn"), gd_int(e->soft_body), gd_copy(&at));
-    break;
-  case SBR_EVENT_CONTACT_BEGIN:
-    emit_contacts(shared, e, &at);
-    break;
-  default:
-    break;
-  }
+  gd_variant at = variant_of(position);
+  if (index < 0)
+    GD_DO(&one->node, "emit_signal", gd_name(signal), gd_copy(&at));
+  else
+    GD_DO(&one->node, "emit_signal", gd_name(signal), gd_int(index), gd_copy(&at));
   gd_free(&at);
+}
+
+/* Handlers may step the world, which empties the arrays: they are fetched for each event. */
+static void report_events(shared_world *shared) {
+  const sbr_world *world = shared->world;
+  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).down_count; i++) {
+    sbr_foot_event e = sbr_world_get_foot_events(world).down[i];
+    emit_at(shared, e.character, "foot_down", e.leg, e.position);
+  }
+  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).up_count; i++) {
+    sbr_foot_event e = sbr_world_get_foot_events(world).up[i];
+    emit_at(shared, e.character, "foot_up", e.leg, e.position);
+  }
+  for (uint32_t i = 0; i < sbr_world_get_foot_events(world).landed_count; i++) {
+    sbr_foot_event e = sbr_world_get_foot_events(world).landed[i];
+    emit_at(shared, e.character, "landed", -1, e.position);
+  }
+  for (uint32_t i = 0; i < sbr_world_get_tear_events(world).torn_count; i++) {
+    sbr_soft_body_event e = sbr_world_get_tear_events(world).torn[i];
+    emit_at(shared, e.character, "torn", e.soft_body, e.position);
+  }
+  for (uint32_t i = 0; i < sbr_world_get_contact_events(world).begin_count; i++) {
+    sbr_contact_event e = sbr_world_get_contact_events(world).begin[i];
+    emit_contacts(shared, &e);
+  }
 }
 
 /* ---- A frame ---- */
@@ -232,10 +251,7 @@ void shared_world_step(soft_character *one) {
   physics_bodies_push(shared->bodies, shared->world, &one->settings);
   for (uint32_t i = 0; i < shared->count; i++)
     if (moves[i]) soft_character_show(shared->members[i]);
-  sbr_event events[64];
-  uint32_t count;
   shared->holders++;
-  while ((count = sbr_world_take_events(shared->world, events, 64)))
-    for (uint32_t i = 0; i < count; i++) report(shared, &events[i]);
+  report_events(shared);
   release(shared);
 }

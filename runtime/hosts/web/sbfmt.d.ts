@@ -148,8 +148,10 @@ export interface WorldOptions {
   touches?: boolean | number;
 }
 
+/** Numbers that a kind does not have are 0; bodies and colliders that are not there are -1 and 0. */
 export interface Event {
-  readonly kind: 'footDown' | 'footUp' | 'landed' | 'tear' | 'unsplit' | 'asleep' | 'awake' | 'contact' | 'parted' | 'noMemory';
+  readonly kind: 'footDown' | 'footUp' | 'landed' | 'torn' | 'unsplit' | 'asleep' | 'awake' | 'contactBegin' | 'contactEnd'
+    | 'contactHit' | 'detailChanged' | 'memoryRefused';
   readonly character: number;
   readonly leg: number;
   readonly softBody: number;
@@ -160,11 +162,13 @@ export interface Event {
   readonly impulse: number;
   readonly position: number[];
   readonly normal: number[];
-  /** Whose body it is that is touched or left (0: none), which one, and how fast they met, m/s. */
+  /** Of a contact: the other character (0: none), its body, and the closing speed in m/s. */
   readonly other: number;
   readonly otherSoftBody: number;
   readonly otherRigidBody: number;
   readonly speed: number;
+  readonly fromDetailLevel: number;
+  readonly toDetailLevel: number;
 }
 
 /** What a ray meets: of a collider its id, else the character's with its body (-1: none). */
@@ -188,7 +192,7 @@ export interface World {
   readonly awake: number;
   /** Of all mutable state: sixteen hexadecimal digits, the same on every machine. */
   stateHash(): string;
-  /** Since the last call, oldest first. */
+  /** Events of the last step, oldest first; at most 1024. */
   events(): Event[];
   ray(from: Vector, direction: Vector, length?: number): Hit | null;
   /** From now on the world chooses the detail levels of characters that are put on none, by the views. */

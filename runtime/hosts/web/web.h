@@ -7,6 +7,7 @@
 #include "sbfmt/packed.h"
 #include "sbrun/animation.h"
 #include "sbrun/collision.h"
+#include "sbrun/events.h"
 #include "sbrun/rigid.h"
 
 #define WEB_CALL(name) __attribute__((export_name(#name), visibility("default"))) name

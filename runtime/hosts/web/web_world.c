@@ -153,21 +153,83 @@ void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float
         &ground, (double)coordinates[2 * i], (double)coordinates[2 * i + 1], &normals[i]);
 }
 
-/* An event as eighteen numbers: kind, character, leg, soft body, rigid body, collider, tick, impulse, place
- * (3), normal (3), the other's character, soft body and rigid body, speed. Returns how many there were,
- * `capacity` at most. */
-uint32_t WEB_CALL(web_world_events)(sbr_world *world, double *to, uint32_t capacity) {
-  sbr_event event;
-  uint32_t count = 0;
-  for (; count < capacity && sbr_world_take_events(world, &event, 1); count++, to += 18) {
-    const double numbers[18] = {event.kind, event.character.value, event.leg, event.soft_body,
-        event.rigid_body, event.collider.value, (double)event.tick, (double)event.impulse, event.position.x,
-        event.position.y, event.position.z, (double)event.normal.x, (double)event.normal.y,
-        (double)event.normal.z, event.other.value, event.other_soft_body, event.other_rigid_body,
-        (double)event.speed};
-    memcpy(to, numbers, sizeof numbers);
+/* ---- Events ---- */
+
+/* An event as twenty numbers. Those that its kind does not have are 0, or -1 for bodies. */
+enum { EVENT_NUMBERS = 20 };
+
+typedef struct event_list {
+  double *to;
+  uint32_t count, capacity;
+} event_list;
+
+/* The next event's numbers, or NULL where there is no space. */
+static double *add_event(
+    event_list *list, uint32_t kind, sbr_character_id character, uint64_t tick, sbr_double3 position) {
+  if (list->count == list->capacity) return NULL;
+  double *to = list->to + EVENT_NUMBERS * (size_t)list->count++;
+  const double numbers[EVENT_NUMBERS] = {kind, character.value, 0, -1, -1, 0, (double)tick, 0, position.x,
+      position.y, position.z, 0, 0, 0, 0, -1, -1, 0, 0, 0};
+  memcpy(to, numbers, sizeof numbers);
+  return to;
+}
+
+static void add_contacts(event_list *list, uint32_t kind, const sbr_contact_event *events, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    const sbr_contact_event *e = &events[i];
+    double *to = add_event(list, kind, e->a.character, e->tick, e->position);
+    if (!to) return;
+    to[3] = e->a.soft_body, to[4] = e->a.rigid_body, to[5] = e->b.collider.value, to[7] = (double)e->impulse;
+    to[11] = (double)e->normal.x, to[12] = (double)e->normal.y, to[13] = (double)e->normal.z;
+    to[14] = e->b.character.value, to[15] = e->b.soft_body, to[16] = e->b.rigid_body;
+    to[17] = (double)e->speed;
   }
-  return count;
+}
+
+static void add_feet(event_list *list, uint32_t kind, const sbr_foot_event *events, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    double *to = add_event(list, kind, events[i].character, events[i].tick, events[i].position);
+    if (to) to[2] = events[i].leg;
+  }
+}
+
+static void add_soft_bodies(
+    event_list *list, uint32_t kind, const sbr_soft_body_event *events, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    double *to = add_event(list, kind, events[i].character, events[i].tick, events[i].position);
+    if (to) to[3] = events[i].soft_body;
+  }
+}
+
+/* Writes the events of the last step, kind after kind, and returns how many: `capacity` at most. The kinds'
+ * numbers are those of modules/events.js. */
+uint32_t WEB_CALL(web_world_events)(const sbr_world *world, double *numbers, uint32_t capacity) {
+  event_list list = {.to = numbers, .capacity = capacity};
+  sbr_foot_events feet = sbr_world_get_foot_events(world);
+  add_feet(&list, 0, feet.down, feet.down_count);
+  add_feet(&list, 1, feet.up, feet.up_count);
+  add_feet(&list, 2, feet.landed, feet.landed_count);
+  sbr_tear_events tears = sbr_world_get_tear_events(world);
+  add_soft_bodies(&list, 3, tears.torn, tears.torn_count);
+  add_soft_bodies(&list, 4, tears.unsplit, tears.unsplit_count);
+  sbr_sleep_events sleep = sbr_world_get_sleep_events(world);
+  add_soft_bodies(&list, 5, sleep.asleep, sleep.asleep_count);
+  add_soft_bodies(&list, 6, sleep.awake, sleep.awake_count);
+  sbr_contact_events contacts = sbr_world_get_contact_events(world);
+  add_contacts(&list, 7, contacts.begin, contacts.begin_count);
+  add_contacts(&list, 8, contacts.end, contacts.end_count);
+  add_contacts(&list, 9, contacts.hit, contacts.hit_count);
+  const sbr_double3 nowhere = {0, 0, 0};
+  sbr_detail_events detail = sbr_world_get_detail_events(world);
+  for (uint32_t i = 0; i < detail.changed_count; i++) {
+    const sbr_detail_event *e = &detail.changed[i];
+    double *to = add_event(&list, 10, e->character, e->tick, nowhere);
+    if (to) to[18] = e->from, to[19] = e->to;
+  }
+  sbr_memory_events memory = sbr_world_get_memory_events(world);
+  for (uint32_t i = 0; i < memory.refused_count; i++)
+    (void)add_event(&list, 11, memory.refused[i].character, memory.refused[i].tick, nowhere);
+  return list.count;
 }
 
 /* The first thing on a way: eleven doubles, as in sbr_hit. */

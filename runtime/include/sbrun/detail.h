@@ -15,8 +15,9 @@
  * A character holds the memory of its detail level (sbr_detail_level.bytes), from the world's allocator.
  * Memory for a change is allocated when a tick begins, on the thread that steps. Memory of the detail level
  * that was left is freed after a second. A step without changes allocates nothing. If memory runs out the
- * character stays on its detail level, SBR_EVENT_NO_MEMORY reports it, and the change is tried again every
- * half second. Create distant characters on a coarse detail level (sbr_character_definition.detail_level).
+ * character stays on its detail level, sbr_world_get_memory_events reports it, and the change is tried again
+ * every half second. Create distant characters on a coarse detail level
+ * (sbr_character_definition.detail_level).
  *
  * Rules are those of sbrun.h; only sbr_world_select_detail_levels allocates beside that. Detail levels and
  * the progress of changes are state, held by snapshots; views are the host's. Recordings hold both. */

@@ -22,7 +22,8 @@
  * Threads. A world and its characters belong to one thread at a time. Different worlds are independent.
  * Models are read only: worlds on different threads may share them. A step allocates only when characters
  * change their level of detail (sbrun/detail.h) or begin to simulate rigid bodies (sbrun/rigid.h). It does so
- * with the world's allocator, on the thread that steps. If memory runs out it reports SBR_EVENT_NO_MEMORY.
+ * with the world's allocator, on the thread that steps. If memory runs out, an event (sbrun/events.h) says
+ * so.
  *
  * Errors. Calls that can fail return sbf_status and fill *error, which may be NULL. Setters ignore invalid
  * handles; getters then return zeros. Numbers that are not finite or exceed 1e15 are rejected: calls that
@@ -164,6 +165,8 @@ typedef struct sbr_world_definition {
    * all its points are slower than a hundredth of its size a second and nothing that holds it moves. */
   double sleep_after_s;
   uint32_t collider_capacity; /* 0: 64; of sbrun/collision.h; more than that cannot be created */
+  uint32_t event_capacity;    /* 0: 256; events of each kind that a step can report (sbrun/events.h) */
+  float hit_speed;            /* m/s: closing speed from which a contact is reported as a hit; default 1 */
   void *user_data;            /* the host's */
 } sbr_world_definition;
 
@@ -300,46 +303,13 @@ typedef struct sbr_collider_id {
   uint32_t value; /* 0: none */
 } sbr_collider_id;
 
-/* Kinds of events. */
-typedef enum sbr_event_kind {
-  SBR_EVENT_FOOT_DOWN,
-  SBR_EVENT_FOOT_UP,
-  SBR_EVENT_LANDED,        /* a character that fell from a height stands; or a fallen character
-                              (sbr_character_knock_over) lies still and begins to get up;   position: where it will
-                              stand */
-  SBR_EVENT_TEAR,          /* an element tore; at most 16 events a tick for one island */
-  SBR_EVENT_UNSPLIT,       /* a tear could not split a point: increase tear_points */
-  SBR_EVENT_ASLEEP,        /* an island of bodies fell asleep */
-  SBR_EVENT_AWAKE,         /* it woke */
-  SBR_EVENT_CONTACT_BEGIN, /* a body begins to touch the ground, a collider (at most four events a tick) or
-                        another body (sbr_world_enable_body_contacts) */
-  SBR_EVENT_CONTACT_END,   /* two bodies of characters no longer touch */
-  SBR_EVENT_NO_MEMORY /* no memory for a change of the level of detail, which is put off, or for simulated
-                         rigid bodies, which stand still; tried again after half a second */
-} sbr_event_kind;
-/* Something that happened in a step. */
-typedef struct sbr_event {
-  sbr_event_kind kind;        /* what happened */
-  sbr_character_id character; /* to whom */
-  uint32_t leg;               /* of the gait, from 0; 0 for what is no foot's */
-  uint64_t tick;              /* since the world began */
-  sbr_double3 position;       /* world */
-  uint32_t soft_body; /* of a tear: whose element; of sleep: the first of those bodies; of contact: which */
-  int32_t rigid_body; /* of contact: which, if it is one; -1: none */
-  sbr_collider_id collider; /* of contact: with that; 0: with the ground, or with `other` */
-  sbf_vec3 normal;        /* of contact: away from what is touched; of bodies that part: when they touched */
-  float impulse;          /* of contact: N s, about, in that tick */
-  sbr_character_id other; /* of contact and parting: whose body it is with, or the same; 0: with none */
-  uint32_t other_soft_body; /* which */
-  int32_t other_rigid_body; /* which, if it is one; -1: none */
-  float speed;              /* of contact with `other`: m/s with which they came together */
-} sbr_event;
-/* A contact of two bodies gives one event, in either order. Destroying a character gives no parting events.
- * Contacts of bodies follow all other events of their tick except sleep, in an order that does not depend on
- * threads. */
-/* Writes the events since the last call, oldest first, and returns their number. The world keeps 256 events;
- * older ones are lost. Events are output: snapshots do not hold them. */
-SBF_API uint32_t sbr_world_take_events(sbr_world *world, sbr_event *events, uint32_t capacity);
+/* What a contact or a query found: a body of a character, a collider, or the ground if all are empty. */
+typedef struct sbr_object {
+  sbr_character_id character; /* whose body; 0: none */
+  int32_t soft_body;          /* of the character; -1: none */
+  int32_t rigid_body;         /* of the character; -1: none */
+  sbr_collider_id collider;   /* 0: none */
+} sbr_object;
 
 /* Measures of a body after the last tick. Springs between two bodies count for the first. */
 typedef struct sbr_body_health {

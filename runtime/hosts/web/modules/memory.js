@@ -1,8 +1,8 @@
 /* The library's memory: views of it, texts in it, and what it says of a failure. */
 import { SbfmtError } from './sbfmt_error.js';
 
-/** So many events are told at once, of so many numbers each. */
-export const EVENT_ROOM = 256, EVENT_NUMBERS = 18;
+/** Maximum number of events of a step, and numbers of each. */
+export const EVENT_ROOM = 1024, EVENT_NUMBERS = 20;
 export const SCRATCH_BYTES = EVENT_ROOM * EVENT_NUMBERS * 8;
 
 /** All that there can be: addresses are 32 bits, which WebAssembly hands out with a sign. */
