@@ -75,6 +75,7 @@ HEADER_BOX = {
     "sbrun/sbrun.h": "runtime", "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime",
     "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
     "sbrun/soft_body.h": "runtime", "sbrun/debug.h": "runtime", "sbrun/events.h": "runtime",
+    "sbrun/query.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

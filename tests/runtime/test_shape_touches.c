@@ -5,6 +5,7 @@
 #include "event_log.h"
 #include "harness.h"
 #include "rigid_scenes.h"
+#include "sbrun/query.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -127,15 +128,17 @@ START_TEST(a_moving_ball_pushes)
   sbr_shape *shape = collision_shape(shape_kind(SBR_SHAPE_SPHERE));
   sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){-1, 0, 0});
   sbr_hit hit;
-  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){2, 0, 0}, 10, UINT32_MAX, &hit));
-  ck_assert_uint_eq(hit.collider.value, id.value);
+  sbr_query_filter second = sbr_default_query_filter();
+  second.mask = 2;
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){2, 0, 0}, 10, NULL, &hit));
+  ck_assert_uint_eq(hit.object.collider.value, id.value);
   ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
-  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, UINT32_MAX, &hit));
-  ck_assert_int_eq(hit.rigid_body, 0);
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, NULL, &hit));
+  ck_assert_int_eq(hit.object.rigid_body, 0);
   ck_assert_double_eq_tol(hit.position.x, 0.1, 1e-5);
-  ck_assert(!sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, 2, &hit));
+  ck_assert(!sbr_world_cast_ray(s.world, (sbr_double3){3, 0, 0}, (sbf_vec3){-1, 0, 0}, 10, &second, &hit));
   ck_assert_uint_eq(
-      sbr_world_overlap_aabb(s.world, (sbr_double3){-2, -1, -1}, (sbr_double3){1, 1, 1}, UINT32_MAX, &hit, 1),
+      sbr_world_overlap_aabb(s.world, (sbr_double3){-2, -1, -1}, (sbr_double3){1, 1, 1}, NULL, NULL, NULL),
       2);
   event_log log = {.begin_count = 0};
   for (int i = 1; i <= 60; i++) {
@@ -156,6 +159,10 @@ START_TEST(a_moving_ball_pushes)
 }
 END_TEST
 
+static bool is_ground(const sbr_object *object) {
+  return !object->character.value && !object->collider.value;
+}
+
 /* From above, slanted, and from below; the ground's height is known at both. */
 START_TEST(rays_find_the_ground)
 {
@@ -165,16 +172,19 @@ START_TEST(rays_find_the_ground)
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_world *world;
   sbr_hit hit;
+  sbr_query_filter first = sbr_default_query_filter(), second = first;
+  first.mask = 1, second.mask = 2;
   definition.ground = _i ? sbr_ground_with_obstacles(&set) : base;
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
-  ck_assert(sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 1, &hit));
-  ck_assert(hit.ground);
+  ck_assert(sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, &first, &hit));
+  ck_assert(is_ground(&hit.object));
   ck_assert_double_eq_tol(hit.distance, 3, 1e-5);
   ck_assert_float_eq_tol(hit.normal.y, 1, 1e-6f);
-  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 2.9, 1, &hit));
-  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, 2, &hit));
-  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, -1, 0}, (sbf_vec3){0, 1, 0}, 10, 1, &hit));
-  ck_assert_int_eq(sbr_world_cast_ray(world, (sbr_double3){0, 0.5, 0}, (sbf_vec3){1, 0, 0}, 10, 1, &hit), _i);
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 2.9, &first, &hit));
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, 3, 0}, (sbf_vec3){0, -1, 0}, 10, &second, &hit));
+  ck_assert(!sbr_world_cast_ray(world, (sbr_double3){0, -1, 0}, (sbf_vec3){0, 1, 0}, 10, &first, &hit));
+  ck_assert_int_eq(
+      sbr_world_cast_ray(world, (sbr_double3){0, 0.5, 0}, (sbf_vec3){1, 0, 0}, 10, &first, &hit), _i);
   if (_i) ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
   sbr_world_destroy(world);
 }
@@ -199,12 +209,11 @@ START_TEST(places_that_are_no_numbers_are_refused)
   sbr_collider_move(s.world, id, (sbr_double3){(double)NAN, 0, 0}, (sbf_quat){0, 0, 0, 1});
   sbr_collider_set_transform(s.world, id, (sbr_double3){0, 0, 0}, (sbf_quat){0, NAN, 0, 1});
   scene_ticks(&s, 2);
-  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){1, 0, 0}, 10, NULL, &hit));
   ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
+  ck_assert(!sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){NAN, 0, 0}, 10, NULL, &hit));
   ck_assert(
-      !sbr_world_cast_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){NAN, 0, 0}, 10, UINT32_MAX, &hit));
-  ck_assert(!sbr_world_cast_ray(
-      s.world, (sbr_double3){-3, (double)NAN, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+      !sbr_world_cast_ray(s.world, (sbr_double3){-3, (double)NAN, 0}, (sbf_vec3){1, 0, 0}, 10, NULL, &hit));
   scene_free(&s);
   sbr_shape_destroy(shape);
 }

@@ -95,8 +95,8 @@ static sbr_rigid_state state_of(const player *p, int32_t rigid) {
 
 /* The rigid body that was hit, or whose bone carries the flesh that was; -1: none. */
 static int32_t rigid_behind(const player *p, const sbr_hit *hit) {
-  if (hit->rigid_body >= 0) return hit->rigid_body;
-  int32_t bone = hit->soft_body >= 0 ? p->s->asset->soft_bodies.at[hit->soft_body].bone : -1;
+  if (hit->object.rigid_body >= 0) return hit->object.rigid_body;
+  int32_t bone = hit->object.soft_body >= 0 ? p->s->asset->soft_bodies.at[hit->object.soft_body].bone : -1;
   return bone >= 0 ? p->rigid_of[bone] : -1;
 }
 
@@ -110,8 +110,8 @@ static bool set_sphere(player *p, const sbr_shape *shape, sbf_vec3 at, sbr_colli
 
 bool player_grab(player *p, sbf_vec3 eye, sbf_vec3 direction, float reach, sbf_vec3 *position) {
   sbr_hit hit;
-  if (!sbr_world_cast_ray(p->s->world, to_world(eye), direction, (double)reach, UINT32_MAX, &hit) ||
-      hit.character.value == 0)
+  if (!sbr_world_cast_ray(p->s->world, to_world(eye), direction, (double)reach, NULL, &hit) ||
+      hit.object.character.value == 0)
     return false;
   player_release(p);
   *position = p->target = from_world(hit.position);
@@ -212,8 +212,8 @@ static void fly(player *p, player_ball *one, float seconds) {
   float length = v3_length(displacement);
   if (length > 1e-6f &&
       sbr_world_cast_ray(
-          p->s->world, to_world(one->position), displacement, (double)(length + radius), UINT32_MAX, &hit) &&
-      hit.character.value && v3_dot(hit.normal, one->velocity) < 0)
+          p->s->world, to_world(one->position), displacement, (double)(length + radius), NULL, &hit) &&
+      hit.object.character.value && v3_dot(hit.normal, one->velocity) < 0)
     collide(p, one, &hit);
   one->position = v3_add(one->position, v3_scale(one->velocity, seconds));
   float min = ground_below(p, one->position) + radius;

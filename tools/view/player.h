@@ -4,7 +4,7 @@
 #define VIEW_PLAYER_H
 
 #include "render/draw_math.h"
-#include "sbrun/collision.h"
+#include "sbrun/query.h"
 #include "session.h"
 
 enum { PLAYER_BALLS = 6 };

@@ -8,6 +8,7 @@
 #include "sbrun/animation.h"
 #include "sbrun/collision.h"
 #include "sbrun/events.h"
+#include "sbrun/query.h"
 #include "sbrun/rigid.h"
 
 #define WEB_CALL(name) __attribute__((export_name(#name), visibility("default"))) name

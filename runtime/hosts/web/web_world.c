@@ -232,16 +232,16 @@ uint32_t WEB_CALL(web_world_events)(const sbr_world *world, double *numbers, uin
   return list.count;
 }
 
-/* The first thing on a way: eleven doubles, as in sbr_hit. */
+/* What a ray hits first: eleven doubles, as in sbr_hit. */
 uint32_t WEB_CALL(web_world_ray)(const sbr_world *world, double x, double y, double z, float along_x,
     float along_y, float along_z, double length, double *to) {
   sbr_hit hit;
   if (!sbr_world_cast_ray(
-          world, (sbr_double3){x, y, z}, (sbf_vec3){along_x, along_y, along_z}, length, UINT32_MAX, &hit))
+          world, (sbr_double3){x, y, z}, (sbf_vec3){along_x, along_y, along_z}, length, NULL, &hit))
     return 0;
-  const double numbers[11] = {hit.collider.value, hit.character.value, hit.rigid_body, hit.soft_body,
-      hit.position.x, hit.position.y, hit.position.z, (double)hit.normal.x, (double)hit.normal.y,
-      (double)hit.normal.z, hit.distance};
+  const double numbers[11] = {hit.object.collider.value, hit.object.character.value, hit.object.rigid_body,
+      hit.object.soft_body, hit.position.x, hit.position.y, hit.position.z, (double)hit.normal.x,
+      (double)hit.normal.y, (double)hit.normal.z, hit.distance};
   memcpy(to, numbers, sizeof numbers);
   return 1;
 }

@@ -1,4 +1,4 @@
-/* Collision: shapes and colliders of the host, contacts between characters, rays and overlaps.
+/* Collision: shapes and colliders of the host, contacts between characters. Queries: sbrun/query.h.
  *
  * A shape is made once and shared. A collider is a shape at a position in a world. The host moves colliders;
  * bodies in contact feel their velocity. Points of soft bodies and hulls of simulated rigid bodies stay
@@ -151,30 +151,6 @@ SBF_API sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_col
  * runs out. */
 SBF_API sbf_status sbr_world_enable_body_contacts(
     sbr_world *world, uint32_t max_contacts, sbf_diagnostic *error);
-
-/* ---- Questions ---------------------------------------------------------------------------------------- */
-
-/* Result of a query: the ground, a collider, a rigid body or a soft body. */
-typedef struct sbr_hit {
-  sbr_collider_id collider;   /* 0: it is the ground or a body of a character */
-  sbr_character_id character; /* whose; 0: it is the ground or a collider */
-  int32_t rigid_body;         /* -1: it is not one */
-  int32_t soft_body;          /* likewise */
-  sbr_double3 position;       /* of a ray: where it enters */
-  sbf_vec3 normal;            /* of a ray: there, unit, outwards */
-  double distance;            /* of a ray, m */
-  bool ground;                /* it is the world's ground */
-} sbr_hit;
-
-/* Casts a ray from `from` along `direction` (any length), up to `length` metres. Finds the first collider,
- * hull of a rigid body or surface of a soft body (state after the last tick) on a layer in `mask`, or the
- * world's ground, which is on layer 1 and is sampled every 5 cm. False if nothing is hit. */
-SBF_API bool sbr_world_cast_ray(
-    const sbr_world *world, sbr_double3 from, sbf_vec3 direction, double length, uint32_t mask, sbr_hit *hit);
-/* Finds everything on a layer in `mask` whose bounds overlap the box. Writes up to `capacity` hits and
- * returns their total number. */
-SBF_API uint32_t sbr_world_overlap_aabb(const sbr_world *world, sbr_double3 low, sbr_double3 high,
-    uint32_t mask, sbr_hit *hits, uint32_t capacity);
 
 #ifdef __cplusplus
 }
