@@ -153,7 +153,9 @@ static double run_ours(const scene *s, method *w, sbf_vec3 *track) {
   sbr_model *model;
   sbr_world *world;
   sbr_character_id id;
-  sbr_model_options options = {.scheme = w->scheme, .substeps = w->steps};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = w->scheme;
+  options.substeps = w->steps;
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_character_definition standing = sbr_default_character_definition();
   definition.ground = sbr_ground_flat(-1000);

@@ -161,11 +161,11 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
   sbr_model *models[2];
   double min[2] = {0, 0};
   enum { SUBSTEPS = 40 };
-  for (uint32_t k = 0; k < 2; k++)
-    bench_require(sbr_model_create(asset,
-                      &(sbr_model_options){.substeps = (k + 1) * SUBSTEPS, .instructions = instructions},
-                      &models[k], &error),
-        &error);
+  for (uint32_t k = 0; k < 2; k++) {
+    sbr_model_options options = sbr_default_model_options();
+    options.substeps = (k + 1) * SUBSTEPS, options.instructions = instructions;
+    bench_require(sbr_model_create(asset, &options, &models[k], &error), &error);
+  }
   for (uint32_t round = 0; round < bench_round_count(7); round++)
     for (uint32_t k = 0; k < 2; k++) {
       double taken = run_crowd(models[k], FLIES_M, 1, 1, bench_runs_once() ? 4 : 40).busy_s;

@@ -58,7 +58,8 @@ static void *counted(void *user, void *memory, size_t old_size, size_t new_size)
 
 static void open_species(species *of, const sbf_asset *source, const sbf_build_options *built) {
   sbf_diagnostic error;
-  const sbr_model_options options = {.detail_levels = true};
+  sbr_model_options options = sbr_default_model_options();
+  options.detail_levels = true;
   bench_require(sbf_build(source, built, &of->asset, NULL, &error), &error);
   bench_require(sbr_model_create(of->asset, &options, &of->model, &error), &error);
   of->detail_level_count = sbr_model_get_detail_levels(of->model, of->detail_levels, 16);

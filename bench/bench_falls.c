@@ -187,7 +187,9 @@ static void measure_ragdolls(bool quick) {
   int rounds = (int)bench_round_count(5), ticks = quick ? 90 : RAGDOLL_TICKS;
   for (size_t k = 0; k < sizeof ours / sizeof *ours; k++) {
     sbr_model *model;
-    sbr_model_options options = {.rigid_substeps = ours[k].steps, .rigid_coarse = ours[k].coarse};
+    sbr_model_options options = sbr_default_model_options();
+    options.rigid_substeps = ours[k].steps;
+    options.rigid_coarse = ours[k].coarse;
     fall best = {0};
     bench_require(sbr_model_create(asset, &options, &model, &error), &error);
     for (int r = 0; r < rounds; r++) {
@@ -350,7 +352,9 @@ static void print_cloth(const cloth *c, const char *engine, const char *method, 
 static void measure_our_cloth(
     const cloth *c, const char *method, sbf_scheme scheme, uint32_t steps, int rounds, sbf_vec3 *points) {
   sbr_model *model;
-  sbr_model_options options = {.scheme = scheme, .substeps = steps};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = scheme;
+  options.substeps = steps;
   sbf_diagnostic error;
   fall best = {0};
   bench_require(sbr_model_create(c->asset, &options, &model, &error), &error);

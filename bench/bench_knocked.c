@@ -90,7 +90,8 @@ int main(int argument_count, char **arguments) {
   int rounds = (int)bench_round_count(5), ticks = quick ? COMPARED : TICKS;
   if (asset->rigid_bodies.count > MAX_BODIES) bench_fail("the lizard has too many bodies");
   for (int i = 0; i < CASES; i++) {
-    sbr_model_options options = {.rigid_substeps = steps[i]};
+    sbr_model_options options = sbr_default_model_options();
+    options.rigid_substeps = steps[i];
     bench_require(sbr_model_create(asset, &options, &models[i], &error), &error);
     knocks[i] = knock_of(asset->rigid_bodies.count);
   }

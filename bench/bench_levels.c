@@ -20,7 +20,8 @@ static void run(void *context) {
 static void open_level(stepped *s, const sbf_asset *asset, uint32_t level) {
   sbf_diagnostic error;
   sbr_character_id character;
-  const sbr_model_options options = {.level = level};
+  sbr_model_options options = sbr_default_model_options();
+  options.level = level;
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition standing = sbr_default_character_definition();
   bench_require(sbr_model_create(asset, &options, &s->model, &error), &error);

@@ -130,8 +130,9 @@ static void open_walk(
     walk *w, const sbf_asset *asset, uint32_t threads, uint32_t substeps, uint32_t frames, uint32_t runs) {
   sbf_diagnostic error;
   *w = (walk){.asset = asset, .thread_count = threads, .frame_count = frames, .run_count = runs};
-  bench_require(
-      sbr_model_create(asset, &(sbr_model_options){.substeps = substeps}, &w->model, &error), &error);
+  sbr_model_options options = sbr_default_model_options();
+  options.substeps = substeps;
+  bench_require(sbr_model_create(asset, &options, &w->model, &error), &error);
   w->pool = thread_pool_create(threads);
   if (!w->pool) bench_fail("no threads");
   w->workers = thread_pool_tasks(w->pool);

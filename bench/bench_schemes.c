@@ -30,7 +30,9 @@ typedef struct running {
 static running start(const sbf_asset *asset, sbf_scheme scheme, uint32_t substeps) {
   running r = {.asset = asset};
   sbf_diagnostic error;
-  sbr_model_options options = {.scheme = scheme, .substeps = substeps};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = scheme;
+  options.substeps = substeps;
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
   world.ground = sbr_ground_flat(-1000);

@@ -91,8 +91,9 @@ typedef struct beam_run {
 static void open_run(beam_run *r, const sbf_asset *asset, uint32_t substeps, uint32_t ticks) {
   sbf_diagnostic error;
   *r = (beam_run){.ticks = ticks, .min = bench_allocate(ticks, sizeof(double))};
-  bench_require(
-      sbr_model_create(asset, &(sbr_model_options){.substeps = substeps}, &r->model, &error), &error);
+  sbr_model_options options = sbr_default_model_options();
+  options.substeps = substeps;
+  bench_require(sbr_model_create(asset, &options, &r->model, &error), &error);
 }
 
 static void run_once(beam_run *r, uint32_t number) {

@@ -51,7 +51,7 @@ static double visits_of(const sbf_asset *asset) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
   sbr_detail_level detail_level;
-  if (sbr_model_create(asset, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK) return NAN;
+  if (sbr_model_create(asset, NULL, &model, &why) != SBF_OK) return NAN;
   sbr_model_get_detail_levels(model, &detail_level, 1);
   sbr_model_destroy(model);
   return (double)detail_level.visits + skin_visits_of(asset);
@@ -211,8 +211,7 @@ void section_budget_state_costs(sbf_asset *built) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
   const chart_setting setting = {.level = 0};
-  if (!is_chosen(built) || sbr_model_create(built, &(sbr_model_options){.level = 0}, &model, &why) != SBF_OK)
-    return;
+  if (!is_chosen(built) || sbr_model_create(built, NULL, &model, &why) != SBF_OK) return;
   for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
     const sbf_soft_body *body = &built->soft_bodies.at[i];
     double cost = chart_body_visits(model, built, i, &setting);

@@ -107,7 +107,8 @@ static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
 static bool parse_settings(session *s, cli_call *call) {
   session_settings *set = &s->settings;
   long substeps = 0, level = 0;
-  *set = (session_settings){.threads = 1,
+  *set = (session_settings){.model = sbr_default_model_options(),
+      .threads = 1,
       .hold = cli_switch(call, "--hold"),
       .ragdoll = cli_switch(call, "--ragdoll"),
       .driven = cli_value(call, "--strength") != NULL};

@@ -172,7 +172,7 @@ int main(int argc, char **argv) {
     return fprintf(
                stderr, "usage: %s FILE.sbfz [LIZARDS [SECONDS [BUDGET_US [FOLDER|- [close]]]]]\n", argv[0]),
            2;
-  memset(&options, 0, sizeof options);
+  options = sbr_default_model_options();
   options.detail_levels = true;
   if (sbf_packed_load_file(w.file, NULL, &asset, &error) != SBF_OK ||
       sbr_model_create(asset, &options, &model, &error) != SBF_OK ||

@@ -9,6 +9,12 @@
 bool sbri_collider_set_make(sbri_collider_set *set, uint32_t capacity, const sbf_allocator *allocator);
 void sbri_collider_set_free(sbri_collider_set *set, const sbf_allocator *allocator);
 
+/* ---- api/user_data.c ---- */
+
+/* Pointers of the model's bodies, all NULL; false if memory runs out. */
+bool sbri_body_user_data_create(const sbf_allocator *allocator, const sbr_model *model, void ***data);
+void sbri_body_user_data_free(const sbf_allocator *allocator, const sbr_model *model, void **data);
+
 /* ---- api/record.c ---- */
 
 /* After a step: the hash, where a second is over since the last one. */

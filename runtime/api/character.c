@@ -99,7 +99,9 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   sbri_character_storage storage;
   if (!sbri_character_storage_create(&world->allocator, model->levels[detail_level], &storage))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
-  if (!reserve_work(world, model->max_islands) || !sbri_body_contacts_reserve(world, model)) {
+  void **body_user_data = NULL;
+  if (!reserve_work(world, model->max_islands) || !sbri_body_contacts_reserve(world, model) ||
+      !sbri_body_user_data_create(&world->allocator, model, &body_user_data)) {
     sbri_character_storage_free(&world->allocator, &storage);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   }
@@ -110,9 +112,11 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .time_scale = 1 / sqrtf(definition->scale),
       .ground = definition->ground.height ? definition->ground : world->ground,
       .spare = storage,
-      .user_data = definition->user_data};
+      .user_data = definition->user_data,
+      .body_user_data = body_user_data};
   sbri_character_storage_swap(c);
   if (!sbri_contact_surfaces_create(world, index)) {
+    sbri_body_user_data_free(&world->allocator, model, body_user_data);
     sbri_character_storage_free(&world->allocator, &storage);
     c->model = NULL;
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
@@ -147,6 +151,7 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_contact_surfaces_free(world, (uint32_t)(c - world->characters));
   sbri_touching_pairs_remove(world, (uint32_t)(c - world->characters));
   sbri_rigid_work_free(&world->allocator, c);
+  sbri_body_user_data_free(&world->allocator, c->model, c->body_user_data);
   sbri_character_storage_free(&world->allocator, &(sbri_character_storage){c->model, c->state, c->scratch});
   sbri_character_storage_free(&world->allocator, &c->spare);
   *c = (sbri_character){.generation = c->generation};

@@ -7,13 +7,16 @@
 #include "world/state.h"
 
 /* Substeps of rigid parts in a control tick. */
-enum { MAX_RIGID_SUBSTEPS = 1000 };
+enum { MODEL_COOKIE = 0x5b726d6f, MAX_RIGID_SUBSTEPS = 1000 };
+
+sbr_model_options sbr_default_model_options(void) {
+  return (sbr_model_options){.cookie = MODEL_COOKIE};
+}
 
 static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic *error) {
-  if (options->struct_size != 0 && options->struct_size != sizeof *options)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
-        sizeof *options);
+  if (options->cookie != MODEL_COOKIE)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbr_model_create: begin the options with sbr_default_model_options");
   if (options->rigid_substeps > MAX_RIGID_SUBSTEPS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_options: rigid_substeps is %u, at most %d",
         (unsigned)options->rigid_substeps, (int)MAX_RIGID_SUBSTEPS);
@@ -36,7 +39,7 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
 
 sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error) {
-  static const sbr_model_options defaults = {0};
+  const sbr_model_options defaults = sbr_default_model_options();
   if (!asset || !model) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_create: NULL argument");
   *model = NULL;
   if (!options) options = &defaults;

@@ -49,6 +49,8 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
       .strength = (float)n[3],
       .joint_damping_1_s = (float)n[4],
       .joint_friction = (float)n[5]};
+  sbr_fall_definition fall = sbr_default_fall_definition();
+  fall.drive_fraction = (float)n[1], fall.rest_s = (float)n[2], fall.rise_s = (float)n[3];
   if (what == SBRI_RECORDED_RIGID_MODE)
     sbr_character_set_rigid_mode(world, id, index_of(n[1]), (sbr_rigid_mode)whole(n[2]));
   else if (what == SBRI_RECORDED_RIGID_DRIVE)
@@ -56,7 +58,7 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
   else if (what == SBRI_RECORDED_RIGID_SHARE)
     sbr_character_set_rigid_drive_fraction(world, id, index_of(n[1]), (float)n[2]);
   else if (what == SBRI_RECORDED_RIGID_FALL)
-    sbr_character_knock_over(world, id, &(sbr_fall_definition){(float)n[1], (float)n[2], (float)n[3]});
+    sbr_character_knock_over(world, id, &fall);
   else
     sbr_character_apply_rigid_impulse(world, id, whole(n[1]), (sbr_double3){n[2], n[3], n[4]},
         (sbf_vec3){(float)n[5], (float)n[6], (float)n[7]});

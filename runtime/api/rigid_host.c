@@ -4,6 +4,8 @@
 #include "ragdoll/ragdoll.h"
 #include "rigid/joint_frames.h"
 
+enum { FALL_COOKIE = 0x5b726661 };
+
 static bool has_body(const sbri_character *c, int32_t body) {
   return c && c->model->rigid.body_count > 0 && body < (int32_t)c->model->rigid.body_count;
 }
@@ -61,12 +63,12 @@ void sbr_character_set_rigid_drive_fraction(
 }
 
 sbr_fall_definition sbr_default_fall_definition(void) {
-  return (sbr_fall_definition){.drive_fraction = 0.1f, .rest_s = 0.5f, .rise_s = 1.5f};
+  return (sbr_fall_definition){.cookie = FALL_COOKIE, .drive_fraction = 0.1f, .rest_s = 0.5f, .rise_s = 1.5f};
 }
 
 void sbr_character_knock_over(sbr_world *world, sbr_character_id character, const sbr_fall_definition *fall) {
   sbri_character *c = sbri_character_of(world, character);
-  if (!has_body(c, -1) || !fall) return;
+  if (!has_body(c, -1) || !fall || fall->cookie != FALL_COOKIE) return;
   if (!sbri_record(world, SBRI_RECORDED_RIGID_FALL,
           (const double[]){
               character.value, (double)fall->drive_fraction, (double)fall->rest_s, (double)fall->rise_s}))

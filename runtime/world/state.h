@@ -95,6 +95,7 @@ typedef struct sbri_character {
   uint32_t refused_ticks;            /* ticks until a failed allocation is retried */
   uint64_t sampled_at;               /* stamp of the time that `sampled` belongs to; 0: none */
   void *user_data;                   /* the host's */
+  void **body_user_data;             /* (soft bodies, then rigid bodies of the asset) the host's */
   uint32_t left_detail_level_plus_1; /* in the last tick; 0: it did not change */
   uint32_t event_count;              /* of the last tick */
   sbri_gait_event events[SBRI_TICK_EVENTS];

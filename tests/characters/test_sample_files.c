@@ -66,8 +66,10 @@ START_TEST(samples_live)
   sbf_asset *asset;
   sbf_diagnostic error;
   ck_assert_msg(sbf_load_file(harness_source(path), NULL, &asset, &error) == SBF_OK, "%s", error.message);
-  const sbr_model_options options = {
-      .level = (uint32_t)(_i / 2 % LEVELS), .detail_levels = _i % 2 == 0, .free = _i % 2 != 0};
+  sbr_model_options options = sbr_default_model_options();
+  options.level = (uint32_t)(_i / 2 % LEVELS);
+  options.detail_levels = _i % 2 == 0;
+  options.free = _i % 2 != 0;
   sbr_model *model;
   ck_assert_msg(sbr_model_create(asset, &options, &model, &error) == SBF_OK, "%s: %s", name, error.message);
   sbr_world_definition world_is = sbr_default_world_definition();

@@ -10,6 +10,7 @@
 
 scene scene_begin(void) {
   scene s = {.asset = sbf_asset_create(NULL),
+      .model_options = sbr_default_model_options(),
       .world_definition = sbr_default_world_definition(),
       .character_definition = sbr_default_character_definition()};
   ck_assert_ptr_nonnull(s.asset);

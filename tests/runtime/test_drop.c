@@ -21,7 +21,9 @@ static drop_result drop(sbf_scheme scheme, sbf_vec3 size, uint32_t cells) {
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
   s.character_definition.hold = true;
-  s.model_options = (sbr_model_options){.scheme = scheme, .free = true};
+  s.model_options = sbr_default_model_options();
+  s.model_options.scheme = scheme;
+  s.model_options.free = true;
   scene_start(&s);
   drop_result r = {1, 1, 0};
   uint32_t count = 0;

@@ -17,7 +17,10 @@ static scene begin_cube(double height, sbf_scheme scheme, uint32_t substeps) {
       (sbf_vec3){-0.5f * SIZE, 0, -0.5f * SIZE}, (sbf_vec3){SIZE, SIZE, SIZE}, 3, 3, 3, 1000, 4e6f, 0.45f);
   scene_lattice(&s, 0, &box);
   lattice_box_free(&box);
-  s.model_options = (sbr_model_options){.scheme = scheme, .substeps = substeps, .free = true};
+  s.model_options = sbr_default_model_options();
+  s.model_options.scheme = scheme;
+  s.model_options.substeps = substeps;
+  s.model_options.free = true;
   s.character_definition.position = (sbr_double3){0, height, 0};
   return s;
 }
@@ -104,7 +107,9 @@ START_TEST(a_body_with_slivers_falls)
   box.positions[lattice_box_point(&box, 1, 1, 1)].y = SIZE * (1 - gaps[_i % 5]);
   scene_lattice(&s, 0, &box);
   lattice_box_free(&box);
-  s.model_options = (sbr_model_options){.scheme = schemes[_i / 5], .free = true};
+  s.model_options = sbr_default_model_options();
+  s.model_options.scheme = schemes[_i / 5];
+  s.model_options.free = true;
   s.character_definition.position = (sbr_double3){0, 2, 0};
   s.world_definition.ground = sbr_ground_flat(0);
   scene_start(&s);

@@ -5,6 +5,7 @@
 
 #include "harness.h"
 #include "rigid_person.h"
+#include "sbrun/soft_body.h"
 
 static float larger(float a, float b) {
   return a > b ? a : b;
@@ -175,6 +176,54 @@ START_TEST(pushes_that_are_no_numbers_do_nothing)
 }
 END_TEST
 
+/* A zeroed definition is refused; a default one is not. */
+START_TEST(definitions_begin_with_the_default)
+{
+  scene s = person();
+  scene_start(&s);
+  scene_ticks(&s, 5);
+  const sbr_fall_definition zeros = {.rest_s = 0}, fall = sbr_default_fall_definition();
+  sbr_character_knock_over(s.world, s.character, &zeros);
+  ck_assert_int_eq(sbr_character_get_posture(s.world, s.character), SBR_POSTURE_UPRIGHT);
+  sbr_character_knock_over(s.world, s.character, &fall);
+  ck_assert_int_eq(sbr_character_get_posture(s.world, s.character), SBR_POSTURE_FALLING);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(bodies_and_joints_are_known)
+{
+  scene s = person();
+  scene_start(&s);
+  int first, second;
+  const uint32_t last = s.asset->rigid_bodies.count - 1, joints = s.asset->joints.count;
+  ck_assert(sbr_character_has_rigid_body(s.world, s.character, last));
+  ck_assert(!sbr_character_has_rigid_body(s.world, s.character, last + 1));
+  ck_assert(sbr_character_has_joint(s.world, s.character, joints - 1));
+  ck_assert(!sbr_character_has_joint(s.world, s.character, joints));
+  ck_assert_ptr_null(sbr_character_get_rigid_user_data(s.world, s.character, last));
+  sbr_character_set_rigid_user_data(s.world, s.character, 0, &first);
+  sbr_character_set_rigid_user_data(s.world, s.character, last, &second);
+  sbr_character_set_rigid_user_data(s.world, s.character, last + 1, &first);
+  for (uint32_t b = 0; b < s.asset->soft_bodies.count; b++) {
+    ck_assert(sbr_character_has_soft_body(s.world, s.character, b));
+    ck_assert_ptr_null(sbr_character_get_soft_user_data(s.world, s.character, b));
+    sbr_character_set_soft_user_data(s.world, s.character, b, &s);
+  }
+  scene_ticks(&s, 3);
+  ck_assert_ptr_eq(sbr_character_get_rigid_user_data(s.world, s.character, 0), &first);
+  ck_assert_ptr_eq(sbr_character_get_rigid_user_data(s.world, s.character, last), &second);
+  ck_assert_ptr_null(sbr_character_get_rigid_user_data(s.world, s.character, last + 1));
+  for (uint32_t b = 0; b < s.asset->soft_bodies.count; b++)
+    ck_assert_ptr_eq(sbr_character_get_soft_user_data(s.world, s.character, b), &s);
+  sbr_character_destroy(s.world, s.character);
+  ck_assert(!sbr_character_has_rigid_body(s.world, s.character, 0));
+  ck_assert(!sbr_character_has_joint(s.world, s.character, 0));
+  ck_assert(!sbr_character_has_soft_body(s.world, s.character, 0));
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("rigid_parts");
   TCase *tests = tcase_create("all");
@@ -185,6 +234,8 @@ int main(void) {
   tcase_add_test(tests, snapshots_and_sleep);
   tcase_add_test(tests, a_larger_person_falls_the_same_way);
   tcase_add_test(tests, pushes_that_are_no_numbers_do_nothing);
+  tcase_add_test(tests, definitions_begin_with_the_default);
+  tcase_add_test(tests, bodies_and_joints_are_known);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -19,9 +19,9 @@ START_TEST(calls_are_checked)
   sbf_diagnostic error;
   ck_assert_int_eq(sbr_model_create(NULL, NULL, &s.model, &error), SBF_FAILED);
   ck_assert_int_eq(sbr_model_create(s.asset, NULL, NULL, NULL), SBF_FAILED);
-  s.model_options.struct_size = 3;
-  ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
-  s.model_options.struct_size = sizeof s.model_options;
+  const sbr_model_options zeros = {.level = 0};
+  ck_assert_int_eq(sbr_model_create(s.asset, &zeros, &s.model, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "sbr_default_model_options"));
   s.model_options.scheme = (sbf_scheme)SBF_SCHEME_COUNT;
   ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
   ck_assert_ptr_nonnull(strstr(error.message, "position_based"));

@@ -42,7 +42,9 @@ static scene begin_block(
   sbf_attributes_init(&defaults);
   scene_body(&s, 0)->attributes.damping_ratio = defaults.damping_ratio;
   scene_body(&s, 0)->attributes.friction = friction;
-  s.model_options = (sbr_model_options){.scheme = scheme, .free = true};
+  s.model_options = sbr_default_model_options();
+  s.model_options.scheme = scheme;
+  s.model_options.free = true;
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
   s.world_definition.has_gravity = true;

@@ -127,7 +127,8 @@ static sbf_status highest_of_regions(
   static const double MARGIN = 1.02, STIFFER = 1e6;
   sbf_asset *asset = NULL;
   sbr_model *model = NULL;
-  const sbr_model_options options = {.scheme = SBF_SCHEME_SYMPLECTIC};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = SBF_SCHEME_SYMPLECTIC;
   double sag;
   sbf_status status = fill(CHART_OF_REGIONS, mass_ratio, poisson_ratio, STIFFER, &asset, &sag, error);
   if (status == SBF_OK) {

@@ -11,12 +11,13 @@ static const double FAR_DOWN_M = 1000;
 static sbf_status create(chart_motion *m, const chart_setting *setting, sbf_diagnostic *error) {
   const chart_scene *scene = &m->scene;
   if (scene->begin) scene->begin(scene->user);
-  const sbr_model_options options = {.scheme = setting->scheme,
-      .substeps = setting->substeps,
-      .step_error_m = setting->step_error_m,
-      .level = setting->level,
-      .has_gravity = scene->has_gravity,
-      .gravity = scene->gravity};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = setting->scheme;
+  options.substeps = setting->substeps;
+  options.step_error_m = setting->step_error_m;
+  options.level = setting->level;
+  options.has_gravity = scene->has_gravity;
+  options.gravity = scene->gravity;
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
   world.ground = sbr_ground_flat(scene->grounded ? 0 : -FAR_DOWN_M);

@@ -48,7 +48,9 @@ static void keep_finding(void *user, const sbf_diagnostic *diagnostic) {
  * biased is refused as well, but more substeps may help. */
 static bool count_visits(const sweep *s, tune_trial *trial) {
   const sbf_asset *asset = s->meshes->at[trial->mesh].asset;
-  const sbr_model_options options = {.scheme = trial->setting.scheme, .substeps = trial->setting.substeps};
+  sbr_model_options options = sbr_default_model_options();
+  options.scheme = trial->setting.scheme;
+  options.substeps = trial->setting.substeps;
   sbr_model *model = NULL;
   sbf_diagnostic why;
   if (sbr_model_create(asset, &options, &model, &why) != SBF_OK) {

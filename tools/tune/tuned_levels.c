@@ -113,7 +113,9 @@ static sbf_status make_models(writer *w, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   for (uint32_t l = 0; status == SBF_OK && l < w->count; l++) {
     const chart_setting *setting = &w->levels[l].trial->setting;
-    const sbr_model_options options = {.scheme = setting->scheme, .substeps = setting->substeps};
+    sbr_model_options options = sbr_default_model_options();
+    options.scheme = setting->scheme;
+    options.substeps = setting->substeps;
     status = sbr_model_create(w->levels[l].mesh->asset, &options, &w->models[l], error);
   }
   return status;

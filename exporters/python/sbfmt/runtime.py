@@ -52,7 +52,7 @@ class Tasks(Structure):
 
 
 class ModelOptions(Structure):
-    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("level", c_uint32), ("scheme", c_int), ("substeps", c_uint32),
+    _fields_ = [("cookie", c_uint32), ("allocator", c_void_p), ("level", c_uint32), ("scheme", c_int), ("substeps", c_uint32),
                 ("free", c_bool), ("has_gravity", c_bool), ("gravity", Vec3), ("tear_points", c_uint32), ("step_error_m", c_float),
                 ("instructions", c_int), ("rigid_substeps", c_uint32), ("detail_levels", c_bool),
                 ("rigid_coarse", c_bool)]
@@ -61,7 +61,8 @@ class ModelOptions(Structure):
 class WorldDefinition(Structure):
     _fields_ = [("cookie", c_uint32), ("allocator", c_void_p), ("tasks", Tasks), ("ground", Ground), ("has_gravity", c_bool),
                 ("gravity", Vec3), ("control_tick_s", c_double), ("longest_frame_s", c_double), ("character_capacity", c_uint32),
-                ("sleep_after_s", c_double), ("collider_capacity", c_uint32), ("user_data", c_void_p)]
+                ("sleep_after_s", c_double), ("collider_capacity", c_uint32), ("event_capacity", c_uint32), ("hit_speed", c_float),
+                ("user_data", c_void_p)]
 
 
 class CharacterDefinition(Structure):
@@ -102,6 +103,7 @@ CALLS = {
     "sbr_ground_mesh_create": (c_int, [c_void_p, FLOATS, c_uint32, POINTER(c_uint32), c_uint32, c_double, POINTER(c_void_p), ERROR]),
     "sbr_ground_mesh_destroy": (None, [c_void_p]),
     "sbr_ground_from_mesh": (Ground, [c_void_p]),
+    "sbr_default_model_options": (ModelOptions, []),
     "sbr_model_create": (c_int, [c_void_p, POINTER(ModelOptions), POINTER(c_void_p), ERROR]),
     "sbr_model_destroy": (None, [c_void_p]),
     "sbr_model_report_unsupported": (c_uint32, [c_void_p, Report, c_void_p]),
@@ -198,8 +200,10 @@ class Model:
     def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None, detail_levels=False):
         if scheme not in SCHEMES:
             raise ValueError(f"scheme is one of {', '.join(SCHEMES)}, not {scheme!r}")
-        options = ModelOptions(struct_size=ctypes.sizeof(ModelOptions), level=level, scheme=SCHEMES.index(scheme), substeps=substeps,
-                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))), detail_levels=detail_levels)
+        options = runtime_library().sbr_default_model_options()
+        options.level, options.scheme, options.substeps, options.free = level, SCHEMES.index(scheme), substeps, free
+        options.has_gravity, options.gravity = gravity is not None, Vec3(*(gravity or (0, 0, 0)))
+        options.detail_levels = detail_levels
         made, error = c_void_p(), DiagnosticStruct()
         check(runtime_library().sbr_model_create(asset.pointer, byref(options), byref(made), byref(error)), error)
         self.asset, self.pointer = asset, made.value

@@ -104,13 +104,14 @@ void soft_character_make(soft_character *one) {
     const soft_settings *s = &one->settings;
     sbf_vec3 g = soft_asset_of(asset)->environment.gravity;
     float k = (float)s->gravity_scale;
-    sbr_model_options options = {.level = (uint32_t)s->level,
-        .scheme = (sbf_scheme)s->scheme,
-        .substeps = (uint32_t)s->substeps,
-        .free = s->free_bodies,
-        .has_gravity = s->gravity_scale != 1,
-        .detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor,
-        .gravity = {k * g.x, k * g.y, k * g.z}};
+    sbr_model_options options = sbr_default_model_options();
+    options.level = (uint32_t)s->level;
+    options.scheme = (sbf_scheme)s->scheme;
+    options.substeps = (uint32_t)s->substeps;
+    options.free = s->free_bodies;
+    options.has_gravity = s->gravity_scale != 1;
+    options.detail_levels = s->detail == SOFT_DETAIL_AUTOMATIC && !one->editor;
+    options.gravity = (sbf_vec3){k * g.x, k * g.y, k * g.z};
     one->model = soft_model_hold(asset, &options);
     if (one->model && make_world(one)) {
       /* A bundle of the same structure keeps its state; another one begins at the same position. */

@@ -186,7 +186,7 @@ static void add_sentence(void *user, const sbf_diagnostic *finding) {
 }
 
 static void get_left_out(void *self, const gd_variant *const *arguments, gd_variant *result) {
-  sbr_model_options options = {0};
+  sbr_model_options options = sbr_default_model_options();
   soft_model *model = soft_model_hold(self, &options);
   (void)arguments;
   gd_assign(result, gd_empty(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY));

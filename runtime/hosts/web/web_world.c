@@ -46,14 +46,15 @@ sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, co
     uint32_t substeps, uint32_t loose, uint32_t has_gravity, float x, float y, float z, uint32_t scalar,
     uint32_t has_detail_levels) {
   sbr_model *model = NULL;
-  sbr_model_options options = {.level = level,
-      .scheme = SBF_SCHEME_COUNT, /* refused, where the name is none */
-      .substeps = substeps,
-      .free = loose != 0,
-      .has_gravity = has_gravity != 0,
-      .gravity = {x, y, z},
-      .detail_levels = has_detail_levels != 0,
-      .instructions = scalar ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC};
+  sbr_model_options options = sbr_default_model_options();
+  options.level = level;
+  options.scheme = SBF_SCHEME_COUNT; /* refused, where the name is none */
+  options.substeps = substeps;
+  options.free = loose != 0;
+  options.has_gravity = has_gravity != 0;
+  options.gravity = (sbf_vec3){x, y, z};
+  options.detail_levels = has_detail_levels != 0;
+  options.instructions = scalar ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC;
   memset(&failure, 0, sizeof failure);
   for (int i = 0; i < SBF_SCHEME_COUNT; i++)
     if (strcmp(scheme, sbf_scheme_name((sbf_scheme)i)) == 0) options.scheme = (sbf_scheme)i;

@@ -61,6 +61,7 @@ SBF_API void sbr_character_set_rigid_drive_fraction(
 
 /* Settings of falling and getting up. */
 typedef struct sbr_fall_definition {
+  uint32_t cookie;      /* set by sbr_default_fall_definition; without it the call does nothing */
   float drive_fraction; /* [0, 1] of its drive that it has while it falls; default 0.1 */
   float rest_s;         /* s that it lies still before it gets up; default 0.5; of its own, as all here are */
   float rise_s;         /* s in which it gets up; default 1.5, at least 0.1 */
@@ -82,6 +83,18 @@ SBF_API sbr_fall_definition sbr_default_fall_definition(void);
 SBF_API void sbr_character_knock_over(
     sbr_world *world, sbr_character_id character, const sbr_fall_definition *fall);
 SBF_API sbr_posture sbr_character_get_posture(const sbr_world *world, sbr_character_id character);
+
+/* ---- Handles and user data ---- */
+
+/* Whether the character is valid and its asset has a rigid body or a joint of this index. */
+SBF_API bool sbr_character_has_rigid_body(
+    const sbr_world *world, sbr_character_id character, uint32_t rigid_body);
+SBF_API bool sbr_character_has_joint(const sbr_world *world, sbr_character_id character, uint32_t joint);
+/* The host's pointer for a rigid body, at first NULL; the runtime does not use it. */
+SBF_API void sbr_character_set_rigid_user_data(
+    sbr_world *world, sbr_character_id character, uint32_t rigid_body, void *user_data);
+SBF_API void *sbr_character_get_rigid_user_data(
+    const sbr_world *world, sbr_character_id character, uint32_t rigid_body);
 
 /* ---- State ---- */
 

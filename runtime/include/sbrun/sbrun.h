@@ -101,7 +101,7 @@ SBF_API const char *sbr_instructions_get_name(sbr_instructions instructions);
 
 /* Settings of a model. */
 typedef struct sbr_model_options {
-  size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
+  uint32_t cookie;                /* set by sbr_default_model_options */
   const sbf_allocator *allocator; /* NULL: malloc */
   uint32_t level;    /* of each body that has so many levels, else its coarsest; of those of springs and of
                         tetrahedra the nearest */
@@ -125,10 +125,12 @@ typedef struct sbr_model_options {
   bool rigid_coarse;
 } sbr_model_options;
 
-/* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or
- * the scheme is not one of the runtime's (symplectic, position_based, relaxation, explicit_euler, heun,
- * block_descent) or cannot step a body; SBF_BAD_INPUT where the asset asks for something the runtime cannot
- * simulate, or has a length beyond 1e6 m or another number beyond 1e15. */
+/* Begin with the default options: all is 0, or as the asset has it. */
+SBF_API sbr_model_options sbr_default_model_options(void);
+/* `asset` must outlive the model. `options` NULL: the default. SBF_FAILED where memory runs out, the
+ * instructions are not available, or the scheme is not one of the runtime's (symplectic, position_based,
+ * relaxation, explicit_euler, heun, block_descent) or cannot step a body; SBF_BAD_INPUT where the asset asks
+ * for something the runtime cannot simulate, or has a length beyond 1e6 m or another number beyond 1e15. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);

@@ -24,6 +24,15 @@ extern "C" {
 /* Forces and holds that act on a character at once. */
 #define SBR_LOAD_CAPACITY 8
 
+/* Whether the character is valid and its asset has a soft body of this index. */
+SBF_API bool sbr_character_has_soft_body(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+/* The host's pointer for a soft body, at first NULL; the runtime does not use it. */
+SBF_API void sbr_character_set_soft_user_data(
+    sbr_world *world, sbr_character_id character, uint32_t soft_body, void *user_data);
+SBF_API void *sbr_character_get_soft_user_data(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+
 /* Motion of a soft body's free points as one rigid body, as of the last tick. */
 typedef struct sbr_soft_motion {
   float mass;                /* kg, of the free points */
