@@ -209,7 +209,7 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
   process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
   bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%s,%.3g,%zu", surfaces[number].mesh,
       s.report.tetrahedra, rounds, of_pass.min * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
-      s.report.tetrahedra / of_pass.median, s.report.least_dihedral_deg, s.report.most_dihedral_deg, volume,
+      s.report.tetrahedra / of_pass.median, s.report.min_dihedral_deg, s.report.max_dihedral_deg, volume,
       s.report.farthest_m / s.cell, memory.peak_bytes / 1024);
   if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);
   sbf_asset_free(source);

@@ -263,7 +263,7 @@ static sbf_spring_network network_of(const sbf_soft_body *body, const sbf_level 
     moduli[t] = modulus;
     ratios[t] = poisson;
   }
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   sbf_level_masses(body, level, pinned, masses);
   for (uint32_t i = 0; i < points; i++)
     if (pinned[i]) masses[i] = 0;

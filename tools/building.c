@@ -66,7 +66,7 @@ static const float LEFT_OVER = 0.25f;
 
 static void print_lattices(const sbf_build_report *r) {
   printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m",
-      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m);
+      r->tetrahedra, r->lattice_volume, r->min_dihedral_deg, r->max_dihedral_deg, r->farthest_m);
   if (r->thickened_points)
     printf(
         ", %u point%s thin parts", r->thickened_points, r->thickened_points == 1 ? " thickens" : "s thicken");
@@ -132,14 +132,14 @@ static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   if (r->calibrated)
     printf("calibrated %u lattice%s: modulus times %.3g to %.3g, gives within %.3g %% of the reference under "
            "every load, swings within %.3g %%\n",
-        r->calibrated, many(r->calibrated), r->least_factor, r->most_factor, 100 * r->most_residual,
-        100 * r->most_period_error);
+        r->calibrated, many(r->calibrated), r->min_factor, r->max_factor, 100 * r->max_residual,
+        100 * r->max_period_error);
   if (r->calibrated_springs)
     printf("calibrated the springs of %u level%s: stiffness times %.3g to %.3g, surfaces within %.3g %% of "
            "where "
            "tetrahedra have them\n",
-        r->calibrated_springs, many(r->calibrated_springs), r->least_spring_factor, r->most_spring_factor,
-        100 * r->most_spring_residual);
+        r->calibrated_springs, many(r->calibrated_springs), r->min_spring_factor, r->max_spring_factor,
+        100 * r->max_spring_residual);
   print_left_over(built);
   if (r->levels) printf("levels: %u beside the finest\n", r->levels);
   if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);

@@ -54,8 +54,8 @@ static void add_tetrahedra(const sbf_level *level, mesh_quality *q) {
   q->tetrahedra += tetrahedra->count;
   q->inverted += m.inverted_count;
   q->volume_m3 += m.volume;
-  q->least_dihedral_deg = fmin(q->least_dihedral_deg, m.least_dihedral_deg);
-  q->most_dihedral_deg = fmax(q->most_dihedral_deg, m.most_dihedral_deg);
+  q->min_dihedral_deg = fmin(q->min_dihedral_deg, m.min_dihedral_deg);
+  q->max_dihedral_deg = fmax(q->max_dihedral_deg, m.max_dihedral_deg);
   for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) q->dihedrals[k] += m.dihedrals[k];
   for (uint32_t i = 0; i < tetrahedra->count; i++) {
     double ratio = mesh_radius_ratio(level->positions.at, tetrahedra->at[i].at);
@@ -81,7 +81,7 @@ static void add_springs(const sbf_level *level, mesh_quality *q, bool in_bins) {
 }
 
 void mesh_quality_measure(const sbf_asset *asset, const sbf_soft_body *body, mesh_quality *q) {
-  *q = (mesh_quality){.least_dihedral_deg = 180, .min_radius_ratio = 1, .min_spring_m = INFINITY};
+  *q = (mesh_quality){.min_dihedral_deg = 180, .min_radius_ratio = 1, .min_spring_m = INFINITY};
   for (int pass = 0; pass < 2; pass++)
     for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
       const sbf_soft_body *one = &asset->soft_bodies.at[i];
@@ -102,7 +102,7 @@ json_t *mesh_quality_json(const mesh_quality *q) {
   if (q->tetrahedra)
     tetrahedra = json_pack("{s:I, s:I, s:f, s:f, s:f, s:o, s:f, s:f, s:o}", "count",
         (json_int_t)q->tetrahedra, "inverted", (json_int_t)q->inverted, "volume_m3", q->volume_m3,
-        "least_dihedral_deg", q->least_dihedral_deg, "most_dihedral_deg", q->most_dihedral_deg, "dihedrals",
+        "least_dihedral_deg", q->min_dihedral_deg, "most_dihedral_deg", q->max_dihedral_deg, "dihedrals",
         histogram(q->dihedrals, SBF_DIHEDRAL_BINS), "least_radius_ratio", q->min_radius_ratio,
         "mean_radius_ratio", q->radius_ratio_sum / (double)q->tetrahedra, "radius_ratios",
         histogram(q->radius_ratios, MESH_QUALITY_BINS));

@@ -11,7 +11,7 @@ enum { MESH_QUALITY_BINS = 10 };
 typedef struct mesh_quality {
   uint64_t tetrahedra, inverted, springs;
   double volume_m3;
-  double least_dihedral_deg, most_dihedral_deg;
+  double min_dihedral_deg, max_dihedral_deg;
   uint64_t dihedrals[SBF_DIHEDRAL_BINS]; /* six angles a tetrahedron, by tens of degrees */
   /* Three times the radius of the sphere inside a tetrahedron over that of the sphere around it: 1 in a
    * regular one, 0 in a flat one. */

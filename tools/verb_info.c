@@ -183,7 +183,7 @@ json_t *bundle_description(const sbf_asset *asset, const sbf_asset_measures *mea
 
 /* Shape of the tetrahedra of all finest levels together. */
 static json_t *quality(const sbf_asset *asset) {
-  sbf_lattice_measures all = {.least_dihedral_deg = 180};
+  sbf_lattice_measures all = {.min_dihedral_deg = 180};
   uint64_t count = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_level *level = finest(&asset->soft_bodies.at[i]);
@@ -191,8 +191,8 @@ static json_t *quality(const sbf_asset *asset) {
     if (!level || level->lattice.tetrahedra.count == 0) continue;
     sbf_lattice_measure(
         level->positions.at, level->lattice.tetrahedra.at, level->lattice.tetrahedra.count, &m);
-    if (m.least_dihedral_deg < all.least_dihedral_deg) all.least_dihedral_deg = m.least_dihedral_deg;
-    if (m.most_dihedral_deg > all.most_dihedral_deg) all.most_dihedral_deg = m.most_dihedral_deg;
+    if (m.min_dihedral_deg < all.min_dihedral_deg) all.min_dihedral_deg = m.min_dihedral_deg;
+    if (m.max_dihedral_deg > all.max_dihedral_deg) all.max_dihedral_deg = m.max_dihedral_deg;
     for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) all.dihedrals[k] += m.dihedrals[k];
     all.volume += m.volume;
     all.inverted_count += m.inverted_count;
@@ -202,8 +202,8 @@ static json_t *quality(const sbf_asset *asset) {
   json_t *histogram = json_array();
   for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) json_array_append_new(histogram, integer(all.dihedrals[k]));
   return json_pack("{s:o, s:o, s:f, s:f, s:f, s:o}", "tetrahedra", integer(count), "inverted",
-      integer(all.inverted_count), "volume", all.volume, "least_dihedral_deg", all.least_dihedral_deg,
-      "most_dihedral_deg", all.most_dihedral_deg, "dihedrals", histogram);
+      integer(all.inverted_count), "volume", all.volume, "least_dihedral_deg", all.min_dihedral_deg,
+      "most_dihedral_deg", all.max_dihedral_deg, "dihedrals", histogram);
 }
 
 static long long number(const json_t *object, const char *key) {

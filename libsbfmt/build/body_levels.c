@@ -70,10 +70,10 @@ static bool make_springs(sbfi_build *b, uint32_t number, sbf_build_interior inte
 }
 
 static void add_quality(sbf_build_report *report, const sbf_lattice_measures *of) {
-  bool first = report->most_dihedral_deg == 0;
-  if (first || of->least_dihedral_deg < report->least_dihedral_deg)
-    report->least_dihedral_deg = of->least_dihedral_deg;
-  if (of->most_dihedral_deg > report->most_dihedral_deg) report->most_dihedral_deg = of->most_dihedral_deg;
+  bool first = report->max_dihedral_deg == 0;
+  if (first || of->min_dihedral_deg < report->min_dihedral_deg)
+    report->min_dihedral_deg = of->min_dihedral_deg;
+  if (of->max_dihedral_deg > report->max_dihedral_deg) report->max_dihedral_deg = of->max_dihedral_deg;
   for (int i = 0; i < SBF_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->dihedrals[i];
   report->lattice_volume += of->volume;
 }
@@ -96,18 +96,18 @@ static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_ou
 
 static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
-  if (r->calibrated == 0 || c->min < r->least_factor) r->least_factor = c->min;
-  if (c->max > r->most_factor) r->most_factor = c->max;
-  if (c->residual > r->most_residual) r->most_residual = c->residual;
-  if (fabs(c->period_error) > r->most_period_error) r->most_period_error = fabs(c->period_error);
+  if (r->calibrated == 0 || c->min < r->min_factor) r->min_factor = c->min;
+  if (c->max > r->max_factor) r->max_factor = c->max;
+  if (c->residual > r->max_residual) r->max_residual = c->residual;
+  if (fabs(c->period_error) > r->max_period_error) r->max_period_error = fabs(c->period_error);
   r->calibrated++;
 }
 
 static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
-  if (r->calibrated_springs == 0 || c->min < r->least_spring_factor) r->least_spring_factor = c->min;
-  if (c->max > r->most_spring_factor) r->most_spring_factor = c->max;
-  if (c->residual > r->most_spring_residual) r->most_spring_residual = c->residual;
+  if (r->calibrated_springs == 0 || c->min < r->min_spring_factor) r->min_spring_factor = c->min;
+  if (c->max > r->max_spring_factor) r->max_spring_factor = c->max;
+  if (c->residual > r->max_spring_residual) r->max_spring_residual = c->residual;
   r->calibrated_springs++;
 }
 

@@ -57,7 +57,7 @@ static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
   if (!pinned || !flex->holder || !flex->positions || !flex->masses) return false;
   for (uint32_t i = 0; i < count; i++) flex->holder[i] = SBF_NONE;
   for (uint32_t s = 0; s < flex->level->pins.count; s++) take_pins(w, flex, (int32_t)s);
-  sbf_level_held_points(flex->level, pinned);
+  sbf_level_pinned_points(flex->level, pinned);
   sbf_level_masses(flex->body, flex->level, pinned, flex->masses);
   return true;
 }

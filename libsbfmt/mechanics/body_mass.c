@@ -24,7 +24,7 @@ void sbf_body_measure(const sbf_soft_body *body, sbf_body_measures *measures) {
     measures->depth = 3 * volume / area;
 }
 
-uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *pinned) {
+uint32_t sbf_level_pinned_points(const sbf_level *level, uint8_t *pinned) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < level->positions.count; i++) pinned[i] = 0;
   for (uint32_t s = 0; s < level->pins.count; s++) {
@@ -56,7 +56,7 @@ static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *
   }
 }
 
-void sbf_level_shares(
+void sbf_level_mass_fractions(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *fractions) {
   uint32_t count = level->positions.count, with_area = 0;
   for (uint32_t i = 0; i < count; i++) fractions[i] = 0;
@@ -97,7 +97,7 @@ static void distribute_mass(
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   double mass = measures.mass;
-  sbf_level_shares(body, level, pinned, masses);
+  sbf_level_mass_fractions(body, level, pinned, masses);
   if (!(mass > 0)) {
     double radius = body->collision.particle_radius > 0 ? body->collision.particle_radius : 0.01;
     double ball = 4.0 / 3 * pi * radius * radius * radius * body->attributes.density;

@@ -25,7 +25,7 @@ static double angle_of(double cosine) {
 void sbf_lattice_measure(
     const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count, sbf_lattice_measures *measures) {
   double max = -2, min = 2; /* cosines */
-  *measures = (sbf_lattice_measures){.least_dihedral_deg = 180};
+  *measures = (sbf_lattice_measures){.min_dihedral_deg = 180};
   for (uint32_t t = 0; t < count; t++) {
     sbfi_d3 at[4], normals[4];
     for (int k = 0; k < 4; k++) at[k] = sbfi_d3_of(positions[tetrahedra[t].at[k]]);
@@ -48,6 +48,6 @@ void sbf_lattice_measure(
     }
   }
   if (count == 0) return;
-  measures->least_dihedral_deg = angle_of(max);
-  measures->most_dihedral_deg = angle_of(min);
+  measures->min_dihedral_deg = angle_of(max);
+  measures->max_dihedral_deg = angle_of(min);
 }

@@ -146,7 +146,7 @@ void sbf_level_stiffness(
   length_sum *sums = (length_sum *)scratch;
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
-  sbf_level_shares(body, level, NULL, volumes);
+  sbf_level_mass_fractions(body, level, NULL, volumes);
   double modulus =
       body->attributes.young_modulus * (measures.sheet ? SBF_STIFFNESS_SHEET : SBF_STIFFNESS_VOLUME);
   uint32_t count = level->positions.count;

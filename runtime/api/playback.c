@@ -55,7 +55,7 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
     sbr_character_set_rigid_mode(world, id, index_of(n[1]), (sbr_rigid_mode)whole(n[2]));
   else if (what == SBRI_RECORDED_RIGID_DRIVE)
     sbr_character_set_rigid_drive(world, id, &drive);
-  else if (what == SBRI_RECORDED_RIGID_SHARE)
+  else if (what == SBRI_RECORDED_RIGID_FRACTION)
     sbr_character_set_rigid_drive_fraction(world, id, index_of(n[1]), (float)n[2]);
   else if (what == SBRI_RECORDED_RIGID_FALL)
     sbr_character_knock_over(world, id, &fall);

@@ -53,8 +53,8 @@ void sbr_character_set_rigid_drive_fraction(
     sbr_world *world, sbr_character_id character, int32_t rigid_body, float fraction) {
   sbri_character *c = sbri_character_of(world, character);
   if (!has_body(c, rigid_body)) return;
-  if (!sbri_record(
-          world, SBRI_RECORDED_RIGID_SHARE, (const double[]){character.value, rigid_body, (double)fraction}))
+  if (!sbri_record(world, SBRI_RECORDED_RIGID_FRACTION,
+          (const double[]){character.value, rigid_body, (double)fraction}))
     return;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     if (rigid_body < 0 || rigid_body == (int32_t)b)

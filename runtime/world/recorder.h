@@ -15,18 +15,18 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_TELEPORT, /* x, y, z, heading */
   SBRI_RECORDED_RESET,
   SBRI_RECORDED_WAKE,
-  SBRI_RECORDED_PAUSE,        /* 1 or 0 */
-  SBRI_RECORDED_REACH,        /* chain, position, rotation, weight */
-  SBRI_RECORDED_RELEASE,      /* chain */
-  SBRI_RECORDED_PIVOT,        /* leg */
-  SBRI_RECORDED_PLAY,         /* layer, clip, weight, fade, speed, start, mask */
-  SBRI_RECORDED_RIGID_MODE,   /* body, mode */
-  SBRI_RECORDED_RIGID_DRIVE,  /* frequency, damping ratio, strength, joint damping, joint friction */
-  SBRI_RECORDED_RIGID_SHARE,  /* body, share */
-  SBRI_RECORDED_RIGID_PUSH,   /* body, place, impulse */
-  SBRI_RECORDED_RIGID_FALL,   /* share, rest, rise */
-  SBRI_RECORDED_DETAIL_LEVEL, /* detail level */
-  SBRI_RECORDED_SHOWN,        /* how */
+  SBRI_RECORDED_PAUSE,          /* 1 or 0 */
+  SBRI_RECORDED_REACH,          /* chain, position, rotation, weight */
+  SBRI_RECORDED_RELEASE,        /* chain */
+  SBRI_RECORDED_PIVOT,          /* leg */
+  SBRI_RECORDED_PLAY,           /* layer, clip, weight, fade, speed, start, mask */
+  SBRI_RECORDED_RIGID_MODE,     /* body, mode */
+  SBRI_RECORDED_RIGID_DRIVE,    /* frequency, damping ratio, strength, joint damping, joint friction */
+  SBRI_RECORDED_RIGID_FRACTION, /* body, share */
+  SBRI_RECORDED_RIGID_PUSH,     /* body, place, impulse */
+  SBRI_RECORDED_RIGID_FALL,     /* share, rest, rise */
+  SBRI_RECORDED_DETAIL_LEVEL,   /* detail level */
+  SBRI_RECORDED_SHOWN,          /* how */
   SBRI_RECORDED_VIEW, /* which, of how many, eye, forward, height, width, lines: without a character */
   SBRI_RECORDED_SOFT_VELOCITY, /* body, velocity, angular velocity */
   SBRI_RECORDED_SOFT_IMPULSE,  /* body, vertex, impulse */

@@ -35,8 +35,8 @@ static void check(made *m) {
   const sbfi_tetrahedra *all = &m->lattice.made;
   sbf_lattice_measure(all->positions, all->at, all->count, &m->quality);
   ck_assert_uint_eq(all->flat_count, 0);
-  ck_assert_double_ge(m->quality.least_dihedral_deg, 10);
-  ck_assert_double_le(m->quality.most_dihedral_deg, 165);
+  ck_assert_double_ge(m->quality.min_dihedral_deg, 10);
+  ck_assert_double_le(m->quality.max_dihedral_deg, 165);
 }
 
 static void stuff(made *m, const sbf_polygon_mesh *mesh, double cell) {
@@ -52,7 +52,7 @@ START_TEST(a_cube_of_whole_cells_is_met_exactly)
     made m;
     stuff(&m, &cube, 0.6 / n);
     ck_assert_double_eq_tol(m.quality.volume, 0.216, 1e-6);
-    ck_assert_double_ge(m.quality.least_dihedral_deg, 44.9);
+    ck_assert_double_ge(m.quality.min_dihedral_deg, 44.9);
     /* A middle and a side's corners for each of a cube's inner and half outer pyramids. */
     ck_assert_uint_eq(m.lattice.made.count, (uint32_t)(12 * n * n * n + 4 * 3 * n * n));
   }

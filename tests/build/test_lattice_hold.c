@@ -89,7 +89,7 @@ static void check_held(const sbf_level *level, const char *name) {
   uint32_t *parents = sbfi_arena_allocate(&arena, points, sizeof *parents);
   uint32_t *list = sbfi_arena_allocate(&arena, points, sizeof *list);
   uint8_t *pinned = sbfi_arena_allocate(&arena, points, 1), *used = sbfi_arena_allocate(&arena, points, 1);
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   sbfi_sets_begin(parents, points);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 0; k < 4; k++) {

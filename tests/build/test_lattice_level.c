@@ -104,7 +104,7 @@ START_TEST(a_cube_of_tetrahedra)
   ck_assert_uint_eq(level->lattice.tetrahedra.count, 12 * 64 + 12 * 16);
   ck_assert_uint_eq(report.tetrahedra, level->lattice.tetrahedra.count);
   ck_assert_double_eq_tol(report.lattice_volume, 0.064, 1e-6);
-  ck_assert_double_ge(report.least_dihedral_deg, 44.9);
+  ck_assert_double_ge(report.min_dihedral_deg, 44.9);
   uint64_t angles = 0;
   for (int i = 0; i < 18; i++) angles += report.dihedrals[i];
   ck_assert_uint_eq(angles, 6 * (uint64_t)report.tetrahedra);
@@ -309,8 +309,8 @@ static void check_shape(const sbf_level *level, const sbf_build_report *report) 
   sbf_lattice_measure(
       level->positions.at, level->lattice.tetrahedra.at, level->lattice.tetrahedra.count, &shape);
   ck_assert_uint_eq(shape.inverted_count, 0);
-  ck_assert_double_ge(shape.least_dihedral_deg, 10);
-  ck_assert_double_le(shape.most_dihedral_deg, 165);
+  ck_assert_double_ge(shape.min_dihedral_deg, 10);
+  ck_assert_double_le(shape.max_dihedral_deg, 165);
   ck_assert_mem_eq(shape.dihedrals, report->dihedrals, sizeof shape.dihedrals);
   ck_assert_uint_eq(shape.dihedrals[0] + shape.dihedrals[17], 0);
 }
@@ -344,8 +344,8 @@ START_TEST(real_surfaces)
     check_shape(level, &report);
     ck_assert_uint_eq(level->positions.count, real[_i].points);
     ck_assert_uint_eq(report.thickened_points, real[_i].thickened);
-    ck_assert_double_eq_tol(report.least_dihedral_deg, real[_i].min_deg, 0.06);
-    ck_assert_double_eq_tol(report.most_dihedral_deg, real[_i].max_deg, 0.06);
+    ck_assert_double_eq_tol(report.min_dihedral_deg, real[_i].min_deg, 0.06);
+    ck_assert_double_eq_tol(report.max_dihedral_deg, real[_i].max_deg, 0.06);
     ck_assert_double_eq_tol(report.lattice_volume / real[_i].volume, 1, 1e-3);
     ck_assert_double_eq_tol(report.farthest_m / cell, real[_i].farthest_cells, 1e-3);
     ck_assert_int_eq(was_noted(SBF_CODE_LATTICE_THIN), real[_i].thin);

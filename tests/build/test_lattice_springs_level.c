@@ -37,7 +37,7 @@ static void make_level(void) {
   volume = counts.quality.volume;
   ck_assert_uint_le(level.positions.count, 4000);
   uint8_t *pinned = sbfi_arena_allocate(&arena, level.positions.count, 1);
-  sbf_level_held_points(&level, pinned);
+  sbf_level_pinned_points(&level, pinned);
   sbf_level_masses(body, &level, pinned, lattice_masses);
   ck_assert(
       sbfi_lattice_springs_level_make(&level, body, SBF_NONE, asset, &inert, (sbfi_progress){0}, &arena));

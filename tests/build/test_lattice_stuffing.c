@@ -92,8 +92,8 @@ static void check_volume(const sbfi_tetrahedra *made, double max) {
   sbf_lattice_measures quality;
   sbf_lattice_measure(made->positions, made->at, made->count, &quality);
   ck_assert_double_le(quality.volume, max);
-  ck_assert_double_ge(quality.least_dihedral_deg, 10);
-  ck_assert_double_le(quality.most_dihedral_deg, 165);
+  ck_assert_double_ge(quality.min_dihedral_deg, 10);
+  ck_assert_double_le(quality.max_dihedral_deg, 165);
 }
 
 START_TEST(whatever_the_surface)

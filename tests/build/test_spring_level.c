@@ -44,7 +44,7 @@ static swing swing_of(const sbf_soft_body *body, const sbf_level *level) {
   sbf_uint2 *ends = sbfi_arena_allocate(&scratch, count, sizeof *ends);
   float *stiffness = sbfi_arena_allocate(&scratch, count, sizeof *stiffness);
   swing made = {.masses = sbfi_arena_allocate(&scratch, points, sizeof(float))};
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   sbf_level_masses(body, level, pinned, made.masses);
   count = 0;
   for (uint32_t s = 0; s < level->springs.count; s++)

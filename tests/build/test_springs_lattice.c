@@ -97,7 +97,7 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
       ends[next] = level.springs.at[s].ends.at[k];
       stiffness[next++] = level.springs.at[s].stiffness.at[k];
     }
-  sbf_level_held_points(&level, pinned);
+  sbf_level_pinned_points(&level, pinned);
   ck_assert_double_eq_tol(sbf_level_masses(body, &level, pinned, masses), 8, 1e-3);
   sbf_spring_network network = {.point_count = points,
       .spring_count = *springs,

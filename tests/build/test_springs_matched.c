@@ -142,7 +142,7 @@ static double sag(const bar *b, int axis) {
     moduli[t] = b->modulus;
     ratios[t] = 0.25f;
   }
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   sbf_level_masses(body, level, pinned, masses);
   for (uint32_t i = 0; i < points; i++) masses[i] = pinned[i] ? 0 : masses[i];
   for (uint32_t i = 0; i < points; i++) forces[3 * i + (uint32_t)axis] = 9.81 * masses[i];

@@ -60,7 +60,7 @@ START_TEST(weights_of_a_bone_pin_to_another)
     carried |= level->embeddings.at[i].render_mesh == 0 && level->embeddings.at[i].blends.count == 0;
   ck_assert(carried);
   uint8_t *pinned = calloc(level->positions.count, 1);
-  ck_assert_uint_eq(sbf_level_held_points(level, pinned), 4);
+  ck_assert_uint_eq(sbf_level_pinned_points(level, pinned), 4);
   free(pinned);
   sbf_asset_free(built);
   converted_free(&c);

@@ -72,17 +72,17 @@ START_TEST(held_points_have_none)
   sbf_pin_set_init(&pins);
   pins.points = (sbf_u32_list){points, 3};
   level.pins = (sbf_pin_set_list){&pins, 1};
-  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 3);
+  ck_assert_uint_eq(sbf_level_pinned_points(&level, pinned), 3);
   pins.weights = (sbf_f32_list){weights, 3};
-  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 1);
+  ck_assert_uint_eq(sbf_level_pinned_points(&level, pinned), 1);
   ck_assert(pinned[3] && !pinned[7]);
   ck_assert_double_eq_tol(
       sbf_level_masses(body, &level, pinned, masses), 8, 1e-5); /* the rest carries it all */
   ck_assert(masses[3] == 0);
   pins.minimum = 1;
-  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 3);
+  ck_assert_uint_eq(sbf_level_pinned_points(&level, pinned), 3);
   pins.minimum = 0, pins.maximum = 0.9f;
-  ck_assert_uint_eq(sbf_level_held_points(&level, pinned), 0);
+  ck_assert_uint_eq(sbf_level_pinned_points(&level, pinned), 0);
 }
 END_TEST
 

@@ -347,8 +347,8 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
   uint8_t *is_point_pinned = calloc(b.point_count, 1);
   double *scratch = calloc(9 * (size_t)b.point_count, sizeof *scratch);
   float *stiffness = calloc(12 * (size_t)quad_count + surface, sizeof *stiffness);
-  sbf_level_held_points(level, is_point_pinned);
-  sbf_level_shares(body, level, is_point_pinned, volumes);
+  sbf_level_pinned_points(level, is_point_pinned);
+  sbf_level_mass_fractions(body, level, is_point_pinned, volumes);
   for (uint32_t i = 0; i < b.point_count; i++) volumes[i] *= (float)measures.volume;
   memmove(pairs + structural, diagonals, shear * sizeof *pairs);
   double modulus = body->attributes.young_modulus;

@@ -60,11 +60,11 @@ sbf_asset *rules_expect_fix(const char *inside, const char *repaired, const char
   sbf_status status = sbf_fix(asset, &options, &fixed, &result, &error);
   ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
   ck_assert_str_eq(found, repaired);
-  ck_assert_int_eq(result.mended > 0, *repaired != 0);
+  ck_assert_int_eq(result.repaired > 0, *repaired != 0);
   ck_assert_uint_eq(sbf_asset_check(fixed, NULL, NULL, 0), 0);
   ck_assert_str_eq(rules_findings(fixed, NULL), left);
   ck_assert_int_eq(sbf_fix(fixed, NULL, &again, &result, NULL), SBF_OK); /* once is enough */
-  ck_assert_uint_eq(result.mended, 0);
+  ck_assert_uint_eq(result.repaired, 0);
   ck_assert(sbf_asset_equal(fixed, again, NULL, 0));
   sbf_asset_free(again);
   sbf_asset_free(asset);

@@ -12,7 +12,7 @@ START_TEST(test_nothing_to_do)
       sbf_load_file(harness_source("spec/samples/valid/everything.sbf"), NULL, &asset, NULL), SBF_OK);
   ck_assert_int_eq(sbf_fix(asset, NULL, &fixed, &result, NULL), SBF_OK);
   ck_assert(sbf_asset_equal(asset, fixed, NULL, 0));
-  ck_assert_uint_eq(result.mended, 0);
+  ck_assert_uint_eq(result.repaired, 0);
   ck_assert(!result.rebuilt);
   sbf_asset_free(fixed);
   sbf_asset_free(asset);

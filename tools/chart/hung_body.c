@@ -43,7 +43,7 @@ static double load_end(sbf_asset *asset, double mass_ratio) {
   uint8_t *pinned = calloc(count, 1);
   double more = 0, end = -INFINITY;
   if (masses && pinned) {
-    sbf_level_held_points(level, pinned);
+    sbf_level_pinned_points(level, pinned);
     sbf_level_masses(&asset->soft_bodies.at[0], level, pinned, masses);
     for (uint32_t i = 0; i < count; i++) end = fmax(end, (double)level->positions.at[i].x);
     for (uint32_t i = 0; i < count; i++) {
@@ -98,7 +98,7 @@ static sbf_status highest_of_network(const sbf_asset *asset, double *highest, sb
   double *scratch = calloc(6 * (size_t)count, sizeof *scratch);
   bool good = masses && factors && stiffness && moduli && ratios && pinned && scratch;
   if (good) {
-    sbf_level_held_points(level, pinned);
+    sbf_level_pinned_points(level, pinned);
     sbf_level_masses(is, level, pinned, masses);
     for (uint32_t i = 0; i < count; i++) masses[i] = pinned[i] ? 0 : masses[i];
     for (uint32_t i = 0; i < springs; i++) stiffness[i] = level->springs.at[0].stiffness.at[0];
@@ -257,7 +257,7 @@ static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
   sbf_status status = masses && pinned ? SBF_OK : no_memory(error);
   if (status == SBF_OK) status = run_open(body, SBF_SCHEME_SYMPLECTIC, FINE_TURN, &r, error);
   if (status == SBF_OK) {
-    sbf_level_held_points(level_of(body->asset), pinned);
+    sbf_level_pinned_points(level_of(body->asset), pinned);
     sbf_level_masses(&body->asset->soft_bodies.at[0], level_of(body->asset), pinned, masses);
     for (uint32_t n = 0; n < SAMPLES; n++) {
       double max = run_on(&r, body->points, &why);

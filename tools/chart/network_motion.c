@@ -203,7 +203,7 @@ static bool make_network(network *n, const sbf_asset *asset, sbf_vec3 gravity) {
   bool good = pinned && masses && n->masses && n->bars && n->cells && n->positions && n->velocities &&
               n->moments && n->begin && n->sum;
   if (good) {
-    sbf_level_held_points(level, pinned);
+    sbf_level_pinned_points(level, pinned);
     sbf_level_masses(body, level, pinned, masses);
     for (uint32_t i = 0; i < count; i++) {
       sbf_vec3 p = level->positions.at[i];

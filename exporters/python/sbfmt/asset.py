@@ -109,7 +109,7 @@ class Asset:
         return Validation(result, findings)
 
     def fix(self, report=None, build=True):
-        """A new asset in which everything is mended that has one right answer; `report` hears what was. It may be loaded with
+        """A new asset in which everything is repaired that has one right answer; `report` hears what was. It may be loaded with
         `mendable`. Without `build` derived parts that are stale stay."""
         callbacks, found, made = Callbacks(report), DiagnosticStruct(), ctypes.c_void_p()
         options = FixOptions(ctypes.sizeof(FixOptions), None, not build, callbacks.report, None)

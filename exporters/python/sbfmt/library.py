@@ -102,7 +102,7 @@ class FixOptions(Structure):
 
 
 class FixResult(Structure):
-    _fields_ = [("mended", c_uint32), ("rebuilt", c_bool)]
+    _fields_ = [("repaired", c_uint32), ("rebuilt", c_bool)]
 
 
 class ExportOptions(Structure):

@@ -88,7 +88,7 @@ bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, con
   w.added = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
   w.list = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *w.list);
   if (!parents || !sorted || !ends || !w.holds || !w.added || !w.list) return false;
-  sbf_level_held_points(level, w.holds);
+  sbf_level_pinned_points(level, w.holds);
   for (uint32_t i = 0; i < *count; i++) w.holds[core[i]] = w.added[core[i]] = 1;
   sbfi_sets_begin(parents, points);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)

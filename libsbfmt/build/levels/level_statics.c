@@ -144,7 +144,7 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   uint8_t *pinned = sbfi_arena_allocate(arena, (size_t)count + 1, 1);
   float *masses = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *masses);
   if (!pinned || !masses) return false;
-  statics->is_pinned = sbf_level_held_points(level, pinned) > 0;
+  statics->is_pinned = sbf_level_pinned_points(level, pinned) > 0;
   statics->mass = sbf_level_masses(body, level, pinned, masses);
   statics->network.masses = masses;
   if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||

@@ -7,7 +7,7 @@
 #include "mechanics/vector.h"
 
 enum { ROUNDS = 4, SMOOTHINGS = 3 };
-static const double least_factor = 0.125, most_factor = 2, max_change = 2;
+static const double min_factor = 0.125, max_factor = 2, max_change = 2;
 /* How exactly pushes are solved, and what counts as no work: shares of the whole, and of the mean point's. */
 static const double push_fraction = 5e-3, no_work = 1e-6;
 
@@ -105,7 +105,7 @@ static void change(const work *w, double none) {
     }
     double ratio = fmin(fmax(own / wanted, 1 / max_change), max_change), root = sqrt(ratio);
     double stated = w->stated[t], factor = w->statics->moduli[t] / stated * root * sqrt(root);
-    w->statics->moduli[t] = (float)(stated * fmin(fmax(factor, least_factor), most_factor));
+    w->statics->moduli[t] = (float)(stated * fmin(fmax(factor, min_factor), max_factor));
   }
 }
 

@@ -9,7 +9,7 @@ static const double solve_fraction = 2e-3;
 /* Both factors stay between these, and so does each spring's own: what springs lack of a matter's stiffness
  * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. A
  * point that is held four times as tightly doubles the substeps at most. */
-static const double least_factor = 0.125, most_factor = 16, max_raise = 4, move_fraction = 1e-3;
+static const double min_factor = 0.125, max_factor = 16, max_raise = 4, move_fraction = 1e-3;
 enum { MAX_ROUNDS = 25 };
 /* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
  * step: finer ones are left to each spring by itself. */
@@ -72,7 +72,7 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   }
   /* Displacements go with one over the factor c: least is own / c^2 - 2 both / c + wanted. */
   double inner = both > 0 && own > 0 ? own / both : 1;
-  inner = fmin(fmax(inner, least_factor / fmin(ratio, 1)), most_factor / fmax(ratio, 1));
+  inner = fmin(fmax(inner, min_factor / fmin(ratio, 1)), max_factor / fmax(ratio, 1));
   *made = (trial){ratio, inner, wanted > 0 ? (own / inner - 2 * both) / inner + wanted : 0,
       wanted > 0 ? own - 2 * both + wanted : 0};
   if (wanted > 0) {
@@ -122,7 +122,7 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
     }
   factors->by_kind = best.left;
   set_stiffness(&w, best.inner * best.ratio, best.inner);
-  const sbfi_factor_bounds bounds = {least_factor, most_factor, max_raise, move_fraction, MAX_ROUNDS};
+  const sbfi_factor_bounds bounds = {min_factor, max_factor, max_raise, move_fraction, MAX_ROUNDS};
   if (!sbfi_stiffness_descent(statics, linear, w.stated, wanted, &bounds, &factors->after,
           sbfi_progress_part(progress, 0.2, 1), scratch))
     return false;

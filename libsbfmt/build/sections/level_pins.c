@@ -100,7 +100,7 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
     return false;
   for (uint32_t i = 0; i < body->attachments.count; i++) {
     level->pins = (sbf_pin_set_list){sets, count};
-    sbf_level_held_points(level, pinned);
+    sbf_level_pinned_points(level, pinned);
     if (!expand_attachment(&sets[count], &body->attachments.at[i], level, pinned, asset, scratch))
       return false;
     count += sets[count].points.count > 0;

@@ -100,7 +100,7 @@ static bool hold_painted(work *w) {
   if (!w->pinned || !w->taken) return false;
   if (!sbfi_lattice_pins_carry(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
     return false;
-  if (w->level->pins.count) sbf_level_held_points(w->level, w->pinned);
+  if (w->level->pins.count) sbf_level_pinned_points(w->level, w->pinned);
   for (uint32_t i = 0; i < w->level->pins.count; i++) w->counts->pins += w->level->pins.at[i].points.count;
   return true;
 }

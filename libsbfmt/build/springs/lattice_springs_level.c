@@ -81,7 +81,7 @@ bool sbfi_lattice_springs_level_make(sbf_level *level, const sbf_soft_body *body
   w.pinned = sbfi_arena_allocate(scratch, (size_t)level->positions.count + 1, 1);
   if (!w.pinned || !sbfi_springs_sides(&w.sides, lattice->tetrahedra.at, lattice->tetrahedra.count, scratch))
     return false;
-  sbf_level_held_points(level, w.pinned);
+  sbf_level_pinned_points(level, w.pinned);
   w.stiffness = sbfi_arena_allocate(scratch, (size_t)w.sides.count + 1, sizeof *w.stiffness);
   if (!w.stiffness || !find_energies(&w) || !state_masses(&w)) return false;
   if (body->attributes.stiffness_damping > 0 &&

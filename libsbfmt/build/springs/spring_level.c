@@ -116,7 +116,7 @@ static void distribute_by_lattice(const work *w, float *fractions) {
   double node = w->cell * w->cell * w->cell / 2, volume = w->measures.volume,
          max = 0.97 / w->interior.point_count;
   double fraction = volume > 0 && node / volume < max ? node / volume : max;
-  sbf_level_shares(w->body, &surface, NULL, fractions);
+  sbf_level_mass_fractions(w->body, &surface, NULL, fractions);
   for (uint32_t i = w->surface_count; i < w->source_count; i++) fractions[i] = 1.0f / (float)w->source_count;
   for (uint32_t i = 0; i < w->source_count; i++)
     fractions[i] *= (float)(1 - fraction * w->interior.point_count);
@@ -134,7 +134,7 @@ static float *make_volumes(const work *w, bool pyramids) {
     sbf_level surface;
     sbf_level_init(&surface);
     surface.positions = w->body->surface.positions;
-    sbf_level_shares(w->body, &surface, NULL, volumes);
+    sbf_level_mass_fractions(w->body, &surface, NULL, volumes);
     /* An author's interior points have no area either; like those they count as the mean. */
     for (uint32_t i = w->surface_count; i < w->source_count; i++) volumes[i] = 1.0f / (float)w->surface_count;
   }
@@ -372,7 +372,7 @@ bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const s
   if (!sbfi_level_pins_make(level, body, recipe->derivation, asset, core, to_bone, scratch)) return false;
   w.pinned = sbfi_arena_allocate(scratch, w.point_count, 1);
   if (!w.pinned) return false;
-  sbf_level_held_points(level, w.pinned);
+  sbf_level_pinned_points(level, w.pinned);
   if (w.interior.point_count && (!to_bone || w.cell > 0) && w.measures.mass > 0 && !state_masses(&w))
     return false;
   counts->interior_points = w.interior.point_count;

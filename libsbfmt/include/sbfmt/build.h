@@ -104,27 +104,29 @@ typedef struct sbf_build_report {
   uint32_t inert_springs; /* left out: they would join two points held fast. The kinds do not count them */
   uint32_t pins;          /* points in the pin sets made */
   uint32_t hulls;         /* of rigid bodies */
-  uint32_t embedded_vertices;                   /* of render meshes, that at least one body carries */
-  uint32_t warnings;                            /* reported */
-  uint32_t tetrahedra;                          /* of lattices */
-  double least_dihedral_deg, most_dihedral_deg; /* of the tetrahedra; 0 where there are none */
-  uint64_t dihedrals[18];                       /* how many of the angles lie in each ten degrees */
-  double lattice_volume;                        /* m^3, of the tetrahedra */
+  uint32_t embedded_vertices;                /* of render meshes, that at least one body carries */
+  uint32_t warnings;                         /* reported */
+  uint32_t tetrahedra;                       /* of lattices */
+  double min_dihedral_deg, max_dihedral_deg; /* of the tetrahedra; 0 where there are none */
+  uint64_t dihedrals[18];                    /* how many of the angles lie in each ten degrees */
+  double lattice_volume;                     /* m^3, of the tetrahedra */
   double farthest_m; /* greatest distance of an embedded vertex from the lattice that carries it */
   /* Points of lattices that stand in for parts thinner than two elements, which are thicker there than the
    * body. Every other element, too, has a corner inside: nowhere is there but one across. */
   uint32_t thickened_points;
-  uint32_t sections;                /* cut from skinned meshes */
-  uint32_t levels;                  /* beside the finest of each body */
-  uint32_t calibrated;              /* lattices; the rest is of these */
-  double least_factor, most_factor; /* of the moduli */
-  double most_residual; /* greatest share by which one gives otherwise than the reference under some load */
-  double most_period_error;                       /* and swings slower or faster */
-  uint32_t render_levels;                         /* of render meshes */
-  uint32_t calibrated_springs;                    /* levels of springs; what follows is of these */
-  double least_spring_factor, most_spring_factor; /* on stiffnesses */
-  /* Greatest, over the levels, of the share of the surface's displacement that no factor mends. */
-  double most_spring_residual;
+  uint32_t sections;           /* cut from skinned meshes */
+  uint32_t levels;             /* beside the finest of each body */
+  uint32_t calibrated;         /* lattices; the rest is of these */
+  double min_factor;           /* on moduli, the smallest */
+  double max_factor;           /* on moduli, the greatest */
+  double max_residual;         /* greatest relative error of the compliance under some load */
+  double max_period_error;     /* greatest relative error of the period */
+  uint32_t render_levels;      /* of render meshes */
+  uint32_t calibrated_springs; /* levels of springs; what follows is of these */
+  double min_spring_factor;    /* on stiffnesses, the smallest */
+  double max_spring_factor;    /* on stiffnesses, the greatest */
+  /* Greatest, over the levels, of the fraction of the surface's displacement that no factor repairs. */
+  double max_spring_residual;
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

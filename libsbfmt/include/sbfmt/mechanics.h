@@ -84,14 +84,14 @@ typedef struct sbf_asset_measures {
 } sbf_asset_measures;
 SBF_API void sbf_asset_measure(const sbf_asset *asset, sbf_asset_measures *measures);
 
-/* Marks the points of a level that a pin holds fast (weight 1 within the set's minimum and maximum): `pinned`
- * (level->positions.count) receives 1 or 0. Returns how many are held. */
-SBF_API uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *pinned);
+/* Marks the points of a level that are pinned with weight 1, within the set's minimum and maximum: `pinned`
+ * (level->positions.count) receives 1 or 0. Returns the number of pinned points. */
+SBF_API uint32_t sbf_level_pinned_points(const sbf_level *level, uint8_t *pinned);
 
-/* Shares of the body's matter, (level->positions.count), summing to 1 over the points that are not held; held
- * points have none, `pinned` NULL: none is. By tributary area; a point without area (inside, or in no
- * polygon) counts as the mean of those with. */
-SBF_API void sbf_level_shares(
+/* Fractions of the body's mass, (level->positions.count), by tributary area. They sum to 1 over the points
+ * that are not pinned; pinned points have none. `pinned` NULL: no point is pinned. A point without area,
+ * inside or in no polygon, counts as the mean of the points with area. */
+SBF_API void sbf_level_mass_fractions(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *pinned, float *fractions);
 
 /* Masses in kg, (level->positions.count), and their sum; 0 at held points. Stated masses of the level as they
@@ -109,8 +109,8 @@ SBF_API double sbf_level_masses(
 /* How well tetrahedra are shaped. */
 typedef struct sbf_lattice_measures {
   double volume;                         /* m^3, sum of all; inverted ones count below nothing */
-  double least_dihedral_deg;             /* 180 where there is no tetrahedron */
-  double most_dihedral_deg;              /* 0 where there is none */
+  double min_dihedral_deg;               /* 180 where there is no tetrahedron */
+  double max_dihedral_deg;               /* 0 where there is none */
   uint64_t dihedrals[SBF_DIHEDRAL_BINS]; /* six angles a tetrahedron: how many lie in each ten degrees */
   uint32_t inverted_count;               /* without volume, or turned inside out */
 } sbf_lattice_measures;

@@ -34,29 +34,30 @@ SBF_API sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_optio
 
 /* ---- Mending ------------------------------------------------------------------------------------------ */
 
-/* Settings of a mending. */
+/* Settings of a repair. */
 typedef struct sbf_fix_options {
   size_t struct_size;             /* sizeof(sbf_fix_options), or 0 for this version's */
   const sbf_allocator *allocator; /* of the asset made and of scratch memory; NULL: malloc */
   bool without_build;             /* leave stale derived parts as they are */
-  /* What was mended, one call for each kind and place: `code` is that of the finding, `message` says what was
-   * done, `path` and `index` say where in the asset given. May be NULL. */
+  /* What was repaired, one call for each kind and place: `code` is that of the finding, `message` says what
+   * was done, `path` and `index` say where in the asset given. May be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* for the callback */
 } sbf_fix_options;
 
-/* What a mending did. */
+/* What a repair did. */
 typedef struct sbf_fix_result {
-  uint32_t mended; /* faults */
-  bool rebuilt;    /* derived parts were made anew */
+  uint32_t repaired; /* number of faults */
+  bool rebuilt;      /* derived parts were made anew */
 } sbf_fix_result;
 
-/* Makes `*fixed`, a copy of the asset in which everything is mended that has one right answer: rotations and
- * normals of unit length; weights of skins, pins and embedded vertices, and blends, within their ranges and
- * summing to one; tetrahedra the right way round, without those that are flat or repeated; polygons of bodies
- * that face the way their neighbours do, and outwards; points of surfaces and render meshes that nothing
- * uses, taken out; repeated pins and springs, and springs that do nothing, taken out; and derived parts that
- * are stale, or have become so by this, built anew with their settings. What it cannot decide stays.
+/* Makes `*fixed`, a copy of the asset in which everything is repaired that has one right answer: rotations
+ * and normals of unit length; weights of skins, pins and embedded vertices, and blends, within their ranges
+ * and summing to one; tetrahedra the right way round, without those that are flat or repeated; polygons of
+ * bodies that face the way their neighbours do, and outwards; points of surfaces and render meshes that
+ * nothing uses, taken out; repeated pins and springs, and springs that do nothing, taken out; and derived
+ * parts that are stale, or have become so by this, built anew with their settings. What it cannot decide
+ * stays.
  *
  * `asset` may be loaded with sbf_load_options.mendable. SBF_BAD_INPUT, with the first fault in `*error`,
  * where the structure is at fault beyond that: then nothing is made. `options`, `result` and `error` may be

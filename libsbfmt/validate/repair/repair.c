@@ -9,7 +9,7 @@ void sbfi_count_repair(
   sbf_diagnostic d;
   va_list arguments;
   if (count == 0) return;
-  m->result->mended += count;
+  m->result->repaired += count;
   if (!m->options->report) return;
   va_start(arguments, format);
   sbfi_diagnose_v(&d, code, format, arguments);

@@ -38,7 +38,7 @@ static void check_substeps(
   for (uint32_t s = 0; s < level->springs.count; s++)
     for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++)
       ends[at++] = level->springs.at[s].ends.at[i];
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   sbf_level_masses(body, level, pinned, masses);
   sbf_level_stiffness(body, level, volumes, sums, stiffness);
   sbf_spring_network network = {.point_count = points,

@@ -47,7 +47,7 @@ static void check_regions(sbfi_validation *v, const sbf_level *level, const char
           "region %u, of %u point%s, is flat", r.number, r.size, sbfi_plural(r.size));
   }
   uint32_t left_out = 0;
-  sbf_level_held_points(level, pinned);
+  sbf_level_pinned_points(level, pinned);
   for (uint32_t i = 0; i < level->positions.count; i++) left_out += !seen[i] && !pinned[i];
   if (left_out)
     sbfi_found(v, SBF_CODE_REGION_POINT_LEFT_OUT, sbfi_path_of("%s/shape_regions", path).text, -1,
