@@ -50,18 +50,38 @@ class PosedInputs(ProgramTest):
     def test_bent_legs_of_an_edited_mesh(self):
         self.assert_right("examples/pup/pup.glb", variants.jiggled, 0.015, 0.005)
 
-    def test_bones_alone_that_may_lie_in_wrong_limbs_are_reported(self):
-        for name, wanted in (("examples/yeti/yeti.glb", r"only \d+ % of the bones' length lies inside the mesh; outside lie '"),
-                             ("examples/calf/calf.glb", r"with its limbs turned, \d+ % of the length of the rig's bones")):
-            original = Original(posed_inputs.path_of(name), self.folder)
-            posed_inputs.write_bones(original.path, self.path("bones.glb"))
-            for obj in (posed_inputs.pose_of(original, POSES[name])[0], original.obj):
-                variants.write(obj, self.path("in.obj"), 6)
-                said = self.good("convert", self.path("in.obj"), "--rig", self.path("bones.glb"), *SOURCE_PARTS, "-o",
-                                 self.path("out.sbf")).err
-                self.assertEqual("RIG_OTHER_MESH" in said, obj is not original.obj, said)
-                if obj is not original.obj:
-                    self.assertRegex(said, "warning: .* " + wanted)
+    def convert_bones(self, name, turns, change=lambda obj: obj, *options):
+        """The posed example with its bones alone: the call, the truth, its OBJ and how its bones moved."""
+        original = Original(posed_inputs.path_of(name), self.folder)
+        posed_inputs.write_bones(original.path, self.path("bones.glb"))
+        obj, motions = posed_inputs.pose_of(original, turns)
+        variants.write(change(obj), self.path("in.obj"), 6)
+        call = ("convert", self.path("in.obj"), "--rig", self.path("bones.glb"), *SOURCE_PARTS, *options, "-o", self.path("out.sbf"))
+        return call, original, obj, motions
+
+    def test_bones_alone_take_the_pose_of_the_input(self):
+        for name in ("examples/yeti/yeti.glb", "examples/calf/calf.glb", "examples/pup/pup.glb", "examples/spider/spider.glb"):
+            for change in (lambda obj: obj, lambda obj: variants.moved(variants.simplified(obj), 0.01, ("x", "-z", "y"))):
+                call, original, _, motions = self.convert_bones(name, POSES[name], change)
+                said = self.good(*call).err
+                self.assertIn("limbs were turned to lie inside it", said)
+                self.assertNotIn("RIG_OTHER_MESH", said)
+                self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 0.022, name)
+
+    def test_bones_alone_in_the_pose_of_the_input_stay(self):
+        for name in ("examples/yeti/yeti.glb", "examples/calf/calf.glb"):
+            call, original, _, motions = self.convert_bones(name, {})
+            self.assertNotIn("stands otherwise", self.good(*call).err)
+            self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 1e-4)
+
+    def test_bones_alone_whose_limbs_are_not_found_are_refused(self):
+        turns = {"fore_upper": ("x", 90), "hind_upper": ("x", -80)}
+        call, *_ = self.convert_bones("examples/calf/calf.glb", turns)
+        said = self.fails(1, *call)
+        self.assertRegex(said, r"its limbs were not all found: with '.*' turned, \d+ % of the bones' length lies inside; "
+                               r"outside lie '.*' by .* m.*--weights compute.*IMPORT_RIG_OUTSIDE")
+        call, *_ = self.convert_bones("examples/calf/calf.glb", turns, lambda obj: obj, "--weights", "compute")
+        self.assertIn("with its limbs turned", self.good(*call).err)
 
     def test_an_input_in_the_pose_of_the_rig_turns_nothing(self):
         original = Original(posed_inputs.path_of("examples/yeti/yeti.glb"), self.folder)

@@ -2,7 +2,6 @@
 #ifndef SBFI_ALIGN_H
 #define SBFI_ALIGN_H
 
-#include "build/geometry/winding_number.h"
 #include "import/rigging/rigging.h"
 #include "import/rigging/similarity.h"
 
@@ -29,11 +28,6 @@ static const double SBFI_MIN_BONES_INSIDE = 0.6;
 /* Makes the input, laid over the bones as it fits best, the asset's only mesh, for the picture of what does
  * not fit. False where memory runs out. */
 bool sbfi_show_misfit(const sbfi_rigging *r, const sbfi_matrix *to_asset);
-
-/* Turns limbs of the rig, in its bones and in a copy of its scene, so that they lie inside the input, whose
- * winding is in its own space. `turned` receives the names of their first bones, "" for none. False where
- * memory runs out. */
-bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *turned, size_t size);
 
 /* By turning the rig's bones about their joints, from the alignment that there is: `*found` where its mesh
  * then lies on the input. The rig, its surface and the asset's bones take that pose. */

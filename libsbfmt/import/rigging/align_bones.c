@@ -8,8 +8,10 @@
 #include <string.h>
 
 #include "build/geometry/winding_number.h"
-#include "build/weights/bone_roles.h"
 #include "import/rigging/align.h"
+#include "import/rigging/align_limbs.h"
+#include "import/rigging/bone_lines.h"
+#include "import/rigging/moved_bones.h"
 #include "import/rigging/surface_finder.h"
 
 enum {
@@ -18,18 +20,16 @@ enum {
   SURFACE_SAMPLES = 1000,
   SCORE_SAMPLES = 256,
   SEVERAL = 10,
-  ROTATIONS = SBFI_AXIS_ROTATIONS / 2
+  ROTATIONS = SBFI_AXIS_ROTATIONS / 2,
+  MAX_CANDIDATES = 1 + ROTATIONS * (SBFI_USUAL_UNITS + 3)
 };
 
 static const double CERTAIN = 0.85; /* with less, the rig may stand otherwise */
 static const double GOOD = 0.95;    /* so much of the length inside is as it should be */
 
-/* Shares inside before limbs are turned and after; share of the points that may be without a bone; how thick
- * a body is around its bones, as a share of its longest side. */
-static const double MIN_TRUNK = 0.25, MIN_TURNED = 0.9, MAX_UNCOVERED = 0.2;
-static const double MIN_COVERING = 0.8,
-                    COVERED = 0.05; /* fewer inside do where nearly all points have a bone */
-static const double THICK = 0.15;
+/* Of turned limbs: so much of the bones lies inside, so little of the input is without any, so much of the
+ * cost without turns is left. How thick a body is around its bones, as a share of its longest side. */
+static const double MIN_TURNED = 0.85, MAX_UNCOVERED = 0.35, BETTER_TURNED = 0.85, THICK = 0.15;
 static const double BETTER = 0.02;  /* by which a later candidate has to be better */
 static const double NEARNESS = 2;   /* of a mean distance, by a share inside */
 static const double MIN_LONG = 0.6; /* of a body's longest side, of bones that lie as the files say */
@@ -37,12 +37,6 @@ static const double KEPT = 0.85;    /* so much inside as the files say is no acc
 static const double ODD = 0.15;     /* an odd scale or offset with the same axes has to be so much better */
 static const double POSED = 0.1; /* so much better a rarer rotation has to be where limbs stand otherwise */
 static const double REACH = 0.3; /* so much worse one may be before its scale and offset are refined */
-
-typedef struct bone_line {
-  sbfi_d3 from, to; /* asset space */
-  uint32_t bone;
-  double length;
-} bone_line;
 
 typedef struct candidate {
   sbfi_matrix m;
@@ -53,10 +47,7 @@ typedef struct search {
   const sbfi_rigging *r;
   sbfi_soup soup;
   sbfi_winding winding; /* of the input in its own space */
-  bone_line *lines;
-  uint32_t line_count;
-  double total;      /* length */
-  sbfi_d3 low, high; /* of the lines */
+  sbfi_bone_lines lines;
   uint32_t rotation; /* at hand */
   candidate of_rotation[ROTATIONS];
   candidate best;
@@ -74,12 +65,12 @@ static bool is_inside(const search *s, sbfi_d3 p) {
   return sbfi_winding_inside(sbfi_winding_of_closed(&s->winding, p), sbfi_winding_of_caps(&s->winding, p));
 }
 
-static sbfi_d3 along(const bone_line *line, uint32_t sample) {
+static sbfi_d3 along(const sbfi_bone_line *line, uint32_t sample) {
   double t = (sample + 0.5) / PER_BONE;
   return sbfi_d3_add(sbfi_d3_scale(line->from, 1 - t), sbfi_d3_scale(line->to, t));
 }
 
-static double inside_of_line(const search *s, const sbfi_matrix *back, const bone_line *line) {
+static double inside_of_line(const search *s, const sbfi_matrix *back, const sbfi_bone_line *line) {
   uint32_t inside = 0;
   for (uint32_t k = 0; k < PER_BONE; k++) inside += is_inside(s, sbfi_similarity_apply(back, along(line, k)));
   return (double)inside / PER_BONE;
@@ -88,17 +79,17 @@ static double inside_of_line(const search *s, const sbfi_matrix *back, const bon
 /* Stops where less than `least` can be inside. */
 static double inside_fraction(const search *s, const sbfi_matrix *m, double min) {
   sbfi_matrix back;
-  double sum = 0, left = s->total;
+  double sum = 0, left = s->lines.total;
   if (!sbfi_matrix_invert(m, &back)) return 0;
-  for (uint32_t i = 0; i < s->line_count; i++) {
-    if (sum + left < min * s->total) return 0;
-    sum += s->lines[i].length * inside_of_line(s, &back, &s->lines[i]);
-    left -= s->lines[i].length;
+  for (uint32_t i = 0; i < s->lines.count; i++) {
+    if (sum + left < min * s->lines.total) return 0;
+    sum += s->lines.at[i].length * inside_of_line(s, &back, &s->lines.at[i]);
+    left -= s->lines.at[i].length;
   }
-  return s->total > 0 ? sum / s->total : 1;
+  return s->lines.total > 0 ? sum / s->lines.total : 1;
 }
 
-static double distance_to_line(const bone_line *line, sbfi_d3 p) {
+static double distance_to_line(const sbfi_bone_line *line, sbfi_d3 p) {
   sbfi_d3 along = sbfi_d3_sub(line->to, line->from), displacement = sbfi_d3_sub(p, line->from);
   double t = fmin(fmax(sbfi_d3_dot(displacement, along) / sbfi_d3_dot(along, along), 0), 1);
   return sbfi_d3_length(sbfi_d3_sub(displacement, sbfi_d3_scale(along, t)));
@@ -114,7 +105,8 @@ static double distance_to_bones(const search *s, const sbfi_matrix *m) {
     uint32_t at = (uint32_t)((double)points.count * fmod(0.5 + i * 0.6180339887498949, 1.0));
     sbfi_d3 p = sbfi_similarity_apply(m, sbfi_d3_of(points.at[at]));
     double nearest = INFINITY;
-    for (uint32_t k = 0; k < s->line_count; k++) nearest = fmin(nearest, distance_to_line(&s->lines[k], p));
+    for (uint32_t k = 0; k < s->lines.count; k++)
+      nearest = fmin(nearest, distance_to_line(&s->lines.at[k], p));
     sum += fmin(nearest / size, 1);
   }
   return samples ? sum / samples : 0;
@@ -134,87 +126,12 @@ static void consider(search *s, const sbfi_matrix *m) {
   if (here.score >= best->score + BETTER) *best = here;
 }
 
-/* --- Bones as lines ------------------------------------------------------------------------------------ */
-
-static int compare_lengths(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
-  double length = sbfi_d3_length(sbfi_d3_sub(to, from));
-  if (!(length > 0)) return;
-  s->lines[s->line_count++] = (bone_line){from, to, bone, length};
-  s->total += length;
-}
-
-/* Exporters mark the end of a limb's last bone as far away as their own setting says. Ends farther than any
- * two bones of the rig's limbs are apart are moved to the median distance. */
-static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *lengths) {
-  const sbf_bone_list *bones = &r->c->asset->bones;
-  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
-  uint32_t count = 0;
-  for (uint32_t b = 0; b < bones->count; b++) {
-    int32_t parent = bones->at[b].parent;
-    if (parent == SBF_NONE || !holds_skin[parent] || !holds_skin[b] || sbfi_bone_is_on_root(&in, b)) continue;
-    lengths[count++] =
-        sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[parent].head)));
-  }
-  if (!count) return;
-  qsort(lengths, count, sizeof *lengths, compare_lengths);
-  double longest = lengths[count - 1], median = lengths[count / 2];
-  for (uint32_t b = 0; b < bones->count; b++) {
-    int32_t parent = bones->at[b].parent;
-    if (!sbfi_bone_is_end(&in, b) || !holds_skin[parent]) continue;
-    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* ours until the asset is handed out */
-    sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
-    sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
-    double length = sbfi_d3_length(along);
-    if (!(length > longest)) continue;
-    end->head = sbfi_d3_rounded(sbfi_d3_add(from, sbfi_d3_scale(along, median / length)));
-    if ((double)last->length > longest) last->length = (float)median;
-  }
-}
-
-/* Frames and controls do not lie in a body: lines run between bones that hold skin, and to marks of ends. */
-static bool make_lines(search *s, sbfi_arena *arena) {
-  const sbf_bone_list *bones = &s->r->c->asset->bones;
-  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
-  bool *holds_skin = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *holds_skin);
-  double *lengths = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *lengths);
-  s->lines = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->lines);
-  if (!s->lines || !holds_skin || !lengths) return false;
-  double size = 0;
-  for (uint32_t b = 1; b < bones->count; b++)
-    size =
-        fmax(size, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[0].head))));
-  const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
-  sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
-  shorten_ends(s->r, holds_skin, lengths);
-  uint32_t joined = 0; /* bones between two that hold skin */
-  for (uint32_t b = 0; b < bones->count; b++)
-    joined += bones->at[b].parent != SBF_NONE && holds_skin[bones->at[b].parent] && holds_skin[b];
-  for (uint32_t b = 0; b < bones->count; b++) {
-    int32_t parent = bones->at[b].parent;
-    bool is_end = sbfi_bone_is_end(&in, b);
-    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !is_end)) continue;
-    if (is_end && joined > SEVERAL) continue;
-    add_line(s, (uint32_t)parent, sbfi_d3_of(bones->at[parent].head), sbfi_d3_of(bones->at[b].head));
-  }
-  for (uint32_t i = 0; i < 2 * s->line_count; i++) {
-    sbfi_d3 p = i % 2 ? s->lines[i / 2].to : s->lines[i / 2].from;
-    s->low = i ? (sbfi_d3){fmin(s->low.x, p.x), fmin(s->low.y, p.y), fmin(s->low.z, p.z)} : p;
-    s->high = i ? (sbfi_d3){fmax(s->high.x, p.x), fmax(s->high.y, p.y), fmax(s->high.z, p.z)} : p;
-  }
-  return true;
-}
-
 /* --- Candidates ---------------------------------------------------------------------------------------- */
 
 /* As it is; middle on middle; standing on the lowest bone, which is an ankle's height above the sole. */
 static void consider_offsets(search *s, const sbfi_matrix *axes, double scale) {
   sbfi_matrix m = sbfi_similarity_scaled(axes, scale, (sbfi_d3){0, 0, 0});
-  sbfi_d3 bones = sbfi_d3_scale(sbfi_d3_add(s->low, s->high), 0.5);
+  sbfi_d3 bones = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
   sbfi_d3 input = sbfi_similarity_apply(&m, sbfi_d3_scale(sbfi_d3_add(s->soup.low, s->soup.high), 0.5));
   sbfi_d3 a = sbfi_similarity_apply(&m, s->soup.low), b = sbfi_similarity_apply(&m, s->soup.high);
   double height = fabs(b.y - a.y);
@@ -222,7 +139,7 @@ static void consider_offsets(search *s, const sbfi_matrix *axes, double scale) {
   sbfi_d3 offset = sbfi_d3_sub(bones, input);
   m = sbfi_similarity_scaled(axes, scale, offset);
   consider(s, &m);
-  offset.y = s->low.y - 0.05 * height - fmin(a.y, b.y);
+  offset.y = s->lines.low.y - 0.05 * height - fmin(a.y, b.y);
   m = sbfi_similarity_scaled(axes, scale, offset);
   consider(s, &m);
 }
@@ -236,8 +153,8 @@ static void consider_scale(search *s, double scale) {
 
 /* Other scales and offsets up and forwards around a candidate, in ever smaller steps. */
 static candidate refined(const search *s, candidate from) {
-  double size = longest_side(s->low, s->high);
-  sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->low, s->high), 0.5);
+  double size = longest_side(s->lines.low, s->lines.high);
+  sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
   for (double step = 0.08; step > 0.01; step *= 0.5)
     for (int k = 0; k < 6; k++) {
       double sign = k % 2 ? -1 : 1, factor = k < 2 ? 1 + sign * step : 1, aside = 0.5 * sign * step * size;
@@ -289,11 +206,10 @@ static bool has_stated_axes(const search *s, const sbfi_matrix *m) {
 /* Whether the stated transform stays. */
 static bool consider_all(search *s) {
   const candidate stated = s->best;
-  double bones = longest_side(s->low, s->high), input = longest_side(s->soup.low, s->soup.high);
+  double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
   double stated_scale = sbfi_similarity_scale(&s->r->c->to_asset);
   /* A small rig lies inside anything. One of few bones may leave large parts of its body without any. */
-  double max = s->line_count < SEVERAL && !sbfi_rig_has_no_size(s->r) ? 3 : 1.6;
-  for (uint32_t i = 0; i < ROTATIONS; i++) s->of_rotation[i].score = -INFINITY;
+  double max = s->lines.count < SEVERAL && !sbfi_rig_has_no_size(s->r) ? 3 : 1.6;
   for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
     double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated_scale;
     if (input * scale < 0.7 * bones || input * scale > (unit ? max : 3) * bones) continue;
@@ -301,7 +217,7 @@ static bool consider_all(search *s) {
   }
   /* How much longer an input is than its bones. */
   static const double ratios[] = {1.12, 1.3, 1, 1.06, 1.2, 1.45, 1.7, 2};
-  size_t count = sizeof ratios / sizeof *ratios - (s->line_count < SEVERAL ? 0 : 2);
+  size_t count = sizeof ratios / sizeof *ratios - (s->lines.count < SEVERAL ? 0 : 2);
   for (size_t k = 0; k < count; k++) consider_scale(s, ratios[k] * bones / input);
   choose(s);
   if (stated.fraction < KEPT || sbfi_rig_has_no_size(s->r) || !has_stated_axes(s, &s->best.m) ||
@@ -332,10 +248,10 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
   uint32_t bone_count = s->r->c->asset->bones.count;
   double *distances = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *distances);
   if (!distances) return false;
-  for (uint32_t i = 0; i < s->line_count; i++)
+  for (uint32_t i = 0; i < s->lines.count; i++)
     for (uint32_t k = 0; k < PER_BONE; k++) {
-      double *distance = &distances[s->lines[i].bone];
-      sbfi_d3 p = along(&s->lines[i], k);
+      double *distance = &distances[s->lines.at[i].bone];
+      sbfi_d3 p = along(&s->lines.at[i], k);
       sbfi_surface_location near;
       if (!is_inside(s, sbfi_similarity_apply(&back, p)) &&
           sbfi_surface_nearest(&finder, p, NULL, 1e30, &near))
@@ -439,76 +355,129 @@ static double uncovered_fraction(const search *s) {
     uint32_t at = (uint32_t)((double)points.count * i / samples);
     sbfi_d3 p = sbfi_similarity_apply(&s->best.m, sbfi_d3_of(points.at[at]));
     double nearest = INFINITY;
-    for (uint32_t k = 0; k < s->line_count && nearest > THICK * size; k++)
-      nearest = fmin(nearest, distance_to_line(&s->lines[k], p));
+    for (uint32_t k = 0; k < s->lines.count && nearest > THICK * size; k++)
+      nearest = fmin(nearest, distance_to_line(&s->lines.at[k], p));
     far += nearest > THICK * size;
   }
   return samples ? (double)far / samples : 0;
 }
 
-/* A rig that stands otherwise than the input, limb by limb. The turns stay where they bring nearly all bones
- * inside and no large part of the input is left without any: that would be another character. */
-static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, bool *matched) {
-  sbfi_conversion *c = r->c;
-  const sbf_bone_list list = c->asset->bones;
-  sbf_bone *bones = (sbf_bone *)(uintptr_t)list.at; /* ours until the asset is handed out */
-  const sbf_bone *before = sbfi_arena_copy(arena, bones, list.count, sizeof *bones);
-  const sbfi_scene *scene = r->rig.scene, *rig = c->rig;
-  char turned[300];
-  double fraction = s->best.fraction;
-  *matched = fraction >= GOOD;
-  if (*matched || fraction < MIN_TRUNK) return SBF_OK;
-  r->alignment.to_asset = s->best.m;
-  s->line_count = 0;
-  s->total = s->best.fraction = 0;
-  if (!before || !sbfi_align_limbs(r, &s->winding, turned, sizeof turned) || !make_lines(s, arena))
-    return sbfi_convert_no_memory(c);
-  s->best.fraction = inside_fraction(s, &s->best.m, 0);
-  double uncovered = uncovered_fraction(s);
-  bool fits = s->best.fraction >= MIN_TURNED && uncovered <= MAX_UNCOVERED;
-  if (turned[0] && (fits || (s->best.fraction >= MIN_COVERING && uncovered <= COVERED))) {
-    sbfi_convert_warn(c, SBF_CODE_RIG_ALIGNED,
-        "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
-        "hangs on it",
-        turned);
-    if (s->best.fraction < GOOD)
-      sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
-          "with its limbs turned, %.0f %% of the length of the rig's bones lies inside the mesh, and without "
-          "a mesh "
-          "like the input nothing tells whether each lies in its own limb: look at the bones in --report; a "
-          "rig in the "
-          "pose of the input needs no turn",
-          100 * s->best.fraction);
-    *matched = true;
-    return SBF_OK;
-  }
-  memcpy(bones, before, list.count * sizeof *bones);
-  r->rig.scene = scene;
-  c->rig = rig;
-  s->line_count = 0;
-  s->total = 0;
-  s->best.fraction = fraction;
-  return make_lines(s, arena) ? SBF_OK : sbfi_convert_no_memory(c);
+/* Of a usual unit the cost of turned limbs counts by this factor, without an offset by the last as well:
+ * where limbs stand otherwise an odd scale makes up for much. By so much for rarer rotations. */
+static const double USUAL_UNIT = 0.75, STATED_UNIT = 0.68, NO_OFFSET = 0.8, RARER = 0.15;
+static const double SAME_SCALE = 1e-6; /* as a share */
+
+static void add_candidate(const search *s, const sbfi_matrix *m, sbfi_limb_candidate *to, uint32_t *count) {
+  double scale = sbfi_similarity_scale(m);
+  bool stays = m->at[0][3] == 0 && m->at[1][3] == 0 && m->at[2][3] == 0;
+  double factor = 1;
+  for (uint32_t i = 0; i < SBFI_USUAL_UNITS; i++)
+    if (fabs(scale / sbfi_usual_units[i].unit_m - 1) < SAME_SCALE) factor = USUAL_UNIT;
+  if (fabs(scale / sbfi_similarity_scale(&s->r->c->to_asset) - 1) < SAME_SCALE) factor = STATED_UNIT;
+  if (factor < 1 && stays) factor *= NO_OFFSET;
+  to[(*count)++] = (sbfi_limb_candidate){*m, factor * (1 + RARER * rarity_of(m))};
 }
 
-/* Of usual rotations those that are not much worse than the best, as they are and as well as they can lie. */
-static sbf_status match_limbs_otherwise(sbfi_rigging *r, search *s, sbfi_arena *arena, bool *matched) {
-  const candidate best = s->best;
-  sbf_status status = SBF_OK;
-  for (uint32_t i = 0; i < 2 * ROTATIONS && status == SBF_OK && !*matched; i++) {
-    const candidate *plain = &s->of_rotation[i / 2];
-    if (!(plain->score > best.score - REACH) || rarity_of(&plain->m) != 0) continue;
-    s->best = i % 2 ? refined(s, *plain) : *plain;
-    status = match_limbs(r, s, arena, matched);
+/* Ways in which the input may lie over the rig, whose limbs stand otherwise: the best of the rotations that
+ * may be meant, and those of usual units without an offset. */
+static uint32_t collect_candidates(search *s, sbfi_limb_candidate to[MAX_CANDIDATES]) {
+  double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
+  uint32_t count = 0;
+  add_candidate(s, &s->best.m, to, &count);
+  for (uint32_t i = 0; i < ROTATIONS; i++) {
+    const candidate *plain = &s->of_rotation[i];
+    if (!(plain->score > s->best.score - REACH)) continue;
+    if (plain->score < s->best.score && rarity_of(&plain->m) != 0) continue;
+    candidate better = refined(s, *plain);
+    add_candidate(s, &plain->m, to, &count);
+    add_candidate(s, &better.m, to, &count);
+    for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
+      double scale = unit ? sbfi_usual_units[unit - 1].unit_m : sbfi_similarity_scale(&s->r->c->to_asset);
+      if (input * scale < 0.7 * bones || input * scale > 2 * bones) continue;
+      sbfi_matrix m = sbfi_similarity_scaled(&plain->m, scale, (sbfi_d3){0, 0, 0});
+      add_candidate(s, &m, to, &count);
+    }
   }
-  if (!*matched) s->best = best;
-  return status;
+  return count;
+}
+
+static void say_turned(const search *s, const sbfi_limb_alignment *found) {
+  sbfi_convert_warn(s->r->c, SBF_CODE_RIG_ALIGNED,
+      "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
+      "hangs on it",
+      found->names);
+}
+
+/* Cuts a list of names to what an error has room for. */
+static void shorten_names(char *names) {
+  enum { MAX_LENGTH = 80 };
+  char *last = names;
+  if (strlen(names) <= MAX_LENGTH) return;
+  for (char *at = names; at < names + MAX_LENGTH; at++)
+    if (*at == ',') last = at;
+  if (last > names) memcpy(last, " ...", sizeof " ...");
+}
+
+/* Bones that still lie outside, or parts without bones, may be limbs in the wrong place. */
+static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sbfi_arena *arena) {
+  sbfi_conversion *c = s->r->c;
+  char outside[130] = "";
+  if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(c);
+  if (c->options->weights) {
+    sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
+        "with its limbs turned, %.0f %% of the length of the rig's bones lies inside the mesh; outside lie "
+        "%s: look at the bones in --report; a rig in the pose of the input needs no turn",
+        100 * s->best.fraction, outside);
+    return SBF_OK;
+  }
+  if (!sbfi_show_misfit(s->r, &s->best.m)) return sbfi_convert_no_memory(c);
+  shorten_names(found->names);
+  return sbfi_diagnose(c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
+      "the rig stands otherwise than the mesh, and its limbs were not all found: with %s turned, %.0f %% of "
+      "the bones' length lies inside; outside lie %s; pose the mesh as the rig; --weights compute takes the "
+      "bones so",
+      found->names, 100 * s->best.fraction, outside[0] ? outside : "none");
+}
+
+/* A rig that stands otherwise than the input, limb by limb. What the files state stays where that fits. */
+static sbf_status match_limbs(sbfi_rigging *r, search *s, bool is_stated, bool *matched) {
+  sbfi_limb_candidate candidates[MAX_CANDIDATES];
+  sbfi_limb_alignment found;
+  sbfi_arena arena;
+  sbf_status status = SBF_OK;
+  uint32_t count = 0;
+  sbfi_arena_init(&arena, &r->c->scratch.allocator, 0);
+  if (is_stated)
+    add_candidate(s, &s->best.m, candidates, &count);
+  else
+    count = collect_candidates(s, candidates);
+  bool good = sbfi_align_limbs(r, &s->lines, candidates, count, &s->best.m, &found, &arena);
+  *matched = s->best.fraction >= GOOD;
+  if (good && found.names[0] && found.cost < BETTER_TURNED * found.unposed_cost) {
+    const candidate before = s->best;
+    sbfi_bone_line *lines = s->lines.at;
+    s->best.m = found.to_asset;
+    s->lines.at = found.lines;
+    s->best.fraction = inside_fraction(s, &s->best.m, 0);
+    bool fits = s->best.fraction >= MIN_TURNED && uncovered_fraction(s) <= MAX_UNCOVERED;
+    if (fits || (!is_stated && s->best.fraction >= SBFI_MIN_BONES_INSIDE)) {
+      r->alignment.to_asset = s->best.m;
+      if (!fits) status = report_limbs_outside(s, &found, &arena);
+      if (status == SBF_OK) say_turned(s, &found);
+      good = sbfi_rig_move_bones(r, found.motions);
+      *matched = true;
+    } else
+      s->best = before;
+    s->lines.at = lines;
+  }
+  sbfi_arena_free(&arena);
+  return good ? status : sbfi_convert_no_memory(r->c);
 }
 
 /* Whether the bones, as they lie, are about as long as the input. */
 static bool is_long(const search *s) {
   double input = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
-  return longest_side(s->low, s->high) >= MIN_LONG * input;
+  return longest_side(s->lines.low, s->lines.high) >= MIN_LONG * input;
 }
 
 sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
@@ -517,17 +486,17 @@ sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
   bool is_stated = r->alignment.is_stated;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   bool good = sbfi_soup_make(&s.soup, &r->input.mesh, &scratch) &&
-              sbfi_winding_make(&s.winding, &s.soup, &scratch) && make_lines(&s, &scratch);
+              sbfi_winding_make(&s.winding, &s.soup, &scratch) && sbfi_bone_lines_find(r, &s.lines, &scratch);
   sbf_status status = good ? SBF_OK : sbfi_convert_no_memory(r->c);
-  if (good && s.line_count) {
+  if (good && s.lines.count) {
     s.best.fraction = inside_fraction(&s, &s.best.m, 0);
+    for (uint32_t i = 0; i < ROTATIONS; i++) s.of_rotation[i].score = -INFINITY;
     s.best.score = s.best.fraction - NEARNESS * distance_to_bones(&s, &s.best.m);
     bool matched = false;
-    if (is_long(&s)) status = match_limbs(r, &s, &scratch, &matched);
+    if (is_long(&s) || !is_stated) status = match_limbs(r, &s, true, &matched);
     if (status == SBF_OK && !matched && is_stated) {
-      bool kept = consider_all(&s);
-      status = match_limbs(r, &s, &scratch, &matched);
-      if (status == SBF_OK && !matched && !kept) status = match_limbs_otherwise(r, &s, &scratch, &matched);
+      consider_all(&s);
+      status = match_limbs(r, &s, false, &matched);
     }
     r->alignment.to_asset = s.best.m;
     r->alignment.inside = s.best.fraction;

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "import/rigging/align.h"
+#include "import/rigging/moved_bones.h"
 #include "import/rigging/pose_fit.h"
-#include "motion/turn.h"
 
 enum { PASSES = 4, MAX_NAMED = 8 };
 
@@ -29,74 +29,14 @@ static const double LATER_WITHIN = 0.05;
 /* Smaller turns, rad, are not reported; where none is wider, the input stands as the rig's mesh does. */
 static const double REPORTED = 0.087, MIN_TURN = 0.17;
 
-/* --- The pose in bones and nodes ----------------------------------------------------------------------- */
-
-static void turn_quaternion(const sbfi_matrix *m, double to[4]) {
-  double trace = m->at[0][0] + m->at[1][1] + m->at[2][2];
-  double squares[4] = {
-      1 + 2 * m->at[0][0] - trace, 1 + 2 * m->at[1][1] - trace, 1 + 2 * m->at[2][2] - trace, 1 + trace};
-  int best = 0;
-  for (int k = 1; k < 4; k++)
-    if (squares[k] > squares[best]) best = k;
-  double twice = sqrt(squares[best]); /* of the largest component */
-  to[best] = twice / 2;
-  for (int k = 0; k < 3; k++) {
-    int next = (k + 1) % 3, last = (k + 2) % 3;
-    double difference = (m->at[last][next] - m->at[next][last]) / (2 * twice);
-    if (best == 3)
-      to[k] = difference;
-    else if (best == k)
-      to[3] = difference;
-    if (best < 3 && k != best) to[k] = (m->at[k][best] + m->at[best][k]) / (2 * twice);
-  }
-}
-
-static void pose_bones(const sbfi_pose_fit *f, sbf_bone *bones) {
-  for (uint32_t b = 0; b < f->bone_count; b++) {
-    sbf_quat *q = &bones[b].rotation;
-    double turn[4], rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
-    turn_quaternion(&f->motions[b], turn);
-    sbfi_turn_product(turn, rotation, rotation);
-    *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
-    bones[b].head = sbfi_d3_rounded(sbfi_pose_fit_joint(f, b));
-  }
-}
-
-/* Nodes that stand for a bone move with it, others with the node above. */
-static bool pose_nodes(const sbfi_pose_fit *f, sbfi_scene_node *nodes, uint32_t count) {
-  const sbfi_conversion *c = f->r->c;
-  sbfi_matrix to_scene, above;
-  if (!sbfi_matrix_invert(&c->rig_to_asset, &to_scene)) return false;
-  for (uint32_t n = 0; n < count; n++) {
-    int32_t bone = c->bone_of_node[n], parent = nodes[n].parent;
-    if (bone != SBF_NONE && c->node_of_bone[bone] == n) {
-      sbfi_matrix motion = sbfi_matrix_multiply(&f->motions[bone], &c->rig_to_asset);
-      motion = sbfi_matrix_multiply(&to_scene, &motion);
-      nodes[n].world = sbfi_matrix_multiply(&motion, &nodes[n].world);
-    } else if (parent != SBF_NONE) {
-      nodes[n].world = sbfi_matrix_multiply(&nodes[parent].world, &nodes[n].local);
-    }
-    if (parent == SBF_NONE)
-      nodes[n].local = nodes[n].world;
-    else if (sbfi_matrix_invert(&nodes[parent].world, &above))
-      nodes[n].local = sbfi_matrix_multiply(&above, &nodes[n].world);
-  }
-  return true;
-}
-
 static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
   sbfi_arena *arena = &r->c->scratch;
-  sbfi_scene *scene = sbfi_arena_copy(arena, r->rig.scene, 1, sizeof *scene);
   sbf_vec3 *positions =
       sbfi_arena_copy(arena, f->posed.mesh.positions.at, f->posed.mesh.positions.count, sizeof *positions);
   sbfi_scene_surface bound = r->rig;
-  if (!scene || !positions) return false;
-  sbfi_scene_node *nodes = sbfi_arena_copy(arena, scene->nodes, scene->node_count, sizeof *nodes);
-  if (!nodes || !sbfi_surface_with_positions(&r->rig, &bound, positions, arena)) return false;
-  if (!pose_nodes(f, nodes, scene->node_count)) return true;
-  scene->nodes = nodes;
-  r->c->rig = r->rig.scene = scene;
-  pose_bones(f, (sbf_bone *)(uintptr_t)r->c->asset->bones.at); /* ours until the asset is handed out */
+  if (!positions || !sbfi_rig_move_bones(r, f->motions) ||
+      !sbfi_surface_with_positions(&r->rig, &bound, positions, arena))
+    return false;
   r->alignment.to_asset = f->to_asset;
   r->alignment.is_stated = memcmp(&f->to_asset, &r->c->to_asset, sizeof f->to_asset) == 0;
   return true;

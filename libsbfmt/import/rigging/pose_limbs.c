@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "import/rigging/pose_fit.h"
+#include "import/rigging/similarity.h"
 #include "motion/turn.h"
 
 enum { DIRECTIONS = 600, LIMB_SAMPLES = 80 };
@@ -106,19 +107,6 @@ static double evaluate(const search *s, const limb *l, const double rotation[4])
   return lies / l->count + fmin(covers / l->all, 1);
 }
 
-/* Points spread evenly over the unit sphere, along a spiral. */
-static void spread(sbfi_d3 directions[DIRECTIONS]) {
-  const double cosine = -0.7373688780783197, sine = 0.6754902942615238; /* of the golden angle */
-  double x = 1, z = 0;
-  for (uint32_t i = 0; i < DIRECTIONS; i++) {
-    double height = 1 - 2 * (i + 0.5) / DIRECTIONS, radius = sqrt(1 - height * height),
-           next = cosine * x - sine * z;
-    directions[i] = (sbfi_d3){radius * x, height, radius * z};
-    z = sine * x + cosine * z;
-    x = next;
-  }
-}
-
 static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
   sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
@@ -158,7 +146,7 @@ bool sbfi_pose_search_limbs(sbfi_pose_fit *f) {
   limb *l = sbfi_arena_allocate(f->arena, 1, sizeof *l);
   if (!s || !l) return false;
   s->f = f;
-  spread(s->directions);
+  sbfi_spread_directions(s->directions, DIRECTIONS);
   for (uint32_t b = 0; b < f->bone_count; b++) {
     double rotation[4];
     if (f->bones[b].parent == SBF_NONE || !take_limb(s, b, l)) continue;

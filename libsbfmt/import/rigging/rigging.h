@@ -90,6 +90,8 @@ bool sbfi_surface_move(
 /* The same surface with other positions, which must outlive it. */
 bool sbfi_surface_with_positions(
     sbfi_scene_surface *to, const sbfi_scene_surface *from, const sbf_vec3 *positions, sbfi_arena *arena);
+/* Its polygons as fans of triangles from their first corners; NULL where memory runs out. */
+uint32_t (*sbfi_surface_triangles(const sbfi_scene_surface *surface, uint32_t *count, sbfi_arena *arena))[3];
 /* Weights of the points of all meshes: of their skins, or of the bone that a mesh without one hangs on. */
 sbfi_influences *sbfi_rig_weights(sbfi_conversion *c, const sbfi_scene_surface *surface);
 

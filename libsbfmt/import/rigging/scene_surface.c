@@ -196,3 +196,19 @@ sbfi_influences *sbfi_rig_weights(sbfi_conversion *c, const sbfi_scene_surface *
   }
   return weights;
 }
+
+uint32_t (*sbfi_surface_triangles(const sbfi_scene_surface *surface, uint32_t *count, sbfi_arena *arena))[3] {
+  const sbf_polygon_mesh *mesh = &surface->mesh;
+  uint32_t(*triangles)[3] =
+      sbfi_arena_allocate(arena, (size_t)mesh->polygon_points.count + 1, sizeof *triangles);
+  *count = 0;
+  for (uint32_t p = 0, at = 0; triangles && p < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++) {
+      const uint32_t *points = mesh->polygon_points.at + at;
+      uint32_t *to = triangles[(*count)++];
+      to[0] = points[0];
+      to[1] = points[k - 1];
+      to[2] = points[k];
+    }
+  return triangles;
+}

@@ -205,6 +205,18 @@ sbfi_similarity_text sbfi_similarity_describe(const sbfi_matrix *m, double size)
   return text;
 }
 
+void sbfi_spread_directions(sbfi_d3 *directions, uint32_t count) {
+  const double cosine = -0.7373688780783197, sine = 0.6754902942615238; /* of the golden angle */
+  double x = 1, z = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    double height = 1 - 2 * (i + 0.5) / count, radius = sqrt(1 - height * height),
+           next = cosine * x - sine * z;
+    directions[i] = (sbfi_d3){radius * x, height, radius * z};
+    z = sine * x + cosine * z;
+    x = next;
+  }
+}
+
 sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about) {
   sbfi_matrix m = sbfi_matrix_identity();
   for (int k = 0; k < 3; k++) {

@@ -9,6 +9,9 @@
 enum { SBFI_AXIS_ROTATIONS = 48 };
 sbfi_matrix sbfi_axis_rotation(uint32_t number);
 
+/* Directions spread evenly over the unit sphere, along a spiral. */
+void sbfi_spread_directions(sbfi_d3 *directions, uint32_t count);
+
 /* A rotation (quaternion x, y, z, w) about a point. */
 sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about);
 sbfi_d3 sbfi_similarity_apply(const sbfi_matrix *m, sbfi_d3 p);

@@ -14,23 +14,6 @@ static const double BESIDE = 0.15;
 /* As large as this fraction of the rig's size, it may be another character, and must hold a bone. */
 static const double LARGE = 0.6;
 
-static uint32_t (*triangles_of(const sbfi_scene_surface *s, sbfi_arena *arena, uint32_t *count))[3] {
-  uint32_t(*triangles)[3] =
-      sbfi_arena_allocate(arena, (size_t)s->mesh.polygon_points.count + 1, sizeof *triangles);
-  *count = 0;
-  for (uint32_t p = 0, at = 0; triangles && p < s->mesh.polygon_sizes.count;
-       at += s->mesh.polygon_sizes.at[p++]) {
-    const uint32_t *points = s->mesh.polygon_points.at + at;
-    for (uint32_t k = 2; k < s->mesh.polygon_sizes.at[p]; k++) {
-      uint32_t *to = triangles[(*count)++];
-      to[0] = points[0];
-      to[1] = points[k - 1];
-      to[2] = points[k];
-    }
-  }
-  return triangles;
-}
-
 /* Where the rig has skins, only bones that they name move anything. */
 static bool *find_deforming(const sbfi_rigging *r) {
   bool any = false,
@@ -218,7 +201,7 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
       .bone_count = r->c->asset->bones.count,
       .sides = find_sides(r),
       .is_deforming = find_deforming(r)};
-  in.triangles = (const uint32_t(*)[3])triangles_of(moved, &r->c->scratch, &in.triangle_count);
+  in.triangles = (const uint32_t(*)[3])sbfi_surface_triangles(moved, &in.triangle_count, &r->c->scratch);
   if (!in.triangles || !in.sides) return sbfi_convert_no_memory(r->c);
   sbf_status status = sbfi_compute_weights(&in, &computed, r->c->error);
   if (status == SBF_OK) status = check_idle_bones(r, &computed);

@@ -1,0 +1,82 @@
+#include "import/rigging/bone_lines.h"
+
+#include <stdlib.h>
+
+#include "build/weights/bone_roles.h"
+
+enum { SEVERAL = 10 };
+
+static int compare_lengths(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void add_line(sbfi_bone_lines *s, const sbf_bone *bones, uint32_t child, bool is_end) {
+  uint32_t bone = (uint32_t)bones[child].parent;
+  sbfi_d3 from = sbfi_d3_of(bones[bone].head), to = sbfi_d3_of(bones[child].head);
+  double length = sbfi_d3_length(sbfi_d3_sub(to, from));
+  if (!(length > 0)) return;
+  s->at[s->count++] = (sbfi_bone_line){from, to, bone, child, is_end, false, length};
+  s->total += length;
+}
+
+/* Exporters mark the end of a limb's last bone as far away as their own setting says. Ends farther than any
+ * two bones of the rig's limbs are apart are moved to the median distance. */
+static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *lengths) {
+  const sbf_bone_list *bones = &r->c->asset->bones;
+  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    if (parent == SBF_NONE || !holds_skin[parent] || !holds_skin[b] || sbfi_bone_is_on_root(&in, b)) continue;
+    lengths[count++] =
+        sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[parent].head)));
+  }
+  if (!count) return;
+  qsort(lengths, count, sizeof *lengths, compare_lengths);
+  double longest = lengths[count - 1], median = lengths[count / 2];
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    if (!sbfi_bone_is_end(&in, b) || !holds_skin[parent]) continue;
+    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* ours until the asset is handed out */
+    sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
+    sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
+    double length = sbfi_d3_length(along);
+    if (!(length > longest)) continue;
+    end->head = sbfi_d3_rounded(sbfi_d3_add(from, sbfi_d3_scale(along, median / length)));
+    if ((double)last->length > longest) last->length = (float)median;
+  }
+}
+
+bool sbfi_bone_lines_find(const sbfi_rigging *r, sbfi_bone_lines *s, sbfi_arena *arena) {
+  const sbf_bone_list *bones = &r->c->asset->bones;
+  *s = (sbfi_bone_lines){0};
+  const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
+  bool *holds_skin = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *holds_skin);
+  double *lengths = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *lengths);
+  s->at = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->at);
+  if (!s->at || !holds_skin || !lengths) return false;
+  double size = 0;
+  for (uint32_t b = 1; b < bones->count; b++)
+    size =
+        fmax(size, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones->at[b].head), sbfi_d3_of(bones->at[0].head))));
+  const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
+  sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
+  shorten_ends(r, holds_skin, lengths);
+  uint32_t joined = 0; /* bones between two that hold skin */
+  for (uint32_t b = 0; b < bones->count; b++)
+    joined += bones->at[b].parent != SBF_NONE && holds_skin[bones->at[b].parent] && holds_skin[b];
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    bool is_end = sbfi_bone_is_end(&in, b);
+    if (parent == SBF_NONE || !holds_skin[parent] || (!holds_skin[b] && !is_end)) continue;
+    if (is_end && joined > SEVERAL) continue;
+    add_line(s, bones->at, b, is_end);
+  }
+  for (uint32_t i = 0; i < 2 * s->count; i++) {
+    sbfi_d3 p = i % 2 ? s->at[i / 2].to : s->at[i / 2].from;
+    s->low = i ? (sbfi_d3){fmin(s->low.x, p.x), fmin(s->low.y, p.y), fmin(s->low.z, p.z)} : p;
+    s->high = i ? (sbfi_d3){fmax(s->high.x, p.x), fmax(s->high.y, p.y), fmax(s->high.z, p.z)} : p;
+  }
+  return true;
+}
