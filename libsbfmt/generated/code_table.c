@@ -275,7 +275,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra had reversed orientation and were turned."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},
   {"IMPORT_WEIGHTS_IMPOSSIBLE", SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Skin weights cannot be computed: give a mesh with a surface, and a rig with bones that move it."},
-  {"IMPORT_RIG_OUTSIDE", SBF_CODE_IMPORT_RIG_OUTSIDE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Less than 60 % of the rig's bone length lies inside the mesh near some of its surface: give the rig of this mesh, or state --unit, --up and --forward."},
+  {"IMPORT_RIG_OUTSIDE", SBF_CODE_IMPORT_RIG_OUTSIDE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Less than 60 % of the rig's bone length lies inside the mesh near some of its surface, or 85 % with its limbs turned: give the rig of this mesh in its pose, or state --unit, --up and --forward."},
   {"IMPORT_WEIGHTS_COMPUTED", SBF_CODE_IMPORT_WEIGHTS_COMPUTED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The rig has no mesh to take weights from: they were computed."},
   {"EXPORT_EMPTY", SBF_CODE_EXPORT_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The asset has nothing that the output form can hold."},
   {"EXPORT_LEFT_OUT", SBF_CODE_EXPORT_LEFT_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The output form cannot hold parts of the asset: they are left out."},

@@ -8,6 +8,7 @@ import unittest
 import obj_variants as variants
 from bundle_file import Bundle
 from bvh_file import write_bvh
+from posed_inputs import write_bones
 from rigged_weights import Original, weights_by_vertex
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main, shared
 
@@ -51,6 +52,7 @@ MOCAP = shared("mocap", "cmu_01_01.bvh")
 PEOPLE = [shared("..", "zoo", *path) for path in (("modular_men", "Punk.glb"), ("modular_women", "Formal.glb"),
                                                   ("godot_demos", "mannequiny.glb"))]
 PERSON = shared("..", "zoo", "modular_men", "Casual.glb")
+FROG = shared("..", "zoo", "easy_enemies_pack", "Frog.glb")
 
 
 def needs(*paths):
@@ -142,6 +144,16 @@ class Person(ProgramTest):
                 done = self.good("convert", original.obj_path, "--rig", MOCAP, *SOURCE_PARTS, "-o", self.path("person.sbf"))
                 self.assertNotIn("turned by 180", done.err)
                 self.assertEqual(self.json_of("info", self.path("person.sbf"))["gait"]["legs"], 2)
+
+
+class Frog(ProgramTest):
+    @needs(FROG)
+    def test_bones_outside_the_mesh_are_reported(self):
+        """A quarter of its own bones' length lies outside."""
+        original = Original(FROG, self.folder)
+        write_bones(FROG, self.path("bones.glb"))
+        done = self.good("convert", original.obj_path, "--rig", self.path("bones.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+        self.assertRegex(done.err, r"warning: .* only \d+ % of the bones' length lies inside the mesh; outside lie '.*RIG_OTHER_MESH")
 
 
 if __name__ == "__main__":

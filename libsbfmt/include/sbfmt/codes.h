@@ -286,7 +286,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra had reversed orientation and were turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
   SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE = 970, /* Skin weights cannot be computed: give a mesh with a surface, and a rig with bones that move it. */
-  SBF_CODE_IMPORT_RIG_OUTSIDE = 971, /* Less than 60 % of the rig's bone length lies inside the mesh near some of its surface: give the rig of this mesh, or state --unit, --up and --forward. */
+  SBF_CODE_IMPORT_RIG_OUTSIDE = 971, /* Less than 60 % of the rig's bone length lies inside the mesh near some of its surface, or 85 % with its limbs turned: give the rig of this mesh in its pose, or state --unit, --up and --forward. */
   SBF_CODE_IMPORT_WEIGHTS_COMPUTED = 972, /* The rig has no mesh to take weights from: they were computed. */
   SBF_CODE_EXPORT_EMPTY = 980, /* The asset has nothing that the output form can hold. */
   SBF_CODE_EXPORT_LEFT_OUT = 981, /* The output form cannot hold parts of the asset: they are left out. */
