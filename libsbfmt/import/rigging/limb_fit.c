@@ -247,13 +247,14 @@ static void search(sbfi_limb_fit *f) {
 
 /* --- All joints of turned limbs ------------------------------------------------------------------------ */
 
+/* Of a turn against the parent: twice the sine of half the angle, the same bits on every machine. */
 static double angle_of(const sbfi_limb_fit *f, uint32_t bone, const sbfi_matrix *motion) {
   sbfi_matrix above = sbfi_matrix_identity(), by;
   if (f->bones[bone].parent != SBF_NONE && !sbfi_matrix_invert(&f->motions[f->bones[bone].parent], &above))
     return 0;
   by = sbfi_matrix_multiply(motion, &above);
   double cosine = 0.5 * (by.at[0][0] + by.at[1][1] + by.at[2][2] - 1);
-  return acos(fmin(fmax(cosine, -1), 1));
+  return sqrt(fmin(fmax(2 - 2 * cosine, 0), 4));
 }
 
 /* Joints further along a limb stay straight where turning them saves little. */
