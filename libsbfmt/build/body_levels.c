@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "build/body_interior.h"
-#include "build/embed/carrier.h"
+#include "build/embed/embedder.h"
 #include "build/equal_bodies.h"
 #include "build/lattice/lattice_level.h"
 #include "build/lattice/region_level.h"
@@ -14,7 +14,7 @@
 #include "build/sections/section_level.h"
 
 enum { MAX_BRUTE_POINTS = 4096, MIN_FRACTION = 100, MAX_REFINED = 3 };
-static const double MAX_OFF = 1e-3; /* of a body's size, a point carried by its lattice */
+static const double MAX_OFF = 1e-3; /* of a body's size, a point embedded by its lattice */
 static const double MAX_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
 
 /* For a part of the work on one body's levels. */
@@ -135,17 +135,17 @@ static sbf_status make_level_set(
   return SBF_OK;
 }
 
-/* Whether weights that a file may hold carry each point of a polygon where it is: a coarse lattice misses
+/* Whether weights that a file may hold embed each point of a polygon where it is: a coarse lattice misses
  * spikes, and then what is drawn there is not where it was. */
 static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level *level, sbfi_build *b) {
   const sbf_u32_list *corners = &body->surface.polygon_points;
-  sbfi_carrier carrier;
+  sbfi_embedder embedder;
   sbfi_arena own;
   *missed = false;
   sbfi_arena_init(&own, &b->scratch.allocator, 0);
-  bool good = sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, level, NULL, UINT32_MAX, &own);
+  bool good = sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, level, NULL, UINT32_MAX, &own);
   for (uint32_t i = 0; good && !*missed && i < corners->count; i++)
-    *missed = (double)carrier.in_lattice[corners->at[i]].error > MAX_OFF * carrier.size;
+    *missed = (double)embedder.in_lattice[corners->at[i]].error > MAX_OFF * embedder.size;
   sbfi_arena_free(&own);
   return good;
 }

@@ -102,7 +102,7 @@ static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const 
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
-  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
+  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even rate */
   if (fraction < l->rest_stretch) fraction = l->rest_stretch + bent * bent * (fraction - l->rest_stretch);
   return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
 }
@@ -111,7 +111,7 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
 static float clearance_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root) {
   float max = rig->reach * input->scale, clear = CLEAR * max;
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CLEARANCE_S), fore, hind;
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CLEARANCE_S), fore, hind;
   float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
   if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     rise = (fore.y - hind.y) / (run * input->scale);
@@ -131,7 +131,7 @@ static float clearance_below(const sbri_rig *rig, const sbri_gait_state *state, 
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *spare) {
   float min = state->clearance.value < 0 ? state->clearance.value : 0, max = min; /* it rises for its belly */
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CROUCH_S);
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CROUCH_S);
   *spare = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];

@@ -79,7 +79,7 @@ typedef struct choice {
 
 /* Displacement of the body in a time. */
 static sbf_vec3 displacement_in(const sbri_gait_state *state, float time_s) {
-  return sbri_scale(sbri_body_velocity(state), state->pace * time_s);
+  return sbri_scale(sbri_body_velocity(state), state->speed_fraction * time_s);
 }
 
 /* Time until the swinging feet land; the duration of a step if none swings. */

@@ -78,7 +78,8 @@ static void find_corners(const sbri_rig *rig, const sbri_gait_state *state, floa
     sbf_vec3 corners[4], sbf_vec3 *outline) {
   const sbri_sole *sole = &rig->legs[leg].sole;
   const sbri_foot *foot = &state->feet[leg];
-  float turned = foot->planted ? 0 : state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
+  float turned =
+      foot->planted ? 0 : state->turn * state->speed_fraction * (1 - foot->phase) * foot->duration_s;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
     if (turned != 0) corner = sbri_turned(corner, turned); /* with the body's heading at landing */

@@ -48,7 +48,7 @@ void sbri_gait_reset(
   SBF_ASSERT(rig->leg_count <= SBRI_MAX_LEGS);
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
-  state->pace = state->limit = 1;
+  state->speed_fraction = state->limit = 1;
   state->since_lift_m = 1e6f; /* the first step does not wait */
   sbri_motion_reset(rig, state, input);
   sbri_body_stand(rig, state, input);
@@ -134,7 +134,7 @@ static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   state->sideways += (speed.x - state->sideways) * blend;
   state->turn += (h * input->turned - state->turn) * blend;
   state->standing_s = 0;
-  state->pace = 1;
+  state->speed_fraction = 1;
   state->displaced = 1;
   go(rig, state, input, by, input->turned);
   return input->turned;
@@ -169,10 +169,12 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   float balanced =
       1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* leaves the foot that lifts next room to lean */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
-  float pace = lasting < max ? lasting : max, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
-  state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
-  if (state->pace > max) state->pace = max;
-  float h = input->tick_s * state->pace * sbri_hop_pace(rig, state, input), turned = state->turn * h;
+  float speed_fraction = lasting < max ? lasting : max,
+        in_s = speed_fraction < state->speed_fraction ? SLOWS_S : HURRY_S;
+  state->speed_fraction += (speed_fraction - state->speed_fraction) * (1 - sbri_exp(-input->tick_s / in_s));
+  if (state->speed_fraction > max) state->speed_fraction = max;
+  float h = input->tick_s * state->speed_fraction * sbri_hop_speed_fraction(rig, state, input),
+        turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   go(rig, state, input, step, turned);
   return turned;

@@ -56,7 +56,7 @@ typedef struct sbri_gait_state {
   float heading;     /* rad, in (-pi, pi] */
   float heading_sine, heading_cosine;
   float forward, sideways, turn; /* smoothed, m/s and rad/s */
-  float pace;                    /* speed fraction that the feet allow, 0 to 1 */
+  float speed_fraction;          /* speed fraction that the feet allow, 0 to 1 */
   float standing_s;              /* time since it stopped moving, s; 0 while moving */
   float limit;                   /* speed fraction for which its steps have time, 0 to 1 */
   float needed_s;                /* recent duration of a step */

@@ -44,7 +44,7 @@ sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *in
 }
 
 /* Hops: half of the time on the ground, twice as fast in the air. */
-float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+float sbri_hop_speed_fraction(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (!sbri_is_kind(rig, SBF_GAIT_KIND_CRAWL) || rig->gait->undulation) return 1;
   sbri_motion_state *m = sbri_motion(rig, state);
   bool wanted = input->forward != 0 || input->sideways != 0 || fabsf(input->turn) > TURNS_HOP;

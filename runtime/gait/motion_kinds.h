@@ -70,7 +70,7 @@ void sbri_motion_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
 /* The drive as the kind can follow it. */
 sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *input);
 /* Factor of the speed in this tick, of what hops; advances the hop. */
-float sbri_hop_pace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+float sbri_hop_speed_fraction(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
 /* After the body has moved by `step`: phases, angles, paths. */
 void sbri_motion_tick(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step);

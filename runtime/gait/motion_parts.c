@@ -13,7 +13,7 @@ bool sbri_is_afloat(const sbri_rig *rig) {
 float sbri_motion_speed(const sbri_rig *rig, const sbri_gait_state *state) {
   float up = sbri_is_afloat(rig) ? sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state)->up : 0;
   float level = state->forward * state->forward + state->sideways * state->sideways;
-  return sqrtf(level + up * up) * state->pace;
+  return sqrtf(level + up * up) * state->speed_fraction;
 }
 
 sbf_quat sbri_motion_parent_turn(

@@ -53,7 +53,7 @@ static profile check(const sbri_gait_state *state, const sbri_gait_input *input,
   float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
   float from_slope = slope_along(foot->from_normal, direction),
         to_slope = slope_along(foot->to_normal, direction);
-  float turned = state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
+  float turned = state->turn * state->speed_fraction * (1 - foot->phase) * foot->duration_s;
   float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y;
   for (int k = 0; k <= PROFILE_SAMPLES; k++) {
     float fraction = (float)k / PROFILE_SAMPLES,
@@ -143,8 +143,8 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
   const sbri_foot *foot = &state->feet[leg];
   float upper = l->upper_length * input->scale, lower = l->lower_length * input->scale, max = 0;
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
-  sbf_vec3 drift = sbri_scale(
-      sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)), state->pace * duration_s);
+  sbf_vec3 drift = sbri_scale(sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)),
+      state->speed_fraction * duration_s);
   sbf_vec3 over = sbri_sub(sbri_ankle_over(l, foot, foot->from, input->scale), foot->from);
   float h = duration_s / SAMPLES, unit = DEGREES * FRAME_S * FRAME_S / (h * h), knee[3] = {0, 0, 0};
   float rise = foot->to.y - foot->from.y, limit = (1 - 0.5f * l->soft_reach) * l->reach * input->scale;

@@ -16,7 +16,7 @@ enum { PASSES = 4 };
 static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbri_stride *stride, uint32_t leg, float left_s) {
   float lasting = state->feet[leg].lasting;
-  left_s *= state->pace < lasting ? state->pace : lasting;
+  left_s *= state->speed_fraction < lasting ? state->speed_fraction : lasting;
   const sbri_home *at = &stride->homes[leg];
   float turned = state->turn * left_s;
   sbf_vec3 home, now = at->arm, velocity = at->velocity, drift = sbri_body_velocity(state);

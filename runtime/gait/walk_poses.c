@@ -20,7 +20,8 @@ static float between(const sbri_walks *walks, float speed, const sbri_walk **low
 
 /* In asset metres a second. */
 static float speed_of(const sbri_gait_state *state, float scale) {
-  return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->pace / scale;
+  return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->speed_fraction /
+         scale;
 }
 
 /* A foot that has just come down says where in its cycle the walk ought to be, and how long half a cycle is.

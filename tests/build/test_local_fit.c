@@ -80,7 +80,7 @@ static double yields(const held_body *of, const sbf_level *level, int direction)
     sbfi_d3 axis = {of->axis == 0, of->axis == 1, of->axis == 2},
             push = {direction == 0, direction == 1, direction == 2};
     if (direction == 3) push = sbfi_d3_cross(axis, sbfi_d3_sub(sbfi_d3_of(surface->at[i]), middle));
-    const sbfi_carried *by = &s.carried[i];
+    const sbfi_embedded_vertex *by = &s.embedded[i];
     const float weights[4] = {by->weights.x, by->weights.y, by->weights.z, by->weights.w};
     for (int k = 0; k < 4; k++) {
       double fraction = (double)weights[k] * s.areas[i] / area, *to = forces + 3 * (size_t)by->points.at[k];

@@ -114,7 +114,7 @@ static void show(gait_stage *s, float phase, sbf_vec3 *heads) {
   sbr_transform frames[BONES];
   const sbri_rig *rig = &s->rig;
   for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->rest_local[b];
-  s->state->forward = 1, s->state->pace = 1, s->state->walk_phase = phase;
+  s->state->forward = 1, s->state->speed_fraction = 1, s->state->walk_phase = phase;
   sbri_walk_pose(rig, s->state, 1, s->pose);
   for (uint32_t b = 0; b < BONES; b++) {
     frames[b] = s->pose[b];
@@ -167,14 +167,14 @@ START_TEST(a_walk_becomes_a_run)
   begin(&s, keys, 4, 0);
   ck_assert_uint_eq(s.rig.walks.walk_count, 2);
   for (int i = 0; i < 3; i++) {
-    sbri_gait_state state = {.forward = speeds[i], .pace = 1, .walk_phase = 0.5f};
+    sbri_gait_state state = {.forward = speeds[i], .speed_fraction = 1, .walk_phase = 0.5f};
     for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.rig.rest_local[b];
     float weight = fminf(1, speeds[i] / 0.25f); /* half of the gait's walking speed */
     sbri_walk_pose(&s.rig, &state, 1, s.pose);
     ck_assert_float_eq_tol(sbri_quat_log(s.pose[HEAD].rotation).x, weight * tops[i], 0.01f);
     sbri_walk_tick(&s.rig, &state, 0.05f, 1);
     ck_assert_float_eq_tol(state.walk_phase, 0.5f + 0.05f / cycles[i], 1e-5f);
-    sbri_gait_state tall = {.forward = 2 * speeds[i], .pace = 1, .walk_phase = 0.5f};
+    sbri_gait_state tall = {.forward = 2 * speeds[i], .speed_fraction = 1, .walk_phase = 0.5f};
     sbri_walk_tick(&s.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
     ck_assert_float_eq_tol(tall.walk_phase, state.walk_phase, 1e-5f);
   }

@@ -12,7 +12,7 @@
 typedef struct weighted_point {
   uint32_t vertex, body;
   float blend;
-  const sbfi_mix *mix; /* by which the body carries it; NULL: by its carrier */
+  const sbfi_mix *mix; /* by which the body embeds it; NULL: by its embedder */
 } weighted_point;
 
 static bool is_beside(const weighted_point *s) {
@@ -26,8 +26,8 @@ typedef struct work {
   int32_t derivation;
   sbfi_embed_report *report;
   sbfi_arena *scratch;
-  sbfi_carrier *carriers; /* (target_count) */
-  uint32_t *finest;       /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
+  sbfi_embedder *embedders; /* (target_count) */
+  uint32_t *finest;         /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
   uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
   uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
   uint32_t *bone_sections; /* (bones) the body cut along the bone; SBFI_NO_INDEX: none */
@@ -67,7 +67,7 @@ static bool index_bodies(work *w) {
 }
 
 static double distance_to(const work *w, uint32_t body, sbf_vec3 position, double min) {
-  return sbfi_carrier_distance(&w->carriers[w->finest[body]], position, min);
+  return sbfi_embedder_distance(&w->embedders[w->finest[body]], position, min);
 }
 
 /* Of the bodies on one bone, the nearest. */
@@ -145,7 +145,7 @@ static bool distribute_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_s
 
 static bool is_body_of(const work *w, uint32_t body, const sbf_vec3_list *positions) {
   for (uint32_t v = 0; v < positions->count; v++)
-    if (!sbfi_carrier_has(&w->carriers[w->finest[body]], positions->at[v])) return false;
+    if (!sbfi_embedder_has(&w->embedders[w->finest[body]], positions->at[v])) return false;
   return true;
 }
 
@@ -209,29 +209,30 @@ static bool reserve(const work *w, sbf_level *level) {
   return true;
 }
 
-static sbfi_carried carried_mixed(const sbfi_mix *mix) {
-  sbfi_carried carried = {.weights = {mix->weights[0], mix->weights[1], mix->weights[2], mix->weights[3]}};
-  memcpy(carried.points.at, mix->points, sizeof mix->points);
-  return carried;
+static sbfi_embedded_vertex embedded_mixed(const sbfi_mix *mix) {
+  sbfi_embedded_vertex embedded = {
+      .weights = {mix->weights[0], mix->weights[1], mix->weights[2], mix->weights[3]}};
+  memcpy(embedded.points.at, mix->points, sizeof mix->points);
+  return embedded;
 }
 
-/* Attaches to the body's bone what the level's own points are too far from to carry in place. */
+/* Attaches to the body's bone what the level's own points are too far from to embed in place. */
 static bool attach_to_bone(const work *w, uint32_t target, const sbf_vec3_list *positions,
     const weighted_point *list, sbfi_array *items) {
   sbf_level *level = w->targets[target].level;
   const sbf_soft_body *body = &w->asset->soft_bodies.at[w->targets[target].body];
-  sbfi_carried *carried = items->at;
+  sbfi_embedded_vertex *embedded = items->at;
   sbfi_d3 middle = sbfi_points_middle(&level->positions);
   double reach = 0;
   uint32_t first;
   for (uint32_t i = 0; i < items->count; i++)
-    if (carried[i].beyond)
+    if (embedded[i].beyond)
       reach = fmax(reach, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions->at[list[i].vertex]), middle)));
   if (!(reach > 0)) return true;
   if (!sbfi_bone_frame_add(level, body->bone, middle, reach, w->derivation, w->asset, &first)) return false;
   for (uint32_t i = 0; i < items->count; i++)
-    if (carried[i].beyond)
-      carried[i] = sbfi_carrier_carry_by_frame(&w->carriers[target], first, positions->at[list[i].vertex]);
+    if (embedded[i].beyond)
+      embedded[i] = sbfi_embedder_embed_by_frame(&w->embedders[target], first, positions->at[list[i].vertex]);
   return true;
 }
 
@@ -243,8 +244,8 @@ static bool follows_bone(const sbf_soft_body *body, const sbf_level *level) {
   return is_pinned && body->bone != SBF_NONE && level->derived != SBF_NONE;
 }
 
-/* How the target's level carries each vertex of `list`. */
-static bool carry_all(work *w, uint32_t target, const sbf_vec3_list *positions, const weighted_point *list,
+/* How the target's level embeds each vertex of `list`. */
+static bool embed_all(work *w, uint32_t target, const sbf_vec3_list *positions, const weighted_point *list,
     uint32_t count, sbfi_array *items, sbfi_progress progress) {
   const sbfi_embed_target *to = &w->targets[target];
   for (uint32_t i = 0; i < count; i++) {
@@ -252,22 +253,22 @@ static bool carry_all(work *w, uint32_t target, const sbf_vec3_list *positions, 
     if (!sbfi_progress_step(progress, i, count)) return false;
     /* What the sections mixed are points of the finest level. */
     bool mixed = list[i].mix && w->finest[to->body] == target && to->frame != SBFI_NO_INDEX;
-    sbfi_carried carried =
-        mixed ? carried_mixed(list[i].mix) : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
-    if (!sbfi_array_append(items, &carried, 1)) return false;
+    sbfi_embedded_vertex embedded =
+        mixed ? embedded_mixed(list[i].mix) : sbfi_embedder_embed(&w->embedders[target], positions->at[v], v);
+    if (!sbfi_array_append(items, &embedded, 1)) return false;
   }
   return !follows_bone(&w->asset->soft_bodies.at[to->body], to->level) ||
          attach_to_bone(w, target, positions, list, items);
 }
 
-/* Counts what lies far outside or is carried off its place. */
-static bool note_carried(work *w, uint32_t target, uint32_t vertex, const sbfi_carried *carried) {
+/* Counts what lies far outside or is embedded off its place. */
+static bool note_embedded(work *w, uint32_t target, uint32_t vertex, const sbfi_embedded_vertex *embedded) {
   const sbf_level *level = w->targets[target].level;
-  if (carried->outside > w->report->farthest) w->report->farthest = carried->outside;
-  bool far = level->cell > 0 && carried->outside > level->cell;
-  if (!far) w->report->flat += carried->error > 1e-3f * (float)w->carriers[target].size;
+  if (embedded->outside > w->report->farthest) w->report->farthest = embedded->outside;
+  bool far = level->cell > 0 && embedded->outside > level->cell;
+  if (!far) w->report->flat += embedded->error > 1e-3f * (float)w->embedders[target].size;
   return !far ||
-         sbfi_far_vertices_add(&w->far, vertex, carried->outside, w->targets[target].body, w->scratch);
+         sbfi_far_vertices_add(&w->far, vertex, embedded->outside, w->targets[target].body, w->scratch);
 }
 
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
@@ -282,15 +283,15 @@ static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_li
   float *blends = blended ? sbf_asset_allocate(w->asset, count, sizeof *blends) : NULL;
   if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
   sbfi_array items;
-  sbfi_array_init(&items, &w->scratch->allocator, sizeof(sbfi_carried));
-  bool good = carry_all(w, target, positions, list, count, &items, progress);
-  const sbfi_carried *carried = items.at;
+  sbfi_array_init(&items, &w->scratch->allocator, sizeof(sbfi_embedded_vertex));
+  bool good = embed_all(w, target, positions, list, count, &items, progress);
+  const sbfi_embedded_vertex *embedded = items.at;
   for (uint32_t i = 0; good && i < count; i++) {
-    points[i] = carried[i].points;
-    weights[i] = carried[i].weights;
+    points[i] = embedded[i].points;
+    weights[i] = embedded[i].weights;
     if (vertices) vertices[i] = list[i].vertex;
     if (blends) blends[i] = list[i].blend;
-    good = !count_it || note_carried(w, target, list[i].vertex, &carried[i]);
+    good = !count_it || note_embedded(w, target, list[i].vertex, &embedded[i]);
   }
   sbfi_array_free(&items);
   if (!good) return false;
@@ -403,11 +404,11 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   *report = (sbfi_embed_report){0, 0, 0};
   if (target_count == 0) return true;
   sbfi_array_init(&w.contributions, &scratch->allocator, sizeof(weighted_point));
-  w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);
-  bool good = w.carriers && index_bodies(&w);
+  w.embedders = sbfi_arena_allocate(scratch, target_count, sizeof *w.embedders);
+  bool good = w.embedders && index_bodies(&w);
   for (uint32_t t = 0; good && t < target_count; t++)
     good = sbfi_progress_say(progress, 0.2 * t / target_count) && reserve(&w, targets[t].level) &&
-           sbfi_carrier_make(&w.carriers[t], SBFI_CARRIES_VERTICES, &asset->soft_bodies.at[targets[t].body],
+           sbfi_embedder_make(&w.embedders[t], SBFI_EMBEDS_VERTICES, &asset->soft_bodies.at[targets[t].body],
                targets[t].level, targets[t].interior, targets[t].frame, scratch);
   good = good && embed_surfaces(&w, sbfi_progress_part(progress, 0.2, 0.4));
   uint32_t meshes = asset->render_meshes.count;

@@ -1,4 +1,4 @@
-/* Which vertices of a render mesh lie far outside what carries them, to be told. */
+/* Which vertices of a render mesh lie far outside what embeds them, to be told. */
 #ifndef SBFI_FAR_VERTICES_H
 #define SBFI_FAR_VERTICES_H
 
@@ -15,7 +15,7 @@ typedef struct sbfi_far_vertices {
   uint32_t in_polygons;                    /* of those */
   uint32_t named[SBFI_FAR_VERTICES_NAMED]; /* the first of them */
   double farthest_m;
-  uint32_t body; /* that carries the farthest */
+  uint32_t body; /* that embeds the farthest */
 } sbfi_far_vertices;
 
 /* One more, `outside_m` from the lattice of a body. False where memory runs out. */

@@ -1,4 +1,4 @@
-/* Which of many tetrahedra is around a point, or carries it best from outside. */
+/* Which of many tetrahedra is around a point, or embeds it best from outside. */
 #ifndef SBFI_TETRAHEDRON_FINDER_H
 #define SBFI_TETRAHEDRON_FINDER_H
 

@@ -268,7 +268,7 @@ static bool find_twists(work *w, double factor) {
     double along = 0, square = 0;
     sbfi_level_push(&w->statics, &w->r->works.pushes, push, forces);
     sbfi_linear_statics_solve(&w->linear, forces, lean_fraction, moved);
-    sbfi_level_carry(&w->statics, moved, gives);
+    sbfi_level_get_surface_displacements(&w->statics, moved, gives);
     for (size_t i = 0; i < 3 * points; i++) {
       along += (double)w->r->statics.areas[i / 3] * gives[i] * wanted[i];
       square += (double)w->r->statics.areas[i / 3] * wanted[i] * wanted[i];

@@ -56,7 +56,7 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
     uint32_t elements, bool is_rough, const sbf_asset *asset, const sbfi_reference_use *use,
     const sbf_allocator *allocator);
 
-/* The same of a level that is there, and stays so as long as the reference; `interior` as for a carrier. */
+/* The same of a level that is there, and stays so as long as the reference; `interior` as for a embedder. */
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
     const sbfi_reference_use *use, const sbf_allocator *allocator);
@@ -95,7 +95,7 @@ double sbfi_calibration_off(const sbfi_calibration *calibration);
 /* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of
  * `asset`, and compares it; another level is compared alone, and one of jiggle as one that does not give.
  * Sets the level's calibration, its simulation error, and its cost for a control tick of `tick` s. `interior`
- * as for a carrier. False where memory runs out or the work is ended. */
+ * as for a embedder. False where memory runs out or the work is ended. */
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
     const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
     sbfi_calibration *calibration, sbfi_progress progress, const sbf_allocator *allocator);

@@ -107,9 +107,9 @@ void sbfi_level_compute_forces(const sbfi_level_statics *s, uint32_t load, doubl
 
 static bool is_loose(const sbfi_level_statics *s, uint32_t vertex) {
   double weights[4];
-  load_weights(s->carried[vertex].weights, weights);
+  load_weights(s->embedded[vertex].weights, weights);
   for (int k = 0; k < 4; k++)
-    if (weights[k] > 1e-3 && s->network.masses[s->carried[vertex].points.at[k]] > 0) return true;
+    if (weights[k] > 1e-3 && s->network.masses[s->embedded[vertex].points.at[k]] > 0) return true;
   return false;
 }
 
@@ -183,9 +183,9 @@ void sbfi_level_push(
         twists ? twist_of(s, push - (SBFI_PUSHES - SBFI_TWISTS), s->body->surface.positions.at[i])
                : find_displacement(push, patch);
     sbfi_d3 part = sbfi_d3_scale(displacement, twists ? s->areas[i] : s->areas[i] / pushes->areas[patch]);
-    load_weights(s->carried[i].weights, weights);
+    load_weights(s->embedded[i].weights, weights);
     for (int k = 0; k < 4; k++) {
-      double *to = forces + 3 * (size_t)s->carried[i].points.at[k];
+      double *to = forces + 3 * (size_t)s->embedded[i].points.at[k];
       to[0] += weights[k] * part.x, to[1] += weights[k] * part.y, to[2] += weights[k] * part.z;
     }
   }
@@ -204,14 +204,15 @@ static double quotient(const sbf_spring_network *n, const double *forces, const 
   return work > 0 && inertia > 0 ? sqrt(work / inertia) : 0;
 }
 
-void sbfi_level_carry(const sbfi_level_statics *s, const double *moved, double *displacements) {
+void sbfi_level_get_surface_displacements(
+    const sbfi_level_statics *s, const double *moved, double *displacements) {
   const sbf_vec3_list *surface = &s->body->surface.positions;
   for (uint32_t i = 0; i < surface->count; i++) {
     double weights[4];
-    load_weights(s->carried[i].weights, weights);
+    load_weights(s->embedded[i].weights, weights);
     for (size_t k = 0; k < 3; k++) {
       double sum = 0;
-      for (int c = 0; c < 4; c++) sum += weights[c] * moved[3 * (size_t)s->carried[i].points.at[c] + k];
+      for (int c = 0; c < 4; c++) sum += weights[c] * moved[3 * (size_t)s->embedded[i].points.at[c] + k];
       displacements[3 * (size_t)i + k] = sum;
     }
   }
@@ -240,7 +241,7 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   if (!sbfi_static_solve(&problem, positions, &outcome, &scratch->allocator) || outcome.ended) return false;
   *converged = outcome.residual <= 10 * tolerance;
   for (size_t i = 0; i < numbers; i++) positions[i] -= component(n->positions[i / 3], (int)(i % 3));
-  sbfi_level_carry(s, positions, displacements);
+  sbfi_level_get_surface_displacements(s, positions, displacements);
   return true;
 }
 
@@ -253,7 +254,7 @@ bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, u
   sbfi_level_compute_forces(s, load, 1, forces);
   sbfi_linear_statics_solve(linear, forces, fraction, moved);
   *frequency = quotient(&s->network, forces, moved);
-  sbfi_level_carry(s, moved, displacements);
+  sbfi_level_get_surface_displacements(s, moved, displacements);
   return true;
 }
 

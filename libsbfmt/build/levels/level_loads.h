@@ -55,7 +55,8 @@ bool sbfi_level_lean(const sbfi_level_statics *statics, sbfi_linear_statics *lin
 
 /* Displacements of the surface's points (3 x surface points, m) where the level's are displaced so (3 x level
  * points, m); what is rigid in them is left out where nothing holds the body. */
-void sbfi_level_carry(const sbfi_level_statics *statics, const double *moved, double *displacements);
+void sbfi_level_get_surface_displacements(
+    const sbfi_level_statics *statics, const double *moved, double *displacements);
 
 /* Mean over the surface of what it gives along the load, m. */
 double sbfi_level_yielding(const sbfi_level_statics *statics, uint32_t load, const double *displacements);

@@ -114,18 +114,18 @@ static bool add_tethers(sbfi_level_statics *s, sbfi_arena *arena) {
 
 /* ---- The surface ---- */
 
-static bool carry_surface(sbfi_level_statics *s, const sbfi_interior_map *interior, sbfi_arena *arena) {
+static bool embed_surface(sbfi_level_statics *s, const sbfi_interior_map *interior, sbfi_arena *arena) {
   const sbf_vec3_list *points = &s->body->surface.positions;
   uint32_t frame = s->level->model == SBF_ELASTIC_MODEL_JIGGLE ? 0 : UINT32_MAX;
-  s->carried = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->carried);
+  s->embedded = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->embedded);
   s->areas = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->areas);
-  if (!s->carried || !s->areas ||
-      !sbfi_carrier_make(&s->carrier, SBFI_CARRIES_LOADS, s->body, s->level, interior, frame, arena))
+  if (!s->embedded || !s->areas ||
+      !sbfi_embedder_make(&s->embedder, SBFI_EMBEDS_LOADS, s->body, s->level, interior, frame, arena))
     return false;
   sbf_surface_point_areas(&s->body->surface, s->areas);
   for (int k = 0; k < 3; k++) s->low[k] = INFINITY, s->high[k] = -INFINITY;
   for (uint32_t i = 0; i < points->count; i++) {
-    s->carried[i] = sbfi_carrier_carry(&s->carrier, points->at[i], i);
+    s->embedded[i] = sbfi_embedder_embed(&s->embedder, points->at[i], i);
     for (int k = 0; k < 3; k++) {
       s->low[k] = fmin(s->low[k], component(points->at[i], k));
       s->high[k] = fmax(s->high[k], component(points->at[i], k));
@@ -148,7 +148,7 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   statics->mass = sbf_level_masses(body, level, pinned, masses);
   statics->network.masses = masses;
   if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||
-      !take_anchors(statics, masses, arena) || !carry_surface(statics, interior, arena))
+      !take_anchors(statics, masses, arena) || !embed_surface(statics, interior, arena))
     return false;
   double loose_kg;
   if (!sbfi_loose_pieces_hold(&statics->network, statics->is_pinned, masses, &loose_kg, arena) ||

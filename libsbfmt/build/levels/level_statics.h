@@ -2,7 +2,7 @@
 #ifndef SBFI_LEVEL_STATICS_H
 #define SBFI_LEVEL_STATICS_H
 
-#include "build/embed/carrier.h"
+#include "build/embed/embedder.h"
 #include "sbfmt/mechanics.h"
 
 /* Gravity along three axes; of a body that nothing holds, six ways to bend it and three to stretch it. */
@@ -20,17 +20,17 @@ typedef struct sbfi_level_statics {
   bool is_pinned;
   bool turns; /* about the points that hold it, all of it or a piece: what its statics says means nothing */
   uint32_t load_count;
-  sbfi_carrier carrier;
-  sbfi_carried *carried; /* (surface points) */
-  float *areas;          /* (surface points) m^2, their tributary areas, that means go by */
-  double size;           /* m, diagonal of the surface's box */
+  sbfi_embedder embedder;
+  sbfi_embedded_vertex *embedded; /* (surface points) */
+  float *areas;                   /* (surface points) m^2, their tributary areas, that means go by */
+  double size;                    /* m, diagonal of the surface's box */
   double low[3], high[3];
   double mass;      /* kg, of what is free */
   float *moduli;    /* (tetrahedra) Pa, those of the network, to be changed */
   float *stiffness; /* (springs) N/m, the same */
 } sbfi_level_statics;
 
-/* `interior` as for a carrier; may be NULL. Everything but body and level is memory of `arena`. False where
+/* `interior` as for a embedder; may be NULL. Everything but body and level is memory of `arena`. False where
  * memory runs out. */
 bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *body, const sbf_level *level,
     const sbfi_interior_map *interior, sbfi_arena *arena);

@@ -46,7 +46,7 @@ bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, s
     works->gives[push] =
         sbfi_arena_allocate(arena, (size_t)s->body->surface.positions.count + 1, 3 * sizeof(double));
     if (!works->gives[push]) return false;
-    sbfi_level_carry(s, moved, works->gives[push]);
+    sbfi_level_get_surface_displacements(s, moved, works->gives[push]);
     if (works->totals[push] > 0) add_works(linear, moved, 1 / works->totals[push], works->fractions);
   }
   return true;
@@ -82,12 +82,12 @@ static void smooth(const work *w, double *values) {
   }
 }
 
-/* What the points of the fine level have, at those of this one that carry them. */
+/* What the points of the fine level have, at those of this one that embed them. */
 static void map_works(const work *w, const sbfi_level_statics *of) {
   const sbf_spring_network *n = &of->network;
   for (uint32_t i = 0; i < n->point_count; i++) {
     if (!(w->works->fractions[i] > 0)) continue;
-    sbfi_carried by = sbfi_carrier_carry(&w->statics->carrier, n->positions[i], UINT32_MAX);
+    sbfi_embedded_vertex by = sbfi_embedder_embed(&w->statics->embedder, n->positions[i], UINT32_MAX);
     double weights[4] = {by.weights.x, by.weights.y, by.weights.z, by.weights.w}, sum = 0;
     for (int k = 0; k < 4; k++) sum += weights[k] = fmax(weights[k], 0);
     for (int k = 0; k < 4 && sum > 0; k++)

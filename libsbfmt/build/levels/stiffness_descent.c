@@ -107,16 +107,16 @@ static double mismatch(work *w, uint32_t load) {
   if (!(size > 0)) return -1;
   set_forces(w, load);
   solve(w, w->bounds->fraction, w->moved[load]);
-  sbfi_level_carry(s, w->moved[load], w->off);
+  sbfi_level_get_surface_displacements(s, w->moved[load], w->off);
   memset(w->forces, 0, numbers * sizeof *w->forces);
   for (size_t i = 0; i < surface; i++) {
-    const sbf_vec4 by = s->carried[i].weights;
+    const sbf_vec4 by = s->embedded[i].weights;
     const double weights[4] = {by.x, by.y, by.z, by.w};
     for (size_t k = 0; k < 3; k++) {
       double off = w->off[3 * i + k] - wanted[3 * i + k];
       left += s->areas[i] / size * off * off;
       for (int c = 0; c < 4; c++)
-        w->forces[3 * (size_t)s->carried[i].points.at[c] + k] += 2 * weights[c] * s->areas[i] / size * off;
+        w->forces[3 * (size_t)s->embedded[i].points.at[c] + k] += 2 * weights[c] * s->areas[i] / size * off;
     }
   }
   return left;

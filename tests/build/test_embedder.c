@@ -1,4 +1,4 @@
-#include "build/embed/carrier.h"
+#include "build/embed/embedder.h"
 
 #include <math.h>
 
@@ -22,28 +22,28 @@ static void teardown(void) {
 
 static uint32_t state = 7;
 
-static sbfi_carrier carrier_of(const sbf_soft_body *body, sbf_level *level) {
+static sbfi_embedder embedder_of(const sbf_soft_body *body, sbf_level *level) {
   sbfi_spring_recipe recipe = {.interior = SBFI_INTERIOR_CENTROID};
   sbfi_interior_map map;
   sbfi_spring_counts counts;
-  sbfi_carrier carrier;
+  sbfi_embedder embedder;
   ck_assert(sbfi_spring_level_make(level, body, &recipe, asset, &map, &counts, &arena));
-  ck_assert(sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, level, &map, SBFI_NO_INDEX, &arena));
-  return carrier;
+  ck_assert(sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, level, &map, SBFI_NO_INDEX, &arena));
+  return embedder;
 }
 
-static bool is_bounded(sbfi_carried carried) {
-  const float w[4] = {carried.weights.x, carried.weights.y, carried.weights.z, carried.weights.w};
+static bool is_bounded(sbfi_embedded_vertex embedded) {
+  const float w[4] = {embedded.weights.x, embedded.weights.y, embedded.weights.z, embedded.weights.w};
   for (int k = 0; k < 4; k++)
     if (!(w[k] >= -0.501f && w[k] <= 1.501f)) return false;
   return true;
 }
 
-static void check_place(const sbf_level *level, sbfi_carried carried, sbf_vec3 p, float tolerance) {
-  const float w[4] = {carried.weights.x, carried.weights.y, carried.weights.z, carried.weights.w};
+static void check_place(const sbf_level *level, sbfi_embedded_vertex embedded, sbf_vec3 p, float tolerance) {
+  const float w[4] = {embedded.weights.x, embedded.weights.y, embedded.weights.z, embedded.weights.w};
   float x = 0, y = 0, z = 0;
   for (int k = 0; k < 4; k++) {
-    sbf_vec3 at = level->positions.at[carried.points.at[k]];
+    sbf_vec3 at = level->positions.at[embedded.points.at[k]];
     x += w[k] * at.x, y += w[k] * at.y, z += w[k] * at.z;
   }
   ck_assert_float_eq_tol(w[0] + w[1] + w[2] + w[3], 1, 1e-6f);
@@ -52,17 +52,17 @@ static void check_place(const sbf_level *level, sbfi_carried carried, sbf_vec3 p
   ck_assert_float_eq_tol(z, p.z, tolerance);
 }
 
-START_TEST(surface_points_carry_themselves)
+START_TEST(surface_points_embed_themselves)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 2, 2, (sbf_vec3){0, 0, 0});
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "cube", &mesh, true), &level);
   for (uint32_t i = 0; i < 26; i++) {
     for (uint32_t likely = 0; likely < 60; likely += 30) {
-      sbfi_carried carried = sbfi_carrier_carry(&carrier, mesh.positions.at[i], likely);
-      for (int k = 0; k < 4; k++) ck_assert_uint_eq(carried.points.at[k], i);
-      ck_assert(
-          carried.weights.x == 1 && carried.weights.y == 0 && carried.weights.w == 0 && carried.error == 0);
+      sbfi_embedded_vertex embedded = sbfi_embedder_embed(&embedder, mesh.positions.at[i], likely);
+      for (int k = 0; k < 4; k++) ck_assert_uint_eq(embedded.points.at[k], i);
+      ck_assert(embedded.weights.x == 1 && embedded.weights.y == 0 && embedded.weights.w == 0 &&
+                embedded.error == 0);
     }
   }
 }
@@ -78,9 +78,9 @@ START_TEST(of_equal_points_the_likely_one)
   mesh.polygon_sizes = (sbf_u32_list){&size, 1};
   mesh.polygon_points = (sbf_u32_list){corners, 4};
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "twice", &mesh, true), &level);
-  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, twice[0], 3).points.at[0], 3);
-  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, twice[0], 1).points.at[0], 0);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "twice", &mesh, true), &level);
+  ck_assert_uint_eq(sbfi_embedder_embed(&embedder, twice[0], 3).points.at[0], 3);
+  ck_assert_uint_eq(sbfi_embedder_embed(&embedder, twice[0], 1).points.at[0], 0);
 }
 END_TEST
 
@@ -88,16 +88,16 @@ START_TEST(anywhere_around_a_cube)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){10, 20, 30});
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "cube", &mesh, true), &level);
   for (int i = 0; i < 2000; i++) {
     sbf_vec3 p = {10 + random_between(&state, -1.2f, 1.2f), 20 + random_between(&state, -1.2f, 1.2f),
         30 + random_between(&state, -1.2f, 1.2f)};
-    sbfi_carried carried = sbfi_carrier_carry(&carrier, p, 0);
-    check_place(&level, carried, p, 1e-5f);
-    float size = carried.weights.x * carried.weights.x + carried.weights.y * carried.weights.y +
-                 carried.weights.z * carried.weights.z + carried.weights.w * carried.weights.w;
+    sbfi_embedded_vertex embedded = sbfi_embedder_embed(&embedder, p, 0);
+    check_place(&level, embedded, p, 1e-5f);
+    float size = embedded.weights.x * embedded.weights.x + embedded.weights.y * embedded.weights.y +
+                 embedded.weights.z * embedded.weights.z + embedded.weights.w * embedded.weights.w;
     ck_assert_float_lt(size, 3);
-    ck_assert_float_lt(carried.error, 1e-5f);
+    ck_assert_float_lt(embedded.error, 1e-5f);
   }
 }
 END_TEST
@@ -106,8 +106,8 @@ START_TEST(a_deformed_body_takes_its_vertices_along)
 {
   sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){0, 0, 0});
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
-  /* Any map of the form A x + b is carried exactly: weights sum to one. */
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  /* Any map of the form A x + b is embedded exactly: weights sum to one. */
   sbf_vec3 moved[200];
   for (uint32_t i = 0; i < level.positions.count; i++) {
     sbf_vec3 p = level.positions.at[i];
@@ -119,7 +119,7 @@ START_TEST(a_deformed_body_takes_its_vertices_along)
     sbf_vec3 p = {random_between(&state, -1.1f, 1.1f), random_between(&state, -1.1f, 1.1f),
         random_between(&state, -1.1f, 1.1f)};
     sbf_vec3 image = {2 * p.x + p.y + 1, p.y - 0.5f * p.z, 3 * p.z - p.x};
-    check_place(&deformed, sbfi_carrier_carry(&carrier, p, 0), image, 2e-5f);
+    check_place(&deformed, sbfi_embedder_embed(&embedder, p, 0), image, 2e-5f);
   }
 }
 END_TEST
@@ -135,11 +135,11 @@ START_TEST(long_bodies_keep_small_weights)
   }
   mesh.positions.at = stretched;
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "bar", &mesh, true), &level);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "bar", &mesh, true), &level);
   for (int i = 0; i < 500; i++) {
     sbf_vec3 p = {random_between(&state, -0.5f, 0.5f), random_between(&state, -0.5f, 0.5f),
         random_between(&state, -10, 10)};
-    sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
+    sbfi_embedded_vertex c = sbfi_embedder_embed(&embedder, p, 0);
     check_place(&level, c, p, 1e-4f);
     ck_assert_float_lt(fabsf(c.weights.x) + fabsf(c.weights.y) + fabsf(c.weights.z) + fabsf(c.weights.w), 4);
   }
@@ -150,17 +150,17 @@ START_TEST(flat_bodies_say_how_far_off)
 {
   sbf_polygon_mesh mesh = shape_sheet(asset, 3, 3);
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "sheet", &mesh, true), &level);
-  sbfi_carried carried = sbfi_carrier_carry(&carrier, (sbf_vec3){1.25f, 0.5f, 1.5f}, 0);
-  check_place(&level, carried, (sbf_vec3){1.25f, 0, 1.5f}, 1e-6f);
-  ck_assert_float_eq_tol(carried.error, 0.5f, 1e-6f);
-  ck_assert(carried.weights.w == 0);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "sheet", &mesh, true), &level);
+  sbfi_embedded_vertex embedded = sbfi_embedder_embed(&embedder, (sbf_vec3){1.25f, 0.5f, 1.5f}, 0);
+  check_place(&level, embedded, (sbf_vec3){1.25f, 0, 1.5f}, 1e-6f);
+  ck_assert_float_eq_tol(embedded.error, 0.5f, 1e-6f);
+  ck_assert(embedded.weights.w == 0);
 }
 END_TEST
 
 START_TEST(lattices)
 {
-  /* A cube of five tetrahedra; its own surface is carried by them as well. */
+  /* A cube of five tetrahedra; its own surface is embedded by them as well. */
   sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
   sbf_soft_body *body = shape_add_body(asset, "cube", &mesh, true);
   const sbf_vec3 corners[] = {
@@ -170,16 +170,16 @@ START_TEST(lattices)
   sbf_level_init(&level);
   level.positions = (sbf_vec3_list){corners, 8};
   level.lattice.tetrahedra = (sbf_uint4_list){five, 5};
-  sbfi_carrier carrier;
-  ck_assert(sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, &level, NULL, SBFI_NO_INDEX, &arena));
+  sbfi_embedder embedder;
+  ck_assert(sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, &level, NULL, SBFI_NO_INDEX, &arena));
   for (int i = 0; i < 500; i++) {
     sbf_vec3 p = {random_between(&state, 0, 1), random_between(&state, 0, 1), random_between(&state, 0, 1)};
-    sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
+    sbfi_embedded_vertex c = sbfi_embedder_embed(&embedder, p, 0);
     check_place(&level, c, p, 1e-5f);
     float min = fminf(fminf(c.weights.x, c.weights.y), fminf(c.weights.z, c.weights.w));
     ck_assert_float_ge(min, -1e-6f);
   }
-  check_place(&level, sbfi_carrier_carry(&carrier, (sbf_vec3){1.2f, 0.5f, 0.5f}, 0),
+  check_place(&level, sbfi_embedder_embed(&embedder, (sbf_vec3){1.2f, 0.5f, 0.5f}, 0),
       (sbf_vec3){1.2f, 0.5f, 0.5f}, 1e-5f);
 }
 END_TEST
@@ -225,13 +225,13 @@ START_TEST(what_lies_beside_a_tip_hangs_on_its_own_prong)
   sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
   sbf_soft_body *body = shape_add_body(asset, "fork", &mesh, true);
   sbf_level level = fork_level();
-  sbfi_carrier carrier;
-  ck_assert(sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, &level, NULL, SBFI_NO_INDEX, &arena));
+  sbfi_embedder embedder;
+  ck_assert(sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, &level, NULL, SBFI_NO_INDEX, &arena));
   for (int i = 0; i < 1000; i++) {
     float left = i % 2 ? 0 : 2;
     sbf_vec3 p = {left + random_between(&state, 0, 1), 6 + random_between(&state, 0, 0.8f),
         random_between(&state, 0, 1)};
-    sbfi_carried c = sbfi_carrier_carry(&carrier, p, UINT32_MAX);
+    sbfi_embedded_vertex c = sbfi_embedder_embed(&embedder, p, UINT32_MAX);
     check_place(&level, c, p, 1e-5f);
     ck_assert(is_bounded(c));
     ck_assert_double_le(
@@ -243,11 +243,11 @@ START_TEST(what_lies_beside_a_tip_hangs_on_its_own_prong)
     }
   }
   const sbf_vec3 far = {2.5f, 60, 0.5f};
-  sbfi_carried beyond = sbfi_carrier_carry(&carrier, far, UINT32_MAX);
+  sbfi_embedded_vertex beyond = sbfi_embedder_embed(&embedder, far, UINT32_MAX);
   ck_assert(is_bounded(beyond));
   ck_assert_float_gt(beyond.error, 1);
-  ck_assert(sbfi_carrier_make(&carrier, SBFI_CARRIES_VERTICES, body, &level, NULL, FORK_POINTS, &arena));
-  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, far, UINT32_MAX).points.at[0], FORK_POINTS);
+  ck_assert(sbfi_embedder_make(&embedder, SBFI_EMBEDS_VERTICES, body, &level, NULL, FORK_POINTS, &arena));
+  ck_assert_uint_eq(sbfi_embedder_embed(&embedder, far, UINT32_MAX).points.at[0], FORK_POINTS);
 }
 END_TEST
 
@@ -258,11 +258,11 @@ START_TEST(points_without_polygons)
   sbf_polygon_mesh_init(&mesh);
   mesh.positions = (sbf_vec3_list){rope, 3};
   sbf_level level;
-  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "rope", &mesh, false), &level);
-  sbfi_carried carried = sbfi_carrier_carry(&carrier, (sbf_vec3){1.9f, 0.1f, 0}, 0);
-  ck_assert_uint_eq(carried.points.at[0], 2);
-  ck_assert_float_gt(carried.error, 0.1f);
-  ck_assert_double_lt(sbfi_carrier_distance(&carrier, (sbf_vec3){1.9f, 0.1f, 0}, INFINITY), 0.03);
+  sbfi_embedder embedder = embedder_of(shape_add_body(asset, "rope", &mesh, false), &level);
+  sbfi_embedded_vertex embedded = sbfi_embedder_embed(&embedder, (sbf_vec3){1.9f, 0.1f, 0}, 0);
+  ck_assert_uint_eq(embedded.points.at[0], 2);
+  ck_assert_float_gt(embedded.error, 0.1f);
+  ck_assert_double_lt(sbfi_embedder_distance(&embedder, (sbf_vec3){1.9f, 0.1f, 0}, INFINITY), 0.03);
 }
 END_TEST
 
@@ -270,7 +270,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("carrier");
   TCase *c = tcase_create("carrier");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, surface_points_carry_themselves);
+  tcase_add_test(c, surface_points_embed_themselves);
   tcase_add_test(c, of_equal_points_the_likely_one);
   tcase_add_test(c, anywhere_around_a_cube);
   tcase_add_test(c, a_deformed_body_takes_its_vertices_along);
