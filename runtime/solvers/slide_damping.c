@@ -6,9 +6,8 @@
 #include "solvers/soft_contacts.h"
 
 /* k: blocks of 0.05 to 0.15 by 0.3 m, of 10 kPa to 1 MPa and Poisson's ratios up to 0.45, slide down slopes
- * and stop on them as Coulomb says with 3 to 5 for coefficients up to 1.2. Bricks of 0.03 to 0.045 by 0.12 m,
- * of ratios up to 0.49, creep with 3 and 4 for a coefficient of 1; from 6 on some blocks slide too fast. */
-static const float DAMPING = 5;
+ * and stop on them as Coulomb says with 3 and more for coefficients up to 1.2; with 1 only up to 1. */
+static const float DAMPING = 3;
 
 /* m: a point no higher over its plane touches it. */
 static const float CONTACT_DISTANCE_M = 1e-5f;

@@ -6,37 +6,30 @@
 #include "shapes.h"
 
 enum block_kind { TETRAHEDRA, EMBEDDED, SPRINGS, KINDS };
-
-typedef struct block_shape {
-  sbf_vec3 size;
-  uint32_t cells[3];
-  float young_pa, poisson;
-} block_shape;
-static const block_shape usual = {{0.3f, 0.1f, 0.3f}, {4, 2, 4}, 1e5f, 0.45f};
+static const float WIDE = 0.3f, HIGH = 0.1f;
 static const double GRAVITY = 9.81;
 
-static void add_surface(scene *s, sbf_vec3 size) {
+static void add_surface(scene *s) {
   sbf_polygon_mesh mesh = shape_cube(s->asset, 6, 1, (sbf_vec3){0, 0.5f, 0});
   sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)mesh.positions.at;
   for (uint32_t i = 0; i < mesh.positions.count; i++)
-    at[i] = (sbf_vec3){at[i].x * size.x, at[i].y * size.y, at[i].z * size.z};
+    at[i] = (sbf_vec3){at[i].x * WIDE, at[i].y * HIGH, at[i].z * WIDE};
   scene_body(s, 0)->surface = mesh;
 }
 
-/* A block at the default damping ratio, flat on a slope: gravity is tilted instead of the ground. */
-static scene begin_block(
-    const block_shape *shape, enum block_kind kind, sbf_scheme scheme, float friction, double angle) {
-  sbf_vec3 size = shape->size;
+/* A block of 100 kPa at the default damping ratio, flat on a slope: gravity is tilted instead of the ground.
+ */
+static scene begin_block(enum block_kind kind, sbf_scheme scheme, float friction, double angle) {
   scene s = scene_begin();
   sbf_attributes defaults;
   if (kind == SPRINGS) {
     scene_bone(&s, (sbf_vec3){0, 0, 0});
-    scene_section(&s, 0, (sbf_vec3){0, 0.5f * size.y, 0}, size, 3);
+    scene_section(&s, 0, (sbf_vec3){0, 0.5f * HIGH, 0}, (sbf_vec3){WIDE, HIGH, WIDE}, 3);
   } else {
-    lattice_box box = lattice_box_make((sbf_vec3){-0.5f * size.x, 0, -0.5f * size.z}, size, shape->cells[0],
-        shape->cells[1], shape->cells[2], 1000, shape->young_pa, shape->poisson);
+    lattice_box box = lattice_box_make(
+        (sbf_vec3){-0.5f * WIDE, 0, -0.5f * WIDE}, (sbf_vec3){WIDE, HIGH, WIDE}, 4, 2, 4, 1000, 1e5f, 0.45f);
     sbf_level *level = scene_lattice(&s, 0, &box);
-    if (kind == EMBEDDED) add_surface(&s, size), scene_embed(&s, level, &box);
+    if (kind == EMBEDDED) add_surface(&s), scene_embed(&s, level, &box);
     lattice_box_free(&box);
   }
   sbf_attributes_init(&defaults);
@@ -81,9 +74,8 @@ typedef struct slid {
   double speed, acceleration;
 } slid;
 
-static slid slide(const block_shape *shape, slope_case which, double fraction) {
-  scene s =
-      begin_block(shape, which.kind, which.scheme, which.friction, atan(fraction * (double)which.friction));
+static slid slide(slope_case which, double fraction) {
+  scene s = begin_block(which.kind, which.scheme, which.friction, atan(fraction * (double)which.friction));
   scene_ticks(&s, 90);
   double first = middle_of(&s);
   scene_ticks(&s, 60);
@@ -99,7 +91,7 @@ START_TEST(a_block_stays_where_friction_holds_it)
   static const double fractions[] = {0.8, 0.95};
   slope_case which = slope_case_of(_i);
   for (int k = 0; k < 2; k++) {
-    double speed = slide(&usual, which, fractions[k]).speed;
+    double speed = slide(which, fractions[k]).speed;
     ck_assert_msg(fabs(speed) < 1e-3, "kind %d, scheme %d, friction %g, at %g of it: %g m/s", (int)which.kind,
         (int)which.scheme, (double)which.friction, fractions[k], speed);
   }
@@ -113,21 +105,11 @@ START_TEST(a_block_slides_as_coulomb_says)
   for (int k = 0; k < 2; k++) {
     double friction = (double)which.friction, angle = atan(fractions[k] * friction);
     double right = GRAVITY * (sin(angle) - friction * cos(angle)),
-           found = slide(&usual, which, fractions[k]).acceleration;
+           found = slide(which, fractions[k]).acceleration;
     ck_assert_msg(fabs(found - right) < 0.02 * right,
         "kind %d, scheme %d, friction %g, at %g of it: %g of %g m/s^2", (int)which.kind, (int)which.scheme,
         friction, fractions[k], found, right);
   }
-}
-END_TEST
-
-START_TEST(bricks_that_hardly_compress_stay)
-{
-  static const block_shape bricks[] = {
-      {{0.12f, 0.03f, 0.17f}, {8, 2, 10}, 1e4f, 0.49f}, {{0.12f, 0.045f, 0.17f}, {8, 3, 10}, 1.2e6f, 0.48f}};
-  const slope_case which = {EMBEDDED, SBF_SCHEME_AUTOMATIC, 1};
-  double speed = slide(&bricks[_i], which, 0.95).speed;
-  ck_assert_msg(fabs(speed) < 1e-3, "%g m/s", speed);
 }
 END_TEST
 
@@ -136,7 +118,6 @@ int main(void) {
   TCase *c = tcase_create("slide_damping");
   tcase_add_loop_test(c, a_block_stays_where_friction_holds_it, 0, KINDS * SCHEMES * COEFFICIENTS);
   tcase_add_loop_test(c, a_block_slides_as_coulomb_says, 0, KINDS * SCHEMES * COEFFICIENTS);
-  tcase_add_loop_test(c, bricks_that_hardly_compress_stay, 0, 2);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }
