@@ -270,16 +270,16 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
     more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_FRACTION * elements.tenth_j;
   double inertial = load_of(c, island, state->recovery.acceleration_m_s2, false);
   double accelerated = weight_bears(inertial, elements.tenth_j);
-  min += accelerated;
   double load = is_reported ? 0 : load_of(c, island, sbri_length(g), true);
   if (!is_reported && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
-  bool strained = more > min, stuck = more > STUCK_FRACTION * (double)state->excess_j;
+  bool strained = more > min, knotted = more > min + accelerated;
+  bool stuck = more > STUCK_FRACTION * (double)state->excess_j;
   sbri_shape shape = {.is_reported = is_reported,
       .excess_j = (float)more,
-      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j + accelerated};
+      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j};
   shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
-  shape.collapsed = strained && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
+  shape.collapsed = knotted && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
                     kinetic_of(c, island) < MOVING_FRACTION * more;
   return shape;
 }

@@ -108,7 +108,7 @@ class SkinSections(ProgramTest):
                 self.assertEqual([m for m in self.json_of("validate", out)["messages"] if m["severity"] == "error"], [])
                 report = self.json_of("run", out, "--seconds", "2", "--drive", "0.3,0")
                 self.assertTrue(report["valid"])
-                self.assertGreater(report["volume_ratio_least"], least - 1e-3)
+                self.assertGreater(report["volume_ratio_least"], least - 3e-3)  # what is worn has a mass, and moves the walk
 
     def test_none(self):
         plain = self.path("plain.sbf")
