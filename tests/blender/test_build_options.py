@@ -82,3 +82,17 @@ class Options(fixtures.SceneTest):
         self.assertAlmostEqual(build.attributes.young_modulus, 1.2e6)
         again = next(one for one in bpy.data.objects if one.type == "ARMATURE").data.bones["lower"].soft_body_format
         self.assertAlmostEqual(again.attributes.young_modulus, 3000)
+
+    def test_rigid_parts_and_tetrahedra_of_a_section_come_back(self):
+        rig = self.limb()
+        for name, rigid, elements in (("upper", True, 0), ("lower", False, 30)):
+            bone = rig.data.bones[name].soft_body_format
+            bone.use_material, bone.rigid, bone.elements = True, rigid, elements
+        asset = self.export()
+        bones = {bone.id: bone.name for bone in asset.bones}
+        self.assertEqual([bones[body.bone] for body in asset.soft_bodies], ["lower"])
+        fixtures.fresh_scene()
+        bpy.ops.import_scene.soft_body_format(filepath=self.path("out.sbf"))
+        rig = next(one for one in bpy.data.objects if one.type == "ARMATURE")
+        settings = {bone.name: bone.soft_body_format for bone in rig.data.bones}
+        self.assertEqual([(settings[name].rigid, settings[name].elements) for name in ("upper", "lower")], [(True, 0), (False, 30)])

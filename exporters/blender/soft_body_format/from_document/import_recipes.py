@@ -9,6 +9,7 @@ def fill_recipes(scene, document, armature, names):
             settings = scene.soft_body_format.build
         elif armature is not None:
             settings = armature.data.bones[names[recipe.bone]].soft_body_format
+            settings.rigid, settings.proposed, settings.elements = recipe.rigid, recipe.proposed, recipe.elements
         else:
             continue
         settings.use_material = True

@@ -69,7 +69,10 @@ class SBFMT_PT_bone_material(bpy.types.Panel):
     def draw(self, context):
         settings = context.bone.soft_body_format
         self.layout.active = settings.use_material
-        draw_matter(self.layout, settings.attributes)
+        self.layout.prop(settings, "rigid")
+        if not settings.rigid:
+            self.layout.prop(settings, "elements")
+            draw_matter(self.layout, settings.attributes)
 
 
 CLASSES = (SBFMT_PT_bone, SBFMT_PT_bone_material)

@@ -62,6 +62,10 @@ class SBFMT_PG_bone(bpy.types.PropertyGroup):
     use_material: BoolProperty(name="Material of its section", default=False,
                                description="What the section cut from a skin for this bone is made of; else as the scene's panel says")
     attributes: PointerProperty(type=SBFMT_PG_attributes)
+    rigid: BoolProperty(name="Rigid", default=False, description="No section: the skin moves with this bone")
+    elements: IntProperty(name="Tetrahedra", default=0, min=0, soft_max=1000,
+                          description="About how many tetrahedra its lattice has; 0: the program chooses")
+    proposed: BoolProperty(options={"HIDDEN"}, description="These were guessed from the rig")
 
 
 CLASSES = (SBFMT_PG_joint, SBFMT_PG_bone)

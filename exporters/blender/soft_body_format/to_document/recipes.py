@@ -1,5 +1,6 @@
 """What sections that a build cuts from a skin are made of: as the scene's panel says, and a bone's for its own."""
 
+from ..sbfmt.document.elements import VERSION
 from ..settings.attributes import fill_attributes
 
 
@@ -12,4 +13,8 @@ def write_recipes(writer):
             settings = bone.soft_body_format
             identity = writer.skeleton.id(armature, bone.name)
             if settings.use_material and identity is not None:
-                fill_attributes(writer.asset.add("section_recipes", bone=identity).attributes, settings.attributes)
+                if settings.rigid or settings.proposed or settings.elements:
+                    writer.asset.version = VERSION  # 1.0 has none of these
+                recipe = writer.asset.add("section_recipes", bone=identity, rigid=settings.rigid, proposed=settings.proposed,
+                                          elements=settings.elements)
+                fill_attributes(recipe.attributes, settings.attributes)
