@@ -139,7 +139,8 @@ static double depth_at_plane(const shape_query *q, const sbri_query_piece *piece
   double min = INFINITY;
   for (uint32_t i = 0; i < q->shape.count; i++) {
     sbfi_d3 off = sbfi_d3_sub(sbri_convex_point(&q->shape, i), piece->convex.position);
-    min = fmin(min, sbfi_d3_dot(piece->normal, off));
+    double height = sbfi_d3_dot(piece->normal, off);
+    if (height < min) min = height; /* gcc 12.2 for aarch64 breaks down over fmin here */
   }
   return min - q->shape.radius;
 }
