@@ -58,6 +58,10 @@ json_t *json_real(double value) {
   return made;
 }
 
+size_t json_object_size(const json_t *object) {
+  return object && object->kind == KIND_OBJECT ? object->count : 0;
+}
+
 void json_decref(json_t *value) {
   if (!value) return;
   for (size_t i = 0; i < value->count; i++) {

@@ -19,6 +19,7 @@ json_t *json_integer(json_int_t value);
 json_t *json_real(double value); /* NULL where it is not finite */
 json_t *json_boolean(int value);
 json_t *json_null(void);
+size_t json_object_size(const json_t *object); /* number of keys; 0 for NULL */
 /* Both take the value, NULL too, which is a failure: not 0. */
 int json_object_set_new(json_t *object, const char *key, json_t *value);
 int json_array_append_new(json_t *array, json_t *value);
