@@ -97,7 +97,7 @@ def main():
     os.environ.update(WINEPREFIX=os.path.join(tree, "wine"), WINEDEBUG="-all")
     run("wine", "wineboot", "--init")
     wrong = []
-    tests = run("ctest", "--test-dir", tree, "-j", str(os.cpu_count() or 1), "-LE", "slow", "--output-on-failure", must=False)
+    tests = run("ctest", "--test-dir", tree, "-j", str(os.cpu_count() or 1), "-LE", "slow|long", "--output-on-failure", must=False)
     if tests.returncode != 0:
         wrong.append(tests.stdout[-6000:])
     summary = [line for line in tests.stdout.splitlines() if "tests passed" in line]
