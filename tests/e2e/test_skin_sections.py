@@ -94,7 +94,14 @@ class SkinSections(ProgramTest):
             return carried, [b for b in root.findall("soft_body") if b.get("name") not in bodies], skin
 
         bare = skin_of(self.calf)[0]
-        least = self.json_of("run", self.calf, "--seconds", "2", "--drive", "0.3,0")["volume_ratio_least"]
+
+        def least_volume_of(path):
+            """Of several walks: what is worn has a mass, and makes each of them a little different."""
+            reports = [self.json_of("run", path, "--seconds", "2", "--drive", drive) for drive in ("0.3,0", "0.5,0")]
+            self.assertTrue(all(report["valid"] for report in reports))
+            return min(report["volume_ratio_least"] for report in reports)
+
+        least = least_volume_of(self.calf)
         for name, (bone, *boxes) in WORN.items():
             with self.subTest(name):
                 out = self.path(name + ".sbf")
@@ -106,9 +113,7 @@ class SkinSections(ProgramTest):
                 for body in worn:
                     self.assertNotIn(skin, [e.get("render_mesh") for e in body.iter("embedding")])
                 self.assertEqual([m for m in self.json_of("validate", out)["messages"] if m["severity"] == "error"], [])
-                report = self.json_of("run", out, "--seconds", "2", "--drive", "0.3,0")
-                self.assertTrue(report["valid"])
-                self.assertGreater(report["volume_ratio_least"], least - 3e-3)  # what is worn has a mass, and moves the walk
+                self.assertGreater(least_volume_of(out), least - 1e-3)
 
     def test_none(self):
         plain = self.path("plain.sbf")
