@@ -1,4 +1,4 @@
-/* Distance between convex shapes, and when a shape that moves straight on meets another.
+/* Distance between convex shapes, and when a shape that moves straight on touches another.
  *
  * A shape is the hull of points, rounded by a radius: a sphere is a point, a capsule two, a triangle three.
  * Computed in double precision. */

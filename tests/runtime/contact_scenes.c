@@ -7,25 +7,25 @@
 #include "sbrun/collision.h"
 #include "world/world.h"
 
-scene meeting_begin(sbf_vec3 gravity) {
+scene contact_scene_begin(sbf_vec3 gravity) {
   scene s = rigid_begin();
   s.asset->environment.gravity = gravity;
   return s;
 }
 
-void meeting_start(scene *s) {
+void contact_scene_start(scene *s) {
   scene_start(s);
   ck_assert(sbr_world_enable_body_contacts(s->world, 0, NULL) == SBF_OK);
 }
 
-void meeting_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impulse) {
+void contact_scene_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impulse) {
   sbr_double3 o = sbr_character_get_origin(s->world, who);
   sbf_vec3 c = sbr_character_get_rigid_state(s->world, who, body).center;
   sbr_character_apply_rigid_impulse(
       s->world, who, body, (sbr_double3){o.x + (double)c.x, o.y + (double)c.y, o.z + (double)c.z}, impulse);
 }
 
-sbr_character_id meeting_another(scene *s, sbr_double3 position) {
+sbr_character_id contact_scene_another(scene *s, sbr_double3 position) {
   sbr_character_definition d = s->character_definition;
   sbr_character_id id;
   d.position = position;
@@ -33,7 +33,7 @@ sbr_character_id meeting_another(scene *s, sbr_double3 position) {
   return id;
 }
 
-void meeting_flesh(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin) {
+void contact_scene_soft_box(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin) {
   sbf_level *level = scene_lattice(s, body, box);
   scene_body(s, body)->surface = *skin;
   scene_body(s, body)->surface.target = SBF_MESH_TARGET_SURFACE;
@@ -43,7 +43,7 @@ void meeting_flesh(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_
   scene_body(s, body)->attributes.friction = 0.5f;
 }
 
-void meeting_ball(scene *s, uint32_t body, float radius) {
+void contact_scene_ball(scene *s, uint32_t body, float radius) {
   enum { RINGS = 7, AROUND = 14, POINTS = RINGS * AROUND + 2, FACES = (RINGS + 1) * AROUND };
   sbf_polygon_mesh *hull = sbf_asset_allocate(s->asset, 1, sizeof *hull);
   sbf_vec3 *at = sbf_asset_allocate(s->asset, POINTS, sizeof *at);
@@ -75,7 +75,7 @@ void meeting_ball(scene *s, uint32_t body, float radius) {
   rigid_body(s, body)->hull = hull;
 }
 
-double meeting_deepest(const scene *s) {
+double contact_scene_deepest(const scene *s) {
   const sbri_character *c = sbri_character_of(s->world, s->character);
   const sbri_island *island = &c->model->islands[0];
   const sbri_point *p = sbri_positions(c) + island->first_slot;
@@ -91,7 +91,7 @@ double meeting_deepest(const scene *s) {
   return max;
 }
 
-double meeting_fastest(const scene *s, sbr_character_id who) {
+double contact_scene_fastest(const scene *s, sbr_character_id who) {
   const sbri_character *c = sbri_character_of(s->world, who);
   double max = 0;
   for (uint32_t k = 0; k < c->model->island_count; k++)

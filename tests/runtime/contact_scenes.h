@@ -4,22 +4,23 @@
 
 #include "rigid_scenes.h"
 
-/* As rigid_begin, with that gravity, m/s^2. Add bodies, then meeting_start: as scene_start, and they meet. */
-scene meeting_begin(sbf_vec3 gravity);
-void meeting_start(scene *s);
+/* As rigid_begin, with that gravity, m/s^2. Add bodies, then contact_scene_start: as scene_start, and they
+ * meet. */
+scene contact_scene_begin(sbf_vec3 gravity);
+void contact_scene_start(scene *s);
 
 /* A push at the middle of a rigid body, N s. */
-void meeting_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impulse);
+void contact_scene_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impulse);
 /* One more of the scene's character. */
-sbr_character_id meeting_another(scene *s, sbr_double3 position);
+sbr_character_id contact_scene_another(scene *s, sbr_double3 position);
 
 /* Gives a body that lattice, which it frees, and a skin that it carries; damping and friction 0.5. */
-void meeting_flesh(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin);
+void contact_scene_soft_box(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin);
 /* Makes a rigid body's hull a ball: rings of points about the y axis between two poles. */
-void meeting_ball(scene *s, uint32_t body, float radius);
+void contact_scene_ball(scene *s, uint32_t body, float radius);
 /* How deep the deepest point of the first soft body is in its first rigid one, m. */
-double meeting_deepest(const scene *s);
+double contact_scene_deepest(const scene *s);
 /* m/s of the fastest point of its soft bodies. */
-double meeting_fastest(const scene *s, sbr_character_id who);
+double contact_scene_fastest(const scene *s, sbr_character_id who);
 
 #endif

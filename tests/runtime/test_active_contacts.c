@@ -12,7 +12,7 @@ static double size(sbf_vec3 v) {
 }
 
 static scene begin(void) {
-  scene s = meeting_begin(gravity);
+  scene s = contact_scene_begin(gravity);
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.sleep_after_s = 0; /* sleep would hide what still moves */
   s.character_definition.position.y = 0;
@@ -57,7 +57,7 @@ START_TEST(light_boxes_bear_heavy_ones)
     rigid_box(&s, (sbf_vec3){aside, heights[i] + (float)(i + 1) * t->fall, 0},
         (sbf_vec3){width, width, width}, t->masses[i]);
   }
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 120);
   double fastest = fastest_in_a_second(&s, t->count, 0.1f);
   ck_assert_msg(fastest < 4e-3, "%g m/s in the third second", fastest);
@@ -79,7 +79,7 @@ START_TEST(heaps_of_unlike_boxes_rest)
           mass = powf(100, random_between(&state, 0, 1));
     rigid_box(&s, (sbf_vec3){x, 0.2f + 0.3f * (float)(i / 9), z}, (sbf_vec3){0.2f, 0.2f, 0.2f}, mass);
   }
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 120);
   double fastest = fastest_in_a_second(&s, COUNT, 0.1f);
   ck_assert_msg(fastest < 4e-3, "%g m/s in the third second", fastest);

@@ -25,13 +25,13 @@ static void check_rigid(const sbr_object *object, sbr_character_id character, in
 /* A box of 1 kg at 2 m/s against one at rest: 1 kg (1 + e) N s, after which they separate. */
 START_TEST(two_bodies_begin_hit_and_end)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   for (uint32_t i = 0; i < 2; i++) {
     rigid_box(&s, (sbf_vec3){0, 0, (float)i}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
     rigid_body(&s, i)->restitution = 0.5f;
   }
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   event_log *log = empty_log(0);
   scene_ticks_logged(&s, 60, log);
   ck_assert_uint_eq(log->begin_count, 1);
@@ -63,12 +63,12 @@ START_TEST(slow_contacts_are_no_hits)
 {
   static const float thresholds[3] = {0, 1.9f, 2.1f};
   for (int i = 0; i < 3; i++) {
-    scene s = meeting_begin((sbf_vec3){0, 0, 0});
+    scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
     s.world_definition.hit_speed = thresholds[i];
     for (uint32_t b = 0; b < 2; b++)
       rigid_box(&s, (sbf_vec3){0, 0, (float)b}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-    meeting_start(&s);
-    meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
+    contact_scene_start(&s);
+    contact_scene_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
     event_log *log = empty_log(0);
     scene_ticks_logged(&s, 60, log);
     ck_assert_uint_eq(log->begin_count, 1);
@@ -82,7 +82,7 @@ END_TEST
 typedef enum falling { FALLING_RIGID, FALLING_SPRINGS, FALLING_LATTICE } falling;
 
 static event_log *fall(falling what, bool onto_collider, float scale) {
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(onto_collider ? -10 : 0);
   s.character_definition.position.y = onto_collider ? 10 : 0;
   s.character_definition.scale = scale;
@@ -138,14 +138,14 @@ END_TEST
 START_TEST(resting_contacts_are_reported_once)
 {
   enum { BOXES = 4 };
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.sleep_after_s = 0.5;
   s.character_definition.position.y = 0;
   for (int i = 0; i < BOXES; i++)
     rigid_box(
         &s, (sbf_vec3){0, 0.1f + 0.2005f * (float)i, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1 + (float)(i % 2));
-  meeting_start(&s);
+  contact_scene_start(&s);
   event_log *log = empty_log(0);
   scene_ticks_logged(&s, 60, log);
   uint32_t pairs = 0;
@@ -159,7 +159,7 @@ START_TEST(resting_contacts_are_reported_once)
   scene_ticks_logged(&s, 240, log);
   ck_assert_uint_eq(log->begin_count, 0);
   ck_assert_uint_eq(log->end_count, 0);
-  meeting_throw(&s, s.character, BOXES - 1, (sbf_vec3){0, 8, 0}); /* up, off the others */
+  contact_scene_throw(&s, s.character, BOXES - 1, (sbf_vec3){0, 8, 0}); /* up, off the others */
   scene_ticks_logged(&s, 6, log);
   ck_assert_uint_eq(log->end_count, 1);
   ck_assert_int_eq(log->end[0].a.rigid_body, BOXES - 2);
@@ -171,15 +171,15 @@ END_TEST
 /* The box of one character falls onto the sheet of another, and is destroyed meanwhile. */
 START_TEST(soft_bodies_of_others_are_named)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0.5f, 0}, 0.6f, 8, false);
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbr_double3 above = s.character_definition.position;
   above.y += 0.7; /* its box, 0.2 m above the sheet of the first */
-  sbr_character_id other = meeting_another(&s, above);
-  meeting_throw(&s, other, 0, (sbf_vec3){0, -2, 0});
+  sbr_character_id other = contact_scene_another(&s, above);
+  contact_scene_throw(&s, other, 0, (sbf_vec3){0, -2, 0});
   event_log *log = empty_log(0);
   scene_ticks_logged(&s, 8, log);
   ck_assert_uint_eq(log->begin_count, 1);
@@ -199,7 +199,7 @@ END_TEST
 
 /* Three heaps of two characters each. */
 static scene heaps(int *threads) {
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.tasks = (sbr_tasks){.run = run_on_threads, .user = threads};
   s.character_definition.position.y = 0;
@@ -219,7 +219,7 @@ static void add_heaps(scene *s) {
 
 static void log_heaps(int threads, event_log *log) {
   scene s = heaps(&threads);
-  meeting_start(&s);
+  contact_scene_start(&s);
   add_heaps(&s);
   scene_ticks_logged(&s, 120, log);
   scene_free(&s);
@@ -262,8 +262,8 @@ START_TEST(a_step_replaces_the_events_of_the_one_before)
 {
   int threads = 1;
   scene ticks = heaps(&threads), steps = heaps(&threads);
-  meeting_start(&ticks), add_heaps(&ticks);
-  meeting_start(&steps), add_heaps(&steps);
+  contact_scene_start(&ticks), add_heaps(&ticks);
+  contact_scene_start(&steps), add_heaps(&steps);
   uint32_t by_ticks = 0, by_steps = 0;
   for (int i = 0; i < 30; i++) {
     for (int k = 0; k < 4; k++) {
@@ -292,7 +292,7 @@ START_TEST(events_beyond_the_capacity_are_counted)
   s.world_definition.event_capacity = 2;
   s.world_definition.hit_speed = 1000;
   s.world_definition.longest_frame_s = 10;
-  meeting_start(&s), add_heaps(&s);
+  contact_scene_start(&s), add_heaps(&s);
   sbr_world_step(s.world, 2);
   sbr_contact_events events = sbr_world_get_contact_events(s.world);
   ck_assert_uint_eq(events.begin_count, 2);

@@ -42,14 +42,15 @@ static void add_cube(scene *s, float young_pa, uint32_t cells, bool is_pinned) {
 START_TEST(what_bones_crush_does_not_burst)
 {
   const squeeze *q = &squeezes[_i];
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0}), loose = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0}),
+        loose = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   scene_bodies(&s, 1), scene_bodies(&loose, 1);
   scene_bone(&s, (sbf_vec3){0, SIDE / 2, 0});
   add_cube(&s, q->pinned_pa, q->cells, true);
   add_cube(&loose, q->loose_pa, 3, false);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){q->aside, q->up, -(double)SIDE - GAP};
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbr_character_definition d = s.character_definition;
   sbr_character_id other, crushed;
   d.position = (sbr_double3){0, 0, (double)SIDE + GAP}, d.heading = PI;
@@ -63,7 +64,7 @@ START_TEST(what_bones_crush_does_not_burst)
     sbr_character_set_drive(s.world, s.character, speed, 0, 0);
     sbr_character_set_drive(s.world, other, speed, 0, 0);
     sbr_world_tick(s.world);
-    fastest = fmax(fastest, meeting_fastest(&s, crushed));
+    fastest = fmax(fastest, contact_scene_fastest(&s, crushed));
   }
   ck_assert_double_lt(fastest, 12);
   ck_assert_uint_eq(sbr_character_get_body_health(s.world, crushed, 0).recoveries, 0);

@@ -18,7 +18,7 @@ START_TEST(cloth_does_not_go_into_a_ball)
   static const uint32_t cells[3] = {6, 12, 24};
   static const float thicknesses[3] = {0, 0.002f, 0.02f}, heights[HEIGHTS] = {0.1f, 2, 10};
   for (int i = 0; i < 2 * HEIGHTS; i++) {
-    scene s = meeting_begin(weight);
+    scene s = contact_scene_begin(weight);
     float thick = thicknesses[_i % 3], height = heights[i % HEIGHTS], aside = i < HEIGHTS ? 0 : 1;
     double max = -9;
     scene_bodies(&s, 1);
@@ -28,12 +28,12 @@ START_TEST(cloth_does_not_go_into_a_ball)
     scene_body(&s, 0)->collision.outer_thickness = thick;
     rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){2 * RADIUS, 2 * RADIUS, 2 * RADIUS}, 4);
     rigid_body(&s, 0)->motion = SBF_BODY_MOTION_KINEMATIC;
-    meeting_ball(&s, 0, RADIUS);
-    meeting_start(&s);
+    contact_scene_ball(&s, 0, RADIUS);
+    contact_scene_start(&s);
     scene_ticks(&s, (int)(60 * sqrtf(2 * height / 9.81f)) - 6);
     for (int tick = 0; tick < 40; tick++) {
       scene_ticks(&s, 1);
-      max = fmax(max, meeting_deepest(&s));
+      max = fmax(max, contact_scene_deepest(&s));
     }
     bool coarse = cells[_i / 3] == 6 && height >= 2, bare = cells[_i / 3] < 24 && thick < 0.02f;
     double may = coarse ? 7e-3 : bare ? 3.5e-3 : 3e-3;

@@ -156,7 +156,7 @@ START_TEST(a_skin_lies_on_itself)
       if (i % 5 == 0) max[self] = fmax(max[self], deepest_in_itself(&s, &skin));
     }
     ck_assert(!sbr_character_get_body_health(s.world, s.character, 0).inverted);
-    if (self) ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
+    if (self) ck_assert_double_le(contact_scene_fastest(&s, s.character), 1e-3);
     scene_free(&s);
   }
   ck_assert_double_ge(max[0], 0.02);
@@ -171,7 +171,7 @@ START_TEST(what_is_apart_at_rest_does_not_fight)
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   start(&s);
   scene_ticks(&s, 60);
-  ck_assert_double_le(meeting_fastest(&s, s.character), 1e-4);
+  ck_assert_double_le(contact_scene_fastest(&s, s.character), 1e-4);
   scene_free(&s);
 }
 END_TEST
@@ -250,7 +250,7 @@ START_TEST(what_got_inside_finds_its_way_out)
   scene_ticks(&s, 120);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(meeting_fastest(&s, other), 0.25); /* no faster than they were let out */
+  ck_assert_double_le(contact_scene_fastest(&s, other), 0.25); /* no faster than they were let out */
   scene_free(&s);
 }
 END_TEST
@@ -268,7 +268,7 @@ START_TEST(what_is_deep_inside_finds_its_way_out)
   scene_ticks(&s, 240);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(meeting_fastest(&s, other), _i ? 0.8 : 0.4);
+  ck_assert_double_le(contact_scene_fastest(&s, other), _i ? 0.8 : 0.4);
   scene_free(&s);
 }
 END_TEST

@@ -35,7 +35,7 @@ static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, boo
     if (pinned && fabsf(box.positions[i].x) > 0.49f * LENGTH) box.masses[i] = 0;
   put(at, bar.positions.count, to);
   put(box.positions, box.point_count, to);
-  meeting_flesh(s, body, &box, &bar);
+  contact_scene_soft_box(s, body, &box, &bar);
   scene_body(s, body)->attributes.damping_ratio = 0.3f;
 }
 
@@ -111,11 +111,11 @@ static int ticks_until_hit(float height) {
 START_TEST(bars_that_fall_across_each_other_do_not_pass)
 {
   const drop *d = &drops[_i];
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   scene_bodies(&s, 2);
   add_bar(&s, 0, &(lies){{0, 0, 0}, 0, d->roll}, 1e6f, true);
   add_bar(&s, 1, &(lies){{0.01f, d->height + far_of(d), 0.012f}, d->heading, d->roll}, 1e6f, false);
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 1);
   double first = scene_energy_of(&s), max = 0;
   scene_ticks(&s, ticks_until_hit(d->height));
@@ -146,7 +146,7 @@ START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
 {
   static sbf_vec3 beam[8];
   const drop *d = &drops[_i];
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   scene_bodies(&s, 1);
   add_bar(&s, 0, &(lies){{0.01f, d->height + 1.2072f * THICK, 0.012f}, d->heading, d->roll}, 1e6f, false);
   uint32_t number = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, THICK, THICK}, 4);
@@ -154,7 +154,7 @@ START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
   rigid_body(&s, number)->motion = SBF_BODY_MOTION_KINEMATIC;
   put((sbf_vec3 *)(uintptr_t)hull->positions.at, hull->positions.count, &(lies){{0, 0, 0}, 0, on_edge});
   for (uint32_t i = 0; i < 8; i++) beam[i] = hull->positions.at[i];
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, ticks_until_hit(d->height));
   check_over_beam(&s, hull, beam);
   scene_free(&s);
@@ -208,7 +208,7 @@ START_TEST(a_bar_lies_over_a_narrow_box)
   collision_collider(&s, shape, (sbr_double3){0.1, 0, 0});
   collision_collider(&s, shape, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 240);
-  ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
+  ck_assert_double_le(contact_scene_fastest(&s, s.character), 1e-3);
   static sbf_vec3 at[MAX];
   check(&s, s.character, 0, at);
   for (uint32_t i = 0; i < scene_body(&s, 0)->surface.positions.count; i++)
@@ -224,10 +224,10 @@ END_TEST
  * as places slide on each other within a tick. */
 START_TEST(what_is_thrown_keeps_its_momentum)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   add_bar(&s, 0, &(lies){{0, 0, 0}, 0, on_edge}, 1e6f, false);
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbr_character_definition d = s.character_definition;
   sbr_character_id other;
   d.position.x += 0.01, d.position.y += 0.15, d.position.z += 0.012, d.heading = askew;

@@ -46,7 +46,7 @@ static sbf_polygon_mesh capsule(sbf_asset *asset, uint32_t rings, float radius) 
 }
 
 static scene begin_capsule(uint32_t rings, float radius) {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   lattice_box box = lattice_box_make((sbf_vec3){-0.5f * LENGTH, -radius, -radius},
       (sbf_vec3){LENGTH, 2 * radius, 2 * radius}, CELLS, 1, 1, 1000, 1e5f, 0.3f);
@@ -105,7 +105,7 @@ START_TEST(thin_limbs_that_cross_come_apart)
 {
   const crossing *at = &positions[_i];
   scene s = begin_capsule(at->rings, at->radius);
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbr_character_definition d = s.character_definition;
   sbr_character_id other;
   d.position.x += (double)at->along, d.position.y += (double)at->y, d.heading = at->heading;
@@ -114,7 +114,8 @@ START_TEST(thin_limbs_that_cross_come_apart)
   double speed = 0;
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
-    if (i > 3) speed = fmax(speed, fmax(meeting_fastest(&s, s.character), meeting_fastest(&s, other)));
+    if (i > 3)
+      speed = fmax(speed, fmax(contact_scene_fastest(&s, s.character), contact_scene_fastest(&s, other)));
   }
   scene_momentum after = scene_momentum_of(&s);
   ck_assert_uint_eq(crossings_of(&s, s.character, other), 0);
@@ -180,14 +181,14 @@ START_TEST(rigid_things_come_out_of_soft_bodies)
   const pierced *r = &rods[_i];
   scene s = begin_capsule(r->rings, r->radius);
   rigid_box(&s, (sbf_vec3){0, 0.5f, 0}, r->size, 0.3f);
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
   sbri_rigid_bodies(c)[0].pose.position = r->at;
   ck_assert_uint_ge(places_inside(&s, r->size), 10);
   double speed = 0;
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
-    if (i > 3) speed = fmax(speed, meeting_fastest(&s, s.character));
+    if (i > 3) speed = fmax(speed, contact_scene_fastest(&s, s.character));
   }
   ck_assert_uint_eq(places_inside(&s, r->size), 0);
   ck_assert_double_le(speed, 0.8);

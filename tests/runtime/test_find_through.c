@@ -30,7 +30,7 @@ static void add_bar(scene *s, uint32_t body, sbf_vec3 center, bool along_z, floa
       list[i] = (sbf_vec3){x.x + center.x, x.y + center.y, x.z + center.z};
     }
   }
-  meeting_flesh(s, body, &box, &bar);
+  contact_scene_soft_box(s, body, &box, &bar);
 }
 
 static scene begin_bar(float young_pa) {
@@ -85,7 +85,7 @@ static const crosswise positions[] = {
 static scene begin_crosswise(const crosswise *at, sbr_tasks tasks, sbr_character_id *other) {
   scene s = begin_bar(1e5f);
   s.world_definition.tasks = tasks;
-  meeting_start(&s);
+  contact_scene_start(&s);
   *other = another(&s, at->off, at->heading);
   return s;
 }
@@ -100,7 +100,8 @@ START_TEST(bars_that_lie_crosswise_come_apart)
   double speed = 0;
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
-    if (i > 3) speed = fmax(speed, fmax(meeting_fastest(&s, s.character), meeting_fastest(&s, other)));
+    if (i > 3)
+      speed = fmax(speed, fmax(contact_scene_fastest(&s, s.character), contact_scene_fastest(&s, other)));
   }
   scene_momentum after = scene_momentum_of(&s);
   ck_assert_double_le(deepest(&s, s.character, other), 5e-4);
@@ -143,7 +144,7 @@ static scene begin_two_bars(sbf_vec3 off) {
   add_bar(&s, 0, (sbf_vec3){0, 0, 0}, false, 1e5f);
   add_bar(&s, 1, off, true, 1e5f);
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
-  meeting_start(&s);
+  contact_scene_start(&s);
   return s;
 }
 
@@ -166,7 +167,7 @@ START_TEST(parts_of_one_that_got_through_each_other_come_apart)
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
     if (i == 0) ck_assert_double_ge(deepest(&s, s.character, s.character), 0.025);
-    if (i > 3) speed = fmax(speed, meeting_fastest(&s, s.character));
+    if (i > 3) speed = fmax(speed, contact_scene_fastest(&s, s.character));
   }
   scene_momentum after = scene_momentum_of(&s);
   ck_assert_double_le(deepest(&s, s.character, s.character), 5e-4);
@@ -185,7 +186,7 @@ START_TEST(parts_that_overlap_at_rest_stay_quiet)
   ck_assert_double_ge(deepest(&s, s.character, s.character), 0.01);
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
-    ck_assert_double_le(meeting_fastest(&s, s.character), 1e-4);
+    ck_assert_double_le(contact_scene_fastest(&s, s.character), 1e-4);
   }
   (void)check(&s, s.character, 1, after);
   for (uint32_t i = 0; i < count; i++) ck_assert_float_le(sbri_length(sbri_sub(after[i], before[i])), 1e-5f);

@@ -31,13 +31,13 @@ static double off(const scene_momentum *a, const scene_momentum *b) {
 START_TEST(boxes_stand_on_each_other)
 {
   enum { BOXES = 6 };
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   for (int i = 0; i < BOXES; i++)
     rigid_box(&s, (sbf_vec3){0.01f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
         (sbf_vec3){0.2f, 0.2f, 0.2f}, i == 5 ? 5 : 1);
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 300);
   for (uint32_t i = 0; i < BOXES; i++) {
     ck_assert_float_eq_tol(rigid_state(&s, i).center.y, 0.1f + 0.2f * (float)i, 2e-3f);
@@ -49,12 +49,12 @@ END_TEST
 
 START_TEST(a_hit_keeps_momentum)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.3f, 0.2f}, 1);
   rigid_box(&s, (sbf_vec3){0, 0.1f, 1}, (sbf_vec3){0.2f, 0.2f, 0.4f}, 30);
   rigid_body(&s, 0)->friction = 0.5f;
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 0, (sbf_vec3){0.2f, 0, 4});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 0, (sbf_vec3){0.2f, 0, 4});
   scene_momentum before = scene_momentum_of(&s);
   scene_ticks(&s, 60);
   scene_momentum after = scene_momentum_of(&s);
@@ -68,13 +68,13 @@ END_TEST
 START_TEST(boxes_bounce_by_their_restitution)
 {
   const float es[3] = {0, 0.5f, 0.8f};
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   for (uint32_t i = 0; i < 2; i++) {
     rigid_box(&s, (sbf_vec3){0, 0, (float)i}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
     rigid_body(&s, i)->restitution = es[_i];
   }
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   scene_ticks(&s, 60);
   double separation = (double)(rigid_state(&s, 1).velocity.z - rigid_state(&s, 0).velocity.z);
   ck_assert_double_eq_tol(separation / 2, (double)es[_i], 0.02);
@@ -85,14 +85,14 @@ END_TEST
 /* On a slab that slides on the ground: slows down by friction, and draws the slab along. */
 START_TEST(friction_is_mutual)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   rigid_box(&s, (sbf_vec3){0, 0.1f, 0}, (sbf_vec3){4, 0.2f, 4}, 4);
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_body(&s, 0)->friction = 0.05f, rigid_body(&s, 1)->friction = 1.8f; /* 0.3 between them */
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 1, (sbf_vec3){2, 0, 0});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 1, (sbf_vec3){2, 0, 0});
   scene_ticks(&s, 12);
   double v = (double)rigid_state(&s, 1).velocity.x, slab = (double)rigid_state(&s, 0).velocity.x;
   double drag = 0.3 * 9.81 * 0.2, ground = 0.05 * 5 * 9.81 * 0.2;
@@ -106,12 +106,12 @@ END_TEST
 
 START_TEST(a_sheet_holds_what_falls_on_it)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 16, true);
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0.05f, 0.3f, 0}, (sbf_vec3){0.2f, 0.1f, 0.2f}, 0.1f);
-  meeting_start(&s);
+  contact_scene_start(&s);
   double min = 9, fastest = 0; /* of the last second */
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
@@ -126,12 +126,12 @@ END_TEST
 
 START_TEST(a_fast_ball_does_not_pass_a_sheet)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 24, false);
   rigid_box(&s, (sbf_vec3){0, 3, 0}, (sbf_vec3){0.05f, 0.05f, 0.05f}, 0.05f);
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 0, (sbf_vec3){0, -5, 0});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 0, (sbf_vec3){0, -5, 0});
   scene_momentum before = scene_momentum_of(&s);
   for (int i = 0; i < 20; i++) {
     scene_ticks(&s, 1);
@@ -147,20 +147,20 @@ END_TEST
  * nor nearer than half a millimetre of the five that the cloth keeps. */
 START_TEST(cloth_lies_over_a_ball_that_moves)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0.75f, 0}, 0.9f, 24, false);
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.6f, 0.6f, 0.6f}, 4);
-  meeting_ball(&s, 0, 0.3f);
-  meeting_start(&s);
+  contact_scene_ball(&s, 0, 0.3f);
+  contact_scene_start(&s);
   double max = -9;
   for (int i = 0; i < 150; i++) {
-    if (i == 60) meeting_throw(&s, s.character, 0, (sbf_vec3){6, 0, 0});
+    if (i == 60) contact_scene_throw(&s, s.character, 0, (sbf_vec3){6, 0, 0});
     scene_ticks(&s, 1);
-    max = fmax(max, meeting_deepest(&s));
+    max = fmax(max, contact_scene_deepest(&s));
   }
   ck_assert_double_le(max, -5e-4);
   ck_assert_float_ge(rigid_state(&s, 0).center.x, 0.5f);
@@ -232,14 +232,14 @@ static double fastest_of(const scene *s) {
 
 START_TEST(soft_cubes_stand_on_each_other)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 3);
   cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
   cube(&s, 1, (sbf_vec3){0.04f, 0.305f, 0.05f}, 0.2f, 1000);
   cube(&s, 2, (sbf_vec3){0.06f, 0.509f, 0.08f}, 0.15f, 500);
-  meeting_start(&s);
+  contact_scene_start(&s);
   float min[3], max[3];
   scene_ticks(&s, 300);
   for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &min[i], &max[i]); }
@@ -253,12 +253,12 @@ END_TEST
 
 START_TEST(a_soft_cube_lies_still)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 1);
   cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 360);
   for (int i = 0; i < 12; i++) {
     scene_ticks(&s, 1);
@@ -271,13 +271,13 @@ END_TEST
 /* What touches push with goes on from a snapshot as it would have without. */
 START_TEST(snapshots_hold_what_touches_push_with)
 {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   for (int i = 0; i < 3; i++)
     rigid_box(&s, (sbf_vec3){0.03f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
         (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  meeting_start(&s);
+  contact_scene_start(&s);
   scene_ticks(&s, 20);
   size_t size = sbr_world_get_snapshot_size(s.world);
   unsigned char *kept = malloc(size);
@@ -297,11 +297,12 @@ END_TEST
 START_TEST(soft_cubes_of_two_characters_keep_momentum)
 {
   const float speeds[3] = {2, 40, 60}, thrown = speeds[_i];
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   cube(&s, 0, (sbf_vec3){-0.1f, -0.1f, -0.1f}, 0.2f, 2000);
-  meeting_start(&s);
-  sbr_character_id other = meeting_another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
+  contact_scene_start(&s);
+  sbr_character_id other =
+      contact_scene_another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
   sbri_character *c = sbri_character_of(s.world, s.character);
   const sbri_island *island = &c->model->islands[0];
   for (uint32_t slot = 0; slot < island->free_count; slot++)
@@ -325,13 +326,13 @@ END_TEST
 /* What lies in each other at rest stays as it is; what the filters part passes through. */
 START_TEST(overlap_at_rest_does_not_fight)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 2);
   cube(&s, 0, (sbf_vec3){0, 0, 0}, 0.2f, 1000);
   cube(&s, 1, (sbf_vec3){0.15f, 0.02f, 0.02f}, 0.2f, 1000);
   rigid_box(&s, (sbf_vec3){0.1f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
   rigid_box(&s, (sbf_vec3){0.15f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
-  meeting_start(&s);
+  contact_scene_start(&s);
   sbf_vec3 a = scene_point(&s, 0, 0), b = scene_point(&s, 1, 0);
   scene_ticks(&s, 60);
   sbf_vec3 a1 = scene_point(&s, 0, 0), b1 = scene_point(&s, 1, 0);
@@ -343,12 +344,12 @@ END_TEST
 
 START_TEST(filters_let_through)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_box(&s, (sbf_vec3){0, 0, 1}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_body(&s, 0)->layer = 4, rigid_body(&s, 1)->mask = 3;
-  meeting_start(&s);
-  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
+  contact_scene_start(&s);
+  contact_scene_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   scene_ticks(&s, 60);
   ck_assert_float_eq_tol(rigid_state(&s, 0).velocity.z, 2, 1e-5f);
   ck_assert_float_eq(rigid_state(&s, 1).velocity.z, 0);
@@ -358,7 +359,7 @@ END_TEST
 
 /* A heap of everything, several times: the same bits on any number of threads. */
 static uint64_t run_heap(int threads) {
-  scene s = meeting_begin(weight);
+  scene s = contact_scene_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.tasks = (sbr_tasks){.run = run_on_threads, .user = &threads};
   s.world_definition.sleep_after_s = 0.5;
@@ -368,9 +369,9 @@ static uint64_t run_heap(int threads) {
   collision_sheet(&s, 1, (sbf_vec3){0.1f, 0.5f, 0.1f}, 0.6f, 8, false);
   rigid_box(&s, (sbf_vec3){0.1f, 0.3f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
   rigid_box(&s, (sbf_vec3){0.12f, 0.42f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 2);
-  meeting_start(&s);
-  (void)meeting_another(&s, (sbr_double3){0.05, 0.7, 0.05});
-  (void)meeting_another(&s, (sbr_double3){3, 0, 0});
+  contact_scene_start(&s);
+  (void)contact_scene_another(&s, (sbr_double3){0.05, 0.7, 0.05});
+  (void)contact_scene_another(&s, (sbr_double3){3, 0, 0});
   scene_ticks(&s, 90);
   uint64_t hash = sbr_world_get_state_hash(s.world);
   scene_free(&s);

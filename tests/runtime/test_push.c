@@ -19,7 +19,7 @@ typedef struct placed {
 /* Two of them, the upper one so high above the other, and so far aside. */
 static scene begin(
     float young_pa, float damping_ratio, double height, double aside, sbr_character_id *upper) {
-  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 1);
@@ -31,8 +31,8 @@ static scene begin(
   lattice_box_free(&box);
   scene_body(&s, 0)->attributes.damping_ratio = damping_ratio;
   scene_body(&s, 0)->attributes.friction = 0.6f;
-  meeting_start(&s);
-  *upper = meeting_another(&s, (sbr_double3){aside, (double)SIDE + height, 0});
+  contact_scene_start(&s);
+  *upper = contact_scene_another(&s, (sbr_double3){aside, (double)SIDE + height, 0});
   return s;
 }
 

@@ -167,12 +167,12 @@ START_TEST(a_person_falls_on_a_crate)
 END_TEST
 
 static scene tower(double below) {
-  scene s = meeting_begin((sbf_vec3){0, -(float)G, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, -(float)G, 0});
   s.world_definition.ground = sbr_ground_flat(below);
   s.character_definition.position.y = -below;
   for (int i = 0; i < 3; i++)
     rigid_box(&s, (sbf_vec3){0, 0.1f + 0.21f * (float)i, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  meeting_start(&s);
+  contact_scene_start(&s);
   return s;
 }
 
@@ -225,10 +225,10 @@ END_TEST
 /* A ball strikes one of two boxes that meet: all three keep what they have. */
 START_TEST(struck_boxes_strike_others)
 {
-  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene s = contact_scene_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 2);
   rigid_box(&s, (sbf_vec3){0, 0, 0.23f}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 2);
-  meeting_start(&s);
+  contact_scene_start(&s);
   host_body b = ball(&s, 1, (sbr_double3){0.02, 0, -0.4}, 3);
   for (int i = 0; i < 40; i++) {
     host_body_go(&s, &b, 1, -10);
