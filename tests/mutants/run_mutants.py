@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
-"""Puts known mistakes into a copy of the source, one at a time, and counts how many of them the tests notice.
+"""Puts known mistakes into copies of the source, one at a time in each, and counts how many of them the tests notice.
 
     run_mutants.py --build build/mutants [--check] [--survivors] [WORD...]
 
 mutants.txt lists the mistakes; its first lines explain the form. --check only compares the list with the source.
 --survivors runs those that survived or could not be run the last time; words select mutants by file or mistake.
+$JOBS copies work at once (default: one a core).
 Exit status: 0 at least 95 of 100 mutants are killed in each folder, 1 fewer or a mutant could not be run, 2 the call is wrong."""
 import argparse
+import contextlib
 import json
 import os
+import queue
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor, as_completed
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "repo"))
 from mutant_list import FOLDERS, ListError, check_mutants, read_mutants  # noqa: E402
@@ -64,8 +68,7 @@ class Scratch:
 
     def make(self, tests):
         targets = sorted({target for test in tests for target in targets_of(test)})
-        jobs = ["-j", os.environ["JOBS"]] if os.environ.get("JOBS") else []
-        self.run(["cmake", "--build", self.build, *jobs, "--target", *targets], "the build")
+        self.run(["cmake", "--build", self.build, "--target", *targets], "the build")
 
     def passes(self, test):
         """Whether the test passes; raises where it is skipped."""
@@ -96,34 +99,60 @@ def command_of(test, scratch):
     return ["ctest", "--test-dir", scratch.build, "--output-on-failure", "-R", f"^{name}$"]
 
 
-def try_mutant(scratch, mutant):
-    """Puts the mistake in, builds, tests, and takes it out again."""
-    with open(os.path.join(ROOT, mutant.file), encoding="utf-8") as stream:
-        text = stream.read()
-    try:
-        scratch.write(mutant.file, mutant.apply(text).encode())
-        scratch.make(mutant.tests)
-        noticed = next((test for test in mutant.tests if not scratch.passes(test)), None)
-        return (KILLED, noticed) if noticed else (SURVIVED, "")
-    except ListError as error:
-        return FAULT, str(error)
-    finally:
-        scratch.write(mutant.file, text.encode())
+class Workshop:
+    """Scratch copies, each used by one thread at a time."""
+
+    def __init__(self, folder, count):
+        self.pool = ThreadPoolExecutor(count)
+        self.copies = [Scratch(os.path.join(folder, str(number))) for number in range(1, count + 1)]
+        self.free = queue.Queue()
+        for copy in self.copies:
+            self.free.put(copy)
+
+    @contextlib.contextmanager
+    def copy(self):
+        scratch = self.free.get()
+        try:
+            yield scratch
+        finally:
+            self.free.put(scratch)
+
+    def prepare(self, tests):
+        # One after the other: what the first compiles, the compiler's cache gives to the next.
+        for scratch in self.copies:
+            scratch.update()
+            scratch.configure()
+            scratch.make(tests)
+
+    def complaint(self, test):
+        """Tests that fail without any mistake say nothing about mistakes."""
+        try:
+            with self.copy() as scratch:
+                return None if scratch.passes(test) else f"{test} fails without a mistake"
+        except ListError as error:
+            return str(error)
+
+    def try_mutant(self, mutant):
+        """Puts the mistake in, builds, tests, and takes it out again."""
+        with open(os.path.join(ROOT, mutant.file), encoding="utf-8") as stream:
+            text = stream.read()
+        with self.copy() as scratch:
+            try:
+                scratch.write(mutant.file, mutant.apply(text).encode())
+                scratch.make(mutant.tests)
+                noticed = next((test for test in mutant.tests if not scratch.passes(test)), None)
+                return (KILLED, noticed) if noticed else (SURVIVED, "")
+            except ListError as error:
+                return FAULT, str(error)
+            finally:
+                scratch.write(mutant.file, text.encode())
 
 
-def check_untouched(scratch, mutants):
-    """Tests that fail without any mistake say nothing about mistakes."""
+def check_untouched(workshop, mutants):
     tests = sorted({test for mutant in mutants for test in mutant.tests})
     print(f"Building and running {len(tests)} tests without a mistake ...", flush=True)
-    scratch.make(tests)
-    faults = []
-    for test in tests:
-        try:
-            if not scratch.passes(test):
-                faults.append(f"{test} fails without a mistake")
-        except ListError as error:
-            faults.append(str(error))
-    return faults
+    workshop.prepare(tests)
+    return [complaint for complaint in workshop.pool.map(workshop.complaint, tests) if complaint]
 
 
 def print_table(outcomes):
@@ -173,19 +202,18 @@ def main():
     chosen = selected(mutants, asked.words, last if asked.survivors else None)
     if not chosen:
         sys.exit("no mutant is selected")
-    scratch = Scratch(folder)
+    workshop = Workshop(folder, int(os.environ.get("JOBS") or os.cpu_count()))
     try:
-        scratch.update()
-        scratch.configure()
-        faults = check_untouched(scratch, chosen)
+        faults = check_untouched(workshop, chosen)
     except ListError as error:
         faults = [str(error)]
     if faults:
         print(*faults, sep="\n")
         sys.exit(1)
     outcomes = []
-    for number, mutant in enumerate(chosen, 1):
-        outcome, more = try_mutant(scratch, mutant)
+    running = {workshop.pool.submit(workshop.try_mutant, mutant): mutant for mutant in chosen}
+    for number, done in enumerate(as_completed(running), 1):
+        mutant, (outcome, more) = running[done], done.result()
         outcomes.append((mutant, outcome))
         last[mutant.mistake] = outcome
         with open(results, "w", encoding="utf-8") as stream:
