@@ -160,9 +160,13 @@ static void say_choice(const cli_call *call, const section_budget *choice) {
         (unsigned)choice->left_out, choice->names);
   size_t length = strlen(left);
   if (choice->visits > choice->max_visits)
-    snprintf(left + length, sizeof left - length, "; %s",
-        choice->soft ? "the parts that you asked for take more: ask for fewer, or --budget none"
-                     : "the skin alone takes more: give it fewer vertices");
+    snprintf(left + length, sizeof left - length,
+        choice->soft ? "; the parts that you asked for take more: ask for fewer, or --budget none"
+                     : "; skin and gait alone take more");
+  else if (choice->exceeds)
+    snprintf(left + length, sizeof left - length,
+        "; the skin's vertices alone take %.0f us, so soft parts have a quarter of the budget",
+        us * choice->skin_visits);
   snprintf(diagnostic.message, sizeof diagnostic.message,
       "sections follow lattices of about %u tetrahedra: %s%.0f element visits a tick of at most %.0f (%.0f "
       "us of "

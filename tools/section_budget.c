@@ -14,8 +14,9 @@
 static const uint32_t sizes[] = {40, 80, 160};
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes, FINEST = 640 };
 static const double NEAR_FRACTION = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
-static const double ALIKE = 1.15;    /* ratio of volumes of left and right */
-static const double SKIN_VISITS = 2; /* that the skin takes for a vertex, with its normal: 8 to 14 ns */
+static const double ALIKE = 1.15;         /* ratio of volumes of left and right */
+static const double SKIN_VISITS = 2;      /* that the skin takes for a vertex, with its normal: 8 to 14 ns */
+static const double SOFT_FRACTION = 0.25; /* of the budget that is for soft parts, whatever the skin takes */
 
 typedef struct candidate {
   uint32_t elements;
@@ -170,7 +171,7 @@ static bool leave_out_smallest(sbf_asset *source, const sbf_asset *built, sectio
   return choice->left_out > before;
 }
 
-/* Parts become rigid until the coarsest of all fits: all at once where the skin alone takes too much. */
+/* Parts become rigid until the coarsest of all fits. */
 static sbf_status fit(
     sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   choice->elements = sizes[0];
@@ -179,25 +180,29 @@ static sbf_status fit(
     sbf_status status = build_one(source, build, choice->elements, &built, error);
     if (status != SBF_OK) return status;
     choice->visits = visits_of(built);
-    choice->soft = built->soft_bodies.count;
+    const uint32_t soft = built->soft_bodies.count;
     bool done = choice->visits <= choice->max_visits || !leave_out_smallest(source, built, choice);
-    while (!done && skin_visits_of(built) > choice->max_visits)
-      if (!leave_out_smallest(source, built, choice)) break;
     sbf_asset_free(built);
-    if (!choice->soft && !choice->left_out) choice->elements = 0; /* nothing is cut */
+    if (!soft && !choice->left_out) choice->elements = 0; /* nothing is cut */
     if (done) return SBF_OK;
   }
 }
 
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
     section_budget *choice, sbf_diagnostic *error) {
-  *choice = (section_budget){
-      .max_visits = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, .finest = FINEST, .p99_fraction = NAN};
-  sbf_status status = SBF_OK;
-  if (skin_visits_of(source) <= choice->max_visits) status = choose(source, build, choice, error);
+  const double budget = 1e3 * budget_us / SECTION_BUDGET_NS_PER_VISIT, skin = skin_visits_of(source);
+  *choice = (section_budget){.skin_visits = skin,
+      .max_visits = fmax(budget, skin + SOFT_FRACTION * budget),
+      .exceeds = skin + SOFT_FRACTION * budget > budget,
+      .finest = FINEST,
+      .p99_fraction = NAN};
+  sbf_status status = choose(source, build, choice, error);
   if (status == SBF_OK && !choice->elements) status = fit(source, build, choice, error);
-  for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++)
-    recipe_at(source, i)->elements = is_soft(recipe_at(source, i)) ? choice->elements : 0;
+  for (uint32_t i = 0; status == SBF_OK && i < source->section_recipes.count; i++) {
+    bool soft = is_soft(recipe_at(source, i));
+    recipe_at(source, i)->elements = soft ? choice->elements : 0;
+    choice->soft += soft;
+  }
   return status;
 }
 

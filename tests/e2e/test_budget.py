@@ -93,10 +93,17 @@ class Budget(ProgramTest):
         self.assertEqual({name for name in soft if name.endswith(".L")}, {name[:-1] + "L" for name in soft if name.endswith(".R")})
         self.assertEqual({s["bone"] for s in self.json_of("info", made)["sections"]}, soft)
 
-    def test_a_skin_that_takes_more_by_itself_is_told(self):
+    def test_a_quarter_is_for_soft_parts_whatever_the_skin_takes(self):
+        made, (_, _, visits, most), err = self.converted("quarter", "--budget", "40")
+        self.assertLessEqual(visits, most)
+        self.assertGreater(0.006 * most, 50, "the skin alone takes more than the budget")
+        self.assertIn("soft parts have a quarter of the budget", err)
+        self.assertTrue(self.json_of("info", made)["sections"])
+
+    def test_skin_and_gait_that_take_more_are_told(self):
         made, (_, _, visits, most), err = self.converted("skin", "--budget", "10")
         self.assertGreater(visits, most)
-        self.assertIn("the skin alone takes more", err)
+        self.assertIn("skin and gait alone take more", err)
         self.assertEqual(self.json_of("info", made)["sections"], [])
 
     def test_bad_calls(self):
