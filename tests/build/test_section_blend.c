@@ -28,7 +28,7 @@ static double smoothed(float slope, float authored_slope) {
   sbf_asset *asset = tube(slope, &skin, &arena), *other = tube(authored_slope, &authored, &arena);
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   const sbfi_skin_union before = skin;
-  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, &left, &arena));
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double weights[2] = {0, 0}, old[2] = {0, 0};
@@ -98,7 +98,7 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   reorder_polygons(&skin.mesh, &arena);
   const sbfi_skin_union authored = skin;
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
-  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, &left, &arena));
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   /* As on the coarse tube: the slope is no longer than it has to be. */
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
@@ -127,7 +127,7 @@ START_TEST(the_order_of_polygons_changes_nothing)
     if (i) reorder_polygons(&skins[i].mesh, &arena);
     const sbfi_skin_union authored = skins[i];
     ck_assert(sbfi_topology_build(&t, &skins[i].mesh, &arena));
-    ck_assert(sbfi_section_blend_smooth(&skins[i], &authored, &t, asset, NULL, &left, &arena));
+    ck_assert(sbfi_section_blend_smooth(&skins[i], &authored, &t, asset, NULL, NULL, &left, &arena));
     sbf_asset_free(asset);
   }
   uint32_t points = skins[0].mesh.positions.count;
@@ -158,7 +158,7 @@ START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
     for (uint32_t p = 0; p < points; p++)
       fixed[p] = skin.mesh.positions.at[p].y < 0.95f || (both && skin.mesh.positions.at[p].y > 1.05f);
     ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
-    ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, fixed, &left, &arena));
+    ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, fixed, &left, &arena));
     ck_assert_uint_eq(left, 0);
     for (uint32_t p = 0; p < points; p++)
       changed += fixed[p] && skin.hold_begins[p + 1] - skin.hold_begins[p] != 1;
@@ -166,6 +166,35 @@ START_TEST(fixed_points_keep_their_weights_as_long_as_others_can_give_way)
     sbfi_arena_free(&arena);
     sbf_asset_free(asset);
   }
+}
+END_TEST
+
+/* Of the steps between four bones, only those at what soft bones hold become slopes. */
+START_TEST(what_no_soft_bone_holds_keeps_its_weights)
+{
+  sbfi_arena arena;
+  sbfi_skin_union skin;
+  sbfi_topology t;
+  uint32_t left, chosen_count, slope = 0;
+  uint8_t chosen[1];
+  const uint8_t soft[] = {1, 0, 0, 0};
+  sbfi_arena_init(&arena, NULL, 0);
+  const skinned_limb of = {.bones = 4, .sides = 16, .rings_a_bone = 20, .radius = 0.1f};
+  sbf_asset *asset = skinned_limb_make(&of);
+  ck_assert(sbfi_skins_choose(asset, chosen, &chosen_count, &arena));
+  ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
+  ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
+  const sbfi_skin_union authored = skin;
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, soft, NULL, &left, &arena));
+  ck_assert_uint_eq(left, 0);
+  for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
+    uint32_t bones = skin.hold_begins[p + 1] - skin.hold_begins[p];
+    if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_uint_eq(bones, 1);
+    slope += bones > 1;
+  }
+  ck_assert_uint_gt(slope, 0);
+  sbfi_arena_free(&arena);
+  sbf_asset_free(asset);
 }
 END_TEST
 
@@ -184,7 +213,7 @@ START_TEST(memory_does_not_grow_with_bones_times_points)
   ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   const sbfi_skin_union authored = skin;
-  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, &left, &arena));
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, NULL, &left, &arena));
   sbfi_arena_free(&arena);
   sbf_asset_free(asset);
 }
@@ -199,6 +228,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_step_on_a_fine_skin_becomes_a_slope);
   tcase_add_test(c, the_order_of_polygons_changes_nothing);
   tcase_add_test(c, fixed_points_keep_their_weights_as_long_as_others_can_give_way);
+  tcase_add_test(c, what_no_soft_bone_holds_keeps_its_weights);
   tcase_add_test(c, memory_does_not_grow_with_bones_times_points);
   suite_add_tcase(s, c);
   return s;

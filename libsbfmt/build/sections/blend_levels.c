@@ -139,6 +139,7 @@ static bool make_coarse(sbfi_blend_surface *to, const clusters *c, row_sum *sum,
       .rows = mean_rows(c, s->rows, sum, arena),
       .before = mean_rows(c, s->before, sum, arena),
       .triangles = sbfi_arena_allocate(arena, (size_t)s->triangle_count + 1, sizeof *to->triangles),
+      .soft = s->soft,
       .fixed = fixed,
       .changed = sbfi_arena_allocate(arena, (size_t)c->count + 1, 1)};
   if (!positions || !fixed || !to->rows || !to->before || !to->triangles || !to->changed) return false;

@@ -317,16 +317,29 @@ static bool contract(work *w, uint32_t triangle, double stretch) {
   return true;
 }
 
+/* The first triangle to be looked at from `from` on, going up or down; `count` where there is none. */
+static uint32_t next_pending(const uint8_t *pending, uint32_t from, uint32_t count, bool down) {
+  static const uint8_t none[8];
+  for (uint32_t n = from; n < count;) {
+    uint32_t i = down ? count - 1 - n : n;
+    if (pending[i]) return n;
+    /* Most sweeps find few: whole blocks without any are passed over. */
+    const uint8_t *block = down ? pending + i - 7 : pending + i;
+    n += n + 8 <= count && memcmp(block, none, sizeof none) == 0 ? 8 : 1;
+  }
+  return count;
+}
+
 /* Up the surface and down again in turn, so that weights travel along a limb in one sweep, from its sole or
  * to it. */
 static bool sweep_all(work *w, uint32_t *left) {
   uint32_t count = w->s->triangle_count;
   for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
+    const bool down = sweep % 2;
     *left = 0;
-    for (uint32_t n = 0; n < count; n++) {
-      uint32_t i = sweep % 2 ? count - 1 - n : n;
+    for (uint32_t n = 0; (n = next_pending(w->pending, n, count, down)) < count; n++) {
+      uint32_t i = down ? count - 1 - n : n;
       double stretch;
-      if (!w->pending[i]) continue;
       w->pending[i] = 0;
       if (!find_stretch(w, i, &stretch)) return false;
       if (stretch <= MAX_STRETCH) continue;
@@ -339,6 +352,14 @@ static bool sweep_all(work *w, uint32_t *left) {
   return true;
 }
 
+static bool is_soft(const sbfi_blend_surface *s, const uint32_t points[3]) {
+  if (!s->soft) return true;
+  for (int k = 0; k < 3; k++)
+    for (uint32_t i = 0; i < s->rows[points[k]].count; i++)
+      if (s->soft[s->rows[points[k]].at[i].bone]) return true;
+  return false;
+}
+
 bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena) {
   work w = {.s = surface, .arena = arena};
   *left = 0;
@@ -347,6 +368,7 @@ bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_
   if (!w.pending || !w.fixed) return false;
   for (uint32_t p = 0; surface->fixed && p < surface->point_count; p++)
     w.fixed[p] = surface->fixed[p] ? FIXED_CONTRACTIONS : 0;
-  memset(w.pending, 1, surface->triangle_count);
+  for (uint32_t i = 0; i < surface->triangle_count; i++)
+    w.pending[i] = is_soft(surface, surface->triangles[i]);
   return sweep_all(&w, left);
 }

@@ -34,6 +34,7 @@ typedef struct sbfi_blend_surface {
   const sbfi_blend_row *before; /* (point_count) as authored */
   uint32_t (*triangles)[3];
   uint32_t *begins, *at_point; /* triangles at each point: made by sbfi_blend_surface_index() */
+  const uint8_t *soft;         /* (bones) what they hold shall bend well; NULL: what any bone holds */
   const uint8_t *fixed; /* (point_count) that keep their weights as long as others can give way; NULL: none */
   uint8_t *changed;     /* (point_count) receives 1 where weights were changed */
 } sbfi_blend_surface;
@@ -49,7 +50,8 @@ sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena 
 bool sbfi_blend_surface_index(sbfi_blend_surface *surface, sbfi_arena *arena);
 
 /* Contracts the weights of triangles that stretch or turn over (section_blend.h says which) towards their
- * means, in sweeps, until none is left. `*left` receives how many are. Time of a sweep: linear in the
+ * means, in sweeps, until none is left. Begins at triangles with a corner that a soft bone holds, and goes on
+ * over the neighbours of what it changes. `*left` receives how many are. Time of a sweep: linear in the
  * triangles whose weights changed and the bones between those that hold their corners. */
 bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena);
 

@@ -63,7 +63,7 @@ static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_
 }
 
 bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_skin_union *authored, const sbfi_topology *t,
-    const sbf_asset *asset, const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
+    const sbf_asset *asset, const uint8_t *soft, const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count;
   sbfi_blend_surface s = {.bones = asset->bones.at,
       .joints = sbfi_blend_joints_make(&asset->bones, arena),
@@ -71,6 +71,7 @@ bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_skin_union *aut
       .positions = skin->mesh.positions.at,
       .rows = rows_of(skin, arena),
       .before = rows_of(authored, arena),
+      .soft = soft,
       .fixed = fixed,
       .changed = sbfi_arena_allocate(arena, (size_t)points + 1, 1)};
   *left = 0;

@@ -206,14 +206,21 @@ static void report_guesses(const work *w) {
   sbfi_report(w->reporter, &diagnostic);
 }
 
+/* Whether what the bone holds is a section's. */
+static bool is_soft(const work *w, uint32_t bone) {
+  return w->owners[bone] != SBFI_NO_INDEX && !w->rigid[w->owners[bone]];
+}
+
 /* Where no smoothing helps, as on triangles that are as good as flat, a note says so. */
 static bool smooth_blends(work *w) {
   uint32_t left;
   sbf_diagnostic diagnostic;
   const sbfi_skin_union authored = w->skin;
   uint8_t *soles = sbfi_arena_allocate(w->scratch, (size_t)w->skin.mesh.positions.count + 1, 1);
-  if (!soles || !sbfi_soles_gather(&w->skin, w->asset, soles, w->scratch)) return false;
-  if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soles, &left, w->scratch))
+  uint8_t *soft = sbfi_arena_allocate(w->scratch, (size_t)w->asset->bones.count + 1, 1);
+  if (!soles || !soft || !sbfi_soles_gather(&w->skin, w->asset, soles, w->scratch)) return false;
+  for (uint32_t b = 0; b < w->asset->bones.count; b++) soft[b] = is_soft(w, b);
+  if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soft, soles, &left, w->scratch))
     return false;
   if (left == 0) return true;
   sbfi_diagnose(&diagnostic, SBF_CODE_SECTION_STRETCHED,
@@ -290,7 +297,7 @@ static bool distribute_points(work *w) {
     uint32_t begin = w->contribution_begins[p] = next;
     for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++) {
       uint32_t owner = w->owners[w->skin.holds[h].bone], at = begin;
-      if (owner == SBFI_NO_INDEX || w->rigid[owner]) continue;
+      if (!is_soft(w, w->skin.holds[h].bone)) continue;
       while (at < next && w->contributions[at].bone != owner) at++;
       if (at == next) w->contributions[next++].bone = owner;
       w->contributions[at].weight += w->skin.holds[h].weight;
