@@ -161,7 +161,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("places", nargs="*", metavar="FILE|FOLDER")
     parser.add_argument("-o", dest="out", default=os.path.join("out", "zoo"), metavar="DIR")
-    parser.add_argument("--seconds", type=float, default=4)
+    parser.add_argument("--seconds", type=float, default=6)
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="at once; times a frame are true with one")
     parser.add_argument("--convert", default="", metavar="OPTIONS", help="for every conversion, in one word")
     given = parser.parse_args()

@@ -114,7 +114,7 @@ static int32_t choose(
     if (state->standing_s > 0) min = SETTLED;
     if (c->off[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
-    bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
+    bool bears = (c->stride.together || c->stride.running) && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
       bears = sbri_support_bears(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
       if (!bears && !in_air && state->waiting_s > WAIT_S) bears = true;

@@ -12,6 +12,8 @@
 static const float SMOOTHING_S = 0.18f; /* smoothing time of commands, s */
 static const float DISPLACED_S = 0.1f;  /* smoothing time of the speed of host displacements, s */
 static const float ACCELERATES = 0.2f;  /* maximum acceleration, in reaches per squared duration of a step */
+static const float BRISK_S =
+    0.4f; /* on level ground slower steps count once as these: large bodies took seconds */
 static const float STILL =
     0.004f; /* speed below which the character stands still, m/s and rad/s per metre of leg */
 static const float LONG_S = 1;       /* maximum counted time of standing, s */
@@ -94,7 +96,8 @@ static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   float turn = (state->limit * input->turn - state->turn) * inverse_mass;
   if (rig->leg_count) { /* limited by the fastest home */
     float step_s = rig->gait->step_duration, round = turn * rig->spread * input->scale;
-    float max = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * step_s);
+    float brisk_s = step_s > BRISK_S && sbri_stands_level(rig, state, input->scale) ? BRISK_S : step_s;
+    float max = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * brisk_s);
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
     fraction = change > max ? max / change : 1;
   }

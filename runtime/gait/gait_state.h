@@ -205,9 +205,13 @@ typedef struct sbri_stride {
   float available_s; /* time for a step at the widest stride of group steps */
   bool together;     /* feet of a group step together */
   bool balanced;     /* slow enough to slow down rather than lose balance */
+  bool running;      /* many legs, too fast to wait for balance */
   float widest_m;    /* upper bound of half_m, mean over a stride */
   sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;
+/* Whether the feet stand on level ground and go to it. */
+bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale);
+
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 
 /* A foot's home relative to the body, horizontal. */

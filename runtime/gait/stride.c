@@ -27,6 +27,7 @@ static const float BRAKES =
     1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
 static const float BESIDE = 1.15f;   /* half soles: from the middle, foot by foot */
 static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
+static const float LEVEL = 0.05f;    /* of the reach: difference of height up to which ground is level */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
@@ -190,6 +191,15 @@ static float check_homes(
   return max;
 }
 
+bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
+  float low = 1e30f, high = -1e30f;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].to.y;
+    low = y < low ? y : low, high = y > high ? y : high;
+  }
+  return high - low < LEVEL * rig->reach * scale;
+}
+
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
   float max = check_homes(rig, state, input, &s);
@@ -200,13 +210,15 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
-  bool slow = fastest <= SLOW * rig->reach * input->scale && rig->leg_count < MANY_LEGS;
+  bool quick = fastest > SLOW * rig->reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
   float lean_two = slow ? LEAN_SLOW_S : LEAN_TWO_S;
   float lean = rig->leg_count == 2 ? lean_two : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
-  float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
+  float turn_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean), one_by_one = turn_s * s.speed;
   s.together =
-      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * max;
+      (turns > groups || rig->leg_count == 2) && turn_s * fastest > (state->together ? 0.62f : 0.74f) * max;
   s.balanced = slow;
+  s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chain_count &&
+              sbri_stands_level(rig, state, input->scale);
   if (slow) s.together = false;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */

@@ -8,8 +8,9 @@ static const float SPARE_TIME = 1.15f; /* available time as a multiple of the ne
 static const float LEVEL = 0.08f; /* fraction of the reach: a larger difference of height is another level */
 static const float AS_PLANNED = 1.02f; /* needed time as a multiple of the available time that is tolerated */
 static const float REPLANNED =
-    0.02f;                        /* fraction of the reach: a target that moves further is planned again */
-static const float WIDEST = 1.7f; /* in reaches: maximum length of a step that begins far behind */
+    0.02f;                           /* fraction of the reach: a target that moves further is planned again */
+static const float WIDEST = 1.7f;    /* in reaches: maximum length of a step that begins far behind */
+static const float MIN_LIMIT = 0.1f; /* of the wanted speed: standing, it would learn no more */
 enum { PASSES = 4 };
 
 /* Landing position: ahead of the foot's home at the time of landing. */
@@ -77,7 +78,8 @@ static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
         max = stride->available_s * stride->speed;
   float at_max = max / (SPARE_TIME * state->needed_s); /* m/s */
-  state->limit = wanted > at_max ? at_max / wanted : 1;
+  if (stride->speed > 0) state->limit = wanted > at_max ? at_max / wanted : 1;
+  if (state->limit < MIN_LIMIT) state->limit = MIN_LIMIT;
 }
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

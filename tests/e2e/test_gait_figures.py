@@ -1,9 +1,10 @@
 """How well the example lizard walks: some of the walks of walks.py, against what was asked of them."""
 
+import os
 import unittest
 
-from sbfmt_program import ProgramTest, example, main
-from walks import all_walks, failures, leg_of, measure
+from sbfmt_program import ROOT, ProgramTest, convert_once, example, main, shared
+from walks import all_walks, failures, leg_of, measure, straight
 
 CHOSEN = ("flat, 0.1", "flat, 1", "flat, 2", "flat, backward 0.5", "flat, turning on the spot",
           "flat, starting, stopping, aside", "slope of 20°, 0.3", "stairs of a quarter leg, 1", "noise, 0.5")
@@ -35,6 +36,26 @@ class Gait(ProgramTest):
         self.assertGreaterEqual(kept[0], 0.97)
         self.assertLess(kept[1], 0.8)
         self.assertIsNone(kept[2])
+
+    def faster_is_farther(self, *place):
+        """Many legs wait for balance, or for a chain that carries them: never for good."""
+        file = convert_once(self.class_folder.name, place[-1] + ".sbf", os.path.join(*place))
+        leg = leg_of(file)
+        slow, fast, fastest = (measure(file, straight("flat", speed), leg, "--seconds", "10")["distance"] for speed in (0.7, 1, 2.5))
+        self.assertGreater(fast, 0.75 * leg * 10)
+        self.assertGreater(fast, slow)
+        self.assertGreater(fastest, fast)
+
+    def test_many_legs_driven_faster_go_no_slower(self):
+        for name in ("spider", "caterpillar"):
+            with self.subTest(name):
+                self.faster_is_farther(ROOT, "examples", name, name + ".glb")
+
+    def test_a_spider_with_its_mass_behind_its_feet_keeps_its_speed(self):
+        spider = (shared("..", "zoo"), "easy_enemies_pack", "Spider.glb")
+        if not os.path.exists(os.path.join(*spider)):
+            self.skipTest("shared/zoo is not there")
+        self.faster_is_farther(*spider)
 
     def test_slow_feet_stand_most_of_the_time(self):
         report = measure(self.file, self.walks["flat, 0.1"], self.leg)
