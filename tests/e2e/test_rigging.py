@@ -3,12 +3,14 @@
 import json
 import math
 import os
+import random
 import tempfile
 
 import obj_variants as variants
-from bundle_file import Bundle
+from bundle_file import Bundle, matrix_of
 from bvh_file import write_bvh
 from glb_file import Glb
+from skinned_glb import SkinnedGlb, inverse_binds, tube
 from rigged_weights import (Original, add_clip, difference, posed, posed_errors, save_in_a_pose, share_of_equal,
                             walk_motions, weights_by_vertex)
 from sbfmt_program import ROOT, SOURCE_PARTS, ProgramTest, main, read_text, shared, write_bytes
@@ -58,6 +60,18 @@ def shapes_of(obj):
         count, normals = found.get(key, (0, 0))
         found[key] = (count + 1, normals + sum(normal is not None for _, _, normal in corners))
     return found
+
+
+def rig_of_bones(points, faces, joints, hold):
+    """A skin on bones below one root, each at its place; `hold` has a weight a bone for each point."""
+    file = SkinnedGlb()
+    root = file.node("Root")
+    worlds = [matrix_of(place) for place in joints.values()]
+    nodes = [file.node(name, root, world) for name, world in zip(joints, worlds)]
+    of_point = [tuple(weights) + (0,) * (4 - len(joints)) for weights in hold]
+    mesh = file.mesh(points, faces, [(0, 1, 2, 3)[:len(joints)] + (0,) * (4 - len(joints))] * len(points), of_point)
+    file.node("skin", None, mesh=mesh, skin=file.skin(nodes, inverse_binds(worlds, matrix_of())))
+    return file
 
 
 class ByPlace(ProgramTest):
@@ -349,6 +363,81 @@ class ByNearness(ProgramTest):
         self.assertEqual({len(weights) for weights in poles}, {1})
         self.assertEqual({*poles[0]}, {bone for weights in poles for bone in weights})
         self.assertIn(next(iter(poles[0])), self.calf.weights[top])
+
+    def test_a_thin_part_that_became_a_sheet_bends_as_before(self):
+        """Programs that simplify join the two sides of a fin, which then faces nowhere: beside it lies the body."""
+        body, faces = tube(0, 3, 0.3, 25)
+        rows, first = 17, len(body)
+        fin = [(0.35 + x, 3 * i / (rows - 1), z) for z in (-0.01, 0.01) for i in range(rows) for x in (0, 0.3)]
+        for side in (0, 1):
+            for i in range(rows - 1):
+                a = first + 2 * (side * rows + i)
+                quad = (a, a + 1, a + 3, a + 2) if side else (a, a + 2, a + 3, a + 1)
+                faces += [quad[:3], (quad[0], quad[2], quad[3])]
+        hold = [(1, 0, 0)] * len(body) + [(0, 1 - y / 3, y / 3) for _, y, _ in fin]
+        rig = rig_of_bones(body + fin, faces, {"Body": (0, 0, 0), "Low": (0.4, 0, 0), "High": (0.4, 2, 0)}, hold)
+        rig.write(self.path("rig.glb"))
+        sheet = body + [(x, y, 0) for x, y, _ in fin[:2 * rows]]
+        faces = [("all", None, [(i if i < len(sheet) else i - 2 * rows, None, None) for i in face]) for face in faces]
+        variants.write(variants.Obj(sheet, [], [], faces), self.path("in.obj"))
+        self.good("convert", self.path("in.obj"), "--rig", self.path("rig.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+        found = weights_by_vertex(self.path("out.sbf"))
+        for v in range(first, len(sheet)):
+            self.assertAlmostEqual(found[v][0].get("High", 0), sheet[v][1] / 3, delta=0.01)
+
+    def test_points_beside_a_part_without_weights_follow_the_root(self):
+        """As the rig's own mesh does; other bones lie nearer."""
+        body, faces = tube(0, 3, 0.3, 25)
+        hat, crown = tube(3.1, 3.5, 0.3, 5)
+        faces += [tuple(i + len(body) for i in face) for face in crown]
+        hold = [(0, 1)] * len(body) + [(0, 0)] * len(hat)
+        rig_of_bones(body + hat, faces, {"Foot": (0, 0, 0), "Head": (0, 2.9, 0)}, hold).write(self.path("rig.glb"))
+        obj = variants.Obj(body + hat, [], [], [("all", None, [(i, None, None) for i in face]) for face in faces])
+        variants.write(variants.subdivided(obj), self.path("in.obj"))
+        self.good("convert", self.path("in.obj"), "--rig", self.path("rig.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+        for weights, (_, y, _) in weights_by_vertex(self.path("out.sbf")).values():
+            if y > 3.05:
+                self.assertEqual(weights, {"Foot": 1.0})
+
+    def test_an_object_like_one_without_bones_hangs_as_that_does(self):
+        """A turret beside a skin, on no bone: an edited one gets none of the bones of the skin below it."""
+        body, faces = tube(0, 3, 0.3, 25)
+        hat, crown = tube(3.05, 3.3, 0.6, 5)
+        file = rig_of_bones(body, faces, {"Foot": (0, 0, 0), "Head": (0, 2.9, 0)}, [(1 - y / 3, y / 3) for _, y, _ in body])
+        file.node("Hat", None, mesh=file.mesh(hat, crown))
+        file.write(self.path("rig.glb"))
+        objects = [("all", face) for face in faces] + [("cap", [i + len(body) for i in face]) for face in crown]
+        obj = variants.Obj(body + hat, [], [], [(name, None, [(i, None, None) for i in face]) for name, face in objects])
+        whole = variants.jiggled(obj, 0)
+        found = []
+        for change in (whole, variants.subdivided(obj)):
+            variants.write(change, self.path("in.obj"))
+            self.good("convert", self.path("in.obj"), "--rig", self.path("rig.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+            found.append({bone for weights, (_, y, _) in weights_by_vertex(self.path("out.sbf")).values() if y > 3.02
+                          for bone in weights})
+        self.assertEqual(found[0], found[1])
+
+    def test_a_symmetric_mesh_is_not_its_mirror_image(self):
+        """Half of its points were moved: those that are left fit both ways, in any order of its points."""
+        chance, points, faces = random.Random(1), [], []
+        for i in range(30):
+            row = [0.3 * chance.random() for _ in range(9)]
+            points += [(0.1 * k, 0.1 * i, row[abs(k)]) for k in range(-8, 9)]
+        for i in range(29):
+            for k in range(16):
+                a = 17 * i + k
+                faces += [(a, a + 1, a + 18), (a, a + 18, a + 17)] if k < 8 else [(a, a + 1, a + 17), (a + 1, a + 18, a + 17)]
+        for order in (range(len(faces)), reversed(range(len(faces)))):
+            own = [faces[i] for i in order]
+            hold = [(1, 0) if x < 0 else (0, 1) for x, _, _ in points]
+            rig_of_bones(points, own, {"Right": (-0.4, 0, 0), "Left": (0.4, 0, 0)}, hold).write(self.path("rig.glb"))
+            obj = variants.Obj(points, [], [], [("all", None, [(i, None, None) for i in face]) for face in own])
+            obj = variants.moved(variants.jiggled(obj, 0.5), 0.0371, ("x", "-z", "y"), (5, 1, -2))
+            variants.write(obj, self.path("in.obj"))
+            self.good("convert", self.path("in.obj"), "--rig", self.path("rig.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+            for v, (weights, _) in weights_by_vertex(self.path("out.sbf")).items():
+                if abs(points[v][0]) > 0.2:
+                    self.assertIn("Right" if points[v][0] < 0 else "Left", weights)
 
     def test_transfer_refuses_another_character(self):
         variants.write(self.calf.obj, self.path("in.obj"))

@@ -252,7 +252,8 @@ static void try_mirrors(search *s, pairs *p) {
   find_pairs(s, &from, count, p);
   uint32_t max = p->count;
   double separation = sbfi_names_distance(s->r, &from), near = NAME_DISTANCE * s->r->rig.size;
-  for (int i = 0; i < 6 && (max < count || separation > near); i++) {
+  bool is_plain = !is_mirrored(&from);
+  for (int i = 0; i < 6 && (max < count || separation > near || !is_plain); i++) {
     sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
@@ -261,9 +262,12 @@ static void try_mirrors(search *s, pairs *p) {
     find_pairs(s, &m, count, p);
     if (p->count < max) continue;
     double named = sbfi_names_distance(s->r, &m);
-    if (p->count == max && named > separation - near) continue;
+    /* Samples of a symmetric mesh may fit its mirror image better: of two that fit alike it is none. */
+    double min_nearer = !is_plain && !is_mirrored(&m) ? -near : near;
+    if (p->count == max && separation - named < min_nearer) continue;
     max = p->count;
     separation = named;
+    is_plain = !is_mirrored(&m);
     s->best = m;
   }
 }

@@ -17,10 +17,15 @@ static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
 static const double MIN_CARRIED = 0.4;
 /* The least share of a piece's points beside rigid pieces of one bone for all to follow it. */
 static const double MIN_RIGID = 0.75;
+/* The least share of an object's points beside meshes of the rig that no bone moves for it to hang as those.
+ */
+static const double MIN_BARE = 0.9;
 /* A piece stands on the surface, instead of lying along it as clothes do, where so much of it faces the
  * surface and no more than so much lies along it, which is nearer than this share of the rig's size. It is
  * smaller than the rig. */
 static const double MIN_FACING = 0.2, MAX_ALONG = 0.35, ALONG = 0.01, MAX_STANDING = 0.6;
+/* By so much farther than one side of a thin part a sheet in its middle may lie from the other. */
+static const double SHEET = 3;
 enum { SPREADING_PASSES = 100 };
 
 typedef struct carrying {
@@ -30,6 +35,7 @@ typedef struct carrying {
   uint32_t *pieces; /* (points) the first point of the piece that each belongs to */
   float *distances; /* (points) from the rig's surface */
   int32_t *nearest; /* (points) node of the rigid piece of the rig that is nearest, or SBF_NONE */
+  int32_t *bare;    /* (points) node of the nearest mesh of the rig, where no bone moves it, or SBF_NONE */
   int32_t *rigid;   /* (rig points) node that moves all of the piece alone, or SBF_NONE */
   bool *is_stiff;   /* (points) of the first of each piece: rigid pieces of one bone move it */
   uint8_t *stands;  /* (points) whether it faces the surface beside it, or lies along it */
@@ -73,14 +79,49 @@ static bool faces_away(const carrying *c, uint32_t mesh) {
   return sum < 0;
 }
 
-static void blend(const carrying *c, const sbfi_surface_location *at, sbfi_influences *to) {
-  *to = (sbfi_influences){0};
+static const sbfi_scene_mesh *mesh_at(const carrying *c, uint32_t rig_point) {
+  const sbfi_scene_mesh *mesh = c->r->rig.scene->meshes;
+  for (const uint32_t *starts = c->r->rig.mesh_starts + 1; *starts <= rig_point; starts++) mesh++;
+  return mesh;
+}
+
+/* As where the rig's own mesh is converted: a point of a skin that has no weights follows the mesh's node or
+ * the root. */
+static void add_home(const carrying *c, uint32_t rig_point, double factor, sbfi_influences *to) {
+  const sbfi_scene_mesh *mesh = mesh_at(c, rig_point);
+  if (!mesh->joint_count) return;
+  int32_t home = c->r->c->bone_of_node[mesh->node];
+  sbfi_influences_add(to, c->r->c->node_of_bone[home == SBF_NONE ? 0 : home], factor);
+}
+
+static void add_weights(
+    const carrying *c, const sbfi_surface_location *at, double factor, sbfi_influences *to) {
   for (int k = 0; k < 3; k++) {
     const sbfi_influences *from = &c->r->rig_weights[at->points[k]];
+    if (!(from->at[0].weight > 0)) add_home(c, at->points[k], factor * at->weights[k], to);
     for (uint32_t i = 0; i < SBFI_MAX_INFLUENCES && from->at[i].weight > 0; i++)
-      sbfi_influences_add(to, from->at[i].node, at->weights[k] * (double)from->at[i].weight);
+      sbfi_influences_add(to, from->at[i].node, factor * at->weights[k] * (double)from->at[i].weight);
   }
-  sbfi_influences_finish(to);
+}
+
+static void take_weights(carrying *c, uint32_t point, sbfi_influences *weights) {
+  sbfi_influences_finish(weights);
+  c->r->weights[point] = *weights;
+  if (weights->at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
+}
+
+/* A thin part of the rig that became a sheet in its middle: both of its sides, the nearer one more. */
+static void carry_sheet(carrying *c, uint32_t point, sbfi_d3 position, const sbfi_surface_location *near) {
+  double size = c->r->rig.size, min = 1e-6 * size;
+  sbfi_d3 back = sbfi_d3_scale(sbfi_surface_normal(&c->r->rig, near), -1);
+  sbfi_influences weights = {0};
+  sbfi_surface_location other;
+  if (near->distance > ALONG * size) return;
+  c->stands[point] = LIES_ALONG;
+  add_weights(c, near, 1 / (near->distance + min), &weights);
+  if (sbfi_surface_nearest(&c->finder, position, &back, SHEET * near->distance + min, &other))
+    add_weights(c, &other, 1 / (other.distance + min), &weights);
+  take_weights(c, point, &weights);
 }
 
 static void carry_point(carrying *c, uint32_t point, double sign) {
@@ -89,10 +130,18 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
   sbfi_d3 position = sbfi_d3_of(c->moved->mesh.positions.at[point]);
   sbfi_d3 normal = sbfi_d3_scale(sbfi_d3_of(c->moved->normals[point]), sign);
   c->distances[point] = INFINITY;
-  c->nearest[point] = SBF_NONE;
+  c->nearest[point] = c->bare[point] = SBF_NONE;
   if (!sbfi_surface_nearest(&c->finder, position, NULL, size, &near)) return;
   c->distances[point] = (float)near.distance;
   c->nearest[point] = c->rigid[near.points[0]];
+  const sbfi_scene_mesh *beside = mesh_at(c, near.points[0]);
+  if (near.distance <= FARTHEST * size && !beside->joint_count &&
+      c->r->c->bone_of_node[beside->node] == SBF_NONE)
+    c->bare[point] = beside->node;
+  if (!(sbfi_d3_length(normal) > 0)) {
+    carry_sheet(c, point, position, &near);
+    return;
+  }
   if (near.distance <= FARTHEST * size && sbfi_d3_dot(sbfi_surface_normal(&c->r->rig, &near), normal) < 0)
     c->stands[point] = FACES_SURFACE;
   double within = fmin(FARTHEST * size, near.distance + DETOUR * size);
@@ -100,8 +149,9 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
       !sbfi_surface_nearest(&c->finder, position, &normal, within * (1 + 1e-9), &facing))
     return;
   if (facing.distance <= ALONG * size) c->stands[point] = LIES_ALONG;
-  blend(c, &facing, &c->r->weights[point]);
-  if (c->r->weights[point].at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
+  sbfi_influences weights = {0};
+  add_weights(c, &facing, 1, &weights);
+  take_weights(c, point, &weights);
 }
 
 /* --- Where no surface near faces as the point does ----------------------------------------------------- */
@@ -278,6 +328,24 @@ static double weighted_fraction(const sbfi_rigging *r) {
   return count ? (double)weighted / count : 0;
 }
 
+/* Of an object that lies on meshes of the rig that no bone moves, the node of one; else SBF_NONE. */
+static int32_t bare_node_of(const carrying *c, uint32_t mesh) {
+  uint32_t from = c->r->input.mesh_starts[mesh], to = c->r->input.mesh_starts[mesh + 1], on = 0;
+  int32_t node = SBF_NONE;
+  for (uint32_t i = from; i < to; i++) {
+    bool is_matched = c->r->sources[i] == SBFI_WEIGHTS_MATCHED && !(c->r->weights[i].at[0].weight > 0);
+    on += is_matched || c->bare[i] != SBF_NONE;
+    if (c->bare[i] != SBF_NONE) node = c->bare[i];
+  }
+  return on >= MIN_BARE * (to - from) ? node : SBF_NONE;
+}
+
+static void hang_bare_objects(carrying *c) {
+  sbfi_rigging *r = c->r;
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
+    if (r->carriers[m] == SBF_NONE) r->carriers[m] = bare_node_of(c, m);
+}
+
 static void carry_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
@@ -286,6 +354,9 @@ static void carry_objects(carrying *c) {
     if (r->carriers[m] != SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
       if (is_open(c, i)) carry_point(c, i, away ? -1 : 1);
+    if (bare_node_of(c, m) == SBF_NONE) continue;
+    for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
+      r->sources[i] = SBFI_WEIGHTS_CARRIED;
   }
 }
 
@@ -296,17 +367,20 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
   carrying c = {.r = r, .moved = moved, .scratch = &scratch};
   c.distances = sbfi_arena_allocate(&scratch, count + 1, sizeof *c.distances);
   c.nearest = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.nearest);
+  c.bare = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.bare);
   c.pieces = sbfi_surface_pieces(moved, &scratch);
   c.is_stiff = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.is_stiff);
   c.stands = sbfi_arena_allocate(&scratch, (size_t)count + 1, sizeof *c.stands);
-  bool good = c.distances && c.nearest && c.pieces && c.is_stiff && c.stands && find_rigid_pieces(&c) &&
-              sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
+  bool good = c.distances && c.nearest && c.bare && c.pieces && c.is_stiff && c.stands &&
+              find_rigid_pieces(&c) && sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
+  for (uint32_t i = 0; good && i < count; i++) c.bare[i] = SBF_NONE;
   for (uint32_t i = 0; good && i < count; i++) /* points by place have the node that they have */
     c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0
                        ? (int32_t)r->weights[i].at[0].node
                        : SBF_NONE;
   if (good) carry_objects(&c);
   *fraction = good ? weighted_fraction(r) : 0;
+  if (good && *fraction >= min) hang_bare_objects(&c);
   if (good && *fraction >= min)
     good = stiffen_pieces(&c) && attach_pieces(&c) && drop_outliers(&c) && spread(&c);
   for (uint32_t i = 0; *fraction < min && i < count; i++)

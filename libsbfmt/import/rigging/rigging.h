@@ -33,7 +33,8 @@ typedef struct sbfi_scene_surface {
   const uint32_t *polygon_starts;   /* (scene->mesh_count + 1) first polygon of each mesh */
   const uint32_t *neighbour_starts; /* (points + 1) into neighbours */
   const uint32_t *neighbours;       /* points that share a polygon's side, with repeats */
-  const sbf_vec3 *normals; /* (points) of unit length, of the polygons around; 0 where they have none */
+  /* (points) of unit length, of the polygons around; 0 where they have none or face opposite ways */
+  const sbf_vec3 *normals;
   sbf_vec3 low, high;
   double size; /* diagonal of that box */
 } sbfi_scene_surface;

@@ -42,18 +42,26 @@ static bool find_neighbours(sbfi_scene_surface *s, sbfi_arena *arena) {
   return true;
 }
 
+/* Polygons around a point face opposite ways where less than this share of their area is left in the sum. */
+static const double MIN_LEFT = 0.1;
+
 static bool find_normals(sbfi_scene_surface *s, sbfi_arena *arena) {
   const sbf_polygon_mesh *m = &s->mesh;
   sbfi_d3 *sums = sbfi_arena_allocate(arena, m->positions.count + 1, sizeof *sums);
+  double *areas = sbfi_arena_allocate(arena, m->positions.count + 1, sizeof *areas);
   sbf_vec3 *normals = sbfi_arena_allocate(arena, m->positions.count + 1, sizeof *normals);
-  if (!sums || !normals) return false;
+  if (!sums || !areas || !normals) return false;
   for (uint32_t p = 0, at = 0; p < m->polygon_sizes.count; at += m->polygon_sizes.at[p++]) {
     const uint32_t *points = m->polygon_points.at + at, size = m->polygon_sizes.at[p];
     sbfi_d3 middle = sbfi_polygon_middle(m->positions.at, points, size);
     sbfi_d3 area = sbfi_polygon_area(m->positions.at, points, size, middle);
-    for (uint32_t k = 0; k < size; k++) sums[points[k]] = sbfi_d3_add(sums[points[k]], area);
+    for (uint32_t k = 0; k < size; k++) {
+      sums[points[k]] = sbfi_d3_add(sums[points[k]], area);
+      areas[points[k]] += sbfi_d3_length(area);
+    }
   }
-  for (uint32_t i = 0; i < m->positions.count; i++) normals[i] = sbfi_d3_rounded(sbfi_d3_normal(sums[i]));
+  for (uint32_t i = 0; i < m->positions.count; i++)
+    if (sbfi_d3_length(sums[i]) > MIN_LEFT * areas[i]) normals[i] = sbfi_d3_rounded(sbfi_d3_normal(sums[i]));
   s->normals = normals;
   return true;
 }
