@@ -1,11 +1,12 @@
 """Inputs whose limbs stand otherwise than those of the rig's mesh: the rig is turned limb by limb to meet them."""
 
+import math
 import re
 
 import obj_variants as variants
 import posed_inputs
-from bundle_file import Bundle
-from rigged_weights import Original
+from bundle_file import Bundle, matrix_of
+from rigged_weights import Original, save_in_a_pose
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 
 POSES = dict(posed_inputs.POSES)
@@ -67,6 +68,21 @@ class PosedInputs(ProgramTest):
                 self.assertIn("limbs were turned to lie inside it", said)
                 self.assertNotIn("RIG_OTHER_MESH", said)
                 self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), motions), 0.022, name)
+
+    def test_bones_saved_in_mid_stride_stand_alike_on_both_sides_of_a_symmetric_input(self):
+        original = Original(posed_inputs.path_of("examples/calf/calf.glb"), self.folder)
+        turns = {name + side: (sign * math.sin(0.2), 0, 0, math.cos(0.2)) for side, sign in ((".L", 1), (".R", -1))
+                 for name in ("fore_upper", "hind_upper")}
+        save_in_a_pose(original.path, self.path("saved.glb"), turns)
+        posed_inputs.write_bones(self.path("saved.glb"), self.path("bones.glb"))
+        self.good("convert", original.obj_path, "--rig", self.path("bones.glb"), *SOURCE_PARTS, "-o", self.path("out.sbf"))
+        bundle = Bundle(self.path("out.sbf"))
+        places = {name: [row[3] for row in rest] for name, rest in zip(bundle.bone_names(), bundle.rest)}
+        for name, (x, y, z) in places.items():
+            if name.endswith(".L"):
+                self.assertLess(math.dist(places[name[:-1] + "R"], (-x, y, z)), 1e-4, name)
+        still = dict.fromkeys(places, matrix_of())
+        self.assertLess(posed_inputs.joint_error(original, self.path("out.sbf"), still), 0.012)
 
     def test_bones_alone_in_the_pose_of_the_input_stay(self):
         for name in ("examples/yeti/yeti.glb", "examples/calf/calf.glb"):

@@ -6,10 +6,13 @@
 
 #include "import/rigging/align.h"
 #include "import/rigging/limb_fit.h"
+#include "import/rigging/limb_symmetry.h"
 #include "import/rigging/similarity.h"
 
 /* Candidates that limbs are fitted to, of those without an offset and of others. */
 enum { MAX_FIXED = 3, MAX_FREE = 2 };
+/* The cost of a pose of which both sides are alike, as is the input, counts by this factor. */
+static const double SYMMETRIC = 0.8;
 /* Bones are so long, as a share of the input's longest side: shorter ones lie in its belly. */
 static const double MIN_LONG = 0.6;
 
@@ -56,13 +59,29 @@ static void take(const sbfi_limb_fit *f, const sbfi_matrix *m, sbfi_limb_alignme
   name_turned(f, found->names, sizeof found->names);
 }
 
+/* Of a symmetric input, from the rig's pose of either side. */
+static bool consider_symmetric(sbfi_limb_symmetry *s, const sbfi_body_core *core, sbfi_limb_fit *f,
+    const sbfi_limb_candidate *candidate, double *best, sbfi_limb_alignment *found, sbfi_arena *arena) {
+  double plane;
+  if (!sbfi_limb_symmetry_holds(s, &plane)) return true;
+  for (int side = 1; side >= -1; side -= 2) {
+    if (!sbfi_limb_symmetry_search(s, plane, side, core, f, arena)) return false;
+    double cost = f->cost * candidate->factor * SYMMETRIC;
+    if (cost >= *best) continue;
+    *best = cost;
+    take(f, &candidate->to_asset, found);
+  }
+  return true;
+}
+
 bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_bone_lines *lines, const sbfi_limb_candidate *candidates,
     uint32_t count, const sbfi_matrix *unposed, sbfi_limb_alignment *found, sbfi_arena *arena) {
   sbfi_body_core *core = sbfi_arena_allocate(arena, 1, sizeof *core);
   sbfi_limb_fit *f = sbfi_arena_allocate(arena, 1, sizeof *f);
   ranked *rank = sbfi_arena_allocate(arena, count, sizeof *rank);
-  bool good = core && f && rank && sbfi_body_core_find(&r->input, core, arena) &&
-              begin(f, r, lines, core, unposed, arena);
+  sbfi_limb_symmetry symmetry;
+  bool good = core && f && rank && sbfi_limb_symmetry_find(&symmetry, r, lines, arena) &&
+              sbfi_body_core_find(&r->input, core, arena) && begin(f, r, lines, core, unposed, arena);
   if (!good) return false;
   double best = INFINITY;
   uint32_t usable = 0, fixed = 0, free = 0;
@@ -82,9 +101,11 @@ bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_bone_lines *lines, const sbfi_
     if (!begin(f, r, lines, core, m, arena)) return false;
     sbfi_limb_fit_search(f);
     double cost = f->cost * candidate->factor;
-    if (cost >= best) continue;
-    best = cost;
-    take(f, m, found);
+    if (cost < best) {
+      best = cost;
+      take(f, m, found);
+    }
+    if (!consider_symmetric(&symmetry, core, f, candidate, &best, found, arena)) return false;
   }
   r->alignment.to_asset = *unposed;
   return true;

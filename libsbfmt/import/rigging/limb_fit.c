@@ -21,8 +21,9 @@ static const double MAX_LIMB = 0.45, MIN_REACH = 0.06;
 /* Cosine of the widest turn. */
 static const double FARTHEST = 0.1;
 /* All by the limb's share of the bones: costs of a turn, by its square and, of later joints, by itself; what
- * a turn has to save; and where the limb of the other side has turned. */
-static const double PER_RADIAN2 = 0.15, PER_RADIAN_OF_LATER = 0.05, GAIN = 0.2, GAIN_OF_TWIN = 0.1;
+ * a turn has to save; where the limb of the other side has turned; and in the middle of a symmetric body. */
+static const double PER_RADIAN2 = 0.15, PER_RADIAN_OF_LATER = 0.05, GAIN = 0.2, GAIN_OF_TWIN = 0.1,
+                    GAIN_IN_MIDDLE = 0.7;
 static const double MIN_ANGLE = 0.07; /* rad, that a later joint turns */
 /* So near in length, as a share, limbs of both sides are. */
 static const double TWIN = 0.15;
@@ -50,6 +51,11 @@ static double cost_of_distance(const sbfi_limb_fit *f, const sbfi_core_point *p,
   return p->weight * fmin(beyond / (UNCOVERED * f->size), 1);
 }
 
+/* A length's share of all bones: one of the middle, beside one of two sides, counts half. */
+static double fraction_of(const sbfi_limb_fit *f, uint32_t bone, double length) {
+  return (f->is_middle && f->is_middle[bone] ? 0.5 : 1) * length / f->posed.total;
+}
+
 /* Of bone that lies outside the body. */
 static double cost_of_line(const sbfi_limb_fit *f, const sbfi_bone_line *line) {
   double wanted = line->length / (SPACING * f->size), sum = 0;
@@ -66,7 +72,7 @@ static double cost_of_line(const sbfi_limb_fit *f, const sbfi_bone_line *line) {
     }
     sum += fmin(fmax(out, 0) / (OUTSIDE * f->size), 1);
   }
-  return sum / samples * line->length / f->posed.total;
+  return sum / samples * fraction_of(f, line->child, line->length);
 }
 
 static double whole_cost(const sbfi_limb_fit *f) {
@@ -162,7 +168,7 @@ static double cost_of_angle(double fraction, const double rotation[4]) {
 
 /* The best of all directions, then the best of those around it. */
 static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction, double fraction,
-    const sbfi_d3 *directions, double best_turn[4]) {
+    bool in_plane, const sbfi_d3 *directions, double best_turn[4]) {
   double best = INFINITY, step = 0.1;
   sbfi_d3 chosen = direction;
   for (uint32_t i = 0; i < DIRECTIONS + ROUNDS; i++) {
@@ -172,6 +178,7 @@ static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction
       to = sbfi_d3_normal(sbfi_d3_add(chosen, sbfi_d3_scale(to, step)));
       step *= 0.9;
     }
+    if (in_plane) to = sbfi_d3_normal((sbfi_d3){direction.x, to.y, to.z});
     if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
     turn_between(direction, to, rotation);
     double cost = cost_of_turn(f, joint, rotation) + cost_of_angle(fraction, rotation);
@@ -190,7 +197,10 @@ static double find_turn_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *direc
   if (!take_limb(f, bone, length, &direction)) return INFINITY;
   measure_others(f);
   *before = cost_of_turn(f, head_of(f, bone), none);
-  return find_turn(f, head_of(f, bone), direction, *length / f->posed.total, directions, rotation);
+  bool in_plane = f->is_middle && f->is_middle[bone];
+  if (in_plane) direction = sbfi_d3_normal((sbfi_d3){0, direction.y, direction.z});
+  return find_turn(
+      f, head_of(f, bone), direction, fraction_of(f, bone, *length), in_plane, directions, rotation);
 }
 
 /* Whether a bone on the way to nearly all of a limb turns as well: collarbones lie still. */
@@ -223,14 +233,29 @@ static bool is_below_turned(const sbfi_limb_fit *f, uint32_t bone) {
   return false;
 }
 
+/* Whether it is a part of the trunk of a symmetric body, of which the limbs tell where it lies. */
+static bool carries_limbs(const sbfi_limb_fit *f, uint32_t bone) {
+  for (uint32_t k = 0; f->is_middle && f->is_middle[bone] && k < f->rest.count; k++) {
+    int32_t b = (int32_t)f->rest.at[k].child;
+    if (f->is_middle[b]) continue;
+    while (b != SBF_NONE && b != (int32_t)bone) b = f->bones[b].parent;
+    if (b != SBF_NONE) return true;
+  }
+  return false;
+}
+
 /* Turns a limb where that saves enough. */
 static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directions, bool as_twin) {
-  double rotation[4], length, before, cost = find_turn_of(f, bone, directions, &before, rotation, &length);
+  double rotation[4], length, before;
   sbfi_d3 direction;
+  if (carries_limbs(f, bone)) return;
+  double cost = find_turn_of(f, bone, directions, &before, rotation, &length);
   if (!isfinite(cost) || (as_twin && !has_turned_twin(f, bone, length))) return;
-  double saved = before - cost, fraction = length / f->posed.total;
-  if (saved < (as_twin ? GAIN_OF_TWIN : GAIN) * fraction ||
-      is_child_better(f, bone, directions, length, saved) || !take_limb(f, bone, &length, &direction))
+  double saved = before - cost, fraction = fraction_of(f, bone, length);
+  double min_gain = as_twin ? GAIN_OF_TWIN : GAIN;
+  if (f->is_middle && f->is_middle[bone]) min_gain = GAIN_IN_MIDDLE;
+  if (saved < min_gain * fraction || is_child_better(f, bone, directions, length, saved) ||
+      !take_limb(f, bone, &length, &direction))
     return;
   turn(f, bone, rotation);
   f->is_turned[bone] = true;
@@ -263,7 +288,7 @@ static double cost_of_pose(const sbfi_limb_fit *f, uint32_t bone, double length,
   motion = sbfi_matrix_multiply(&motion, &f->motions[bone]);
   double angle = angle_of(f, bone, &motion);
   double per_radian = PER_RADIAN2 * angle + (f->is_turned[bone] ? 0 : PER_RADIAN_OF_LATER);
-  return cost_of_turn(f, head_of(f, bone), rotation) + length / f->posed.total * per_radian * angle;
+  return cost_of_turn(f, head_of(f, bone), rotation) + fraction_of(f, bone, length) * per_radian * angle;
 }
 
 static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
@@ -273,7 +298,7 @@ static void descend_joint(sbfi_limb_fit *f, uint32_t bone, double step) {
   if (!take_limb(f, bone, &length, &direction)) return;
   measure_others(f);
   double best = cost_of_pose(f, bone, length, none);
-  for (int k = 0; k < 6; k++) {
+  for (int k = 0; k < (f->is_middle && f->is_middle[bone] ? 2 : 6); k++) {
     double rotation[4] = {0, 0, 0, sqrt(1 - 0.25 * step * step)};
     rotation[k / 2] = (k % 2 ? -1 : 1) * 0.5 * step;
     double cost = cost_of_pose(f, bone, length, rotation);
@@ -292,7 +317,7 @@ static void move_body(sbfi_limb_fit *f, sbfi_d3 by) {
 /* The position of the whole. */
 static void descend_offset(sbfi_limb_fit *f, double step) {
   double best = whole_cost(f);
-  for (int k = 0; k < 6; k++) {
+  for (int k = f->is_middle ? 2 : 0; k < 6; k++) {
     double by = (k % 2 ? -1 : 1) * step * f->size;
     sbfi_d3 offset = {k / 2 == 0 ? by : 0, k / 2 == 1 ? by : 0, k / 2 == 2 ? by : 0};
     move_body(f, offset);
@@ -341,10 +366,21 @@ static void straighten_later(sbfi_limb_fit *f) {
       straighten(f, b);
 }
 
+void sbfi_limb_fit_take_motions(sbfi_limb_fit *f, sbfi_d3 offset) {
+  for (uint32_t k = 0; k < f->posed.count; k++) {
+    sbfi_bone_line *line = &f->posed.at[k];
+    line->from = sbfi_similarity_apply(&f->motions[line->bone], line->from);
+    line->to = sbfi_similarity_apply(&f->motions[line->is_tail ? line->bone : line->child], line->to);
+    line->length = sbfi_d3_length(sbfi_d3_sub(line->to, line->from));
+  }
+  move_body(f, sbfi_d3_scale(offset, -1));
+  f->cost = whole_cost(f);
+}
+
 void sbfi_limb_fit_search(sbfi_limb_fit *f) {
   search(f);
   descend(f);
-  straighten_later(f);
+  if (!f->is_middle) straighten_later(f);
   f->cost = whole_cost(f);
 }
 

@@ -16,6 +16,7 @@ typedef struct sbfi_limb_fit {
   double size;            /* of the input, its longest side */
   sbfi_d3 offset;         /* by which the whole of the rig moved */
   bool is_fixed;          /* it does not */
+  const bool *is_middle;  /* (bones) those that turn about x alone, with the whole moved across it; or NULL */
   double cost;            /* of the pose at hand: 0 where all bones lie in the middle of all parts */
   /* Of the limb at hand. */
   bool *below;                        /* (bones) its first bone and what hangs on it */
@@ -27,6 +28,9 @@ typedef struct sbfi_limb_fit {
 /* False where memory runs out. */
 bool sbfi_limb_fit_begin(sbfi_limb_fit *f, const sbfi_rigging *r, const sbfi_bone_lines *lines,
     const sbfi_body_core *core, sbfi_arena *arena);
+
+/* Lays lines by the motions of their bones, and moves the whole, after `begin`. */
+void sbfi_limb_fit_take_motions(sbfi_limb_fit *f, sbfi_d3 offset);
 
 /* Turns joints until no turn is better. */
 void sbfi_limb_fit_search(sbfi_limb_fit *f);

@@ -1,0 +1,286 @@
+/* The limbs of one side are fitted to both halves of the body at once: the other half is folded onto it. A
+ * rig that was saved in mid-stride stands otherwise on both sides, so that each is tried for both. */
+#include "import/rigging/limb_symmetry.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/rigging/similarity.h"
+#include "motion/carried_motion.h"
+
+enum { SAMPLES = 400, MIDDLES = 64 };
+
+/* As shares of the input's longest side: so near to the surface the mirror images of points lie, and bones of
+ * the middle to the plane; so far one limb of a pair from the other's image. */
+static const double NEAR = 0.01, MIDDLE = 0.1, ASKEW = 0.03;
+/* The least share of points whose mirror images do. */
+static const double MIN_ALIKE = 0.85;
+/* rad, that a bone of the other side turns to become the mirror image. */
+static const double MIN_ANGLE = 0.07;
+
+/* --- Twins --------------------------------------------------------------------------------------------- */
+
+static char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static size_t length_of_word(const char *text, const char *word) {
+  size_t length = strlen(word);
+  for (size_t i = 0; i < length; i++)
+    if (lower(text[i]) != word[i]) return 0;
+  return length;
+}
+
+/* The length of the word or letter for a side at the start of a text, left or right; 0 where it has none. */
+static size_t length_of_side(const char *text, bool left) {
+  size_t length = length_of_word(text, left ? "left" : "right");
+  return length ? length : length_of_word(text, left ? "l" : "r");
+}
+
+static bool differ_by_side(const char *a, const char *b) {
+  while (*a || *b) {
+    bool left = length_of_side(a, true) > 0;
+    size_t of_a = length_of_side(a, left), of_b = length_of_side(b, !left);
+    bool is_same = *a && lower(*a) == lower(*b);
+    if (!is_same && !(of_a && of_b)) return false;
+    a += is_same ? 1 : of_a;
+    b += is_same ? 1 : of_b;
+  }
+  return true;
+}
+
+/* What hangs on a limb is of its side, whatever its name says. */
+static void find_sides(sbfi_limb_symmetry *s, const sbf_bone_list *bones) {
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    int8_t above = parent == SBF_NONE ? 0 : s->sides[parent];
+    s->sides[b] = above ? above : (int8_t)sbfi_name_side(bones->at[b].name);
+  }
+}
+
+/* Among the bones that hang on the twin of its parent. */
+static int32_t twin_of(const sbfi_limb_symmetry *s, const sbf_bone_list *bones, uint32_t bone) {
+  int32_t parent = bones->at[bone].parent, above = parent == SBF_NONE ? SBF_NONE : s->twins[parent];
+  if (!s->sides[bone]) return (int32_t)bone;
+  if (parent != SBF_NONE && above == SBF_NONE) return SBF_NONE;
+  for (uint32_t b = 0; b < bones->count; b++)
+    if (bones->at[b].parent == above && s->sides[b] == -s->sides[bone] &&
+        differ_by_side(bones->at[bone].name, bones->at[b].name))
+      return (int32_t)b;
+  return SBF_NONE;
+}
+
+bool sbfi_limb_symmetry_find(
+    sbfi_limb_symmetry *s, const sbfi_rigging *r, const sbfi_bone_lines *lines, sbfi_arena *arena) {
+  const sbf_bone_list *bones = &r->c->asset->bones;
+  *s = (sbfi_limb_symmetry){.r = r, .lines = lines};
+  s->twins = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *s->twins);
+  s->sides = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *s->sides);
+  if (!s->twins || !s->sides || !sbfi_surface_finder_make(&s->finder, &r->input, arena)) return false;
+  find_sides(s, bones);
+  for (uint32_t b = 0; b < bones->count; b++) s->twins[b] = twin_of(s, bones, b);
+  uint32_t paired = 0, single = 0;
+  for (uint32_t k = 0; k < lines->count; k++) {
+    int32_t twin = s->twins[lines->at[k].child];
+    single += twin == SBF_NONE || s->twins[lines->at[k].bone] == SBF_NONE;
+    paired += twin != (int32_t)lines->at[k].child;
+  }
+  s->has_twins = paired > 0 && single == 0;
+  return true;
+}
+
+/* --- Symmetric inputs ---------------------------------------------------------------------------------- */
+
+static sbfi_d3 mirrored(sbfi_d3 p, double plane) {
+  return (sbfi_d3){2 * plane - p.x, p.y, p.z};
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* The median of the middles between twins: what one side alone carries leaves it where it is. */
+static double plane_between_twins(const sbfi_limb_symmetry *s) {
+  const sbf_bone *bones = s->r->c->asset->bones.at;
+  double middles[MIDDLES];
+  uint32_t count = 0;
+  for (uint32_t k = 0; k < s->lines->count && count < MIDDLES; k++) {
+    uint32_t bone = s->lines->at[k].child;
+    if (s->sides[bone] > 0)
+      middles[count++] = 0.5 * ((double)bones[bone].head.x + (double)bones[s->twins[bone]].head.x);
+  }
+  qsort(middles, count, sizeof *middles, compare);
+  return count ? middles[count / 2] : 0;
+}
+
+static bool is_input_symmetric(const sbfi_limb_symmetry *s, double plane) {
+  const sbf_vec3_list points = s->r->input.mesh.positions;
+  const sbfi_matrix *m = &s->r->alignment.to_asset;
+  uint32_t samples = points.count < SAMPLES ? points.count : SAMPLES, alike = 0;
+  sbfi_d3 sides = sbfi_d3_sub(sbfi_d3_of(s->r->input.high), sbfi_d3_of(s->r->input.low));
+  double within = NEAR * fmax(sides.x, fmax(sides.y, sides.z));
+  sbfi_matrix back;
+  if (!sbfi_matrix_invert(m, &back)) return false;
+  for (uint32_t i = 0; i < samples; i++) {
+    sbfi_surface_location near;
+    sbfi_d3 p = sbfi_d3_of(points.at[(uint64_t)i * points.count / samples]);
+    p = mirrored(sbfi_similarity_apply(m, p), plane);
+    alike += sbfi_surface_nearest(&s->finder, sbfi_similarity_apply(&back, p), NULL, within, &near);
+  }
+  return samples && alike >= MIN_ALIKE * samples;
+}
+
+static bool is_middle_near(const sbfi_limb_symmetry *s, double plane, double within) {
+  for (uint32_t k = 0; k < s->lines->count; k++) {
+    const sbfi_bone_line *line = &s->lines->at[k];
+    if (!s->sides[line->child] && fabs(line->to.x - plane) > within) return false;
+  }
+  return true;
+}
+
+/* Whether the limbs of the rig's two sides stand otherwise, as in mid-stride. */
+static bool is_rig_askew(const sbfi_limb_symmetry *s, double size) {
+  const sbf_bone *bones = s->r->c->asset->bones.at;
+  double plane = plane_between_twins(s), farthest = 0;
+  for (uint32_t k = 0; k < s->lines->count; k++) {
+    uint32_t bone = s->lines->at[k].child;
+    sbfi_d3 twin = mirrored(sbfi_d3_of(bones[s->twins[bone]].head), plane);
+    farthest = fmax(farthest, sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(bones[bone].head), twin)));
+  }
+  return farthest > ASKEW * size;
+}
+
+bool sbfi_limb_symmetry_holds(const sbfi_limb_symmetry *s, double *plane) {
+  const sbfi_matrix *m = &s->r->alignment.to_asset;
+  if (!s->has_twins) return false;
+  sbfi_d3 low = sbfi_d3_of(s->r->input.low), high = sbfi_d3_of(s->r->input.high);
+  sbfi_d3 sides = sbfi_d3_sub(high, low);
+  double size = fmax(sides.x, fmax(sides.y, sides.z)) * sbfi_similarity_scale(m);
+  if (!is_rig_askew(s, size)) return false;
+  const double planes[] = {
+      sbfi_similarity_apply(m, sbfi_d3_scale(sbfi_d3_add(low, high), 0.5)).x, plane_between_twins(s)};
+  for (int i = 0; i < 2; i++) {
+    *plane = planes[i];
+    if (is_middle_near(s, *plane, MIDDLE * size) && is_input_symmetric(s, *plane)) return true;
+  }
+  return false;
+}
+
+/* --- One side, and the other like it -------------------------------------------------------------------- */
+
+static bool is_middle(const sbfi_limb_symmetry *s, uint32_t bone) {
+  return s->twins[bone] == (int32_t)bone;
+}
+
+static sbfi_matrix translation(sbfi_d3 by) {
+  sbfi_matrix m = sbfi_matrix_identity();
+  m.at[0][3] = by.x, m.at[1][3] = by.y, m.at[2][3] = by.z;
+  return m;
+}
+
+/* Of a side; the middle lies in the plane. */
+static bool take_lines(const sbfi_limb_symmetry *s, int side, sbfi_bone_lines *own, sbfi_arena *arena) {
+  *own = *s->lines;
+  own->at = sbfi_arena_allocate(arena, (size_t)s->lines->count + 1, sizeof *own->at);
+  if (!own->at) return false;
+  own->count = 0;
+  own->total = 0.5 * s->lines->total; /* each limb of two counts as much of all as both of them */
+  for (uint32_t k = 0; k < s->lines->count; k++) {
+    const sbfi_bone_line *line = &s->lines->at[k];
+    if (s->sides[line->bone] == -side || s->sides[line->child] == -side) continue;
+    own->at[own->count++] = *line;
+  }
+  return true;
+}
+
+/* The body's half of the other side onto this one. */
+static void fold_core(const sbfi_limb_symmetry *s, double plane, int side, sbfi_body_core *core) {
+  const sbf_bone_list bones = s->r->c->asset->bones;
+  double sum = 0;
+  for (uint32_t k = 0; k < s->lines->count; k++)
+    if (s->sides[s->lines->at[k].child] == side)
+      sum += (double)bones.at[s->lines->at[k].child].head.x - plane;
+  double sign = sum < 0 ? -1 : 1;
+  for (uint32_t i = 0; i < core->count; i++)
+    core->points[i].position.x = plane + sign * fabs(core->points[i].position.x - plane);
+}
+
+static sbfi_d3 direction_of(const sbfi_limb_symmetry *s, uint32_t bone) {
+  for (uint32_t k = 0; k < s->lines->count; k++) {
+    const sbfi_bone_line *line = &s->lines->at[k];
+    if (line->bone == bone) return sbfi_d3_normal(sbfi_d3_sub(line->to, line->from));
+  }
+  return (sbfi_d3){0, 0, 0};
+}
+
+/* Takes a bone at rest to the mirror image of its twin at rest. */
+static sbfi_matrix motion_to_twin(
+    const sbfi_limb_symmetry *s, uint32_t bone, double plane, const double above[4], double rotation[4]) {
+  const sbf_bone *bones = s->r->c->asset->bones.at;
+  uint32_t twin = (uint32_t)s->twins[bone];
+  sbfi_d3 head = sbfi_d3_of(bones[bone].head), to = mirrored(sbfi_d3_of(bones[twin].head), plane);
+  sbfi_d3 own = direction_of(s, bone), other = direction_of(s, twin);
+  memcpy(rotation, above, 4 * sizeof *rotation);
+  if (sbfi_d3_length(own) > 0 && sbfi_d3_length(other) > 0)
+    sbfi_turn_between(
+        (const double[3]){own.x, own.y, own.z}, (const double[3]){-other.x, other.y, other.z}, rotation);
+  sbfi_matrix turn = sbfi_rotation_about(rotation, head), by = translation(sbfi_d3_sub(to, head));
+  return sbfi_matrix_multiply(&by, &turn);
+}
+
+static sbfi_matrix mirrored_motion(const sbfi_matrix *motion, double plane) {
+  sbfi_matrix mirror = sbfi_matrix_identity();
+  mirror.at[0][0] = -1;
+  mirror.at[0][3] = 2 * plane;
+  sbfi_matrix m = sbfi_matrix_multiply(motion, &mirror);
+  return sbfi_matrix_multiply(&mirror, &m);
+}
+
+/* The pose of all bones from that of one side. */
+static bool take_both(const sbfi_limb_symmetry *s, double plane, int side, const sbfi_limb_fit *half,
+    sbfi_limb_fit *f, sbfi_arena *arena) {
+  double(*turns)[4] = sbfi_arena_allocate(arena, (size_t)f->bone_count + 1, sizeof *turns);
+  bool *is_moved = sbfi_arena_allocate(arena, (size_t)f->bone_count + 1, sizeof *is_moved);
+  if (!turns || !is_moved) return false;
+  for (uint32_t b = 0; b < f->bone_count; b++) {
+    static const double none[4] = {0, 0, 0, 1};
+    int32_t parent = f->bones[b].parent, twin = s->twins[b];
+    memcpy(turns[b], none, sizeof none);
+    f->motions[b] = half->motions[b];
+    f->is_turned[b] = half->is_turned[b];
+    if (s->sides[b] == -side && twin == SBF_NONE && parent != SBF_NONE) f->motions[b] = f->motions[parent];
+    if (s->sides[b] != -side || twin == SBF_NONE) continue;
+    sbfi_matrix own = motion_to_twin(s, b, plane, parent == SBF_NONE ? none : turns[parent], turns[b]);
+    sbfi_matrix motion = mirrored_motion(&half->motions[twin], plane);
+    f->motions[b] = sbfi_matrix_multiply(&motion, &own);
+    is_moved[b] = parent != SBF_NONE && is_moved[parent];
+    bool turns_itself = half->is_turned[twin] || 1 - turns[b][3] * turns[b][3] > 0.25 * MIN_ANGLE * MIN_ANGLE;
+    f->is_turned[b] = turns_itself && !is_moved[b];
+    is_moved[b] = is_moved[b] || turns_itself;
+  }
+  sbfi_limb_fit_take_motions(f, half->offset);
+  return true;
+}
+
+bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, const sbfi_body_core *core,
+    sbfi_limb_fit *f, sbfi_arena *arena) {
+  sbfi_limb_fit *half = sbfi_arena_allocate(arena, 1, sizeof *half);
+  bool *middle = sbfi_arena_allocate(arena, (size_t)s->r->c->asset->bones.count + 1, sizeof *middle);
+  sbfi_bone_lines own;
+  if (!half || !middle || !take_lines(s, side, &own, arena) ||
+      !sbfi_limb_fit_begin(half, s->r, &own, core, arena) ||
+      !sbfi_limb_fit_begin(f, s->r, s->lines, core, arena))
+    return false;
+  for (uint32_t k = 0; k < s->lines->count; k++) {
+    uint32_t bone = s->lines->at[k].child;
+    if (!is_middle(s, bone)) continue;
+    middle[bone] = true;
+    half->motions[bone] = translation((sbfi_d3){plane - (double)half->bones[bone].head.x, 0, 0});
+  }
+  half->is_middle = middle;
+  fold_core(s, plane, side, &half->core);
+  sbfi_limb_fit_take_motions(half, (sbfi_d3){0, 0, 0});
+  sbfi_limb_fit_search(half);
+  return take_both(s, plane, side, half, f, arena);
+}

@@ -1,0 +1,30 @@
+/* Poses of a rig in an input whose two sides are alike: limbs of both sides turn as mirror images. */
+#ifndef SBFI_LIMB_SYMMETRY_H
+#define SBFI_LIMB_SYMMETRY_H
+
+#include "import/rigging/limb_fit.h"
+#include "import/rigging/surface_finder.h"
+
+typedef struct sbfi_limb_symmetry {
+  const sbfi_rigging *r;
+  const sbfi_bone_lines *lines;
+  int32_t *twins; /* (bones) of the other side; itself in the middle; SBF_NONE where it has none */
+  int8_t *sides;  /* (bones) 1 left, -1 right, 0 in the middle */
+  bool has_twins; /* all bones that lie in a body have one, and some of the other side */
+  sbfi_surface_finder finder; /* of the input, in its own space */
+} sbfi_limb_symmetry;
+
+/* By the names of bones. Memory of `arena`; false where it runs out. */
+bool sbfi_limb_symmetry_find(
+    sbfi_limb_symmetry *s, const sbfi_rigging *r, const sbfi_bone_lines *lines, sbfi_arena *arena);
+
+/* Whether the input, laid over the rig by the alignment at hand, is its own mirror image in x about `plane`.
+ */
+bool sbfi_limb_symmetry_holds(const sbfi_limb_symmetry *s, double *plane);
+
+/* Fits the limbs of one side, 1 left or -1 right, and the middle to the input, from the rig's pose of that
+ * side, and turns those of the other side alike. Memory of `arena`; false where it runs out. */
+bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, const sbfi_body_core *core,
+    sbfi_limb_fit *f, sbfi_arena *arena);
+
+#endif
