@@ -7,6 +7,7 @@ import random
 import tempfile
 
 import obj_variants as variants
+import posed_inputs
 from bundle_file import Bundle, matrix_of
 from bvh_file import write_bvh
 from glb_file import Glb
@@ -589,6 +590,7 @@ class FromBones(ProgramTest):
         said = self.fails(1, *self.convert(pole))
         self.assertRegex(said, r"only \d+ % of the bones' length lies inside the mesh; outside lie '.*' by .* m")
         self.assertIn("IMPORT_RIG_OUTSIDE", said)
+        self.assertNotIn("rest pose", said)
         self.assert_empty_folder(but=["in.obj"])
         self.fails(1, *self.convert(pole, "--report", self.path("why.json")))
         self.assert_empty_folder(but=["in.obj", "why.json"])
@@ -596,6 +598,15 @@ class FromBones(ProgramTest):
         self.assertEqual(len(report["bundle"]["bones"]), len(Bundle(self.calf.bundle).bones))
         self.assertIn("IMPORT_RIG_OUTSIDE", [note["code"] for note in report["notes"]])
         self.assertTrue(report["pictures"] or report["drawing_failed"])
+
+    def test_bones_that_a_clip_may_have_moved_are_to_be_exported_at_rest(self):
+        """Exporters write bones without a mesh as they stand at the moment."""
+        add_clip(CALF, self.path("jump.glb"), "Jump", {"head": (0, 0, math.sin(0.2), math.cos(0.2))}, 1)
+        posed_inputs.write_bones(self.path("jump.glb"), self.path("bones.glb"))
+        variants.write(variants.Obj([(0, 0, 0), (0, 3, 0), (0, 0, 0.01)], [], [], [("pole", None, [(i, None, None) for i in range(3)])]),
+                       self.path("in.obj"))
+        said = self.fails(1, "convert", self.path("in.obj"), "--rig", self.path("bones.glb"), "-o", self.path("out.sbf"))
+        self.assertRegex(said, r"exported in its rest pose \(its clips may have moved it\) or with its mesh.*IMPORT_RIG_OUTSIDE")
 
     def test_bones_that_fit_a_part_of_the_mesh_are_refused(self):
         """A fish's and a snake's bones lie inside a calf's trunk, at some scale."""

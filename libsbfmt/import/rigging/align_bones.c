@@ -309,10 +309,16 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   if (!outside[0])
     snprintf(outside, sizeof outside, "bones on the surface of the mesh, which encloses no space");
+  /* Without a skin only a BVH says how bones stand at rest: others hold them as a clip has moved them. */
+  const sbfi_scene *rig = s->r->rig.scene;
+  bool may_be_moved =
+      s->r->rig.mesh.positions.count == 0 && rig->clip_count > 0 && strcmp(rig->format, "bvh") != 0;
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
-      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
+      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig%s, "
+      "or "
       "--unit, --up and --forward",
-      100 * s->best.fraction, outside);
+      100 * s->best.fraction, outside,
+      may_be_moved ? ", exported in its rest pose (its clips may have moved it) or with its mesh" : "");
 }
 
 /* Of bones that fit, 89 % of their length and more was measured inside. */
