@@ -52,6 +52,7 @@ MOCAP = shared("mocap", "cmu_01_01.bvh")
 PEOPLE = [shared("..", "zoo", *path) for path in (("modular_men", "Punk.glb"), ("modular_women", "Formal.glb"),
                                                   ("godot_demos", "mannequiny.glb"))]
 PERSON = shared("..", "zoo", "modular_men", "Casual.glb")
+LONG_COW = shared("..", "zoo", "animals_pack", "Cow.glb")
 FROG = shared("..", "zoo", "easy_enemies_pack", "Frog.glb")
 
 
@@ -83,6 +84,13 @@ class Cow(ProgramTest):
         self.assert_empty_folder(but=["why.json"])
         with open(self.path("why.json"), encoding="utf-8") as stream:
             self.assertEqual(len(json.load(stream)["bundle"]["render_meshes"]), 1)
+
+
+    @needs(shared("spot", "spot.obj"), LONG_COW)
+    def test_parts_without_bones_are_named(self):
+        """All bones of a long cow lie in the fat one, but not in its head and legs."""
+        said = self.fails(1, "convert", shared("spot", "spot.obj"), "--rig", LONG_COW, "-o", self.path("no.sbf"))
+        self.assertRegex(said, r"outside lie no bones, but (3[5-9]|[4-9]\d) % of the mesh has none near; .*IMPORT_RIG_OUTSIDE")
 
 
 class Armadillo(ProgramTest):

@@ -429,6 +429,9 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
   sbfi_conversion *c = s->r->c;
   char outside[130] = "";
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(c);
+  if (!outside[0])
+    snprintf(outside, sizeof outside, "no bones, but %.0f %% of the mesh has none near",
+        100 * uncovered_fraction(s));
   if (c->options->weights) {
     sbfi_convert_warn(c, SBF_CODE_RIG_OTHER_MESH,
         "with its limbs turned, %.0f %% of the length of the rig's bones lies inside the mesh; outside lie "
@@ -442,7 +445,7 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
       "the rig stands otherwise than the mesh, and its limbs were not all found: with %s turned, %.0f %% of "
       "the bones' length lies inside; outside lie %s; pose the mesh as the rig; --weights compute takes the "
       "bones so",
-      found->names, 100 * s->best.fraction, outside[0] ? outside : "none");
+      found->names, 100 * s->best.fraction, outside);
 }
 
 /* A rig that stands otherwise than the input, limb by limb. What the files state stays where that fits. */
