@@ -106,6 +106,7 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
       if (points[lane].y < reach) to->near_ground[block] = 1;
     if (!to->near_ground[block]) continue;
     float *plane = to->planes + (size_t)block * 4 * SBRI_BLOCK;
+    memset(to->pressing + (size_t)block * 2 * SBRI_BLOCK, 0, 2 * SBRI_BLOCK * sizeof(float));
     for (int lane = 0; lane < SBRI_BLOCK; lane++) {
       sbf_vec3 n;
       float y = height_at(t, points[lane].x, points[lane].z, &n);

@@ -28,6 +28,13 @@ enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 #define SBRI_NO_COLLIDER UINT32_MAX
 #define SBRI_ITSELF (UINT32_MAX - 1)
 
+/* How a contact pressed in recent substeps of the tick (contact/contact.h): the sum of its normal velocity
+ * changes and their time. time_s < 0: it struck in this tick. */
+typedef struct sbri_pressing {
+  float velocity_change, time_s; /* m/s, s */
+  float owed;                    /* by which bounds of friction fell short of the velocity changes, m/s */
+} sbri_pressing;
+
 /* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
  * several. */
 typedef struct sbri_soft_contact {
@@ -52,6 +59,7 @@ typedef struct sbri_soft_contact {
   bool pushes;           /* active in this substep */
   float velocity_change; /* normal velocity change by the contact, m/s */
   sbf_vec3 friction_impulse; /* friction, tangential */
+  sbri_pressing pressing;    /* before this substep */
   float pushed;              /* maximum velocity_change in the tick */
   float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
   sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
@@ -115,7 +123,8 @@ typedef struct sbri_island_tick {
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
-  sbri_soft_contact *contacts;                     /* of the character; see sbri_body.first_soft_contact */
+  float *pressing; /* (free_count x 2) scratch: sbri_pressing of each point, blocks of two by eight */
+  sbri_soft_contact *contacts; /* of the character; see sbri_body.first_soft_contact */
   struct sbri_external_bodies
       *external_bodies;           /* (bodies of the model) collide/external_body.h; NULL: none */
   float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */

@@ -336,7 +336,7 @@ typedef struct sbri_layout {
       state_size;
   size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work_size;
   size_t deltas, previous_deltas, gait_before, targets, driver_velocities, begins, velocity_points, planes,
-      near_ground;
+      pressing, near_ground;
   size_t element_forces;
   size_t contacts, contact_counts, contact_islands, external_bodies, slot_contacts, contact_weights, touching,
       rigid_touching, self_boxes, self_balls, self_nodes, self_items, self_edges;

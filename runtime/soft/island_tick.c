@@ -29,8 +29,8 @@ void sbri_island_fill_unused_slots(sbri_character *c, const sbri_island *island)
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_contacts(c), sbri_contact_counts(c), NULL, NULL, sbri_slot_contacts(c) + first, NULL, NULL, NULL,
-      NULL, NULL, NULL};
+      sbri_ground_pressing(c) + 2 * first, sbri_contacts(c), sbri_contact_counts(c), NULL, NULL,
+      sbri_slot_contacts(c) + first, NULL, NULL, NULL, NULL, NULL, NULL};
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
@@ -75,6 +75,7 @@ sbri_island_tick sbri_island_tick_of(
       .surface_vertices = sbri_surface_vertices(c),
       .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
+      .pressing = sbri_ground_pressing(c) + 2 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .contacts = sbri_contacts(c),
       .contact_counts = sbri_contact_counts(c),

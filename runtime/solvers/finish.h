@@ -20,7 +20,7 @@ static inline void sbri_limit_compression_above_ground(const sbri_island_tick *t
        sweep++)
     for (uint32_t b = 0; b < t->island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-      const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+      const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
       sbri_soft_contacts_bound(t, body, &rule);
     }
 }
@@ -35,7 +35,7 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   if (sbri_is_compressed(t)) sbri_limit_compression_above_ground(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+    const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
     if (sbri_may_collide(t, body)) sbri_slide_damp(t, body, &rule);
     sbri_soft_contacts_advance(t, body, h);
   }

@@ -47,7 +47,7 @@ static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
 static inline void sbri_heun_correct_carried(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   /* `older_velocities` become mean velocities, `velocities` the differences */
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 a0 = sbri_wide_load_points(first + slot);
@@ -83,7 +83,7 @@ static inline void sbri_heun_correct_carried(
 static inline void sbri_heun_correct_body(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     sbri_wide3 x = sbri_wide_load_points(t->moves + slot), a0 = sbri_wide_load_points(first + slot);

@@ -171,10 +171,11 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
   }
 }
 
-static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, float h) {
+static inline sbri_contact_rule sbri_contact_rule_of(
+    const sbri_island_tick *t, const sbri_body *body, float h) {
   float slack = body->samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
-  return (sbri_contact_rule){
-      body->friction, body->restitution, body->frictions, h, SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S};
+  return (sbri_contact_rule){body->friction, body->restitution, body->frictions, h, SBRI_PUSH_M_S * h, slack,
+      SBRI_BOUNCE_FROM_M_S, t->pressing};
 }
 
 /* Ground planes of a group of lanes. */
@@ -196,7 +197,7 @@ static inline void sbri_apply_impulses(
 
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   sbri_apply_impulses(t, body, t->velocities, &rule);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;

@@ -137,7 +137,7 @@ static inline sbri_mask sbri_differ(sbri_wide3 a, sbri_wide3 b) {
 static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 free = sbri_load3(sbri_const_triple(t->accelerations, slot));
     sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
@@ -168,7 +168,7 @@ static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_
 static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     float *velocity = sbri_triple(t->velocities, slot);

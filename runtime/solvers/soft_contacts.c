@@ -136,6 +136,15 @@ static float friction_of(const touching *c, const sbri_soft_contact *contact, co
   return sum > 0 ? sum * contact->friction_scale : 0;
 }
 
+/* The most friction of a contact that presses so in the substep, as a velocity change. */
+static float max_friction_of(const touching *c, const sbri_soft_contact *contact,
+    float normal_velocity_change, const sbri_contact_rule *rule) {
+  if (!(normal_velocity_change > 0)) return 0;
+  sbri_pressing with =
+      sbri_pressing_add(contact->pressing, normal_velocity_change, contact->closing_speed, rule->step_s);
+  return friction_of(c, contact, rule) * sbri_pressing_bound(with, normal_velocity_change, rule->step_s);
+}
+
 /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
 static float wanted_of(const sbri_soft_contact *contact, float speed, const sbri_contact_rule *rule) {
   float arriving = contact->gap > 0 ? -contact->gap / rule->step_s : 0, back = -contact->restitution * speed;
@@ -226,7 +235,7 @@ static void answer_alone(const touching *c, sbri_soft_contact *contact, const sb
   }
   note_closing_speed(contact, speed);
   sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
-  float size = sbri_length(sideways), max = friction_of(c, contact, rule) * contact->velocity_change;
+  float size = sbri_length(sideways), max = max_friction_of(c, contact, contact->velocity_change, rule);
   contact->friction_impulse = sbri_scale(sideways, size > max ? -max / size : -1);
   sbf_vec3 change = sbri_add_scaled(contact->friction_impulse, n, contact->velocity_change);
   velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
@@ -259,7 +268,7 @@ static float correct(const touching *c, sbri_soft_contact *contact, const sbri_c
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
   sbf_vec3 friction_impulse =
       sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -contact->fraction);
-  float size = sbri_length(friction_impulse), max = friction_of(c, contact, rule) * normal_velocity_change;
+  float size = sbri_length(friction_impulse), max = max_friction_of(c, contact, normal_velocity_change, rule);
   if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
       normal_velocity_change - contact->velocity_change);
@@ -284,7 +293,7 @@ static float correct_with_external_body(
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
   sbf_vec3 friction_impulse =
       sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -1 / across);
-  float size = sbri_length(friction_impulse), max = friction_of(c, contact, rule) * normal_velocity_change;
+  float size = sbri_length(friction_impulse), max = max_friction_of(c, contact, normal_velocity_change, rule);
   if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
       normal_velocity_change - contact->velocity_change);
@@ -375,7 +384,8 @@ sbri_sliding sbri_soft_contacts_sum_sliding(
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_soft_contact *contact = &c.contacts[i];
     if (!(contact->velocity_change > 0) || contact->collider == SBRI_ITSELF) continue;
-    float mass = contact->sample.mass_kg, limit = friction_of(&c, contact, rule) * contact->velocity_change;
+    float mass = contact->sample.mass_kg,
+          limit = max_friction_of(&c, contact, contact->velocity_change, rule);
     sum.load += mass * contact->velocity_change, sum.limit += mass * limit;
     if (limit > 0 && sbri_length(contact->friction_impulse) > SLIDES_FRACTION * limit)
       sum.friction = sbri_add_scaled(sum.friction, contact->friction_impulse, mass);
@@ -390,6 +400,8 @@ void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body
     sbri_soft_contact *contact = &c.contacts[i];
     contact->offset +=
         step_s * sbri_dot(contact->normal, with ? velocity_under(&c, contact) : contact->velocity);
+    contact->pressing =
+        sbri_pressing_add(contact->pressing, contact->velocity_change, contact->closing_speed, step_s);
     if (contact->velocity_change > 0)
       contact->given = sbri_add(contact->given,
           sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change));

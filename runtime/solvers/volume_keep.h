@@ -225,7 +225,7 @@ static inline float sbri_volume_step(
  * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
  * second. Momentum is kept with what the held points' bodies take, but for what the ground does. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   sbri_soft_contacts_store(t, body);
   float owed = 0;
   for (int i = 0; i < SBRI_MAX_VOLUME_STEPS; i++) {

@@ -132,6 +132,7 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->tears = position(&end, model->island_count, sizeof(sbri_tears));
   l->element_forces = position(&end, slots, sizeof(sbri_point));
   l->planes = position(&end, 4 * slots, sizeof(float));
+  l->pressing = position(&end, 2 * slots, sizeof(float));
   l->near_ground = position(&end, slots / SBRI_BLOCK + 1, 1);
   l->contacts = position(&end, e->contacts, sizeof(sbri_soft_contact));
   l->contact_islands = position(&end, model->island_count, 1);

@@ -197,6 +197,7 @@ SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /
 SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
 SBRI_SCRATCH_PART(frayed, uint8_t, c->model->layout.frayed)  /* (slot_count) likewise: near a torn spring */
 SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4) */
+SBRI_SCRATCH_PART(ground_pressing, float, c->model->layout.pressing)         /* (slot_count x 2) */
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
 SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
 SBRI_SCRATCH_PART(contact_counts, uint32_t, c->model->layout.contact_counts) /* (bodies) */

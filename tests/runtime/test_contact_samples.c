@@ -148,7 +148,7 @@ START_TEST(a_push_is_a_force_at_that_place)
   sbf_vec3 before_v = velocity_of(&tick, sample);
   momenta before = momenta_of(&tick, position);
   const float friction = 0.2f;
-  sbri_contact_rule rule = {friction, 0, NULL, 1e-3f, 1, 0, 0.05f};
+  sbri_contact_rule rule = {friction, 0, NULL, 1e-3f, 1, 0, 0.05f, NULL};
   sbri_soft_contacts_solve(&tick, body_of(&s), tick.velocities, &rule);
   sbf_vec3 after_v = velocity_of(&tick, sample);
   momenta after = momenta_of(&tick, position);
