@@ -1,7 +1,9 @@
 """Inputs whose limbs stand otherwise than those of the rig's mesh: the rig is turned limb by limb to meet them."""
 
 import math
+import os
 import re
+import unittest
 
 import obj_variants as variants
 import posed_inputs
@@ -10,6 +12,7 @@ from rigged_weights import Original, save_in_a_pose
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 
 POSES = dict(posed_inputs.POSES)
+CASUAL = "zoo/modular_men/Casual.glb"
 
 
 class PosedInputs(ProgramTest):
@@ -43,6 +46,20 @@ class PosedInputs(ProgramTest):
         heights = [p[1] for mesh in Bundle(self.path("out.sbf")).meshes for p in Bundle(self.path("out.sbf")).positions(mesh)]
         self.assertAlmostEqual(max(heights) - min(heights), max(p[1] for p in obj.points) - min(p[1] for p in obj.points),
                                delta=1e-3)  # the shape is the input's
+
+    @unittest.skipUnless(os.path.exists(posed_inputs.path_of(CASUAL)), "shared/zoo is not there")
+    def test_clips_of_turned_arms_play_as_before(self):
+        """A clip states whole rotations, so its poses are those of the rig as it was."""
+        original = self.pose(CASUAL)[0]
+        before, after = Bundle(original.bundle), Bundle(self.path("out.sbf"))
+        names = after.bone_names()
+        self.assertEqual(before.bone_names(), names)
+        for clip, same in zip(before.clips[:2], after.clips[:2]):
+            for time in (0, 0.3, 0.6):
+                poses = [bundle.pose(bundle.tracks(c), time) for bundle, c in ((before, clip), (after, same))]
+                for name, one, other in zip(names, *poses):
+                    for k in range(3):
+                        self.assertAlmostEqual(one[k][3], other[k][3], delta=0.005, msg=f"{clip.get('name')} {name}")
 
     def test_legs_in_mid_stride_of_half_the_points(self):
         said = self.assert_right("examples/calf/calf.glb", variants.simplified, 0.005, 0.015)[1]
