@@ -189,7 +189,7 @@ class Tuned(ProgramTest):
 
     def test_where_every_lattice_breaks_the_finest_level_of_the_file_is_the_reference(self):
         soft = self.path("softer.sbfz")
-        self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.02", "-o", soft)
+        self.good("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "--firmness", "0.007", "-o", soft)
         report = self.json_of("tune", soft, "-o", self.path("own.sbfz"), *SMALL, "--quick", "--nearest")
         self.assertEqual(report["reference"]["model"], "as built")
         self.assertTrue(report["written"])
