@@ -12,7 +12,7 @@ from rigged_weights import Original, save_in_a_pose
 from sbfmt_program import SOURCE_PARTS, ProgramTest, main
 
 POSES = dict(posed_inputs.POSES)
-CASUAL = "zoo/modular_men/Casual.glb"
+WITCH = "zoo/modular_women/Witch.glb"  # whose arms turn about two axes
 
 
 class PosedInputs(ProgramTest):
@@ -47,10 +47,10 @@ class PosedInputs(ProgramTest):
         self.assertAlmostEqual(max(heights) - min(heights), max(p[1] for p in obj.points) - min(p[1] for p in obj.points),
                                delta=1e-3)  # the shape is the input's
 
-    @unittest.skipUnless(os.path.exists(posed_inputs.path_of(CASUAL)), "shared/zoo is not there")
+    @unittest.skipUnless(os.path.exists(posed_inputs.path_of(WITCH)), "shared/zoo is not there")
     def test_clips_of_turned_arms_play_as_before(self):
         """A clip states whole rotations, so its poses are those of the rig as it was."""
-        original = self.pose(CASUAL)[0]
+        original = self.pose(WITCH)[0]
         before, after = Bundle(original.bundle), Bundle(self.path("out.sbf"))
         names = after.bone_names()
         self.assertEqual(before.bone_names(), names)
@@ -58,8 +58,8 @@ class PosedInputs(ProgramTest):
             for time in (0, 0.3, 0.6):
                 poses = [bundle.pose(bundle.tracks(c), time) for bundle, c in ((before, clip), (after, same))]
                 for name, one, other in zip(names, *poses):
-                    for k in range(3):
-                        self.assertAlmostEqual(one[k][3], other[k][3], delta=0.005, msg=f"{clip.get('name')} {name}")
+                    off = max(abs(one[k][j] - other[k][j]) for k in range(3) for j in range(4))
+                    self.assertLess(off, 0.03, f"{clip.get('name')} {name}")
 
     def test_legs_in_mid_stride_of_half_the_points(self):
         said = self.assert_right("examples/calf/calf.glb", variants.simplified, 0.005, 0.015)[1]
