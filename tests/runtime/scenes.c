@@ -425,6 +425,16 @@ void scene_start(scene *s) {
       sbr_character_create(s->world, s->model, &s->character_definition, &s->character, &error), &error);
 }
 
+void scene_start_on_slope(scene *s, double angle) {
+  s->model_options.free = true;
+  s->world_definition.ground = sbr_ground_flat(0);
+  s->character_definition.position = (sbr_double3){0, 0, 0};
+  s->world_definition.has_gravity = true;
+  s->world_definition.gravity =
+      (sbf_vec3){(float)(SCENE_GRAVITY_M_S2 * sin(angle)), (float)(-SCENE_GRAVITY_M_S2 * cos(angle)), 0};
+  scene_start(s);
+}
+
 void scene_free(scene *s) {
   sbr_world_destroy(s->world);
   sbr_model_destroy(s->model);
@@ -441,6 +451,14 @@ void scene_ticks(scene *s, uint32_t ticks) {
 
 uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity) {
   return sbr_character_get_points(s->world, s->character, body, positions, capacity);
+}
+
+double scene_middle_x(const scene *s, uint32_t body) {
+  static sbf_vec3 points[1024];
+  uint32_t count = scene_read(s, body, points, 1024);
+  double x = sbr_character_get_origin(s->world, s->character).x;
+  for (uint32_t i = 0; i < count; i++) x += (double)points[i].x / count;
+  return x;
 }
 
 sbf_vec3 scene_point(const scene *s, uint32_t body, uint32_t point) {

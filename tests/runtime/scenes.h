@@ -23,6 +23,10 @@ sbf_soft_body *scene_body(scene *s, uint32_t index);
 void scene_bodies(scene *s, uint32_t count);
 /* Model, world and character from the asset and the definitions. */
 void scene_start(scene *s);
+/* The same for bodies without pins on a slope of `angle` rad that falls along +x: gravity of
+ * SCENE_GRAVITY_M_S2 is tilted instead of the ground. */
+#define SCENE_GRAVITY_M_S2 9.81
+void scene_start_on_slope(scene *s, double angle);
 void scene_free(scene *s);
 
 /* A level of bare points: positions, masses in kg and springs; nothing is held and nothing damped. */
@@ -68,6 +72,8 @@ void scene_models_survive_want(const scene *s);
 void scene_ticks(scene *s, uint32_t ticks);
 /* Places of the points of a body relative to the origin. */
 uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity);
+/* Mean x of a body's points in the world, m. */
+double scene_middle_x(const scene *s, uint32_t body);
 sbf_vec3 scene_point(const scene *s, uint32_t body, uint32_t point);
 
 #endif

@@ -114,14 +114,18 @@ static double kerbs(const sbr_ground *ground, double x, double z, sbf_vec3 *norm
 static const float speeds[] = {0.8f, 1.1f}; /* m/s: at the first, locked knees come up */
 enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 
+static void begin_over_kerbs(gait_stage *stage, float speed) {
+  gait_stage_begin(stage, quadruped_asset());
+  stage->ground.height = kerbs;
+  stage->input.forward = speed;
+}
+
 START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
 {
   uint32_t pinned = 0;
   for (int s = 0; s < SPEEDS; s++) {
     gait_stage stage;
-    gait_stage_begin(&stage, quadruped_asset());
-    stage.ground.height = kerbs;
-    stage.input.forward = speeds[s];
+    begin_over_kerbs(&stage, speeds[s]);
     float rates[4] = {0}, max = 0;
     uint32_t known[4] = {0};
     for (int i = 0; i < 600; i++) {
@@ -147,9 +151,7 @@ START_TEST(the_same_pose_comes_of_a_state_that_is_not_moved_on)
   uint32_t pinned = 0;
   for (int s = 0; s < SPEEDS; s++) {
     gait_stage stage;
-    gait_stage_begin(&stage, quadruped_asset());
-    stage.ground.height = kerbs;
-    stage.input.forward = speeds[s];
+    begin_over_kerbs(&stage, speeds[s]);
     sbr_transform again[32];
     for (int i = 0; i < 600; i++) {
       gait_stage_ticks(&stage, 1);

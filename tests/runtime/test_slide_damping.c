@@ -7,7 +7,6 @@
 
 enum block_kind { TETRAHEDRA, EMBEDDED, SPRINGS, KINDS };
 static const float WIDE = 0.3f, HIGH = 0.1f;
-static const double GRAVITY = 9.81;
 
 static void add_surface(scene *s) {
   sbf_polygon_mesh mesh = shape_cube(s->asset, 6, 1, (sbf_vec3){0, 0.5f, 0});
@@ -37,21 +36,8 @@ static scene begin_block(enum block_kind kind, sbf_scheme scheme, float friction
   scene_body(&s, 0)->attributes.friction = friction;
   s.model_options = sbr_default_model_options();
   s.model_options.scheme = scheme;
-  s.model_options.free = true;
-  s.world_definition.ground = sbr_ground_flat(0);
-  s.character_definition.position = (sbr_double3){0, 0, 0};
-  s.world_definition.has_gravity = true;
-  s.world_definition.gravity = (sbf_vec3){(float)(GRAVITY * sin(angle)), (float)(-GRAVITY * cos(angle)), 0};
-  scene_start(&s);
+  scene_start_on_slope(&s, angle);
   return s;
-}
-
-static double middle_of(const scene *s) {
-  static sbf_vec3 points[512];
-  uint32_t count = scene_read(s, 0, points, 512);
-  double x = sbr_character_get_origin(s->world, s->character).x;
-  for (uint32_t i = 0; i < count; i++) x += (double)points[i].x / count;
-  return x;
 }
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED};
@@ -77,11 +63,11 @@ typedef struct slid {
 static slid slide(slope_case which, double fraction) {
   scene s = begin_block(which.kind, which.scheme, which.friction, atan(fraction * (double)which.friction));
   scene_ticks(&s, 90);
-  double first = middle_of(&s);
+  double first = scene_middle_x(&s, 0);
   scene_ticks(&s, 60);
-  double second = middle_of(&s);
+  double second = scene_middle_x(&s, 0);
   scene_ticks(&s, 60);
-  double third = middle_of(&s);
+  double third = scene_middle_x(&s, 0);
   scene_free(&s);
   return (slid){0.5 * (third - first), third - 2 * second + first};
 }
@@ -104,7 +90,7 @@ START_TEST(a_block_slides_as_coulomb_says)
   slope_case which = slope_case_of(_i);
   for (int k = 0; k < 2; k++) {
     double friction = (double)which.friction, angle = atan(fractions[k] * friction);
-    double right = GRAVITY * (sin(angle) - friction * cos(angle)),
+    double right = SCENE_GRAVITY_M_S2 * (sin(angle) - friction * cos(angle)),
            found = slide(which, fractions[k]).acceleration;
     ck_assert_msg(fabs(found - right) < 0.02 * right,
         "kind %d, scheme %d, friction %g, at %g of it: %g of %g m/s^2", (int)which.kind, (int)which.scheme,

@@ -252,9 +252,9 @@ static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directio
   double cost = find_turn_of(f, bone, directions, &before, rotation, &length);
   if (!isfinite(cost) || (as_twin && !has_turned_twin(f, bone, length))) return;
   double saved = before - cost, fraction = fraction_of(f, bone, length);
-  double min_gain = as_twin ? GAIN_OF_TWIN : GAIN;
-  if (f->is_middle && f->is_middle[bone]) min_gain = GAIN_IN_MIDDLE;
-  if (saved < min_gain * fraction || is_child_better(f, bone, directions, length, saved) ||
+  double min_saving = as_twin ? GAIN_OF_TWIN : GAIN;
+  if (f->is_middle && f->is_middle[bone]) min_saving = GAIN_IN_MIDDLE;
+  if (saved < min_saving * fraction || is_child_better(f, bone, directions, length, saved) ||
       !take_limb(f, bone, &length, &direction))
     return;
   turn(f, bone, rotation);

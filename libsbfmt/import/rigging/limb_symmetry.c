@@ -1,4 +1,4 @@
-/* The limbs of one side are fitted to both halves of the body at once: the other half is folded onto it. A
+/* The limbs of one side are fitted to both halves of the body at once: the other half is mirrored onto it. A
  * rig that was saved in mid-stride stands otherwise on both sides, so that each is tried for both. */
 #include "import/rigging/limb_symmetry.h"
 
