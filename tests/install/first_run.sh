@@ -10,7 +10,7 @@
 # Needs root, debootstrap and the archive of packages that apt is configured for: else exit status 77 with the reason.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
-home=/srv/first # of root in these systems
+root_home=/srv/first # of root in these systems
 tools='gcc g++ make cmake git python3 libxml2-dev zlib1g-dev nodejs'
 
 skip() {
@@ -34,7 +34,7 @@ within() {
   where=$1
   shift
   # shellcheck disable=SC2016 # the inner shell fills these in
-  cache=$cache checkout=$home/sbfmt unshare --mount --propagation private sh -c 'mount -t proc proc "$0/proc" &&
+  cache=$cache checkout=$root_home/sbfmt unshare --mount --propagation private sh -c 'mount -t proc proc "$0/proc" &&
     { [ -z "$cache" ] || { mkdir -p "$0/srv/cache" && mount --bind "$cache" "$0/srv/cache"; }; } && exec chroot "$0" /usr/bin/env -i \
     ${cache:+CC=gcc CCACHE_DIR=/srv/cache CCACHE_BASEDIR="$checkout"} $(env | grep "^CCACHE_[NIC]") \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive CI=1 \
@@ -43,7 +43,7 @@ within() {
 as_root() {
   where=$1
   shift
-  within "$where" HOME=$home sh -c "cd \$HOME/sbfmt && $*"
+  within "$where" HOME=$root_home sh -c "cd \$HOME/sbfmt && $*"
 }
 as_user() {
   where=$1
