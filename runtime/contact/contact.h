@@ -30,9 +30,10 @@ typedef struct sbri_contact_tables {
   uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
   struct sbri_touching *touched;                /* contacts of the body in the previous tick; for events */
-  uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
-  const sbri_skin *surface;    /* of the body, at its present positions */
-  struct sbri_box *self_boxes; /* scratch of the body for self contact */
+  uint8_t *slot_contacts;       /* (slots) scratch: number of contacts of each point, as far as it matters */
+  sbri_contact_choice *choices; /* (slots x SBRI_POINT_CONTACTS) scratch: the best of each point */
+  const sbri_skin *surface;     /* of the body, at its present positions */
+  struct sbri_box *self_boxes;  /* scratch of the body for self contact */
   struct sbri_moving_ball *self_balls;
   struct sbri_bounds_node *self_nodes;
   uint32_t *self_items;

@@ -18,9 +18,9 @@ size_t sbri_deltas_size(const sbr_model *model) {
 
 /* Room that no one count of the model says. */
 typedef struct extents {
-  size_t vertices, faces, groups; /* of the largest skin */
-  size_t surface, surface_faces;  /* of all bodies' surfaces, padded */
-  size_t contacts, self_faces;    /* of all bodies */
+  size_t vertices, faces, groups;              /* of the largest skin */
+  size_t surface, surface_faces;               /* of all bodies' surfaces, padded */
+  size_t contacts, contact_blocks, self_faces; /* of all bodies */
 } extents;
 
 static size_t larger(size_t a, size_t b) {
@@ -45,6 +45,13 @@ static uint32_t max_contacts(const sbri_body *body) {
   return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + edges + 64 : 0;
 }
 
+/* More contacts than fit, as when the whole surface of a body touches something at once, are solved in
+ * sequence. */
+static uint32_t max_contact_blocks(const sbri_body *body) {
+  uint32_t most = SBRI_POINT_CONTACTS / 2 * (body->slot_end - body->slot_begin) + 8 * SBRI_BLOCK;
+  return ((most < body->max_contacts ? most : body->max_contacts) + SBRI_BLOCK - 1) / SBRI_BLOCK;
+}
+
 /* Offsets of each body's part in the arrays that all bodies share. */
 static void distribute(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
@@ -54,9 +61,12 @@ static void distribute(sbr_model *model, extents *e) {
     body->first_soft_contact = (uint32_t)e->contacts;
     body->first_self_face = (uint32_t)e->self_faces;
     body->max_contacts = max_contacts(body);
+    body->first_contact_block = (uint32_t)e->contact_blocks;
+    body->max_contact_blocks = max_contact_blocks(body);
     e->surface += padded(body->surface.vertex_count);
     e->surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
     e->contacts += body->max_contacts;
+    e->contact_blocks += body->max_contact_blocks;
     e->self_faces += body->self_face_count;
   }
 }
@@ -77,6 +87,7 @@ static void lay_out_state(sbr_model *model) {
   l->positions = position(&end, slots, sizeof(sbri_point));
   l->previous_positions = position(&end, slots, sizeof(sbri_point));
   l->velocities = position(&end, 3 * slots, sizeof(float));
+  l->slide_rates = position(&end, model->asset->soft_bodies.count, sizeof(float));
   l->driver_motions = position(&end, model->asset->soft_bodies.count, sizeof(sbri_driver_motion));
   l->rests = position(&end, model->flow_count, sizeof(float));
   l->strengths = position(&end, model->flow_count, sizeof(float));
@@ -135,11 +146,15 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->pressing = position(&end, 2 * slots, sizeof(float));
   l->near_ground = position(&end, slots / SBRI_BLOCK + 1, 1);
   l->contacts = position(&end, e->contacts, sizeof(sbri_soft_contact));
+  l->contact_blocks = position(&end, e->contact_blocks, sizeof(sbri_contact_block));
+  l->contact_block_counts = position(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->contact_slots = position(&end, slots / SBRI_BLOCK + 1, 1);
   l->contact_islands = position(&end, model->island_count, 1);
   l->contact_counts = position(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->external_bodies =
       position(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
   l->slot_contacts = position(&end, slots, 1);
+  l->contact_choices = position(&end, SBRI_POINT_CONTACTS * slots, sizeof(sbri_contact_choice));
   l->contact_weights = position(&end, slots, sizeof(float));
   l->self_boxes = position(&end, e->self_faces, sizeof(sbri_box));
   l->self_balls = position(&end, e->self_faces, sizeof(sbri_moving_ball));
