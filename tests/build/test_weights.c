@@ -456,6 +456,25 @@ START_TEST(machines_are_rigid)
 }
 END_TEST
 
+/* Rays through the body cost the most of all. */
+START_TEST(dense_surfaces_need_few_rays)
+{
+  make_arm(800, false);
+  ck_assert_uint_gt(tubes->point_count, 8192);
+  compute_tubes();
+  check_arm(0.1);
+  ck_assert_uint_le(weights.figures.ray_count, 8192);
+  ck_assert_uint_ge(weights.figures.ray_count, 4096);
+  double dense = weights.figures.median_distance;
+  sbfi_weights_free(&weights);
+  tubes->point_count = tubes->triangle_count = tubes->bone_count = 0;
+  make_arm(60, false);
+  compute_tubes();
+  ck_assert_uint_eq(weights.figures.ray_count, tubes->point_count);
+  ck_assert_double_eq_tol(weights.figures.median_distance, dense, 0.03);
+}
+END_TEST
+
 START_TEST(the_unit_does_not_matter)
 {
   make_arm(30, false);
@@ -553,6 +572,7 @@ static Suite *suite(void) {
   tcase_add_test(c, trees_of_handles_hold_nothing);
   tcase_add_test(c, fingers_at_the_wrist_do_not_end_the_hand);
   tcase_add_test(c, machines_are_rigid);
+  tcase_add_test(c, dense_surfaces_need_few_rays);
   tcase_add_test(c, the_unit_does_not_matter);
   tcase_add_test(c, points_in_no_triangle_follow_the_nearest);
   tcase_add_test(c, refusals);

@@ -42,6 +42,7 @@ typedef struct sbfi_weights_figures {
   uint32_t unused_bone_count; /* deforming bones that hold no point */
   uint32_t iterations;        /* of the conjugate gradients, the most of any group of bones */
   uint32_t deforming_count;   /* bones that may hold points */
+  uint32_t ray_count;         /* that median_distance is of */
   double inside;              /* share of their length inside the body, to their tips */
   double bone_extent;         /* their longest side by that of the surface, without the thin ends of that */
   double median_distance;     /* from the surface to its bone, by half the thickness of the body there */
