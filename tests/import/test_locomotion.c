@@ -306,6 +306,29 @@ START_TEST(where_it_is_unclear_legs_walk)
 }
 END_TEST
 
+/* A body on one leg. */
+static void build_hopper(sbfi_scene *s) {
+  int32_t torso = box_bone(s, "torso", SBF_NONE, D3(0, 0.6, 0), D3(0.15, 0.25, 0.15), D3(0, 0.2, 0));
+  int32_t thigh = box_bone(s, "thigh", torso, D3(0, 0, 0), D3(0.06, 0.12, 0.06), D3(0, -0.12, 0));
+  int32_t shin = box_bone(s, "shin", thigh, D3(0, -0.25, 0.05), D3(0.05, 0.12, 0.05), D3(0, -0.12, 0));
+  box_bone(s, "foot", shin, D3(0, -0.25, -0.05), D3(0.05, 0.05, 0.1), D3(0, -0.05, 0.05));
+}
+
+/* The file holds crawl: what is said of walk would mislead. */
+START_TEST(nothing_walks_on_one_leg)
+{
+  converted c;
+  make(&c, build_hopper, 1, false, NULL);
+  ck_assert_int_eq(kind_of(c.asset), SBF_GAIT_KIND_CRAWL);
+  ck_assert_uint_eq(c.asset->gaits.at[0].legs.count, 0);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_NO_LEGS), 0);
+  const sbf_diagnostic *note = converted_note(&c, SBF_CODE_GAIT_KIND);
+  ck_assert_ptr_nonnull(note);
+  ck_assert_ptr_nonnull(strstr(note->message, "crawl and not walk"));
+  converted_free(&c);
+}
+END_TEST
+
 /* Three skeletons in a row are no body, and that something rests on the ground is little to say that it hops.
  */
 static void build_posts(sbfi_scene *s) {
@@ -445,6 +468,7 @@ int main(void) {
   tcase_add_test(tests, parts_of_other_kinds);
   tcase_add_test(tests, height_says_nothing_of_a_long_body);
   tcase_add_test(tests, where_it_is_unclear_legs_walk);
+  tcase_add_test(tests, nothing_walks_on_one_leg);
   tcase_add_test(tests, what_little_speaks_for_stands);
   tcase_add_test(tests, the_head_leads_a_chain);
   tcase_add_test(tests, a_backbone_follows_the_hierarchy);

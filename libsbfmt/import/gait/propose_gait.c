@@ -223,8 +223,11 @@ static bool propose_walk(sbfi_conversion *c) {
   if (!sbfi_draft_shapes(&d, &c->scratch) || !sbfi_draft_legs(&d, &c->scratch)) return false;
   if (d.leg_count > 1) /* nothing walks on one */
     return sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
-  if (c->locomotion && c->locomotion->second == SBFI_LOCOMOTION_CRAWL)
+  if (c->locomotion && c->locomotion->second == SBFI_LOCOMOTION_CRAWL) {
+    sbfi_convert_warn(c, SBF_CODE_GAIT_KIND,
+        "its gait is crawl and not walk: no two limbs of the rig come down to the ground");
     return propose_other(c, SBFI_LOCOMOTION_CRAWL);
+  }
   say_legless(c);
   return true;
 }
