@@ -45,6 +45,13 @@ class FilesThatBreakOthers(ProgramTest):
     def test_the_table_is_complete(self):
         self.assertEqual(set(os.listdir(shared("bad"))) - {"README.md"}, set(self.CODES))
 
+    def test_what_others_say_becomes_part_of_the_sentence(self):
+        whole = read_bytes(os.path.join(ROOT, "examples", "lizard", "lizard.glb"))
+        half = write_bytes(self.path("half.glb"), whole[:len(whole) // 2])
+        message = self.fails(BAD_INPUT, "convert", half, "-o", self.path("out.sbf"))
+        self.assertRegex(message, r"assimp refuses the file: .*[^.]; export it as .*\[IMPORT_REFUSED\]")
+        self.assert_empty_folder(but=["half.glb"])
+
     def test_an_old_file_stands_after_a_failure(self):
         out = write_bytes(self.path("out.sbf"), b"what was there")
         self.fails(BAD_INPUT, "convert", shared("bad", "empty_init_from.dae"), "-o", out)

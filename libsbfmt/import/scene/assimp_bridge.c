@@ -59,13 +59,14 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
       helper_name);
 }
 
-/* The last line of what the child said. */
+/* The last line of what the child said, without its full stop. */
 static void last_words(const char *text, char *to, size_t size) {
   sbfi_span rest = sbfi_span_of(text), line, last = {"nothing", 7};
   while (sbfi_span_next_line(&rest, &line)) {
     line = sbfi_span_trim(line);
     if (line.length) last = line;
   }
+  while (last.length && last.at[last.length - 1] == '.') last.length--;
   sbfi_quote_into(to, size, last);
 }
 

@@ -26,8 +26,8 @@ static void fail(cursor *c, const char *what) {
 static void fail_not_finite(cursor *c, const char *what, sbfi_span name, size_t index) {
   if (c->status) return;
   c->status = sbfi_diagnose(c->error, SBF_CODE_IMPORT_NOT_FINITE,
-      "%s of \"%s\" holds an infinity or NaN, at item %zu: export the file again", what,
-      sbfi_quote_of(name).text, index);
+      "item %zu of %s of \"%s\" is infinite or NaN: export the file again", index, what,
+      sbfi_quote_of(name).text);
 }
 
 /* Some of assimp's readers hand out the indices of a damaged file unchecked. */
