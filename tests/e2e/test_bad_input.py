@@ -1,6 +1,7 @@
 """Input that is at fault, and calls that are: a message that says what and where, the right exit status, no file left
 behind, no crash of ours even when a reader of others dies."""
 
+import json
 import os
 import re
 import unittest
@@ -51,6 +52,15 @@ class FilesThatBreakOthers(ProgramTest):
         message = self.fails(BAD_INPUT, "convert", half, "-o", self.path("out.sbf"))
         self.assertRegex(message, r"assimp refuses the file: .*[^.]; export it as .*\[IMPORT_REFUSED\]")
         self.assert_empty_folder(but=["half.glb"])
+
+    def test_packed_meshes_of_gltf_are_refused_by_their_extension(self):
+        """Read as plain floats, the numbers of quantized vertices would be any shape at all."""
+        for name in ("KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression"):
+            gltf = {"asset": {"version": "2.0"}, "extensionsUsed": [name], "extensionsRequired": [name]}
+            packed = write_bytes(self.path("packed.gltf"), json.dumps(gltf).encode())
+            message = self.fails(BAD_INPUT, "convert", packed, "-o", self.path("out.sbf"))
+            self.assertIn(f"packed by {name}, which is not read: export them without compression", message)
+            self.assert_empty_folder(but=["packed.gltf"])
 
     def test_an_old_file_stands_after_a_failure(self):
         out = write_bytes(self.path("out.sbf"), b"what was there")

@@ -69,6 +69,18 @@ bool gltf_open(gltf *g, const char *path) {
   return true;
 }
 
+const char *gltf_unread_extension(const gltf *g) {
+  static const char *const unread[] = {
+      "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+  size_t at;
+  json_t *required;
+  json_array_foreach(json_object_get(g->json, "extensionsRequired"), at, required) {
+    for (size_t i = 0; i < sizeof unread / sizeof *unread; i++)
+      if (json_is_string(required) && strcmp(json_string_value(required), unread[i]) == 0) return unread[i];
+  }
+  return NULL;
+}
+
 void gltf_close(gltf *g) {
   for (size_t i = 0; i < g->buffer_count; i++) {
     bool inside = g->buffers[i].at >= g->file.at && g->buffers[i].at < g->file.at + g->file.size;

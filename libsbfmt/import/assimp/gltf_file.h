@@ -31,6 +31,9 @@ bool is_gltf_path(const char *path);
 bool gltf_open(gltf *g, const char *path);
 void gltf_close(gltf *g);
 
+/* An extension that the file requires and by which assimp would read its vertices wrong; NULL: none. */
+const char *gltf_unread_extension(const gltf *g);
+
 uint32_t gltf_word_at(const uint8_t *at);
 
 #endif

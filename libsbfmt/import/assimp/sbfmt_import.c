@@ -16,6 +16,7 @@
 #include <strings.h>
 
 #include "declared_joints.h"
+#include "gltf_file.h"
 #include "gltf_order.h"
 #include "import/scene/stream_format.h"
 #include "node_limits.h"
@@ -320,6 +321,18 @@ static int read_scene(const char *path, const struct aiScene **scene, const stru
   return SBFI_CHILD_DONE;
 }
 
+/* Whether assimp would hand out wrong vertices; says so. */
+static bool is_packed(const char *path) {
+  gltf g;
+  if (!is_gltf_path(path)) return false;
+  const char *extension = gltf_open(&g, path) ? gltf_unread_extension(&g) : NULL;
+  gltf_close(&g);
+  if (extension)
+    fprintf(stderr, "its meshes are packed by %s, which is not read: export them without compression\n",
+        extension);
+  return extension;
+}
+
 /* Never freed: to free a damaged scene is a further chance to crash. Static, so that leak checkers see it. */
 static struct aiPropertyStore *properties;
 static const struct aiScene *scene_read;
@@ -335,6 +348,7 @@ int main(int argument_count, char **arguments) {
     fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
     return SBFI_CHILD_BAD_CALL;
   }
+  if (is_packed(arguments[1])) return SBFI_CHILD_REFUSED;
   properties = aiCreatePropertyStore();
   aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
   int status = read_scene(arguments[1], &scene_read, properties);
