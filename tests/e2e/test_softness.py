@@ -116,6 +116,16 @@ class Softness(ProgramTest):
         self.assertTrue(report["valid"])
         self.assertGreater(report["distance"], 0.3)
 
+    def test_heads_in_any_language_are_not_soft(self):
+        """A person's face is painted on its head, whatever that is called."""
+        yeti = os.path.join(ROOT, "examples", "yeti", "yeti.glb")
+        for head in ("head", "Kopf", "голова", "头"):
+            glb, out = SkinnedGlb.of(yeti), self.path("yeti.sbf")
+            bone, = (n for n in glb.json["nodes"] if n.get("name") == "head")
+            bone["name"] = head
+            self.assertIn("1 head or face", self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err, head)
+            self.assertNotIn(head, soft_of(out))
+
     def test_objects_on_bones_are_props(self):
         glb = SkinnedGlb.of(CALF)
         joint = [n.get("name") for n in glb.json["nodes"]].index("head")

@@ -13,6 +13,7 @@
 #include "import/convert/main_bones.h"
 #include "import/convert/part_words.h"
 #include "import/convert/propose_limits.h"
+#include "import/gait/locomotion.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
@@ -179,7 +180,8 @@ static bool has_face(const sbf_asset *asset, int32_t bone) {
 
 /* A person's head, or a chibi's, is what its face is painted on. */
 static bool is_face(const sbf_asset *asset, int32_t bone) {
-  bool head = sbfi_part_by_name(asset->bones.at[bone].name) == SBFI_PART_HEAD;
+  const char *name = asset->bones.at[bone].name;
+  bool head = sbfi_part_by_name(name) == SBFI_PART_HEAD || sbfi_words_of(name) & 1u << SBFI_WORD_HEAD;
   return head && (leg_count(asset) == 2 || has_face(asset, bone));
 }
 
