@@ -126,6 +126,19 @@ class Softness(ProgramTest):
             self.assertIn("1 head or face", self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err, head)
             self.assertNotIn(head, soft_of(out))
 
+    def test_hair_on_a_rigid_head_is_no_fault(self):
+        """A skinned mesh of its own moves with a head that the conversion itself left rigid."""
+        glb, out = SkinnedGlb.of(os.path.join(ROOT, "examples", "yeti", "yeti.glb")), self.path("yeti.sbf")
+        head = [n.get("name") for n in glb.json["nodes"]].index("head")
+        joint = glb.json["skins"][0]["joints"].index(head)
+        points, triangles = box((-0.1, 1.9, -0.1), (0.1, 2.1, 0.1))
+        hair = glb.mesh(points, triangles, [(joint, 0, 0, 0)] * len(points), [(1, 0, 0, 0)] * len(points))
+        glb.node("hair", mesh=hair, skin=0)
+        said = self.good("convert", glb.write(self.path("yeti.glb")), "-o", out).err
+        self.assertNotIn("EMBEDDING_NO_BODY", said)
+        self.assertIn("hair", [m["name"] for m in self.json_of("info", out)["render_meshes"]])
+        self.assertNotIn("head", soft_of(out))
+
     def test_objects_on_bones_are_props(self):
         glb = SkinnedGlb.of(CALF)
         joint = [n.get("name") for n in glb.json["nodes"]].index("head")

@@ -355,6 +355,15 @@ static bool embed_surfaces(work *w, sbfi_progress progress) {
   return true;
 }
 
+/* Whether recipes leave all that holds the skin rigid: it is meant to move with its bones. */
+static bool is_rigid_by_recipe(const sbf_asset *asset, const sbf_skin *skin) {
+  for (uint32_t i = 0; i < skin->bones.count; i++) {
+    const sbf_section_recipe *recipe = sbfi_section_recipe_find(asset, (int32_t)skin->bones.at[i]);
+    if (skin->weights.at[i] > 0 && !(recipe && recipe->rigid)) return false;
+  }
+  return skin->bones.count > 0;
+}
+
 static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_progress progress) {
   const sbf_render_mesh *mesh = &w->asset->render_meshes.at[number];
   const sbf_skin *skin = mesh->skin, *blends = w->sections ? w->sections->blends : NULL;
@@ -377,7 +386,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
     return false;
   sbf_diagnostic diagnostic;
-  if (w->contributions.count == 0) {
+  if (w->contributions.count == 0 && !(mesh->skin && is_rigid_by_recipe(w->asset, mesh->skin))) {
     sbfi_diagnose(&diagnostic, SBF_CODE_EMBEDDING_NO_BODY,
         "no soft body carries render mesh \"%s\": give its bones (or one above them) a section", mesh->name);
     sbfi_report(reporter, &diagnostic);
