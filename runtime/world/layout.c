@@ -48,8 +48,8 @@ static uint32_t max_contacts(const sbri_body *body) {
 /* More contacts than fit, as when the whole surface of a body touches something at once, are solved in
  * sequence. */
 static uint32_t max_contact_blocks(const sbri_body *body) {
-  uint32_t most = SBRI_POINT_CONTACTS / 2 * (body->slot_end - body->slot_begin) + 8 * SBRI_BLOCK;
-  return ((most < body->max_contacts ? most : body->max_contacts) + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  uint32_t contacts = SBRI_POINT_CONTACTS / 2 * (body->slot_end - body->slot_begin) + 8 * SBRI_BLOCK;
+  return ((contacts < body->max_contacts ? contacts : body->max_contacts) + SBRI_BLOCK - 1) / SBRI_BLOCK;
 }
 
 /* Offsets of each body's part in the arrays that all bodies share. */
