@@ -268,7 +268,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_NO_BONES", SBF_CODE_IMPORT_NO_BONES, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The rig's file has no skeleton."},
   {"IMPORT_PARTIAL_UVS", SBF_CODE_IMPORT_PARTIAL_UVS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A set of texture coordinates does not cover the whole mesh and was dropped."},
   {"IMPORT_INSIDE_OUT", SBF_CODE_IMPORT_INSIDE_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "All polygons of a closed surface faced inwards: they were reversed."},
-  {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character was not on y = 0 or not at the origin and was moved there."},
+  {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character was not on y = 0 and was moved there."},
   {"IMPORT_PIN_UNKNOWN", SBF_CODE_IMPORT_PIN_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them."},
   {"MATERIAL_GUESSED", SBF_CODE_MATERIAL_GUESSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The material of bodies is not stated: sections on bones get soft tissue, other bodies the default, or a modulus that bears their weight."},
   {"IMPORT_FACING", SBF_CODE_IMPORT_FACING, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not face +Z and was rotated."},

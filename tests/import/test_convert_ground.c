@@ -4,9 +4,9 @@
 #include "conversions.h"
 
 /* A biped whose soles are at `sole`; with boots and a coat for it to wear. */
-static void make_at(sbfi_scene *scene, double x, double sole, double z, bool legs) {
+static void make(sbfi_scene *scene, double sole, bool legs) {
   scene_begin(scene);
-  int32_t hips = scene_node(scene, "hips", SBF_NONE, true, x, sole + 1, z);
+  int32_t hips = scene_node(scene, "hips", SBF_NONE, true, 0, sole + 1, 0);
   int32_t coat = scene_node(scene, "coat", hips, false, 0, 0.5, 0);
   scene_box(scene, coat, 0.25, 0, 0, 0, false);
   for (int side = -1; legs && side <= 1; side += 2) {
@@ -17,10 +17,6 @@ static void make_at(sbfi_scene *scene, double x, double sole, double z, bool leg
         false);
   }
   scene_end(scene);
-}
-
-static void make(sbfi_scene *scene, double sole, bool legs) {
-  make_at(scene, 0, sole, 0, legs);
 }
 
 START_TEST(walkers_are_moved_onto_the_ground)
@@ -104,71 +100,6 @@ START_TEST(clips_go_along)
 }
 END_TEST
 
-/* Left and right are told apart by x = 0: a character that stands beside it would have no legs in pairs. */
-START_TEST(who_stands_aside_is_moved_to_the_origin)
-{
-  static const float times[2] = {0, 1};
-  static const sbf_vec3 path[2] = {{2, 1, -3}, {2.5f, 1, -3}};
-  static const double places[] = {0.0625, 2, -2};
-  sbfi_scene scene;
-  converted c;
-  for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-    make_at(&scene, places[i], 0, 0, true);
-    *scene_clip(&scene, "walk", 1, 1) =
-        (sbfi_scene_channel){.node = 0, .position_count = 2, .position_times = times, .positions = path};
-    converted_scene(&c, &scene, &scene, NULL);
-    const sbf_asset *a = c.asset;
-    check_near(a->bones.at[0].head, 0, 1, 0, 1e-6);
-    check_near(body_named(a, "coat")->surface.positions.at[0], -0.25, 1.25, -0.25, 1e-6);
-    check_near(mesh_named(a, "boot.L")->mesh.positions.at[0], 0.1875, 0, -0.0625, 1e-6);
-    ck_assert_uint_eq(a->gaits.count, 1);
-    ck_assert_uint_eq(a->gaits.at[0].legs.count, 2);
-    const float *first = a->clips.at[0].tracks.at[0].values.at;
-    ck_assert_float_eq_tol(first[0], 2 - (float)places[i], 1e-6f);
-    ck_assert_float_eq_tol(first[2], -3, 1e-6f);
-    ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 1);
-    converted_free(&c);
-    sbfi_scene_free(&scene);
-  }
-  make_at(&scene, 0, 0, 5, false);
-  converted_scene(&c, &scene, &scene, NULL);
-  check_near(c.asset->bones.at[0].head, 0, 1, 0, 1e-6);
-  check_near(body_named(c.asset, "coat")->surface.positions.at[0], -0.25, 1.25, -0.25, 1e-6);
-  converted_free(&c);
-  sbfi_scene_free(&scene);
-}
-END_TEST
-
-/* One side alone, as of a flag at its pole, bones on both sides of no spine, and what shall have no gait. */
-START_TEST(what_has_no_middle_stays)
-{
-  sbf_convert_options options = {.no_gait = true};
-  sbfi_scene scene;
-  converted c;
-  scene_begin(&scene);
-  int32_t pole = scene_node(&scene, "pole", SBF_NONE, true, 2, 0, 0);
-  scene_box(&scene, scene_node(&scene, "cloth", pole, false, 0.5, 1, 0), 0.25, 0, 0, 0, false);
-  scene_end(&scene);
-  converted_scene(&c, &scene, &scene, NULL);
-  ck_assert_float_eq(c.asset->bones.at[0].head.x, 2);
-  converted_free(&c);
-  sbfi_scene_free(&scene);
-  scene_begin(&scene);
-  scene_node(&scene, "arm", scene_node(&scene, "post", SBF_NONE, true, 2, 0, 0), true, 1, 1, 0);
-  scene_end(&scene);
-  converted_scene(&c, &scene, &scene, NULL);
-  ck_assert_float_eq(c.asset->bones.at[0].head.x, 2);
-  converted_free(&c);
-  sbfi_scene_free(&scene);
-  make_at(&scene, 2, 0, 0, true);
-  converted_scene(&c, &scene, &scene, &options);
-  ck_assert_float_eq(c.asset->bones.at[0].head.x, 2);
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 0);
-  converted_free(&c);
-  sbfi_scene_free(&scene);
-}
-END_TEST
-
 int main(void) {
   Suite *suite = suite_create("convert_ground");
   TCase *tests = tcase_create("all");
@@ -176,8 +107,6 @@ int main(void) {
   tcase_add_test(tests, who_stands_stays);
   tcase_add_test(tests, what_does_not_walk_stays);
   tcase_add_test(tests, clips_go_along);
-  tcase_add_test(tests, who_stands_aside_is_moved_to_the_origin);
-  tcase_add_test(tests, what_has_no_middle_stays);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -41,8 +41,6 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
-/* After meshes: moves a character that stands beside the origin to it. */
-sbf_status sbfi_stand_at_origin(sbfi_conversion *c);
 /* After meshes: determines locomotion (c->locomotion) from shape, names and clips, or from the caller's
  * options. */
 sbf_status sbfi_evaluate_gait(sbfi_conversion *c);

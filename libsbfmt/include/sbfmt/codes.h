@@ -279,7 +279,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_NO_BONES = 952, /* The rig's file has no skeleton. */
   SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
   SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards: they were reversed. */
-  SBF_CODE_IMPORT_GROUND = 955, /* The character was not on y = 0 or not at the origin and was moved there. */
+  SBF_CODE_IMPORT_GROUND = 955, /* The character was not on y = 0 and was moved there. */
   SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: sbfmt info lists them. */
   SBF_CODE_MATERIAL_GUESSED = 957, /* The material of bodies is not stated: sections on bones get soft tissue, other bodies the default, or a modulus that bears their weight. */
   SBF_CODE_IMPORT_FACING = 958, /* The character did not face +Z and was rotated. */
