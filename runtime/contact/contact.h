@@ -30,10 +30,9 @@ typedef struct sbri_contact_tables {
   uint32_t *contact_counts;
   struct sbri_external_bodies *external_bodies; /* of the body */
   struct sbri_touching *touched;                /* contacts of the body in the previous tick; for events */
-  uint8_t *slot_contacts;       /* (slots) scratch: number of contacts of each point, as far as it matters */
-  sbri_contact_choice *choices; /* (slots x SBRI_POINT_CONTACTS) scratch: the best of each point */
-  const sbri_skin *surface;     /* of the body, at its present positions */
-  struct sbri_box *self_boxes;  /* scratch of the body for self contact */
+  uint8_t *slot_contacts;      /* (slots) scratch: number of contacts that move each point, capped at 2 */
+  const sbri_skin *surface;    /* of the body, at its present positions */
+  struct sbri_box *self_boxes; /* scratch of the body for self contact */
   struct sbri_moving_ball *self_balls;
   struct sbri_bounds_node *self_nodes;
   uint32_t *self_items;
@@ -47,10 +46,10 @@ void sbri_contact_prepare(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
 
 /* Number of recent substeps in the mean, and the fraction of what the mean owes that is added to it. With 12
- * substeps and nothing added, blocks slide too fast by up to 5 %; with most of the last change added, fat and
- * jelly of 10 mm cells slide too fast or creep. */
+ * substeps and nothing added, blocks slide too fast by up to 5 %; with a third added, those that stick and
+ * slip by 3e-4 of gravity. */
 #define SBRI_PRESSING_SUBSTEPS 6.0f
-#define SBRI_PRESSING_OWED_FRACTION (1.0f / 3)
+#define SBRI_PRESSING_OWED_FRACTION (2.0f / 3)
 /* s: time of a contact that has pressed once in the tick. */
 #define SBRI_PRESSING_BEGUN_S 1e-20f
 /* m/s: minimum closing speed of a contact that strikes. */

@@ -5,7 +5,6 @@
 
 #include "collide/ground.h"
 #include "collide/touching.h"
-#include "contact/contact_selection.h"
 #include "contact/sample_motion.h"
 
 /* Of a body's size. */
@@ -161,7 +160,7 @@ static float lowest_of(const sbri_island_tick *t, const sbri_sample_group *group
   return low - group->beyond * (high - low);
 }
 
-/* ---- Flat ground: by heights alone, and only what is selected becomes a contact ---- */
+/* ---- Flat ground: by heights alone ---- */
 
 typedef struct flat_search {
   const sbri_island_tick *tick;
@@ -178,7 +177,7 @@ static void find_heights(const flat_search *f, uint32_t begin, uint32_t end, sbr
         f->tick->positions[slot].y - f->height, f->tick->tick_s * sbri_point_velocity(f->tick, slot).y, 0, 0};
 }
 
-static void choose_samples(const flat_search *f, const sbri_sample_group *group) {
+static void add_group(const flat_search *f, const sbri_sample_group *group) {
   for (uint32_t i = group->first; i < group->end; i++) {
     const sbri_sample *s = &f->body->samples[i];
     float gap = 0, rise = 0;
@@ -186,32 +185,17 @@ static void choose_samples(const flat_search *f, const sbri_sample_group *group)
       const sbri_point *p = &f->heights[s->slots[k]];
       gap += s->weights[k] * p->x, rise += s->weights[k] * p->y;
     }
-    rise = rise < 0 ? rise : 0;
-    if (gap + 2 * rise > f->margin || !(s->mass_kg > 0)) continue;
-    uint32_t slot = sbri_main_slot(s);
-    sbri_contact_choose(f->tables->choices + (size_t)SBRI_POINT_CONTACTS * slot,
-        &f->tables->slot_contacts[slot], sbri_contact_choice_of(f->body, i, gap + rise, i));
+    if (gap + 2 * (rise < 0 ? rise : 0) > f->margin || !(s->mass_kg > 0)) continue;
+    add_contact(f->tick, f->body, s, sbri_vec3(0, 1, 0), f->height, f->tables);
   }
-}
-
-static void add_chosen(const flat_search *f, uint32_t slot) {
-  const sbri_contact_choice *best = f->tables->choices + (size_t)SBRI_POINT_CONTACTS * slot;
-  for (uint32_t i = 0; i < f->tables->slot_contacts[slot]; i++)
-    add_contact(f->tick, f->body, &f->body->samples[best[i].item], sbri_vec3(0, 1, 0), f->height, f->tables);
 }
 
 static void add_on_flat_ground(const flat_search *f, float reach) {
   const sbri_island *island = f->tick->island;
-  uint8_t *counts = f->tables->slot_contacts;
-  memset(counts + f->body->slot_begin, 0, f->body->slot_end - f->body->slot_begin);
-  memset(counts + island->free_count, 0, island->slot_count - island->free_count);
   find_heights(f, f->body->slot_begin, f->body->slot_end, f->tick->velocity_points);
   if (f->body->is_pinned) find_heights(f, island->free_count, island->slot_count, f->tick->velocity_points);
   for (uint32_t g = 0; g < f->body->sample_group_count; g++)
-    if (lowest_of(f->tick, &f->body->sample_groups[g]) <= reach)
-      choose_samples(f, &f->body->sample_groups[g]);
-  for (uint32_t slot = f->body->slot_begin; slot < f->body->slot_end; slot++) add_chosen(f, slot);
-  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) add_chosen(f, slot);
+    if (lowest_of(f->tick, &f->body->sample_groups[g]) <= reach) add_group(f, &f->body->sample_groups[g]);
 }
 
 void sbri_ground_contacts_add(
@@ -236,5 +220,4 @@ void sbri_ground_contacts_add(
       add_sample(t, body, &s, margin, to);
     }
   }
-  sbri_contacts_select(t, body, 0, to);
 }

@@ -1,7 +1,6 @@
 #include "contact/soft_shape_contacts.h"
 
 #include "collide/colliders.h"
-#include "contact/contact_selection.h"
 #include "contact/sample_motion.h"
 #include "contact/shape_edges.h"
 #include "model/reach.h"
@@ -121,9 +120,7 @@ void sbri_soft_shape_contacts_add(
     shape_pair m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
         from_world(t, &set->bounds[item], longest), sbri_box_grown(c->shape->bounds, longest * t->scale),
         fastest * t->scale};
-    uint32_t before = tables->contact_counts[body - t->model->bodies];
     add_all(&m);
-    if (body->samples) sbri_contacts_select(t, body, before, tables);
     if (body->coarse_edge_count) sbri_shape_edges_add(&m);
   }
 }

@@ -90,7 +90,6 @@ typedef struct sbri_island_tick {
   uint32_t *contact_block_counts;     /* (bodies of the model) */
   uint8_t *contact_slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
   float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
-  float *slide_rates;             /* (bodies of the model) of solvers/slide_damping.h, 1/s; NULL: none */
   const uint32_t *contact_counts; /* (bodies of the model) NULL: none */
   float *rests, *strengths;       /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations; /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */

@@ -330,18 +330,18 @@ typedef struct sbri_island {
 
 /* Offsets of the parts of a character's state and scratch memory, bytes. */
 typedef struct sbri_layout {
-  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, driver_motions,
-      slide_rates, rests, strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales,
-      thread_ends, thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells,
-      bound_to, torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, loads,
-      used_size, state_size;
+  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, driver_motions, rests,
+      strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, thread_ends,
+      thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
+      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, loads, used_size,
+      state_size;
   size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work_size;
   size_t deltas, previous_deltas, gait_before, targets, driver_velocities, begins, velocity_points, planes,
       pressing, near_ground;
   size_t element_forces;
   size_t contacts, contact_counts, contact_blocks, contact_block_counts, contact_slots, contact_islands,
-      external_bodies, slot_contacts, contact_choices, contact_weights, touching, rigid_touching, self_boxes,
-      self_balls, self_nodes, self_items, self_edges;
+      external_bodies, slot_contacts, contact_weights, touching, rigid_touching, self_boxes, self_balls,
+      self_nodes, self_items, self_edges;
   size_t external_forces, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,

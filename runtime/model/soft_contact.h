@@ -43,14 +43,6 @@ typedef struct sbri_soft_contact {
   sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
 } sbri_soft_contact;
 
-/* Contacts of one collider that stay at each point of a body with samples (contact/contact_selection.h). With
- * 4 a lattice of 20 kPa dips 3 mm into the ground where it strikes, 2 mm with all of them. */
-enum { SBRI_POINT_CONTACTS = 8 };
-typedef struct sbri_contact_choice {
-  uint32_t item, rank;
-  float depth; /* gap in units that are told apart */
-} sbri_contact_choice;
-
 /* Eight contacts of a body with ground and colliders, which no impulse of the body moves. An unused lane has
  * weights of 0 and lies far from its plane. */
 typedef struct sbri_contact_block {

@@ -36,7 +36,7 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
-    sbri_slide_damping_find(t, body, &rule);
+    if (sbri_may_collide(t, body)) sbri_slide_damp(t, body, &rule);
     sbri_soft_contacts_advance(t, body, h);
   }
 }

@@ -20,7 +20,6 @@
 #include "solvers/region_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
-#include "solvers/slide_damping.h"
 #include "solvers/soft_contacts.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
@@ -185,16 +184,14 @@ static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint
   return sbri_planes_load(t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
 }
 
-/* Whether loads, contacts or damping act on the body, which need all its velocities at once. */
+/* Whether loads or contacts act on the body, which need all its velocities at once. */
 static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body *body) {
-  return sbri_soft_contact_count(t, body) > 0 || sbri_is_loaded(t, body) || sbri_is_slide_damped(t, body);
+  return sbri_soft_contact_count(t, body) > 0 || sbri_is_loaded(t, body);
 }
 
-/* Applies damping of what slides, loads of the host and contact impulses to the velocities of the coming
- * substep. */
+/* Applies loads of the host and contact impulses to the velocities of the coming substep. */
 static inline void sbri_apply_impulses(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
-  sbri_slide_damp(t, body, velocities, rule->step_s);
   if (t->load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
   if (sbri_contact_block_count(t, body))
     sbri_contact_solve(t, body, velocities, rule);

@@ -15,16 +15,7 @@
 
 #include "contact/contact.h"
 
-/* Finds the rate of the damping from the contacts of a substep, into tick->slide_rates. */
-void sbri_slide_damping_find(
-    const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_rule *rule);
-
-static inline bool sbri_is_slide_damped(const sbri_island_tick *tick, const sbri_body *body) {
-  return tick->slide_rates && tick->slide_rates[body - tick->model->bodies] > 0;
-}
-
-/* Damps `velocities` by the rate of the substep before, between the forces and the contacts of a substep: a
- * symplectic step whose velocities are damped after the positions moved is stable for half the stiffness. */
-void sbri_slide_damp(const sbri_island_tick *tick, const sbri_body *body, float *velocities, float step_s);
+/* Applies the damping, after the contacts of a substep. */
+void sbri_slide_damp(const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_rule *rule);
 
 #endif

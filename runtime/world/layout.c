@@ -45,13 +45,6 @@ static uint32_t max_contacts(const sbri_body *body) {
   return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + edges + 64 : 0;
 }
 
-/* More contacts than fit, as when the whole surface of a body touches something at once, are solved in
- * sequence. */
-static uint32_t max_contact_blocks(const sbri_body *body) {
-  uint32_t contacts = SBRI_POINT_CONTACTS / 2 * (body->slot_end - body->slot_begin) + 8 * SBRI_BLOCK;
-  return ((contacts < body->max_contacts ? contacts : body->max_contacts) + SBRI_BLOCK - 1) / SBRI_BLOCK;
-}
-
 /* Offsets of each body's part in the arrays that all bodies share. */
 static void distribute(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
@@ -62,7 +55,7 @@ static void distribute(sbr_model *model, extents *e) {
     body->first_self_face = (uint32_t)e->self_faces;
     body->max_contacts = max_contacts(body);
     body->first_contact_block = (uint32_t)e->contact_blocks;
-    body->max_contact_blocks = max_contact_blocks(body);
+    body->max_contact_blocks = (body->max_contacts + SBRI_BLOCK - 1) / SBRI_BLOCK;
     e->surface += padded(body->surface.vertex_count);
     e->surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
     e->contacts += body->max_contacts;
@@ -87,7 +80,6 @@ static void lay_out_state(sbr_model *model) {
   l->positions = position(&end, slots, sizeof(sbri_point));
   l->previous_positions = position(&end, slots, sizeof(sbri_point));
   l->velocities = position(&end, 3 * slots, sizeof(float));
-  l->slide_rates = position(&end, model->asset->soft_bodies.count, sizeof(float));
   l->driver_motions = position(&end, model->asset->soft_bodies.count, sizeof(sbri_driver_motion));
   l->rests = position(&end, model->flow_count, sizeof(float));
   l->strengths = position(&end, model->flow_count, sizeof(float));
@@ -154,7 +146,6 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->external_bodies =
       position(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_external_bodies));
   l->slot_contacts = position(&end, slots, 1);
-  l->contact_choices = position(&end, SBRI_POINT_CONTACTS * slots, sizeof(sbri_contact_choice));
   l->contact_weights = position(&end, slots, sizeof(float));
   l->self_boxes = position(&end, e->self_faces, sizeof(sbri_box));
   l->self_balls = position(&end, e->self_faces, sizeof(sbri_moving_ball));

@@ -134,10 +134,9 @@ SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)              
 SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
 SBRI_STATE_PART(driver_motions, sbri_driver_motion, c->model->layout.driver_motions) /* (bodies) */
-SBRI_STATE_PART(slide_rates, float, c->model->layout.slide_rates) /* (bodies) solvers/slide_damping.h, 1/s */
-SBRI_STATE_PART(rests, float, c->model->layout.rests)             /* (flow_count) m, rest lengths */
-SBRI_STATE_PART(strengths, float, c->model->layout.strengths)     /* (flow_count) 1, or 0 where torn */
-SBRI_STATE_PART(rotations, float, c->model->layout.rotations)     /* (region_block_count x 4 x 8) */
+SBRI_STATE_PART(rests, float, c->model->layout.rests)                    /* (flow_count) m, rest lengths */
+SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flow_count) 1, or 0 where torn */
+SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
 SBRI_STATE_PART(solids, sbri_tetrahedron_block, c->model->layout.solids) /* (solid_block_count) */
 SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (solid_count) sbri_torn_state */
 /* Only in models whose elements may tear: the origin of each slot (SBRI_UNUSED for a spare slot), its mass;
@@ -211,10 +210,8 @@ SBRI_SCRATCH_PART(
     external_bodies_of, struct sbri_external_bodies, c->model->layout.external_bodies) /* (bodies) */
 SBRI_SCRATCH_PART(contact_weights, float, c->model->layout.contact_weights)            /* (slot_count) */
 SBRI_SCRATCH_PART(slot_contacts, uint8_t, c->model->layout.slot_contacts)              /* (slot_count) */
-SBRI_SCRATCH_PART(
-    contact_choices, sbri_contact_choice, c->model->layout.contact_choices)       /* (slot_count x 4) */
-SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)        /* (bodies) */
-SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
+SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)             /* (bodies) */
+SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching)      /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
 SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, c->model->layout.self_balls)
 SBRI_SCRATCH_PART(
