@@ -90,7 +90,7 @@ class NoNumbers(ProgramTest):
         self.good("convert", write_bytes(self.path("in.fbx"), FBX.format("0.5").encode()), "--no-build", "-o", self.path("x.sbf"))
         for number in NO_NUMBERS:
             with self.subTest(number):
-                said = f"line 10 holds {number.lstrip('-')}" if "#" in number else "infinity or NaN"
+                said = f"line 10 holds {number.lstrip('-')}" if "#" in number else "is infinite or NaN"
                 self.refused("in.fbx", FBX.format(number), said)
 
     def test_collada(self):
