@@ -18,6 +18,14 @@ static inline sbf_vec3 sbri_sample_velocity(const sbri_island_tick *t, const sbr
   return v;
 }
 
+/* Gap of a contact at the end of the tick if nothing changes its velocity, m; now, if it opens. */
+static inline float sbri_contact_predicted_gap(const sbri_island_tick *t, const sbri_soft_contact *contact) {
+  sbf_vec3 n = contact->normal, v = sbri_sample_velocity(t, &contact->sample);
+  float gap = sbri_dot(n, sbri_sample_position(t, &contact->sample)) - contact->offset;
+  float speed = sbri_dot(n, contact->external_body ? v : sbri_sub(v, contact->velocity));
+  return gap + t->tick_s * (speed < 0 ? speed : 0);
+}
+
 /* A point of the level as a sample. */
 static inline sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t slot) {
   return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};

@@ -8,6 +8,7 @@
 
 #include "model/load.h"
 #include "model/runtime_model.h"
+#include "model/soft_contact.h"
 
 /* Elements that tore in a tick: their number and the first SBRI_TEARS of them. */
 enum { SBRI_TEARS = 16 };
@@ -24,48 +25,6 @@ typedef struct sbri_tears {
 
 /* State of a tetrahedron that may tear. */
 enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
-
-#define SBRI_NO_COLLIDER UINT32_MAX
-#define SBRI_ITSELF (UINT32_MAX - 1)
-
-/* How a contact pressed in recent substeps of the tick (contact/contact.h): the sum of its normal velocity
- * changes and their time. time_s < 0: it struck in this tick. */
-typedef struct sbri_pressing {
-  float velocity_change, time_s; /* m/s, s */
-  float owed;                    /* by which bounds of friction fell short of the velocity changes, m/s */
-} sbri_pressing;
-
-/* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
- * several. */
-typedef struct sbri_soft_contact {
-  sbri_sample sample; /* weights in this tick */
-  sbf_vec3 normal;    /* unit */
-  float offset;       /* n . x of the plane at the beginning of the present substep */
-  union {
-    sbf_vec3 velocity; /* velocity of the other surface, m/s */
-    sbf_vec3 arm;      /* lever arm from the external body's centre of mass */
-  };
-  float friction_scale, restitution; /* factor on the body's friction coefficient; restitution */
-  uint32_t collider;     /* index of the collider, SBRI_NO_COLLIDER for the ground, or SBRI_ITSELF for self
-                            contact (the other side's points have negative weights) */
-  bool edges;            /* self contact of two edges: the first two points against the last two */
-  bool crosses;          /* self contact: the edges have passed through each other */
-  bool alone;            /* the sample is a single free point that no other contact moves */
-  uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
-                            (collide/external_body.h); 0: none */
-  /* Solver state (solvers/soft_contacts.c): */
-  float gap, wanted;     /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
-  float fraction;        /* relaxation factor of an iteration; 1: solved in sequence */
-  bool pushes;           /* active in this substep */
-  float velocity_change; /* normal velocity change by the contact, m/s */
-  sbf_vec3 friction_impulse; /* friction, tangential */
-  sbri_pressing pressing;    /* before this substep */
-  float pushed;              /* maximum velocity_change in the tick */
-  float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
-  sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
-  float fast_m_s;            /* bound of its approach speed in the tick, without forces, m/s; 0: unbounded */
-  float idle_s;              /* time until it may touch, s */
-} sbri_soft_contact;
 
 /* Impulse and angular impulse of soft bodies on a rigid body about `about`, N s and N m s. The inverse mass
  * and the largest inverse moment of inertia are 0 for a body that does not move.
@@ -126,7 +85,10 @@ typedef struct sbri_island_tick {
   float *pressing; /* (free_count x 2) scratch: sbri_pressing of each point, blocks of two by eight */
   sbri_soft_contact *contacts; /* of the character; see sbri_body.first_soft_contact */
   struct sbri_external_bodies
-      *external_bodies;           /* (bodies of the model) collide/external_body.h; NULL: none */
+      *external_bodies;               /* (bodies of the model) collide/external_body.h; NULL: none */
+  sbri_contact_block *contact_blocks; /* of the character; see sbri_body.first_contact_block */
+  uint32_t *contact_block_counts;     /* (bodies of the model) */
+  uint8_t *contact_slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
   float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
   const uint32_t *contact_counts; /* (bodies of the model) NULL: none */
   float *rests, *strengths;       /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */

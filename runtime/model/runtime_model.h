@@ -187,10 +187,11 @@ typedef struct sbri_body {
   const uint32_t
       *coarse_edges; /* (coarse_edge_count x 2) edges of its surface: samples, or slots without samples */
   uint32_t coarse_edge_count;
-  uint32_t first_soft_contact, max_contacts; /* its part of the contacts in a character's scratch */
-  const uint32_t *self_faces;                /* (self_face_count x 3) slots; NULL: no self contact */
-  uint32_t self_face_count, first_self_face; /* first in a character's scratch */
-  const uint32_t *self_sides;                /* (self_face_count x 3) as collide/sides.h has them */
+  uint32_t first_soft_contact, max_contacts;        /* its part of the contacts in a character's scratch */
+  uint32_t first_contact_block, max_contact_blocks; /* its part of their blocks */
+  const uint32_t *self_faces;                       /* (self_face_count x 3) slots; NULL: no self contact */
+  uint32_t self_face_count, first_self_face;        /* first in a character's scratch */
+  const uint32_t *self_sides;                       /* (self_face_count x 3) as collide/sides.h has them */
   const uint32_t
       *self_ring_begins; /* (slots of the island + 1) begin in self_ring of each slot's edge neighbours */
   const uint32_t *self_ring;
@@ -338,8 +339,9 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, driver_velocities, begins, velocity_points, planes,
       pressing, near_ground;
   size_t element_forces;
-  size_t contacts, contact_counts, contact_islands, external_bodies, slot_contacts, contact_weights, touching,
-      rigid_touching, self_boxes, self_balls, self_nodes, self_items, self_edges;
+  size_t contacts, contact_counts, contact_blocks, contact_block_counts, contact_slots, contact_islands,
+      external_bodies, slot_contacts, contact_weights, touching, rigid_touching, self_boxes, self_balls,
+      self_nodes, self_items, self_edges;
   size_t external_forces, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,

@@ -1,5 +1,7 @@
 /* Fills sbri_island_tick, the input of the time integrators: tables, points and contacts of one island.
  * Reports the contacts afterwards. */
+#include <string.h>
+
 #include "collide/external_body.h"
 #include "contact/contact.h"
 #include "math/vec3.h"
@@ -31,6 +33,7 @@ void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
       sbri_ground_pressing(c) + 2 * first, sbri_contacts(c), sbri_contact_counts(c), NULL, NULL,
       sbri_slot_contacts(c) + first, NULL, NULL, NULL, NULL, NULL, NULL};
+  memset(tick->contact_slots, 0, (tick->island->slot_count + SBRI_BLOCK - 1) / SBRI_BLOCK);
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
@@ -79,6 +82,9 @@ sbri_island_tick sbri_island_tick_of(
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .contacts = sbri_contacts(c),
       .contact_counts = sbri_contact_counts(c),
+      .contact_blocks = sbri_contact_blocks(c),
+      .contact_block_counts = sbri_contact_block_counts(c),
+      .contact_slots = sbri_contact_slots(c) + first / SBRI_BLOCK,
       .contact_weights = sbri_contact_weights(c) + first,
       .external_bodies = sbri_external_bodies_of(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,

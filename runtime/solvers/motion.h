@@ -13,6 +13,7 @@
 
 #include "contact/contact.h"
 #include "math/trig.h"
+#include "solvers/contact_lanes.h"
 #include "solvers/external_forces.h"
 #include "solvers/loads.h"
 #include "solvers/reaction.h"
@@ -192,7 +193,10 @@ static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body 
 static inline void sbri_apply_impulses(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   if (t->load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
-  sbri_soft_contacts_solve(t, body, velocities, rule);
+  if (sbri_contact_block_count(t, body))
+    sbri_contact_solve(t, body, velocities, rule);
+  else
+    sbri_soft_contacts_solve(t, body, velocities, rule);
 }
 
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {

@@ -3,13 +3,13 @@
 #include <math.h>
 
 #include "collide/external_body.h"
+#include "contact/contact_block.h"
 #include "contact/self_contacts.h"
 #include "math/vec3.h"
 #include "solvers/pinned_impulse.h"
 
-/* While some speed changes by more than this in a pass, another follows, in m/s: up to the passes that are
- * enough at rest, and up to the most. */
-static const float RESTING_M_S = 1e-3f, STRUCK_M_S = 0.05f;
+/* While some speed changes by more than this in a pass, another follows, in m/s. */
+static const float RESTING_M_S = 1e-3f;
 
 /* What could not reach its plane in the substep if it were this much faster waits for the next one, in m/s:
  * most places near the ground do not touch it, and none of them is to cost passes. */
@@ -21,9 +21,8 @@ static const float CONTACT_DISTANCE_M = 1e-5f;
 /* Friction at this share of its limit slides. */
 static const float SLIDES_FRACTION = 0.999f;
 
-/* In one substep. By row sums two are enough where there are pushes to go on from; a light external body
- * hangs from all that touches it at once. */
-enum { PASSES = 2, MAX_PASSES = 16, MAX_EXTERNAL_BODY_PASSES = 64 };
+/* In one substep; a light external body hangs from all that touches it at once. */
+enum { MAX_PASSES = 16, MAX_EXTERNAL_BODY_PASSES = 64 };
 static const float FINER_WITH_EXTERNAL_BODIES = 10;
 
 typedef struct touching {
@@ -33,8 +32,6 @@ typedef struct touching {
   sbri_soft_contact *contacts;
   uint32_t count;
   sbri_external_bodies *external_bodies; /* NULL: there are none */
-  bool in_turn; /* each push sees those before it; else all are found together, by row sums */
-  bool changed; /* others push, or may, than in the substep before */
 } touching;
 
 static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
@@ -47,8 +44,7 @@ static touching touching_of(const sbri_island_tick *t, const sbri_body *body, fl
       .velocities = velocities,
       .contacts = t->contacts + body->first_soft_contact,
       .count = count,
-      .external_bodies = external_bodies,
-      .in_turn = external_bodies != NULL};
+      .external_bodies = external_bodies};
 }
 
 static sbri_external_body *external_body_of(const touching *c, const sbri_soft_contact *contact) {
@@ -122,27 +118,14 @@ static void push_external_body(const touching *c, const sbri_soft_contact *conta
       external_body_of(c, contact), contact->arm, sbri_scale(faster, -contact->sample.mass_kg));
 }
 
-static float friction_of(const touching *c, const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
-  const sbri_sample *s = &contact->sample;
-  if (contact->crosses) return 0;
-  if (!rule->frictions) return rule->friction * contact->friction_scale;
-  float sum = 0;
-  if (contact->collider == SBRI_ITSELF) /* of the point alone */
-    return s->slots[0] < c->tick->island->free_count ? rule->frictions[s->slots[0]] : rule->friction;
-  for (int k = 0; k < 4; k++) {
-    bool free = s->slots[k] < c->tick->island->free_count;
-    sum += s->weights[k] * (free ? rule->frictions[s->slots[k]] : rule->friction);
-  }
-  return sum > 0 ? sum * contact->friction_scale : 0;
-}
-
 /* The most friction of a contact that presses so in the substep, as a velocity change. */
 static float max_friction_of(const touching *c, const sbri_soft_contact *contact,
     float normal_velocity_change, const sbri_contact_rule *rule) {
   if (!(normal_velocity_change > 0)) return 0;
   sbri_pressing with =
       sbri_pressing_add(contact->pressing, normal_velocity_change, contact->closing_speed, rule->step_s);
-  return friction_of(c, contact, rule) * sbri_pressing_bound(with, normal_velocity_change, rule->step_s);
+  return sbri_contact_friction_at(c->tick, c->body, contact) *
+         sbri_pressing_bound(with, normal_velocity_change, rule->step_s);
 }
 
 /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
@@ -150,14 +133,6 @@ static float wanted_of(const sbri_soft_contact *contact, float speed, const sbri
   float arriving = contact->gap > 0 ? -contact->gap / rule->step_s : 0, back = -contact->restitution * speed;
   bool bounces = contact->gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s;
   return bounces && back > arriving ? back : arriving;
-}
-
-/* How long a place so far from its plane cannot get there, by what it was taken for a place that may touch
- * within the tick: its speed, twice, and what springs and weight add, which grows with the square of time. */
-static float idle_time(const touching *c, const sbri_soft_contact *contact, float gap) {
-  float max = SBRI_MOTION_FRACTION * c->body->rest_size_m, travel = contact->fast_m_s * c->tick->tick_s;
-  if (!(gap > 0) || !(contact->fast_m_s > 0) || !(max > 0)) return 0;
-  return c->tick->tick_s * (2 * gap / (travel + sqrtf(travel * travel + 4 * max * gap)));
 }
 
 /* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
@@ -204,13 +179,7 @@ static bool begin(touching *c, sbri_soft_contact *contact, const sbri_contact_ru
   contact->gap = gap_of(c, contact);
   if (contact->gap + rule->step_s * speed < 0) note_closing_speed(contact, speed);
   contact->wanted = wanted_of(contact, speed, rule);
-  c->in_turn = c->in_turn || contact->collider == SBRI_ITSELF;
-  bool pushes = contact->velocity_change > 0 || contact->gap + rule->step_s * speed < 0;
-  c->changed = c->changed || pushes != contact->pushes;
-  contact->pushes = pushes;
-  if (contact->velocity_change > 0 || contact->gap < rule->step_s * (NEAR_M_S - speed)) return true;
-  contact->idle_s = idle_time(c, contact, contact->gap - rule->step_s * NEAR_M_S);
-  return false;
+  return contact->velocity_change > 0 || contact->gap < rule->step_s * (NEAR_M_S - speed);
 }
 
 /* What is below its plane and was pushed goes up, at a limited rate. */
@@ -249,9 +218,8 @@ static uint32_t begin_all(touching *c, const sbri_contact_rule *rule) {
   uint32_t near = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     sbri_soft_contact *contact = &c->contacts[i];
-    contact->idle_s -= rule->step_s;
     if (contact->alone) answer_alone(c, contact, rule);
-    if (contact->alone || contact->idle_s > rule->step_s || !begin(c, contact, rule)) continue;
+    if (contact->alone || !begin(c, contact, rule)) continue;
     sbri_soft_contact first = c->contacts[near];
     c->contacts[near++] = c->contacts[i];
     c->contacts[i] = first;
@@ -262,12 +230,10 @@ static uint32_t begin_all(touching *c, const sbri_contact_rule *rule) {
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   sbf_vec3 v = sbri_sub(velocity_of(c, contact), contact->velocity), n = contact->normal;
-  float speed = sbri_dot(n, v),
-        normal_velocity_change = contact->velocity_change + contact->fraction * (contact->wanted - speed);
+  float speed = sbri_dot(n, v), normal_velocity_change = contact->velocity_change + contact->wanted - speed;
   if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
-  sbf_vec3 friction_impulse =
-      sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -contact->fraction);
+  sbf_vec3 friction_impulse = sbri_sub(contact->friction_impulse, sbri_add_scaled(v, n, -speed));
   float size = sbri_length(friction_impulse), max = max_friction_of(c, contact, normal_velocity_change, rule);
   if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
@@ -303,38 +269,6 @@ static float correct_with_external_body(
   return sbri_length(change) * (FINER_WITH_EXTERNAL_BODIES + s->mass_kg * g->max_inverse_mass);
 }
 
-/* The shares by row sums: 1 / sum_k |w_k| W_k / m_k in place of 1 / sum_k w_k^2 / m_k, W_k the sum of |w| of
- * all that push the point k. */
-static void distribute(const touching *c) {
-  const sbri_island *island = c->tick->island;
-  float *sums = c->tick->contact_weights;
-  for (uint32_t i = 0; i < c->count; i++)
-    for (int k = 0; k < 4; k++) sums[c->contacts[i].sample.slots[k]] = 0;
-  for (uint32_t i = 0; i < c->count; i++)
-    for (int k = 0; c->contacts[i].pushes && k < 4; k++)
-      sums[c->contacts[i].sample.slots[k]] += fabsf(c->contacts[i].sample.weights[k]);
-  for (uint32_t i = 0; i < c->count; i++) {
-    const sbri_sample *s = &c->contacts[i].sample;
-    float sum = 0;
-    for (int k = 0; k < 4; k++)
-      if (s->slots[k] < island->free_count)
-        sum += fabsf(s->weights[k]) * sums[s->slots[k]] * island->inverse_masses[s->slots[k]];
-    c->contacts[i].fraction = c->contacts[i].pushes ? 1 / (sum * s->mass_kg) : 0;
-  }
-}
-
-/* Gives each its share, and says after how many passes small changes are left. */
-static int begin_passes(const touching *c) {
-  bool pushed = false;
-  if (!c->in_turn && c->changed) distribute(c);
-  for (uint32_t i = 0; i < c->count; i++) {
-    if (c->in_turn) c->contacts[i].fraction = 1;
-    pushed = pushed || c->contacts[i].velocity_change > 0;
-  }
-  if (c->external_bodies) return MAX_EXTERNAL_BODY_PASSES;
-  return c->in_turn || !pushed ? MAX_PASSES : PASSES;
-}
-
 /* Goes on from the pushes of the substep before. */
 static void push_as_before(const touching *c) {
   for (uint32_t i = 0; i < c->count; i++) {
@@ -358,10 +292,10 @@ void sbri_soft_contacts_solve(
   touching c = touching_of(t, body, velocities);
   if (c.external_bodies) sbri_external_bodies_begin(c.external_bodies, rule->step_s);
   c.count = begin_all(&c, rule);
-  const int passes = begin_passes(&c), max_passes = passes > MAX_PASSES ? passes : MAX_PASSES;
+  const int passes = c.external_bodies ? MAX_EXTERNAL_BODY_PASSES : MAX_PASSES;
   push_as_before(&c);
-  float max = STRUCK_M_S;
-  for (int pass = 0; pass < max_passes && max >= (pass < passes ? RESTING_M_S : STRUCK_M_S); pass++) {
+  float max = RESTING_M_S;
+  for (int pass = 0; pass < passes && max >= RESTING_M_S; pass++) {
     max = 0;
     for (uint32_t i = 0; i < c.count; i++) {
       sbri_soft_contact *contact = &c.contacts[pass % 2 ? c.count - 1 - i : i];
@@ -377,18 +311,36 @@ void sbri_soft_contacts_solve(
   }
 }
 
+static void add_sliding(sbri_sliding *sum, float mass, float load, float limit, sbf_vec3 friction) {
+  sum->load += mass * load, sum->limit += mass * limit;
+  if (limit > 0 && sbri_length(friction) > SLIDES_FRACTION * limit)
+    sum->friction = sbri_add_scaled(sum->friction, friction, mass);
+}
+
+static sbri_sliding sum_sliding_of_blocks(const sbri_island_tick *t, const sbri_body *body) {
+  sbri_sliding sum = {0, 0, {0, 0, 0}};
+  const sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
+  for (uint32_t b = 0; b < sbri_contact_block_count(t, body); b++)
+    for (uint32_t i = 0; blocks[b].is_near && blocks[b].pushes && i < SBRI_BLOCK; i++) {
+      float load = blocks[b].velocity_change[i], bound = blocks[b].bound[i] + blocks[b].bound_slope[i] * load;
+      if (load > 0)
+        add_sliding(&sum, blocks[b].mass_kg[i], load, blocks[b].friction[i] * (bound > 0 ? bound : 0),
+            sbri_vec3(blocks[b].friction_impulse[0][i], blocks[b].friction_impulse[1][i],
+                blocks[b].friction_impulse[2][i]));
+    }
+  return sum;
+}
+
 sbri_sliding sbri_soft_contacts_sum_sliding(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, t->velocities);
   sbri_sliding sum = {0, 0, {0, 0, 0}};
+  if (sbri_contact_block_count(t, body)) return sum_sliding_of_blocks(t, body);
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_soft_contact *contact = &c.contacts[i];
     if (!(contact->velocity_change > 0) || contact->collider == SBRI_ITSELF) continue;
-    float mass = contact->sample.mass_kg,
-          limit = max_friction_of(&c, contact, contact->velocity_change, rule);
-    sum.load += mass * contact->velocity_change, sum.limit += mass * limit;
-    if (limit > 0 && sbri_length(contact->friction_impulse) > SLIDES_FRACTION * limit)
-      sum.friction = sbri_add_scaled(sum.friction, contact->friction_impulse, mass);
+    float limit = max_friction_of(&c, contact, contact->velocity_change, rule);
+    add_sliding(&sum, contact->sample.mass_kg, contact->velocity_change, limit, contact->friction_impulse);
   }
   return sum;
 }
@@ -396,6 +348,10 @@ sbri_sliding sbri_soft_contacts_sum_sliding(
 void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body, float step_s) {
   touching c = touching_of(t, body, t->velocities);
   const bool with = c.external_bodies != NULL;
+  if (sbri_contact_block_count(t, body)) {
+    sbri_contact_blocks_advance(t, body, step_s);
+    return;
+  }
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_soft_contact *contact = &c.contacts[i];
     contact->offset +=
@@ -427,6 +383,7 @@ static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri
 
 void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
   sbri_touching_begin(to);
+  sbri_contact_blocks_unpack(t, body);
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
     const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
     if (contact->collider == SBRI_ITSELF ||
@@ -442,6 +399,7 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
 
 void sbri_soft_contacts_store(const sbri_island_tick *t, const sbri_body *body) {
   touching c = touching_of(t, body, t->velocities);
+  sbri_contact_blocks_unpack(t, body);
   for (uint32_t i = 0; i < c.count; i++) c.contacts[i].gap = gap_of(&c, &c.contacts[i]);
 }
 
@@ -456,7 +414,8 @@ void sbri_soft_contacts_bound(
     sbf_vec3 v = sbri_sub(velocity_of(&c, contact), velocity_under(&c, contact)), n = contact->normal;
     float normal_velocity_change = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
-    float size = sbri_length(sideways), max = friction_of(&c, contact, rule) * normal_velocity_change;
+    float size = sbri_length(sideways),
+          max = sbri_contact_friction_at(t, body, contact) * normal_velocity_change;
     sbf_vec3 change =
         sbri_add_scaled(sbri_scale(n, normal_velocity_change), sideways, size > max ? -max / size : -1);
     push(&c, contact, change);

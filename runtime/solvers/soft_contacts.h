@@ -1,15 +1,14 @@
-/* Contacts of surface samples. An impulse at a sample x = sum w_i x_i changes the velocity of point i by w_i
- * / m_i per unit, and the velocity of the sample by the sum of w_i^2 / m_i: the response to a force on the
- * surface.
+/* Contacts of surface samples, solved in sequence: those of a body with itself and with external bodies, and
+ * with the ground and colliders beside these. All others are solved eight at a time
+ * (solvers/contact_lanes.h).
+ *
+ * An impulse at a sample x = sum w_i x_i changes the velocity of point i by w_i / m_i per unit, and the
+ * velocity of the sample by the sum of w_i^2 / m_i: the response to a force on the surface.
  *
  * Samples share points, so impulses interact. All impulses of a substep are found by projected Gauss-Seidel
  * over accumulated impulses (E. Catto, Iterative Dynamics with Temporal Coherence, 2005), warm started with
- * those of the previous substep. Warm starting keeps resting bodies still.
- *
- * The step length of an impulse is the sum of its row of responses over the active contacts, instead of the
- * diagonal. By Gershgorin's theorem no iteration overshoots, and uniform pressure is exact in one iteration.
- * Contacts with external bodies and self contacts use the diagonal, in sequence and with more iterations.
- * Friction, restitution and penetration follow contact/contact.h. */
+ * those of the previous substep. Warm starting keeps resting bodies still. Friction, restitution and
+ * penetration follow contact/contact.h. */
 #ifndef SBRI_SOFT_CONTACTS_H
 #define SBRI_SOFT_CONTACTS_H
 

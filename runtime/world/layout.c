@@ -18,9 +18,9 @@ size_t sbri_deltas_size(const sbr_model *model) {
 
 /* Room that no one count of the model says. */
 typedef struct extents {
-  size_t vertices, faces, groups; /* of the largest skin */
-  size_t surface, surface_faces;  /* of all bodies' surfaces, padded */
-  size_t contacts, self_faces;    /* of all bodies */
+  size_t vertices, faces, groups;              /* of the largest skin */
+  size_t surface, surface_faces;               /* of all bodies' surfaces, padded */
+  size_t contacts, contact_blocks, self_faces; /* of all bodies */
 } extents;
 
 static size_t larger(size_t a, size_t b) {
@@ -54,9 +54,12 @@ static void distribute(sbr_model *model, extents *e) {
     body->first_soft_contact = (uint32_t)e->contacts;
     body->first_self_face = (uint32_t)e->self_faces;
     body->max_contacts = max_contacts(body);
+    body->first_contact_block = (uint32_t)e->contact_blocks;
+    body->max_contact_blocks = (body->max_contacts + SBRI_BLOCK - 1) / SBRI_BLOCK;
     e->surface += padded(body->surface.vertex_count);
     e->surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
     e->contacts += body->max_contacts;
+    e->contact_blocks += body->max_contact_blocks;
     e->self_faces += body->self_face_count;
   }
 }
@@ -135,6 +138,9 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->pressing = position(&end, 2 * slots, sizeof(float));
   l->near_ground = position(&end, slots / SBRI_BLOCK + 1, 1);
   l->contacts = position(&end, e->contacts, sizeof(sbri_soft_contact));
+  l->contact_blocks = position(&end, e->contact_blocks, sizeof(sbri_contact_block));
+  l->contact_block_counts = position(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->contact_slots = position(&end, slots / SBRI_BLOCK + 1, 1);
   l->contact_islands = position(&end, model->island_count, 1);
   l->contact_counts = position(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->external_bodies =

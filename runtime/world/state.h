@@ -201,6 +201,9 @@ SBRI_SCRATCH_PART(ground_pressing, float, c->model->layout.pressing)         /* 
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
 SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
 SBRI_SCRATCH_PART(contact_counts, uint32_t, c->model->layout.contact_counts) /* (bodies) */
+SBRI_SCRATCH_PART(contact_blocks, sbri_contact_block, c->model->layout.contact_blocks)   /* (contacts / 8) */
+SBRI_SCRATCH_PART(contact_block_counts, uint32_t, c->model->layout.contact_block_counts) /* (bodies) */
+SBRI_SCRATCH_PART(contact_slots, uint8_t, c->model->layout.contact_slots) /* (slot_count / 8) */
 /* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
 SBRI_SCRATCH_PART(contact_islands, uint8_t, c->model->layout.contact_islands)
 SBRI_SCRATCH_PART(

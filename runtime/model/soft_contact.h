@@ -1,0 +1,73 @@
+/* Possible contacts of soft bodies within a tick: one by one as they are found and reported, and eight side
+ * by side as they are solved. */
+#ifndef SBRI_SOFT_CONTACT_H
+#define SBRI_SOFT_CONTACT_H
+
+#include "model/runtime_model.h"
+
+#define SBRI_NO_COLLIDER UINT32_MAX
+#define SBRI_ITSELF (UINT32_MAX - 1)
+
+/* How a contact pressed in recent substeps of the tick (contact/contact.h): the sum of its normal velocity
+ * changes and their time. time_s < 0: it struck in this tick. */
+typedef struct sbri_pressing {
+  float velocity_change, time_s; /* m/s, s */
+  float owed;                    /* by which bounds of friction fell short of the velocity changes, m/s */
+} sbri_pressing;
+
+/* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
+ * several. */
+typedef struct sbri_soft_contact {
+  sbri_sample sample; /* weights in this tick */
+  sbf_vec3 normal;    /* unit */
+  float offset;       /* n . x of the plane at the beginning of the present substep */
+  union {
+    sbf_vec3 velocity; /* velocity of the other surface, m/s */
+    sbf_vec3 arm;      /* lever arm from the external body's centre of mass */
+  };
+  float friction_scale, restitution; /* factor on the body's friction coefficient; restitution */
+  uint32_t collider;     /* index of the collider, SBRI_NO_COLLIDER for the ground, or SBRI_ITSELF for self
+                            contact (the other side's points have negative weights) */
+  bool edges;            /* self contact of two edges: the first two points against the last two */
+  bool crosses;          /* self contact: the edges have passed through each other */
+  bool alone;            /* the sample is a single free point that no other contact moves */
+  uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
+                            (collide/external_body.h); 0: none */
+  /* Solver state (solvers/soft_contacts.c, contact/contact_blocks.c): */
+  float gap, wanted;     /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
+  float velocity_change; /* normal velocity change by the contact, m/s */
+  sbf_vec3 friction_impulse; /* friction, tangential */
+  sbri_pressing pressing;    /* before this substep */
+  float pushed;              /* maximum velocity_change in the tick */
+  float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
+  sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
+} sbri_soft_contact;
+
+/* Eight contacts of a body with ground and colliders, which no impulse of the body moves. An unused lane has
+ * weights of 0 and lies far from its plane. */
+typedef struct sbri_contact_block {
+  uint32_t slots[4][SBRI_BLOCK];
+  uint32_t contacts[SBRI_BLOCK]; /* of the body; UINT32_MAX: an unused lane */
+  float weights[4][SBRI_BLOCK];
+  float responses[4][SBRI_BLOCK]; /* velocity change of a point per velocity change of the sample */
+  float normal[3][SBRI_BLOCK];
+  float mass_kg[SBRI_BLOCK];     /* effective, of an impulse at the sample; 0: an unused lane */
+  float offset[SBRI_BLOCK];      /* n . x of the plane at the beginning of the present substep */
+  float velocity[3][SBRI_BLOCK]; /* velocity of the other surface, m/s */
+  float friction[SBRI_BLOCK], restitution[SBRI_BLOCK];
+  float active[SBRI_BLOCK];   /* 1: pushes, or arrives in this substep; else 0 */
+  float fraction[SBRI_BLOCK]; /* relaxation factor of an iteration by row sums; 0 if not active */
+  float gap[SBRI_BLOCK], wanted[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
+  float velocity_change[SBRI_BLOCK];         /* normal velocity change by the contact, m/s */
+  float friction_impulse[3][SBRI_BLOCK];     /* friction, tangential */
+  float pressing_change[SBRI_BLOCK], pressing_s[SBRI_BLOCK], pressing_owed[SBRI_BLOCK]; /* sbri_pressing */
+  float bound[SBRI_BLOCK], bound_slope[SBRI_BLOCK];    /* of friction, by the normal velocity change */
+  float pushed[SBRI_BLOCK], closing_speed[SBRI_BLOCK]; /* maxima in the tick, as of sbri_soft_contact */
+  float given[3][SBRI_BLOCK];                          /* sum of velocity changes in the tick, m/s */
+  float clear_m; /* distance of the nearest when last looked at, less what it may have moved since */
+  bool moves;    /* some other surface moves */
+  bool is_near;  /* not idle in this substep */
+  bool pushes;   /* some lane is pushed, before or by an iteration */
+} sbri_contact_block;
+
+#endif

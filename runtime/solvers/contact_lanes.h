@@ -1,0 +1,333 @@
+/* Contacts of soft bodies with what no impulse of theirs moves, eight at a time (contact/contact_block.h).
+ *
+ * An impulse at a sample x = sum w_i x_i changes the velocity of point i by w_i / m_i per unit, and the
+ * velocity of the sample by the sum of w_i^2 / m_i. Samples share points, so impulses interact. The impulses
+ * of a substep are found by projected Gauss-Seidel over accumulated impulses (E. Catto, Iterative Dynamics
+ * with Temporal Coherence, 2005), warm started with those of the previous substep.
+ *
+ * The step length of an impulse is the sum of its row of responses over the active contacts,
+ * 1 / sum_k |w_k| W_k / m_k with W_k the sum of |w| of the active contacts at point k, instead of the
+ * diagonal. By Gershgorin's theorem no iteration overshoots, whatever points eight contacts share, and
+ * uniform pressure is exact in one iteration. Friction and restitution follow contact/contact.h.
+ *
+ * A block is idle while the body's fastest point, going twice as fast all the time, could not have brought
+ * one of its contacts to within SBRI_CONTACT_NEAR_M_S of its plane in a substep. Twice: what moves a point at
+ * the end of a substep is in its velocity only in the next one.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
+#ifndef SBRI_CONTACT_LANES_H
+#define SBRI_CONTACT_LANES_H
+
+#include "contact/contact.h"
+#include "contact/contact_block.h"
+#include "solvers/spring_forces.h"
+
+/* Iterations of a substep while some velocity changes by more than the speed that follows, m/s: with impulses
+ * of the substep before, and at most. */
+enum { SBRI_CONTACT_ITERATIONS = 2, SBRI_MAX_CONTACT_ITERATIONS = 16 };
+#define SBRI_CONTACT_RESTING_M_S 1e-3f
+#define SBRI_CONTACT_STRUCK_M_S 0.05f
+#define SBRI_CONTACT_NEAR_M_S 1.0f
+
+enum { SBRI_CONTACT_GROUPS = SBRI_BLOCK / SBRI_LANES };
+
+static inline sbri_wide3 sbri_load_rows(float rows[3][SBRI_BLOCK], uint32_t lane) {
+  return (sbri_wide3){
+      sbri_wide_load(rows[0] + lane), sbri_wide_load(rows[1] + lane), sbri_wide_load(rows[2] + lane)};
+}
+static inline void sbri_store_rows(float rows[3][SBRI_BLOCK], uint32_t lane, sbri_wide3 v) {
+  sbri_wide_store(rows[0] + lane, v.x), sbri_wide_store(rows[1] + lane, v.y),
+      sbri_wide_store(rows[2] + lane, v.z);
+}
+static inline sbri_wide sbri_wide3_along(sbri_wide3 a, sbri_wide3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* Weighted sum of the points of a group of lanes. */
+SBRI_INLINE sbri_wide3 sbri_contact_blend(
+    const sbri_point *points, const sbri_contact_block *block, uint32_t lane) {
+  sbri_wide zero = sbri_wide_all(0);
+  sbri_wide3 sum = {zero, zero, zero};
+  for (int k = 0; k < 4; k++) {
+    sbri_wide3 p = sbri_wide_gather(points, block->slots[k] + lane);
+    sbri_wide w = sbri_wide_load(block->weights[k] + lane);
+    sum.x = sum.x + w * p.x, sum.y = sum.y + w * p.y, sum.z = sum.z + w * p.z;
+  }
+  return sum;
+}
+
+/* Adds to points the responses to changes of the samples, in an order that no width of lanes changes. */
+SBRI_INLINE void sbri_contact_scatter(
+    sbri_point *points, const sbri_contact_block *block, const sbri_wide3 changes[SBRI_CONTACT_GROUPS]) {
+  for (int k = 0; k < 4; k++)
+    for (uint32_t group = 0; group < SBRI_CONTACT_GROUPS; group++) {
+      uint32_t lane = group * SBRI_LANES;
+      sbri_wide r = sbri_wide_load(block->responses[k] + lane);
+      sbri_wide3 c = changes[group];
+      sbri_wide_scatter_add(points, block->slots[k] + lane, (sbri_wide3){r * c.x, r * c.y, r * c.z});
+    }
+}
+
+/* Velocities of the points in contact into velocity_points, which nothing else uses here. Returns the speed
+ * of the fastest point of the body, m/s. */
+static inline float sbri_contact_load_velocities(
+    const sbri_island_tick *t, const sbri_body *body, const float *velocities) {
+  sbri_wide square = sbri_wide_all(0);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 v = sbri_load3(sbri_const_triple(velocities, slot));
+    square = sbri_wide_max(square, sbri_wide3_along(v, v));
+    if (t->contact_slots[slot / SBRI_BLOCK]) sbri_wide_store_points(t->velocity_points + slot, v);
+  }
+  float squares[SBRI_LANES], max = 0;
+  sbri_wide_store(squares, square);
+  for (uint32_t lane = 0; lane < SBRI_LANES; lane++) max = squares[lane] > max ? squares[lane] : max;
+  for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
+    if (!t->contact_slots[slot / SBRI_BLOCK]) continue;
+    sbf_vec3 v = sbri_slot_velocity(t, velocities, slot);
+    t->velocity_points[slot] = (sbri_point){v.x, v.y, v.z, 0};
+    float pinned_square = v.x * v.x + v.y * v.y + v.z * v.z;
+    max = pinned_square > max ? pinned_square : max;
+  }
+  return sqrtf(max);
+}
+
+static inline void sbri_contact_store_velocities(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES)
+    if (t->contact_slots[slot / SBRI_BLOCK])
+      sbri_store3(sbri_triple(velocities, slot), sbri_wide_load_points(t->velocity_points + slot));
+}
+
+/* The bound of friction in this substep is `bound + bound_slope * normal velocity change`: what
+ * sbri_pressing_add and sbri_pressing_bound come to. */
+SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t lane, float step_s) {
+  const float owed_fraction = SBRI_PRESSING_OWED_FRACTION, kept_fraction = 1 - 1 / SBRI_PRESSING_SUBSTEPS;
+  sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(step_s), kept = sbri_wide_all(kept_fraction);
+  sbri_wide owing = sbri_wide_all(owed_fraction), paid = sbri_wide_all(1 - owed_fraction);
+  sbri_wide time = sbri_wide_load(block->pressing_s + lane);
+  sbri_wide mean = h / sbri_wide_max(kept * time + h, h);
+  sbri_wide before = kept * sbri_wide_load(block->pressing_change + lane);
+  sbri_mask pressed =
+      (time > zero) & (sbri_wide_load(block->closing_speed + lane) <= sbri_wide_all(SBRI_STRIKE_M_S));
+  sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing_owed + lane)),
+            slope = paid * mean + owing;
+  sbri_wide_store(block->bound + lane, sbri_wide_select(pressed, bound, zero));
+  sbri_wide_store(block->bound_slope + lane, sbri_wide_select(pressed, slope, sbri_wide_all(1)));
+}
+
+/* Finds gaps, target velocities and bounds of friction of a group of lanes. Returns whether other lanes push
+ * or may than in the substep before. */
+SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane,
+    const sbri_contact_rule *rule, float clear[SBRI_BLOCK], float near[SBRI_BLOCK]) {
+  sbri_wide zero = sbri_wide_all(0), one = sbri_wide_all(1), h = sbri_wide_all(rule->step_s);
+  sbri_wide3 n = sbri_load_rows(block->normal, lane), under = sbri_load_rows(block->velocity, lane);
+  sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
+  v.x = v.x - under.x, v.y = v.y - under.y, v.z = v.z - under.z;
+  sbri_wide speed = sbri_wide3_along(n, v), closing = sbri_wide_load(block->closing_speed + lane);
+  sbri_wide gap = sbri_wide3_along(n, sbri_contact_blend(t->positions, block, lane)) -
+                  sbri_wide_load(block->offset + lane);
+  sbri_wide pushed = sbri_wide_load(block->velocity_change + lane);
+  sbri_mask arrives = gap + h * speed < zero,
+            bounces = arrives & (speed < sbri_wide_all(-rule->bounce_from_m_s));
+  /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+  sbri_wide arriving = zero - sbri_wide_max(gap, zero) / h;
+  sbri_wide back = zero - sbri_wide_load(block->restitution + lane) * speed;
+  sbri_wide_store(block->wanted + lane, sbri_wide_select(bounces, sbri_wide_max(back, arriving), arriving));
+  sbri_wide_store(block->gap + lane, gap);
+  /* Of the first push in the tick: later ones answer the body's own vibration. */
+  sbri_mask first = arrives & (sbri_wide_load(block->pushed + lane) <= zero);
+  closing = sbri_wide_select(first, sbri_wide_max(closing, zero - speed), closing);
+  sbri_wide_store(block->closing_speed + lane, closing);
+  sbri_wide active = sbri_wide_select(arrives | (pushed > zero), one, zero);
+  bool changed = sbri_mask_any(active != sbri_wide_load(block->active + lane));
+  sbri_wide_store(block->active + lane, active);
+  sbri_wide_store(
+      block->fraction + lane, sbri_wide_select(active > zero, sbri_wide_load(block->fraction + lane), zero));
+  sbri_wide_store(clear + lane, sbri_wide_select(active > zero, zero, gap));
+  sbri_wide ahead = h * (sbri_wide_all(SBRI_CONTACT_NEAR_M_S) - speed) - gap;
+  sbri_wide_store(near + lane, sbri_wide_select(active > zero, one, ahead));
+  sbri_contact_bound_friction(block, lane, rule->step_s);
+  return changed;
+}
+
+static inline bool sbri_contact_begin(
+    const sbri_island_tick *t, sbri_contact_block *block, const sbri_contact_rule *rule) {
+  float clear[SBRI_BLOCK], near[SBRI_BLOCK];
+  bool changed = false;
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
+    changed = sbri_contact_begin_lanes(t, block, lane, rule, clear, near) || changed;
+  block->clear_m = clear[0], block->is_near = false;
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+    block->clear_m = clear[lane] < block->clear_m ? clear[lane] : block->clear_m;
+    block->is_near = block->is_near || near[lane] > 0;
+  }
+  return changed;
+}
+
+/* Step lengths by row sums. */
+static inline void sbri_contact_sum_rows(
+    const sbri_island_tick *t, const sbri_body *body, sbri_contact_block *blocks, uint32_t count) {
+  float *sums = t->contact_weights;
+  memset(sums + body->slot_begin, 0, (body->slot_end - body->slot_begin) * sizeof *sums);
+  if (body->is_pinned)
+    memset(sums + t->island->free_count, 0, (t->island->slot_count - t->island->free_count) * sizeof *sums);
+  for (uint32_t b = 0; b < count; b++)
+    for (int k = 0; blocks[b].is_near && k < 4; k++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+        sums[blocks[b].slots[k][lane]] += fabsf(blocks[b].weights[k][lane]) * blocks[b].active[lane];
+  for (uint32_t b = 0; b < count; b++) {
+    sbri_contact_block *block = &blocks[b];
+    for (uint32_t lane = 0; block->is_near && lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      sbri_wide zero = sbri_wide_all(0), row = zero;
+      for (int k = 0; k < 4; k++) {
+        sbri_wide r = sbri_wide_load(block->responses[k] + lane);
+        row = row + sbri_wide_max(r, zero - r) * sbri_wide_gather_floats(sums, block->slots[k] + lane);
+      }
+      sbri_mask is_active = sbri_wide_load(block->active + lane) > zero;
+      sbri_wide_store(block->fraction + lane,
+          sbri_wide_select(is_active, sbri_wide_all(1) / sbri_wide_max(row, sbri_wide_all(1e-20f)), zero));
+    }
+  }
+}
+
+/* Applies the impulses of the substep before. Returns whether there are any. */
+static inline bool sbri_contact_warm_start(
+    const sbri_island_tick *t, sbri_contact_block *blocks, uint32_t count) {
+  bool any = false;
+  for (uint32_t b = 0; b < count; b++) {
+    sbri_contact_block *block = &blocks[b];
+    sbri_wide3 changes[SBRI_CONTACT_GROUPS];
+    bool pushes = false;
+    for (uint32_t lane = 0; block->is_near && lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      sbri_wide push = sbri_wide_load(block->velocity_change + lane);
+      sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane);
+      changes[lane / SBRI_LANES] = (sbri_wide3){f.x + n.x * push, f.y + n.y * push, f.z + n.z * push};
+      pushes = pushes || sbri_mask_any(push > sbri_wide_all(0));
+    }
+    block->pushes = pushes;
+    if (pushes) sbri_contact_scatter(t->velocity_points, block, changes);
+    any = any || pushes;
+  }
+  return any;
+}
+
+/* Corrects the impulses of a group of lanes. Returns the change of velocity. */
+SBRI_INLINE sbri_wide3 sbri_contact_correct(
+    const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane) {
+  sbri_wide zero = sbri_wide_all(0), fraction = sbri_wide_load(block->fraction + lane);
+  sbri_wide3 n = sbri_load_rows(block->normal, lane), under = sbri_load_rows(block->velocity, lane);
+  sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
+  sbri_wide3 f = sbri_load_rows(block->friction_impulse, lane), now;
+  v.x = v.x - under.x, v.y = v.y - under.y, v.z = v.z - under.z;
+  sbri_wide speed = sbri_wide3_along(n, v), push = sbri_wide_load(block->velocity_change + lane);
+  sbri_wide corrected = push + fraction * (sbri_wide_load(block->wanted + lane) - speed);
+  corrected = sbri_wide_max(corrected, zero);
+  now.x = f.x - fraction * (v.x - n.x * speed), now.y = f.y - fraction * (v.y - n.y * speed),
+  now.z = f.z - fraction * (v.z - n.z * speed);
+  sbri_wide size = sbri_wide_sqrt(sbri_wide3_along(now, now)),
+            pressing =
+                sbri_wide_load(block->bound + lane) + sbri_wide_load(block->bound_slope + lane) * corrected;
+  sbri_wide max = sbri_wide_select(
+      corrected > zero, sbri_wide_load(block->friction + lane) * sbri_wide_max(pressing, zero), zero);
+  sbri_wide kept = sbri_wide_min(max / sbri_wide_max(size, sbri_wide_all(1e-20f)), sbri_wide_all(1));
+  now.x = now.x * kept, now.y = now.y * kept, now.z = now.z * kept;
+  sbri_wide_store(block->velocity_change + lane, corrected);
+  sbri_store_rows(block->friction_impulse, lane, now);
+  sbri_wide more = corrected - push;
+  return (sbri_wide3){now.x - f.x + n.x * more, now.y - f.y + n.y * more, now.z - f.z + n.z * more};
+}
+
+/* One iteration; returns the square of the greatest change of a velocity. */
+static inline float sbri_contact_iterate(
+    const sbri_island_tick *t, sbri_contact_block *blocks, uint32_t count, bool backward) {
+  float squares[SBRI_BLOCK] = {0}, max = 0;
+  for (uint32_t b = 0; b < count; b++) {
+    sbri_contact_block *block = &blocks[backward ? count - 1 - b : b];
+    sbri_wide3 changes[SBRI_CONTACT_GROUPS];
+    bool any = false;
+    for (uint32_t lane = 0; block->is_near && lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      sbri_wide3 c = changes[lane / SBRI_LANES] = sbri_contact_correct(t, block, lane);
+      sbri_wide square = sbri_wide3_along(c, c);
+      any = any || sbri_mask_any(square > sbri_wide_all(0));
+      sbri_wide_store(squares + lane, sbri_wide_max(square, sbri_wide_load(squares + lane)));
+    }
+    block->pushes = block->pushes || any;
+    if (any) sbri_contact_scatter(t->velocity_points, block, changes);
+  }
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) max = squares[lane] > max ? squares[lane] : max;
+  return max;
+}
+
+/* Moves a sample that was pushed and is too deep up at a limited rate. One after the other: each sees what
+ * the others of its points were moved by. */
+static inline void sbri_contact_lift(const sbri_island_tick *t, const sbri_contact_block *block,
+    uint32_t lane, const sbri_contact_rule *rule) {
+  sbf_vec3 n = {block->normal[0][lane], block->normal[1][lane], block->normal[2][lane]};
+  float gap = -block->offset[lane];
+  for (int k = 0; k < 4; k++) {
+    const sbri_point *x = &t->positions[block->slots[k][lane]];
+    gap += block->weights[k][lane] * (n.x * x->x + n.y * x->y + n.z * x->z);
+  }
+  float up = -gap - rule->slack_m;
+  up = up < rule->push_m ? up : rule->push_m;
+  for (int k = 0; up > 0 && k < 4; k++) {
+    sbri_point *x = &t->positions[block->slots[k][lane]];
+    float moved = block->responses[k][lane] * up;
+    x->x += moved * n.x, x->y += moved * n.y, x->z += moved * n.z;
+  }
+}
+
+/* Adds up what the block was given, and lifts what is too deep. */
+static inline void sbri_contact_finish(
+    const sbri_island_tick *t, sbri_contact_block *block, const sbri_contact_rule *rule) {
+  float lifts[SBRI_BLOCK];
+  bool any = false;
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+    sbri_wide zero = sbri_wide_all(0), push = sbri_wide_load(block->velocity_change + lane);
+    sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane),
+               given = sbri_load_rows(block->given, lane);
+    given.x = given.x + (f.x + n.x * push), given.y = given.y + (f.y + n.y * push),
+    given.z = given.z + (f.z + n.z * push);
+    sbri_store_rows(block->given, lane, given);
+    sbri_wide_store(block->pushed + lane, sbri_wide_max(sbri_wide_load(block->pushed + lane), push));
+    sbri_wide depth = zero - sbri_wide_load(block->gap + lane) - sbri_wide_all(rule->slack_m);
+    sbri_wide lift = sbri_wide_select(push > zero, depth, zero);
+    sbri_wide_store(lifts + lane, lift);
+    any = any || sbri_mask_any(lift > zero);
+  }
+  for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++)
+    if (lifts[lane] > 0) sbri_contact_lift(t, block, lane, rule);
+}
+
+/* Solves the contacts of a body for the coming substep: changes `velocities` so that no sample passes its
+ * plane, and lifts samples that are too deep. */
+static inline void sbri_contact_solve(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
+  uint32_t count = sbri_contact_block_count(t, body);
+  sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
+  bool changed = false, any = false;
+  float fastest = sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->sample_beyond);
+  float moved = 2 * rule->step_s * fastest + rule->push_m, near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
+  for (uint32_t b = 0; b < count; b++) {
+    blocks[b].is_near = false;
+    blocks[b].clear_m -= moved;
+    if (blocks[b].clear_m > near && !blocks[b].moves) continue;
+    changed = sbri_contact_begin(t, &blocks[b], rule) || changed;
+    any = any || blocks[b].is_near;
+  }
+  if (!any) return;
+  if (changed) sbri_contact_sum_rows(t, body, blocks, count);
+  bool warm = sbri_contact_warm_start(t, blocks, count);
+  int resting = warm ? SBRI_CONTACT_ITERATIONS : SBRI_MAX_CONTACT_ITERATIONS;
+  float max = SBRI_CONTACT_STRUCK_M_S * SBRI_CONTACT_STRUCK_M_S;
+  for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS; i++) {
+    float bound = i < resting ? SBRI_CONTACT_RESTING_M_S : SBRI_CONTACT_STRUCK_M_S;
+    if (!(max >= bound * bound)) break;
+    max = sbri_contact_iterate(t, blocks, count, i % 2);
+  }
+  for (uint32_t b = 0; b < count; b++)
+    if (blocks[b].is_near && blocks[b].pushes) sbri_contact_finish(t, &blocks[b], rule);
+  sbri_contact_store_velocities(t, body, velocities);
+}
+
+#endif
