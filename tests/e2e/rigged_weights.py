@@ -89,7 +89,7 @@ def add_clip(path, animated_path, name, turns, seconds):
         keys = file.accessor([rest, end], "f", "VEC4")
         clip["channels"].append({"sampler": len(clip["samplers"]), "target": {"node": i, "path": "rotation"}})
         clip["samplers"].append({"input": times, "output": keys})
-    file.json["animations"].append(clip)
+    file.json.setdefault("animations", []).append(clip)
     file.write(animated_path)
 
 

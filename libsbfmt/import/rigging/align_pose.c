@@ -33,10 +33,9 @@ static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
   sbfi_arena *arena = &r->c->scratch;
   sbf_vec3 *positions =
       sbfi_arena_copy(arena, f->posed.mesh.positions.at, f->posed.mesh.positions.count, sizeof *positions);
-  sbfi_scene_surface bound = r->rig;
-  if (!positions || !sbfi_rig_move_bones(r, f->motions) ||
-      !sbfi_surface_with_positions(&r->rig, &bound, positions, arena))
-    return false;
+  if (!positions || !sbfi_rig_move_bones(r, f->motions)) return false;
+  const sbfi_scene_surface bound = r->rig; /* with the scene of moved nodes */
+  if (!sbfi_surface_with_positions(&r->rig, &bound, positions, arena)) return false;
   r->alignment.to_asset = f->to_asset;
   r->alignment.is_stated = memcmp(&f->to_asset, &r->c->to_asset, sizeof f->to_asset) == 0;
   return true;
