@@ -22,11 +22,10 @@
 #include "contact/contact_block.h"
 #include "solvers/spring_forces.h"
 
-/* Iterations of a substep while some velocity changes by more than the speed that follows, m/s: with impulses
- * of the substep before, and at most. */
-enum { SBRI_CONTACT_ITERATIONS = 2, SBRI_MAX_CONTACT_ITERATIONS = 16 };
+/* Iterations of a substep end when no velocity changes by more than this in one, m/s, or after so many. */
 #define SBRI_CONTACT_RESTING_M_S 1e-3f
-#define SBRI_CONTACT_STRUCK_M_S 0.05f
+enum { SBRI_MAX_CONTACT_ITERATIONS = 16 };
+/* What could not reach its plane in a substep if it were so much faster waits for the next one, m/s. */
 #define SBRI_CONTACT_NEAR_M_S 1.0f
 
 enum { SBRI_CONTACT_GROUPS = SBRI_BLOCK / SBRI_LANES };
@@ -190,10 +189,9 @@ static inline void sbri_contact_sum_rows(
   }
 }
 
-/* Applies the impulses of the substep before. Returns whether there are any. */
-static inline bool sbri_contact_warm_start(
+/* Applies the impulses of the substep before. */
+static inline void sbri_contact_warm_start(
     const sbri_island_tick *t, sbri_contact_block *blocks, uint32_t count) {
-  bool any = false;
   for (uint32_t b = 0; b < count; b++) {
     sbri_contact_block *block = &blocks[b];
     sbri_wide3 changes[SBRI_CONTACT_GROUPS];
@@ -206,9 +204,7 @@ static inline bool sbri_contact_warm_start(
     }
     block->pushes = pushes;
     if (pushes) sbri_contact_scatter(t->velocity_points, block, changes);
-    any = any || pushes;
   }
-  return any;
 }
 
 /* Corrects the impulses of a group of lanes. Returns the change of velocity. */
@@ -317,14 +313,10 @@ static inline void sbri_contact_solve(
   }
   if (!any) return;
   if (changed) sbri_contact_sum_rows(t, body, blocks, count);
-  bool warm = sbri_contact_warm_start(t, blocks, count);
-  int resting = warm ? SBRI_CONTACT_ITERATIONS : SBRI_MAX_CONTACT_ITERATIONS;
-  float max = SBRI_CONTACT_STRUCK_M_S * SBRI_CONTACT_STRUCK_M_S;
-  for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS; i++) {
-    float bound = i < resting ? SBRI_CONTACT_RESTING_M_S : SBRI_CONTACT_STRUCK_M_S;
-    if (!(max >= bound * bound)) break;
-    max = sbri_contact_iterate(t, blocks, count, i % 2);
-  }
+  sbri_contact_warm_start(t, blocks, count);
+  float resting = SBRI_CONTACT_RESTING_M_S * SBRI_CONTACT_RESTING_M_S, square = resting;
+  for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS && square >= resting; i++)
+    square = sbri_contact_iterate(t, blocks, count, i % 2);
   for (uint32_t b = 0; b < count; b++)
     if (blocks[b].is_near && blocks[b].pushes) sbri_contact_finish(t, &blocks[b], rule);
   sbri_contact_store_velocities(t, body, velocities);
