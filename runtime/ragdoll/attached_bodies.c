@@ -202,7 +202,7 @@ static void find_left(const sbri_rigid_burden *burden, const change *by, const s
       (double)by->angular_velocity.x, (double)by->angular_velocity.y, (double)by->angular_velocity.z};
   double given[6];
   for (int i = 0; i < 6; i++) given[i] = sbri_dot6(burden->mass[i], x);
-  *impulse = sbri_sub(sbri_vec3((float)given[0], (float)given[1], (float)given[2]), sbri_lanes_push(taken));
+  *impulse = sbri_sub(sbri_vec3((float)given[0], (float)given[1], (float)given[2]), sbri_lanes_force(taken));
   *moment = sbri_sub(sbri_vec3((float)given[3], (float)given[4], (float)given[5]), sbri_lanes_moment(taken));
 }
 

@@ -129,7 +129,7 @@ static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri
   }
   if (carrier < 0) return;
   sbri_reaction *r = &sbri_reactions(c)[carrier];
-  r->impulse = sbri_sub(r->impulse, sbri_lanes_push(&taken));
+  r->impulse = sbri_sub(r->impulse, sbri_lanes_force(&taken));
   r->moment = sbri_sub(r->moment, sbri_lanes_moment(&taken));
 }
 

@@ -1,9 +1,9 @@
-/* Its loops are in solvers/block_descent.h. */
+/* The loops are in solvers/block_descent.h. */
 #include "model/kernels.h"
 #include "solvers/descent_table.h"
 #include "solvers/scheme.h"
 
-/* Whatever the stiffness; more follow motion better. */
+/* Independent of the stiffness. More substeps follow motion better. */
 enum { SUBSTEPS = 5 };
 
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
@@ -12,7 +12,7 @@ static uint32_t substeps(const sbri_island *island, double tick_s, float stretch
   return island->substeps ? island->substeps : SUBSTEPS;
 }
 
-/* Its tables hold springs and tetrahedra as they were made. */
+/* The tables of this scheme hold constant rest lengths and strengths. */
 static const char *refuse(const sbr_model *model, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];

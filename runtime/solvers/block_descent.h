@@ -1,27 +1,27 @@
-/* Vertex block descent: an implicit Euler substep, solved by moving one point after the other to where its
- * own part of the energy is least, the others as they are (Chen, Liu, Yang and Yuksel, Vertex Block Descent,
- * ACM Transactions on Graphics 43 (4), 2024):
+/* Vertex block descent: an implicit Euler substep that moves one point after the other to the minimum of its
+ * own part of the energy while the others stay fixed (Chen, Liu, Yang and Yuksel, Vertex Block Descent, ACM
+ * Transactions on Graphics 43 (4), 2024):
  *
  *   x_i += H^-1 f,   f = -m/h^2 (x_i - y_i) + force of its elements,   y = x + h v + h^2 a,
  *   H = m/h^2 1 + sum over springs of k (n n^T + max(0, 1 - l0/l) (1 - n n^T))
  *              + sum over tetrahedra of V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T)
  *
- * H is positive definite in every state, inverted ones too, so that no step of it goes up the linearised
- * energy. Points of one colour share no element and move at once, eight a block.
+ * H is positive definite in every state, including inverted ones, so no step increases the linearised energy.
+ * Points of one colour share no element and move at once, eight per block.
  *
- * Sweeps begin where the body's motion as a whole would take it, which strains no element: from there the sum
- * of energies only falls, however few they are, and neither flight nor turning is lost. From y, as in the
+ * Sweeps begin at the rigid motion of the body, which strains no element. From there the sum of energies only
+ * falls, however few the sweeps, and translation and rotation are kept. If the sweeps begin at y, as in the
  * paper, stiff bodies gain energy.
  *
- * Bias against the energy: at rest none, whatever the substep, once it has come to rest; in motion that of
- * implicit Euler, a damping ratio of w h / 2 and a period longer by (w h)^2 / 3, and where sweeps are too few
- * more: what has not travelled from point to point within them has not happened. Stiffness damping of
- * tetrahedra is left out, being less than that.
+ * Bias against the energy: none at rest, whatever the substep. In motion it is that of implicit Euler: a
+ * damping ratio of w h / 2, and a period longer by (w h)^2 / 3. Too few sweeps add more bias, because a
+ * disturbance travels only a few points per sweep. Stiffness damping of tetrahedra is ignored; it is smaller
+ * than the damping of the scheme.
  *
- * Differs from the paper: no acceleration by Chebyshev, which made it unstable; sweeps are a fixed number;
- * contacts act on the velocities that the sweeps end with, as in the other schemes.
+ * Differences from the paper: no Chebyshev acceleration, which was unstable; a fixed number of sweeps;
+ * contacts act on the velocities at the end of the sweeps, as in the other schemes.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_BLOCK_DESCENT_H
 #define SBRI_BLOCK_DESCENT_H
 
@@ -32,7 +32,7 @@
 /* Iterations over all points per substep. */
 enum { SBRI_DESCENT_SWEEPS = 4 };
 
-/* A point's force and the six numbers of its matrix: xx, yy, zz, xy, yz, zx. */
+/* Force on a point and the six entries of its matrix: xx, yy, zz, xy, yz, zx. */
 typedef struct sbri_descent_sum {
   sbri_wide3 force;
   sbri_wide h[6];
@@ -77,7 +77,7 @@ SBRI_INLINE void sbri_descent_damp(
   sbri_descent_add(s, sbri_wide_all(0), fraction, edge.d);
 }
 
-/* The block's corner 0 is the point. */
+/* Corner 0 of the block is the point. */
 SBRI_INLINE void sbri_descent_corner(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
   sbri_wide3 d[3], n[3];
@@ -99,9 +99,10 @@ SBRI_INLINE void sbri_descent_corner(const sbri_island_tick *t, const sbri_tetra
   sbri_descent_add(s, a + b + c, bulk * inverse_volume, out);
 }
 
-/* One block in one iteration. `drawn` are the displacements y - x of this substep, `moved` those so far. */
+/* One block in one iteration. `predicted` holds the displacements y - x of this substep, `moved` the
+ * displacements so far. */
 static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_descent_block *block,
-    float per_square, const sbri_point *drawn, sbri_point *moved) {
+    float per_square, const sbri_point *predicted, sbri_point *moved) {
   const sbri_descent *table = t->island->descent;
   sbri_wide rate = sbri_wide_sqrt(sbri_wide_all(per_square));
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
@@ -109,8 +110,8 @@ static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_desce
     sbri_wide m = sbri_wide_load(block->masses + lane) * sbri_wide_all(per_square), zero = sbri_wide_all(0);
     sbri_wide3 x = sbri_wide_gather(t->positions, slots);
     sbri_wide3 so_far = sbri_wide_gather(moved, slots),
-               off = sbri_wide3_sub(sbri_wide_gather(drawn, slots), so_far);
-    sbri_descent_sum s = {sbri_wide3_scale(off, m), {m, m, m, zero, zero, zero}};
+               remaining = sbri_wide3_sub(sbri_wide_gather(predicted, slots), so_far);
+    sbri_descent_sum s = {sbri_wide3_scale(remaining, m), {m, m, m, zero, zero, zero}};
     for (uint32_t i = block->first_spring; i < block->spring_end; i++) {
       const float *slack = table->slack ? table->slack + (size_t)i * SBRI_BLOCK : NULL;
       sbri_descent_edge edge = sbri_descent_spring(t, &table->springs[i], slack, lane, x, &s);
@@ -144,9 +145,9 @@ static inline void sbri_descent_begin(const sbri_island_tick *t, const sbri_body
   if (!body->is_pinned) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0, 0);
 }
 
-/* v += h (gravity and external forces); `drawn` = h v. Points begin at the rigid motion of the body. */
-static inline void sbri_descent_draw(
-    const sbri_island_tick *t, float h, sbri_point *drawn, sbri_point *moved) {
+/* v += h (gravity and external forces); `predicted` = h v. Points begin at the rigid motion of the body. */
+static inline void sbri_descent_predict(
+    const sbri_island_tick *t, float h, sbri_point *predicted, sbri_point *moved) {
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
   sbri_decay_all(t, h); /* before gravity, so that a resting body feels its full weight */
@@ -167,7 +168,7 @@ static inline void sbri_descent_draw(
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
     sbri_wide3 v = sbri_wide3_scale(sbri_load3(sbri_triple(t->accelerations, slot)), step);
     sbri_wide_store_points(
-        drawn + slot, sbri_wide3_scale(sbri_load3(sbri_triple(t->velocities, slot)), step));
+        predicted + slot, sbri_wide3_scale(sbri_load3(sbri_triple(t->velocities, slot)), step));
     sbri_wide_store_points(moved + slot, v);
     sbri_wide_store_points(t->begins + slot, x);
     sbri_wide_store_points(t->positions + slot, sbri_wide3_add(x, v));
@@ -194,16 +195,16 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
   const sbri_descent *table = island->descent;
   uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps, per_square = 1 / (h * h);
-  sbri_point *drawn = t->element_forces, *moved = t->moves;       /* scratch that is free here */
+  sbri_point *predicted = t->element_forces, *moved = t->moves;   /* scratch that is unused here */
   uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* number of points per element */
   sbri_store_pinned_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
     if (t->external_forces) sbri_compute_external_forces(t, h);
     sbri_move_pinned(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);
-    sbri_descent_draw(t, h, drawn, moved);
+    sbri_descent_predict(t, h, predicted, moved);
     for (int sweep = 0; sweep < SBRI_DESCENT_SWEEPS; sweep++)
       for (uint32_t b = 0; b < table->block_count; b++)
-        sbri_descent_move(t, &table->blocks[b], per_square, drawn, moved);
+        sbri_descent_move(t, &table->blocks[b], per_square, predicted, moved);
     sbri_descent_end(t, h, moved);
     sbri_drift(t, h);
     if (island->tetrahedron_block_count > 0) sbri_update_compression(t);

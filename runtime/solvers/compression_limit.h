@@ -1,15 +1,17 @@
-/* A wall in front of J = 0: what a blow crushes to less than a tenth of its volume at the end of a
- * substep is brought back there along the gradient of J, by the corners' inverse masses, and the speed with
- * which it was being crushed is taken. Momentum is kept; what is inside out already comes back a step at a
- * time. Held corners stay where they are, but what carries them takes its part of the push: else a light bone
- * would drive flesh before it as if it weighed more than anything, and give it energy without end.
+/* Compression limit of tetrahedra. An element below a tenth of its volume at the end of a substep is brought
+ * back to that bound along the gradient of J, weighted by the inverse masses of its corners, and its rate of
+ * compression becomes 0. Momentum is conserved. Inverted elements recover by a limited step per substep.
  *
- * The energy itself is finite and smooth through J = 0, so that nothing bursts there; but thin tips that
- * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
- * above that; below, such a wall is what flesh is, which does not get thinner either.
+ * Pinned corners do not move, but their rigid bodies receive the reaction. Without it, a light bone would
+ * push soft bodies like an infinite mass and add energy without bound.
  *
- * Looked for only where the tetrahedra, when last looked at, were at a half of their volume somewhere.
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * The energy itself is finite and smooth through J = 0, so nothing bursts there. But thin tips that strike
+ * the ground first, with the mass of a body behind them, would be inverted. Bias against the energy: none
+ * above the bound; at the bound, an inelastic wall.
+ *
+ * The limit is checked only if the last evaluation found an element below half its volume.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_COMPRESSION_H
 #define SBRI_COMPRESSION_H
 
@@ -18,7 +20,7 @@
 #include "solvers/strain_limit.h"
 #include "solvers/tetrahedron_forces.h"
 
-#define SBRI_CRUSHED 0.1f
+#define SBRI_MIN_VOLUME_RATIO 0.1f
 #define SBRI_COMPRESSION_NEAR 0.5f
 /* Maximum increase of J per substep, and maximum displacement of a corner as a fraction of its element's
  * size. Keeps heaps from bursting. */
@@ -44,7 +46,8 @@ static inline void sbri_limit_compression(
   gradients[2] = sbri_scale(sbri_cross(d3, d1), s);
   gradients[3] = sbri_scale(sbri_cross(d1, d2), s);
   gradients[0] = sbri_scale(sbri_add(sbri_add(gradients[1], gradients[2]), gradients[3]), -1);
-  float missing = SBRI_CRUSHED - sbri_dot(d1, gradients[1]), sum = 0, limited = 0, rate = 0, steepest = 0;
+  float missing = SBRI_MIN_VOLUME_RATIO - sbri_dot(d1, gradients[1]), sum = 0, pinned_sum = 0, rate = 0,
+        steepest = 0;
   if (!(missing > 0)) return;
   missing = missing < SBRI_COMPRESSION_STEP ? missing : SBRI_COMPRESSION_STEP;
   for (int k = 0; k < 4; k++) {
@@ -52,7 +55,7 @@ static inline void sbri_limit_compression(
     float square = sbri_dot(gradients[k], gradients[k]);
     sum += w * square;
     steepest = w * w * square > steepest ? w * w * square : steepest;
-    limited += sbri_pinned_inverse_mass(t, slots[k], gradients[k]);
+    pinned_sum += sbri_pinned_inverse_mass(t, slots[k], gradients[k]);
     rate += sbri_dot(gradients[k], sbri_slot_velocity(t, t->velocities, slots[k]));
     rate += sbri_dot(gradients[k], sbri_pinned_velocity_change(t, slots[k]));
   }
@@ -60,15 +63,15 @@ static inline void sbri_limit_compression(
   float fraction = missing / sum, max = SBRI_COMPRESSION_STEP * t->island->cell_m,
         travel = fraction * sqrtf(steepest);
   if (max > 0 && travel > max) fraction *= max / travel;
-  float push = rate < 0 ? -rate / (sum + limited) : 0;
-  if (travel > max) push = 0; /* so flat that the gradient is meaningless */
+  float rate_change = rate < 0 ? -rate / (sum + pinned_sum) : 0;
+  if (travel > max) rate_change = 0; /* too flat for a meaningful gradient */
   for (int k = 0; k < 4; k++) {
     if (slots[k] >= t->island->free_count) {
-      sbri_pinned_apply_impulse(t, slots[k], sbri_scale(gradients[k], push));
+      sbri_pinned_apply_impulse(t, slots[k], sbri_scale(gradients[k], rate_change));
       continue;
     }
     sbf_vec3 g = sbri_scale(gradients[k], t->island->inverse_masses[slots[k]]);
-    sbri_shift_slot(t, slots[k], sbri_scale(g, fraction), sbri_scale(g, push));
+    sbri_shift_slot(t, slots[k], sbri_scale(g, fraction), sbri_scale(g, rate_change));
   }
 }
 
@@ -101,28 +104,28 @@ static inline void sbri_update_compression(const sbri_island_tick *t) {
   *t->min_ratio = sbri_watch_min_ratio(&watch);
 }
 
-/* One iteration; returns whether any element was crushed. Reads all lanes of a block before it moves any,
- * because some blocks share points between lanes. Stores soft contacts before the first change unless
- * `*remembered`; most substeps need none. */
-static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *remembered) {
-  bool found = false;
+/* One iteration; returns whether any element was below the limit. Reads all lanes of a block before it moves
+ * any, because some blocks share points between lanes. Stores soft contacts before the first change unless
+ * `*contacts_stored`; most substeps need none. */
+static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *contacts_stored) {
+  bool any_compressed = false;
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
     float marks[SBRI_BLOCK];
     bool any = false;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_mask crushed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_CRUSHED);
-      sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
-      any = any || sbri_mask_any(crushed);
+      sbri_mask compressed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_MIN_VOLUME_RATIO);
+      sbri_wide_store(marks + lane, sbri_wide_select(compressed, sbri_wide_all(1), sbri_wide_all(0)));
+      any = any || sbri_mask_any(compressed);
     }
-    for (uint32_t k = 0; any && !*remembered && k < t->island->body_count; k++)
+    for (uint32_t k = 0; any && !*contacts_stored && k < t->island->body_count; k++)
       sbri_soft_contacts_store(t, &t->model->bodies[t->island->bodies[k]]);
-    *remembered = *remembered || any;
+    *contacts_stored = *contacts_stored || any;
     for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++)
       if (marks[lane] != 0) sbri_limit_compression(t, block, lane);
-    found = found || any;
+    any_compressed = any_compressed || any;
   }
-  return found;
+  return any_compressed;
 }
 
 #endif

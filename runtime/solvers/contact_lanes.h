@@ -1,18 +1,19 @@
-/* Contacts of soft bodies with what no impulse of theirs moves, eight at a time (contact/contact_block.h).
+/* Contacts of soft bodies with the ground and colliders, which no contact impulse moves, eight at a time
+ * (contact/contact_block.h).
  *
  * An impulse at a sample x = sum w_i x_i changes the velocity of point i by w_i / m_i per unit, and the
  * velocity of the sample by the sum of w_i^2 / m_i. Samples share points, so impulses interact. The impulses
  * of a substep are found by projected Gauss-Seidel over accumulated impulses (E. Catto, Iterative Dynamics
  * with Temporal Coherence, 2005), warm started with those of the previous substep.
  *
- * The step length of an impulse is the sum of its row of responses over the active contacts,
- * 1 / sum_k |w_k| W_k / m_k with W_k the sum of |w| of the active contacts at point k, instead of the
- * diagonal. By Gershgorin's theorem no iteration overshoots, whatever points eight contacts share, and
- * uniform pressure is exact in one iteration. Friction and restitution follow contact/contact.h.
+ * The step length of an impulse is the sum of its row of responses over the active contacts, 1 / sum_k |w_k|
+ * W_k / m_k with W_k the sum of |w| of the active contacts at point k, instead of the diagonal. By
+ * Gershgorin's theorem no iteration overshoots, whatever points eight contacts share, and uniform pressure is
+ * exact in one iteration. Friction and restitution follow contact/contact.h.
  *
- * A block is idle while the body's fastest point, going twice as fast all the time, could not have brought
- * one of its contacts to within SBRI_CONTACT_NEAR_M_S of its plane in a substep. Twice: what moves a point at
- * the end of a substep is in its velocity only in the next one.
+ * A block is idle while the fastest point of the body, at twice its speed, could not have moved one of its
+ * contacts to within SBRI_CONTACT_NEAR_M_S of its plane in a substep. The factor of two is for position
+ * corrections at the end of a substep, which reach the velocity only in the next one.
  *
  * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_CONTACT_LANES_H
@@ -22,10 +23,10 @@
 #include "contact/contact_block.h"
 #include "solvers/spring_forces.h"
 
-/* Iterations of a substep end when no velocity changes by more than this in one, m/s, or after so many. */
+/* Iterations of a substep end when no velocity changes by more than this in one, m/s, and at the maximum. */
 #define SBRI_CONTACT_RESTING_M_S 1e-3f
 enum { SBRI_MAX_CONTACT_ITERATIONS = 16 };
-/* What could not reach its plane in a substep if it were so much faster waits for the next one, m/s. */
+/* A contact is skipped in a substep if it would not reach its plane even if it were this much faster, m/s. */
 #define SBRI_CONTACT_NEAR_M_S 1.0f
 
 enum { SBRI_CONTACT_GROUPS = SBRI_BLOCK / SBRI_LANES };
@@ -55,7 +56,8 @@ SBRI_INLINE sbri_wide3 sbri_contact_blend(
   return sum;
 }
 
-/* Adds to points the responses to changes of the samples, in an order that no width of lanes changes. */
+/* Adds the responses to velocity changes of the samples to the points. The order of sums does not depend on
+ * the SIMD width. */
 SBRI_INLINE void sbri_contact_scatter(
     sbri_point *points, const sbri_contact_block *block, const sbri_wide3 changes[SBRI_CONTACT_GROUPS]) {
   for (int k = 0; k < 4; k++)
@@ -67,7 +69,7 @@ SBRI_INLINE void sbri_contact_scatter(
     }
 }
 
-/* Velocities of the points in contact into velocity_points, which nothing else uses here. Returns the speed
+/* Copies the velocities of the points in contact to velocity_points, which is scratch here. Returns the speed
  * of the fastest point of the body, m/s. */
 static inline float sbri_contact_load_velocities(
     const sbri_island_tick *t, const sbri_body *body, const float *velocities) {
@@ -97,15 +99,15 @@ static inline void sbri_contact_store_velocities(
       sbri_store3(sbri_triple(velocities, slot), sbri_wide_load_points(t->velocity_points + slot));
 }
 
-/* The bound of friction in this substep is `bound + bound_slope * normal velocity change`: what
- * sbri_pressing_add and sbri_pressing_bound come to. */
+/* The bound of friction in this substep is `bound + bound_slope * normal velocity change`, the linear form of
+ * sbri_pressing_add and sbri_pressing_bound. */
 SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t lane, float step_s) {
   const float owed_fraction = SBRI_PRESSING_OWED_FRACTION, kept_fraction = 1 - 1 / SBRI_PRESSING_SUBSTEPS;
-  sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(step_s), kept = sbri_wide_all(kept_fraction);
+  sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(step_s), old_fraction = sbri_wide_all(kept_fraction);
   sbri_wide owing = sbri_wide_all(owed_fraction), paid = sbri_wide_all(1 - owed_fraction);
   sbri_wide time = sbri_wide_load(block->pressing_s + lane);
-  sbri_wide mean = h / sbri_wide_max(kept * time + h, h);
-  sbri_wide before = kept * sbri_wide_load(block->pressing_change + lane);
+  sbri_wide mean = h / sbri_wide_max(old_fraction * time + h, h);
+  sbri_wide before = old_fraction * sbri_wide_load(block->pressing_change + lane);
   sbri_mask pressed =
       (time > zero) & (sbri_wide_load(block->closing_speed + lane) <= sbri_wide_all(SBRI_STRIKE_M_S));
   sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing_owed + lane)),
@@ -114,30 +116,30 @@ SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t
   sbri_wide_store(block->bound_slope + lane, sbri_wide_select(pressed, slope, sbri_wide_all(1)));
 }
 
-/* Finds gaps, target velocities and bounds of friction of a group of lanes. Returns whether other lanes push
- * or may than in the substep before. */
+/* Finds gaps, target velocities and bounds of friction of a group of lanes. Returns whether the set of active
+ * lanes differs from the previous substep. */
 SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane,
     const sbri_contact_rule *rule, float clear[SBRI_BLOCK], float near[SBRI_BLOCK]) {
   sbri_wide zero = sbri_wide_all(0), one = sbri_wide_all(1), h = sbri_wide_all(rule->step_s);
-  sbri_wide3 n = sbri_load_rows(block->normal, lane), under = sbri_load_rows(block->velocity, lane);
+  sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
   sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
-  v.x = v.x - under.x, v.y = v.y - under.y, v.z = v.z - under.z;
+  v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
   sbri_wide speed = sbri_wide3_along(n, v), closing = sbri_wide_load(block->closing_speed + lane);
   sbri_wide gap = sbri_wide3_along(n, sbri_contact_blend(t->positions, block, lane)) -
                   sbri_wide_load(block->offset + lane);
-  sbri_wide pushed = sbri_wide_load(block->velocity_change + lane);
+  sbri_wide old_change = sbri_wide_load(block->velocity_change + lane);
   sbri_mask arrives = gap + h * speed < zero,
             bounces = arrives & (speed < sbri_wide_all(-rule->bounce_from_m_s));
-  /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
-  sbri_wide arriving = zero - sbri_wide_max(gap, zero) / h;
-  sbri_wide back = zero - sbri_wide_load(block->restitution + lane) * speed;
-  sbri_wide_store(block->wanted + lane, sbri_wide_select(bounces, sbri_wide_max(back, arriving), arriving));
+  /* Target: arrive at the plane; stop if it penetrates already; bounce if it is fast. */
+  sbri_wide arrival = zero - sbri_wide_max(gap, zero) / h;
+  sbri_wide bounce = zero - sbri_wide_load(block->restitution + lane) * speed;
+  sbri_wide_store(block->wanted + lane, sbri_wide_select(bounces, sbri_wide_max(bounce, arrival), arrival));
   sbri_wide_store(block->gap + lane, gap);
-  /* Of the first push in the tick: later ones answer the body's own vibration. */
+  /* Only the first impulse of the tick counts: later ones come from the body's own vibration. */
   sbri_mask first = arrives & (sbri_wide_load(block->pushed + lane) <= zero);
   closing = sbri_wide_select(first, sbri_wide_max(closing, zero - speed), closing);
   sbri_wide_store(block->closing_speed + lane, closing);
-  sbri_wide active = sbri_wide_select(arrives | (pushed > zero), one, zero);
+  sbri_wide active = sbri_wide_select(arrives | (old_change > zero), one, zero);
   bool changed = sbri_mask_any(active != sbri_wide_load(block->active + lane));
   sbri_wide_store(block->active + lane, active);
   sbri_wide_store(
@@ -189,34 +191,35 @@ static inline void sbri_contact_sum_rows(
   }
 }
 
-/* Applies the impulses of the substep before. */
+/* Applies the impulses of the previous substep. */
 static inline void sbri_contact_warm_start(
     const sbri_island_tick *t, sbri_contact_block *blocks, uint32_t count) {
   for (uint32_t b = 0; b < count; b++) {
     sbri_contact_block *block = &blocks[b];
     sbri_wide3 changes[SBRI_CONTACT_GROUPS];
-    bool pushes = false;
+    bool has_impulses = false;
     for (uint32_t lane = 0; block->is_near && lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_wide push = sbri_wide_load(block->velocity_change + lane);
+      sbri_wide velocity_change = sbri_wide_load(block->velocity_change + lane);
       sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane);
-      changes[lane / SBRI_LANES] = (sbri_wide3){f.x + n.x * push, f.y + n.y * push, f.z + n.z * push};
-      pushes = pushes || sbri_mask_any(push > sbri_wide_all(0));
+      changes[lane / SBRI_LANES] =
+          (sbri_wide3){f.x + n.x * velocity_change, f.y + n.y * velocity_change, f.z + n.z * velocity_change};
+      has_impulses = has_impulses || sbri_mask_any(velocity_change > sbri_wide_all(0));
     }
-    block->pushes = pushes;
-    if (pushes) sbri_contact_scatter(t->velocity_points, block, changes);
+    block->pushes = has_impulses;
+    if (has_impulses) sbri_contact_scatter(t->velocity_points, block, changes);
   }
 }
 
-/* Corrects the impulses of a group of lanes. Returns the change of velocity. */
+/* Corrects the impulses of a group of lanes. Returns the velocity change. */
 SBRI_INLINE sbri_wide3 sbri_contact_correct(
     const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane) {
   sbri_wide zero = sbri_wide_all(0), fraction = sbri_wide_load(block->fraction + lane);
-  sbri_wide3 n = sbri_load_rows(block->normal, lane), under = sbri_load_rows(block->velocity, lane);
+  sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
   sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
   sbri_wide3 f = sbri_load_rows(block->friction_impulse, lane), now;
-  v.x = v.x - under.x, v.y = v.y - under.y, v.z = v.z - under.z;
-  sbri_wide speed = sbri_wide3_along(n, v), push = sbri_wide_load(block->velocity_change + lane);
-  sbri_wide corrected = push + fraction * (sbri_wide_load(block->wanted + lane) - speed);
+  v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
+  sbri_wide speed = sbri_wide3_along(n, v), velocity_change = sbri_wide_load(block->velocity_change + lane);
+  sbri_wide corrected = velocity_change + fraction * (sbri_wide_load(block->wanted + lane) - speed);
   corrected = sbri_wide_max(corrected, zero);
   now.x = f.x - fraction * (v.x - n.x * speed), now.y = f.y - fraction * (v.y - n.y * speed),
   now.z = f.z - fraction * (v.z - n.z * speed);
@@ -225,15 +228,15 @@ SBRI_INLINE sbri_wide3 sbri_contact_correct(
                 sbri_wide_load(block->bound + lane) + sbri_wide_load(block->bound_slope + lane) * corrected;
   sbri_wide max = sbri_wide_select(
       corrected > zero, sbri_wide_load(block->friction + lane) * sbri_wide_max(pressing, zero), zero);
-  sbri_wide kept = sbri_wide_min(max / sbri_wide_max(size, sbri_wide_all(1e-20f)), sbri_wide_all(1));
-  now.x = now.x * kept, now.y = now.y * kept, now.z = now.z * kept;
+  sbri_wide clamp = sbri_wide_min(max / sbri_wide_max(size, sbri_wide_all(1e-20f)), sbri_wide_all(1));
+  now.x = now.x * clamp, now.y = now.y * clamp, now.z = now.z * clamp;
   sbri_wide_store(block->velocity_change + lane, corrected);
   sbri_store_rows(block->friction_impulse, lane, now);
-  sbri_wide more = corrected - push;
+  sbri_wide more = corrected - velocity_change;
   return (sbri_wide3){now.x - f.x + n.x * more, now.y - f.y + n.y * more, now.z - f.z + n.z * more};
 }
 
-/* One iteration; returns the square of the greatest change of a velocity. */
+/* One iteration; returns the square of the largest velocity change. */
 static inline float sbri_contact_iterate(
     const sbri_island_tick *t, sbri_contact_block *blocks, uint32_t count, bool backward) {
   float squares[SBRI_BLOCK] = {0}, max = 0;
@@ -254,59 +257,60 @@ static inline float sbri_contact_iterate(
   return max;
 }
 
-/* Moves a sample that was pushed and is too deep up at a limited rate. One after the other: each sees what
- * the others of its points were moved by. */
-static inline void sbri_contact_lift(const sbri_island_tick *t, const sbri_contact_block *block,
-    uint32_t lane, const sbri_contact_rule *rule) {
+/* Penetration correction of samples in contact, at a limited rate. Sequential, because contacts that share
+ * points see each other's corrections. */
+static inline void sbri_contact_correct_penetration(const sbri_island_tick *t,
+    const sbri_contact_block *block, uint32_t lane, const sbri_contact_rule *rule) {
   sbf_vec3 n = {block->normal[0][lane], block->normal[1][lane], block->normal[2][lane]};
   float gap = -block->offset[lane];
   for (int k = 0; k < 4; k++) {
     const sbri_point *x = &t->positions[block->slots[k][lane]];
     gap += block->weights[k][lane] * (n.x * x->x + n.y * x->y + n.z * x->z);
   }
-  float up = -gap - rule->slack_m;
-  up = up < rule->push_m ? up : rule->push_m;
-  for (int k = 0; up > 0 && k < 4; k++) {
+  float depth = -gap - rule->slack_m;
+  depth = depth < rule->push_m ? depth : rule->push_m;
+  for (int k = 0; depth > 0 && k < 4; k++) {
     sbri_point *x = &t->positions[block->slots[k][lane]];
-    float moved = block->responses[k][lane] * up;
-    x->x += moved * n.x, x->y += moved * n.y, x->z += moved * n.z;
+    float displacement = block->responses[k][lane] * depth;
+    x->x += displacement * n.x, x->y += displacement * n.y, x->z += displacement * n.z;
   }
 }
 
-/* Adds up what the block was given, and lifts what is too deep. */
+/* Adds up the impulses of the block and corrects its penetration. */
 static inline void sbri_contact_finish(
     const sbri_island_tick *t, sbri_contact_block *block, const sbri_contact_rule *rule) {
-  float lifts[SBRI_BLOCK];
+  float corrections[SBRI_BLOCK];
   bool any = false;
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-    sbri_wide zero = sbri_wide_all(0), push = sbri_wide_load(block->velocity_change + lane);
+    sbri_wide zero = sbri_wide_all(0), velocity_change = sbri_wide_load(block->velocity_change + lane);
     sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane),
-               given = sbri_load_rows(block->given, lane);
-    given.x = given.x + (f.x + n.x * push), given.y = given.y + (f.y + n.y * push),
-    given.z = given.z + (f.z + n.z * push);
-    sbri_store_rows(block->given, lane, given);
-    sbri_wide_store(block->pushed + lane, sbri_wide_max(sbri_wide_load(block->pushed + lane), push));
+               total = sbri_load_rows(block->given, lane);
+    total.x = total.x + (f.x + n.x * velocity_change), total.y = total.y + (f.y + n.y * velocity_change),
+    total.z = total.z + (f.z + n.z * velocity_change);
+    sbri_store_rows(block->given, lane, total);
+    sbri_wide_store(
+        block->pushed + lane, sbri_wide_max(sbri_wide_load(block->pushed + lane), velocity_change));
     sbri_wide depth = zero - sbri_wide_load(block->gap + lane) - sbri_wide_all(rule->slack_m);
-    sbri_wide lift = sbri_wide_select(push > zero, depth, zero);
-    sbri_wide_store(lifts + lane, lift);
-    any = any || sbri_mask_any(lift > zero);
+    sbri_wide correction = sbri_wide_select(velocity_change > zero, depth, zero);
+    sbri_wide_store(corrections + lane, correction);
+    any = any || sbri_mask_any(correction > zero);
   }
   for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++)
-    if (lifts[lane] > 0) sbri_contact_lift(t, block, lane, rule);
+    if (corrections[lane] > 0) sbri_contact_correct_penetration(t, block, lane, rule);
 }
 
 /* Solves the contacts of a body for the coming substep: changes `velocities` so that no sample passes its
- * plane, and lifts samples that are too deep. */
+ * plane, and corrects the penetration of deep samples. */
 static inline void sbri_contact_solve(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   uint32_t count = sbri_contact_block_count(t, body);
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   bool changed = false, any = false;
   float fastest = sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->sample_beyond);
-  float moved = 2 * rule->step_s * fastest + rule->push_m, near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
+  float displacement = 2 * rule->step_s * fastest + rule->push_m, near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
   for (uint32_t b = 0; b < count; b++) {
     blocks[b].is_near = false;
-    blocks[b].clear_m -= moved;
+    blocks[b].clear_m -= displacement;
     if (blocks[b].clear_m > near && !blocks[b].moves) continue;
     changed = sbri_contact_begin(t, &blocks[b], rule) || changed;
     any = any || blocks[b].is_near;

@@ -6,9 +6,9 @@
 
 enum { MAX_COLOURS = 64 };
 
-/* Who has which elements: of each free slot, those from begins[slot] on. */
+/* Elements of each free slot; those of `slot` begin at begins[slot]. */
 typedef struct ends {
-  uint32_t *begins, *elements; /* an element: its number x 4 + which end */
+  uint32_t *begins, *elements; /* an element: its index x 4 + its end */
 } ends;
 
 typedef struct descent_maker {
@@ -18,7 +18,7 @@ typedef struct descent_maker {
   const sbf_uint4 *corners; /* (tetrahedron_count) slots */
   ends springs, solids;
   uint8_t *colours;
-  sbfi_array blocks, cells, damping, slack, solid_blocks; /* damping, slack: eight a cell */
+  sbfi_array blocks, cells, damping, slack, solid_blocks; /* damping, slack: eight per cell */
 } descent_maker;
 
 static uint32_t slot_of(const descent_maker *m, bool solid, uint32_t element, uint32_t end) {
@@ -47,35 +47,36 @@ static bool list_ends(descent_maker *m, bool solid, ends *to) {
   return true;
 }
 
-static void avoid(const descent_maker *m, bool solid, const ends *of, uint32_t slot, uint64_t *taken) {
+static void add_neighbour_colours(
+    const descent_maker *m, bool solid, const ends *of, uint32_t slot, uint64_t *used_colours) {
   for (uint32_t i = of->begins[slot]; i < of->begins[slot + 1]; i++)
     for (uint32_t k = 0; k < (solid ? 4u : 2u); k++) {
       uint32_t other = slot_of(m, solid, of->elements[i] / 4, k);
       if (other != slot && other < m->island->free_count && m->colours[other])
-        *taken |= (uint64_t)1 << (m->colours[other] - 1);
+        *used_colours |= (uint64_t)1 << (m->colours[other] - 1);
     }
 }
 
-/* The first colour that no neighbour has, point after point. The last colour takes what is left over: its
- * points move one at a time. */
+/* Gives each point the first colour that no neighbour has. The last colour takes all remaining points, which
+ * move one at a time. */
 static void colour_points(descent_maker *m, uint32_t *count) {
   *count = 0;
   for (uint32_t slot = 0; slot < m->island->free_count; slot++) {
-    uint64_t taken = 0;
+    uint64_t used_colours = 0;
     uint32_t colour = 0;
     if (!(m->island->masses[slot] > 0)) continue;
-    avoid(m, false, &m->springs, slot, &taken);
-    avoid(m, true, &m->solids, slot, &taken);
-    while (colour < MAX_COLOURS && taken >> colour & 1) colour++;
+    add_neighbour_colours(m, false, &m->springs, slot, &used_colours);
+    add_neighbour_colours(m, true, &m->solids, slot, &used_colours);
+    while (colour < MAX_COLOURS && used_colours >> colour & 1) colour++;
     if (colour == MAX_COLOURS) colour--;
     m->colours[slot] = (uint8_t)(colour + 1);
     if (colour + 1 > *count) *count = colour + 1;
   }
 }
 
-/* ---- Blocks ---- */
+/* Blocks */
 
-static void put_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_t element) {
+static void fill_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_t element) {
   const sbfi_spring *s = &m->island->springs[element / 4];
   sbri_spring_cell *cell = (sbri_spring_cell *)m->cells.at + number;
   ((float *)m->damping.at)[(size_t)number * SBRI_BLOCK + lane] = s->damping_ns_m;
@@ -85,24 +86,23 @@ static void put_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_
   cell->pull[lane] = s->stiffness_n_m * s->rest_length_m;
 }
 
-/* The tetrahedron with the point for its corner 0, turned by two swaps, which leave it the right way round.
- */
-static void put_corner(
+/* Reorders the tetrahedron so that corner 0 is the point. Two swaps preserve its orientation. */
+static void fill_corner(
     const descent_maker *m, sbri_tetrahedron_block *block, uint32_t lane, uint32_t element) {
   static const int orders[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
   const int *order = orders[element % 4];
   uint32_t number = element / 4;
-  sbfi_tetrahedron made, turned;
+  sbfi_tetrahedron made, reordered;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = &m->model->bodies[m->island->bodies[b]];
     if (number - body->first_tetrahedron >= body->tetrahedron_count) continue;
     if (!sbri_body_tetrahedron(body, number - body->first_tetrahedron, &made)) return;
-    turned = made;
+    reordered = made;
     for (int k = 0; k < 4; k++) {
-      turned.gradients[k] = made.gradients[order[k]];
+      reordered.gradients[k] = made.gradients[order[k]];
       block->corners[k][lane] = m->corners[number].at[order[k]];
     }
-    sbri_tetrahedron_fill(block, lane, &turned);
+    sbri_tetrahedron_fill(block, lane, &reordered);
   }
 }
 
@@ -116,17 +116,17 @@ static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
     uint32_t slot = block->slots[lane] = slots[lane < count ? lane : 0];
     if (lane >= count) continue;
     block->masses[lane] = m->island->masses[slot];
-    uint32_t own = m->springs.begins[slot + 1] - m->springs.begins[slot];
-    uint32_t own_solids = m->solids.begins[slot + 1] - m->solids.begins[slot];
-    springs = own > springs ? own : springs;
-    solids = own_solids > solids ? own_solids : solids;
+    uint32_t spring_count = m->springs.begins[slot + 1] - m->springs.begins[slot];
+    uint32_t solid_count = m->solids.begins[slot + 1] - m->solids.begins[slot];
+    springs = spring_count > springs ? spring_count : springs;
+    solids = solid_count > solids ? solid_count : solids;
   }
   block->spring_end = block->first_spring + springs, block->corner_end = block->first_corner + solids;
   sbri_spring_cell *cells = sbfi_array_push(&m->cells, springs);
   sbri_tetrahedron_block *corners = sbfi_array_push(&m->solid_blocks, solids);
-  bool known = sbfi_array_push(&m->damping, (size_t)springs * SBRI_BLOCK) &&
-               sbfi_array_push(&m->slack, (size_t)springs * SBRI_BLOCK);
-  if ((springs && !(cells && known)) || (solids && !corners)) return false;
+  bool has_tables = sbfi_array_push(&m->damping, (size_t)springs * SBRI_BLOCK) &&
+                    sbfi_array_push(&m->slack, (size_t)springs * SBRI_BLOCK);
+  if ((springs && !(cells && has_tables)) || (solids && !corners)) return false;
   if (springs) memset(cells, 0, springs * sizeof *cells);
   if (solids) memset(corners, 0, solids * sizeof *corners);
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
@@ -137,10 +137,10 @@ static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
     if (lane >= count) continue;
     const ends *s = &m->springs, *t = &m->solids;
     for (uint32_t i = s->begins[slot]; i < s->begins[slot + 1]; i++) {
-      put_spring(m, block->first_spring + (i - s->begins[slot]), lane, s->elements[i]);
+      fill_spring(m, block->first_spring + (i - s->begins[slot]), lane, s->elements[i]);
     }
     for (uint32_t i = t->begins[slot]; i < t->begins[slot + 1]; i++)
-      put_corner(m, &corners[i - t->begins[slot]], lane, t->elements[i]);
+      fill_corner(m, &corners[i - t->begins[slot]], lane, t->elements[i]);
   }
   return true;
 }
@@ -156,9 +156,9 @@ static bool add_colour(descent_maker *m, uint32_t colour) {
   return count == 0 || add_block(m, slots, count);
 }
 
-static const void *keep(descent_maker *m, const sbfi_array *from, size_t size) {
-  void *kept = sbfi_arena_allocate(&m->model->arena, from->count ? from->count : 1, size);
-  return kept && from->count ? memcpy(kept, from->at, from->count * size) : kept;
+static const void *copy_table(descent_maker *m, const sbfi_array *from, size_t size) {
+  void *copy = sbfi_arena_allocate(&m->model->arena, from->count ? from->count : 1, size);
+  return copy && from->count ? memcpy(copy, from->at, from->count * size) : copy;
 }
 
 static bool make(descent_maker *m, sbri_descent *made) {
@@ -180,15 +180,15 @@ static bool make(descent_maker *m, sbri_descent *made) {
   for (uint32_t colour = 1; colour <= made->colour_count; colour++)
     if (!add_colour(m, colour)) return false;
   made->block_count = (uint32_t)m->blocks.count;
-  made->blocks = keep(m, &m->blocks, sizeof(sbri_descent_block));
-  made->springs = keep(m, &m->cells, sizeof(sbri_spring_cell));
-  made->corners = keep(m, &m->solid_blocks, sizeof(sbri_tetrahedron_block));
+  made->blocks = copy_table(m, &m->blocks, sizeof(sbri_descent_block));
+  made->springs = copy_table(m, &m->cells, sizeof(sbri_spring_cell));
+  made->corners = copy_table(m, &m->solid_blocks, sizeof(sbri_tetrahedron_block));
   if (island->cell_damping) {
-    made->damping = keep(m, &m->damping, sizeof(float));
+    made->damping = copy_table(m, &m->damping, sizeof(float));
     if (!made->damping) return false;
   }
   if (island->cell_slack) {
-    made->slack = keep(m, &m->slack, sizeof(float));
+    made->slack = copy_table(m, &m->slack, sizeof(float));
     if (!made->slack) return false;
   }
   return made->blocks && made->springs && made->corners;

@@ -1,8 +1,9 @@
-/* Its loops are in solvers/explicit_euler.h. */
+/* The loops are in solvers/explicit_euler.h. */
 #include "model/kernels.h"
 #include "solvers/scheme.h"
 
-/* As many as the springs' own damping holds it at, else as symplectic Euler takes: nothing holds it there. */
+/* The number at which the springs' own damping keeps the scheme stable. Without damping, no number does; then
+ * that of symplectic Euler. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
   double w = island->fastest_rad_s, z = 0.5 * island->stiffness_damping_s * w;

@@ -1,16 +1,15 @@
-/* Explicit Euler: x += h v, v += h a, both of the state before. The first thing anyone tries, and here to
- * show how it fails: an undamped mode of frequency w grows by sqrt(1 + (w h)^2) in every substep, which is a
- * damping ratio of -w h / 2. Springs that damp their own stretching at the ratio z hold it while w h < 2 z.
- * First order.
+/* Explicit Euler: x += h v, v += h a, both from the state before the step. It is here to show how it fails:
+ * an undamped mode of frequency w grows by sqrt(1 + (w h)^2) in every substep, which is a damping ratio of -w
+ * h / 2. Springs with their own damping ratio z are stable while w h < 2 z. First order.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_EXPLICIT_EULER_H
 #define SBRI_EXPLICIT_EULER_H
 
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-/* v += h a, of the accelerations found before. */
+/* v += h a, with the accelerations found before. */
 static inline void sbri_add_accelerations(const sbri_island_tick *t, float h) {
   sbri_wide step = sbri_wide_all(h);
   for (uint32_t i = 0; i < 3 * t->island->free_count; i += SBRI_LANES)

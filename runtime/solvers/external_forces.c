@@ -5,10 +5,11 @@
 #include "math/quat.h"
 #include "solvers/surface_forces.h"
 
-/* Fraction of its rest volume below which a gas's pressure does not grow further, inverted or not. */
+/* Fraction of its rest volume below which the pressure of a gas does not increase further, inverted or not.
+ */
 static const double MIN_GAS_FRACTION = 0.02;
 
-/* What a gas may stiffen by from one look to the next. */
+/* Maximum ratio by which a gas may stiffen between two checks. */
 static const double GAS_MARGIN = 1.25;
 
 static sbf_vec3 vec_of(const sbri_point *p) {
@@ -27,17 +28,17 @@ static sbf_vec3 velocity_of(const sbri_island_tick *t, uint32_t slot) {
   return sbri_slot_velocity(t, t->velocities, slot);
 }
 
-/* ---- Surfaces ---- */
+/* Surfaces */
 
 static uint32_t lane_corners(const sbri_skin *skin, uint32_t face, uint32_t corners[4]) {
   const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];
   for (int k = 0; k < 4; k++) corners[k] = block->corners[k][face % SBRI_BLOCK];
-  if (corners[0] == corners[1] && corners[1] == corners[2]) return 0; /* inert */
+  if (corners[0] == corners[1] && corners[1] == corners[2]) return 0; /* padding */
   return corners[3] == corners[0] ? 3 : 4;
 }
 
-/* Places or velocities of the surface's vertices, from those of the points that carry them. */
-static void carry_vertices(
+/* Positions or velocities of the surface vertices, from the points that they are embedded in. */
+static void compute_vertices(
     const sbri_island_tick *t, const sbri_skin *skin, bool velocities, sbri_point *to) {
   for (uint32_t v = 0; v < skin->vertex_count; v++) {
     uint32_t block = v / SBRI_BLOCK, lane = v % SBRI_BLOCK;
@@ -53,8 +54,8 @@ static void carry_vertices(
   }
 }
 
-/* Forces on vertices to the points that carry them. */
-static void pass_on(const sbri_island_tick *t, const sbri_skin *skin, const sbri_point *forces) {
+/* Distributes forces on vertices to the points that they are embedded in. */
+static void distribute_forces(const sbri_island_tick *t, const sbri_skin *skin, const sbri_point *forces) {
   for (uint32_t v = 0; v < skin->vertex_count; v++) {
     uint32_t block = v / SBRI_BLOCK, lane = v % SBRI_BLOCK;
     for (uint32_t c = skin->cell_begins[block]; c < skin->cell_begins[block + 1]; c++) {
@@ -109,8 +110,8 @@ static void add_medium(const sbri_island_tick *t, const sbri_body *body, const s
     for (uint32_t k = 0; k < count; k++)
       v = sbri_add_scaled(v, vec_of(&velocities[corners[k]]), 1 / (float)count);
     float speed = sbri_dot(sbri_sub(v, t->wind), area) / size;
-    float push = -0.5f * body->medium_kg_m3 * fabsf(speed) * speed / (float)count;
-    for (uint32_t k = 0; k < count; k++) add_to(&forces[corners[k]], sbri_scale(area, push));
+    float force = -0.5f * body->medium_kg_m3 * fabsf(speed) * speed / (float)count;
+    for (uint32_t k = 0; k < count; k++) add_to(&forces[corners[k]], sbri_scale(area, force));
   }
 }
 
@@ -139,7 +140,7 @@ static void add_gas(const sbri_body *body, const sbri_point *vertices, sbri_poin
   add_pressure(body, vertices, (float)pressure, body->gas_factors, forces);
 }
 
-/* In one substep a medium takes no more of a point's speed against it than all. */
+/* Limits the medium: in one substep it removes at most a point's whole velocity relative to it. */
 static void bound_medium(const sbri_island_tick *t, const sbri_body *body, float h) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     float change = sbri_length(vec_of(&t->external_forces[slot])) * h * t->island->inverse_masses[slot];
@@ -154,18 +155,18 @@ static void add_surface(const sbri_island_tick *t, const sbri_body *body, float 
   sbri_point *vertices = t->surface_vertices + body->first_vertex;
   sbri_point *forces = t->surface_forces + body->first_vertex;
   sbri_point *velocities = t->surface_velocities + body->first_vertex;
-  carry_vertices(t, &body->surface, false, vertices);
+  compute_vertices(t, &body->surface, false, vertices);
   clear(forces, body->surface.vertex_count);
   if (body->medium_kg_m3 > 0) {
-    carry_vertices(t, &body->surface, true, velocities);
+    compute_vertices(t, &body->surface, true, velocities);
     add_medium(t, body, vertices, velocities, forces);
-    pass_on(t, &body->surface, forces);
+    distribute_forces(t, &body->surface, forces);
     bound_medium(t, body, h);
     clear(forces, body->surface.vertex_count);
   }
   if (body->gas_pa == 0) return;
   add_gas(body, vertices, forces);
-  pass_on(t, &body->surface, forces);
+  distribute_forces(t, &body->surface, forces);
 }
 
 static void add_bending(const sbri_island_tick *t, const sbri_body *body) {
@@ -181,11 +182,11 @@ static void add_bending(const sbri_island_tick *t, const sbri_body *body) {
   }
 }
 
-/* ---- Fields ---- */
+/* Force fields */
 
 sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v) {
-  sbf_vec3 off = sbri_sub(x, field->position), none = {0, 0, 0};
-  float distance = sbri_length(off);
+  sbf_vec3 offset = sbri_sub(x, field->position), none = {0, 0, 0};
+  float distance = sbri_length(offset);
   if (field->radius > 0 && distance > field->radius) return none;
   float g = field->strength;
   if (field->falloff > 0) g *= sbri_exp(-field->falloff * sbri_log(1 + distance));
@@ -194,15 +195,15 @@ sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v) {
   case SBF_FIELD_KIND_UNIFORM:
     return sbri_scale(direction, g);
   case SBF_FIELD_KIND_RADIAL:
-    return sbri_scale(sbri_normalize(off, none), g);
+    return sbri_scale(sbri_normalize(offset, none), g);
   case SBF_FIELD_KIND_VORTEX:
-    return sbri_scale(sbri_normalize(sbri_cross(direction, off), none), g);
+    return sbri_scale(sbri_normalize(sbri_cross(direction, offset), none), g);
   default:
     return sbri_scale(v, -g);
   }
 }
 
-/* In the anchor's space and back. A field that drags takes no more in a substep than all. */
+/* Evaluated in the space of the anchor. A drag field removes at most the whole velocity in a substep. */
 static void add_fields(const sbri_island_tick *t, float h) {
   const sbf_force_field_list *fields = &t->model->asset->environment.fields;
   sbf_quat there = sbri_quat_conjugate(t->anchor.rotation);
@@ -231,18 +232,19 @@ void sbri_compute_external_forces(const sbri_island_tick *t, float h) {
   if (t->model->asset->environment.fields.count) add_fields(t, h);
 }
 
-/* ---- How stiff gases are now ---- */
+/* Stiffness of gases */
 
-/* Of one gas, rad^2/s^2: p / V times the sum of w |grad V|^2, and the turning of its faces. */
+/* Squared frequency of one gas, rad^2/s^2: p / V times the sum of w |grad V|^2, plus the rotation of its
+ * faces. */
 static double gas_square(const sbri_island_tick *t, const sbri_body *body) {
   sbri_point *vertices = t->surface_vertices + body->first_vertex;
   sbri_point *gradients = t->surface_forces + body->first_vertex;
   double sum = 0;
-  carry_vertices(t, &body->surface, false, vertices);
+  compute_vertices(t, &body->surface, false, vertices);
   clear(gradients, body->surface.vertex_count);
   clear(t->external_forces + body->slot_begin, body->slot_end - body->slot_begin);
   add_pressure(body, vertices, 1, NULL, gradients);
-  pass_on(t, &body->surface, gradients);
+  distribute_forces(t, &body->surface, gradients);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     sbf_vec3 g = vec_of(&t->external_forces[slot]);
     sum += (double)t->island->inverse_masses[slot] * (double)sbri_dot(g, g);
@@ -263,7 +265,7 @@ void sbri_update_gas_stiffness(const sbri_island_tick *t) {
   if (GAS_MARGIN * GAS_MARGIN * square > rest * rest) *t->external_rad_s = GAS_MARGIN * sqrt(square);
 }
 
-/* ---- Energies ---- */
+/* Energies */
 
 double sbri_external_energy(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, sbri_point *vertices) {
@@ -271,12 +273,12 @@ double sbri_external_energy(
   for (uint32_t i = 0; i < body->hinge_count; i++) {
     sbf_vec3 x[4];
     for (int k = 0; k < 4; k++) x[k] = vec_of(&positions[body->hinges[i].slots[k]]);
-    double turned = (double)sbri_angle_between(sbri_hinge_shape_of(x).angle, body->hinges[i].rest_angle);
-    energy += 0.5 * (double)body->hinges[i].stiffness * turned * turned;
+    double angle = (double)sbri_angle_between(sbri_hinge_shape_of(x).angle, body->hinges[i].rest_angle);
+    energy += 0.5 * (double)body->hinges[i].stiffness * angle * angle;
   }
   if (body->gas_pa == 0) return energy;
   sbri_island_tick t = {.island = island, .positions = (sbri_point *)(uintptr_t)positions};
-  carry_vertices(&t, &body->surface, false, vertices);
+  compute_vertices(&t, &body->surface, false, vertices);
   double fraction = volume_of(&body->surface, vertices) / body->gas_volume_m3;
   double reckoned = fraction > MIN_GAS_FRACTION ? fraction : MIN_GAS_FRACTION;
   double grown = (double)sbri_log((float)reckoned) + (fraction - reckoned) / reckoned;

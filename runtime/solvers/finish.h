@@ -15,8 +15,8 @@
 
 /* Alternates compression limits and ground contacts, because each undoes a little of the other. */
 static inline void sbri_limit_compression_above_ground(const sbri_island_tick *t, float h) {
-  bool remembered = false;
-  for (int sweep = 0; sweep < SBRI_COMPRESSION_SWEEPS && sbri_limit_compression_sweep(t, &remembered);
+  bool contacts_stored = false;
+  for (int sweep = 0; sweep < SBRI_COMPRESSION_SWEEPS && sbri_limit_compression_sweep(t, &contacts_stored);
        sweep++)
     for (uint32_t b = 0; b < t->island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[t->island->bodies[b]];

@@ -1,11 +1,10 @@
-/* Its loops are in solvers/heun.h. */
+/* The loops are in solvers/heun.h. */
 #include "model/kernels.h"
 #include "solvers/scheme.h"
 
-/* Least number of substeps: no mode has a phase of more than half a radian in one, four times the number that
- * is stable for symplectic Euler. A number asked for replaces the error control; it is raised to the next
- * power of two.
- */
+/* Minimum number of substeps: no mode has a phase of more than half a radian per substep, which is four times
+ * the number that is stable for symplectic Euler. A number set by the asset replaces the error control; it is
+ * raised to the next power of two. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
   return island->substeps ? stable : stable < SBRI_MAX_SUBSTEPS / 4 ? 4 * stable : SBRI_MAX_SUBSTEPS;

@@ -1,13 +1,13 @@
-/* Heun's method with a step that follows its error: the corrector's places differ from the predictor's by
- * h^2/2 a, which is the error of the predictor; a step is halved until that is below the limit for every
- * point, and doubled again where it fits. Second order; Blender's soft bodies go by the same rule.
+/* Heun's method with error control. The positions of the corrector differ from those of the predictor by
+ * h^2/2 a, the error of the predictor. A step is halved until that is below the limit for every point, and
+ * doubled again when possible. Second order; the soft bodies of Blender use the same rule.
  *
  * Steps are the tick divided by powers of two and begin at multiples of themselves, so that the division does
  * not depend on rounding. Frame damping and media friction are exact decays of half a step before and after.
- * An undamped mode of frequency w grows by sqrt(1 + (w h)^4 / 4) a step, a damping ratio of -(w h)^3 / 8: it
- * wants some damping, and steps that the error alone would leave larger are kept at w h <= 1/2.
+ * An undamped mode of frequency w grows by sqrt(1 + (w h)^4 / 4) per step, a damping ratio of -(w h)^3 / 8.
+ * It needs some damping, and steps are limited to w h <= 1/2 even if the error allows more.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_HEUN_H
 #define SBRI_HEUN_H
 
@@ -43,8 +43,8 @@ static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
   }
 }
 
-/* The same for a body with surface samples or loads, which needs all velocities at once. */
-static inline void sbri_heun_correct_carried(
+/* The corrector of a body with surface samples or loads, which needs all velocities at once. */
+static inline void sbri_heun_correct_embedded(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
@@ -78,8 +78,8 @@ static inline void sbri_heun_correct_carried(
   }
 }
 
-/* Corrector: positions by the mean of both velocities, bounded by the ground; then velocities by the mean of
- * both accelerations: v + h a0 is there, h/2 (a1 - a0) is added. `first` holds a0. */
+/* Corrector: positions by the mean of both velocities, bounded by the ground, then velocities by the mean of
+ * both accelerations. The predictor added h a0, so h/2 (a1 - a0) remains. `first` holds a0. */
 static inline void sbri_heun_correct_body(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
@@ -107,7 +107,7 @@ static inline void sbri_heun_correct_body(
 }
 
 /* Stores the first accelerations before the second are computed. */
-static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *first) {
+static inline void sbri_heun_store_first(const sbri_island_tick *t, sbri_point *first) {
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(first + slot, sbri_load3(sbri_const_triple(t->accelerations, slot)));
 }
@@ -124,10 +124,10 @@ enum { SBRI_HEUN_UNITS = SBRI_MAX_SUBSTEPS };
 static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
-  sbri_point *first = t->begins; /* of free points; entries of pinned points are in use */
-  uint32_t wanted = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS, shortest = 1;
-  if (wanted < island->substeps_least && !island->substeps) wanted = island->substeps_least;
-  while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
+  sbri_point *first = t->begins; /* of free points; the entries of pinned points are in use */
+  uint32_t needed = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS, shortest = 1;
+  if (needed < island->substeps_least && !island->substeps) needed = island->substeps_least;
+  while (longest > 1 && SBRI_HEUN_UNITS / longest < needed) longest /= 2;
   while (island->substeps_most && shortest < longest && SBRI_HEUN_UNITS / shortest > island->substeps_most)
     shortest *= 2; /* stability bounds the step */
   sbri_store_pinned_begin(t);
@@ -140,7 +140,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     float h = unit * (float)step;
     sbri_decay_all(t, 0.5f * h);
     if (sbri_has_damping(island)) sbri_heun_evaluate(t, h, NULL); /* damping depends on velocities */
-    sbri_heun_keep_first(t, first);
+    sbri_heun_store_first(t, first);
     sbri_heun_predict(t, h);
     done += step;
     sbri_move_pinned(t, (float)done / (float)SBRI_HEUN_UNITS);
@@ -148,7 +148,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
       if (sbri_has_impulses(t, body))
-        sbri_heun_correct_carried(t, body, h, first);
+        sbri_heun_correct_embedded(t, body, h, first);
       else
         sbri_heun_correct_body(t, body, h, first);
     }

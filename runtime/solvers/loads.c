@@ -11,8 +11,9 @@ static void add(float *v, sbf_vec3 change) {
   v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
 }
 
-/* Shares an impulse among the carriers; what pinned ones get goes to the simulated bodies that hold them. */
-static void push(const sbri_island_tick *t, const sbri_carriers *at, float *velocities, sbf_vec3 impulse) {
+/* Distributes an impulse over the points. Parts on pinned points go to their simulated rigid bodies. */
+static void apply_impulse(
+    const sbri_island_tick *t, const sbri_carriers *at, float *velocities, sbf_vec3 impulse) {
   for (uint32_t k = 0; k < at->count; k++) {
     sbf_vec3 part = sbri_scale(impulse, at->weights[k]);
     uint32_t slot = at->slots[k];
@@ -23,8 +24,8 @@ static void push(const sbri_island_tick *t, const sbri_carriers *at, float *velo
   }
 }
 
-/* All points gain the same velocity. */
-static void push_body(
+/* All points get the same velocity change. */
+static void change_body_velocity(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, sbf_vec3 velocity_change) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
     if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), velocity_change);
@@ -32,15 +33,15 @@ static void push_body(
 
 static sbf_vec3 hold_impulse(
     const sbri_island_tick *t, const sbri_load_now *load, const float *velocities, float h) {
-  sbf_vec3 off = sbri_scale(load->target, -1), v = {0, 0, 0};
+  sbf_vec3 error = sbri_scale(load->target, -1), v = {0, 0, 0};
   for (uint32_t k = 0; k < load->at.count; k++) {
     const sbri_point *x = &t->positions[load->at.slots[k]];
-    off = sbri_add_scaled(off, sbri_vec3(x->x, x->y, x->z), load->at.weights[k]);
+    error = sbri_add_scaled(error, sbri_vec3(x->x, x->y, x->z), load->at.weights[k]);
     v = sbri_add_scaled(v, sbri_slot_velocity(t, velocities, load->at.slots[k]), load->at.weights[k]);
   }
   float k = load->stiffness, kc = h * k + load->damping, max = load->max_force * h;
   sbf_vec3 impulse =
-      sbri_scale(sbri_add_scaled(sbri_scale(off, k), v, kc), -h / (1 + h * kc * load->inverse_mass));
+      sbri_scale(sbri_add_scaled(sbri_scale(error, k), v, kc), -h / (1 + h * kc * load->inverse_mass));
   float size = sbri_length(impulse);
   return size > max ? sbri_scale(impulse, max / size) : impulse;
 }
@@ -51,9 +52,9 @@ void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *v
     if (&t->model->bodies[load->body] != body) continue;
     sbf_vec3 impulse = load->holds ? hold_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
     if (load->at.count > 0)
-      push(t, &load->at, velocities, impulse);
+      apply_impulse(t, &load->at, velocities, impulse);
     else
-      push_body(t, body, velocities, sbri_scale(impulse, load->inverse_mass));
+      change_body_velocity(t, body, velocities, sbri_scale(impulse, load->inverse_mass));
     load->impulse[0] += impulse.x, load->impulse[1] += impulse.y, load->impulse[2] += impulse.z;
   }
 }

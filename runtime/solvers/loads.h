@@ -1,10 +1,10 @@
-/* Forces and holds of the host, as impulses on the velocities of a substep, before the contacts, so that a
- * wall stops a body that is pulled into it.
+/* Forces and holds of the host, as impulses on the velocities of a substep. They act before the contacts, so
+ * that a wall stops a body that is pulled into it.
  *
- * A hold is a damped spring to its target, integrated implicitly: J = -h (k (x - p) + (h k + c) v) /
- * (1 + h (h k + c) / m), with m the effective mass at the vertex and |J| at most the greatest force times h.
- * It is stable even if the vertex is much lighter than the body, from which k and c are chosen (E. Catto,
- * Soft Constraints, 2011). */
+ * A hold is a damped spring to its target, integrated implicitly: J = -h (k (x - p) + (h k + c) v) / (1 + h
+ * (h k + c) / m), with m the effective mass at the vertex and |J| at most the maximum force times h. It is
+ * stable even if the vertex is much lighter than the body, from which k and c are chosen (E. Catto, Soft
+ * Constraints, 2011). */
 #ifndef SBRI_LOADS_H
 #define SBRI_LOADS_H
 

@@ -44,11 +44,11 @@ static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
 }
 
 /* Fraction of the velocity relative to the frame that each lane keeps. */
-static inline sbri_wide sbri_kept(sbri_decay keep, uint32_t slot) {
+static inline sbri_wide sbri_kept_fractions(sbri_decay decay, uint32_t slot) {
   float fractions[SBRI_LANES];
-  if (!keep.alphas) return sbri_wide_all(keep.frame);
+  if (!decay.alphas) return sbri_wide_all(decay.frame);
   for (uint32_t lane = 0; lane < SBRI_LANES; lane++)
-    fractions[lane] = sbri_exp(-keep.alphas[slot + lane] * keep.h);
+    fractions[lane] = sbri_exp(-decay.alphas[slot + lane] * decay.h);
   return sbri_wide_load(fractions);
 }
 
@@ -65,23 +65,23 @@ static inline void sbri_self_damp(
 
 /* Whether damping pulls the body's velocities towards those of its pin frames. */
 static inline bool sbri_is_damped_to_driver(
-    const sbri_island_tick *t, const sbri_body *body, sbri_decay keep) {
-  return body->is_pinned && keep.frame < 1 && !t->undamped;
+    const sbri_island_tick *t, const sbri_body *body, sbri_decay decay) {
+  return body->is_pinned && decay.frame < 1 && !t->undamped;
 }
 
 /* Damped velocities of a group of lanes. Bodies without pins are damped by sbri_self_damp, which needs all
  * their lanes. */
 static inline sbri_wide3 sbri_decayed(
-    const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay keep, bool guided) {
-  sbri_wide drifting = sbri_wide_all(keep.media);
-  if (guided) {
-    sbri_wide kept = sbri_kept(keep, slot);
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay decay, bool is_to_driver) {
+  sbri_wide drifting = sbri_wide_all(decay.media);
+  if (is_to_driver) {
+    sbri_wide fraction = sbri_kept_fractions(decay, slot);
     sbri_wide3 u = sbri_load3(sbri_const_triple(t->driver_velocities, slot));
-    v.x = u.x + (v.x - u.x) * kept;
-    v.y = u.y + (v.y - u.y) * kept;
-    v.z = u.z + (v.z - u.z) * kept;
+    v.x = u.x + (v.x - u.x) * fraction;
+    v.y = u.y + (v.y - u.y) * fraction;
+    v.z = u.z + (v.z - u.z) * fraction;
   }
-  if (keep.media < 1) {
+  if (decay.media < 1) {
     sbri_wide3 u = {sbri_wide_all(t->wind.x), sbri_wide_all(t->wind.y), sbri_wide_all(t->wind.z)};
     sbri_mask real = sbri_wide_load(t->island->inverse_masses + slot) > sbri_wide_all(0);
     v.x = sbri_wide_select(real, u.x + (v.x - u.x) * drifting, v.x);
@@ -91,20 +91,20 @@ static inline sbri_wide3 sbri_decayed(
   return v;
 }
 
-/* v += h a(x), then damping. `pulls`, if not NULL, receives the sums of the spring forces. */
-SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
-    int kind, float *stretches, sbri_pull_sums *pulls) {
+/* v += h a(x), then damping. `spring_sums`, if not NULL, receives the sums of the spring forces. */
+SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay decay,
+    int kind, float *stretches, sbri_spring_sums *spring_sums) {
   sbri_wide step = sbri_wide_all(h);
-  bool guided = sbri_is_damped_to_driver(t, body, keep);
+  bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     sbri_wide3 a = sbri_acceleration(t, slot, x, kind, stretches);
-    if (pulls) sbri_pulls_add(t, slot, x, a, pulls);
+    if (spring_sums) sbri_add_spring_forces(t, slot, x, a, spring_sums);
     v.x = v.x + step * a.x;
     v.y = v.y + step * a.y;
     v.z = v.z + step * a.z;
-    sbri_store3(velocity, sbri_decayed(t, slot, v, keep, guided));
+    sbri_store3(velocity, sbri_decayed(t, slot, v, decay, is_to_driver));
   }
 }
 
@@ -117,36 +117,37 @@ enum { SBRI_SELF_DAMP_EVERY = 4 };
  * same time. Before the drift, modes with a phase of a multiple of pi over the shared substeps would gain
  * energy. */
 static inline void sbri_kick(
-    const sbri_island_tick *t, float h, float self_s, bool put_off, bool last, float *stretches) {
-  float ahead_s = put_off ? 0.5f * h : 0;
+    const sbri_island_tick *t, float h, float self_s, bool is_deferred, bool last, float *stretches) {
+  float ahead_s = is_deferred ? 0.5f * h : 0;
   int kind = sbri_force_kind(t, last);
   if (t->external_forces) sbri_compute_external_forces(t, h);
   if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
-  sbri_pull_sums sums = {{{0}}, {{0}}}, *pulls = t->reactions && sbri_pulls_are_complete(t) ? &sums : NULL;
-  if (t->reactions && !pulls) sbri_react(t, h);
+  sbri_spring_sums sums = {{{0}}, {{0}}},
+                   *spring_sums = t->reactions && sbri_are_spring_sums_complete(t) ? &sums : NULL;
+  if (t->reactions && !spring_sums) sbri_react(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    sbri_decay keep = sbri_decay_of(body, h);
-#define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches, pulls)
+    sbri_decay decay = sbri_decay_of(body, h);
+#define SBRI_CALL(force_kind) sbri_kick_body(t, body, h, decay, force_kind, stretches, spring_sums)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
     if (!body->is_pinned && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s, ahead_s);
   }
-  if (pulls) sbri_react_by_pulls(t, pulls, h);
+  if (spring_sums) sbri_apply_spring_reactions(t, spring_sums, h);
 }
 
 /* Applies damping only, over h seconds. */
 static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    sbri_decay keep = sbri_decay_of(body, h);
-    bool guided = sbri_is_damped_to_driver(t, body, keep);
-    for (uint32_t slot = body->slot_begin; (guided || keep.media < 1) && slot < body->slot_end;
+    sbri_decay decay = sbri_decay_of(body, h);
+    bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
+    for (uint32_t slot = body->slot_begin; (is_to_driver || decay.media < 1) && slot < body->slot_end;
          slot += SBRI_LANES) {
       float *velocity = sbri_triple(t->velocities, slot);
-      sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), keep, guided));
+      sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), decay, is_to_driver));
     }
-    if (!body->is_pinned && keep.frame < 1) sbri_self_damp(t, body, h, 0);
+    if (!body->is_pinned && decay.frame < 1) sbri_self_damp(t, body, h, 0);
   }
 }
 
@@ -166,7 +167,7 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
   if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-#define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
+#define SBRI_CALL(force_kind) sbri_accelerate_body(t, body, force_kind, stretches)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
   }
@@ -253,14 +254,13 @@ static inline bool sbri_soft_contacts_any(const sbri_island_tick *t) {
   return any;
 }
 
-/* The fraction of an element's edge that the fastest point of a body near the ground covers in a substep, at
- * most. It bounds the substep only of what strikes at about its speed of sound or faster: jelly balls of 20
- * to 100 mm dropped from 3 m have elements inside out in 8 of 20 falls without it, in 1 at 0.125, in none at
- * 0.1, where the fall costs a third to a half more. */
+/* Maximum fraction of an element's edge that the fastest point of a body near the ground covers in a substep.
+ * It bounds the substep only for impacts at about the speed of sound of the body or faster. Jelly balls of 20
+ * to 100 mm dropped from 3 m have inverted elements in 8 of 20 falls without it, in 1 at 0.125, in none at
+ * 0.1. The fall then costs a third to a half more. */
 static const float sbri_impact_fraction = 0.1f;
 
-/* m/s, the greatest speed of a point against the mean of its body's, and that of the mean where the body is
- * about to strike. */
+/* Maximum speed of a point relative to the mean of its body, plus the speed of that mean, m/s. */
 static inline float sbri_impact_speed(const sbri_island_tick *t) {
   float max = 0;
   for (uint32_t b = 0; b < t->island->body_count; b++) {
@@ -272,34 +272,33 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
       sum = sbri_add(sum, sbri_slot_velocity(t, t->velocities, slot));
     sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slot_real_end - body->slot_begin));
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-      sbf_vec3 off = sbri_sub(sbri_slot_velocity(t, t->velocities, slot), mean);
-      square = fmaxf(square, sbri_dot(off, off));
+      sbf_vec3 relative = sbri_sub(sbri_slot_velocity(t, t->velocities, slot), mean);
+      square = fmaxf(square, sbri_dot(relative, relative));
     }
     max = fmaxf(max, sqrtf(square) + sqrtf(sbri_dot(mean, mean)));
   }
   return max;
 }
 
-/* Substeps of the `time_s` seconds to come in which no element of a solid body that strikes the ground is
- * crossed; 1 where nothing is near it. */
+/* Number of substeps in the coming `time_s` seconds in which no point crosses an element when a solid body
+ * strikes the ground; 1 if nothing is near the ground. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
   if (island->tetrahedron_block_count == 0 || !(island->cell_m > 0) || !sbri_soft_contacts_any(t)) return 1;
   return time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->cell_m);
 }
 
-/* Whether others give the substeps, as those of rigid bodies do. They have counted impacts; more of its own
- * would keep a pair from coming to rest. */
-static inline bool sbri_substeps_are_given(const sbri_island_tick *t) {
+/* Whether rigid bodies or the asset set the substeps. Those already count impacts, and more substeps of the
+ * island alone would keep a pair from coming to rest. */
+static inline bool sbri_has_fixed_substeps(const sbri_island_tick *t) {
   return t->island->substeps || t->fraction < 1;
 }
 
-/* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. Their
- * number is bounded: a gas that is pressed flat would ask for a million and stop the world; what
- * goes wrong then is recovered from. */
+/* Number of substeps in the coming `time_s` seconds, for the present stiffness of springs, tetrahedra and
+ * gases. Bounded, because a flat gas would need a million; recovery repairs the result. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  if (!sbri_substeps_are_given(t)) {
+  if (!sbri_has_fixed_substeps(t)) {
     float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
     needed = (float)needed < crossing ? (uint32_t)crossing : needed;
   }

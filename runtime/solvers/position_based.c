@@ -1,20 +1,20 @@
-/* Its loops are in solvers/position_based.h. */
+/* The loops are in solvers/position_based.h. */
 #include "model/kernels.h"
 #include "solvers/scheme.h"
 
 /* A sweep leaves a network too soft: by a third in bending with the number of substeps that is stable for
  * symplectic Euler, and by a quarter of that with each doubling. Four times as many are within 3 %.
- * Tetrahedra, which are swept as a whole, are within 2 % with twice as many.
+ * Tetrahedra, which are corrected as a whole, are within 2 % with twice as many.
  *
- * Tetrahedra never get fewer than are stable for symplectic Euler. Elements share points, and a sweep over
- * them is not symmetric: where it does not resolve the fastest mode, it turns some modes' errors into motion.
- * A cube of 64 kg dropped by 1 m came to 1.5e8 J with 0.6 times as many (nu = 0.499), and to 7 times its
- * energy with 0.07 times as many (nu = 0.3). */
+ * Tetrahedra always get at least the number that is stable for symplectic Euler. Elements share points, and a
+ * sweep over them is not symmetric: where it does not resolve the fastest mode, it turns the errors of some
+ * modes into motion. A cube of 64 kg dropped by 1 m reached 1.5e8 J with 0.6 times as many (nu = 0.499), and
+ * 7 times its energy with 0.07 times as many (nu = 0.3). */
 enum { MIN_SUBSTEPS = 8, SPRING_FACTOR = 4, SOLID_FACTOR = 2 };
 enum { MAX_SPRING_SUBSTEPS = 128, MAX_DOUBLED_SUBSTEPS = 64 };
 
-/* Of springs that are to recover for some ticks and are stepped explicitly else, and of those so stiff that
- * the most would leave them several times too soft too. */
+/* Limits for springs that recover for some ticks and are otherwise stepped explicitly, and for springs so
+ * stiff that even the maximum leaves them several times too soft. */
 enum { FEW_SUBSTEPS = 32, HOPELESS_SUBSTEPS = 512 };
 
 static const double MARGIN = 1.1;
@@ -22,7 +22,7 @@ static const double MARGIN = 1.1;
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
   if (island->substeps) return island->substeps;
   uint32_t stable = sbri_stable_substeps(island, tick_s, island->rest_stretch);
-  double outer = MARGIN * tick_s * island->external_rad_s / 2; /* gas and bending are not swept */
+  double outer = MARGIN * tick_s * island->external_rad_s / 2; /* sweeps do not cover gas and bending */
   bool solid = island->tetrahedron_count > 0;
   bool few = island->scheme != &sbri_position_based || stable > HOPELESS_SUBSTEPS;
   uint32_t factor = SPRING_FACTOR, max = MAX_SPRING_SUBSTEPS;

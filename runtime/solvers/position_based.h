@@ -1,25 +1,25 @@
-/* Position-based with compliance, in small steps: one sweep over all springs and tetrahedra a substep.
+/* Position-based with compliance, in small steps: one sweep over all springs and tetrahedra per substep.
  *
- * Points move on freely (x + h v); then each spring, one after the other, puts its ends where an implicit
- * Euler step of that spring alone would: with its ends' inverse masses w_a + w_b = w, too long by C,
+ * Points move freely (x + h v). Then each spring in turn moves its ends to where an implicit Euler step of
+ * that spring alone would. With w = w_a + w_b the inverse masses of its ends, and C its elongation:
  *
  *     shift along it, times the inverse mass:   (k h^2 C + c h (C - C_before)) / (1 + w (k h^2 + c h))
  *
- * and velocities change by the shifts per second. Nothing is accumulated over sweeps or substeps (Macklin and
- * others, Small Steps in Physics Simulation, 2019, for why one sweep of many substeps beats many sweeps of
- * one). Springs go in colours, eight at a time; then tetrahedra (tetrahedron_sweep.h).
+ * Velocities change by the shifts per second. Nothing is accumulated over sweeps or substeps. (Macklin and
+ * others, Small Steps in Physics Simulation, 2019, explain why one sweep of many substeps is better than many
+ * sweeps of one.) Springs are visited in colours, eight at a time, then tetrahedra (tetrahedron_sweep.h).
  *
  * A single spring is stable at any step; tetrahedra that share points need substeps that resolve their
- * fastest mode (position_based.c). Bias against the energy, of a mode of frequency w: damped at the ratio w h
- * / 2, slow by (w h)^2 / 3, exactly as by implicit Euler; and springs that share points rest softer than they
- * are by about k/m h^2, since each is settled while the others wait (measured: 0.8 % in a hanging chain whose
- * fastest mode turns by 0.19 in a substep). A body that turns by w loses w^2 h of its angular velocity a
- * second.
+ * fastest mode (position_based.c). Bias against the energy, of a mode of frequency w: a damping ratio of w h
+ * / 2, and a period longer by (w h)^2 / 3, exactly as by implicit Euler. Springs that share points are too
+ * soft at rest by about k/m h^2, since each is solved while the others wait (measured: 0.8 % in a hanging
+ * chain whose fastest mode has a phase of 0.19 per substep). A body that rotates at w loses w^2 h of its
+ * angular velocity per second.
  *
- * What a sweep works on are displacements since the tick's beginning, `moves`, with the inverse mass as their
- * fourth number: small numbers, of which small corrections are not lost, wherever the body is.
+ * A sweep works on displacements since the beginning of the tick, `moves`, with the inverse mass as the
+ * fourth number. These are small, so small corrections are not rounded away, wherever the body is.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_POSITION_BASED_H
 #define SBRI_POSITION_BASED_H
 
@@ -27,7 +27,7 @@
 #include "solvers/motion.h"
 #include "solvers/tetrahedron_sweep.h"
 
-/* Where the tick begins, and each spring's vector there. */
+/* Stores the positions at the beginning of the tick, and the vector of each spring there. */
 static inline void sbri_moves_begin(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   memcpy(t->begins, t->positions, island->slot_count * sizeof *t->begins);
@@ -51,14 +51,14 @@ static inline void sbri_moves_move_pinned(const sbri_island_tick *t, float fract
   }
 }
 
-/* Weight, outer forces and damping of the velocities; then the moves go on by them, and what they are before
- * any spring is kept in t->accelerations. */
+/* Adds gravity, external forces and damping to the velocities, then adds these to the moves. Stores the moves
+ * before the sweep in t->accelerations. */
 static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float fraction) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
   if (t->external_forces) sbri_compute_external_forces(t, h);
-  sbri_decay_all(t, h); /* first: what rests must feel all of its weight */
+  sbri_decay_all(t, h); /* before gravity, so that a resting body feels its full weight */
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 v = sbri_load3(velocity);
@@ -80,7 +80,7 @@ static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float 
   sbri_moves_move_pinned(t, fraction);
 }
 
-/* One sweep over all springs; kinds as in solvers/spring_forces.h. */
+/* One sweep over all springs; see solvers/spring_forces.h for the kinds. */
 static inline void sbri_sweep_springs(const sbri_island_tick *t, float h, int kind, float *stretches) {
   const sbri_island *island = t->island;
   const bool damped = kind & SBRI_DAMPED, track = kind & SBRI_TRACKED, flowing = kind & SBRI_FLOWING;
@@ -97,12 +97,12 @@ static inline void sbri_sweep_springs(const sbri_island_tick *t, float h, int ki
       sbri_wide rest = sbri_wide_load((flowing ? t->rests + block * SBRI_BLOCK : link->rest) + lane);
       if (flowing) strength = sbri_wide_load(t->strengths + block * SBRI_BLOCK + lane);
       if (flowing) k = k * strength;
-      sbri_wide beyond = length - rest;
+      sbri_wide elongation = length - rest;
       if (damped && island->link_slack) {
         sbri_wide slack = sbri_wide_load(island->link_slack + block * SBRI_BLOCK + lane);
-        k = k - sbri_wide_select(beyond < sbri_wide_all(0), k * slack, sbri_wide_all(0));
+        k = k - sbri_wide_select(elongation < sbri_wide_all(0), k * slack, sbri_wide_all(0));
       }
-      sbri_wide stiffness = k * square_step, pull = stiffness * beyond;
+      sbri_wide stiffness = k * square_step, pull = stiffness * elongation;
       if (damped) {
         sbri_wide3 a = sbri_wide_gather(t->positions, link->a + lane);
         sbri_wide3 b = sbri_wide_gather(t->positions, link->b + lane);
@@ -115,7 +115,7 @@ static inline void sbri_sweep_springs(const sbri_island_tick *t, float h, int ki
       }
       if (track) {
         float *at = stretches + lane;
-        sbri_wide fraction = beyond / length, old = sbri_wide_load(at), zero = sbri_wide_all(0);
+        sbri_wide fraction = elongation / length, old = sbri_wide_load(at), zero = sbri_wide_all(0);
         sbri_wide_store(at, sbri_wide_select((k > zero) & (rest > zero), sbri_wide_max(fraction, old), old));
       }
       sbri_wide s = pull / ((one + (p.w + q.w) * stiffness) * length), a = s * p.w, b = s * q.w;
@@ -132,9 +132,9 @@ static inline sbri_mask sbri_differ(sbri_wide3 a, sbri_wide3 b) {
   return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
-/* sbri_moves_end_body for a body with an embedded surface that may touch the ground: its contacts need all
+/* sbri_moves_end_body for a body with an embedded surface that may be in contact. Its contacts need all
  * velocities at once, at the positions before the substep. */
-static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_body *body, float h) {
+static inline void sbri_moves_end_embedded(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
@@ -164,7 +164,7 @@ static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_
   }
 }
 
-/* What the sweep has moved goes into the velocities, the ground bounds both, and places follow. */
+/* Adds the displacements of the sweep to the velocities, bounds both by the ground, and updates positions. */
 static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
@@ -192,8 +192,8 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
   }
 }
 
-/* Whether nothing reads or moves positions between substeps, so that the end of one and the beginning of the
- * next may be one pass over the points, which leaves positions where the tick began. */
+/* Whether nothing reads or changes positions between substeps. Then the end of a substep and the beginning of
+ * the next are one pass over the points, and positions stay at the beginning of the tick. */
 static inline bool sbri_moves_alone(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   bool alone = !t->external_forces && !t->rests && !t->reactions && !island->link_limits &&
@@ -209,30 +209,31 @@ static inline bool sbri_moves_alone(const sbri_island_tick *t) {
   return alone;
 }
 
-/* What sbri_moves_end_body and sbri_moves_predict do, bit for bit, but for places. */
+/* The same as sbri_moves_end_body and sbri_moves_predict, bit for bit, except that positions are not updated.
+ */
 static inline void sbri_moves_advance(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
   sbri_wide gx = sbri_wide_all(t->gravity.x), gy = sbri_wide_all(t->gravity.y),
             gz = sbri_wide_all(t->gravity.z);
-  sbri_decay keep = sbri_decay_of(body, h);
-  bool guided = sbri_is_damped_to_driver(t, body, keep);
+  sbri_decay decay = sbri_decay_of(body, h);
+  bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    float *velocity = sbri_triple(t->velocities, slot), *kept = sbri_triple(t->accelerations, slot);
-    sbri_wide3 free = sbri_load3(kept), v = sbri_load3(velocity);
+    float *velocity = sbri_triple(t->velocities, slot), *unswept = sbri_triple(t->accelerations, slot);
+    sbri_wide3 free = sbri_load3(unswept), v = sbri_load3(velocity);
     sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
     v.x = v.x + (u.x - free.x) * rate, v.y = v.y + (u.y - free.y) * rate, v.z = v.z + (u.z - free.z) * rate;
-    if (guided || keep.media < 1) v = sbri_decayed(t, slot, v, keep, guided);
+    if (is_to_driver || decay.media < 1) v = sbri_decayed(t, slot, v, decay, is_to_driver);
     sbri_wide g = sbri_wide_load(t->island->gravity_scales + slot);
     v.x = v.x + step * (g * gx), v.y = v.y + step * (g * gy), v.z = v.z + step * (g * gz);
     sbri_store3(velocity, v);
     u.x = u.x + step * v.x, u.y = u.y + step * v.y, u.z = u.z + step * v.z;
-    sbri_store3(kept, (sbri_wide3){u.x, u.y, u.z});
+    sbri_store3(unswept, (sbri_wide3){u.x, u.y, u.z});
     sbri_wide_scatter4(t->moves + slot, in_order, u);
   }
 }
 
-/* Moves what volumes and limits have moved. */
+/* Adds the corrections of volumes and limits to the moves. */
 static inline void sbri_moves_follow(const sbri_island_tick *t) {
   for (uint32_t slot = 0; slot < t->island->free_count; slot++) {
     const sbri_point *x = &t->positions[slot], *from = &t->begins[slot];
@@ -241,14 +242,14 @@ static inline void sbri_moves_follow(const sbri_island_tick *t) {
   }
 }
 
-/* Strained tetrahedra are stiffer than at rest, and a sweep must resolve those as well. */
+/* Strained tetrahedra are stiffer than at rest, and a sweep must resolve those too. */
 static inline uint32_t sbri_position_substeps_now(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   uint32_t at_rest = sbri_position_substeps(island, t->tick_s);
   if (island->substeps || island->tetrahedron_block_count == 0) return at_rest;
   uint32_t now = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), island->rest_stretch);
   now = now < SBRI_MAX_SUBSTEPS ? now : SBRI_MAX_SUBSTEPS;
-  if (!sbri_substeps_are_given(t)) {
+  if (!sbri_has_fixed_substeps(t)) {
     float crossing = ceilf(fminf(sbri_impact_substeps(t, t->tick_s), SBRI_MAX_SUBSTEPS));
     now = (float)now < crossing ? (uint32_t)crossing : now;
   }
@@ -281,7 +282,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
       if (alone && !last)
         sbri_moves_advance(t, body, h);
       else if (sbri_has_impulses(t, body))
-        sbri_moves_end_carried(t, body, h);
+        sbri_moves_end_embedded(t, body, h);
       else
         sbri_moves_end_body(t, body, h);
     }

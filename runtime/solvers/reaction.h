@@ -1,8 +1,8 @@
-/* What an island pulls with on the rigid bodies that carry what holds it: the forces on held points, summed
- * over substeps as impulses and moments. The forces are those that the free points have felt with the other
- * sign, at the same places, so that what one gains in momentum the other loses.
+/* Reactions of an island on the rigid bodies that it is pinned to: forces on pinned points, summed over
+ * substeps as impulses and moments. They are the opposite of the forces on the free points, at the same
+ * positions, so that momentum is conserved.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_REACTION_H
 #define SBRI_REACTION_H
 
@@ -23,8 +23,8 @@ static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_v
   r->moment = sbri_add(r->moment, sbri_cross(arm, impulse));
 }
 
-/* Slot of the pinned end of a spring with one pinned end, and the force on it, as sbri_spring_forces has it.
- * The spring may have yielded or split. */
+/* Slot of the pinned end of a spring with one pinned end, and the force on it, as in sbri_spring_forces. The
+ * spring may have yielded or split. */
 static inline uint32_t sbri_pinned_spring_force(const sbri_island_tick *t, uint32_t number, sbf_vec3 *force) {
   const sbri_island *island = t->island;
   const sbfi_spring *s = &island->springs[number];
@@ -90,31 +90,32 @@ static inline void sbri_react(const sbri_island_tick *t, float h) {
  * forces on free points give the reaction. Summed in lanes of eight, so that the result is the same for any
  * SIMD width. */
 typedef sbri_lane_sums
-    sbri_pull_sums; /* force and torque on the free points about reaction.about, N and N m */
+    sbri_spring_sums; /* force and torque on the free points about reaction.about, N and N m */
 
-static inline bool sbri_pulls_are_complete(const sbri_island_tick *t) {
+static inline bool sbri_are_spring_sums_complete(const sbri_island_tick *t) {
   return t->island->answers && !t->external_forces && !sbri_has_element_forces(t->island);
 }
 
 /* Adds a group of lanes at x with accelerations a. */
-static inline void sbri_pulls_add(
-    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, sbri_wide3 a, sbri_pull_sums *pulls) {
+static inline void sbri_add_spring_forces(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, sbri_wide3 a, sbri_spring_sums *sums) {
   const sbf_vec3 about = t->reactions[t->island->carriers[0]].about;
   sbri_wide m = sbri_wide_load(t->island->masses + slot),
             g = sbri_wide_load(t->island->gravity_scales + slot);
   sbri_wide3 f = {m * (a.x - g * sbri_wide_all(t->gravity.x)), m * (a.y - g * sbri_wide_all(t->gravity.y)),
       m * (a.z - g * sbri_wide_all(t->gravity.z))};
   sbri_wide3 r = {x.x - sbri_wide_all(about.x), x.y - sbri_wide_all(about.y), x.z - sbri_wide_all(about.z)};
-  sbri_lane_sums_add(pulls, slot % SBRI_BLOCK, r, f);
+  sbri_lane_sums_add(sums, slot % SBRI_BLOCK, r, f);
 }
 
-static inline void sbri_react_by_pulls(const sbri_island_tick *t, const sbri_pull_sums *pulls, float h) {
+static inline void sbri_apply_spring_reactions(
+    const sbri_island_tick *t, const sbri_spring_sums *sums, float h) {
   sbri_reaction *r = &t->reactions[t->island->carriers[0]];
-  r->impulse = sbri_add_scaled(r->impulse, sbri_lanes_push(pulls), -h);
-  r->moment = sbri_add_scaled(r->moment, sbri_lanes_moment(pulls), -h);
+  r->impulse = sbri_add_scaled(r->impulse, sbri_lanes_force(sums), -h);
+  r->moment = sbri_add_scaled(r->moment, sbri_lanes_moment(sums), -h);
 }
 
-/* The same for integrators without forces, at the end of the substep. */
+/* Reactions of integrators without forces, at the end of the substep. */
 static inline void sbri_react_at_end(const sbri_island_tick *t, float h) {
   if (sbri_has_damping(t->island)) sbri_copy_velocities_to_points(t, 1 / t->tick_s);
   if (t->external_forces) sbri_compute_external_forces(t, h);

@@ -1,24 +1,25 @@
-/* Forces of regions that keep their shape (mechanics/shape_region.h), eight regions at a time, each in its
- * lane. A force is a stiffness a w^2 times the way to the place in the region, so that no mode is faster than
- * w whatever the state: regions are stable with w h < 2, inverted or not.
+/* Forces of regions that keep their shape (mechanics/shape_region.h), eight regions at a time, one per lane.
+ * A force is a stiffness a w^2 times the displacement from the point's position in the region, so no mode is
+ * faster than w in any state: regions are stable with w h < 2, inverted or not.
  *
- * The rotation of each region is followed from where it was in the substep before, by Newton's method on the
- * angle: with M = R^T A, A = sum a (x - c) r^T, the next turn is ((tr M) 1 - sym M)^-1 times the axis of M's
- * skew part (what Mueller, Bender, Chentanez and Macklin, A Robust Method to Extract the Rotational Part of
- * Deformations, 2016, divide by a number; they converge by thirds, this squares the error). Where that matrix
- * is not positive, as of flat or mirrored regions, their division is taken. Rotations are state.
+ * The rotation of each region is updated from that of the previous substep by Newton's method on the angle.
+ * With M = R^T A and A = sum a (x - c) r^T, the next rotation is ((tr M) 1 - sym M)^-1 times the axis of the
+ * skew part of M. (Mueller, Bender, Chentanez and Macklin, A Robust Method to Extract the Rotational Part of
+ * Deformations, 2016, divide by a number instead, which converges linearly, by thirds; this converges
+ * quadratically.) Where that matrix is not positive definite, as for flat or mirrored regions, their division
+ * is used. Rotations are state.
  *
- * Damping of their own, beta times the second derivative at rest: each point against the rigid motion that
- * fits the region's velocities best.
+ * Damping of a region is beta times the second derivative at rest: each point is damped relative to the rigid
+ * motion that fits the velocities of the region best.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_REGION_FORCES_H
 #define SBRI_REGION_FORCES_H
 
 #include "solvers/tetrahedron_forces.h"
 
 /* Iterations of the rotation: enough for half a radian per substep to full precision. */
-enum { SBRI_TURNS = 4 };
+enum { SBRI_ROTATION_ITERATIONS = 4 };
 
 typedef struct sbri_wide_columns {
   sbri_wide3 at[3];
@@ -31,13 +32,13 @@ SBRI_INLINE sbri_wide_columns sbri_wide_columns_of(const sbri_wide q[4]) {
       {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}}};
 }
 
-SBRI_INLINE sbri_wide3 sbri_wide_turned(const sbri_wide_columns *m, sbri_wide3 v) {
+SBRI_INLINE sbri_wide3 sbri_wide_rotated(const sbri_wide_columns *m, sbri_wide3 v) {
   return sbri_wide3_add(sbri_wide3_add(sbri_wide3_scale(m->at[0], v.x), sbri_wide3_scale(m->at[1], v.y)),
       sbri_wide3_scale(m->at[2], v.z));
 }
 
-/* x of g x = b for the symmetric g = (xx, yy, zz, xy, yz, zx), where its determinant is above `least` times
- * the cube of its trace; else b over half the trace, or 0 where that is none. */
+/* Solves g x = b for the symmetric g = (xx, yy, zz, xy, yz, zx) if its determinant is above `min` times the
+ * cube of its trace. Otherwise returns b over half the trace, or 0 if that is not positive. */
 SBRI_INLINE sbri_wide3 sbri_wide_solve(const sbri_wide g[6], sbri_wide3 b, float min) {
   sbri_wide3 u = {g[0], g[3], g[5]}, v = {g[3], g[1], g[4]}, w = {g[5], g[4], g[2]};
   sbri_wide3 vw = sbri_wide3_cross(v, w), wu = sbri_wide3_cross(w, u), uv = sbri_wide3_cross(u, v);
@@ -54,10 +55,10 @@ SBRI_INLINE sbri_wide3 sbri_wide_solve(const sbri_wide g[6], sbri_wide3 b, float
 }
 
 /* Rotation nearest to the matrix `a` (columns), starting at `q`. */
-SBRI_INLINE sbri_wide_columns sbri_wide_follow(const sbri_wide3 a[3], sbri_wide q[4]) {
+SBRI_INLINE sbri_wide_columns sbri_wide_nearest_rotation(const sbri_wide3 a[3], sbri_wide q[4]) {
   sbri_wide half = sbri_wide_all(0.5f), one = sbri_wide_all(1);
   sbri_wide_columns r = sbri_wide_columns_of(q);
-  for (int turn = 0; turn < SBRI_TURNS; turn++) {
+  for (int iteration = 0; iteration < SBRI_ROTATION_ITERATIONS; iteration++) {
     /* In world axes: the columns of A R^T = sum a_k r_k^T. */
     sbri_wide m[3][3];
     const sbri_wide *rows[3][3] = {
@@ -73,7 +74,7 @@ SBRI_INLINE sbri_wide_columns sbri_wide_follow(const sbri_wide3 a[3], sbri_wide 
         zero - half * (m[2][0] + m[0][2])};
     sbri_wide3 axis = {m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]};
     sbri_wide3 w = sbri_wide_solve(g, axis, 1e-4f);
-    /* Cayley transform: exact to third order, at most half a turn. */
+    /* Cayley transform: exact to third order, at most 180 degrees. */
     sbri_wide x = half * w.x, y = half * w.y, z = half * w.z;
     sbri_wide next[4] = {q[0] + x * q[3] + y * q[2] - z * q[1], q[1] + y * q[3] + z * q[0] - x * q[2],
         q[2] + z * q[3] + x * q[1] - y * q[0], q[3] - x * q[0] - y * q[1] - z * q[2]};
@@ -135,7 +136,7 @@ SBRI_INLINE sbri_region_pose sbri_region_pose_of(const sbri_island_tick *t, cons
   }
   sbri_region_pose pose = {.rigid_motion = {none, none}};
   pose.center = sbri_wide3_add(first, sbri_wide3_scale(center, sbri_wide_load(block->inverse_sums + lane)));
-  pose.rotation = sbri_wide_follow(a, q);
+  pose.rotation = sbri_wide_nearest_rotation(a, q);
   for (int k = 0; k < 4; k++) sbri_wide_store(rotations + k * SBRI_BLOCK + lane, q[k]);
   if (block->damping_s > 0)
     pose.rigid_motion = sbri_region_rigid_motion(t, block, members, lane, pose.center);
@@ -146,12 +147,12 @@ SBRI_INLINE sbri_wide3 sbri_region_force(const sbri_island_tick *t, const sbri_r
     uint32_t lane, const sbri_region_pose *pose, float damping_s) {
   sbri_wide3 offset = {sbri_wide_load(m->offsets[0] + lane), sbri_wide_load(m->offsets[1] + lane),
       sbri_wide_load(m->offsets[2] + lane)};
-  sbri_wide3 off = sbri_wide3_sub(sbri_wide_gather(t->positions, m->slots + lane), pose->center);
-  sbri_wide3 f = sbri_wide3_sub(sbri_wide_turned(&pose->rotation, offset), off);
+  sbri_wide3 from_center = sbri_wide3_sub(sbri_wide_gather(t->positions, m->slots + lane), pose->center);
+  sbri_wide3 f = sbri_wide3_sub(sbri_wide_rotated(&pose->rotation, offset), from_center);
   if (damping_s > 0) {
     sbri_wide3 v =
         sbri_wide3_sub(sbri_wide_gather(t->velocity_points, m->slots + lane), pose->rigid_motion.drift);
-    v = sbri_wide3_sub(v, sbri_wide3_cross(pose->rigid_motion.angular_velocity, off));
+    v = sbri_wide3_sub(v, sbri_wide3_cross(pose->rigid_motion.angular_velocity, from_center));
     f = sbri_wide3_sub(f, sbri_wide3_scale(v, sbri_wide_all(damping_s)));
   }
   return sbri_wide3_scale(f, sbri_wide_load(m->stiffness + lane));

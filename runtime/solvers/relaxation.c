@@ -1,49 +1,48 @@
-/* The scheme of the bachelor's thesis behind the reference lizard, tick for tick: Verlet without a time step,
- * then one pass over all springs that moves their ends at once, then a share of the tick's motion taken back.
- * It knows no masses and no units of time: settings are asset.relaxation, per tick. What it makes of a
- * spring's energy depends on the number of springs, their order and the tick; it is here to reproduce, not to
- * be right.
+/* The scheme of the bachelor's thesis behind the reference lizard, reproduced tick for tick: Verlet without a
+ * time step, then one pass over all springs that moves their ends at once, then removal of a fraction of the
+ * tick's motion. It has no masses and no units of time: settings are asset.relaxation, per tick. Its energy
+ * depends on the number of springs, their order and the tick. It exists for reproduction, not for accuracy.
  *
- * A point that lies exactly on the ground is not moved by gravity or inertia nor damped; springs still move
- * it and may lift it, and its place before the landing is remembered till then. That is the reference's way.
- */
+ * As in the reference, gravity, inertia and damping do not move a point that lies exactly on the ground.
+ * Springs still move it and may lift it, and its position before the landing is kept until then. */
 #include "collide/ground.h"
 #include "solvers/scheme.h"
 #include "solvers/visits.h"
 
-typedef struct relaxing {
+typedef struct relaxation_tick {
   const sbri_island_tick *tick;
   bool flat;
   float flat_height;
-} relaxing;
+} relaxation_tick;
 
-static float ground_under(const relaxing *r, const sbri_point *p) {
+static float ground_height(const relaxation_tick *r, const sbri_point *p) {
   if (r->flat) return r->flat_height;
   const sbri_island_tick *t = r->tick;
   double x = t->origin.x + (double)t->scale * p->x, z = t->origin.z + (double)t->scale * p->z;
   return (float)((sbri_ground_height(t->ground, x, z, NULL) - t->origin.y) / t->scale);
 }
 
-static void stop_at_ground(const relaxing *r, sbri_point *p) {
-  float ground = ground_under(r, p);
+static void stop_at_ground(const relaxation_tick *r, sbri_point *p) {
+  float ground = ground_height(r, p);
   if (p->y <= ground) p->y = ground;
 }
 
-static float *before(const relaxing *r, uint32_t slot) {
+static float *previous_position(const relaxation_tick *r, uint32_t slot) {
   return r->tick->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
 
-static void move_on(const relaxing *r, uint32_t slot, float fall_m) {
+static void integrate(const relaxation_tick *r, uint32_t slot, float gravity_step) {
   sbri_point *p = &r->tick->positions[slot];
-  float *q = before(r, slot);
-  if (p->y == ground_under(r, p)) return;
-  sbri_point next = {2 * p->x - q[0], 2 * p->y - q[SBRI_BLOCK] - fall_m, 2 * p->z - q[2 * SBRI_BLOCK], 0};
+  float *q = previous_position(r, slot);
+  if (p->y == ground_height(r, p)) return;
+  sbri_point next = {
+      2 * p->x - q[0], 2 * p->y - q[SBRI_BLOCK] - gravity_step, 2 * p->z - q[2 * SBRI_BLOCK], 0};
   q[0] = p->x, q[SBRI_BLOCK] = p->y, q[2 * SBRI_BLOCK] = p->z;
   *p = next;
   stop_at_ground(r, p);
 }
 
-static void visit(const relaxing *r, const sbri_visit *v, float stiffness) {
+static void visit(const relaxation_tick *r, const sbri_visit *v, float stiffness) {
   uint32_t free_count = r->tick->island->free_count;
   sbri_point *a = &r->tick->positions[v->from], *b = &r->tick->positions[v->to];
   float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
@@ -62,13 +61,13 @@ static void visit(const relaxing *r, const sbri_visit *v, float stiffness) {
   }
 }
 
-static void take_back(const relaxing *r, uint32_t slot, float kept) {
+static void damp(const relaxation_tick *r, uint32_t slot, float fraction) {
   sbri_point *p = &r->tick->positions[slot];
-  const float *q = before(r, slot);
-  if (p->y == ground_under(r, p)) return;
-  p->x = q[0] + kept * (p->x - q[0]);
-  p->y = q[SBRI_BLOCK] + kept * (p->y - q[SBRI_BLOCK]);
-  p->z = q[2 * SBRI_BLOCK] + kept * (p->z - q[2 * SBRI_BLOCK]);
+  const float *q = previous_position(r, slot);
+  if (p->y == ground_height(r, p)) return;
+  p->x = q[0] + fraction * (p->x - q[0]);
+  p->y = q[SBRI_BLOCK] + fraction * (p->y - q[SBRI_BLOCK]);
+  p->z = q[2 * SBRI_BLOCK] + fraction * (p->z - q[2 * SBRI_BLOCK]);
   stop_at_ground(r, p);
 }
 
@@ -76,20 +75,21 @@ static void tick_relaxation(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   const sbf_relaxation *settings = &t->model->asset->relaxation;
   double height;
-  relaxing r = {t, sbri_ground_is_flat(t->ground, &height), 0};
+  relaxation_tick r = {t, sbri_ground_is_flat(t->ground, &height), 0};
   r.flat_height = (float)((height - t->origin.y) / t->scale);
-  float fall_m = settings->gravity / t->scale;
+  float gravity_step = settings->gravity / t->scale;
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++)
     t->positions[slot] = t->targets[slot];
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) move_on(&r, slot, fall_m);
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+      integrate(&r, slot, gravity_step);
   }
   for (uint32_t i = 0; i < island->visit_count; i++) visit(&r, &island->visits[i], settings->stiffness);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
-      take_back(&r, slot, settings->damping);
+      damp(&r, slot, settings->damping);
   }
   sbri_count_element_visits(t, 1);
 }

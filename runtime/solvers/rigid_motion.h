@@ -12,7 +12,7 @@
 typedef struct sbri_rigid_motion {
   float mass_kg;
   sbf_vec3 center, velocity, angular_velocity; /* m, m/s, rad/s about the centre */
-  float inertia[6];                            /* about it, kg m^2: xx, yy, zz, xy, xz, yz of the matrix */
+  float inertia[6]; /* about the centre, kg m^2: xx, yy, zz, xy, xz, yz of the matrix */
 } sbri_rigid_motion;
 
 enum { SBRI_RIGID_SUMS = 9 };

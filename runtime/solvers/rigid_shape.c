@@ -1,8 +1,8 @@
-/* Moves bodies rigidly that no scheme can step: see soft/recovery.c.
+/* Fallback for bodies that no scheme can step: moves them rigidly, see soft/recovery.c.
  *
  * Pinned bodies follow their pin frames. Loose bodies fall and rotate freely. If a point gets below a contact
- * plane, the body is moved back onto it and loses its velocity into the plane, Coulomb's part of the velocity
- * along it, and all of its angular velocity. */
+ * plane, the body is moved back onto it and loses its velocity into the plane, the friction part of its
+ * tangential velocity (Coulomb), and all of its angular velocity. */
 #include "math/quat.h"
 #include "math/vec3.h"
 #include "solvers/rigid_motion.h"
@@ -32,37 +32,39 @@ static void follow_drivers(const sbri_island_tick *t, const sbri_body *body) {
   }
 }
 
-/* One point below its plane; `out`: by how much the body is moved back. */
-static void strike(sbri_rigid_motion *motion, sbf_vec3 *out, sbf_vec3 normal, float depth, float friction) {
-  depth -= sbri_dot(*out, normal);
+/* Resolves one point below its plane; adds the penetration correction of the body to `correction`. */
+static void resolve_penetration(
+    sbri_rigid_motion *motion, sbf_vec3 *correction, sbf_vec3 normal, float depth, float friction) {
+  depth -= sbri_dot(*correction, normal);
   if (!(depth > 0)) return;
-  *out = sbri_add_scaled(*out, normal, depth);
+  *correction = sbri_add_scaled(*correction, normal, depth);
   float speed = sbri_dot(motion->velocity, normal);
   if (!(speed < 0)) return;
-  sbf_vec3 sideways = sbri_add_scaled(motion->velocity, normal, -speed);
-  float size = sbri_length(sideways), max = -speed * friction;
-  motion->velocity = sbri_scale(sideways, size > max ? 1 - max / size : 0);
+  sbf_vec3 tangential = sbri_add_scaled(motion->velocity, normal, -speed);
+  float size = sbri_length(tangential), max = -speed * friction;
+  motion->velocity = sbri_scale(tangential, size > max ? 1 - max / size : 0);
   motion->angular_velocity = sbri_vec3(0, 0, 0);
 }
 
-static void strike_planes(
-    const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, sbf_vec3 *out) {
+static void resolve_planes(
+    const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, sbf_vec3 *correction) {
   for (uint32_t slot = body->slot_begin; !body->samples && slot < body->slot_real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     if (!t->near_ground[block]) continue;
     const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
-    strike(motion, out, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, position_of(t, slot)), body->friction);
+    resolve_penetration(
+        motion, correction, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, position_of(t, slot)), body->friction);
   }
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
     const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
     if (contact->collider == SBRI_ITSELF) continue;
     float depth = contact->offset - sbri_dot(contact->normal, sbri_sample_position(t, &contact->sample));
-    strike(motion, out, contact->normal, depth, body->friction * contact->friction_scale);
+    resolve_penetration(motion, correction, contact->normal, depth, body->friction * contact->friction_scale);
   }
 }
 
-static void fly(const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, float h) {
+static void integrate(const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, float h) {
   float rate = sbri_length(motion->angular_velocity), sine, cosine;
   sbri_sincos(0.5f * rate * h, &sine, &cosine);
   sbf_vec3 axis = sbri_scale(motion->angular_velocity, rate > 0 ? sine / rate : 0);
@@ -78,20 +80,20 @@ static void move_loose(const sbri_island_tick *t, const sbri_body *body) {
   float h = t->tick_s / STEPS;
   sbri_rigid_motion motion = sbri_rigid_motion_find(t->island, body, t->positions, t->velocities);
   for (int s = 0; s < STEPS; s++) {
-    sbf_vec3 out = {0, 0, 0};
+    sbf_vec3 correction = {0, 0, 0};
     motion.velocity =
         sbri_add_scaled(motion.velocity, t->gravity, h * body->source->attributes.gravity_scale);
-    fly(t, body, &motion, h);
-    strike_planes(t, body, &motion, &out);
-    motion.center = sbri_add(motion.center, out);
+    integrate(t, body, &motion, h);
+    resolve_planes(t, body, &motion, &correction);
+    motion.center = sbri_add(motion.center, correction);
     for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
-      set_position(t, slot, sbri_add(position_of(t, slot), out));
+      set_position(t, slot, sbri_add(position_of(t, slot), correction));
   }
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     sbf_vec3 arm = sbri_sub(position_of(t, slot), motion.center);
-    sbf_vec3 goes = sbri_add(motion.velocity, sbri_cross(motion.angular_velocity, arm));
+    sbf_vec3 velocity = sbri_add(motion.velocity, sbri_cross(motion.angular_velocity, arm));
     float *v = velocity_at(t, slot);
-    v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
+    v[0] = velocity.x, v[SBRI_BLOCK] = velocity.y, v[2 * SBRI_BLOCK] = velocity.z;
   }
 }
 

@@ -7,14 +7,14 @@
 
 static const float PI = 3.14159265f;
 
-/* Distance from the ground, as a fraction of the body's size, within which points touch it. */
+/* Distance from the ground, as a fraction of the body's size, within which points are in contact. */
 static const float TOUCHING_FRACTION = 1e-3f;
 
 float sbri_rolling_fraction(float damping_ratio) {
   return (1 - sbri_exp(-2 * PI * damping_ratio)) * 2 / (3 * PI);
 }
 
-/* What touches: the mean of the normals there, and the range of places along a direction. */
+/* Contact patch: sum of the normals, and the range of coordinates along a direction. */
 typedef struct patch {
   sbf_vec3 normal, along;
   float low, high;
@@ -29,7 +29,7 @@ static void add_to_patch(patch *p, sbf_vec3 at, sbf_vec3 normal) {
   p->count++;
 }
 
-static void add_points(patch *p, const sbri_island_tick *t, const sbri_body *body, float near) {
+static void add_points(patch *p, const sbri_island_tick *t, const sbri_body *body, float max_separation) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     if (!t->near_ground[block]) {
@@ -39,24 +39,25 @@ static void add_points(patch *p, const sbri_island_tick *t, const sbri_body *bod
     const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
     sbf_vec3 at = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
-    if (sbri_dot(n, at) - plane[3 * SBRI_BLOCK] <= near) add_to_patch(p, at, n);
+    if (sbri_dot(n, at) - plane[3 * SBRI_BLOCK] <= max_separation) add_to_patch(p, at, n);
   }
 }
 
 static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_vec3 along) {
   patch p = {.along = along};
-  float near = TOUCHING_FRACTION * body->rest_size_m;
+  float max_separation = TOUCHING_FRACTION * body->rest_size_m;
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
     const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
     if (contact->collider == SBRI_ITSELF) continue;
     sbf_vec3 x = sbri_sample_position(t, &contact->sample);
-    if (sbri_dot(contact->normal, x) - contact->offset <= near) add_to_patch(&p, x, contact->normal);
+    if (sbri_dot(contact->normal, x) - contact->offset <= max_separation)
+      add_to_patch(&p, x, contact->normal);
   }
-  if (!body->samples) add_points(&p, t, body, near);
+  if (!body->samples) add_points(&p, t, body, max_separation);
   return p;
 }
 
-static void turn(
+static void change_angular_velocity(
     const sbri_island_tick *t, const sbri_body *body, sbf_vec3 center, sbf_vec3 angular_velocity) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *at = &t->positions[slot];
@@ -82,5 +83,5 @@ void sbri_rolling_apply_resistance(const sbri_island_tick *t, const sbri_body *b
   float moment = body->rolling_fraction * 0.5f * (wide.high - wide.low) * weight;
   float inertia = sbri_inertia_about(motion.inertia, axis);
   float change = inertia > 0 ? moment * t->tick_s / inertia : 0;
-  turn(t, body, motion.center, sbri_scale(axis, change < rate ? -change : -rate));
+  change_angular_velocity(t, body, motion.center, sbri_scale(axis, change < rate ? -change : -rate));
 }

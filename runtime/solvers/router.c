@@ -20,7 +20,7 @@ static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
   return sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]);
 }
 
-/* Square of the greatest speed of a point against the mean of its body's, m^2/s^2. */
+/* Square of the greatest speed of a point relative to the mean of its body, m^2/s^2. */
 static float greatest_square(const sbri_island_tick *t) {
   float greatest = 0;
   for (uint32_t b = 0; b < t->island->body_count; b++) {
@@ -31,8 +31,8 @@ static float greatest_square(const sbri_island_tick *t) {
       sum = sbri_add(sum, velocity_at(t, slot));
     sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slot_real_end - body->slot_begin));
     for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-      sbf_vec3 off = sbri_sub(velocity_at(t, slot), mean);
-      float square = sbri_dot(off, off);
+      sbf_vec3 relative = sbri_sub(velocity_at(t, slot), mean);
+      float square = sbri_dot(relative, relative);
       greatest = square > greatest ? square : greatest;
     }
   }

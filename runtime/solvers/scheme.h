@@ -41,7 +41,7 @@ const char *sbri_refuse_regions(const sbr_model *model, const sbri_island *islan
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s);
 
 /* Returns NULL if the runtime does not implement the scheme. */
-const sbri_scheme *sbri_scheme_of(sbf_scheme word);
+const sbri_scheme *sbri_scheme_of(sbf_scheme kind);
 /* Names of the implemented schemes, separated by commas: "symplectic, relaxation". */
 const char *sbri_scheme_names(void);
 

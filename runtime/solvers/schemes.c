@@ -1,12 +1,12 @@
-/* Which schemes there are. */
+/* Table of schemes. */
 #include "solvers/scheme.h"
 
 static const sbri_scheme *const schemes[] = {&sbri_symplectic, &sbri_position_based, &sbri_relaxation,
     &sbri_explicit_euler, &sbri_heun, &sbri_block_descent};
 
-const sbri_scheme *sbri_scheme_of(sbf_scheme word) {
+const sbri_scheme *sbri_scheme_of(sbf_scheme kind) {
   for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++)
-    if (schemes[i]->kind == word) return schemes[i];
+    if (schemes[i]->kind == kind) return schemes[i];
   return NULL;
 }
 

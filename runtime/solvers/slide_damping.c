@@ -5,17 +5,17 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/soft_contacts.h"
 
-/* k: blocks of 0.05 to 0.15 by 0.3 m, of 10 kPa to 1 MPa and Poisson's ratios up to 0.45, slide down slopes
- * and stop on them as Coulomb says with 3 and more for coefficients up to 1.2; with 1 only up to 1. With 3,
- * jelly that slides at 3 m/s flutters all the same and loses 1.4e-3 of gravity. */
+/* The constant k. Blocks of 0.05 to 0.15 by 0.3 m, of 10 kPa to 1 MPa and Poisson's ratios up to 0.45, slide
+ * down slopes and stop on them as Coulomb predicts with k >= 3 for friction coefficients up to 1.2; with k =
+ * 1 only up to 1. With k = 3, jelly that slides at 3 m/s still flutters and loses 1.4e-3 of gravity. */
 static const float DAMPING = 4;
 
-/* m: a point no higher over its plane touches it. */
+/* Maximum separation of a point in contact, m. */
 static const float CONTACT_DISTANCE_M = 1e-5f;
-/* m/s: a point that sticks is slower. */
+/* Speed below which a contact sticks, m/s. */
 static const float STICKS_M_S = 1e-6f;
 
-/* Of bodies whose points touch the ground by a plane each; all count alike. */
+/* For bodies whose points have one ground plane each; all contacts have equal weight. */
 static void add_planes(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, sbri_sliding *to) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
@@ -35,10 +35,10 @@ static void add_planes(
 
 /* Minimum fraction of velocities that may stay: a symplectic step h whose velocities are scaled by k after
  * the positions moved is stable while (w h)^2 < 2 (1 + k). */
-static float min_kept(const sbri_island_tick *t, float step_s) {
+static float min_fraction(const sbri_island_tick *t, float step_s) {
   float swing = step_s * (float)t->island->fastest_rad_s;
-  float kept = 0.5f * swing * swing * *t->stiffening * *t->max_flow_stretch - 1;
-  return kept < 1 ? kept : 1;
+  float fraction = 0.5f * swing * swing * *t->stiffening * *t->max_flow_stretch - 1;
+  return fraction < 1 ? fraction : 1;
 }
 
 void sbri_slide_damp(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
@@ -49,6 +49,6 @@ void sbri_slide_damp(const sbri_island_tick *t, const sbri_body *body, const sbr
   if (!(friction > 0)) return;
   float coefficient = sliding.limit / sliding.load, fraction = friction / sliding.limit;
   float rate = 2 * DAMPING * coefficient * coefficient * fraction * body->sliding_rad_s;
-  float kept = sbri_exp(-rate * rule->step_s), min = min_kept(t, rule->step_s);
-  sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, kept > min ? kept : min, 0);
+  float remaining = sbri_exp(-rate * rule->step_s), min = min_fraction(t, rule->step_s);
+  sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, remaining > min ? remaining : min, 0);
 }

@@ -1,15 +1,15 @@
 /* Damping of bodies that slide.
  *
- * Coulomb friction couples the pressure on a surface with its shear, and this coupling is not symmetric: it
- * feeds vibrations of an elastic body that slides, more so for high coefficients of friction and high
+ * Coulomb friction couples the pressure on a surface with its shear, and this coupling is not symmetric. It
+ * excites vibrations of an elastic body that slides, more so for high coefficients of friction and high
  * Poisson's ratios (flutter; J. A. C. Martins, J. Guimaraes, L. O. Faria, Dynamic surface solutions in linear
- * elasticity and viscoelasticity with frictional boundary conditions, 1995). Without more damping than that
- * of the lowest mode, a block hops down slopes that should hold it, from a coefficient of 0.8 on.
+ * elasticity and viscoelasticity with frictional boundary conditions, 1995). With only the damping of its
+ * lowest mode, a block hops down slopes on which it should stick, from a coefficient of 0.8 on.
  *
- * While a solid body that nothing holds slides, its deformation is damped by 2 k mu^2 s w: w its lowest
- * frequency, mu the coefficient of friction, s the friction that slides in one direction over the most there
- * could be, k a constant. Its rigid motion stays as it is, so that it slides as Coulomb says. A body that
- * sticks, and one that strikes the ground and spreads there in all directions, has s = 0. */
+ * While a solid body without pins slides, its deformation is damped by 2 k mu^2 s w, where w is its lowest
+ * frequency, mu the coefficient of friction, k a constant, and s the net sliding friction as a fraction of
+ * its maximum. Its rigid motion does not change, so it slides as Coulomb predicts. A body that sticks has s =
+ * 0, and so has one that strikes the ground and spreads in all directions. */
 #ifndef SBRI_SLIDE_DAMPING_H
 #define SBRI_SLIDE_DAMPING_H
 

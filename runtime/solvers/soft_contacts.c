@@ -8,38 +8,38 @@
 #include "math/vec3.h"
 #include "solvers/pinned_impulse.h"
 
-/* While some speed changes by more than this in a pass, another follows, in m/s. */
-static const float RESTING_M_S = 1e-3f;
+/* Iteration continues while a velocity changes by more than this, m/s. */
+static const float CONVERGED_M_S = 1e-3f;
 
-/* What could not reach its plane in the substep if it were this much faster waits for the next one, in m/s:
- * most places near the ground do not touch it, and none of them is to cost passes. */
+/* A contact is skipped in the substep if it would not reach its plane even if it were this much faster, m/s.
+ * Most contacts near the ground are separated, and they must not cost iterations. */
 static const float NEAR_M_S = 1;
 
-/* A point that is no higher over its plane touches it. */
+/* Maximum separation of a point in contact. */
 static const float CONTACT_DISTANCE_M = 1e-5f;
 
-/* Friction at this share of its limit slides. */
+/* Fraction of the friction limit from which on a contact slides. */
 static const float SLIDES_FRACTION = 0.999f;
 
-/* In one substep; a light external body hangs from all that touches it at once. */
-enum { MAX_PASSES = 16, MAX_EXTERNAL_BODY_PASSES = 64 };
-static const float FINER_WITH_EXTERNAL_BODIES = 10;
+/* Per substep. A light external body couples all its contacts, so it needs more iterations. */
+enum { MAX_ITERATIONS = 16, MAX_EXTERNAL_BODY_ITERATIONS = 64 };
+static const float EXTERNAL_BODY_PRECISION = 10;
 
-typedef struct touching {
+typedef struct contact_set {
   const sbri_island_tick *tick;
   const sbri_body *body;
   float *velocities;
   sbri_soft_contact *contacts;
   uint32_t count;
-  sbri_external_bodies *external_bodies; /* NULL: there are none */
-} touching;
+  sbri_external_bodies *external_bodies; /* NULL: none */
+} contact_set;
 
-static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
+static contact_set contact_set_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
   uint32_t count = sbri_soft_contact_count(t, body);
   sbri_external_bodies *external_bodies =
       count && t->external_bodies ? &t->external_bodies[body - t->model->bodies] : NULL;
   if (external_bodies && !external_bodies->count) external_bodies = NULL;
-  return (touching){.tick = t,
+  return (contact_set){.tick = t,
       .body = body,
       .velocities = velocities,
       .contacts = t->contacts + body->first_soft_contact,
@@ -47,102 +47,111 @@ static touching touching_of(const sbri_island_tick *t, const sbri_body *body, fl
       .external_bodies = external_bodies};
 }
 
-static sbri_external_body *external_body_of(const touching *c, const sbri_soft_contact *contact) {
+static sbri_external_body *external_body_of(const contact_set *c, const sbri_soft_contact *contact) {
   return &c->external_bodies->at[contact->external_body - 1];
 }
 
-/* Of what the touch stands for. */
-static sbf_vec3 velocity_under(const touching *c, const sbri_soft_contact *contact) {
+/* Velocity of the other side of the contact. */
+static sbf_vec3 other_side_velocity(const contact_set *c, const sbri_soft_contact *contact) {
   return contact->external_body ? sbri_external_body_velocity(external_body_of(c, contact), contact->arm)
                                 : contact->velocity;
 }
 
-/* Whether simulated rigid bodies that hold points of the contact get its impulse: in self-contact they get
- * the reaction. */
-static bool is_felt(const touching *c, const sbri_soft_contact *contact) {
+/* Whether the simulated rigid bodies that the contact's points are pinned to get its impulse. Only
+ * self-contacts have this reaction. */
+static bool has_reaction(const contact_set *c, const sbri_soft_contact *contact) {
   return c->tick->reactions && contact->collider == SBRI_ITSELF;
 }
 
-static sbf_vec3 velocity_of(const touching *c, const sbri_soft_contact *contact) {
+static sbf_vec3 velocity_of(const contact_set *c, const sbri_soft_contact *contact) {
   const sbri_sample *s = &contact->sample;
-  const bool felt = is_felt(c, contact);
+  const bool reacts = has_reaction(c, contact);
   sbf_vec3 v = {0, 0, 0};
   for (int k = 0; k < 4; k++) {
     if (s->weights[k] == 0) continue;
     v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
-    if (felt) v = sbri_add_scaled(v, sbri_pinned_velocity_change(c->tick, s->slots[k]), s->weights[k]);
+    if (reacts) v = sbri_add_scaled(v, sbri_pinned_velocity_change(c->tick, s->slots[k]), s->weights[k]);
   }
   return v;
 }
 
-static float gap_of(const touching *c, const sbri_soft_contact *contact) {
+static float gap_of(const contact_set *c, const sbri_soft_contact *contact) {
   return sbri_dot(contact->normal, sbri_sample_position(c->tick, &contact->sample)) - contact->offset;
 }
 
-/* Of what the sample is pushed by, that its point k moves with. */
-static float fraction_of(const touching *c, const sbri_sample *s, int k) {
+/* Velocity change of point k per velocity change of the sample. */
+static float point_response(const contact_set *c, const sbri_sample *s, int k) {
   const sbri_island *island = c->tick->island;
   if (s->slots[k] >= island->free_count) return 0;
   return s->weights[k] * island->inverse_masses[s->slots[k]] * s->mass_kg;
 }
 
-/* What changes the velocity of the sample by `faster`. */
-static void push(const touching *c, const sbri_soft_contact *contact, sbf_vec3 faster) {
+/* Changes the velocity of the sample by `velocity_change`. */
+static void apply_velocity_change(
+    const contact_set *c, const sbri_soft_contact *contact, sbf_vec3 velocity_change) {
   const sbri_sample *s = &contact->sample;
-  const bool felt = is_felt(c, contact);
+  const bool reacts = has_reaction(c, contact);
   for (int k = 0; k < 4; k++) {
-    float fraction = fraction_of(c, s, k);
-    if (felt) sbri_pinned_apply_impulse(c->tick, s->slots[k], sbri_scale(faster, s->weights[k] * s->mass_kg));
+    float fraction = point_response(c, s, k);
+    if (reacts)
+      sbri_pinned_apply_impulse(
+          c->tick, s->slots[k], sbri_scale(velocity_change, s->weights[k] * s->mass_kg));
     if (fraction == 0) continue;
     float *v = c->velocities + 3 * (s->slots[k] / SBRI_BLOCK * SBRI_BLOCK) + s->slots[k] % SBRI_BLOCK;
-    v[0] += fraction * faster.x, v[SBRI_BLOCK] += fraction * faster.y,
-        v[2 * SBRI_BLOCK] += fraction * faster.z;
+    v[0] += fraction * velocity_change.x, v[SBRI_BLOCK] += fraction * velocity_change.y,
+        v[2 * SBRI_BLOCK] += fraction * velocity_change.z;
   }
 }
 
-/* And its place by `moved`; `felt`: by those that hold it too. */
-static void move(const touching *c, const sbri_soft_contact *contact, sbf_vec3 moved, bool felt) {
+/* Moves the sample by `correction`. If it `reacts`, also shifts the rigid bodies that it is pinned to.
+ */
+static void correct_position(
+    const contact_set *c, const sbri_soft_contact *contact, sbf_vec3 correction, bool reacts) {
   const sbri_sample *s = &contact->sample;
   for (int k = 0; k < 4; k++) {
-    float fraction = fraction_of(c, s, k);
-    if (felt) sbri_pinned_apply_shift(c->tick, s->slots[k], sbri_scale(moved, s->weights[k] * s->mass_kg));
+    float fraction = point_response(c, s, k);
+    if (reacts)
+      sbri_pinned_apply_shift(c->tick, s->slots[k], sbri_scale(correction, s->weights[k] * s->mass_kg));
     if (fraction == 0) continue;
     sbri_point *x = &c->tick->positions[s->slots[k]];
-    x->x += fraction * moved.x, x->y += fraction * moved.y, x->z += fraction * moved.z;
+    x->x += fraction * correction.x, x->y += fraction * correction.y, x->z += fraction * correction.z;
   }
 }
 
-/* The other side of what changes the sample's velocity by `faster`. */
-static void push_external_body(const touching *c, const sbri_soft_contact *contact, sbf_vec3 faster) {
+/* Applies the opposite impulse to the external body. */
+static void apply_external_reaction(
+    const contact_set *c, const sbri_soft_contact *contact, sbf_vec3 velocity_change) {
   sbri_external_body_push(
-      external_body_of(c, contact), contact->arm, sbri_scale(faster, -contact->sample.mass_kg));
+      external_body_of(c, contact), contact->arm, sbri_scale(velocity_change, -contact->sample.mass_kg));
 }
 
-/* The most friction of a contact that presses so in the substep, as a velocity change. */
-static float max_friction_of(const touching *c, const sbri_soft_contact *contact,
+/* Maximum friction of the contact in the substep, as a velocity change. */
+static float max_friction_of(const contact_set *c, const sbri_soft_contact *contact,
     float normal_velocity_change, const sbri_contact_rule *rule) {
   if (!(normal_velocity_change > 0)) return 0;
-  sbri_pressing with =
+  sbri_pressing pressing =
       sbri_pressing_add(contact->pressing, normal_velocity_change, contact->closing_speed, rule->step_s);
   return sbri_contact_friction_at(c->tick, c->body, contact) *
-         sbri_pressing_bound(with, normal_velocity_change, rule->step_s);
+         sbri_pressing_bound(pressing, normal_velocity_change, rule->step_s);
 }
 
-/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
-static float wanted_of(const sbri_soft_contact *contact, float speed, const sbri_contact_rule *rule) {
-  float arriving = contact->gap > 0 ? -contact->gap / rule->step_s : 0, back = -contact->restitution * speed;
+/* Target normal velocity: arrive at the plane; stop if it penetrates already; bounce if it is fast. */
+static float target_speed(const sbri_soft_contact *contact, float speed, const sbri_contact_rule *rule) {
+  float arrival_speed = contact->gap > 0 ? -contact->gap / rule->step_s : 0,
+        bounce_speed = -contact->restitution * speed;
   bool bounces = contact->gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s;
-  return bounces && back > arriving ? back : arriving;
+  return bounces && bounce_speed > arrival_speed ? bounce_speed : arrival_speed;
 }
 
-/* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
-static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
+/* Inverse effective mass of the rigid bodies that the sample is pinned to: the maximum over all directions.
+ */
+static float pinned_inverse_mass(const contact_set *c, const sbri_sample *s) {
   float sum = 0;
   for (int k = 0; k < 4; k++) {
     const sbri_reaction *r = sbri_reaction_at(c->tick, s->slots[k]);
     sbf_vec3 arm = {0, 0, 0};
     float weight = 0;
-    bool first = true; /* of those that this body holds, which are moved as one */
+    bool first = true; /* of the points pinned to this rigid body, which moves as one */
     for (int i = 0; r && i < 4; i++) {
       if (sbri_reaction_at(c->tick, s->slots[i]) != r) continue;
       first = first && i >= k;
@@ -154,8 +163,8 @@ static float pinned_inverse_mass(const touching *c, const sbri_sample *s) {
   return sum;
 }
 
-/* Effective mass of a self-contact if the rigid bodies that hold the body move. */
-static float mass_of(const touching *c, const sbri_sample *s) {
+/* Effective mass of a self-contact if the rigid bodies that it is pinned to move. */
+static float effective_mass(const contact_set *c, const sbri_sample *s) {
   float sum = pinned_inverse_mass(c, s);
   for (int k = 0; k < 4; k++)
     if (s->slots[k] < c->tick->island->free_count)
@@ -163,33 +172,34 @@ static float mass_of(const touching *c, const sbri_sample *s) {
   return 1 / sum;
 }
 
-/* Of the first push in the tick: later ones answer the body's own vibration. */
-static void note_closing_speed(sbri_soft_contact *contact, float normal_speed) {
+/* Only the first impulse of the tick counts: later ones come from the body's own vibration. */
+static void store_closing_speed(sbri_soft_contact *contact, float normal_speed) {
   if (!(contact->pushed > 0) && -normal_speed > contact->closing_speed)
     contact->closing_speed = -normal_speed;
 }
 
-/* Says whether it may touch. */
-static bool begin(touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+/* Prepares a contact for the substep. Returns whether it may touch. */
+static bool prepare_contact(contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   if (contact->collider == SBRI_ITSELF && !contact->crosses) sbri_self_contact_update(c->tick, contact);
-  if (is_felt(c, contact)) contact->sample.mass_kg = mass_of(c, &contact->sample);
+  if (has_reaction(c, contact)) contact->sample.mass_kg = effective_mass(c, &contact->sample);
   sbf_vec3 v = velocity_of(c, contact);
   float speed = sbri_dot(
-      contact->normal, sbri_sub(v, c->external_bodies ? velocity_under(c, contact) : contact->velocity));
+      contact->normal, sbri_sub(v, c->external_bodies ? other_side_velocity(c, contact) : contact->velocity));
   contact->gap = gap_of(c, contact);
-  if (contact->gap + rule->step_s * speed < 0) note_closing_speed(contact, speed);
-  contact->wanted = wanted_of(contact, speed, rule);
+  if (contact->gap + rule->step_s * speed < 0) store_closing_speed(contact, speed);
+  contact->wanted = target_speed(contact, speed, rule);
   return contact->velocity_change > 0 || contact->gap < rule->step_s * (NEAR_M_S - speed);
 }
 
-/* What is below its plane and was pushed goes up, at a limited rate. */
-static float lift_of(const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
-  float up = -contact->gap - rule->slack_m;
-  return up < rule->push_m ? up : rule->push_m;
+/* Penetration correction of the substep. */
+static float penetration_correction(const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  float correction = -contact->gap - rule->slack_m;
+  return correction < rule->push_m ? correction : rule->push_m;
 }
 
-/* What all that follows comes to for one that is alone: no other push changes what it sees. */
-static void answer_alone(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+/* Solves a contact that shares its point with no other contact. The result equals that of the general
+ * iteration. */
+static void solve_single(const contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   uint32_t slot = contact->sample.slots[0];
   float *velocity = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
   sbri_point *x = &c->tick->positions[slot];
@@ -197,38 +207,39 @@ static void answer_alone(const touching *c, sbri_soft_contact *contact, const sb
   v = sbri_sub(v, contact->velocity);
   float speed = sbri_dot(n, v);
   contact->gap = sbri_dot(n, sbri_vec3(x->x, x->y, x->z)) - contact->offset;
-  contact->velocity_change = wanted_of(contact, speed, rule) - speed;
+  contact->velocity_change = target_speed(contact, speed, rule) - speed;
   if (!(contact->velocity_change > 0)) {
     contact->velocity_change = 0;
     return;
   }
-  note_closing_speed(contact, speed);
-  sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
-  float size = sbri_length(sideways), max = max_friction_of(c, contact, contact->velocity_change, rule);
-  contact->friction_impulse = sbri_scale(sideways, size > max ? -max / size : -1);
+  store_closing_speed(contact, speed);
+  sbf_vec3 tangential = sbri_add_scaled(v, n, -speed);
+  float size = sbri_length(tangential), max = max_friction_of(c, contact, contact->velocity_change, rule);
+  contact->friction_impulse = sbri_scale(tangential, size > max ? -max / size : -1);
   sbf_vec3 change = sbri_add_scaled(contact->friction_impulse, n, contact->velocity_change);
   velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
-  float up = lift_of(contact, rule);
-  if (up > 0) x->x += up * n.x, x->y += up * n.y, x->z += up * n.z;
+  float correction = penetration_correction(contact, rule);
+  if (correction > 0) x->x += correction * n.x, x->y += correction * n.y, x->z += correction * n.z;
   contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
 }
 
-/* Answers those that are alone, and brings those others that may touch to the front; how many. */
-static uint32_t begin_all(touching *c, const sbri_contact_rule *rule) {
-  uint32_t near = 0;
+/* Solves the single contacts, and moves the others that may touch to the front. Returns the number of those.
+ */
+static uint32_t prepare_contacts(contact_set *c, const sbri_contact_rule *rule) {
+  uint32_t near_count = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     sbri_soft_contact *contact = &c->contacts[i];
-    if (contact->alone) answer_alone(c, contact, rule);
-    if (contact->alone || !begin(c, contact, rule)) continue;
-    sbri_soft_contact first = c->contacts[near];
-    c->contacts[near++] = c->contacts[i];
+    if (contact->alone) solve_single(c, contact, rule);
+    if (contact->alone || !prepare_contact(c, contact, rule)) continue;
+    sbri_soft_contact first = c->contacts[near_count];
+    c->contacts[near_count++] = c->contacts[i];
     c->contacts[i] = first;
   }
-  return near;
+  return near_count;
 }
 
-/* One push made right; by how much it changed. */
-static float correct(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+/* One iteration of a contact; returns the velocity change. */
+static float solve_contact(const contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   sbf_vec3 v = sbri_sub(velocity_of(c, contact), contact->velocity), n = contact->normal;
   float speed = sbri_dot(n, v), normal_velocity_change = contact->velocity_change + contact->wanted - speed;
   if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
@@ -239,75 +250,77 @@ static float correct(const touching *c, sbri_soft_contact *contact, const sbri_c
   sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
       normal_velocity_change - contact->velocity_change);
   contact->velocity_change = normal_velocity_change, contact->friction_impulse = friction_impulse;
-  push(c, contact, change);
+  apply_velocity_change(c, contact, change);
   return sbri_length(change);
 }
 
-/* The same against an external body: what that gives way by is not the sample's to gain. */
-static float correct_with_external_body(
-    const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+/* One iteration of a contact with an external body, whose inverse mass counts in the effective mass. */
+static float solve_external_contact(
+    const contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   const sbri_sample *s = &contact->sample;
   const sbri_external_body *g = external_body_of(c, contact);
   sbf_vec3 arm = contact->arm, v = sbri_sub(velocity_of(c, contact), sbri_external_body_velocity(g, arm)),
            n = contact->normal;
-  float along = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_answer(g, arm, n));
-  float across =
+  float normal_response = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_answer(g, arm, n));
+  float tangential_response =
       1 + s->mass_kg * g->lever * (g->max_inverse_mass + sbri_dot(arm, arm) * g->max_inverse_inertia);
   float speed = sbri_dot(n, v),
-        normal_velocity_change = contact->velocity_change + (contact->wanted - speed) / along;
+        normal_velocity_change = contact->velocity_change + (contact->wanted - speed) / normal_response;
   if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
   sbf_vec3 friction_impulse =
-      sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -1 / across);
+      sbri_add_scaled(contact->friction_impulse, sbri_add_scaled(v, n, -speed), -1 / tangential_response);
   float size = sbri_length(friction_impulse), max = max_friction_of(c, contact, normal_velocity_change, rule);
   if (size > max) friction_impulse = sbri_scale(friction_impulse, max / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(friction_impulse, contact->friction_impulse), n,
       normal_velocity_change - contact->velocity_change);
   contact->velocity_change = normal_velocity_change, contact->friction_impulse = friction_impulse;
-  push(c, contact, change);
-  push_external_body(c, contact, change);
-  return sbri_length(change) * (FINER_WITH_EXTERNAL_BODIES + s->mass_kg * g->max_inverse_mass);
+  apply_velocity_change(c, contact, change);
+  apply_external_reaction(c, contact, change);
+  return sbri_length(change) * (EXTERNAL_BODY_PRECISION + s->mass_kg * g->max_inverse_mass);
 }
 
-/* Goes on from the pushes of the substep before. */
-static void push_as_before(const touching *c) {
+/* Applies the impulses of the previous substep. */
+static void apply_warm_start(const contact_set *c) {
   for (uint32_t i = 0; i < c->count; i++) {
     const sbri_soft_contact *contact = &c->contacts[i];
     if (!(contact->velocity_change > 0)) continue;
     sbf_vec3 change = sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change);
-    push(c, contact, change);
-    if (contact->external_body) push_external_body(c, contact, change);
+    apply_velocity_change(c, contact, change);
+    if (contact->external_body) apply_external_reaction(c, contact, change);
   }
 }
 
-static void lift(const touching *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
-  if (!(contact->velocity_change > 0 && lift_of(contact, rule) > 0)) return;
-  contact->gap = gap_of(c, contact); /* remaining after contacts that share its points */
-  float up = lift_of(contact, rule);
-  if (up > 0) move(c, contact, sbri_scale(contact->normal, up), is_felt(c, contact));
+static void correct_penetration(
+    const contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
+  if (!(contact->velocity_change > 0 && penetration_correction(contact, rule) > 0)) return;
+  contact->gap = gap_of(c, contact); /* what remains after contacts that share its points */
+  float correction = penetration_correction(contact, rule);
+  if (correction > 0)
+    correct_position(c, contact, sbri_scale(contact->normal, correction), has_reaction(c, contact));
 }
 
 void sbri_soft_contacts_solve(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
-  touching c = touching_of(t, body, velocities);
+  contact_set c = contact_set_of(t, body, velocities);
   if (c.external_bodies) sbri_external_bodies_begin(c.external_bodies, rule->step_s);
-  c.count = begin_all(&c, rule);
-  const int passes = c.external_bodies ? MAX_EXTERNAL_BODY_PASSES : MAX_PASSES;
-  push_as_before(&c);
-  float max = RESTING_M_S;
-  for (int pass = 0; pass < passes && max >= RESTING_M_S; pass++) {
+  c.count = prepare_contacts(&c, rule);
+  const int iterations = c.external_bodies ? MAX_EXTERNAL_BODY_ITERATIONS : MAX_ITERATIONS;
+  apply_warm_start(&c);
+  float max = CONVERGED_M_S;
+  for (int iteration = 0; iteration < iterations && max >= CONVERGED_M_S; iteration++) {
     max = 0;
     for (uint32_t i = 0; i < c.count; i++) {
-      sbri_soft_contact *contact = &c.contacts[pass % 2 ? c.count - 1 - i : i];
-      float change =
-          contact->external_body ? correct_with_external_body(&c, contact, rule) : correct(&c, contact, rule);
+      sbri_soft_contact *contact = &c.contacts[iteration % 2 ? c.count - 1 - i : i];
+      float change = contact->external_body ? solve_external_contact(&c, contact, rule)
+                                            : solve_contact(&c, contact, rule);
       max = change > max ? change : max;
     }
   }
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_soft_contact *contact = &c.contacts[i];
     contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
-    lift(&c, contact, rule);
+    correct_penetration(&c, contact, rule);
   }
 }
 
@@ -333,7 +346,7 @@ static sbri_sliding sum_sliding_of_blocks(const sbri_island_tick *t, const sbri_
 
 sbri_sliding sbri_soft_contacts_sum_sliding(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
-  touching c = touching_of(t, body, t->velocities);
+  contact_set c = contact_set_of(t, body, t->velocities);
   sbri_sliding sum = {0, 0, {0, 0, 0}};
   if (sbri_contact_block_count(t, body)) return sum_sliding_of_blocks(t, body);
   for (uint32_t i = 0; i < c.count; i++) {
@@ -346,8 +359,8 @@ sbri_sliding sbri_soft_contacts_sum_sliding(
 }
 
 void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body, float step_s) {
-  touching c = touching_of(t, body, t->velocities);
-  const bool with = c.external_bodies != NULL;
+  contact_set c = contact_set_of(t, body, t->velocities);
+  const bool has_external_bodies = c.external_bodies != NULL;
   if (sbri_contact_block_count(t, body)) {
     sbri_contact_blocks_advance(t, body, step_s);
     return;
@@ -355,14 +368,15 @@ void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_soft_contact *contact = &c.contacts[i];
     contact->offset +=
-        step_s * sbri_dot(contact->normal, with ? velocity_under(&c, contact) : contact->velocity);
+        step_s *
+        sbri_dot(contact->normal, has_external_bodies ? other_side_velocity(&c, contact) : contact->velocity);
     contact->pressing =
         sbri_pressing_add(contact->pressing, contact->velocity_change, contact->closing_speed, step_s);
     if (contact->velocity_change > 0)
       contact->given = sbri_add(contact->given,
           sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change));
   }
-  if (with) sbri_external_bodies_end_step(c.external_bodies, step_s);
+  if (has_external_bodies) sbri_external_bodies_end_step(c.external_bodies, step_s);
 }
 
 static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
@@ -398,29 +412,30 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
 }
 
 void sbri_soft_contacts_store(const sbri_island_tick *t, const sbri_body *body) {
-  touching c = touching_of(t, body, t->velocities);
+  contact_set c = contact_set_of(t, body, t->velocities);
   sbri_contact_blocks_unpack(t, body);
   for (uint32_t i = 0; i < c.count; i++) c.contacts[i].gap = gap_of(&c, &c.contacts[i]);
 }
 
 void sbri_soft_contacts_bound(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
-  touching c = touching_of(t, body, t->velocities);
+  contact_set c = contact_set_of(t, body, t->velocities);
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_soft_contact *contact = &c.contacts[i];
     float min = contact->gap < -rule->slack_m ? contact->gap : -rule->slack_m,
-          lift = min - gap_of(&c, contact);
-    if (!(lift > 0)) continue;
-    sbf_vec3 v = sbri_sub(velocity_of(&c, contact), velocity_under(&c, contact)), n = contact->normal;
-    float normal_velocity_change = lift / rule->step_s;
-    sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
-    float size = sbri_length(sideways),
+          depth = min - gap_of(&c, contact);
+    if (!(depth > 0)) continue;
+    sbf_vec3 v = sbri_sub(velocity_of(&c, contact), other_side_velocity(&c, contact)), n = contact->normal;
+    float normal_velocity_change = depth / rule->step_s;
+    sbf_vec3 tangential = sbri_add_scaled(v, n, -sbri_dot(n, v));
+    float size = sbri_length(tangential),
           max = sbri_contact_friction_at(t, body, contact) * normal_velocity_change;
     sbf_vec3 change =
-        sbri_add_scaled(sbri_scale(n, normal_velocity_change), sideways, size > max ? -max / size : -1);
-    push(&c, contact, change);
-    if (contact->external_body) push_external_body(&c, contact, change);
-    move(&c, contact, sbri_scale(change, rule->step_s), false); /* they go by the push */
+        sbri_add_scaled(sbri_scale(n, normal_velocity_change), tangential, size > max ? -max / size : -1);
+    apply_velocity_change(&c, contact, change);
+    if (contact->external_body) apply_external_reaction(&c, contact, change);
+    correct_position(
+        &c, contact, sbri_scale(change, rule->step_s), false); /* rigid bodies already get the impulse */
     contact->given = sbri_add(contact->given, change);
   }
 }

@@ -1,5 +1,5 @@
-/* Contacts of surface samples, solved in sequence: those of a body with itself and with external bodies, and
- * with the ground and colliders beside these. All others are solved eight at a time
+/* Sequential contacts of surface samples: self-contacts, contacts with external bodies, and ground and
+ * collider contacts of bodies that have either. All others are solved eight at a time
  * (solvers/contact_lanes.h).
  *
  * An impulse at a sample x = sum w_i x_i changes the velocity of point i by w_i / m_i per unit, and the
@@ -16,7 +16,7 @@
 #include "contact/contact.h"
 
 /* Solves the contacts of a body for the coming substep: changes `velocities` so that no sample passes its
- * plane, and lifts samples that are too deep. */
+ * plane, and corrects the penetration of deep samples. */
 void sbri_soft_contacts_solve(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule);
 
@@ -31,11 +31,11 @@ sbri_sliding sbri_soft_contacts_sum_sliding(
 /* Moves contact planes with their colliders, at the end of a substep. */
 void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body, float step_s);
 
-/* Reports what the body touches, at the end of a tick. */
+/* Reports the contacts of the body, at the end of a tick. */
 void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body, sbri_touching *touching);
 
-/* Call before and after a position correction that changes velocities (solvers/volume_keep.h): restores
- * samples that the correction has pushed in, as sbri_contact_bound does for points. */
+/* Call before and after a position correction that changes velocities (solvers/volume_keep.h). Undoes
+ * penetration that the correction has caused, as sbri_contact_bound does for points. */
 void sbri_soft_contacts_store(const sbri_island_tick *t, const sbri_body *body);
 void sbri_soft_contacts_bound(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule);

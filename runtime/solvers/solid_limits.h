@@ -1,23 +1,24 @@
-/* Tetrahedra within their strain limits, their yield and their tear, at the end of a substep. Strains are the
- * principal ones of F_e (mechanics/solid_strain.h).
+/* Strain limits, yield and tear of tetrahedra, at the end of a substep. Strains are the principal ones of F_e
+ * (mechanics/solid_strain.h).
  *
- * A limit is a wall, as that of a spring (strain_limit.h): a principal stretch beyond it is brought to it
- * along its own gradient, by the corners' inverse masses, and the speed with which it was leaving is taken.
- * Momentum and angular momentum are kept, as there. Up to four sweeps a substep: of elements that pull at the
- * same points some may stay a little beyond.
+ * Limits work like those of springs (strain_limit.h): a principal stretch beyond its limit is brought back
+ * along its own gradient, weighted by the inverse masses of the corners, and its rate of change away from the
+ * limit becomes 0. Linear and angular momentum are conserved. Up to four sweeps per substep; elements with
+ * common points may stay slightly beyond their limits.
  *
- * What yields gets a new metric of its rest shape, what tears stops: both are the blocks themselves, which
- * are state then. Written for the lanes of the file that includes it; see model/kernels.h. */
+ * An element that yields gets a new metric of its rest shape; a torn element loses its stiffness. Both change
+ * the blocks, which are then state.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_SOLID_LIMITS_H
 #define SBRI_SOLID_LIMITS_H
 
 #include "mechanics/solid_strain.h"
 #include "solvers/strain_limit.h"
 
-/* Greatest thinning of a rest shape in a direction (squared): elements crushed that far do not yield further.
- */
+/* Maximum squared compression of a rest shape in a direction. Elements beyond it do not yield further. */
 #define SBRI_MAX_FLOW_STRETCH 64.0
-/* Limits are swept until none is off by more than this strain. */
+/* Sweeps end when no strain exceeds its limit by more than this. */
 #define SBRI_LIMIT_TOLERANCE 1e-3
 enum { SBRI_LIMIT_SWEEPS = 4 };
 
@@ -39,11 +40,11 @@ static inline void sbri_store_solid_edges(const sbri_island_tick *t, const sbri_
   }
 }
 
-/* Brings the k-th stretch to `bound`, from where those before it have left the corners. */
+/* Brings the k-th stretch to `bound`. Corrections of other stretches may have moved the corners. */
 static inline void sbri_limit_stretch(
     const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_stretches *s, int k, double bound) {
   const double *q = s->directions[k];
-  double sum = 0, limited = 0, fractions[4] = {0, q[0], q[1], q[2]};
+  double sum = 0, pinned_sum = 0, fractions[4] = {0, q[0], q[1], q[2]};
   bool is_long = s->values[k] > bound;
   sbfi_d3 d[3];
   sbri_store_solid_edges(t, e, d);
@@ -51,27 +52,30 @@ static inline void sbri_limit_stretch(
       sbfi_d3_add(sbfi_d3_scale(d[0], q[0]), sbfi_d3_scale(d[1], q[1])), sbfi_d3_scale(d[2], q[2]));
   double value = s->values[k] < 0 ? -sqrt(sbfi_d3_dot(u, u)) : sqrt(sbfi_d3_dot(u, u));
   if (!(fabs(value) > 1e-6) || is_long != (value > bound)) return;
-  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value)), separation = {0, 0, 0};
+  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value)), relative_velocity = {0, 0, 0};
   fractions[0] = -(q[0] + q[1] + q[2]);
   for (int i = 0; i < 4; i++) {
     uint32_t slot = sbri_corner(e, i);
     double w = slot < t->island->free_count ? t->island->inverse_masses[slot] : 0;
     sum += w * fractions[i] * fractions[i];
-    limited += (double)sbri_pinned_inverse_mass(t, slot, sbri_scale(n, (float)fractions[i]));
-    separation = sbri_add_scaled(separation, sbri_pushed_velocity(t, slot), (float)fractions[i]);
+    pinned_sum += (double)sbri_pinned_inverse_mass(t, slot, sbri_scale(n, (float)fractions[i]));
+    relative_velocity =
+        sbri_add_scaled(relative_velocity, sbri_reacted_velocity(t, slot), (float)fractions[i]);
   }
   if (!(sum > 0)) return;
-  float all = (float)(sum + limited), speed = sbri_dot(separation, n), travel = (float)(value - bound) / all;
+  float all = (float)(sum + pinned_sum), speed = sbri_dot(relative_velocity, n),
+        travel = (float)(value - bound) / all;
   bool leaving = is_long ? speed > 0 : speed < 0;
-  sbf_vec3 push = sbri_limit_turn(separation, n, travel, all, (float)bound);
-  push = sbri_add_scaled(push, n, leaving ? -speed / all : 0);
+  sbf_vec3 impulse = sbri_limit_tangential_impulse(relative_velocity, n, travel, all, (float)bound);
+  impulse = sbri_add_scaled(impulse, n, leaving ? -speed / all : 0);
   for (int i = 0; i < 4; i++)
     sbri_move_slot(t, sbri_corner(e, i), sbri_scale(n, -(float)fractions[i] * travel));
-  for (int i = 0; i < 4; i++) sbri_push_slot(t, sbri_corner(e, i), sbri_scale(push, (float)fractions[i]));
+  for (int i = 0; i < 4; i++)
+    sbri_apply_slot_impulse(t, sbri_corner(e, i), sbri_scale(impulse, (float)fractions[i]));
   s->values[k] = bound;
 }
 
-/* Both copies of an element's numbers, for forces and for sweeps. */
+/* Copy `n` of an element: one is for forces, one for sweeps. */
 static inline sbri_tetrahedron_block *sbri_solid_copy(
     const sbri_island_tick *t, uint32_t element, int n, uint32_t *lane) {
   uint32_t at = t->island->lanes_of_tetrahedra[2 * element + (uint32_t)n];
@@ -112,7 +116,7 @@ static inline void sbri_yield_solid(
   }
 }
 
-/* Its stretches; false where it has none, being torn. */
+/* Principal stretches of the element; returns false if it is torn. */
 static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3],
     sbfi_solid_metric *metric, sbfi_stretches *stretches) {
   const sbri_tetrahedron_block *block = &t->tetrahedra[e->block];
@@ -124,7 +128,7 @@ static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_so
   return sbfi_stretches_find(metric, d, stretches);
 }
 
-/* Whether it was beyond by more than a little. */
+/* Returns whether a strain exceeded its limit by more than the tolerance. */
 static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_lane *e) {
   const sbri_solid_limits *is = &t->island->solid_limits[e->block];
   double max = 1 + (double)is->max[e->lane], min = 1 + (double)is->min[e->lane];
@@ -163,8 +167,8 @@ static inline void sbri_flow_solid(const sbri_island_tick *t, const sbri_solid_l
     sbri_yield_solid(t, element, (double)block->shear[lane] / block->inverse_volume[lane], &metric);
 }
 
-/* Lanes in which something may be beyond its bound, by the sum of (s^2 - 1)^2 = |C|^2 - 2 tr C + 3; and those
- * that are inside out. */
+/* Lanes in which a strain may exceed its bound, by the sum of (s^2 - 1)^2 = |C|^2 - 2 tr C + 3, or that are
+ * inverted. */
 SBRI_INLINE sbri_mask sbri_solids_beyond(
     const sbri_island_tick *t, const sbri_tetrahedron_block *block, const float *squares, uint32_t lane) {
   sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3];
@@ -201,9 +205,9 @@ static inline bool sbri_pass_solids(const sbri_island_tick *t, float h) {
     float marks[SBRI_BLOCK];
     bool any = false;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_mask beyond = sbri_solids_beyond(t, block, t->island->solid_limits[b].square, lane);
-      sbri_wide_store(marks + lane, sbri_wide_select(beyond, sbri_wide_all(1), sbri_wide_all(0)));
-      any = any || sbri_mask_any(beyond);
+      sbri_mask is_beyond = sbri_solids_beyond(t, block, t->island->solid_limits[b].square, lane);
+      sbri_wide_store(marks + lane, sbri_wide_select(is_beyond, sbri_wide_all(1), sbri_wide_all(0)));
+      any = any || sbri_mask_any(is_beyond);
     }
     for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++) {
       if (marks[lane] == 0) continue;

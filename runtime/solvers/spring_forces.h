@@ -1,6 +1,8 @@
-/* Forces of springs, gathered point by point: each of the eight points of a block sums its own springs, so
- * that nothing is written twice, the order of sums is fixed, and the two ends of a spring receive exactly
- * opposite forces. Written for the lanes of the file that includes it; see model/kernels.h. */
+/* Forces of springs, gathered point by point. Each of the eight points of a block sums its own springs, so
+ * nothing is written twice, the order of sums is fixed, and the two ends of a spring receive exactly opposite
+ * forces.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_SPRING_FORCES_H
 #define SBRI_SPRING_FORCES_H
 

@@ -1,13 +1,13 @@
 /* Strain limits of springs: a spring longer or shorter than its limits is moved to them, and its rate of
  * change beyond them becomes 0 (Provot, Deformation Constraints in a Mass-Spring Model, 1995, moves the
- * points likewise). An end that comes closer while it rotates about the other speeds up accordingly, and the
- * rigid body of a pinned end gets the reaction: linear and angular momentum are conserved. One sweep a
- * substep: springs with common points may stay slightly beyond their limits. Springs within their limits are
- * not changed, so a second sweep over a corrected state changes nothing.
+ * points in the same way). An end that comes closer while it rotates about the other speeds up accordingly,
+ * and the rigid body of a pinned end gets the reaction: linear and angular momentum are conserved. One sweep
+ * per substep: springs with common points may stay slightly beyond their limits. Springs within their limits
+ * are not changed, so a second sweep over a corrected state changes nothing.
  *
  * Bias against the energy: an elastic wall would return the spring's velocity; this one is inelastic.
  *
- * Written for the lanes of the file that includes it; see model/kernels.h. */
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_STRAIN_LIMIT_H
 #define SBRI_STRAIN_LIMIT_H
 
@@ -18,36 +18,37 @@
 /* Relative tolerance of a limit. */
 #define SBRI_LIMIT_SLACK 2e-6f
 /* Maximum relative change of an angular velocity by a change of arm length. Keeps heaps from bursting. */
-#define SBRI_LIMIT_MAX_TURN 0.2f
+#define SBRI_LIMIT_MAX_ANGULAR_CHANGE 0.2f
 
 static inline void sbri_shift_slot(
-    const sbri_island_tick *t, uint32_t slot, sbf_vec3 direction, sbf_vec3 velocity_change) {
+    const sbri_island_tick *t, uint32_t slot, sbf_vec3 shift, sbf_vec3 velocity_change) {
   if (slot >= t->island->free_count) return;
   sbri_point *p = &t->positions[slot];
-  *p = (sbri_point){p->x + direction.x, p->y + direction.y, p->z + direction.z, 0};
+  *p = (sbri_point){p->x + shift.x, p->y + shift.y, p->z + shift.z, 0};
   float *v = sbri_triple(t->velocities, slot);
   v[0] += velocity_change.x, v[SBRI_BLOCK] += velocity_change.y, v[2 * SBRI_BLOCK] += velocity_change.z;
 }
 
 /* Applies an impulse to a free or pinned slot. */
-static inline void sbri_push_slot(const sbri_island_tick *t, uint32_t slot, sbf_vec3 impulse) {
+static inline void sbri_apply_slot_impulse(const sbri_island_tick *t, uint32_t slot, sbf_vec3 impulse) {
   if (slot < t->island->free_count)
     sbri_shift_slot(t, slot, sbri_vec3(0, 0, 0), sbri_scale(impulse, t->island->inverse_masses[slot]));
   else
     sbri_pinned_apply_impulse(t, slot, impulse);
 }
 
-static inline sbf_vec3 sbri_pushed_velocity(const sbri_island_tick *t, uint32_t slot) {
+static inline sbf_vec3 sbri_reacted_velocity(const sbri_island_tick *t, uint32_t slot) {
   return sbri_add(sbri_slot_velocity(t, t->velocities, slot), sbri_pinned_velocity_change(t, slot));
 }
 
-/* Tangential impulse that conserves the angular momentum of an arm along n whose ends were moved by `moved`
- * (N s^2) to the length `bound`; `speed` is their relative velocity. */
-static inline sbf_vec3 sbri_limit_turn(sbf_vec3 speed, sbf_vec3 n, float moved, float sum, float bound) {
-  float fraction = moved / bound, max = SBRI_LIMIT_MAX_TURN / sum;
+/* Tangential impulse that conserves the angular momentum of an arm along n. `travel` is the shift of its ends
+ * to the length `bound`, N s^2; `velocity` is their relative velocity. */
+static inline sbf_vec3 sbri_limit_tangential_impulse(
+    sbf_vec3 velocity, sbf_vec3 n, float travel, float sum, float bound) {
+  float fraction = travel / bound, max = SBRI_LIMIT_MAX_ANGULAR_CHANGE / sum;
   if (!(bound > 0)) return sbri_vec3(0, 0, 0);
   fraction = fraction > max ? max : fraction < -max ? -max : fraction;
-  return sbri_scale(sbri_add_scaled(speed, n, -sbri_dot(speed, n)), fraction);
+  return sbri_scale(sbri_add_scaled(velocity, n, -sbri_dot(velocity, n)), fraction);
 }
 
 /* Shifts a free or pinned slot immediately; the shift is in kg m. */
@@ -66,20 +67,21 @@ static inline void sbri_limit_link(
   float wb = b < free_count ? t->island->inverse_masses[b] : 0;
   if (!(wa + wb > 0) || !(length > 0)) return;
   bool is_long = length > bound;
-  sbf_vec3 along = sbri_sub(sbri_shifted_position(t, b), sbri_shifted_position(t, a));
-  length = sbri_length(along);
+  sbf_vec3 edge = sbri_sub(sbri_shifted_position(t, b), sbri_shifted_position(t, a));
+  length = sbri_length(edge);
   if (!(length > 0) || is_long != (length > bound)) return;
-  sbf_vec3 n = sbri_scale(along, 1 / length);
-  sbf_vec3 separation = sbri_sub(sbri_pushed_velocity(t, b), sbri_pushed_velocity(t, a));
-  float speed = sbri_dot(separation, n),
+  sbf_vec3 n = sbri_scale(edge, 1 / length);
+  sbf_vec3 relative_velocity = sbri_sub(sbri_reacted_velocity(t, b), sbri_reacted_velocity(t, a));
+  float speed = sbri_dot(relative_velocity, n),
         inverse_mass = wa + wb + sbri_pinned_inverse_mass(t, a, n) + sbri_pinned_inverse_mass(t, b, n);
   bool leaving = is_long ? speed > 0 : speed < 0;
-  float travel = (length - bound) / inverse_mass, taken = leaving ? speed / inverse_mass : 0;
-  sbf_vec3 push = sbri_sub(sbri_scale(n, taken), sbri_limit_turn(separation, n, travel, inverse_mass, bound));
+  float travel = (length - bound) / inverse_mass, stopping = leaving ? speed / inverse_mass : 0;
+  sbf_vec3 impulse = sbri_sub(sbri_scale(n, stopping),
+      sbri_limit_tangential_impulse(relative_velocity, n, travel, inverse_mass, bound));
   sbri_move_slot(t, a, sbri_scale(n, travel));
   sbri_move_slot(t, b, sbri_scale(n, -travel));
-  sbri_push_slot(t, a, push);
-  sbri_push_slot(t, b, sbri_scale(push, -1));
+  sbri_apply_slot_impulse(t, a, impulse);
+  sbri_apply_slot_impulse(t, b, sbri_scale(impulse, -1));
 }
 
 static inline void sbri_limit_strains(const sbri_island_tick *t) {

@@ -1,4 +1,4 @@
-/* Shapes and gradients of what acts on surfaces: hinges between triangles, and the volume within faces. */
+/* Shapes and gradients of surface forces: hinges between triangles, and the volume within faces. */
 #ifndef SBRI_SURFACE_FORCES_H
 #define SBRI_SURFACE_FORCES_H
 
@@ -6,10 +6,10 @@
 #include "math/vec3.h"
 #include "model/runtime_model.h"
 
-/* Triangles (0, 1, 2) and (1, 0, 3) over the side from 0 to 1. */
+/* Triangles (0, 1, 2) and (1, 0, 3) on both sides of the edge from 0 to 1. */
 typedef struct sbri_hinge_shape {
   sbf_vec3 normals[2]; /* twice the vector areas */
-  float length;        /* of the side */
+  float length;        /* of the edge */
   float angle;         /* angle between the normals, rad; positive for a convex fold, seen from outside */
 } sbri_hinge_shape;
 
@@ -23,7 +23,7 @@ static inline sbri_hinge_shape sbri_hinge_shape_of(const sbf_vec3 x[4]) {
   return shape;
 }
 
-/* Of the angle, at the four points; zeros where a triangle has no area. */
+/* Gradients of the angle at the four points; zeros where a triangle has no area. */
 static inline void sbri_compute_hinge_gradients(
     const sbri_hinge_shape *shape, const sbf_vec3 x[4], sbf_vec3 gradients[4]) {
   float a = sbri_dot(shape->normals[0], shape->normals[0]),
@@ -39,10 +39,10 @@ static inline void sbri_compute_hinge_gradients(
   gradients[1] = sbri_sub(sbri_scale(gradients[2], -s), sbri_scale(gradients[3], t));
 }
 
-/* A face as the triangles from its corners' mean to its sides. */
+/* A face as a fan of triangles about the mean of its corners. */
 typedef struct sbri_face_shape {
   sbf_vec3 mean, area;   /* of the corners; vector area */
-  sbf_vec3 gradients[4]; /* of the volume of a closed surface, by this face, at its corners */
+  sbf_vec3 gradients[4]; /* of this face's contribution to the volume, at its corners */
 } sbri_face_shape;
 
 static inline sbri_face_shape sbri_face_shape_of(const sbf_vec3 c[4]) {

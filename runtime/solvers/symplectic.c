@@ -1,4 +1,4 @@
-/* Its loops are in solvers/symplectic.h. */
+/* The loops are in solvers/symplectic.h. */
 #include "model/kernels.h"
 #include "solvers/scheme.h"
 

@@ -1,14 +1,15 @@
-/* Forces of neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at a time. Written for
- * the lanes of the file that includes it; see model/kernels.h.
+/* Forces of neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at a time.
  *
  * With edges d_j = x_j - x_0 and the area vectors n_1 = d_2 x d_3 and so on, J = d_1.n_1 / (6 V) and the
  * force on corner i is
  *
  *   f_i = -sum_j K_ij d_j - (lambda (J - 1) - mu) / 6 n_i,     K_ij = V mu g_i.g_j
  *
- * for i, j = 1..3, and f_0 minus their sum: the same as -V P g_i without ever forming F, in two thirds of the
- * operations. Forces are added up point by point in the order of the blocks, within one first all that meet
- * its first corners, lane after lane, then the second: the same order for lanes of every width. */
+ * for i, j = 1..3, and f_0 minus their sum. This equals -V P g_i without ever forming F, in two thirds of the
+ * operations. Forces are summed point by point in the order of the blocks; within a block, first all first
+ * corners, lane after lane, then all second corners. The order is the same for every SIMD width.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_TETRAHEDRON_FORCES_H
 #define SBRI_TETRAHEDRON_FORCES_H
 
@@ -37,9 +38,9 @@ typedef struct sbri_tetrahedron_watch {
   float min_ratio[SBRI_BLOCK];  /* minimum J */
 } sbri_tetrahedron_watch;
 
-/* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V): its
- * largest eigenvalue against that at rest, the greatest of the corners'; and what the curvature of J adds
- * between corners, lambda |J - 1| at most beyond the mu that is there at rest. */
+/* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V). The
+ * bound is the maximum over the corners of its largest eigenvalue relative to rest, plus the contribution of
+ * the curvature of J between corners: at most lambda |J - 1| beyond the mu at rest. */
 SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, sbri_wide3 n1, sbri_wide3 n2,
     sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch) {
   sbri_wide zero = sbri_wide_all(0), tiny = sbri_wide_all(1e-30f);
@@ -69,9 +70,9 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   sbri_wide_store(watch->min_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, min), min));
 }
 
-/* Viscous forces, taken off f, at the rates w of the edges d: -beta V F S g_i, S Hooke's stress of the rate
- * E' of Green's strain. In edges, E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the
- * edges, and V g_j^T S g_i = 2 / (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
+/* Viscous forces, subtracted from f, at the rates w of the edges d: -beta V F S g_i, with S Hooke's stress of
+ * the rate E' of Green's strain. In terms of edges, E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2,
+ * and V g_j^T S g_i = 2 / (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
 SBRI_INLINE void sbri_compute_viscous_forces(const sbri_tetrahedron_block *block, uint32_t lane,
     const float *betas, const sbri_wide3 d[3], const sbri_wide3 w[3], sbri_wide3 f[3]) {
   static const int indices[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -99,7 +100,7 @@ SBRI_INLINE void sbri_compute_viscous_forces(const sbri_tetrahedron_block *block
   }
 }
 
-/* The same at the present velocities. */
+/* Viscous forces at the present velocities. */
 SBRI_INLINE void sbri_compute_tetrahedron_damping(const sbri_island_tick *t,
     const sbri_tetrahedron_block *block, uint32_t lane, const float *betas, const sbri_wide3 d[3],
     sbri_wide3 f[3]) {
@@ -151,8 +152,8 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
   forces[0] = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
 }
 
-/* With eight lanes the edges of the next block are gathered before the forces of this one are added: a
- * processor looks ahead no farther than about a block, and would wait for them. */
+/* With eight lanes, the edges of the next block are gathered before the forces of this one are added. A
+ * processor looks ahead by only about one block and would stall otherwise. */
 SBRI_INLINE void sbri_tetrahedron_blocks(
     const sbri_island_tick *t, const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
   enum { GROUPS = SBRI_BLOCK / SBRI_LANES };
@@ -182,8 +183,8 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
   }
 }
 
-/* Forces in N of the island's tetrahedra on its slots, into t->element_forces. `watch`: NULL, or what begins
- * as sbri_watch_begin makes it and is filled. */
+/* Writes the forces of the island's tetrahedra to t->element_forces, N. `watch`: NULL, or initialised by
+ * sbri_watch_begin; receives the stiffening and the minimum J. */
 static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
   sbri_point *sums = t->element_forces;
   memset(sums, 0, t->island->slot_count * sizeof *sums);
@@ -212,7 +213,7 @@ static inline float sbri_watch_min_ratio(const sbri_tetrahedron_watch *watch) {
   return min;
 }
 
-/* The forces, and if `checks` what is watched into the tick's state. */
+/* Computes the forces. With `checks`, also updates the stiffening and the minimum J in the tick's state. */
 static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool checks) {
   sbri_tetrahedron_watch watch;
   sbri_watch_begin(&watch);

@@ -1,36 +1,39 @@
 /* One position-based sweep over neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at
- * a time: each, one after the other, goes where an implicit Euler step of it alone would take it.
+ * a time. Each in turn moves to where an implicit Euler step of it alone would take it.
  *
  * Such a step turns the stress P = mu F + s cof F, s = lambda (J - 1) - mu, into the impulses h V P' g_i with
  * P' = (1 + h^2 V A H)^-1 P, where H are the second derivatives of the energy and A is sum w_i g_i g_i^T. The
- * inverse is not computed. P is split into its part along cof F, which the stiff lambda answers, and the
+ * inverse is not computed. P is split into its part along cof F, on which the stiff lambda acts, and the
  * rest,
  *
  *   P = mu (F - (3 J / c) cof F)  +  (s + 3 mu J / c) cof F,     c = |cof F|^2,
  *
- * and each gets the share (1 + W^2) / (1 + W^2 + W^4) of its impulse: next to all where the substep resolves
- * it, 1 / W^2 where it does not, with W^2 being h^2 times a number for A and H of that part, exact at rest
- * for matter alike in all directions:
+ * and each part gets the fraction (1 + W^2) / (1 + W^2 + W^4) of its impulse: nearly all where the substep
+ * resolves it, 1 / W^2 where it does not. W^2 is h^2 times an estimate of A and H for that part, exact at
+ * rest for isotropic elements:
  *
  *   the rest:      0.6 V (sum w_i |g_i|^2) (mu + |s| (1 + e^2) / 2),    e^2 = max(F:F - 2, F:F / 3)
  *   along cof F:   V (sum w_i |cof F g_i|^2 / c) (mu + lambda c + 2 s J F:F / c)
  *
- * No element by itself overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e is
- * nearly the greatest stretch. (The share 1 / (1 + W^2) would be the implicit step itself where points belong
- * to one element each; where they share theirs, bodies rest four times as far from where they should.)
- * Nothing moves where P is 0, so that the rest state is exact, which two constraints that are projected one
- * after the other (Macklin and Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, 2021)
- * do not have. Flat and inverted elements are nothing special. Momentum is kept, angular momentum to the
+ * No element by itself overshoots: 0.6 sum w_i |g_i|^2 is more than half of the largest eigenvalue of A, and
+ * e is nearly the maximum stretch. (The fraction 1 / (1 + W^2) would be the implicit step itself if each
+ * point belonged to one element. Where elements share points, it makes the error of the rest state four times
+ * as large.)
+ *
+ * Nothing moves where P is 0, so the rest state is exact, unlike with two constraints that are projected one
+ * after the other (Macklin and Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials,
+ * 2021). Flat and inverted elements are no special case. Linear momentum is conserved, angular momentum to
  * second order, since both parts of P F^T are symmetric. No multiplier is accumulated.
  *
- * Every other sweep goes through the blocks backwards, so that neither end of the list is preferred. Written
- * for the lanes of the file that includes it; see model/kernels.h. */
+ * Every other sweep visits the blocks in reverse, so that neither end of the list is preferred.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_TETRAHEDRON_SWEEP_H
 #define SBRI_TETRAHEDRON_SWEEP_H
 
 #include "solvers/motion.h"
 
-/* Each tetrahedron's edges from its first corner where the tick begins. */
+/* Stores the edges of each tetrahedron from its first corner at the beginning of the tick. */
 static inline void sbri_solid_edges_begin(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < t->island->tetrahedron_block_count; b++) {
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
@@ -55,9 +58,9 @@ SBRI_INLINE void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 direction, sbri_wide 
   u->x = u->x + s * direction.x, u->y = u->y + s * direction.y, u->z = u->z + s * direction.z;
 }
 
-/* Viscous forces into f, as sbri_compute_tetrahedron_damping has them, at the rates by which the edges have
- * changed since the substep's beginning; already divided by 1 + h^2 times their own stiffness, beta / h of
- * the greatest at rest. `reach` is 0.6 sum w_i K_ii. */
+/* Adds viscous forces to f, as in sbri_compute_tetrahedron_damping, for the change of the edges since the
+ * beginning of the substep. They are divided by 1 + h^2 times their own stiffness, beta / h of the maximum at
+ * rest. `reach` is 0.6 sum w_i K_ii. */
 SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide reach, sbri_wide squares,
     const sbri_sweep_step *step, sbri_wide3 f[3]) {
@@ -77,8 +80,8 @@ SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrah
   for (int i = 0; i < 3; i++) f[i] = sbri_wide3_add(f[i], sbri_wide3_scale(viscous[i], fraction));
 }
 
-/* The settling of a group of lanes. Loops over corners are written out: compilers keep arrays in memory that
- * loops go over. */
+/* Solves a group of lanes. Loops over corners are unrolled by hand, because compilers keep arrays that are
+ * looped over in memory. */
 SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     const float *edges, uint32_t lane, const float *betas, const sbri_sweep_step *step) {
   sbri_wide4 u0 = sbri_wide_gather4(t->moves, block->corners[0] + lane);
@@ -108,7 +111,7 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
   sbri_wide3 kd1 = SBRI_ROWS(k11, k12, k31), kd2 = SBRI_ROWS(k12, k22, k23), kd3 = SBRI_ROWS(k31, k23, k33);
 #undef SBRI_ROWS
 #undef SBRI_ROW
-  /* F:F, and |cof F|^2 by the minors of K: those of its Gram matrix are that of the edges at rest. */
+  /* F:F, and |cof F|^2 from the minors of K, the Gram matrix of the edges at rest. */
   sbri_wide per_stiffness = inverse_volume * over_shear; /* 1 / (V mu) */
   sbri_wide squares =
       per_stiffness * (sbri_wide3_dot(d1, kd1) + sbri_wide3_dot(d2, kd2) + sbri_wide3_dot(d3, kd3));
@@ -118,9 +121,9 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
       (k22 * k33 - k23 * k23) * n11 + (k33 * k11 - k31 * k31) * n22 + (k11 * k22 - k12 * k12) * n33;
   sbri_wide mixed =
       (k23 * k31 - k12 * k33) * n12 + (k12 * k31 - k23 * k11) * n23 + (k12 * k23 - k31 * k22) * n31;
-  /* In slivers the minors cancel. With x, y, z for the squares of the products of two singular values each,
-   * (x + y + z)^2 >= 3 (xy + yz + zx) is |cof F|^4 >= 3 J^2 F:F, equal at rest: the factor stays below 3, so
-   * that rounding does not choose there. */
+  /* In slivers the minors cancel. With x, y, z the squared products of two singular values each, (x + y +
+   * z)^2 >= 3 (xy + yz + zx) means |cof F|^4 >= 3 J^2 F:F, with equality at rest. The factor stays below 3 so
+   * that rounding does not decide there. */
   sbri_wide bound = sbri_wide_max(ratio, zero - ratio) *
                     sbri_wide_sqrt(sbri_wide_all(2.99f) * sbri_wide_max(squares, zero));
   sbri_wide areas = sbri_wide_max((even + two * mixed) * per_stiffness * per_stiffness, bound);

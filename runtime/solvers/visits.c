@@ -1,7 +1,6 @@
-/* The order in which the relaxation scheme visits springs, which its result depends on: first the internal
- * springs as they are listed, then the structural and then the shear springs, each of these by a walk over
- * the points that visits every spring of a point in the order listed, and so each spring twice, once from
- * each end. */
+/* Spring order of the relaxation scheme, whose result depends on it. Internal springs come first, as listed.
+ * Structural and then shear springs follow, each by a walk over the points that visits every spring of a
+ * point in the order listed. Each of these springs is thus visited twice, once from each end. */
 #include "solvers/visits.h"
 
 #include <math.h>
@@ -28,10 +27,10 @@ static void add(visit_list *list, const sbf_spring_set *set, uint32_t i, int fro
   list->at[list->count++] = (sbri_visit){a, b, rest_length(list->body, set, i)};
 }
 
-/* Springs at each point, over all sets of one kind: `begins` (points + 1), `members` as set and place. */
+/* Springs at each point, over all sets of one kind: `begins` (points + 1), `members` as set and index. */
 typedef struct point_springs {
   uint32_t *begins;
-  sbf_uint2 *members; /* twice the place in the set, plus the point's end of it; and the set */
+  sbf_uint2 *members; /* twice the index in the set, plus the point's end of the spring; and the set */
 } point_springs;
 
 static bool sort_by_point(

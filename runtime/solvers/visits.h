@@ -1,10 +1,10 @@
-/* The order in which the relaxation scheme goes over springs. */
+/* Spring order of the relaxation scheme. */
 #ifndef SBRI_VISITS_H
 #define SBRI_VISITS_H
 
 #include "model/runtime_model.h"
 
-/* Of the island, whose tables are made; false where memory runs out. */
+/* Call after the island's tables are built. Returns false if memory runs out. */
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
 
 #endif

@@ -1,5 +1,4 @@
-/* Keeping the volume within a body's surface, for pressure mode `volume`. Written for the lanes of the file
- * that includes it; see model/kernels.h.
+/* Volume preservation within a body's surface, for pressure mode `volume`.
  *
  * The constraint V(x) = V0, by Newton steps at the end of a substep: dx_i = s w_i g_i with g the gradient of
  * the volume, w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast
@@ -7,17 +6,19 @@
  * pressure that it needs, without the additional substeps of a bulk modulus. The error of a step is of second
  * order: one is enough except where a body strikes the ground.
  *
- * Pinned points do not move, but simulated rigid bodies that hold them get the reaction and move in
- * proportion to their inverse mass (pinned_impulse.h); their motion restores the corresponding part of the
- * volume. If one rigid body holds all pinned points, or all points of the surface, it gets the opposite of
- * the free points' linear and angular momentum. Several rigid bodies could not divide that; then the gradient
- * at the beginning of the substep is used, for which the pinned points' parts add up to it (SHAKE).
+ * Pinned points do not move, but the simulated rigid bodies that they are pinned to get the reaction and move
+ * in proportion to their inverse mass (pinned_impulse.h); their motion restores the corresponding part of the
+ * volume. If all pinned points, or all points of the surface, belong to one rigid body, it gets the opposite
+ * of the free points' linear and angular momentum. Several rigid bodies could not divide that; then the
+ * gradient at the beginning of the substep is used, for which the pinned points' parts add up to it (SHAKE).
  *
  * Points on the ground cannot move below it. They count in the sum with the part of their gradient along the
  * ground or away from it; the ground takes the normal part, with friction.
  *
  * Bias against the energy: none in the volume; the multiplier acts along the gradient at the end of the
- * substep instead of its beginning, which is of first order in h. */
+ * substep instead of its beginning, which is of first order in h.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_VOLUME_KEEP_H
 #define SBRI_VOLUME_KEEP_H
 
@@ -26,30 +27,32 @@
 #include "solvers/motion.h"
 #include "solvers/pinned_impulse.h"
 
-/* Greatest fraction of the volume that is regained in a step: an inverted body recovers slowly. */
+/* Maximum fraction of the volume that is restored in a step: an inverted body recovers slowly. */
 #define SBRI_MAX_VOLUME_FRACTION 0.1f
 
-/* Further steps in a substep follow while more than this fraction of the volume was missing before the last
- * one; the rest is about its square. */
+/* A further step in a substep follows if the last one corrected more than this fraction of the volume. The
+ * remaining error is about its square. */
 enum { SBRI_MAX_VOLUME_STEPS = 4 };
 #define SBRI_VOLUME_FRACTION_LEFT 0.01f
 
-/* A point this near to the ground rests on it, in m. */
+/* Separation below which a point rests on the ground, m. */
 #define SBRI_RESTING_M 1e-5f
 
-/* Of the gradients of a group of lanes that touch the ground, what does not lead into it; `sign` of the
- * multiplier. */
-static inline sbri_wide3 sbri_volume_off_ground(
+/* Removes the part of the gradients that points into the ground, for lanes that rest on it. `sign` is that of
+ * the multiplier. */
+static inline sbri_wide3 sbri_volume_project_gradient(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 g, float sign) {
   sbri_contact_planes p = sbri_planes_of(t, slot);
   sbri_wide gap = sbri_planes_gap(&p, sbri_wide_load_points(t->positions + slot));
-  sbri_wide along = sbri_planes_along(&p, g), zero = sbri_wide_all(0);
-  sbri_mask rests = gap <= sbri_wide_all(SBRI_RESTING_M), leads_in = along * sbri_wide_all(sign) < zero;
-  along = sbri_wide_select(rests & leads_in, along, zero);
-  return (sbri_wide3){g.x - along * p.normal.x, g.y - along * p.normal.y, g.z - along * p.normal.z};
+  sbri_wide normal_part = sbri_planes_along(&p, g), zero = sbri_wide_all(0);
+  sbri_mask rests = gap <= sbri_wide_all(SBRI_RESTING_M),
+            points_in = normal_part * sbri_wide_all(sign) < zero;
+  normal_part = sbri_wide_select(rests & points_in, normal_part, zero);
+  return (sbri_wide3){
+      g.x - normal_part * p.normal.x, g.y - normal_part * p.normal.y, g.z - normal_part * p.normal.z};
 }
 
-/* Where what goes with those places and speeds was `h` before. */
+/* Positions `h` seconds ago, by the present positions and velocities. */
 static inline sbri_wide3 sbri_positions_before(const sbri_island_tick *t, uint32_t slot, float h) {
   sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
   sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
@@ -57,18 +60,18 @@ static inline sbri_wide3 sbri_positions_before(const sbri_island_tick *t, uint32
   return (sbri_wide3){x.x - step * v.x, x.y - step * v.y, x.z - step * v.z};
 }
 
-/* What one body holds it with: gradients of the free points and their moments about the body's place, where
- * the points were when the substep began. */
-typedef struct sbri_volume_hold {
-  sbri_reaction *by; /* NULL: several, or it is not simulated */
+/* Sums for the reaction on one rigid body: gradients of the free points and their moments about the body, at
+ * the positions at the beginning of the substep. */
+typedef struct sbri_volume_reaction {
+  sbri_reaction *rigid_body; /* NULL: several rigid bodies, or not simulated */
   float h;
   sbri_lane_sums sums;
-} sbri_volume_hold;
+} sbri_volume_reaction;
 
-/* Gradients of the volume at the body's slots, and the sum of w |g|^2 of what may move by a multiplier of
- * that sign. */
+/* Gradients of the volume at the body's slots, and the sum of w |g|^2 over the part that may move by a
+ * multiplier of that sign. */
 static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_body *body,
-    const sbri_point *faces, float sign, sbri_volume_hold *hold) {
+    const sbri_point *faces, float sign, sbri_volume_reaction *reaction) {
   float lanes[SBRI_BLOCK] = {0};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t lane = slot % SBRI_BLOCK, block = (slot - body->slot_begin) / SBRI_BLOCK;
@@ -82,13 +85,13 @@ static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_
       g.z = g.z + w * n.z;
     }
     sbri_wide_store_points(t->velocity_points + slot, g);
-    if (hold->by) {
-      const sbf_vec3 *o = &hold->by->about;
-      sbri_wide3 r = sbri_positions_before(t, slot, hold->h);
+    if (reaction->rigid_body) {
+      const sbf_vec3 *o = &reaction->rigid_body->about;
+      sbri_wide3 r = sbri_positions_before(t, slot, reaction->h);
       r.x = r.x - sbri_wide_all(o->x), r.y = r.y - sbri_wide_all(o->y), r.z = r.z - sbri_wide_all(o->z);
-      sbri_lane_sums_add(&hold->sums, lane, r, g);
+      sbri_lane_sums_add(&reaction->sums, lane, r, g);
     }
-    if (t->near_ground[slot / SBRI_BLOCK]) g = sbri_volume_off_ground(t, slot, g, sign);
+    if (t->near_ground[slot / SBRI_BLOCK]) g = sbri_volume_project_gradient(t, slot, g, sign);
     sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
     sbri_wide_store(lanes + lane, sbri_wide_load(lanes + lane) + w * (g.x * g.x + g.y * g.y + g.z * g.z));
   }
@@ -100,7 +103,7 @@ static inline sbf_vec3 sbri_pinned_gradient(const sbri_point *faces, const sbri_
   return sbri_scale(sbri_vec3(n->x, n->y, n->z), face_weight->weight);
 }
 
-/* Whether it is pinned to several bodies, at least one of them simulated. */
+/* Whether the body is pinned to several rigid bodies, at least one of them simulated. */
 static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
   if (!t->reactions || body->volume_carrier >= 0) return false;
   for (uint32_t k = 0; k < t->island->carrier_count; k++)
@@ -108,8 +111,8 @@ static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_b
   return false;
 }
 
-static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 push, sbf_vec3 turn) {
-  return r->inverse_mass * sbri_dot(push, push) + r->inverse_inertia * sbri_dot(turn, turn);
+static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 linear, sbf_vec3 angular) {
+  return r->inverse_mass * sbri_dot(linear, linear) + r->inverse_inertia * sbri_dot(angular, angular);
 }
 
 /* Contribution of the simulated bodies of pinned points to that sum. */
@@ -118,53 +121,53 @@ static inline float sbri_volume_pinned_inverse_mass(
   float sum = 0;
   for (uint32_t k = 0; k < t->island->carrier_count; k++) {
     const sbri_reaction *r = &t->reactions[t->island->carriers[k]];
-    sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
+    sbf_vec3 linear = {0, 0, 0}, angular = {0, 0, 0};
     for (uint32_t i = 0; r->inverse_mass > 0 && i < body->pinned_face_weight_count; i++) {
       const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
       if (sbri_reaction_at(t, face_weight->slot) != r) continue;
       sbf_vec3 g = sbri_pinned_gradient(faces, face_weight);
-      push = sbri_add(push, g);
-      turn = sbri_add(turn, sbri_cross(sbri_reaction_arm(t, r, face_weight->slot), g));
+      linear = sbri_add(linear, g);
+      angular = sbri_add(angular, sbri_cross(sbri_reaction_arm(t, r, face_weight->slot), g));
     }
-    sum += sbri_reaction_inverse_mass(r, push, turn);
+    sum += sbri_reaction_inverse_mass(r, linear, angular);
   }
   return sum;
 }
 
-/* On what is held, where it was when the substep began. */
+/* Applies the impulses to pinned points, at their positions at the beginning of the substep. */
 static inline void sbri_volume_apply_to_pinned(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float impulse, float h) {
   for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
     const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
     sbri_reaction *r = sbri_reaction_at(t, face_weight->slot);
-    sbf_vec3 push = sbri_scale(sbri_pinned_gradient(faces, face_weight), impulse);
+    sbf_vec3 point_impulse = sbri_scale(sbri_pinned_gradient(faces, face_weight), impulse);
     if (!r) continue;
-    sbri_pinned_apply_impulse(t, face_weight->slot, push);
+    sbri_pinned_apply_impulse(t, face_weight->slot, point_impulse);
     sbf_vec3 displacement = sbri_scale(sbri_slot_velocity(t, t->velocities, face_weight->slot), h);
-    r->moment = sbri_sub(r->moment, sbri_cross(displacement, push));
+    r->moment = sbri_sub(r->moment, sbri_cross(displacement, point_impulse));
   }
 }
 
-/* The volume within the surface of those points, and its faces' areas, twice. */
-static inline float sbri_volume_within(
+/* Volume within the surface of the points. Also writes twice the area vectors of its faces. */
+static inline float sbri_volume_enclosed(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *points, sbri_point *faces) {
   const sbri_skin *skin = &body->surface;
   const sbri_point *vertices = points;
-  const sbri_face_block *named = body->volume_faces;
-  if (!named) {
+  const sbri_face_block *face_blocks = body->volume_faces;
+  if (!face_blocks) {
     vertices = t->surface_vertices + body->first_vertex;
-    named = skin->faces;
+    face_blocks = skin->faces;
     sbri_lanes_compute_vertices(
         skin, points - t->island->first_slot, t->surface_vertices + body->first_vertex);
   }
-  return sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
+  return sbri_lanes_volume(face_blocks, skin->face_block_count, vertices, faces);
 }
 
-/* The faces as they were when the substep began: by how places and speeds are now, which is all that a push
- * which changes both alike has to do with. */
+/* Faces at the beginning of the substep, by the present positions and velocities. A correction that changes
+ * both consistently does not change them. */
 static inline void sbri_compute_volume_faces_before(
     const sbri_island_tick *t, const sbri_body *body, sbri_point *faces, float h) {
-  sbri_point *before = t->element_forces; /* scratch that nothing else uses here */
+  sbri_point *before = t->element_forces; /* scratch that is unused here */
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(before + slot, sbri_positions_before(t, slot, h));
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
@@ -172,7 +175,7 @@ static inline void sbri_compute_volume_faces_before(
     sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
     before[slot] = (sbri_point){x->x - h * v.x, x->y - h * v.y, x->z - h * v.z, 0};
   }
-  (void)sbri_volume_within(t, body, before, faces);
+  (void)sbri_volume_enclosed(t, body, before, faces);
 }
 
 /* One step at the end of a substep; returns the fraction of the volume that was missing before it. `owed`:
@@ -181,25 +184,28 @@ static inline float sbri_volume_step(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
   sbri_point *faces = t->surface_faces + body->first_face;
   float rest = (float)body->rest_volume_m3, max = SBRI_MAX_VOLUME_FRACTION * rest;
-  float missing = rest - sbri_volume_within(t, body, t->positions, faces) - *owed;
+  float missing = rest - sbri_volume_enclosed(t, body, t->positions, faces) - *owed;
   const bool shared = sbri_volume_is_shared(t, body);
   if (shared) sbri_compute_volume_faces_before(t, body, faces, rule->step_s);
-  sbri_reaction *by = t->reactions && body->volume_carrier >= 0 ? &t->reactions[body->volume_carrier] : NULL;
-  sbri_volume_hold hold;
-  hold.by = by && by->inverse_mass > 0 ? by : NULL, hold.h = rule->step_s;
-  if (hold.by) memset(&hold.sums, 0, sizeof hold.sums);
-  float sum = sbri_volume_gradients(t, body, faces, missing, &hold), limited = 0;
-  sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
-  if (hold.by) push = sbri_lanes_push(&hold.sums), turn = sbri_lanes_moment(&hold.sums);
-  if (hold.by && body->pinned_face_weight_count > 0)
-    limited = sbri_reaction_inverse_mass(hold.by, push, turn);
-  if (shared) limited = sbri_volume_pinned_inverse_mass(t, body, faces);
+  sbri_reaction *rigid_body =
+      t->reactions && body->volume_carrier >= 0 ? &t->reactions[body->volume_carrier] : NULL;
+  sbri_volume_reaction reaction;
+  reaction.rigid_body = rigid_body && rigid_body->inverse_mass > 0 ? rigid_body : NULL,
+  reaction.h = rule->step_s;
+  if (reaction.rigid_body) memset(&reaction.sums, 0, sizeof reaction.sums);
+  float sum = sbri_volume_gradients(t, body, faces, missing, &reaction), pinned_sum = 0;
+  sbf_vec3 linear = {0, 0, 0}, angular = {0, 0, 0};
+  if (reaction.rigid_body)
+    linear = sbri_lanes_force(&reaction.sums), angular = sbri_lanes_moment(&reaction.sums);
+  if (reaction.rigid_body && body->pinned_face_weight_count > 0)
+    pinned_sum = sbri_reaction_inverse_mass(reaction.rigid_body, linear, angular);
+  if (shared) pinned_sum = sbri_volume_pinned_inverse_mass(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
-  float s = (missing > max ? max : missing < -max ? -max : missing) / (sum + limited);
-  *owed += s * limited;
-  if (hold.by) {
-    hold.by->impulse = sbri_add_scaled(hold.by->impulse, push, -s / rule->step_s);
-    hold.by->moment = sbri_add_scaled(hold.by->moment, turn, -s / rule->step_s);
+  float s = (missing > max ? max : missing < -max ? -max : missing) / (sum + pinned_sum);
+  *owed += s * pinned_sum;
+  if (reaction.rigid_body) {
+    reaction.rigid_body->impulse = sbri_add_scaled(reaction.rigid_body->impulse, linear, -s / rule->step_s);
+    reaction.rigid_body->moment = sbri_add_scaled(reaction.rigid_body->moment, angular, -s / rule->step_s);
   }
   if (shared) sbri_volume_apply_to_pinned(t, body, faces, s / rule->step_s, rule->step_s);
   sbri_wide rate = sbri_wide_all(1 / rule->step_s);
@@ -221,9 +227,10 @@ static inline float sbri_volume_step(
   return missing / rest;
 }
 
-/* At the end of a substep of `h` seconds: moves the body's free points along the gradient of the volume, by
- * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
- * second. Momentum is kept with what the held points' bodies take, but for what the ground does. */
+/* Volume preservation at the end of a substep of `h` seconds: moves the body's free points along the gradient
+ * of the volume, weighted by their inverse masses, until the rest volume is restored, and changes their
+ * velocities accordingly. Momentum is conserved together with the pinned rigid bodies, except for the
+ * ground's part. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
   const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   sbri_soft_contacts_store(t, body);
