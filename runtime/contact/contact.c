@@ -10,8 +10,8 @@
 #include "contact/self_contacts.h"
 #include "contact/soft_shape_contacts.h"
 
-/* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along
- * with those of shapes. */
+/* Bodies without samples have one ground plane per point. Turns these planes into contacts, so that they are
+ * solved together with contacts with shapes. */
 static void convert_planes_to_contacts(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   uint32_t *count = &tables->contact_counts[body - t->model->bodies];
@@ -32,9 +32,10 @@ static void convert_planes_to_contacts(
   }
 }
 
-/* Marks contacts whose points have no other contact. In a body with samples several of them may share points.
- */
-static void find_alone(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+/* Marks contacts whose points have no other contact. In a body with samples, several contacts may share
+ * points. */
+static void find_single_contacts(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   sbri_soft_contact *contacts = tables->contacts + body->first_soft_contact;
   uint32_t count = tables->contact_counts[body - t->model->bodies];
   memset(tables->slot_contacts + body->slot_begin, 0, body->slot_end - body->slot_begin);
@@ -61,16 +62,16 @@ void sbri_contact_prepare(
     sbri_ground_contacts_add(t, body, tables);
   else
     sbri_ground_planes_find(t, body, tables);
-  uint32_t *count = &tables->contact_counts[body - t->model->bodies], before = *count;
+  uint32_t *count = &tables->contact_counts[body - t->model->bodies], first_shape_contact = *count;
   tables->external_bodies->count = 0;
   sbri_soft_shape_contacts_add(t, body, tables);
   if (body->self_face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
     sbri_self_contacts_add(t, body, tables, &tree);
   }
-  if (*count > before && !body->samples) {
+  if (*count > first_shape_contact && !body->samples) {
     convert_planes_to_contacts(t, body, tables);
-    find_alone(t, body, tables);
+    find_single_contacts(t, body, tables);
   }
   SBF_ASSERT(*count <= body->max_contacts);
   sbri_contact_blocks_fill(t, body);

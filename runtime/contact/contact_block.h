@@ -1,15 +1,15 @@
-/* Contacts of a soft body eight side by side, for solvers/contact_lanes.h. */
+/* Contacts of a soft body in blocks of eight, for solvers/contact_lanes.h. */
 #ifndef SBRI_CONTACT_BLOCK_H
 #define SBRI_CONTACT_BLOCK_H
 
 #include "model/island_tick.h"
 
-/* Fills the blocks of the body from its contacts, with the friction coefficients that apply; none where a
- * contact is with the body itself or with an external body. Marks the blocks of slots that they move or read
- * in tick->contact_slots. */
+/* Fills the blocks of the body from its contacts and their friction coefficients. A body with self-contacts
+ * or contacts with external bodies gets no blocks. Marks the blocks of slots that contacts move or read in
+ * tick->contact_slots. */
 void sbri_contact_blocks_fill(const sbri_island_tick *tick, const sbri_body *body);
 
-/* Brings the body's contacts up to date with its blocks. */
+/* Copies the results in the blocks to the body's contacts. */
 void sbri_contact_blocks_unpack(const sbri_island_tick *tick, const sbri_body *body);
 
 /* Moves the planes with their colliders, at the end of a substep. */
@@ -19,7 +19,8 @@ void sbri_contact_blocks_advance(const sbri_island_tick *tick, const sbri_body *
 float sbri_contact_friction_at(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_soft_contact *contact);
 
-/* Blocks of the body in this tick; 0: its contacts are solved in sequence (solvers/soft_contacts.h). */
+/* Number of blocks of the body in this tick; 0: its contacts are solved in sequence
+ * (solvers/soft_contacts.h). */
 static inline uint32_t sbri_contact_block_count(const sbri_island_tick *t, const sbri_body *body) {
   return t->contact_block_counts ? t->contact_block_counts[body - t->model->bodies] : 0;
 }

@@ -5,14 +5,14 @@
 #include "contact/contact.h"
 #include "contact/sample_motion.h"
 
-/* Of a body's size: a contact with a smaller gap at the end of the tick probably touches. */
+/* Fraction of the body's size. A contact with a smaller gap at the end of the tick probably touches. */
 static const float NEAR_FRACTION = 1e-3f;
 
-/* m: farther than anything moves. */
+/* m; farther than anything moves */
 static const float FAR_M = 1e30f;
 
-/* Whether impulses of a contact end in nothing but points of the body, which row sums cover. */
-static bool are_lanes(const sbri_soft_contact *contacts, uint32_t count) {
+/* Whether contact impulses act on points of the body only, as row sums require. */
+static bool have_only_plane_contacts(const sbri_soft_contact *contacts, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
     if (contacts[i].external_body || contacts[i].collider == SBRI_ITSELF) return false;
   return true;
@@ -24,7 +24,7 @@ float sbri_contact_friction_at(
   if (contact->crosses) return 0;
   if (!body->frictions) return body->friction * contact->friction_scale;
   float sum = 0;
-  if (contact->collider == SBRI_ITSELF) /* of the point alone */
+  if (contact->collider == SBRI_ITSELF) /* that of the point only */
     return s->slots[0] < t->island->free_count ? body->frictions[s->slots[0]] : body->friction;
   for (int k = 0; k < 4; k++) {
     bool free = s->slots[k] < t->island->free_count;
@@ -72,14 +72,14 @@ void sbri_contact_blocks_fill(const sbri_island_tick *t, const sbri_body *body) 
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   float near = NEAR_FRACTION * body->rest_size_m;
   t->contact_block_counts[body - t->model->bodies] = 0;
-  if (count > body->max_contact_blocks * SBRI_BLOCK || !are_lanes(contacts, count)) return;
-  /* Those that probably touch share blocks, so that the others are idle together. */
-  for (int far = 0; far < 2; far++)
+  if (count > body->max_contact_blocks * SBRI_BLOCK || !have_only_plane_contacts(contacts, count)) return;
+  /* Contacts that probably touch share blocks, so that other blocks are idle as a whole. */
+  for (int pass = 0; pass < 2; pass++)
     for (uint32_t i = 0; i < count; i++) {
       sbri_contact_block *block = &blocks[filled / SBRI_BLOCK];
       uint32_t lane = filled % SBRI_BLOCK;
       bool is_far = sbri_contact_predicted_gap(t, &contacts[i]) > near;
-      if (is_far != far) continue;
+      if (is_far != pass) continue;
       if (lane == 0) memset(block, 0, sizeof *block);
       block->contacts[lane] = i;
       fill_lane(t, body, &contacts[i], block, lane);

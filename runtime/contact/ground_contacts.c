@@ -7,10 +7,10 @@
 #include "collide/touching.h"
 #include "contact/sample_motion.h"
 
-/* Of a body's size. */
+/* Fraction of the body's size. */
 static const float MIN_MARGIN_FRACTION = 5e-4f;
 
-/* Range of a body's points and their greatest speed. */
+/* Bounds of a body's points and their maximum speed. */
 typedef struct extent {
   float low[3], high[3], speed;
   bool any;
@@ -38,8 +38,8 @@ static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   return e;
 }
 
-/* Of all that may carry a sample, held points on their way included. No mean with weights below 0 of so much
- * lies further out than as many times the range. */
+/* Bounds of all points that samples may use, including pinned points on their path. A mean with negative
+ * weights lies outside the bounds by at most their sum times the size of the bounds. */
 static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
   extent e = extent_of(t, body);
   for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
@@ -47,8 +47,8 @@ static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body
     extend(&e, &t->positions[slot]);
   }
   for (int k = 0; k < 3; k++) {
-    float beyond = body->sample_beyond * (e.high[k] - e.low[k]);
-    e.low[k] -= beyond, e.high[k] += beyond;
+    float overhang = body->sample_beyond * (e.high[k] - e.low[k]);
+    e.low[k] -= overhang, e.high[k] += overhang;
   }
   return e;
 }
@@ -59,7 +59,7 @@ static float height_at(const sbri_island_tick *t, float x, float z, sbf_vec3 *no
   return (float)((sbri_ground_height(t->ground, world_x, world_z, normal) - t->origin.y) / t->scale);
 }
 
-/* And its height in the same frame. */
+/* Height of flat ground in the same frame; false if the ground is not flat. */
 static bool is_ground_flat(const sbri_island_tick *t, float *height) {
   double flat;
   if (!sbri_ground_is_flat(t->ground, &flat)) return false;
@@ -67,29 +67,30 @@ static bool is_ground_flat(const sbri_island_tick *t, float *height) {
   return true;
 }
 
-/* The height below which a point of the body may touch the ground: of nine places under the body and around
- * it, the highest, and as much again as they differ. */
-static float reach_of(const sbri_island_tick *t, const extent *e, float motion) {
+/* Height below which a point of the body may touch the ground. Takes the maximum of nine positions below and
+ * around the body, and adds their range. */
+static float reach_of(const sbri_island_tick *t, const extent *e, float displacement) {
   float low = 0, high = 0;
-  if (is_ground_flat(t, &high)) return high + motion;
+  if (is_ground_flat(t, &high)) return high + displacement;
   for (int i = 0; i < 9; i++) {
     float tx = 0.5f * (float)(i % 3), tz = 0.5f * (float)(i / 3);
-    float x = e->low[0] - motion + (e->high[0] - e->low[0] + 2 * motion) * tx;
-    float z = e->low[2] - motion + (e->high[2] - e->low[2] + 2 * motion) * tz;
+    float x = e->low[0] - displacement + (e->high[0] - e->low[0] + 2 * displacement) * tx;
+    float z = e->low[2] - displacement + (e->high[2] - e->low[2] + 2 * displacement) * tz;
     sbf_vec3 normal;
     float y = height_at(t, x, z, &normal);
     low = i == 0 || y < low ? y : low;
     high = i == 0 || y > high ? y : high;
   }
-  return high + (high - low) + motion;
+  return high + (high - low) + displacement;
 }
 
-/* For events: notes a point that reaches its plane within the tick, unless a faster one does. */
-static void note_ground_speed(
+/* For events: stores a point that reaches its plane within the tick, if it is the fastest. */
+static void store_ground_speed(
     const sbri_island_tick *t, uint32_t slot, sbf_vec3 normal, float height, sbri_touching *touched) {
   float closing = -sbri_dot(normal, sbri_point_velocity(t, slot)), gap = height * normal.y;
-  float gained = sbri_length(t->gravity) * t->tick_s; /* slower points may hover, pinned, above it */
-  float mean = closing > gained ? closing + 0.5f * gained : closing;
+  float gravity_speed =
+      sbri_length(t->gravity) * t->tick_s; /* pinned points just above the ground may be slower than this */
+  float mean = closing > gravity_speed ? closing + 0.5f * gravity_speed : closing;
   if (!(closing > touched->ground_speed) || gap > mean * t->tick_s) return;
   const sbri_point *p = &t->positions[slot];
   touched->ground_speed = closing;
@@ -100,9 +101,9 @@ static void note_ground_speed(
 void sbri_ground_planes_find(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   extent e = extent_of(t, body);
-  float motion = 2 * e.speed * t->tick_s + SBRI_MOTION_FRACTION * body->rest_size_m;
+  float displacement = 2 * e.speed * t->tick_s + SBRI_MOTION_FRACTION * body->rest_size_m;
   to->touched->ground_speed = 0;
-  float reach = reach_of(t, &e, motion);
+  float reach = reach_of(t, &e, displacement);
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
     const sbri_point *points = t->positions + block * SBRI_BLOCK;
     to->near_ground[block] = 0;
@@ -117,16 +118,16 @@ void sbri_ground_planes_find(
       plane[lane] = n.x, plane[SBRI_BLOCK + lane] = n.y, plane[2 * SBRI_BLOCK + lane] = n.z;
       plane[3 * SBRI_BLOCK + lane] = n.x * points[lane].x + n.y * y + n.z * points[lane].z;
       uint32_t slot = block * SBRI_BLOCK + (uint32_t)lane;
-      if (slot < body->slot_real_end) note_ground_speed(t, slot, n, points[lane].y - y, to->touched);
+      if (slot < body->slot_real_end) store_ground_speed(t, slot, n, points[lane].y - y, to->touched);
     }
   }
 }
 
-/* m by which a sample may come nearer to the ground in a tick than by twice its present way: by weight, and
- * by springs and bones that make it as fast as the fastest of the body, and more. */
+/* Distance by which a sample may approach the ground in a tick beyond twice its present displacement, m: by
+ * gravity, and by springs and bones that accelerate it to more than the maximum speed of the body. */
 static float margin_of(const sbri_island_tick *t, const sbri_body *body, float fastest) {
-  float faster = 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
-  return t->tick_s * faster + MIN_MARGIN_FRACTION * body->rest_size_m;
+  float extra_speed = 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
+  return t->tick_s * extra_speed + MIN_MARGIN_FRACTION * body->rest_size_m;
 }
 
 static void add_contact(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s,
@@ -150,8 +151,8 @@ static void add_sample(const sbri_island_tick *t, const sbri_body *body, const s
   add_contact(t, body, s, n, offset, to);
 }
 
-/* No sample of the group is lower. */
-static float lowest_of(const sbri_island_tick *t, const sbri_sample_group *group) {
+/* Lower bound of the heights of the group's samples. */
+static float min_height(const sbri_island_tick *t, const sbri_sample_group *group) {
   float low = t->positions[group->slots[0]].y, high = low;
   for (int k = 1; k < 4; k++) {
     float y = t->positions[group->slots[k]].y;
@@ -160,15 +161,14 @@ static float lowest_of(const sbri_island_tick *t, const sbri_sample_group *group
   return low - group->beyond * (high - low);
 }
 
-/* ---- Flat ground: by heights alone ---- */
+/* Flat ground: heights only */
 
 typedef struct flat_search {
   const sbri_island_tick *tick;
   const sbri_body *body;
   const sbri_contact_tables *tables;
-  float height, margin; /* of the ground; above it in the tick, m */
-  const sbri_point
-      *heights; /* (slots) of each point: x its height over the ground, y its rise in the tick, m */
+  float height, margin;      /* height of the ground; margin above it in the tick, m */
+  const sbri_point *heights; /* (slots) x: height of the point above the ground; y: its rise in the tick, m */
 } flat_search;
 
 static void find_heights(const flat_search *f, uint32_t begin, uint32_t end, sbri_point *heights) {
@@ -195,7 +195,7 @@ static void add_on_flat_ground(const flat_search *f, float reach) {
   find_heights(f, f->body->slot_begin, f->body->slot_end, f->tick->velocity_points);
   if (f->body->is_pinned) find_heights(f, island->free_count, island->slot_count, f->tick->velocity_points);
   for (uint32_t g = 0; g < f->body->sample_group_count; g++)
-    if (lowest_of(f->tick, &f->body->sample_groups[g]) <= reach) add_group(f, &f->body->sample_groups[g]);
+    if (min_height(f->tick, &f->body->sample_groups[g]) <= reach) add_group(f, &f->body->sample_groups[g]);
 }
 
 void sbri_ground_contacts_add(
@@ -214,7 +214,7 @@ void sbri_ground_contacts_add(
   }
   for (uint32_t g = 0; g < body->sample_group_count; g++) {
     const sbri_sample_group *group = &body->sample_groups[g];
-    if (!t->island->splits && lowest_of(t, group) > reach) continue;
+    if (!t->island->splits && min_height(t, group) > reach) continue;
     for (uint32_t i = group->first; i < group->end; i++) {
       sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
       add_sample(t, body, &s, margin, to);

@@ -1,4 +1,4 @@
-/* Where soft bodies may touch the ground within a tick. */
+/* Ground contacts of soft bodies within a tick. */
 #ifndef SBRI_GROUND_CONTACTS_H
 #define SBRI_GROUND_CONTACTS_H
 
@@ -8,7 +8,7 @@
 void sbri_ground_planes_find(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
 
-/* For a body with samples: begins its contacts with those that may end on the ground. */
+/* For a body with samples: starts its contact list with those that may reach the ground. */
 void sbri_ground_contacts_add(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
 

@@ -1,11 +1,11 @@
-/* Samples of a surface by the present points of an island. */
+/* Positions and velocities of surface samples from the present points of an island. */
 #ifndef SBRI_SAMPLE_MOTION_H
 #define SBRI_SAMPLE_MOTION_H
 
 #include "math/vec3.h"
 #include "model/island_tick.h"
 
-/* Velocity of a point, m/s; a pinned one moves to its target. */
+/* Velocity of a point, m/s; that of a pinned point is towards its target. */
 static inline sbf_vec3 sbri_point_velocity(const sbri_island_tick *t, uint32_t slot) {
   if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
   const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
@@ -18,7 +18,7 @@ static inline sbf_vec3 sbri_sample_velocity(const sbri_island_tick *t, const sbr
   return v;
 }
 
-/* Gap of a contact at the end of the tick if nothing changes its velocity, m; now, if it opens. */
+/* Gap of a contact at the end of the tick at its present velocity, m; the present gap if it opens. */
 static inline float sbri_contact_predicted_gap(const sbri_island_tick *t, const sbri_soft_contact *contact) {
   sbf_vec3 n = contact->normal, v = sbri_sample_velocity(t, &contact->sample);
   float gap = sbri_dot(n, sbri_sample_position(t, &contact->sample)) - contact->offset;
@@ -31,7 +31,7 @@ static inline sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t 
   return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
 }
 
-/* A sample with its present points: after a tear it may have other points, with other masses. */
+/* A sample with its present points: after a tear it may have other points with other masses. */
 static inline sbri_sample sbri_sample_now(
     const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
   sbri_sample s = *first;

@@ -1,10 +1,10 @@
-/* Self-contact of points and triangles. Once a tick each point is tested against the triangles of its own
- * surface. One that it approaches or crosses becomes a contact: a sample with weight 1 for the point and
- * negative weights for the corners. Its position is the point's relative to the triangle, so an impulse on it
- * acts on both sides and conserves momentum.
+/* Self-contact of points and triangles. Once per tick each point is tested against the triangles of its own
+ * surface. A triangle that the point approaches or crosses becomes a contact: a sample with weight 1 for the
+ * point and negative weights for the corners. Its position is that of the point relative to the triangle, so
+ * an impulse on it acts on both sides and conserves momentum.
  *
- * Triangles with a corner that is connected to the point by a side are skipped. In a fold sharp enough for
- * such a contact, the next row of points keeps the two legs apart, and a contact between neighbours would
+ * Triangles with a corner that is connected to the point by an edge are skipped. In a fold sharp enough for
+ * such a contact, the next row of points keeps the two sides apart, and a contact between neighbours would
  * oscillate.
  *
  * Parts that are closer at rest than the thickness keep their rest distance as thickness, so that they do not
@@ -18,8 +18,9 @@
  */
 static const float NEAR_FRACTION = 0.01f;
 
-/* Of the thickness, that a point keeps from triangles with a corner that a side joins it to. */
-static const float JOINED_FRACTION = 0.2f;
+/* Fraction of the thickness that a point keeps from triangles with a corner that is connected to it by an
+ * edge. */
+static const float CONNECTED_FRACTION = 0.2f;
 
 static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
   sbri_moving_ball ball;
@@ -32,8 +33,8 @@ static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
   }
   ball.middle = sbri_scale(sbri_add(sbri_add(p[0], p[1]), p[2]), 1.0f / 3);
   for (int k = 0; k < 3; k++) {
-    sbf_vec3 off = sbri_sub(p[k], ball.middle);
-    square = sbri_max(square, sbri_dot(off, off));
+    sbf_vec3 offset = sbri_sub(p[k], ball.middle);
+    square = sbri_max(square, sbri_dot(offset, offset));
   }
   ball.radius = sqrtf(square), ball.distance = sqrtf(directions);
   return ball;
@@ -49,35 +50,35 @@ static void make_bounds(const sbri_self_looking *l, sbri_box *boxes, sbri_moving
   }
 }
 
-/* A point, and all that may be near to it. */
-typedef struct location {
+/* A point and the bounds of its possible contacts. */
+typedef struct contact_point {
   uint32_t slot;
   sbf_vec3 x, displacement;
-  float reach; /* m, beside how a triangle goes */
+  float reach; /* m, without the displacement of a triangle */
   sbri_box box;
-} location;
+} contact_point;
 
-static location position_of(const sbri_self_looking *l, uint32_t slot) {
-  location p = {.slot = slot,
+static contact_point contact_point_of(const sbri_self_looking *l, uint32_t slot) {
+  contact_point p = {.slot = slot,
       .x = sbri_self_position(l->tick->positions, slot),
       .displacement = sbri_self_displacement(l->tick, slot),
       .box = sbri_self_swept(l->tick, slot, l->rule.outer)};
-  float near = l->rule.outer + 2 * sbri_length(p.displacement);
-  p.reach = l->rule.two_sided ? near : sbri_max(near, l->rule.inner);
+  float distance = l->rule.outer + 2 * sbri_length(p.displacement);
+  p.reach = l->rule.two_sided ? distance : sbri_max(distance, l->rule.inner);
   return p;
 }
 
-/* Whether a triangle of the tree may be one that the point approaches or is behind. */
-static bool may_intersect(const sbri_self_looking *l, const location *p, uint32_t number) {
+/* Whether the point may approach the triangle or be behind it. */
+static bool may_intersect(const sbri_self_looking *l, const contact_point *p, uint32_t number) {
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   const sbri_moving_ball *ball = &l->balls[number];
-  sbf_vec3 off = sbri_sub(p->x, ball->middle);
+  sbf_vec3 offset = sbri_sub(p->x, ball->middle);
   float max = ball->radius + 2 * ball->distance + p->reach;
-  return sbri_dot(off, off) <= 1.0001f * max * max && sbri_boxes_overlap(&p->box, &l->boxes[number]) &&
+  return sbri_dot(offset, offset) <= 1.0001f * max * max && sbri_boxes_overlap(&p->box, &l->boxes[number]) &&
          c[0] != p->slot && c[1] != p->slot && c[2] != p->slot;
 }
 
-static sbri_surface_hit check(const sbri_self_looking *l, const location *at, uint32_t number) {
+static sbri_surface_hit check(const sbri_self_looking *l, const contact_point *at, uint32_t number) {
   const sbri_island_tick *t = l->tick;
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   sbri_surface_face face;
@@ -88,7 +89,7 @@ static sbri_surface_hit check(const sbri_self_looking *l, const location *at, ui
   return found;
 }
 
-/* How far off it is at rest from that place; negative behind a surface that encloses matter. */
+/* Distance of the point from the triangle at rest; negative behind a surface that encloses a volume. */
 static float rest_gap(const sbri_self_looking *l, uint32_t slot, const uint32_t *corners) {
   const sbri_point *rest = l->tick->island->rest;
   sbf_vec3 p[3];
@@ -96,59 +97,60 @@ static float rest_gap(const sbri_self_looking *l, uint32_t slot, const uint32_t 
   return sbri_surface_gap(&l->rule, sbri_self_position(rest, slot), p);
 }
 
-/* Whether a side joins the point to a corner of the triangle. */
-static bool hangs_on(const sbri_body *body, uint32_t slot, const uint32_t *c) {
+/* Whether an edge connects the point to a corner of the triangle. */
+static bool is_connected(const sbri_body *body, uint32_t slot, const uint32_t *c) {
   for (int k = 0; k < 3; k++)
     if (sbri_self_are_joined(body, slot, c[k])) return true;
   return false;
 }
 
-/* What a point has found: of the triangles that it does not hang on, of those that it hangs on, and what of
- * the former may lie on its other side. */
+/* Results of a point: the best triangle that is not connected to it, the best connected one, and candidates
+ * of the former kind for a contact on the other side of the point. */
 enum { OTHERS = 128 };
-typedef struct around {
-  sbri_surface_hit best, joined, others[OTHERS];
-  uint32_t other_count; /* more than the list holds: they are searched again */
-} around;
+typedef struct point_hits {
+  sbri_surface_hit best, connected, others[OTHERS];
+  uint32_t other_count; /* if above OTHERS, the candidates are searched again */
+} point_hits;
 
-/* As if one look had followed the other. */
-static void take(sbri_surface_hit *best, const sbri_surface_hit *one) {
+/* Merges a result as if both triangles had been in one query. */
+static void merge_hit(sbri_surface_hit *best, const sbri_surface_hit *one) {
   float before = one->before < best->before ? one->before : best->before;
   if (one->urgency < best->urgency) *best = *one;
   best->before = before;
 }
 
-static void query_around(const sbri_self_looking *l, const location *p, around *a) {
+static void query_point(const sbri_self_looking *l, const contact_point *p, point_hits *a) {
   sbri_bounds_walk walk;
   uint32_t item;
-  a->best = a->joined = sbri_surface_nothing();
+  a->best = a->connected = sbri_surface_nothing();
   a->other_count = 0;
   sbri_bounds_walk_begin(&walk, l->tree, p->box);
   while (sbri_bounds_walk_next(&walk, &item)) {
     if (!may_intersect(l, p, item)) continue;
     sbri_surface_hit one = check(l, p, item);
     if (one.urgency == INFINITY && (l->rule.two_sided || one.before == INFINITY)) continue;
-    if (hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item)) {
-      take(&a->joined, &one);
+    if (is_connected(l->body, p->slot, l->body->self_faces + 3 * (size_t)item)) {
+      merge_hit(&a->connected, &one);
       continue;
     }
-    take(&a->best, &one);
+    merge_hit(&a->best, &one);
     if (one.urgency == INFINITY || one.behind) continue;
     if (a->other_count < OTHERS) a->others[a->other_count] = one;
     a->other_count++;
   }
 }
 
-static void take_other(const sbri_surface_hit *one, const sbri_surface_hit *found, sbri_surface_hit *best) {
+static void take_opposite(
+    const sbri_surface_hit *one, const sbri_surface_hit *found, sbri_surface_hit *best) {
   if (one->urgency < best->urgency && sbri_dot(one->normal, found->normal) < 0) *best = *one;
 }
 
-/* The most urgent on the other side than the most urgent of all. */
-static bool find_other(
-    const sbri_self_looking *l, const location *p, const around *a, sbri_surface_hit *best) {
+/* The most urgent triangle on the opposite side of the most urgent one of all. */
+static bool find_opposite(
+    const sbri_self_looking *l, const contact_point *p, const point_hits *a, sbri_surface_hit *best) {
   *best = sbri_surface_nothing();
   if (a->other_count <= OTHERS) {
-    for (uint32_t i = 0; i < a->other_count; i++) take_other(&a->others[i], &a->best, best);
+    for (uint32_t i = 0; i < a->other_count; i++) take_opposite(&a->others[i], &a->best, best);
     return sbri_surface_found(best);
   }
   sbri_bounds_walk walk;
@@ -157,8 +159,8 @@ static bool find_other(
   while (sbri_bounds_walk_next(&walk, &item)) {
     if (!may_intersect(l, p, item)) continue;
     sbri_surface_hit one = check(l, p, item);
-    if (!one.behind && !hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item))
-      take_other(&one, &a->best, best);
+    if (!one.behind && !is_connected(l->body, p->slot, l->body->self_faces + 3 * (size_t)item))
+      take_opposite(&one, &a->best, best);
   }
   return sbri_surface_found(best);
 }
@@ -171,16 +173,16 @@ static void add(const sbri_self_looking *l, uint32_t slot, const sbri_surface_hi
 }
 
 static void add_point(const sbri_self_looking *l, uint32_t slot) {
-  around a;
-  sbri_surface_hit other;
+  point_hits a;
+  sbri_surface_hit opposite;
   float thickness = l->body->source->collision.outer_thickness;
-  location p = position_of(l, slot);
-  query_around(l, &p, &a);
+  contact_point p = contact_point_of(l, slot);
+  query_point(l, &p, &a);
   if (sbri_surface_found(&a.best)) {
     add(l, slot, &a.best, thickness);
-    if (!a.best.behind && find_other(l, &p, &a, &other)) add(l, slot, &other, thickness);
+    if (!a.best.behind && find_opposite(l, &p, &a, &opposite)) add(l, slot, &opposite, thickness);
   }
-  if (sbri_surface_found(&a.joined)) add(l, slot, &a.joined, JOINED_FRACTION * thickness);
+  if (sbri_surface_found(&a.connected)) add(l, slot, &a.connected, CONNECTED_FRACTION * thickness);
 }
 
 void sbri_self_contacts_add(const sbri_island_tick *t, const sbri_body *body,
@@ -194,6 +196,6 @@ void sbri_self_contacts_add(const sbri_island_tick *t, const sbri_body *body,
   sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
   if (l.rule.two_sided) sbri_self_edges_add(&l);
-  /* A sheet that is through itself touches itself somewhere; what is deep in a closed surface need not. */
+  /* A sheet that intersects itself has some contact; a deep point of a closed surface may have none. */
   if ((*count > before || !l.rule.two_sided) && !body->is_tangled) sbri_self_crossings_add(&l);
 }

@@ -1,12 +1,12 @@
-/* Self-contact of edges: a sheet's rims and the ridges of its folds. Crossing edges have no vertex near a
- * face. A contact is a sample with positive weights for one edge and negative ones for the other. */
+/* Self-contact of edges: the rims of a sheet and the ridges of its folds. Crossing edges have no vertex near
+ * a face. A contact is a sample with positive weights for one edge and negative ones for the other. */
 #include "collide/edge_query.h"
 #include "collide/sides.h"
 #include "contact/self_query.h"
 
-/* Fraction of the missing distance that is regained a tick by edges closer than the thickness, as
- * neighbouring rims are. Edge contacts keep edges on their sides; point contacts keep the distance. */
-static const float COMES_OUT_FRACTION = 0.05f;
+/* Fraction of the missing distance that is restored per tick between edges closer than the thickness, such as
+ * neighbouring rims. Edge contacts keep edges on their sides; point contacts keep the distance. */
+static const float RESTORED_FRACTION = 0.05f;
 
 typedef struct edge {
   uint32_t ends[2];
@@ -23,7 +23,7 @@ static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side
   return e;
 }
 
-/* Bits of each triangle's sides that stand out. */
+/* Stores a bit for each edge of a triangle that is a rim or a ridge. */
 static void find_edges(const sbri_self_looking *l) {
   const sbri_point *at = l->tick->positions;
   for (uint32_t f = 0; f < l->body->self_face_count; f++) {
@@ -40,14 +40,14 @@ static void find_edges(const sbri_self_looking *l) {
   }
 }
 
-static bool hang_together(const sbri_body *body, const edge *p, const edge *q) {
+static bool are_connected(const sbri_body *body, const edge *p, const edge *q) {
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 2; k++)
       if (p->ends[i] == q->ends[k] || sbri_self_are_joined(body, p->ends[i], q->ends[k])) return true;
   return false;
 }
 
-/* How far apart they are at rest, where they cross each other there. */
+/* Their distance at rest, if they cross each other there. */
 static float rest_distance(const sbri_self_looking *l, const edge *p, const edge *q) {
   sbri_soft_edge edges[2] = {0};
   sbri_edge_hit found;
@@ -60,17 +60,17 @@ static float rest_distance(const sbri_self_looking *l, const edge *p, const edge
 
 static void collide(const sbri_self_looking *l, const edge *p, const edge *q) {
   sbri_edge_hit found;
-  if (hang_together(l->body, p, q) || !sbri_edges_query(&p->is, &q->is, l->rule.outer, &found)) return;
+  if (are_connected(l->body, p, q) || !sbri_edges_query(&p->is, &q->is, l->rule.outer, &found)) return;
   const uint32_t slots[4] = {p->ends[0], p->ends[1], q->ends[0], q->ends[1]};
   const float *to = found.fractions, weights[4] = {1 - to[0], to[0], to[1] - 1, -to[1]};
   sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
-  float max = l->body->source->collision.outer_thickness, now = found.distance;
+  float max = l->body->source->collision.outer_thickness, distance = found.distance;
   sbri_self_add(l, &s, found.normal, rest_distance(l, p, q),
-      now < max ? now + COMES_OUT_FRACTION * (max - now) : max, true);
+      distance < max ? distance + RESTORED_FRACTION * (max - distance) : max, true);
 }
 
-/* With those that come after it. */
-static void collide_with_others(const sbri_self_looking *l, uint32_t number) {
+/* Tests against edges with higher indices only. */
+static void collide_with_later(const sbri_self_looking *l, uint32_t number) {
   edge p = edge_of(l, number / 3, number % 3);
   sbri_box box = sbri_box_join(
       sbri_self_swept(l->tick, p.ends[0], l->rule.outer), sbri_self_swept(l->tick, p.ends[1], l->rule.outer));
@@ -90,5 +90,5 @@ static void collide_with_others(const sbri_self_looking *l, uint32_t number) {
 void sbri_self_edges_add(const sbri_self_looking *l) {
   find_edges(l);
   for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++)
-    if (l->tables->self_edges[i / 3] >> i % 3 & 1) collide_with_others(l, i);
+    if (l->tables->self_edges[i / 3] >> i % 3 & 1) collide_with_later(l, i);
 }

@@ -1,14 +1,14 @@
-/* What points and edges of a body need to look for its own surface within a tick. */
-#ifndef SBRI_SELF_LOOKING_H
-#define SBRI_SELF_LOOKING_H
+/* Input of the self-contact queries of points and edges within a tick. */
+#ifndef SBRI_SELF_QUERY_H
+#define SBRI_SELF_QUERY_H
 
 #include "collide/bounds_tree.h"
 #include "collide/surface_query.h"
 #include "contact/contact.h"
 
-/* Of the distance at rest, where that is less than the thickness. */
+/* Fraction of the rest distance that parts keep if it is less than the thickness. */
 #define SBRI_SELF_REST_FRACTION 0.9f
-/* m: nearer than this at rest, two parts are one. */
+/* m; parts that are closer at rest count as connected */
 #define SBRI_SELF_TOGETHER_M 1e-5f
 
 typedef struct sbri_self_looking {
@@ -17,7 +17,7 @@ typedef struct sbri_self_looking {
   const sbri_contact_tables *tables;
   const sbri_bounds_tree *tree; /* over the swept boxes of the triangles */
   const sbri_box *boxes;
-  const sbri_moving_ball *balls; /* about them when the tick begins */
+  const sbri_moving_ball *balls; /* of the triangles at the beginning of the tick */
   sbri_surface_rule rule;
 } sbri_self_looking;
 
@@ -25,26 +25,26 @@ static inline sbf_vec3 sbri_self_position(const sbri_point *points, uint32_t slo
   return sbri_vec3(points[slot].x, points[slot].y, points[slot].z);
 }
 
-/* How far it goes in the tick. */
+/* Displacement of a point in the tick. */
 static inline sbf_vec3 sbri_self_displacement(const sbri_island_tick *t, uint32_t slot) {
   if (slot < t->island->free_count) return sbri_scale(sbri_slot_velocity(t, t->velocities, slot), t->tick_s);
   return sbri_sub(sbri_self_position(t->targets, slot), sbri_self_position(t->positions, slot));
 }
 
-static inline sbri_box sbri_self_swept(const sbri_island_tick *t, uint32_t slot, float by) {
+static inline sbri_box sbri_self_swept(const sbri_island_tick *t, uint32_t slot, float margin) {
   sbf_vec3 x = sbri_self_position(t->positions, slot);
   return sbri_box_grown(
-      sbri_box_with(sbri_box_of_point(x), sbri_add(x, sbri_self_displacement(t, slot))), by);
+      sbri_box_with(sbri_box_of_point(x), sbri_add(x, sbri_self_displacement(t, slot))), margin);
 }
 
-/* Whether a side of the surface joins them. */
+/* Whether an edge of the surface connects the points. */
 static inline bool sbri_self_are_joined(const sbri_body *body, uint32_t a, uint32_t b) {
   for (uint32_t i = body->self_ring_begins[a]; i < body->self_ring_begins[a + 1]; i++)
     if (body->self_ring[i] == b) return true;
   return false;
 }
 
-/* Four points with weights, and their effective mass for an impulse; 0: nothing moves. */
+/* Four points with weights, and their effective mass for an impulse; 0: no point is free. */
 static inline sbri_sample sbri_self_sample(
     const sbri_island *island, const uint32_t slots[4], const float weights[4]) {
   sbri_sample s = {.vertex = UINT32_MAX};
@@ -57,7 +57,8 @@ static inline sbri_sample sbri_self_sample(
   return s;
 }
 
-/* One more touch, if there is room, of what is `rest_m` apart at rest, and is to keep as much as `max_m`. */
+/* Adds a contact, up to the capacity. `rest_m` is the distance at rest; `max_m` is the maximum distance to
+ * keep. */
 static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *s, sbf_vec3 normal,
     float rest_m, float max_m, bool edges) {
   const sbri_body *body = l->body;
@@ -76,12 +77,12 @@ static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *
 
 /* ---- self_edges.c ---- */
 
-/* Rims of a sheet, and what it is bent across now, where they cross each other. */
-void sbri_self_edges_add(const sbri_self_looking *looking);
+/* Contacts of crossing edges: rims of a sheet, and edges along which it is bent at present. */
+void sbri_self_edges_add(const sbri_self_looking *query);
 
 /* ---- self_cross.c ---- */
 
-/* Sides that go through triangles, which go out again. */
-void sbri_self_crossings_add(const sbri_self_looking *looking);
+/* Contacts that move edges out of the triangles that they cross. */
+void sbri_self_crossings_add(const sbri_self_looking *query);
 
 #endif

@@ -1,7 +1,7 @@
 /* Contacts of a body's edges with convex edges of shapes. The cross product of both is a separating axis if
  * it lies between the normals of the faces beside the shape's edge (D. Gregorius, The Separating Axis Test
- * between Convex Polyhedra, 2013). An edge that has passed is pushed back over it, if no face is a shorter
- * way out. */
+ * between Convex Polyhedra, 2013). An edge that has passed is moved back over it, unless a face is a shorter
+ * exit. */
 #include "contact/shape_edges.h"
 
 #include "collide/colliders.h"
@@ -9,17 +9,17 @@
 #include "contact/sample_motion.h"
 #include "model/reach.h"
 
-/* So far beyond the normals (a sine) it is between them. */
-static const float BETWEEN = 0.1f;
-/* Weights by which a place may hang on points about another one. */
+/* Tolerance of the test whether an axis lies between the normals, as a sine. */
+static const float NORMAL_TOLERANCE = 0.1f;
+/* Range of weights of a sample that is extrapolated from the points of another one. */
 static const float MIN_WEIGHT = -1, MAX_WEIGHT = 2;
-/* Smaller ones are left out. */
-static const float TRIFLE = 1e-5f;
+/* Smaller weights are dropped. */
+static const float MIN_PART_WEIGHT = 1e-5f;
 
-/* ---- A place between two samples ---- */
+/* Samples on edges */
 
-/* Gives the sample its mass; false where nothing of it is free. */
-static bool weigh(const sbri_island_tick *t, sbri_sample *s) {
+/* Sets the effective mass of the sample; returns false if it has no free point. */
+static bool set_mass(const sbri_island_tick *t, sbri_sample *s) {
   float sum = 0;
   for (int k = 0; k < 4; k++)
     if (s->slots[k] < t->island->free_count)
@@ -34,18 +34,18 @@ static sbf_vec3 position(const sbri_island_tick *t, uint32_t slot) {
 }
 
 /* x as a combination of the points of a nearby sample, extrapolated affinely. */
-static bool carry_by(const sbri_island_tick *t, const sbri_sample *near, sbf_vec3 x, sbri_sample *to) {
-  sbf_vec3 at = position(t, near->slots[0]), off = sbri_sub(x, at), e[3];
-  for (int k = 0; k < 3; k++) e[k] = sbri_sub(position(t, near->slots[k + 1]), at);
-  float whole = sbri_dot(e[0], sbri_cross(e[1], e[2]));
-  *to = *near;
+static bool extrapolate(const sbri_island_tick *t, const sbri_sample *source, sbf_vec3 x, sbri_sample *to) {
+  sbf_vec3 at = position(t, source->slots[0]), offset = sbri_sub(x, at), e[3];
+  for (int k = 0; k < 3; k++) e[k] = sbri_sub(position(t, source->slots[k + 1]), at);
+  float determinant = sbri_dot(e[0], sbri_cross(e[1], e[2]));
+  *to = *source;
   to->weights[0] = 1;
   for (int k = 0; k < 3; k++) {
-    float w = sbri_dot(off, sbri_cross(e[(k + 1) % 3], e[(k + 2) % 3])) / whole;
+    float w = sbri_dot(offset, sbri_cross(e[(k + 1) % 3], e[(k + 2) % 3])) / determinant;
     if (!(w >= MIN_WEIGHT && w <= MAX_WEIGHT)) return false;
     to->weights[k + 1] = w, to->weights[0] -= w;
   }
-  return to->weights[0] >= MIN_WEIGHT && to->weights[0] <= MAX_WEIGHT && weigh(t, to);
+  return to->weights[0] >= MIN_WEIGHT && to->weights[0] <= MAX_WEIGHT && set_mass(t, to);
 }
 
 static bool sample_between(
@@ -57,14 +57,14 @@ static bool sample_between(
     const sbri_sample *s = &ends[i / 4];
     uint32_t slot = s->slots[i % 4], k = 0;
     float weight = parts[i / 4] * s->weights[i % 4];
-    if (fabsf(weight) < TRIFLE) continue; /* what rounding has left of a place on a corner */
+    if (fabsf(weight) < MIN_PART_WEIGHT) continue; /* rounding error of a position at a corner */
     while (k < count && slots[k] != slot) k++;
     if (k == count) slots[count] = slot, weights[count++] = 0;
     weights[k] += weight;
   }
   if (count > 4) {
     sbf_vec3 x = sbri_lerp(sbri_sample_position(t, &ends[0]), sbri_sample_position(t, &ends[1]), fraction);
-    return carry_by(t, &ends[fraction > 0.5f], x, to) || carry_by(t, &ends[fraction <= 0.5f], x, to);
+    return extrapolate(t, &ends[fraction > 0.5f], x, to) || extrapolate(t, &ends[fraction <= 0.5f], x, to);
   }
   *to = (sbri_sample){.vertex = UINT32_MAX};
   float sum = 0;
@@ -73,19 +73,19 @@ static bool sample_between(
     to->slots[k] = k < count ? slots[k] : slots[0];
     to->weights[k] = k < count ? weights[k] / sum : 0;
   }
-  return weigh(t, to);
+  return set_mass(t, to);
 }
 
-/* ---- Edges ---- */
+/* Edges */
 
-typedef struct looking {
+typedef struct edge_query {
   const sbri_shape_pair *is;
   sbri_sample ends[2];
   sbri_soft_edge edge; /* in the shape's frame */
   float outer, past;
-} looking;
+} edge_query;
 
-/* m that all of the edge would have to go to be out by the nearer one of the faces. */
+/* Displacement of the whole edge to leave by the nearer one of the two faces, m. */
 static float depth_by_faces(const sbri_soft_edge *edge, const sbri_shape_ridge *r) {
   float min = INFINITY;
   for (int k = 0; k < 2; k++) {
@@ -96,20 +96,20 @@ static float depth_by_faces(const sbri_soft_edge *edge, const sbri_shape_ridge *
   return min;
 }
 
-static bool leads_out(const sbri_shape_ridge *r, sbf_vec3 n) {
-  sbf_vec3 along = sbri_sub(r->at[1], r->at[0]);
-  float min = -BETWEEN * sbri_length(along);
-  return sbri_dot(sbri_cross(r->normals[0], n), along) >= min &&
-         sbri_dot(sbri_cross(n, r->normals[1]), along) >= min;
+static bool is_separating(const sbri_shape_ridge *r, sbf_vec3 n) {
+  sbf_vec3 direction = sbri_sub(r->at[1], r->at[0]);
+  float min = -NORMAL_TOLERANCE * sbri_length(direction);
+  return sbri_dot(sbri_cross(r->normals[0], n), direction) >= min &&
+         sbri_dot(sbri_cross(n, r->normals[1]), direction) >= min;
 }
 
-static void check(const looking *l, const sbri_shape_ridge *r) {
+static void check(const edge_query *l, const sbri_shape_ridge *r) {
   const sbri_soft_edge ridge = {{r->at[0], r->at[1]}, {{0, 0, 0}, {0, 0, 0}}};
   sbri_edge_hit found;
   if (!sbri_edges_cross(&l->edge, &ridge, &found)) return;
   if (sbri_dot(found.normal, sbri_add(r->normals[0], r->normals[1])) < 0)
     found.normal = sbri_scale(found.normal, -1), found.distance = -found.distance;
-  if (found.distance < -l->past || !leads_out(r, found.normal)) return;
+  if (found.distance < -l->past || !is_separating(r, found.normal)) return;
   if (!sbri_edges_contact(&l->edge, &ridge, l->outer, &found)) return;
   if (found.distance < -SBRI_RIDGE_ON_IT_M &&
       -found.distance > SBRI_RIDGE_NEARER * depth_by_faces(&l->edge, r))
@@ -127,8 +127,8 @@ void sbri_shape_edges_add(const sbri_shape_pair *m) {
   const sbri_island_tick *t = m->tick;
   const sbr_shape *shape = m->frame.collider->shape;
   const sbri_shape_ridges *ridges = &shape->ridges;
-  if (!ridges->count || t->island->splits) return; /* what tears has other edges then */
-  looking l = {.is = m};
+  if (!ridges->count || t->island->splits) return; /* torn bodies have other edges */
+  edge_query l = {.is = m};
   l.past =
       shape->kind == SBR_SHAPE_MESH ? m->body->source->collision.inner_thickness * t->scale : ridges->past_m;
   l.outer = sbri_reach_of(m->body, t->scale, 0, 0);

@@ -7,8 +7,8 @@
 
 typedef sbri_shape_pair shape_pair;
 
-/* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
- * near. */
+/* Contact plane of a position that moves from `begin` to `end` in the shape's frame: where it enters the
+ * shape, or the nearest surface. */
 static bool find_plane(
     const shape_pair *m, sbf_vec3 begin, sbf_vec3 end, float reach, float depth, sbri_nearest *found) {
   const sbr_shape *shape = m->frame.collider->shape;
@@ -53,7 +53,7 @@ static void add_all(const shape_pair *m) {
   }
 }
 
-/* Bounds of the positions that samples may reach in the tick, and their greatest displacement. */
+/* Bounds of the positions that samples may reach in the tick, and their maximum displacement. */
 static sbri_box travel_bounds(
     const sbri_island_tick *t, const sbri_body *body, float *fastest, float *longest) {
   sbri_box box = sbri_box_of_point(sbri_vec3(
@@ -70,8 +70,8 @@ static sbri_box travel_bounds(
   return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
 }
 
-/* The same of its samples alone, each of which has to be gone through: far less where points carry some that
- * lie beyond them. */
+/* The same bounds from the samples themselves, one by one. They are far smaller if samples lie outside the
+ * points that they use. */
 static sbri_box travel_bounds_of_samples(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables, float longest) {
   sbri_box box = {{0, 0, 0}, {0, 0, 0}};
@@ -84,7 +84,7 @@ static sbri_box travel_bounds_of_samples(
   return sbri_box_grown(box, longest);
 }
 
-/* A box of the world in the space of the body. */
+/* Converts a box in world space to the space of the body. */
 static sbri_box from_world(const sbri_island_tick *t, const sbri_box *box, float more) {
   const float low[3] = {box->low.x, box->low.y, box->low.z},
               high[3] = {box->high.x, box->high.y, box->high.z};
@@ -108,7 +108,7 @@ void sbri_soft_shape_contacts_add(
   sbri_bounds_walk walk;
   uint32_t item;
   sbri_bounds_walk_begin(&walk, &set->tree, world);
-  if (body->samples && sbri_bounds_walk_next(&walk, &item)) { /* something may be near */
+  if (body->samples && sbri_bounds_walk_next(&walk, &item)) { /* a collider may be near */
     world = sbri_box_in_world(travel_bounds_of_samples(t, body, tables, longest), t->origin, t->scale);
     sbri_bounds_walk_begin(&walk, &set->tree, world);
   }

@@ -1,4 +1,4 @@
-/* A touch of a soft body with a host's shape, however it was found. */
+/* Adds contacts of soft bodies with host shapes, for both kinds of queries. */
 #include "collide/external_body.h"
 #include "contact/soft_shape_contacts.h"
 
@@ -10,17 +10,17 @@ void sbri_shape_contact_add(const sbri_shape_pair *m, const sbri_sample *s, sbf_
   sbf_vec3 position = sbri_out_of_shape(&m->frame, on_shape);
   sbf_vec3 velocity = sbri_scale(sbri_shape_displacement(&m->frame, on_shape), 1 / t->tick_s);
   float friction = m->body->friction;
-  sbri_soft_contact *made = &m->tables->contacts[m->body->first_soft_contact + (*count)++];
-  *made = (sbri_soft_contact){.sample = *s,
+  sbri_soft_contact *contact = &m->tables->contacts[m->body->first_soft_contact + (*count)++];
+  *contact = (sbri_soft_contact){.sample = *s,
       .normal = normal,
       .offset = sbri_dot(normal, position) + m->body->margin_m,
       .velocity = velocity,
       .friction_scale = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
       .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
       .collider = m->number};
-  sbri_external_body_maker maker = {
+  sbri_external_body_maker context = {
       t->colliders, t->origin, t->scale, t->tick_s, m->tables->touched->now, m->tables->touched->count};
-  made->external_body = sbri_external_body_of(m->tables->external_bodies, &maker, &m->frame, m->number);
-  if (made->external_body)
-    made->arm = sbri_sub(position, m->tables->external_bodies->at[made->external_body - 1].centre);
+  contact->external_body = sbri_external_body_of(m->tables->external_bodies, &context, &m->frame, m->number);
+  if (contact->external_body)
+    contact->arm = sbri_sub(position, m->tables->external_bodies->at[contact->external_body - 1].centre);
 }
