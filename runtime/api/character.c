@@ -212,7 +212,7 @@ void sbr_character_teleport(
   sbri_jiggles_reset(c);
   sbri_fade_end(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_move_with_frames(c, i);
   sbri_character_stop(c);
   world->stamp++;
 }

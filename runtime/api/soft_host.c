@@ -30,7 +30,7 @@ static bool find_body(const sbr_world *world, sbr_character_id character, uint32
     return false;
   }
   call->body = &call->c->model->bodies[soft_body];
-  if (sbri_body_feels_forces(call->c, call->body)) return true;
+  if (sbri_body_accepts_forces(call->c, call->body)) return true;
   bool forceless = call->body->level && call->c->model->islands[call->body->island].scheme->forceless;
   *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: soft body %u: %s", call->name, soft_body,
       forceless ? "relaxation steps it, which knows no forces"

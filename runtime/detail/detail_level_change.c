@@ -185,7 +185,7 @@ static void take_soft(
     shape_within(world, c, was, b, sources);
     add_speeds(c, was, &is->bodies[b], sources);
     if (moves && !is->bodies[b].is_pinned && !was->model->bodies[b].is_pinned)
-      sbri_body_take_momentum(c, was, b);
+      sbri_body_copy_momentum(c, was, b);
   }
 }
 

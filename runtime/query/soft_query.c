@@ -4,7 +4,7 @@
 
 static const sbri_body *body_of(const sbri_character *c, uint32_t soft_body) {
   if (!c || soft_body >= c->model->asset->soft_bodies.count) return NULL;
-  return sbri_body_feels_forces(c, &c->model->bodies[soft_body]) ? &c->model->bodies[soft_body] : NULL;
+  return sbri_body_accepts_forces(c, &c->model->bodies[soft_body]) ? &c->model->bodies[soft_body] : NULL;
 }
 
 sbr_soft_motion sbr_character_get_soft_motion(

@@ -16,26 +16,27 @@
 /* Fraction of its volume below which a body does not recover by itself. */
 static const double COLLAPSED_FRACTION = 0.1;
 
-/* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
- * is. */
+/* A body whose kinetic energy is below this fraction of its excess energy counts as at rest, if it stays so
+ * for as long as the caller waits. */
 static const double MOVING_FRACTION = 0.2;
 
 /* A body that loses a fifth of its energy between two checks is still recovering, however slowly it moves. */
 static const double STUCK_FRACTION = 0.8;
 
-/* Shares of what an island holds all of whose elements are strained by a tenth: what a knot holds at least
- * where the load is known, and where it is not; and what is wild, strains of 14 %. */
+/* Bounds of the elastic energy, as fractions of that at a strain of 10 % in all elements. A collapsed body
+ * has at least the first one if its loads are known, else the second. Above the third one, a strain of 14 %,
+ * an island is unstable. */
 static const double KNOT_FRACTION = 0.02, LOOSE_KNOT_FRACTION = 0.1, UNSTABLE_FRACTION = 2;
 
-/* Penetration of the rest shape from which pins press the body against the ground, as a fraction of its size.
- */
+/* Penetration of the rest shape from which on pins press the body against the ground, as a fraction of its
+ * size. */
 static const float PRESSED_FRACTION = 0.01f;
 
-/* Ratio of stiffness to that at rest from which tetrahedra count as unstable. */
+/* Stiffness relative to rest from which on tetrahedra are checked. */
 static const float STIFFENED = 2;
 
-/* Of a body of tetrahedra it is their volume: a bent surface of few vertices encloses less than what it is
- * drawn around. That is looked at only where the least of them leaves it open. */
+/* For a body of tetrahedra, uses their volume: a bent surface with few vertices encloses less than its
+ * lattice. That volume is computed only if the minimum J allows a collapse. */
 static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
   if (body->tetrahedron_count && !island->solid_flows)
     return (double)min < COLLAPSED_FRACTION && sbri_lattice_fraction(c, body) < COLLAPSED_FRACTION;
@@ -49,9 +50,9 @@ static bool is_any_empty(const sbri_character *c, const sbri_island *island, flo
   return false;
 }
 
-/* ---- Energies, J ---- */
+/* Energies, J */
 
-/* Against what holds it, or of a loose body against its rigid motion. */
+/* Kinetic energy relative to the drivers, or to the rigid motion of a body without pins. */
 static double kinetic_of(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
@@ -65,18 +66,18 @@ static double kinetic_of(const sbri_character *c, const sbri_island *island) {
       uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       const sbri_point *p = &positions[slot];
       sbf_vec3 v = {velocities[at], velocities[at + SBRI_BLOCK], velocities[at + 2 * SBRI_BLOCK]};
-      sbf_vec3 with = {drivers[at], drivers[at + SBRI_BLOCK], drivers[at + 2 * SBRI_BLOCK]};
+      sbf_vec3 reference = {drivers[at], drivers[at + SBRI_BLOCK], drivers[at + 2 * SBRI_BLOCK]};
       if (!body->is_pinned)
-        with = sbri_add(rigid.velocity,
+        reference = sbri_add(rigid.velocity,
             sbri_cross(rigid.angular_velocity, sbri_sub(sbri_vec3(p->x, p->y, p->z), rigid.center)));
-      sbf_vec3 off = sbri_sub(v, with);
-      energy += 0.5 * (double)island->masses[slot] * (double)sbri_dot(off, off);
+      sbf_vec3 relative = sbri_sub(v, reference);
+      energy += 0.5 * (double)island->masses[slot] * (double)sbri_dot(relative, relative);
     }
   }
   return energy;
 }
 
-/* What elements hold as they are, or where all are strained by a tenth; volume times bulk modulus. */
+/* Elastic energy at present and at a strain of 10 % in all elements; volume times bulk modulus. */
 typedef struct elastic {
   double now_j, tenth_j, bulk_j;
 } elastic;
@@ -136,7 +137,7 @@ static double weight_of(const sbri_island *island, const sbri_point *positions, 
   return energy;
 }
 
-/* ---- Knots ---- */
+/* False equilibria */
 
 static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
@@ -147,8 +148,8 @@ static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
   return false;
 }
 
-/* Pushed from two sides at once, as between walls that close: what strains a body then is what presses it,
- * and its rest shape would be in the walls. */
+/* Whether contacts push the body from opposite sides, as between walls that close. Then the contacts explain
+ * the strain, and the rest shape would penetrate the walls. */
 static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_soft_contact *contacts =
@@ -168,8 +169,8 @@ static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
   return false;
 }
 
-/* Pressed onto something by what holds it: its rest shape would be in there too. */
-static bool is_pressed_by_holders(const sbri_character *c, const sbri_island *island) {
+/* Whether pins press the body against something that its rest shape would penetrate. */
+static bool is_pressed_by_pins(const sbri_character *c, const sbri_island *island) {
   sbri_point *rest = sbri_begins(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
@@ -200,14 +201,14 @@ static bool is_pressed_by_holders(const sbri_character *c, const sbri_island *is
   return false;
 }
 
-static bool is_point_pinned(const sbri_character *c, const sbri_island *island) {
+static bool is_fully_pinned(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!c->model->bodies[island->bodies[b]].is_pinned) return false;
   return true;
 }
 
-/* What it would hold in its rest shape, where it is held: which is more than nothing for springs that cannot
- * all have their lengths. */
+/* Energy of the rest shape at the present pins. It is above 0 for springs that cannot all have their rest
+ * lengths. */
 static double rest_energy(const sbri_character *c, const sbri_island *island, sbf_vec3 g) {
   sbri_point *rest = sbri_begins(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -218,7 +219,7 @@ static double rest_energy(const sbri_character *c, const sbri_island *island, sb
   return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
 }
 
-/* The force of that acceleration on the island, as of its weight, times the size of its largest body, J. */
+/* Force of an acceleration (or the weight) of the island, times the size of its largest body, J. */
 static double load_of(
     const sbri_character *c, const sbri_island *island, float acceleration, bool is_weight) {
   double mass = 0, size = 0;
@@ -229,22 +230,22 @@ static double load_of(
   return mass * (double)acceleration * size;
 }
 
-/* More than what bodies of that size hold that lie in their own weight: a column strained by e bears m g l e
- * / 4, and holds 100 e^2 times what it does at a tenth. Four times that, for none is a column. */
-static double weight_bears(double load_j, double tenth_j) {
+/* Bound of the elastic energy under the load. A column strained by e has m g l e / 4, and 100 e^2 times its
+ * energy at a strain of 10 %. The bound is four times that, since no body is a column. */
+static double load_energy_bound(double load_j, double tenth_j) {
   return tenth_j > 0 ? load_j * load_j / (400 * tenth_j) : 0;
 }
 
-/* Whether an element is crushed and weight cannot be the cause: its pressure would compress by load / bulk,
- * and four times that where a corner bears it. */
+/* Whether an element is crushed and weight cannot be the cause. Its pressure compresses by load / bulk, or
+ * four times that if a corner supports it. */
 static bool is_crushed(const sbri_island_state *state, double load_j, double bulk_j) {
   return state->min_ratio < SBRI_CRUSHED_RATIO && 4 * load_j < (1 - (double)SBRI_CRUSHED_RATIO) * bulk_j;
 }
 
 /* Springs are checked every time. Other elements cost as much to check as a substep, so they are checked only
- * while they are unstable or their steps indicate it. A soft body may be crushed with little energy, as after
- * a pin has jumped over its neighbours. */
-static bool is_looked_at(const sbri_island *island, const sbri_island_state *state) {
+ * while they are unstable or their steps indicate it. A body may be crushed with little energy, for example
+ * after a pin has jumped over its neighbours. */
+static bool is_checked(const sbri_island *island, const sbri_island_state *state) {
   if (island->scheme->forceless || island->link_flows || island->solid_flows) return false;
   return state->unstable || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED ||
          state->min_ratio < SBRI_CRUSHED_RATIO;
@@ -255,31 +256,32 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_island_state *state = &sbri_island_states(c)[index];
   bool unstable = state->unstable;
-  if (is_squeezed(c, island) || is_pressed_by_holders(c, island) || sbri_island_is_loaded(c, index))
+  if (is_squeezed(c, island) || is_pressed_by_pins(c, island) || sbri_island_is_loaded(c, index))
     return (sbri_shape){.unstable = unstable};
   if (!(state->min_ratio > 0) || is_any_empty(c, island, state->min_ratio))
     return (sbri_shape){.collapsed = true, .heaped = true, .unstable = true};
-  if (!is_looked_at(island, state)) return (sbri_shape){.collapsed = false};
+  if (!is_checked(island, state)) return (sbri_shape){.collapsed = false};
   elastic elements = elastic_of(c, island, positions);
-  double more = elements.now_j, min = KNOT_FRACTION * elements.tenth_j;
-  bool is_reported = !island->has_external_forces && is_point_pinned(c, island) && !is_on_ground(c, island);
+  double excess = elements.now_j, min = KNOT_FRACTION * elements.tenth_j;
+  bool is_reported = !island->has_external_forces && is_fully_pinned(c, island) && !is_on_ground(c, island);
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   if (is_reported)
-    more += weight_of(island, positions, g) - rest_energy(c, island, g);
+    excess += weight_of(island, positions, g) - rest_energy(c, island, g);
   else
-    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_FRACTION * elements.tenth_j;
+    excess -= rest_energy(c, island, (sbf_vec3){0, 0, 0}), min = LOOSE_KNOT_FRACTION * elements.tenth_j;
   double inertial = load_of(c, island, state->recovery.acceleration_m_s2, false);
-  double accelerated = weight_bears(inertial, elements.tenth_j);
+  double accelerated = load_energy_bound(inertial, elements.tenth_j);
   double load = is_reported ? 0 : load_of(c, island, sbri_length(g), true);
-  if (!is_reported && !is_crushed(state, load, elements.bulk_j)) min += weight_bears(load, elements.tenth_j);
-  bool strained = more > min, knotted = more > min + accelerated;
-  bool stuck = more > STUCK_FRACTION * (double)state->excess_j;
+  if (!is_reported && !is_crushed(state, load, elements.bulk_j))
+    min += load_energy_bound(load, elements.tenth_j);
+  bool strained = excess > min, is_knotted = excess > min + accelerated;
+  bool stuck = excess > STUCK_FRACTION * (double)state->excess_j;
   sbri_shape shape = {.is_reported = is_reported,
-      .excess_j = (float)more,
-      .heaped = more > UNSTABLE_FRACTION * elements.tenth_j};
+      .excess_j = (float)excess,
+      .heaped = excess > UNSTABLE_FRACTION * elements.tenth_j};
   shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
-  shape.collapsed = knotted && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
-                    kinetic_of(c, island) < MOVING_FRACTION * more;
+  shape.collapsed = is_knotted && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
+                    kinetic_of(c, island) < MOVING_FRACTION * excess;
   return shape;
 }

@@ -1,4 +1,4 @@
-/* How a body does: energy, volume, strain, elements that are inside out. */
+/* State of a body: energy, volume, strain, inverted elements. */
 #include "mechanics/neo_hookean.h"
 #include "mechanics/shape_region.h"
 #include "mechanics/solid_strain.h"
@@ -13,7 +13,7 @@ sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, 
   uint32_t at = island->first_flow + island->link_of_spring[spring];
   const sbri_link_block *link = &island->links[island->link_of_spring[spring] / SBRI_BLOCK];
   uint32_t lane = island->link_of_spring[spring] % SBRI_BLOCK;
-  s.a = link->a[lane], s.b = link->b[lane]; /* one that has split has others */
+  s.a = link->a[lane], s.b = link->b[lane]; /* a split spring has other end points */
   s.rest_length_m = sbri_rests(c)[at];
   s.stiffness_n_m *= sbri_strengths(c)[at];
   return s;
@@ -26,7 +26,7 @@ static void check_springs(const sbri_character *c, const sbri_island *island, co
     bool torn = s.stiffness_n_m < island->springs[i].stiffness_n_m;
     health->torn += torn;
     health->elastic_j += sbfi_springs_energy(&s, 1, &positions->x, 4);
-    if (torn || !(s.rest_length_m > 0)) continue; /* a goal's */
+    if (torn || !(s.rest_length_m > 0)) continue; /* goal spring */
     const sbri_point *a = &positions[s.a], *b = &positions[s.b];
     float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
     float strain = fabsf(sbfi_spring_strain(&s, sqrtf(x * x + y * y + z * z)));
@@ -34,10 +34,8 @@ static void check_springs(const sbri_character *c, const sbri_island *island, co
   }
 }
 
-/* Of its tetrahedra: the energy, J at or below 0, and the greatest strain. Elements whose squares tell that
- * their strain cannot be the greatest are not looked at any closer: |s - 1| <= |s^2 - 1| <= |C - 1|, C = F^T
- * F.
- */
+/* State of tetrahedra: energy, minimum J, whether any is inverted, and maximum strain. Elements that cannot
+ * have the maximum strain by |s - 1| <= |s^2 - 1| <= |C - 1|, C = F^T F, are not decomposed. */
 typedef struct solid_health {
   double energy_j;
   float max_strain;
@@ -50,12 +48,12 @@ static sbfi_d3 position_of(const sbri_point *p) {
   return (sbfi_d3){p->x, p->y, p->z};
 }
 
-static void see_ratio(solid_health *found, double ratio) {
+static void add_ratio(solid_health *found, double ratio) {
   found->inverted = found->inverted || !(ratio > 0);
   found->min_ratio = ratio < (double)found->min_ratio ? (float)ratio : found->min_ratio;
 }
 
-/* As it was made. */
+/* An element in its original state. */
 static void check_tetrahedron(
     const sbri_body *body, const sbri_point *positions, uint32_t t, solid_health *found) {
   sbfi_tetrahedron element;
@@ -65,7 +63,7 @@ static void check_tetrahedron(
     x[k] = position_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
   sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
   found->energy_j += sbfi_tetrahedron_energy(&element, x);
-  see_ratio(found, sbfi_determinant(&f));
+  add_ratio(found, sbfi_determinant(&f));
   double square = 0;
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 3; k++) {
@@ -77,7 +75,7 @@ static void check_tetrahedron(
   found->max_strain = strain > found->max_strain ? strain : found->max_strain;
 }
 
-/* As it is now: yielded, its points split, or torn. */
+/* An element in its present state: yielded, with split points, or torn. */
 static void check_flowing(const sbri_character *c, const sbri_body *body, const sbri_point *positions,
     uint32_t t, solid_health *found) {
   const sbri_island *island = &c->model->islands[body->island];
@@ -105,7 +103,7 @@ static void check_flowing(const sbri_character *c, const sbri_body *body, const 
   }
   double off = ratio - 1 - mu / lambda;
   found->energy_j += volume * (0.5 * mu * (squares - 3) + 0.5 * lambda * off * off - 0.5 * mu * mu / lambda);
-  see_ratio(found, ratio);
+  add_ratio(found, ratio);
 }
 
 static solid_health check_tetrahedra(
@@ -175,7 +173,9 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   double height = sbri_header(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
   double s = c->scale,
-         joules = s * s * s * s; /* masses s^3, speeds squared s; stiffnesses s^2, lengths squared s^2 */
+         joules =
+             s * s * s *
+             s; /* masses scale by s^3, squared speeds by s; stiffnesses by s^2, squared lengths by s^2 */
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     double x = v[0], y = v[SBRI_BLOCK], z = v[2 * SBRI_BLOCK], m = island->masses[slot];

@@ -1,4 +1,4 @@
-/* Forces and holds of a host, made ready for a tick: sbrun/soft_body.h. */
+/* Prepares forces and holds of the host for a tick: sbrun/soft_body.h. */
 #include "math/vec3.h"
 #include "soft/soft.h"
 #include "solvers/scheme.h"
@@ -26,7 +26,7 @@ bool sbri_vertex_carriers(
   return to->count > 0 && sum > 0;
 }
 
-bool sbri_body_feels_forces(const sbri_character *c, const sbri_body *body) {
+bool sbri_body_accepts_forces(const sbri_character *c, const sbri_body *body) {
   return body->level && !c->model->islands[body->island].scheme->forceless && sbri_body_mass(c, body) > 0;
 }
 
@@ -37,7 +37,7 @@ float sbri_body_mass(const sbri_character *c, const sbri_body *body) {
   return (float)sum;
 }
 
-/* 1 / mass that answers a push at the carriers. */
+/* Inverse effective mass of an impulse that is distributed over the points. */
 static float inverse_mass_of(const sbri_island *island, const sbri_carriers *at) {
   float sum = 0;
   for (uint32_t k = 0; k < at->count; k++)
@@ -60,7 +60,7 @@ static void prepare(const sbr_world *world, sbri_character *c, sbri_load *load) 
   float tick_s = (float)world->tick_s, left = load->seconds;
   load->impulse[0] = load->impulse[1] = load->impulse[2] = 0;
   if (load->kind == SBRI_LOAD_FORCE) load->seconds = left > tick_s ? left - tick_s : 0;
-  if (!sbri_body_feels_forces(c, body)) return;
+  if (!sbri_body_accepts_forces(c, body)) return;
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]);
   float mass = sbri_body_mass(c, body), s = c->scale;
   sbri_load_now is = {.body = load->body, .holds = load->kind == SBRI_LOAD_HOLD, .impulse = load->impulse};

@@ -1,11 +1,11 @@
-/* What a body's elements pull with on the places that hold it. */
+/* Forces of a body's elements on its pins. */
 #include <string.h>
 
 #include "soft/soft.h"
 #include "solvers/external_forces.h"
 #include "solvers/reaction.h"
 
-/* Regions look for their rotation from where it was, which is state: here from a copy. */
+/* The search for a region's rotation begins at the previous rotation, which is state; this uses a copy. */
 static void add_regions(const sbri_island_tick *t) {
   if (t->island->tetrahedron_block_count == 0)
     memset(t->element_forces, 0, t->island->slot_count * sizeof *t->element_forces);

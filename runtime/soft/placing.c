@@ -1,4 +1,4 @@
-/* Putting soft bodies somewhere at once: into their rest shape, or along with their frames. */
+/* Sets positions of soft bodies at once: to their rest shape, or along with their frames. */
 #include <string.h>
 
 #include "collide/ground.h"
@@ -8,7 +8,7 @@
 #include "solvers/scheme.h"
 #include "tear/tear.h"
 
-/* At rest: no velocity, or for the relaxation scheme the same place a tick ago. */
+/* Zero velocity; the relaxation scheme stores previous positions instead. */
 static void stop(sbri_character *c, uint32_t island_index) {
   sbri_island_wake(c, island_index);
   const sbri_island *island = &c->model->islands[island_index];
@@ -18,25 +18,27 @@ static void stop(sbri_character *c, uint32_t island_index) {
   memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);
   if (!island->scheme->forceless) return;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
-    float *before = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    before[0] = positions[slot].x, before[SBRI_BLOCK] = positions[slot].y;
-    before[2 * SBRI_BLOCK] = positions[slot].z;
+    float *previous = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    previous[0] = positions[slot].x, previous[SBRI_BLOCK] = positions[slot].y;
+    previous[2 * SBRI_BLOCK] = positions[slot].z;
   }
 }
 
-/* The frame that a body turns with: what holds it, else the root. */
-static uint32_t turning_frame(const sbri_character *c, const sbri_body *body) {
+/* Frame for the rotation of a body: its pin frame, else the root. */
+static uint32_t rotation_frame(const sbri_character *c, const sbri_body *body) {
   return body->is_pinned && !body->drivers ? body->driver_frame : sbri_root_frame(c->model);
 }
 
-/* Rotations of the body's regions: all `first`, or where that is NULL turned on by `turn`. */
-static void turn_regions(sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat rotation) {
+/* Sets the rotations of the body's regions to `first`, or multiplies them by `rotation` if `first` is NULL.
+ */
+static void rotate_regions(
+    sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat rotation) {
   const sbri_island *island = &c->model->islands[body->island];
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->first_rotation + b);
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
-      sbf_quat was = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
-      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(rotation, was));
+      sbf_quat previous = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
+      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(rotation, previous));
       q[lane] = now.x, q[SBRI_BLOCK + lane] = now.y;
       q[2 * SBRI_BLOCK + lane] = now.z, q[3 * SBRI_BLOCK + lane] = now.w;
     }
@@ -49,7 +51,7 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
-    turn_regions(c, body, &sbri_deltas(c)[turning_frame(c, body)].rotation, sbri_quat_identity());
+    rotate_regions(c, body, &sbri_deltas(c)[rotation_frame(c, body)].rotation, sbri_quat_identity());
     sbri_follow_origins(c, body, positions + body->slot_begin);
   }
   sbri_compute_pin_targets(island, sbri_deltas(c), positions);
@@ -63,7 +65,7 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].damping_ticks = 0;
 }
 
-static void unflow_solids(sbri_character *c, const sbri_island *island) {
+static void reset_yielded_solids(sbri_character *c, const sbri_island *island) {
   const uint32_t *torn = sbri_torn(c) + island->first_solid;
   sbri_tetrahedron_block *blocks = sbri_solids(c) + island->first_solid_block;
   for (uint32_t t = 0; t < island->tetrahedron_count; t++)
@@ -75,17 +77,17 @@ static void unflow_solids(sbri_character *c, const sbri_island *island) {
     }
 }
 
-/* Mean place of the body's points; false where that is no place. */
-static bool middle_of(const sbri_body *body, const sbri_point *positions, sbf_vec3 *middle) {
+/* Mean position of the body's points; returns false if it is not usable. */
+static bool center_of(const sbri_body *body, const sbri_point *positions, sbf_vec3 *center) {
   sbf_vec3 sum = {0, 0, 0};
   uint32_t count = body->slot_real_end - body->slot_begin;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     sum = sbri_add(sum, sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z));
-  *middle = sbri_scale(sum, count ? 1 / (float)count : 0);
-  return count > 0 && sbri_dot(*middle, *middle) < 1e12f;
+  *center = sbri_scale(sum, count ? 1 / (float)count : 0);
+  return count > 0 && sbri_dot(*center, *center) < 1e12f;
 }
 
-/* By how much the body is turned at `positions` from its rest shape. */
+/* Rotation of the body at `positions` relative to its rest shape. */
 static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
   sbfi_region_sums sums = {0};
   sbfi_d3 moment = {0, 0, 0};
@@ -106,24 +108,24 @@ static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, co
       sbfi_d3_rounded(fit.columns[0]), sbfi_d3_rounded(fit.columns[1]), sbfi_d3_rounded(fit.columns[2]));
 }
 
-static void turn_body(
+static void rotate_body(
     sbri_character *c, const sbri_body *body, sbri_point *positions, sbf_vec3 about, sbf_quat rotation) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     sbri_point *p = &positions[slot];
     sbf_vec3 at = sbri_add(about, sbri_rotate(rotation, sbri_sub(sbri_vec3(p->x, p->y, p->z), about)));
     *p = (sbri_point){at.x, at.y, at.z, 0};
   }
-  turn_regions(c, body, NULL, rotation);
+  rotate_regions(c, body, NULL, rotation);
 }
 
-static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
+static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 offset) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     sbri_point *p = &positions[slot];
-    *p = (sbri_point){p->x + by.x, p->y + by.y, p->z + by.z, 0};
+    *p = (sbri_point){p->x + offset.x, p->y + offset.y, p->z + offset.z, 0};
   }
 }
 
-/* How far the body reaches into the ground, asset metres. */
+/* Penetration of the body into the ground, asset metres. */
 static float depth_of(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions, const sbr_ground *ground) {
   sbr_double3 origin = sbri_header(c)->origin;
@@ -140,31 +142,34 @@ static float depth_of(
 void sbri_island_reset_in_place(sbri_character *c, uint32_t island_index, const sbr_ground *ground) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
-  const sbri_point *before = sbri_previous_positions(c) + island->first_slot; /* one may be lost by now */
-  sbri_point *middles = sbri_begins(c) + island->first_slot;                  /* a body has a slot at least */
+  const sbri_point *previous =
+      sbri_previous_positions(c) + island->first_slot;       /* present positions may be invalid */
+  sbri_point *centers = sbri_begins(c) + island->first_slot; /* a body has at least one block of slots */
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    sbf_vec3 middle = {0, 0, 0};
-    bool good = !body->is_pinned && middle_of(body, before, &middle);
+    sbf_vec3 center = {0, 0, 0};
+    bool is_valid = !body->is_pinned && center_of(body, previous, &center);
     if (body->slot_end == body->slot_begin) continue;
-    middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
-    if (!good) continue;
-    sbf_quat lay = rotation_of(island, body, before);
-    middles[body->slot_begin + 1] = (sbri_point){lay.x, lay.y, lay.z, lay.w};
+    centers[body->slot_begin] = (sbri_point){center.x, center.y, center.z, is_valid ? 1 : 0};
+    if (!is_valid) continue;
+    sbf_quat old_rotation = rotation_of(island, body, previous);
+    centers[body->slot_begin + 1] =
+        (sbri_point){old_rotation.x, old_rotation.y, old_rotation.z, old_rotation.w};
   }
   sbri_island_reset_to_rest(c, island_index);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 now;
-    if (body->slot_end == body->slot_begin || !(middles[body->slot_begin].w > 0)) continue;
-    const sbri_point *was = &middles[body->slot_begin];
-    if (!middle_of(body, positions, &now)) continue;
-    const sbri_point *lay = was + 1;
-    sbf_quat frame = sbri_deltas(c)[turning_frame(c, body)].rotation;
-    turn_body(c, body, positions, now,
+    if (body->slot_end == body->slot_begin || !(centers[body->slot_begin].w > 0)) continue;
+    const sbri_point *old_center = &centers[body->slot_begin];
+    if (!center_of(body, positions, &now)) continue;
+    const sbri_point *old_rotation = old_center + 1;
+    sbf_quat frame = sbri_deltas(c)[rotation_frame(c, body)].rotation;
+    rotate_body(c, body, positions, now,
         sbri_quat_normalize(
-            sbri_quat_multiply((sbf_quat){lay->x, lay->y, lay->z, lay->w}, sbri_quat_conjugate(frame))));
-    shift(body, positions, sbri_sub(sbri_vec3(was->x, was->y, was->z), now));
+            sbri_quat_multiply((sbf_quat){old_rotation->x, old_rotation->y, old_rotation->z, old_rotation->w},
+                sbri_quat_conjugate(frame))));
+    shift(body, positions, sbri_sub(sbri_vec3(old_center->x, old_center->y, old_center->z), now));
     shift(body, positions, sbri_vec3(0, depth_of(c, body, positions, ground), 0));
   }
 }
@@ -172,7 +177,7 @@ void sbri_island_reset_in_place(sbri_character *c, uint32_t island_index, const 
 void sbri_island_reset_flow(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_island_states(c)[island_index].max_flow_stretch = 1;
-  if (island->solid_flows) unflow_solids(c, island);
+  if (island->solid_flows) reset_yielded_solids(c, island);
   if (!island->link_flows) return;
   float *rests = sbri_rests(c) + island->first_flow;
   for (uint32_t block = 0; block < island->link_block_count; block++)
@@ -205,13 +210,13 @@ void sbri_character_reset_to_rest(sbri_character *c) {
   sbri_character_stop(c);
 }
 
-/* Points of a body go where their guides go, and what they are off their guides turns with it. */
-static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
+/* Moves the points of a body with their drivers, and rotates their offsets from them. */
+static void move_body_with_frames(sbri_character *c, const sbri_body *body, sbri_point *positions) {
   const sbri_delta *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
-  uint32_t frame = turning_frame(c, body);
+  uint32_t frame = rotation_frame(c, body);
   sbf_quat rotation =
       sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));
-  turn_regions(c, body, NULL, rotation);
+  rotate_regions(c, body, NULL, rotation);
   size_t first = c->model->islands[body->island].first_slot;
   sbri_point *old_drivers = sbri_begins(c) + first, *new_drivers = sbri_velocity_points(c) + first;
   uint32_t count = body->slot_end - body->slot_begin;
@@ -228,17 +233,17 @@ static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *pos
       old_position = sbri_vec3(old_drivers[i].x, old_drivers[i].y, old_drivers[i].z);
       new_position = sbri_vec3(new_drivers[i].x, new_drivers[i].y, new_drivers[i].z);
     }
-    sbf_vec3 off = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_position);
-    sbf_vec3 at = sbri_add(new_position, sbri_rotate(rotation, off));
+    sbf_vec3 offset = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_position);
+    sbf_vec3 at = sbri_add(new_position, sbri_rotate(rotation, offset));
     *p = (sbri_point){at.x, at.y, at.z, 0};
   }
 }
 
-void sbri_island_carry(sbri_character *c, uint32_t island_index) {
+void sbri_island_move_with_frames(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++)
-    carry_body(c, &c->model->bodies[island->bodies[b]], positions);
+    move_body_with_frames(c, &c->model->bodies[island->bodies[b]], positions);
   sbri_compute_pin_targets(island, sbri_deltas(c), positions);
   stop(c, island_index);
 }

@@ -11,29 +11,29 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/router.h"
 
-/* Ticks after which a collapsed body is reset; and ticks after which a damped-out body in a shape that no
- * load explains is reset. */
-enum { COLLAPSED_TICKS = 24, CALMED_TICKS = 12, CHECK_INTERVAL = 4 };
+/* Ticks after which a collapsed body is reset, and after which a damped body is reset whose shape no load
+ * explains. */
+enum { COLLAPSED_TICKS = 24, DAMPED_TICKS = 12, CHECK_INTERVAL = 4 };
 
-/* Ticks after which a body that damping cannot calm counts as stepped beyond its stability limit. */
+/* Ticks after which a body that damping cannot stabilise counts as stepped beyond its stability limit. */
 enum { UNSTABLE_TICKS = 36 };
 
-/* For so long at most, where loads that nobody knows may be what strains a body: once each time that it gets
- * wild, so that what is meant to be as strained as that is left alone then. */
+/* Maximum duration of damping if unknown loads may strain the body. It happens once per unstable phase, so
+ * that bodies with intended high strain are damped only once. */
 enum { DAMPING_TICKS = 30 };
 
-/* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
- * more, though the numbers may be finite yet. */
-static const float LOST_BEYOND = 1e6f;
+/* Positions beyond this many metres from the origin, and speeds beyond as many metres per second, are
+ * invalid, even if the numbers are finite. */
+static const float MAX_VALID = 1e6f;
 
-static bool are_sound(const float *numbers, size_t count) {
+static bool are_valid(const float *numbers, size_t count) {
   uint32_t lost = 0;
-  for (size_t i = 0; i < count; i++) lost += !(fabsf(numbers[i]) < LOST_BEYOND);
+  for (size_t i = 0; i < count; i++) lost += !(fabsf(numbers[i]) < MAX_VALID);
   return lost == 0;
 }
 
-static bool are_velocities_sound(const sbri_character *c, const sbri_island *island) {
-  return are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count);
+static bool are_velocities_valid(const sbri_character *c, const sbri_island *island) {
+  return are_valid(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count);
 }
 
 /* The pins get no reaction here. If a pin's body is simulated, the coupled step does this instead. */
@@ -50,7 +50,7 @@ static void damp_out(sbri_character *c, uint32_t index, bool coupled) {
   }
 }
 
-/* ---- The motion that loose bodies keep ---- */
+/* Motion of loose bodies */
 
 static float *velocity_at(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   return sbri_velocities(c) + 3 * (size_t)(island->first_slot + slot / SBRI_BLOCK * SBRI_BLOCK) +
@@ -64,17 +64,17 @@ static sbri_rigid_motion motion_of(
 }
 
 /* Springs at twice their rest length, or tetrahedra so much stiffer than at rest, may become unstable. */
-static const float SOUND_STRETCH = 0.5f, SOUND_STIFFENING = 4;
+static const float STABLE_STRETCH = 0.5f, STABLE_STIFFENING = 4;
 
-static bool is_sound(const sbri_island_state *state) {
+static bool is_stable(const sbri_island_state *state) {
   return !state->recovery.ticks && !state->unstable && state->min_ratio > 0 &&
-         state->stretch < SOUND_STRETCH && state->stiffening < SOUND_STIFFENING;
+         state->stretch < STABLE_STRETCH && state->stiffening < STABLE_STIFFENING;
 }
 
 void sbri_island_store_motions(sbri_character *c, uint32_t index) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_island_state *state = &sbri_island_states(c)[index];
-  if (!is_sound(state) || island->scheme->forceless || !are_velocities_sound(c, island)) return;
+  if (!is_stable(state) || island->scheme->forceless || !are_velocities_valid(c, island)) return;
   state->recovery.unsound_ticks = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
@@ -84,66 +84,65 @@ void sbri_island_store_motions(sbri_character *c, uint32_t index) {
   }
 }
 
-/* Of a body with that inertia, J a kg; against its middle. */
-static float turning_energy(const sbri_rigid_motion *m, sbf_vec3 angular_velocity) {
+/* Rotational energy about the centre per mass, J/kg. */
+static float rotational_energy(const sbri_rigid_motion *m, sbf_vec3 angular_velocity) {
   float size = sbri_length(angular_velocity);
   if (!(size > 0)) return 0;
   return 0.5f * size * size * sbri_inertia_about(m->inertia, sbri_scale(angular_velocity, 1 / size)) /
          m->mass_kg;
 }
 
-/* How the body moved when it was last sound, and, where nothing is near that may hold it up, what weight has
- * given it since. */
-static sbri_driver_motion motion_by_now(
-    const sbri_character *c, const sbri_island *island, uint32_t body_index, sbf_vec3 fallen) {
+/* Motion of the body when it was last stable, plus free fall since then if nothing near may support it. */
+static sbri_driver_motion expected_motion(
+    const sbri_character *c, const sbri_island *island, uint32_t body_index, sbf_vec3 fall_velocity) {
   const sbri_body *body = &c->model->bodies[body_index];
   sbri_driver_motion m = sbri_driver_motions(c)[body_index];
   if (sbri_contact_counts(c)[body_index] > 0) return m;
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
     if (sbri_near_ground(c)[island->first_slot / SBRI_BLOCK + block]) return m;
-  m.velocity = sbri_add(m.velocity, fallen);
+  m.velocity = sbri_add(m.velocity, fall_velocity);
   return m;
 }
 
-/* What the body moves by once it is in its rest shape: as it does now, or, where that has more energy than
- * its weight can have given to what it had when it was last sound, by what it had then. */
+/* Motion of the body after a reset: the present one, unless it has more energy than the last stable motion
+ * and gravity explain; then that of expected_motion. */
 static sbri_driver_motion motion_to_keep(const sbr_world *world, const sbri_character *c,
-    const sbri_island *island, uint32_t body_index, bool numbers_are_sound) {
+    const sbri_island *island, uint32_t body_index, bool are_numbers_valid) {
   const sbri_body *body = &c->model->bodies[body_index];
   const sbri_recovery *recovery = &sbri_island_states(c)[body->island].recovery;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
-  float passed_s = (float)(recovery->unsound_ticks + 1) * (float)world->tick_s * c->time_scale;
-  sbf_vec3 fallen = sbri_scale(g, body->source->attributes.gravity_scale * passed_s);
-  sbri_driver_motion was = sbri_driver_motions(c)[body_index];
-  sbri_driver_motion expected = motion_by_now(c, island, body_index, fallen);
-  if (!numbers_are_sound) return expected;
-  float speed = sbri_length(was.velocity) + sbri_length(fallen);
+  float elapsed_s = (float)(recovery->unsound_ticks + 1) * (float)world->tick_s * c->time_scale;
+  sbf_vec3 fall_velocity = sbri_scale(g, body->source->attributes.gravity_scale * elapsed_s);
+  sbri_driver_motion last_stable = sbri_driver_motions(c)[body_index];
+  sbri_driver_motion expected = expected_motion(c, island, body_index, fall_velocity);
+  if (!are_numbers_valid) return expected;
+  float speed = sbri_length(last_stable.velocity) + sbri_length(fall_velocity);
   sbri_rigid_motion now = motion_of(c, island, body);
   if (!(now.mass_kg > 0)) return expected;
-  float max = 0.5f * speed * speed + turning_energy(&now, was.angular_velocity);
-  float has = 0.5f * sbri_dot(now.velocity, now.velocity) + turning_energy(&now, now.angular_velocity);
-  return has <= max ? (sbri_driver_motion){now.velocity, now.angular_velocity} : expected;
+  float max = 0.5f * speed * speed + rotational_energy(&now, last_stable.angular_velocity);
+  float energy = 0.5f * sbri_dot(now.velocity, now.velocity) + rotational_energy(&now, now.angular_velocity);
+  return energy <= max ? (sbri_driver_motion){now.velocity, now.angular_velocity} : expected;
 }
 
 static void set_motion(
     sbri_character *c, const sbri_island *island, const sbri_body *body, const sbri_driver_motion *motion) {
-  sbri_rigid_motion lies = motion_of(c, island, body);
+  sbri_rigid_motion current = motion_of(c, island, body);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     const sbri_point *p = &sbri_positions(c)[island->first_slot + slot];
-    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), lies.center);
-    sbf_vec3 goes = sbri_add(motion->velocity, sbri_cross(motion->angular_velocity, arm));
+    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), current.center);
+    sbf_vec3 velocity = sbri_add(motion->velocity, sbri_cross(motion->angular_velocity, arm));
     float *v = velocity_at(c, island, slot);
-    v[0] = goes.x, v[SBRI_BLOCK] = goes.y, v[2 * SBRI_BLOCK] = goes.z;
+    v[0] = velocity.x, v[SBRI_BLOCK] = velocity.y, v[2 * SBRI_BLOCK] = velocity.z;
   }
 }
 
-/* ---- Putting back ---- */
+/* Reset */
 
-/* What is put back so often, each time so soon after the last, moves as a rigid body for a while: at first
- * for this long, then for twice as long and so on up to eight times. */
+/* A body that is reset this many times in a row, each within RELAPSE_TICKS of the last, moves as a rigid body
+ * for a while: at first for RIGID_TICKS, then for twice as long each time, up to eight times. */
 enum { RELAPSE_TICKS = 30, ROW_BEFORE_RIGID = 3, RIGID_TICKS = 60, MAX_DOUBLINGS = 3 };
 
-static void count_put_back(sbri_recovery *recovery, bool may_be_rigid) {
+static void count_reset(sbri_recovery *recovery, bool may_be_rigid) {
   recovery->row = recovery->relapse_ticks > 0 ? recovery->row + 1 : 1;
   recovery->ticks = SBRI_RECOVERING_TICKS;
   recovery->rigid_ticks = 0;
@@ -161,8 +160,8 @@ static void count_tick(sbri_recovery *recovery) {
   if (recovery->rigid_ticks > 0) recovery->rigid_ticks--;
 }
 
-/* Whether a jump of what holds it has left the island in a crushed shape, though from its rest shape another
- * may be reached. It is tried once: where all shapes are crushed it goes back to that. */
+/* Whether a jump of the pins has left the island in a crushed shape. A reset is tried once: if all shapes are
+ * crushed, the body returns to the same one. */
 static bool is_crushed_by_jump(sbri_recovery *recovery, const sbri_shape *shape) {
   bool crushed = shape->crushed && recovery->jumped_ticks > 0;
   recovery->crushed_ticks = crushed ? recovery->crushed_ticks + CHECK_INTERVAL : 0;
@@ -171,18 +170,18 @@ static bool is_crushed_by_jump(sbri_recovery *recovery, const sbri_shape *shape)
   return true;
 }
 
-static void put_back(
-    const sbr_world *world, sbri_character *c, uint32_t index, bool numbers_are_sound, bool coupled) {
+static void reset(
+    const sbr_world *world, sbri_character *c, uint32_t index, bool are_numbers_valid, bool coupled) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   sbri_island_state *state = &sbri_island_states(c)[index];
-  sbri_point *kept =
-      sbri_velocity_points(c) + island->first_slot; /* a loose body has a block of slots at least */
+  sbri_point *motions =
+      sbri_velocity_points(c) + island->first_slot; /* a loose body has at least one block of slots */
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (body->slot_begin == body->slot_end) continue;
-    sbri_driver_motion m = motion_to_keep(world, c, island, island->bodies[b], numbers_are_sound);
-    kept[body->slot_begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
-    kept[body->slot_begin + 1] =
+    sbri_driver_motion m = motion_to_keep(world, c, island, island->bodies[b], are_numbers_valid);
+    motions[body->slot_begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
+    motions[body->slot_begin + 1] =
         (sbri_point){m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z, 0};
   }
   sbri_island_reset_flow(c, index);
@@ -192,23 +191,23 @@ static void put_back(
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (body->is_pinned || body->slot_begin == body->slot_end || island->scheme->forceless) continue;
-    const sbri_point *v = &kept[body->slot_begin], *w = v + 1;
+    const sbri_point *v = &motions[body->slot_begin], *w = v + 1;
     sbri_driver_motion m = {{v->x, v->y, v->z}, {w->x, w->y, w->z}};
     set_motion(c, island, body, &m);
     sbri_driver_motions(c)[island->bodies[b]] = m;
   }
   state->recoveries++;
-  count_put_back(&state->recovery, !coupled && !island->scheme->forceless);
+  count_reset(&state->recovery, !coupled && !island->scheme->forceless);
 }
 
 bool sbri_island_recover(
     const sbr_world *world, sbri_character *c, uint32_t index, sbri_whole_momentum *lost) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
-  if (!are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
-      !are_velocities_sound(c, island)) {
+  if (!are_valid(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
+      !are_velocities_valid(c, island)) {
     if (lost) lost->mass = 0;
-    put_back(world, c, index, false, lost != NULL);
+    reset(world, c, index, false, lost != NULL);
     return true;
   }
   count_tick(&state->recovery);
@@ -226,12 +225,12 @@ bool sbri_island_recover(
   state->excess_j = shape.excess_j;
   state->collapsed_ticks = shape.collapsed ? state->collapsed_ticks + CHECK_INTERVAL : 0;
   if (shape.collapsed) state->recovery.ticks = SBRI_RECOVERING_TICKS;
-  bool stays =
-      state->collapsed_ticks >= (shape.unstable && shape.is_reported ? CALMED_TICKS : COLLAPSED_TICKS);
+  bool is_collapsed =
+      state->collapsed_ticks >= (shape.unstable && shape.is_reported ? DAMPED_TICKS : COLLAPSED_TICKS);
   bool jumped = is_crushed_by_jump(&state->recovery, &shape);
-  if (!stays && !jumped && !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
+  if (!is_collapsed && !jumped && !(shape.is_reported && shape.heaped && state->unstable >= UNSTABLE_TICKS))
     return false;
   if (lost) *lost = sbri_island_momentum(c, index);
-  put_back(world, c, index, true, lost != NULL);
+  reset(world, c, index, true, lost != NULL);
   return true;
 }

@@ -11,11 +11,11 @@
 #include "soft/soft.h"
 #include "solvers/scheme.h"
 
-/* Fraction of its size a second below which a body comes to rest. */
+/* Fraction of its size per second below which a body is at rest. */
 static const float IDLE_1_S = 0.01f;
 
 /* Displacement of a pin that does not wake a body, as a fraction of the character's size. */
-static const float TREMBLE = 1e-5f;
+static const float PIN_TOLERANCE = 1e-5f;
 
 /* Number of ticks between two checks of a ground that the host may change. */
 enum { CHECK_INTERVAL = 4 };
@@ -34,21 +34,21 @@ static bool is_idle(const sbri_character *c, const sbri_island *island) {
   return true;
 }
 
-/* Whether what holds the island is farther from where it holds it than it may tremble. */
-static bool is_moved(sbri_character *c, const sbri_island *island) {
+/* Whether pin targets differ from the pinned positions by more than the tolerance. */
+static bool have_pins_moved(sbri_character *c, const sbri_island *island) {
   const sbri_point *pinned = sbri_positions(c) + island->first_slot;
   sbri_point *targets = sbri_targets(c) + island->first_slot;
-  float max = TREMBLE * c->model->rest_size_m;
+  float max = PIN_TOLERANCE * c->model->rest_size_m;
   sbri_compute_pin_targets(island, sbri_deltas(c), targets);
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    sbf_vec3 off = {
+    sbf_vec3 offset = {
         targets[slot].x - pinned[slot].x, targets[slot].y - pinned[slot].y, targets[slot].z - pinned[slot].z};
-    if (!(sbri_dot(off, off) <= max * max)) return true;
+    if (!(sbri_dot(offset, offset) <= max * max)) return true;
   }
   return false;
 }
 
-/* Of the planes that the ground has for the island's points and samples near it, as they were last found. */
+/* Hash of the contact planes found last, of points near the ground and of samples. */
 static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) {
   const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
   const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
@@ -71,8 +71,8 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
   return (uint32_t)sbfi_hash64_value(&hash);
 }
 
-/* Keeps the island's positions, with zero velocities. */
-static uint32_t find_ground(const sbr_world *world, sbri_character *c, uint32_t index) {
+/* Hash of the contact planes at present. */
+static uint32_t find_ground_mark(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island_find_contacts(world, c, index);
   return ground_mark(c, &c->model->islands[index]);
 }
@@ -83,7 +83,8 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   if (!state->asleep) return false;
   bool checks = world->colliders.moving ||
                 (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % CHECK_INTERVAL == 0);
-  if (!is_moved(c, island) && !(checks && find_ground(world, c, index) != state->ground_mark)) return true;
+  if (!have_pins_moved(c, island) && !(checks && find_ground_mark(world, c, index) != state->ground_mark))
+    return true;
   sbri_island_wake(c, index);
   return false;
 }
@@ -102,7 +103,7 @@ void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_
   state->asleep = 1;
   memset(
       sbri_velocities(c) + 3 * (size_t)island->first_slot, 0, 3 * (size_t)island->free_count * sizeof(float));
-  state->ground_mark = find_ground(world, c, index);
+  state->ground_mark = find_ground_mark(world, c, index);
 }
 
 void sbri_island_update_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {

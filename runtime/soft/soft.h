@@ -19,15 +19,15 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island);
 void sbri_island_reset_in_place(sbri_character *c, uint32_t island, const sbr_ground *ground);
 /* Moves an island with its frames from `previous_deltas` to `deltas`, keeps its shape and sets its velocities
  * to zero. */
-void sbri_island_carry(sbri_character *c, uint32_t island);
+void sbri_island_move_with_frames(sbri_character *c, uint32_t island);
 /* Copies the present state to the previous one, so that interpolation stands still. */
 void sbri_character_stop(sbri_character *c);
 
 /* ---- soft/driver_motion.c ---- */
 
-/* Computes `driver_velocities` over the tick of `tick_s` character seconds and moves the bodies with the part
- * of it that they need not feel. Returns false if the drivers have jumped: then the bodies were moved along
- * and the tick is over for them. */
+/* Computes `driver_velocities` over the tick of `tick_s` character seconds and adds the excess of their
+ * acceleration to the bodies. Returns false if the drivers have jumped: then it moves the bodies along, and
+ * their tick is done. */
 bool sbri_island_update_drivers(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s);
 /* Computes only the velocities, over any part of a tick. False if the drivers have jumped. */
 bool sbri_driver_velocities_find(sbri_character *c, const sbri_island *island, float tick_s);
@@ -37,7 +37,7 @@ void sbri_drivers_advance(sbri_character *c, const sbri_island *island, float ti
 /* ---- soft/whole_motion.c ---- */
 
 /* Gives the body the momentum and angular velocity that it had at another detail level. */
-void sbri_body_take_momentum(sbri_character *c, const sbri_character *was, uint32_t soft_body);
+void sbri_body_copy_momentum(sbri_character *c, const sbri_character *was, uint32_t soft_body);
 
 /* Rigid motion of the body's free points, in the character's own units. */
 sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body);
@@ -45,7 +45,7 @@ sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body)
 /* ---- soft/host_loads.c ---- */
 
 /* Whether the body is simulated by a force-based integrator and has free points. */
-bool sbri_body_feels_forces(const sbri_character *c, const sbri_body *body);
+bool sbri_body_accepts_forces(const sbri_character *c, const sbri_body *body);
 
 /* Finds the points that a vertex of the surface is embedded in; false if it follows bones only. */
 bool sbri_vertex_carriers(const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to);
@@ -124,12 +124,14 @@ sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t islan
 #define SBRI_DAMPING_KEPT 0.7f
 /* Before a tick: stores the rigid motion of bodies without pins, unless the island is failing. */
 void sbri_island_store_motions(sbri_character *c, uint32_t island);
-/* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
- * good; whether it has done that. Loose bodies keep their momentum, or, where they have gained more than
- * weight gives, that which they had when they were last sound. What is put back three times in a row moves as
- * a rigid body for a second or more. `lost`: NULL, or the caller steps what holds it as well: calms, in the
- * next tick, what moves against that, and gives it what rest shapes have not of the momentum before, which is
- * put there; its mass is 0 where that was lost with its numbers. */
+/* After a tick: damps unstable islands, and resets islands to their rest shape if their numbers are invalid
+ * or they have collapsed. Returns whether it has reset the island. Loose bodies keep their momentum; if it is
+ * more than gravity explains, they get that of their last stable state. A body that is reset three times in a
+ * row moves as a rigid body for a second or more.
+ *
+ * `lost`: NULL, or the caller steps the rigid bodies of the pins too. It must then damp the motion relative
+ * to them in the next tick, and restore the momentum that the reset removes, which is written to `lost`. Its
+ * mass is 0 if the momentum was invalid. */
 bool sbri_island_recover(
     const sbr_world *world, sbri_character *c, uint32_t island, sbri_whole_momentum *lost);
 
@@ -137,8 +139,8 @@ bool sbri_island_recover(
 
 /* Whether the island sleeps through this tick, whose frames are known; wakes it otherwise. */
 bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t island);
-/* After its tick: puts the island to sleep when it has been slow for long enough. The next two are its parts:
- * the speed test, and falling asleep. */
+/* After its tick: puts the island to sleep when it has been slow for long enough. The next two functions are
+ * its parts: the speed test, and falling asleep. */
 void sbri_island_update_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
 bool sbri_island_is_idle(const sbri_character *c, uint32_t island);
 void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t island);

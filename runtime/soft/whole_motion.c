@@ -1,29 +1,30 @@
-/* Bodies as one whole: what all their points weigh and have of momentum, and how one that nothing holds goes
- * on from level to level. */
+/* Mass, momentum and rigid motion of whole bodies, and how a body without pins keeps its motion when the
+ * detail level changes. */
 #include "soft/soft.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
 
-/* Its angular momentum changes with its inertia: a coarse lattice has more mass far out, and to see it turn
- * slower would be worse than that (docs/detail.md). */
-void sbri_body_take_momentum(sbri_character *c, const sbri_character *was, uint32_t index) {
-  const sbri_body *body = &c->model->bodies[index], *old_body = &was->model->bodies[index];
-  const sbri_island *island = &c->model->islands[body->island], *old = &was->model->islands[old_body->island];
+/* Keeps the angular velocity, not the angular momentum: a coarse lattice has more mass far out, and a visible
+ * change of rotation would be worse (docs/detail.md). */
+void sbri_body_copy_momentum(sbri_character *c, const sbri_character *from, uint32_t index) {
+  const sbri_body *body = &c->model->bodies[index], *old_body = &from->model->bodies[index];
+  const sbri_island *island = &c->model->islands[body->island],
+                    *old = &from->model->islands[old_body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot,
-                   *old_positions = sbri_positions(was) + old->first_slot;
-  const float *old_velocities = sbri_velocities(was) + 3 * (size_t)old->first_slot;
+                   *old_positions = sbri_positions(from) + old->first_slot;
+  const float *old_velocities = sbri_velocities(from) + 3 * (size_t)old->first_slot;
   if (island->scheme->forceless || old->scheme->forceless) return;
-  sbri_rigid_motion went = sbri_rigid_motion_find(old, old_body, old_positions, old_velocities);
+  sbri_rigid_motion old_motion = sbri_rigid_motion_find(old, old_body, old_positions, old_velocities);
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  sbri_rigid_motion goes = sbri_rigid_motion_find(island, body, positions, velocities);
-  sbf_vec3 push = sbri_sub(went.velocity, goes.velocity),
-           turn = sbri_sub(went.angular_velocity, goes.angular_velocity);
+  sbri_rigid_motion motion = sbri_rigid_motion_find(island, body, positions, velocities);
+  sbf_vec3 linear_change = sbri_sub(old_motion.velocity, motion.velocity),
+           angular_change = sbri_sub(old_motion.angular_velocity, motion.angular_velocity);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *p = &positions[slot];
-    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), goes.center);
-    sbf_vec3 more = sbri_add(push, sbri_cross(turn, arm));
+    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), motion.center);
+    sbf_vec3 change = sbri_add(linear_change, sbri_cross(angular_change, arm));
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
+    v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
   }
 }
 

@@ -1,8 +1,8 @@
 /* Sleep of whole characters.
  *
- * A character sleeps once all its bodies do, it is to stand, and a tick of its gait has left the gait's state
- * and its pose as they were, bit for bit: every further tick would, until a call or the ground changes what
- * it goes by. Until then it costs a look at a flag. */
+ * A character sleeps if all its bodies sleep, it is commanded to stand, and a tick of its gait has left the
+ * gait's state and the pose unchanged, bit for bit. Every further tick would do the same until a call or the
+ * ground changes its input. A sleeping character costs one check per tick. */
 #include <string.h>
 
 #include "collide/ground.h"
@@ -24,7 +24,7 @@ bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
   return sbri_rigid_is_still(c);
 }
 
-void sbri_character_keep_gait(sbri_character *c) {
+void sbri_character_store_gait(sbri_character *c) {
   memcpy(sbri_gait_before(c), sbri_gait(c), sbri_gait_state_size(&c->model->rig));
 }
 
@@ -37,7 +37,7 @@ bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
   if (!sbri_header(c)->asleep) return false;
   bool checks = !sbri_ground_is_fixed(&c->ground) && world->ticks % CHECK_INTERVAL == 0;
   if (!checks && !world->colliders.moving) return true;
-  /* The feet and the bodies look for themselves. */
+  /* The feet and the bodies make their own checks. */
   sbri_header(c)->asleep = 0;
   return false;
 }

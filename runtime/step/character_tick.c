@@ -44,10 +44,10 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   sbri_surroundings around;
   sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbr_transform *pose = sbri_pose(c);
-  bool has_bodies = c->model->island_count > 0; /* frame deltas are needed by soft bodies only */
+  bool has_bodies = c->model->island_count > 0; /* only soft bodies need frame deltas */
   if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_previous_deltas(c));
   bool may_sleep = sbri_character_may_sleep(world, c);
-  if (may_sleep) sbri_character_keep_gait(c);
+  if (may_sleep) sbri_character_store_gait(c);
   c->event_count += sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events + c->event_count,
       SBRI_TICK_EVENTS - c->event_count);
   end_displacement(c);

@@ -18,15 +18,15 @@
 #include "step/step.h"
 #include "tear/tear.h"
 
-/* Of a tick: touches that change within one are answered well by no fewer. */
+/* Minimum and maximum number of steps per tick. Fewer do not resolve contacts that change within a tick. */
 enum { MIN_STEPS = 4, MAX_STEPS = 128 };
-/* And soft bodies that press on each other by no fewer, for each substep that they need alone. */
+/* Minimum number of steps per substep that a soft body needs without contacts. */
 enum { STEPS_OF_SOFT = 2 };
 
 static sbri_group_member member_of(const sbr_world *world, sbri_character *c, sbr_double3 origin) {
-  sbr_double3 own = sbri_header(c)->origin;
+  sbr_double3 needed = sbri_header(c)->origin;
   sbri_group_member m = {.character = c,
-      .offset = {(float)(own.x - origin.x), (float)(own.y - origin.y), (float)(own.z - origin.z)},
+      .offset = {(float)(needed.x - origin.x), (float)(needed.y - origin.y), (float)(needed.z - origin.z)},
       .scale = c->scale,
       .velocity_scale = c->scale * c->time_scale,
       .mass = c->scale * c->scale * c->scale,
@@ -35,18 +35,18 @@ static sbri_group_member member_of(const sbr_world *world, sbri_character *c, sb
   return m;
 }
 
-/* Soft bodies that are stepped here, one by one; the others along with rigid parts, or alone. */
-static bool is_own(const sbri_group_member *m, uint32_t island) {
+/* Islands that are stepped here one by one. The others are stepped with rigid parts, or alone. */
+static bool is_stepped_here(const sbri_group_member *m, uint32_t island) {
   const sbri_character *c = m->character;
   return !sbri_island_is_coupled(c, island) && !c->model->islands[island].scheme->forceless &&
          !sbri_island_states(c)[island].asleep;
 }
 
 static bool is_in_contact(const sbri_group_member *m, uint32_t island) {
-  return is_own(m, island) && sbri_contact_islands(m->character)[island];
+  return is_stepped_here(m, island) && sbri_contact_islands(m->character)[island];
 }
 
-/* ---- Before ---- */
+/* Begin of the tick */
 
 static uint32_t steps_of(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
@@ -55,8 +55,8 @@ static uint32_t steps_of(const sbri_island_tick *t) {
   return STEPS_OF_SOFT * sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch);
 }
 
-/* Held points go from where they are to where they shall be. */
-static void hold(sbri_character *c, const sbri_island *island) {
+/* Prepares pinned points to move from their positions to their targets. */
+static void prepare_pins(sbri_character *c, const sbri_island *island) {
   sbri_point *begins = sbri_begins(c) + island->first_slot;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   sbri_compute_pin_targets(island, sbri_deltas(c), sbri_targets(c) + island->first_slot);
@@ -72,7 +72,7 @@ static void begin_island(const sbr_world *world, sbri_group_member *m, uint32_t 
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.external_rad_s = &now.external_rad_s;
   sbri_update_gas_stiffness(&tick);
-  hold(c, &now);
+  prepare_pins(c, &now);
   sbri_island_prepare_contacts(&tick, c);
   (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery);
 }
@@ -82,15 +82,15 @@ static void begin(const sbr_world *world, sbri_group_member *m) {
   (void)sbri_rigid_parts_begin(world, c, &m->parts);
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
-    if (!is_own(m, i)) {
-      if (sbri_island_is_coupled(c, i)) hold(c, &c->model->islands[i]);
+    if (!is_stepped_here(m, i)) {
+      if (sbri_island_is_coupled(c, i)) prepare_pins(c, &c->model->islands[i]);
       continue;
     }
     begin_island(world, m, i);
   }
 }
 
-/* How many steps of a tick the member needs; 0: nothing of it takes any. */
+/* Number of steps per tick that the member needs; 0: it has nothing to step. */
 static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) {
   sbri_character *c = m->character;
   uint32_t max = m->parts.steps ? m->parts.tick.substeps : 0;
@@ -106,22 +106,22 @@ static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) 
   return max;
 }
 
-/* ---- Steps ---- */
+/* Steps */
 
-/* Returns how many such steps of a tick it needs by now. */
+/* Returns the number of such steps per tick that the island needs now. */
 static uint32_t advance_island(
     const sbr_world *world, sbri_group_member *m, uint32_t index, float from, float to) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_point *targets = sbri_targets(c) + now.first_slot;
   const sbri_point *positions = sbri_positions(c) + now.first_slot;
-  float fraction = to - from, part = fraction / (1 - from);
+  float fraction = to - from, rest_fraction = fraction / (1 - from);
   if (now.substeps) now.substeps = (uint32_t)ceilf(fraction * (float)now.substeps);
   sbri_compute_pin_targets(&now, sbri_deltas(c), targets);
   for (uint32_t s = now.free_count; s < now.slot_count; s++) {
     const sbri_point *x = &positions[s];
-    targets[s] = (sbri_point){x->x + part * (targets[s].x - x->x), x->y + part * (targets[s].y - x->y),
-        x->z + part * (targets[s].z - x->z), 0};
+    targets[s] = (sbri_point){x->x + rest_fraction * (targets[s].x - x->x),
+        x->y + rest_fraction * (targets[s].y - x->y), x->z + rest_fraction * (targets[s].z - x->z), 0};
   }
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.tick_s *= fraction, tick.fraction = fraction;
@@ -133,13 +133,13 @@ static uint32_t advance_island(
   return steps_of(&tick);
 }
 
-/* Likewise. */
+/* Returns the maximum over the member's parts. */
 static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from, float to) {
   sbri_character *c = m->character;
   uint32_t max = 0;
   if (m->parts.steps) {
     sbri_rigid_advance(&m->parts.tick, &m->parts.work, from, to);
-    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* which the step had for its own */
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* the step has computed its own deltas */
     max = m->parts.coupled.any ? m->parts.coupled.steps : 0;
   }
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -151,13 +151,13 @@ static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from
   return max;
 }
 
-/* ---- After ---- */
+/* End of the tick */
 
-/* The whole tick of an island that nothing is in contact with. */
-static void run_alone(const sbr_world *world, const sbri_group_member *m, uint32_t index) {
+/* The whole tick of an island without contacts. */
+static void run_without_contacts(const sbr_world *world, const sbri_group_member *m, uint32_t index) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
-  if (m->parts.steps) /* which have moved what holds it */
+  if (m->parts.steps) /* rigid parts have moved the pins */
     sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.external_rad_s = &now.external_rad_s;
@@ -183,24 +183,24 @@ static void end(const sbr_world *world, sbri_group_member *m) {
   sbri_jiggles_tick(c, m->tick_s);
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
-    if (!is_own(m, i)) continue;
-    if (!is_in_contact(m, i)) run_alone(world, m, i);
+    if (!is_stepped_here(m, i)) continue;
+    if (!is_in_contact(m, i)) run_without_contacts(world, m, i);
     end_island(world, m, i);
   }
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i);
 }
 
-/* Up to one of few numbers: steps that change from tick to tick drive what swings. */
+/* Rounds up to one of few step counts: counts that change from tick to tick excite oscillations. */
 static uint32_t rounded_steps(uint32_t steps) {
   uint32_t rounded = MIN_STEPS;
   while (rounded < steps) rounded = rounded % 3 ? rounded / 2 * 3 : rounded / 3 * 4;
   return rounded < MAX_STEPS ? rounded : MAX_STEPS;
 }
 
-/* Whether something is led out from deep within another: that presses evenly, at no more than its speed, and
- * is no blow that shorter steps would answer better. */
-static bool is_led_out(const sbr_world *world, const sbri_contact_group *group) {
+/* Whether a contact resolves deep penetration. Its speed is bounded and its load is steady, so shorter steps
+ * would not improve it. */
+static bool has_deep_exit(const sbr_world *world, const sbri_contact_group *group) {
   const sbri_contact *contacts = world->body_contacts->contacts + group->first_contact;
   bool any = false;
   for (uint32_t i = 0; i < group->contact_count; i++)
@@ -210,19 +210,19 @@ static bool is_led_out(const sbr_world *world, const sbri_contact_group *group) 
 
 static void run_steps(const sbr_world *world, sbri_contact_group *group, uint32_t steps) {
   sbri_group_member *members = world->body_contacts->members + group->first_member;
-  bool led_out = is_led_out(world, group);
-  float begin = 0, from = 0; /* of the steps that are as long as each other */
+  bool deep_exit = has_deep_exit(world, group);
+  float begin = 0, from = 0; /* where steps of equal length begin */
   for (uint32_t done = 0; done < steps;) {
     float to = begin + (1 - begin) * ((float)(done + 1) / (float)steps);
     uint32_t max = 0;
     sbri_contacts_solve(world, group, from == 0);
     for (uint32_t i = 0; i < group->member_count; i++) {
-      uint32_t own = advance(world, &members[i], from, to);
-      max = own > max ? own : max;
+      uint32_t needed = advance(world, &members[i], from, to);
+      max = needed > max ? needed : max;
     }
     done++, from = to;
     uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(max) * 0.9999f);
-    if (done == steps || led_out || left <= steps - done) continue;
+    if (done == steps || deep_exit || left <= steps - done) continue;
     begin = to, steps = left, done = 0;
     sbri_contacts_scale_impulses(
         world->body_contacts, group, (float)world->tick_s * (1 - begin) / (float)steps);
@@ -239,11 +239,11 @@ void sbri_group_run(sbr_world *world, sbri_contact_group *group) {
   sbri_solver_bodies_list(world->body_contacts, group);
   sbri_narrow_phase_update(world, group);
   for (uint32_t i = 0; i < group->member_count; i++) {
-    uint32_t own = count_steps(world, &members[i]);
-    steps = own > steps ? own : steps;
+    uint32_t needed = count_steps(world, &members[i]);
+    steps = needed > steps ? needed : steps;
   }
   group->step_s =
-      (float)world->tick_s; /* bodies that bones move are not stepped, but their contacts stored */
+      (float)world->tick_s; /* bodies moved by bones are not stepped, but their contacts are stored */
   if (steps > 0) {
     steps = rounded_steps(steps);
     for (uint32_t i = 0; i < group->member_count; i++)

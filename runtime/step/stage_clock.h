@@ -4,9 +4,9 @@
 
 #include "world/world.h"
 
-/* Before the first stage of a tick. */
+/* Call before the first stage of a tick. */
 void sbri_stages_begin(sbr_world *world);
-/* The stage is over; the next one begins. */
+/* Ends the stage and begins the next one. */
 void sbri_stage_end(sbr_world *world, sbr_stage stage);
 
 #endif

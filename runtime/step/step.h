@@ -16,8 +16,8 @@ void sbri_character_storage_update(sbr_world *world);
 
 /* ---- step/rebase.c ---- */
 
-/* Moves the character's origin by whole metres to where the character is, and moves everything stored
- * relative to it the other way. Keeps float positions precise far from the world's origin. */
+/* Moves the character's origin by whole metres to the character, and everything stored relative to it by the
+ * opposite. Keeps float positions precise far from the world's origin. */
 void sbri_character_rebase(sbri_character *c);
 
 /* ---- step/character_sleep.c ---- */
@@ -26,7 +26,7 @@ void sbri_character_rebase(sbri_character *c);
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c);
 bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c);
 /* Stores the gait's state before its tick; after it, returns whether the tick changed nothing. */
-void sbri_character_keep_gait(sbri_character *c);
+void sbri_character_store_gait(sbri_character *c);
 bool sbri_character_is_still(const sbri_character *c);
 
 /* ---- step/character_tick.c ---- */

@@ -1,4 +1,4 @@
-/* Events of a tick: feet, contacts, tears, sleep, levels of detail; and impulses on colliders. */
+/* Events of a tick: feet, contacts, tears, sleep, detail levels; and impulses on colliders. */
 #include "math/vec3.h"
 #include "step/step.h"
 
@@ -18,7 +18,7 @@ static void add_soft_body_event(
   sbri_event_add(world, kind, &event);
 }
 
-/* The body that lists the element: of a spring between bodies, the first. */
+/* The body that has the element; for a spring between bodies, the first. */
 static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, const sbri_tear *tear) {
   uint32_t spring = 0, link = tear->link;
   for (uint32_t b = 0; tear->solid && b < island->body_count; b++) {
@@ -33,7 +33,7 @@ static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, 
   return island->bodies[0];
 }
 
-/* Of those before it in the list none is of that body. */
+/* Whether no earlier contact in the list is with the same rigid body. */
 static bool is_first_of(const sbri_collider_set *set, const sbri_touching *touching, uint32_t i) {
   uint32_t leader = set->at[touching->now[i].thing].leader;
   for (uint32_t k = 0; k < i; k++)
@@ -41,22 +41,22 @@ static bool is_first_of(const sbri_collider_set *set, const sbri_touching *touch
   return true;
 }
 
-/* Notes what a body with a mass was pushed with by one of those that touch it. */
-static void note_push(
-    sbri_collider *leader, const double push[3], const double moment[3], sbr_double3 about, bool is_first) {
+/* Adds the impulse of one contact to the totals of a collider with a mass. */
+static void add_collider_impulse(sbri_collider *leader, const double impulse[3], const double moment[3],
+    sbr_double3 about, bool is_first) {
   sbri_host_body *body = &leader->body;
   sbr_double3 centre = sbri_collider_centre(leader);
   const double arm[3] = {about.x - centre.x, about.y - centre.y, about.z - centre.z};
   body->sharing += is_first ? 1 : 0;
   for (int k = 0; k < 3; k++) {
     int a = (k + 1) % 3, b = (k + 2) % 3;
-    body->pushing[k] += push[k];
-    body->turning[k] += arm[a] * push[b] - arm[b] * push[a] + moment[k];
+    body->pushing[k] += impulse[k];
+    body->turning[k] += arm[a] * impulse[b] - arm[b] * impulse[a] + moment[k];
   }
 }
 
-/* Gives colliders the other side of what pushed a body. Of one that sleeps it is what it lay down with. */
-static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touching *touching, bool asleep) {
+/* Applies the reaction of contact impulses to colliders. A sleeping body applies those of its last tick. */
+static void apply_reactions(sbr_world *world, const sbri_character *c, sbri_touching *touching, bool asleep) {
   bool acts = touching->stepped || asleep;
   touching->stepped = false;
   double mass = (double)(c->scale * c->scale * c->scale) / (double)c->time_scale, scale = (double)c->scale;
@@ -69,23 +69,24 @@ static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touch
     const double arm[3] = {origin.x + scale * (double)one->position.x - position->x,
         origin.y + scale * (double)one->position.y - position->y,
         origin.z + scale * (double)one->position.z - position->z};
-    const double push[3] = {
+    const double impulse[3] = {
         -mass * (double)one->push.x, -mass * (double)one->push.y, -mass * (double)one->push.z};
     const double moment[3] = {-mass * scale * (double)one->moment.x, -mass * scale * (double)one->moment.y,
         -mass * scale * (double)one->moment.z};
     for (int k = 0; k < 3; k++) {
       int a = (k + 1) % 3, b = (k + 2) % 3;
-      collider->impulse[k] += push[k];
-      collider->moment[k] += arm[a] * push[b] - arm[b] * push[a] + moment[k];
+      collider->impulse[k] += impulse[k];
+      collider->moment[k] += arm[a] * impulse[b] - arm[b] * impulse[a] + moment[k];
     }
     sbri_collider *leader = sbri_collider_leader(&world->colliders, one->thing);
     if (!leader) continue;
     sbr_double3 about = {position->x + arm[0], position->y + arm[1], position->z + arm[2]};
-    note_push(leader, push, moment, about, is_first_of(&world->colliders, touching, i));
+    add_collider_impulse(leader, impulse, moment, about, is_first_of(&world->colliders, touching, i));
   }
 }
 
-/* `is_over`: the contact was in the tick before, whose impulse and speed are not reported again. */
+/* `is_over`: the contact ended in this tick; the impulse and speed of the previous tick are not reported
+ * again. */
 static void add_contact(sbr_world *world, const sbri_character *c, const sbr_object *body,
     const sbri_touching_one *one, sbri_event_kind kind) {
   bool is_over = kind == SBRI_EVENT_CONTACT_END;
@@ -120,17 +121,17 @@ static void add_contacts(
   }
 }
 
-static void push_from(sbr_world *world, const sbri_character *c) {
+static void apply_character_reactions(sbr_world *world, const sbri_character *c) {
   if (sbri_header(c)->paused) return;
   for (uint32_t k = 0; k < c->model->island_count; k++) {
     const sbri_island *island = &c->model->islands[k];
     bool asleep = sbri_header(c)->asleep || sbri_island_states(c)[k].asleep;
     for (uint32_t b = 0; b < island->body_count; b++)
-      push_colliders(world, c, &sbri_soft_touching(c)[island->bodies[b]], asleep);
+      apply_reactions(world, c, &sbri_soft_touching(c)[island->bodies[b]], asleep);
   }
   uint32_t rigid = c->model->rigid.body_count;
   bool asleep = sbri_header(c)->asleep || (rigid && sbri_rigid_drive(c)->asleep);
-  for (uint32_t b = 0; b < rigid; b++) push_colliders(world, c, &sbri_rigid_touching(c)[b], asleep);
+  for (uint32_t b = 0; b < rigid; b++) apply_reactions(world, c, &sbri_rigid_touching(c)[b], asleep);
 }
 
 static void add_feet(sbr_world *world, const sbri_character *c) {
@@ -171,7 +172,7 @@ void sbri_tick_events_gather(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     sbri_character *c = &world->characters[i];
     if (!c->model) continue;
-    if (world->colliders.end) push_from(world, c);
+    if (world->colliders.end) apply_character_reactions(world, c);
     add_detail_change(world, c);
     add_feet(world, c);
     uint32_t soft_count = c->model->island_count ? c->model->asset->soft_bodies.count : 0;
