@@ -150,7 +150,7 @@ static void report_plane_contact(
   sbri_touching_one *touching = sbri_touching_add(&sbri_rigid_touching(m->character)[t->a.rigid_body],
       sbri_contact_collider_index(t->body_ids[1]), position, r->normal, sbri_dot(impulse, r->normal),
       -r->initial_normal_speed / m->velocity_scale);
-  if (touching) sbri_touching_push(touching, position, impulse);
+  if (touching) sbri_touching_add_impulse(touching, position, impulse);
 }
 
 static void store_solution(const sbri_contact_constraint *r) {

@@ -18,13 +18,14 @@ static int longest_axis(const sbri_box *boxes, const uint32_t *items, uint32_t c
   return high[2] - low[2] > high[best] - low[best] ? 2 : best;
 }
 
-/* By middles, and where these are the same by number, so that there is one order only. */
+/* Order by centre, then by index, so that the order is unique. */
 static bool is_before(const sbri_box *boxes, int axis, uint32_t a, uint32_t b) {
   float x = middle(&boxes[a], axis), y = middle(&boxes[b], axis);
   return x < y || (x == y && a < b);
 }
 
-/* The `nth` smallest to its place, smaller ones before it (Hoare's selection, pivots from the middle). */
+/* Moves the `nth` smallest item to its index, with smaller ones before it (Hoare's selection, pivots from the
+ * middle). */
 static void select_nth(const sbri_box *boxes, int axis, uint32_t *items, uint32_t count, uint32_t nth) {
   int64_t low = 0, high = (int64_t)count - 1;
   while (low < high) {
@@ -58,7 +59,7 @@ static void make_node(sbri_bounds_tree *tree, const sbri_box *boxes, uint32_t fi
   uint32_t half = count / 2;
   select_nth(boxes, longest_axis(boxes, items, count), items, count, half);
   const sbri_bounds_node *left = &tree->nodes[tree->node_count];
-  make_node(tree, boxes, first, half); /* no deeper than log2(count) */
+  make_node(tree, boxes, first, half); /* recursion depth: log2(count) */
   node->first = tree->node_count, node->count = 0;
   make_node(tree, boxes, first + half, count - half);
   node->box = sbri_box_join(left->box, tree->nodes[node->first].box);
@@ -71,7 +72,7 @@ void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32
 }
 
 void sbri_bounds_tree_refit(sbri_bounds_tree *tree, const sbri_box *boxes) {
-  for (uint32_t n = tree->node_count; n-- > 0;) { /* children follow their parents */
+  for (uint32_t n = tree->node_count; n-- > 0;) { /* children come after their parents */
     sbri_bounds_node *node = &tree->nodes[n];
     if (node->count == 0) {
       node->box = sbri_box_join(tree->nodes[n + 1].box, tree->nodes[node->first].box);

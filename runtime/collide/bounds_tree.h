@@ -1,6 +1,6 @@
-/* Which of many boxes lie near a place: a binary tree of boxes over them, made in n log n, in memory that is
- * there already, and refitted when they have moved. For triangles of a mesh, faces of a soft surface, and all
- * that is in a world. */
+/* Bounding volume tree: finds boxes that overlap a box. Built in O(n log n) in the caller's memory, and
+ * refitted when boxes have moved. For triangles of meshes, faces of soft surfaces, and all objects of a
+ * world. */
 #ifndef SBRI_BOUNDS_TREE_H
 #define SBRI_BOUNDS_TREE_H
 
@@ -13,7 +13,7 @@ typedef struct sbri_box {
 static inline sbri_box sbri_box_of_point(sbf_vec3 x) {
   return (sbri_box){x, x};
 }
-/* Comparisons, which are an instruction each where fminf is a call. */
+/* Comparisons compile to one instruction; fminf is a call. */
 static inline float sbri_min(float a, float b) {
   return b < a ? b : a;
 }
@@ -27,16 +27,16 @@ static inline sbri_box sbri_box_join(sbri_box a, sbri_box b) {
 static inline sbri_box sbri_box_with(sbri_box a, sbf_vec3 x) {
   return sbri_box_join(a, sbri_box_of_point(x));
 }
-static inline sbri_box sbri_box_grown(sbri_box a, float by) {
-  return (sbri_box){
-      {a.low.x - by, a.low.y - by, a.low.z - by}, {a.high.x + by, a.high.y + by, a.high.z + by}};
+static inline sbri_box sbri_box_grown(sbri_box a, float margin) {
+  return (sbri_box){{a.low.x - margin, a.low.y - margin, a.low.z - margin},
+      {a.high.x + margin, a.high.y + margin, a.high.z + margin}};
 }
 static inline bool sbri_boxes_overlap(const sbri_box *a, const sbri_box *b) {
   return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
          a->low.z <= b->high.z && b->low.z <= a->high.z;
 }
 
-/* About what moves, and how far that part of it goes that goes furthest. */
+/* Bounding sphere of a moving object at the beginning, and the maximum displacement of any part of it. */
 typedef struct sbri_moving_ball {
   sbf_vec3 middle;
   float radius, distance;
@@ -44,8 +44,8 @@ typedef struct sbri_moving_ball {
 
 typedef struct sbri_bounds_node {
   sbri_box box;
-  uint32_t first, count; /* items of a leaf; of an inner node count is 0 and first its second child, the
-                            first one following it */
+  uint32_t first, count; /* count: items of a leaf, from first; 0: an inner node, whose second child is first;
+                            the first child follows it */
 } sbri_bounds_node;
 
 typedef struct sbri_bounds_tree {
@@ -54,16 +54,16 @@ typedef struct sbri_bounds_tree {
   uint32_t node_count, item_count;
 } sbri_bounds_tree;
 
-/* Greatest number of nodes for a number of items. */
+/* Maximum number of nodes for a number of items. */
 static inline size_t sbri_bounds_tree_nodes(uint32_t item_count) {
   return 2 * (size_t)item_count + 1;
 }
 
-/* Over boxes[0] to boxes[count - 1]; `tree` has room for them. The same boxes give the same tree. */
+/* Builds the tree over boxes[0] to boxes[count - 1] in the memory of `tree`. Deterministic. */
 void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32_t count);
 
-/* The same items in the same nodes, after boxes have moved or grown: in time linear in their number. Searches
- * stay exact, and fast while neighbours stay neighbours, as the triangles of a surface do. */
+/* Updates the nodes after boxes have moved or grown, in linear time. Queries stay exact, and fast if
+ * neighbours stay neighbours, as the triangles of a surface do. */
 void sbri_bounds_tree_refit(sbri_bounds_tree *tree, const sbri_box *boxes);
 
 /* Iterates over the items whose leaves overlap a box: begin, then next until it returns false. */

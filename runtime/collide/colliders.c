@@ -9,8 +9,8 @@ static sbf_vec3 single(sbr_double3 x) {
   return sbri_vec3((float)x.x, (float)x.y, (float)x.z);
 }
 
-/* Of a shape's bounds, turned and moved. */
-static sbri_box turned(sbri_box box, sbf_quat rotation, sbf_vec3 at) {
+/* Bounds of a shape, rotated and moved. */
+static sbri_box rotated_bounds(sbri_box box, sbf_quat rotation, sbf_vec3 at) {
   sbri_box all = {at, at};
   for (int i = 0; i < 8; i++) {
     sbf_vec3 corner = {
@@ -29,9 +29,9 @@ static sbri_box rounded(sbri_box box) {
 
 sbri_box sbri_collider_bounds(const sbri_collider *c) {
   sbri_box box = c->shape->bounds;
-  sbri_box all =
-      sbri_box_join(turned(box, c->turn_from, single(c->from)), turned(box, c->turn_to, single(c->to)));
-  /* Between the two rotations corners swing out of both boxes, by no more than they are apart. */
+  sbri_box all = sbri_box_join(
+      rotated_bounds(box, c->turn_from, single(c->from)), rotated_bounds(box, c->turn_to, single(c->to)));
+  /* Between the two rotations, corners leave both boxes by at most a quarter of the diagonal. */
   if (memcmp(&c->turn_from, &c->turn_to, sizeof c->turn_from) != 0) {
     sbf_vec3 size = sbri_sub(box.high, box.low);
     all = sbri_box_grown(all, 0.25f * sbri_length(size));
@@ -51,11 +51,11 @@ static void begin_body(sbri_collider *c, float tick_s) {
   b->sharing = 0;
   for (int k = 0; k < 3; k++) b->pushing[k] = b->turning[k] = 0;
   if (!b->goes || b->is_reported) return;
-  sbf_vec3 faster = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->inverse_mass);
-  b->velocity = sbri_add(b->velocity, sbri_host_body_free(b, faster));
+  sbf_vec3 velocity_change = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->inverse_mass);
+  b->velocity = sbri_add(b->velocity, sbri_host_body_free(b, velocity_change));
 }
 
-/* To where it will be after the tick if nothing pushes it. */
+/* Predicts the position after the tick without impulses. */
 static void advance(const sbri_collider_set *set, sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
   if (!b->goes) return;

@@ -10,7 +10,7 @@ typedef struct sbri_collider {
   const sbr_shape *shape; /* NULL: free entry */
   uint32_t generation;
   sbr_double3 from, to,
-      next; /* positions at the begin and end of the present tick, and at the end of the next, m, world */
+      next; /* positions at the beginning and end of the present tick, and at the end of the next, m, world */
   sbf_quat turn_from, turn_to, turn_next;
   float friction, restitution; /* negative: use the other body's value */
   uint32_t layer, mask;

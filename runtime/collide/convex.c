@@ -17,7 +17,7 @@ void sbri_convex_set_frame(sbri_convex *convex, sbfi_d3 position, sbf_quat rotat
       sbfi_d3_scale((sbfi_d3){2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}, scale);
 }
 
-/* ---- Simplices ---- */
+/* Simplices */
 
 /* Points of the Minkowski difference a - b, with the point of b that each comes from. */
 typedef struct simplex {
@@ -26,7 +26,7 @@ typedef struct simplex {
   int count;
 } simplex;
 
-/* The point of the hull farthest along a direction. */
+/* Support point: the point of the hull farthest along a direction. */
 static sbfi_d3 support(const sbri_convex *c, sbfi_d3 direction) {
   double along[3], max = -DBL_MAX;
   uint32_t best = 0;
@@ -58,7 +58,8 @@ static void reduce_segment(simplex *s) {
     s->weights[0] = 1 - t, s->weights[1] = t;
 }
 
-/* The same of a triangle (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). */
+/* Weights of the point of a triangle nearest to the origin (C. Ericson, Real-Time Collision Detection,
+ * 2005, 5.1.5). */
 static void reduce_triangle(simplex *s) {
   sbfi_d3 a = s->at[0], b = s->at[1], c = s->at[2], ab = sbfi_d3_sub(b, a), ac = sbfi_d3_sub(c, a);
   double a1 = -sbfi_d3_dot(ab, a), a2 = -sbfi_d3_dot(ac, a), b1 = -sbfi_d3_dot(ab, b),
@@ -90,7 +91,7 @@ static sbfi_d3 nearest_of(const simplex *s) {
   return sum;
 }
 
-/* The nearest of the tetrahedron's faces that the origin is outside of; false if it is inside. */
+/* Reduces to the nearest face that has the origin outside; returns false if the origin is inside. */
 static bool reduce_tetrahedron(simplex *s) {
   static const int faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
   const simplex whole = *s;
@@ -100,7 +101,7 @@ static bool reduce_tetrahedron(simplex *s) {
     sbfi_d3 a = whole.at[faces[f][0]];
     sbfi_d3 n = sbfi_d3_cross(sbfi_d3_sub(whole.at[faces[f][1]], a), sbfi_d3_sub(whole.at[faces[f][2]], a));
     double apex = sbfi_d3_dot(n, sbfi_d3_sub(whole.at[faces[f][3]], a)), origin = -sbfi_d3_dot(n, a);
-    if (apex != 0 && apex * origin >= 0) continue; /* on the apex's side */
+    if (apex != 0 && apex * origin >= 0) continue; /* on the same side as the apex */
     simplex face = whole;
     keep(&face, 3, faces[f], (const double[4]){0});
     reduce_triangle(&face);
@@ -119,7 +120,7 @@ static bool reduce(simplex *s) {
   return s->count < 4 || reduce_tetrahedron(s);
 }
 
-/* ---- Distance ---- */
+/* Distance */
 
 static void add_support(
     simplex *s, const sbri_convex *a, sbfi_d3 offset, const sbri_convex *b, sbfi_d3 direction) {
@@ -150,7 +151,7 @@ sbri_closest sbri_convex_distance(const sbri_convex *a, sbfi_d3 offset, const sb
     if (has(&s, added) || square - sbfi_d3_dot(nearest, added) <= 1e-14 * square) break;
     if (!reduce(&next)) return overlap;
     sbfi_d3 nearer = nearest_of(&next);
-    if (!(sbfi_d3_dot(nearer, nearer) < square)) break; /* as near as rounding lets it come */
+    if (!(sbfi_d3_dot(nearer, nearer) < square)) break; /* converged to rounding */
     s = next, nearest = nearer;
   }
   double distance = sbfi_d3_length(nearest);
@@ -172,7 +173,7 @@ double sbri_convex_cast(
       *contact = (sbri_closest){.distance = found.distance, .on_b = found.on_b};
       return 0;
     }
-    if (found.distance < 0) return fraction; /* with the contact of the advance before */
+    if (found.distance < 0) return fraction; /* contact of the previous advance */
     *contact = found;
     double rate = -sbfi_d3_dot(found.normal, displacement);
     if (!(rate > 0)) return 2;

@@ -1,14 +1,14 @@
-/* Distance between convex shapes, and when a shape that moves straight on touches another.
+/* Distance between convex shapes, and time of impact of a linear motion.
  *
- * A shape is the hull of points, rounded by a radius: a sphere is a point, a capsule two, a triangle three.
- * Computed in double precision. */
+ * A shape is the convex hull of points, enlarged by a radius: a sphere has one point, a capsule two, a
+ * triangle three. Computed in double precision. */
 #ifndef SBRI_CONVEX_H
 #define SBRI_CONVEX_H
 
 #include "mechanics/vector.h"
 
 typedef struct sbri_convex {
-  const sbf_vec3 *points; /* (count) in its own frame */
+  const sbf_vec3 *points; /* (count) in the shape's frame */
   uint32_t count;
   sbfi_d3 axes[3]; /* of its frame, scaled */
   sbfi_d3 position;
@@ -26,8 +26,8 @@ static inline sbfi_d3 sbri_convex_point(const sbri_convex *c, uint32_t i) {
 }
 
 typedef struct sbri_closest {
-  double distance; /* of the surfaces; below 0 where they overlap: then only its sign counts */
-  sbfi_d3 normal;  /* unit, from b to a; 0 where the points' hulls overlap */
+  double distance; /* between the surfaces; below 0 if they overlap: then only the sign is valid */
+  sbfi_d3 normal;  /* unit, from b to a; 0 if the hulls of the points overlap */
   sbfi_d3 on_b;    /* nearest point of b's surface */
 } sbri_closest;
 
@@ -35,8 +35,8 @@ typedef struct sbri_closest {
  * for computing the distance between complex objects in three-dimensional space, 1988). */
 sbri_closest sbri_convex_distance(const sbri_convex *a, sbfi_d3 offset, const sbri_convex *b);
 
-/* The fraction of `displacement`, 0 to 1, after which `a` touches b, by conservative advancement; above 1:
- * never. 0 with the normal 0 where they overlap at the beginning. */
+/* Fraction of `displacement`, 0 to 1, at which `a` touches b, by conservative advancement; above 1: never. 0
+ * with normal 0 if they overlap at the beginning. */
 double sbri_convex_cast(
     const sbri_convex *a, sbfi_d3 displacement, const sbri_convex *b, sbri_closest *contact);
 

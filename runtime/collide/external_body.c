@@ -2,7 +2,7 @@
 
 #include "math/vec3.h"
 
-/* Sum of v v^T times `size`, into a symmetric matrix. */
+/* Adds v v^T times `size` to a symmetric matrix. */
 static void add_outer(float m[6], sbf_vec3 v, float size) {
   m[0] += size * v.x * v.x, m[1] += size * v.y * v.y, m[2] += size * v.z * v.z;
   m[3] += size * v.x * v.y, m[4] += size * v.x * v.z, m[5] += size * v.y * v.z;
@@ -13,7 +13,7 @@ static float largest(sbf_vec3 v) {
   return v.z > max ? v.z : max;
 }
 
-/* A matrix with these values along the axes of the body's inertia, in space. */
+/* Adds a matrix with these eigenvalues along the body's principal axes. */
 static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
   sbf_quat axes = sbri_quat_multiply(leader->turn_from, leader->body.axes);
   add_outer(m, sbri_rotate(axes, sbri_vec3(1, 0, 0)), values.x);
@@ -21,18 +21,18 @@ static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
   add_outer(m, sbri_rotate(axes, sbri_vec3(0, 0, 1)), values.z);
 }
 
-/* The impulse on its part of the mass; a body that something else holds does not rotate either. */
-static void take_mass(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
+/* Sets the copy's fraction of the mass. A body that is blocked along a normal does not rotate either. */
+static void set_masses(sbri_external_body *g, const sbri_collider *leader, uint32_t sharers, float scale) {
   const sbri_host_body *b = &leader->body;
   float cube = scale * scale * scale, fraction = (float)sharers * cube;
-  bool is_point_pinned = sbri_dot(b->blocked_normal, b->blocked_normal) > 0;
+  bool is_blocked = sbri_dot(b->blocked_normal, b->blocked_normal) > 0;
   g->max_inverse_mass = b->inverse_mass * fraction;
   g->inverse_mass[0] = g->inverse_mass[1] = g->inverse_mass[2] = g->max_inverse_mass;
   add_outer(g->inverse_mass, b->blocked_normal, -g->max_inverse_mass);
-  if (is_point_pinned) return;
-  sbf_vec3 turning = sbri_scale(b->inverse_inertias, fraction * scale * scale);
-  add_axes(g->inverse_inertia, leader, turning);
-  g->max_inverse_inertia = largest(turning);
+  if (is_blocked) return;
+  sbf_vec3 inverse_inertias = sbri_scale(b->inverse_inertias, fraction * scale * scale);
+  add_axes(g->inverse_inertia, leader, inverse_inertias);
+  g->max_inverse_inertia = largest(inverse_inertias);
 }
 
 void sbri_external_body_compute_roots(const sbri_external_body *g, const sbri_collider *leader,
@@ -40,7 +40,8 @@ void sbri_external_body_compute_roots(const sbri_external_body *g, const sbri_co
   const sbri_host_body *b = &leader->body;
   float root = sqrtf(g->max_inverse_mass), fraction = largest(b->inverse_inertias);
   for (int k = 0; k < 6; k++)
-    inverse_mass[k] = g->inverse_mass[k] / root, inverse_inertia[k] = 0; /* it lets by all or nothing */
+    inverse_mass[k] = g->inverse_mass[k] / root,
+    inverse_inertia[k] = 0; /* the mass matrix is a projection times a factor */
   if (!(g->max_inverse_inertia > 0)) return;
   fraction = g->max_inverse_inertia / fraction;
   add_axes(inverse_inertia, leader,
@@ -48,14 +49,14 @@ void sbri_external_body_compute_roots(const sbri_external_body *g, const sbri_co
           sqrtf(fraction * b->inverse_inertias.z)));
 }
 
-typedef struct own_push {
-  sbf_vec3 impulse, moment; /* on the host's body, as the file's masses count */
+typedef struct own_impulse {
+  sbf_vec3 impulse, moment; /* on the host's body, in mass units of the asset */
   bool any;
-} own_push;
+} own_impulse;
 
-/* What the body has pushed it with in the tick before; moments about where its centre was. */
-static own_push push_before(const sbri_external_body_maker *m, const sbri_external_body *g) {
-  own_push own = {{0, 0, 0}, {0, 0, 0}, false};
+/* Impulse of this body on it in the previous tick; moments about its centre at that time. */
+static own_impulse previous_impulse(const sbri_external_body_maker *m, const sbri_external_body *g) {
+  own_impulse own = {{0, 0, 0}, {0, 0, 0}, false};
   for (uint32_t i = 0; i < m->before_count; i++) {
     const sbri_touching_one *one = &m->before[i];
     if (one->thing >= m->colliders->end || m->colliders->at[one->thing].leader != g->leader) continue;
@@ -67,17 +68,17 @@ static own_push push_before(const sbri_external_body_maker *m, const sbri_extern
   return own;
 }
 
-/* What the others will do: as much as in the tick before. */
-static void take_others(sbri_external_body *g, const sbri_external_body_maker *m, const sbri_host_body *b,
-    uint32_t sharers, const own_push *own) {
+/* Predicts the effect of the other bodies: the same as in the previous tick. */
+static void predict_others(sbri_external_body *g, const sbri_external_body_maker *m, const sbri_host_body *b,
+    uint32_t sharers, const own_impulse *own) {
   float root = sqrtf(m->scale), cube = m->scale * m->scale * m->scale;
-  float mass = 1 / (cube * root), moment = mass / m->scale; /* times are those of 1 / root */
-  float each = 1 / ((float)sharers * m->tick_s);
-  sbf_vec3 push = sbri_add_scaled(sbri_scale(b->push, mass), own->impulse, -(float)sharers);
-  sbf_vec3 turn = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
+  float mass = 1 / (cube * root), moment = mass / m->scale; /* the time unit is 1 / root */
+  float rate = 1 / ((float)sharers * m->tick_s);
+  sbf_vec3 other_impulse = sbri_add_scaled(sbri_scale(b->push, mass), own->impulse, -(float)sharers);
+  sbf_vec3 other_moment = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
   g->acceleration =
-      sbri_add(g->acceleration, sbri_external_body_times(g->inverse_mass, sbri_scale(push, each)));
-  g->turning = sbri_external_body_times(g->inverse_inertia, sbri_scale(turn, each));
+      sbri_add(g->acceleration, sbri_external_body_times(g->inverse_mass, sbri_scale(other_impulse, rate)));
+  g->turning = sbri_external_body_times(g->inverse_inertia, sbri_scale(other_moment, rate));
 }
 
 sbri_external_body sbri_external_body_make(
@@ -92,12 +93,12 @@ sbri_external_body sbri_external_body_make(
   g.centre = sbri_out_of_shape(&of, b->centre);
   g.begin_velocity = sbri_scale(sbri_shape_displacement(&of, b->centre), 1 / m->tick_s);
   g.begin_angular_velocity = sbri_vec3(rotation.x * rate, rotation.y * rate, rotation.z * rate);
-  own_push own = push_before(m, &g);
+  own_impulse own = previous_impulse(m, &g);
   uint32_t sharers = b->sharers + (own.any ? 0 : 1);
   sharers = sharers > 0 ? sharers : 1;
-  take_mass(&g, leader, sharers, m->scale);
+  set_masses(&g, leader, sharers, m->scale);
   g.acceleration = sbri_host_body_free(b, b->acceleration);
-  if (sharers > 1) take_others(&g, m, b, sharers, &own);
+  if (sharers > 1) predict_others(&g, m, b, sharers, &own);
   g.velocity = g.seen_velocity = g.begin_velocity,
   g.angular_velocity = g.seen_angular_velocity = g.begin_angular_velocity;
   return g;

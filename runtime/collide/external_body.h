@@ -6,10 +6,10 @@
  * Simulation, 2012). The effect of the others is predicted: the total impulse of the last tick minus this
  * copy's own. At rest all copies then stand still, however the load is divided.
  *
- * The host will move its body by the new velocity over the whole tick: x + T (v + sum J / m). So after a time
- * t of the tick the copy is at x + t v(t): an impulse moves it at once by t times its change of velocity, and
- * it ends the tick where the host will put it. Otherwise a light body on a stiff one would become unstable:
- * above 16 Hz at 60 ticks a second.
+ * The host will move its body at the new velocity over the whole tick: x + T (v + sum J / m). So after a time
+ * t of the tick the copy is at x + t v(t). An impulse moves it at once by t times its velocity change, and it
+ * ends the tick where the host will place it. Otherwise a light body on a stiff one would be unstable, from
+ * 16 Hz on at 60 ticks per second.
  *
  * Lengths and times are the character's own, masses those of its file. */
 #ifndef SBRI_EXTERNAL_BODY_H
@@ -51,7 +51,7 @@ static inline void sbri_external_bodies_end_step(sbri_external_bodies *external_
     sbri_external_body_end_step(&external_bodies->at[i], step_s);
 }
 
-/* Square roots of its `inverse_mass` and `inverse_inertia`. */
+/* Square roots of `inverse_mass` and `inverse_inertia`. */
 void sbri_external_body_compute_roots(const sbri_external_body *external_body, const sbri_collider *leader,
     float inverse_mass[6], float inverse_inertia[6]);
 
@@ -65,20 +65,22 @@ static inline sbf_vec3 sbri_external_body_velocity(const sbri_external_body *g, 
   return sbri_add(g->seen_velocity, sbri_cross(g->seen_angular_velocity, arm));
 }
 
-/* Change of that velocity by an impulse there. */
-static inline sbf_vec3 sbri_external_body_answer(
+/* Velocity change there by an impulse there. */
+static inline sbf_vec3 sbri_external_body_response(
     const sbri_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
-  sbf_vec3 turn = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
+  sbf_vec3 angular_change = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
   return sbri_scale(
-      sbri_add(sbri_external_body_times(g->inverse_mass, impulse), sbri_cross(turn, arm)), g->lever);
+      sbri_add(sbri_external_body_times(g->inverse_mass, impulse), sbri_cross(angular_change, arm)),
+      g->lever);
 }
 
-static inline void sbri_external_body_push(sbri_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
-  sbf_vec3 faster = sbri_external_body_times(g->inverse_mass, impulse),
-           turn = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
-  g->velocity = sbri_add(g->velocity, faster), g->angular_velocity = sbri_add(g->angular_velocity, turn);
-  g->seen_velocity = sbri_add_scaled(g->seen_velocity, faster, g->lever);
-  g->seen_angular_velocity = sbri_add_scaled(g->seen_angular_velocity, turn, g->lever);
+static inline void sbri_external_body_apply_impulse(sbri_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
+  sbf_vec3 velocity_change = sbri_external_body_times(g->inverse_mass, impulse),
+           angular_change = sbri_external_body_times(g->inverse_inertia, sbri_cross(arm, impulse));
+  g->velocity = sbri_add(g->velocity, velocity_change),
+  g->angular_velocity = sbri_add(g->angular_velocity, angular_change);
+  g->seen_velocity = sbri_add_scaled(g->seen_velocity, velocity_change, g->lever);
+  g->seen_angular_velocity = sbri_add_scaled(g->seen_angular_velocity, angular_change, g->lever);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* The built-in grounds. Arithmetic in double, with no library function but the square root. */
+/* Built-in grounds, in double precision, with no library function except the square root. */
 #include "collide/ground.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static double clamped(double value, double low, double high) {
   return value < low ? low : value > high ? high : value;
 }
 
-/* The whole number at or below x; |x| is kept below 2^40, beyond which nothing of a metre's size is left. */
+/* Largest integer at or below x, which is limited to +-1e12. */
 static int64_t floor_of(double x) {
   x = clamped(x, -1e12, 1e12);
   int64_t whole = (int64_t)x;
@@ -44,10 +44,10 @@ static double stairs(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
   return z > 0 && rise_run[1] > 0 ? rise_run[0] * (double)floor_of(z / rise_run[1]) : 0;
 }
 
-/* ---- Noise: gradients at the corners of squares of 1 m, blended (Perlin, Improving Noise, 2002) ---- */
+/* Noise: gradients at the corners of squares of 1 m, blended (Perlin, Improving Noise, 2002) */
 
 typedef struct gradient {
-  double x, z; /* each within -1..1 */
+  double x, z; /* each in -1..1 */
 } gradient;
 
 static gradient gradient_at(int64_t x, int64_t z, uint32_t seed) {
@@ -56,7 +56,7 @@ static gradient gradient_at(int64_t x, int64_t z, uint32_t seed) {
   return (gradient){(h & 0xffff) / 32767.5 - 1, (h >> 16) / 32767.5 - 1};
 }
 
-/* Quintic blend and its slope. */
+/* Quintic blend and its derivative. */
 static double blend(double t, double *rate) {
   *rate = 30 * t * t * (t - 1) * (t - 1);
   return t * t * t * (t * (6 * t - 15) + 10);

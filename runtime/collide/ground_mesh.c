@@ -1,4 +1,4 @@
-/* Triangles as a ground: a grid over x and z, about one square a triangle. Each square lists the triangles
+/* Triangles as a ground: a grid over x and z, with about one cell per triangle. Each cell lists the triangles
  * whose boxes overlap it. */
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,7 @@ struct sbr_ground_mesh {
   const uint32_t *triangles;
   double otherwise_m, x, z, cell_m;
   uint32_t columns, rows;
-  uint32_t *begins; /* (columns x rows + 1) places in `members` */
+  uint32_t *begins; /* (columns x rows + 1) indices in `members` */
   uint32_t *members;
 };
 
@@ -87,7 +87,7 @@ static bool make_cells(sbr_ground_mesh *m, uint32_t triangle_count) {
   }
   m->members = sbfi_allocate(&m->allocator, ((size_t)sum + 1) * sizeof *m->members);
   if (!m->members) return false;
-  sort_in(m, triangle_count, 1); /* leaves each cell's end where its begin was */
+  sort_in(m, triangle_count, 1); /* leaves the end of each cell in the place of its beginning */
   memmove(m->begins + 1, m->begins, cells * sizeof *m->begins);
   m->begins[0] = 0;
   return true;
@@ -128,7 +128,7 @@ sbf_status sbr_ground_mesh_create(const sbf_allocator *allocator, const sbf_vec3
       error, SBF_CODE_OUT_OF_MEMORY, "no memory for a ground of %u triangles", (unsigned)triangle_count);
 }
 
-/* Height of a triangle's plane at a place over it. */
+/* Height of a triangle's plane at a position above it. */
 static bool height_on(
     const sbr_ground_mesh *m, uint32_t triangle, double x, double z, double *y, sbf_vec3 *n) {
   const uint32_t *t = m->triangles + 3 * (size_t)triangle;
@@ -136,7 +136,7 @@ static bool height_on(
   double ux = (double)b.x - a.x, uy = (double)b.y - a.y, uz = (double)b.z - a.z;
   double vx = (double)c.x - a.x, vy = (double)c.y - a.y, vz = (double)c.z - a.z;
   double px = x - (double)a.x, pz = z - (double)a.z, area = ux * vz - uz * vx;
-  if (area == 0) return false; /* upright */
+  if (area == 0) return false; /* vertical triangle */
   double s = (px * vz - pz * vx) / area, r = (ux * pz - uz * px) / area;
   const double edge = -1e-9;
   if (s < edge || r < edge || s + r > 1 - edge) return false;

@@ -10,7 +10,7 @@
  */
 static const float ON_IT_FRACTION = 1e-5f;
 
-/* ---- Making ---- */
+/* Build */
 
 /* Aspect ratio from which a face's normal is computed in double precision. */
 static const float SLIVER = 1e-3f;
@@ -45,10 +45,10 @@ typedef struct making {
   sbri_hull_face *faces;
   sbri_hull_edge *edges;
   uint32_t *corners;
-  uint32_t *face_of_edge; /* the second face, or UINT32_MAX */
+  uint32_t *face_of_edge; /* the second face; UINT32_MAX: none */
 } making;
 
-/* The edge between two corners, or a new one; hulls are small. */
+/* Adds a face to the edge between two corners, or adds the edge. A linear search suffices for small hulls. */
 static void add_edge(making *m, uint32_t a, uint32_t b, sbf_vec3 normal) {
   for (uint32_t e = 0; e < m->hull->edge_count; e++) {
     sbri_hull_edge *edge = &m->edges[e];
@@ -97,7 +97,7 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
   hull->faces = m.faces, hull->edges = m.edges, hull->corners = m.corners;
   for (uint32_t f = 0; f < face_count; corners += sizes[f++])
     if (sizes[f] >= 3) add_face(&m, corners, sizes[f]);
-  if (hull->face_count == 1) { /* flat: the other side */
+  if (hull->face_count == 1) { /* flat: add the back side */
     const sbri_hull_face front = m.faces[0];
     m.faces[1] =
         (sbri_hull_face){sbri_scale(front.normal, -1), -front.offset, hull->corner_count, front.count};
@@ -109,7 +109,7 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
   return true;
 }
 
-/* ---- Asking ---- */
+/* Queries */
 
 float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face) {
   float max = -INFINITY;

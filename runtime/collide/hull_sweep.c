@@ -1,6 +1,6 @@
-/* Conservative advancement (B. Mirtich, Timewarp Rigid Body Simulation, 1996): the distance along a
- * separating direction is a lower bound of their distance, so they can advance by it. If a direction
- * separates them by less than `near`, but no point of the one lies over the other, they advance by that. */
+/* Conservative advancement (B. Mirtich, Timewarp Rigid Body Simulation, 1996): the separation along an axis
+ * is a lower bound of the distance, so the hulls can advance by it. If an axis separates them by less than
+ * `near` without a contact point, they advance by `near`. */
 #include "collide/hull_sweep.h"
 
 #include <math.h>
@@ -17,12 +17,12 @@ sbri_placed_hull sbri_hull_interpolate(
   return at;
 }
 
-/* As far as turning takes a corner of it at most, m: of half a turn's quaternion the chord is at most 2, and
- * its arc no more than pi/2 times as long. */
-static float turning(const sbri_placed_hull *from, const sbri_placed_hull *to) {
-  float along = from->rotation.x * to->rotation.x + from->rotation.y * to->rotation.y +
-                from->rotation.z * to->rotation.z + from->rotation.w * to->rotation.w;
-  float fraction = 1 - along * along, radius = 0;
+/* Maximum displacement of a corner by rotation, m. The chord of the quaternions of half a turn is at most 2,
+ * and its arc is at most pi/2 times as long. */
+static float rotation_travel(const sbri_placed_hull *from, const sbri_placed_hull *to) {
+  float cosine = from->rotation.x * to->rotation.x + from->rotation.y * to->rotation.y +
+                 from->rotation.z * to->rotation.z + from->rotation.w * to->rotation.w;
+  float fraction = 1 - cosine * cosine, radius = 0;
   for (uint32_t i = 0; i < from->hull->vertex_count; i++) {
     float square = sbri_dot(from->hull->vertices[i], from->hull->vertices[i]);
     radius = square > radius ? square : radius;
@@ -32,16 +32,16 @@ static float turning(const sbri_placed_hull *from, const sbri_placed_hull *to) {
 
 float sbri_hulls_sweep(const sbri_placed_hull from[2], const sbri_placed_hull to[2], float near) {
   sbf_vec3 directions[2] = {sbri_sub(to[0].at, from[0].at), sbri_sub(to[1].at, from[1].at)};
-  float travel = sbri_length(sbri_sub(directions[0], directions[1])) + turning(&from[0], &to[0]) +
-                 turning(&from[1], &to[1]);
+  float travel = sbri_length(sbri_sub(directions[0], directions[1])) + rotation_travel(&from[0], &to[0]) +
+                 rotation_travel(&from[1], &to[1]);
   float fraction = 0;
   for (int step = 0; step < MAX_STEPS && fraction <= 1; step++) {
     sbri_placed_hull a = sbri_hull_interpolate(&from[0], &to[0], fraction),
                      b = sbri_hull_interpolate(&from[1], &to[1], fraction);
     sbri_hull_pair pair = {.gap = INFINITY};
-    bool over = sbri_collide_hulls(&a, &b, near + (1 - fraction) * travel, &pair);
-    if (pair.gap == INFINITY) return 2; /* further apart than they go */
-    if (pair.gap <= near && over) {
+    bool has_points = sbri_collide_hulls(&a, &b, near + (1 - fraction) * travel, &pair);
+    if (pair.gap == INFINITY) return 2; /* farther apart than their displacement */
+    if (pair.gap <= near && has_points) {
       for (uint32_t i = 0; i < pair.count; i++)
         if (pair.gaps[i] <= near) return fraction;
     }

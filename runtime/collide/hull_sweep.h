@@ -1,14 +1,14 @@
-/* When two hulls that go fast come near each other. */
+/* Time of impact of two fast hulls. */
 #ifndef SBRI_HULL_SWEEP_H
 #define SBRI_HULL_SWEEP_H
 
 #include "collide/hull_pair.h"
 
-/* The pose at that fraction of a motion: straight, with a constant rotation of less than half a turn. */
+/* Pose at that fraction of a motion: linear, with a constant rotation of less than half a turn. */
 sbri_placed_hull sbri_hull_interpolate(
     const sbri_placed_hull *from, const sbri_placed_hull *to, float fraction);
 
-/* Time of impact: the fraction of the motions, 0 to 1, at which the distance first is at most `near`, to
+/* Time of impact: the first fraction of the motions, 0 to 1, at which the distance is at most `near`, to
  * within `near`; above 1 if it never is. */
 float sbri_hulls_sweep(const sbri_placed_hull from[2], const sbri_placed_hull to[2], float near);
 

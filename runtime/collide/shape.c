@@ -8,18 +8,18 @@ sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return sbri_normalize(sbri_cross(sbri_sub(b, a), sbri_sub(c, a)), sbri_vec3(0, 0, 0));
 }
 
-/* ---- Nearest places ---- */
+/* Nearest points */
 
-static sbri_nearest near_ball(sbf_vec3 x, sbf_vec3 center, float radius) {
-  sbf_vec3 off = sbri_sub(x, center), n = sbri_normalize(off, up);
-  return (sbri_nearest){sbri_length(off) - radius, sbri_add_scaled(center, n, radius), n};
+static sbri_nearest nearest_on_ball(sbf_vec3 x, sbf_vec3 center, float radius) {
+  sbf_vec3 offset = sbri_sub(x, center), n = sbri_normalize(offset, up);
+  return (sbri_nearest){sbri_length(offset) - radius, sbri_add_scaled(center, n, radius), n};
 }
 
 static sbf_vec3 on_axis(const sbr_shape *s, sbf_vec3 x) {
   return sbri_vec3(0, sbri_clamp(x.y, -s->half_sizes.y, s->half_sizes.y), 0);
 }
 
-static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
+static sbri_nearest nearest_on_box(sbf_vec3 half, sbf_vec3 x) {
   const float at[3] = {x.x, x.y, x.z}, to[3] = {half.x, half.y, half.z};
   float position[3], best = -INFINITY;
   int axis = 0;
@@ -34,13 +34,13 @@ static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
     position[axis] = n[axis] * to[axis];
     return (sbri_nearest){best, {position[0], position[1], position[2]}, {n[0], n[1], n[2]}};
   }
-  sbf_vec3 on = {position[0], position[1], position[2]}, off = sbri_sub(x, on);
-  return (sbri_nearest){sbri_length(off), on, sbri_normalize(off, sbri_vec3(n[0], n[1], n[2]))};
+  sbf_vec3 on = {position[0], position[1], position[2]}, offset = sbri_sub(x, on);
+  return (sbri_nearest){sbri_length(offset), on, sbri_normalize(offset, sbri_vec3(n[0], n[1], n[2]))};
 }
 
-/* The nearest triangle; of several with the same nearest point, as at an edge, the one that faces x most: its
- * side decides whether x is inside. */
-static bool near_triangles(
+/* The nearest triangle. If several have the same nearest point, for example at an edge, the one that faces x
+ * most decides whether x is inside. */
+static bool nearest_on_triangles(
     const sbri_triangles *t, sbf_vec3 x, float reach, float depth, sbri_nearest *found) {
   sbri_bounds_walk walk;
   float limit = reach > depth ? reach : depth, min = limit * limit, facing = -1;
@@ -52,9 +52,9 @@ static bool near_triangles(
     sbf_vec3 a = t->points[c[0]], b = t->points[c[1]], d = t->points[c[2]];
     float weights[3];
     sbri_triangle_find_nearest(x, a, b, d, weights);
-    sbf_vec3 on = sbri_triangle_point(weights, a, b, d), off = sbri_sub(x, on),
+    sbf_vec3 on = sbri_triangle_point(weights, a, b, d), offset = sbri_sub(x, on),
              n = sbri_triangle_normal(a, b, d);
-    float square = sbri_dot(off, off), height = sbri_dot(off, n);
+    float square = sbri_dot(offset, offset), height = sbri_dot(offset, n);
     if (square > min * (1 + 1e-5f) || sbri_dot(n, n) == 0) continue;
     if (square >= min * (1 - 1e-5f) && any && !(fabsf(height) > facing)) continue;
     min = square < min ? square : min;
@@ -62,7 +62,7 @@ static bool near_triangles(
     float distance = sqrtf(square);
     bool inside = height < 0;
     *found = (sbri_nearest){inside ? -distance : distance, on,
-        distance > 1e-9f ? sbri_scale(off, inside ? -1 / distance : 1 / distance) : n};
+        distance > 1e-9f ? sbri_scale(offset, inside ? -1 / distance : 1 / distance) : n};
   }
   return any && found->gap <= reach && found->gap >= -depth;
 }
@@ -73,20 +73,20 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
     *found = (sbri_nearest){x.y, {x.x, 0, x.z}, up};
     break;
   case SBR_SHAPE_SPHERE:
-    *found = near_ball(x, sbri_vec3(0, 0, 0), s->radius);
+    *found = nearest_on_ball(x, sbri_vec3(0, 0, 0), s->radius);
     break;
   case SBR_SHAPE_CAPSULE:
-    *found = near_ball(x, on_axis(s, x), s->radius);
+    *found = nearest_on_ball(x, on_axis(s, x), s->radius);
     break;
   case SBR_SHAPE_BOX:
-    *found = near_box(s->half_sizes, x);
+    *found = nearest_on_box(s->half_sizes, x);
     break;
   case SBR_SHAPE_HULL:
     found->gap = sbri_hull_nearest(&s->hull, x, &found->position, &found->normal);
     break;
   case SBR_SHAPE_MESH:
   case SBR_SHAPE_HEIGHT_FIELD:
-    return near_triangles(&s->triangles, x, reach, depth, found);
+    return nearest_on_triangles(&s->triangles, x, reach, depth, found);
   case SBR_SHAPE_HOST:
     found->normal = up;
     found->gap = s->host.distance(s->host.user, x, reach, &found->normal);
@@ -96,10 +96,9 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
   return found->gap <= reach;
 }
 
-/* ---- Ways in ---- */
+/* Ray entry */
 
-/* The least t in 0..1 at which x + t way is at `radius` from the origin, in three dimensions or, with `flat`,
- * in two. */
+/* The smallest t in 0..1 at which x + t displacement is at `radius` from the origin; -1: none. */
 static float enter_round(sbf_vec3 x, sbf_vec3 displacement, float radius) {
   float a = sbri_dot(displacement, displacement), b = sbri_dot(x, displacement),
         c = sbri_dot(x, x) - radius * radius;
@@ -115,9 +114,9 @@ static bool enter_capsule(
   sbf_vec3 axis_position = {0, 0, 0};
   for (int end = -1; end <= 1; end++) {
     sbf_vec3 middle = {0, (float)end * s->half_sizes.y, 0};
-    sbf_vec3 from = sbri_sub(x, middle), along = displacement;
-    if (end == 0) from.y = along.y = 0; /* the cylinder */
-    float t = enter_round(from, along, s->radius);
+    sbf_vec3 from = sbri_sub(x, middle), direction = displacement;
+    if (end == 0) from.y = direction.y = 0; /* the cylinder part */
+    float t = enter_round(from, direction, s->radius);
     if (t < 0 || t >= best) continue;
     sbf_vec3 at = sbri_add_scaled(x, displacement, t);
     if (end == 0 && fabsf(at.y) > s->half_sizes.y) continue;

@@ -1,11 +1,11 @@
-/* The host's shapes: distance of a point, and where a ray enters. All in the shape's frame. */
+/* Host shapes: distance of a point, and entry of a ray. All in the shape's frame. */
 #ifndef SBRI_SHAPE_H
 #define SBRI_SHAPE_H
 
 #include "collide/hull.h"
 #include "sbrun/collision.h"
 
-/* Triangles with a tree over them, solid behind their faces. */
+/* Triangles with a bounding volume tree; solid behind their faces. */
 typedef struct sbri_triangles {
   const sbf_vec3 *points;
   const uint32_t *corners; /* (count x 3) */
@@ -18,12 +18,12 @@ typedef struct sbri_shape_ridge {
   sbf_vec3 at[2], normals[2];
 } sbri_shape_ridge;
 
-/* All of a box, a hull or a mesh; collide/shape_ridges.c. */
+/* All ridges of a box, a hull or a mesh; collide/shape_ridges.c. */
 typedef struct sbri_shape_ridges {
   const sbri_shape_ridge *at; /* (count) */
   uint32_t count;
   sbri_bounds_tree tree;
-  float past_m; /* of a hull: what is past one by no more goes back over it */
+  float past_m; /* of a hull: maximum penetration of an edge that still leaves over the ridge */
 } sbri_shape_ridges;
 
 struct sbr_shape {
@@ -36,23 +36,22 @@ struct sbr_shape {
   sbri_triangles triangles; /* of mesh and height field */
   sbri_shape_ridges ridges;
   sbr_host_shape host;
-  sbri_box bounds; /* a plane's is as large as numbers allow */
+  sbri_box bounds; /* that of a plane is as large as numbers allow */
 };
 
-/* A place against a surface. */
+/* Nearest point of a surface. */
 typedef struct sbri_nearest {
   float gap; /* distance, negative inside */
   sbf_vec3 position, normal;
 } sbri_nearest;
 
-/* False where nothing is within `reach`, or the place is deeper inside of triangles than `depth`: they have
- * no other side to be pushed out of. */
+/* False if nothing is within `reach`, or if the point is deeper than `depth` inside triangles. */
 bool sbri_shape_nearest(const sbr_shape *shape, sbf_vec3 x, float reach, float depth, sbri_nearest *found);
-/* Where the ray from x first enters; `fraction` of it, 0 to 1. A ray that begins inside enters nothing. */
+/* First entry of a ray from x; `fraction` is 0 to 1. A ray that begins inside has no entry. */
 bool sbri_shape_enter(
     const sbr_shape *shape, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 
-/* The same for loose triangles: where a ray crosses them from the front. */
+/* Entry of a ray into a hull. */
 bool sbri_hull_enter(
     const sbri_hull *hull, sbf_vec3 x, sbf_vec3 displacement, float *fraction, sbf_vec3 *normal);
 sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c);

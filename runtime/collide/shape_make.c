@@ -1,4 +1,4 @@
-/* Shapes from what a host has. */
+/* Builds shapes from the host's definitions. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 enum { SHAPE_COOKIE = 0x5b727368 };
 
-/* As far as a plane goes, m. */
+/* Extent of a plane, m. */
 static const float FAR_M = 1e9f;
 
 sbr_shape_definition sbr_default_shape_definition(void) {
@@ -45,7 +45,7 @@ static bool make_hull_of_triangles(sbr_shape *s, const sbf_vec3 *points, uint32_
   return make_hull(s, points, point_count, sizes, triangle_count, triangles);
 }
 
-/* Without triangles it is around the points; around points in a plane is nothing, which has no faces. */
+/* Without triangles, builds the convex hull of the points. Coplanar points give an empty hull. */
 static bool make_convex(sbr_shape *s, const sbr_shape_definition *d) {
   if (d->triangle_count)
     return make_hull_of_triangles(s, d->points, d->point_count, d->triangles, d->triangle_count);
@@ -59,7 +59,7 @@ static bool make_convex(sbr_shape *s, const sbr_shape_definition *d) {
   return good;
 }
 
-/* The tree over triangles that are the shape's own already. */
+/* Builds the tree of triangles that the shape already owns. */
 static bool make_tree(sbr_shape *s) {
   sbri_triangles *t = &s->triangles;
   sbfi_arena scratch;

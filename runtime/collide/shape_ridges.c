@@ -1,11 +1,10 @@
-/* Convex edges of polyhedral shapes, with which edges of soft bodies collide.
- */
+/* Convex edges of polyhedral shapes, for contacts with edges of soft bodies. */
 #include "collide/shape_ridges.h"
 
 #include "collide/sides.h"
 #include "math/vec3.h"
 
-/* Of a hull's thickness, how far something may be past a ridge and still go back over it. */
+/* Maximum penetration that still leaves over a ridge, as a fraction of the hull's thickness. */
 static const float PAST_FRACTION = 0.5f;
 
 static bool is_flat(sbf_vec3 a, sbf_vec3 b) {
@@ -13,7 +12,7 @@ static bool is_flat(sbf_vec3 a, sbf_vec3 b) {
   return both > 0 && both * both >= SBRI_BENT * sbri_dot(a, a) * sbri_dot(b, b);
 }
 
-/* In turn about the edge. */
+/* Orders the normals about the edge. */
 static sbri_shape_ridge ridge_of(sbf_vec3 a, sbf_vec3 b, sbf_vec3 normal, sbf_vec3 other) {
   bool turned = sbri_dot(sbri_cross(normal, other), sbri_sub(b, a)) < 0;
   return (sbri_shape_ridge){{a, b}, {turned ? other : normal, turned ? normal : other}};

@@ -1,5 +1,5 @@
-/* Things that a body touches, for events: a limited number, each reported when contact begins. Output, not
- * state: the simulation does not read it. */
+/* Objects in contact with a body, for events: a limited number, each reported when contact begins. Output,
+ * not state: the simulation does not read it. */
 #ifndef SBRI_TOUCHING_H
 #define SBRI_TOUCHING_H
 
@@ -10,9 +10,9 @@ enum { SBRI_TOUCHING = 12 };
 
 typedef struct sbri_touching_one {
   uint32_t thing; /* index of the collider; UINT32_MAX: the ground */
-  bool fresh;     /* not touched in the previous tick */
+  bool fresh;     /* not in contact in the previous tick */
   sbf_vec3 position, normal;
-  float speed;           /* greatest closing speed in the tick, m/s */
+  float speed;           /* maximum closing speed in the tick, m/s */
   float impulse;         /* sum over contact points of the maximum impulse of a substep, N s */
   sbf_vec3 push, moment; /* impulse and angular impulse about `position` that the body received in the tick, N
                             s and N m s */
@@ -22,11 +22,11 @@ typedef struct sbri_touching {
   sbri_touching_one now[SBRI_TOUCHING], before[SBRI_TOUCHING];
   uint32_t count, before_count;
   /* The fastest of the body's points that reach the ground in this tick by their velocity and gravity, for
-   * bodies whose points meet planes (contact/contact.h): closing speed in m/s, 0 for none. */
+   * bodies whose points have planes (contact/contact.h): closing speed in m/s, 0 for none. */
   float ground_speed;
   sbf_vec3 ground_position, ground_normal;
   bool stepped;    /* the impulses are of this tick */
-  bool unreported; /* no events have been made of it yet */
+  bool unreported; /* events have not been created yet */
 } sbri_touching;
 
 static inline void sbri_touching_begin(sbri_touching *t) {
@@ -42,7 +42,7 @@ static inline bool sbri_touching_has(const sbri_touching_one *list, uint32_t cou
   return has;
 }
 
-/* Returns the entry of the thing, a new one if necessary; NULL if all are used. */
+/* Returns the entry of the object, a new one if necessary; NULL if all are used. */
 static inline sbri_touching_one *sbri_touching_add(
     sbri_touching *t, uint32_t thing, sbf_vec3 position, sbf_vec3 normal, float impulse, float speed) {
   for (uint32_t i = 0; i < t->count; i++) {
@@ -62,7 +62,7 @@ static inline sbri_touching_one *sbri_touching_add(
 }
 
 /* Adds an impulse on the body at a point. */
-static inline void sbri_touching_push(sbri_touching_one *one, sbf_vec3 position, sbf_vec3 impulse) {
+static inline void sbri_touching_add_impulse(sbri_touching_one *one, sbf_vec3 position, sbf_vec3 impulse) {
   one->push = sbri_add(one->push, impulse);
   one->moment = sbri_add(one->moment, sbri_cross(sbri_sub(position, one->position), impulse));
 }

@@ -1,11 +1,11 @@
-/* Places on triangles: nearest ones, and where rays go through. */
+/* Nearest points on triangles, and ray intersection. */
 #ifndef SBRI_TRIANGLE_H
 #define SBRI_TRIANGLE_H
 
 #include "math/vec3.h"
 
-/* Weights of the corners, summing to 1, of the place on a triangle that is nearest to x (by the regions of
- * its sides and corners; C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). */
+/* Weights of the corners, with sum 1, of the point on a triangle that is nearest to x (by the regions of its
+ * edges and corners; C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). */
 static inline void sbri_triangle_find_nearest(
     sbf_vec3 x, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, float weights[3]) {
   sbf_vec3 ab = sbri_sub(b, a), ac = sbri_sub(c, a), from_a = sbri_sub(x, a), from_b = sbri_sub(x, b),
@@ -40,8 +40,8 @@ static inline sbf_vec3 sbri_triangle_point(const float weights[3], sbf_vec3 a, s
   return sbri_add_scaled(sbri_add_scaled(sbri_scale(a, weights[0]), b, weights[1]), c, weights[2]);
 }
 
-/* The t in 0..1 at which from + t way crosses the triangle, from either side; negative: it does not
- * (T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997). */
+/* The t in 0..1 at which from + t displacement crosses the triangle, from either side; negative: none (T.
+ * Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997). */
 static inline float sbri_triangle_cross(
     sbf_vec3 from, sbf_vec3 displacement, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   sbf_vec3 ab = sbri_sub(b, a), ac = sbri_sub(c, a), p = sbri_cross(displacement, ac),
@@ -51,7 +51,7 @@ static inline float sbri_triangle_cross(
   float s = 1 / area, u = sbri_dot(off, p) * s;
   sbf_vec3 q = sbri_cross(off, ab);
   float v = sbri_dot(displacement, q) * s, t = sbri_dot(ac, q) * s;
-  const float edge = -1e-5f; /* nothing slips through between two triangles */
+  const float edge = -1e-5f; /* nothing passes between two triangles */
   return u < edge || v < edge || u + v > 1 - edge || t < 0 || t > 1 ? -1 : t;
 }
 

@@ -1,4 +1,4 @@
-/* One tetrahedron of a body: as the mechanics see it, and as a lane of a block. */
+/* One tetrahedron of a body: for mechanics/, and as a lane of a block. */
 #include "mechanics/neo_hookean.h"
 #include "model/runtime_model.h"
 

@@ -1,11 +1,11 @@
-/* Where frames have gone since the rest pose: each a rigid motion, after a squash about its head. */
+/* Motion of frames since the rest pose: a squash about the frame's head, then a rigid motion. */
 #ifndef SBRI_DELTA_H
 #define SBRI_DELTA_H
 
 #include "math/quat.h"
 
-/* Scales by `along` in the direction `axis` (of unit length) and by `across` square to it, about `head`;
- * asset space, as at rest. */
+/* Scales by `along` in the direction `axis` (unit) and by `across` perpendicular to it, about `head`; asset
+ * space at rest. */
 typedef struct sbri_squash {
   sbf_vec3 head, axis;
   float along, across;
@@ -18,7 +18,7 @@ typedef struct sbri_delta {
   const sbri_squash *squash; /* NULL: none */
 } sbri_delta;
 
-/* By how much a squash moves a place. */
+/* Displacement of a position by a squash. */
 static inline sbf_vec3 sbri_squash_shift(const sbri_squash *squash, sbf_vec3 position) {
   sbf_vec3 off = sbri_sub(position, squash->head);
   float along = (squash->along - squash->across) * sbri_dot(squash->axis, off);

@@ -1,4 +1,4 @@
-/* Forces and holds of a host on soft bodies: as state keeps them, and as a tick has them. */
+/* Forces and holds of the host on soft bodies: as state, and prepared for a tick. */
 #ifndef SBRI_LOAD_H
 #define SBRI_LOAD_H
 
@@ -6,19 +6,19 @@
 
 typedef enum sbri_load_kind { SBRI_LOAD_NONE, SBRI_LOAD_FORCE, SBRI_LOAD_HOLD } sbri_load_kind;
 
-/* State, in the world's units. No padding: the hash reads it as words. */
+/* State, in world units. Has no padding, because the hash reads it as words. */
 typedef struct sbri_load {
   sbr_double3 target;                           /* of a hold, m */
   uint32_t kind;                                /* sbri_load_kind */
   uint32_t body, vertex;                        /* vertex may be SBR_WHOLE_BODY, of a force */
   sbf_vec3 force;                               /* N */
-  float seconds;                                /* of a force: left */
+  float seconds;                                /* remaining time of a force */
   float frequency_hz, damping_ratio, max_force; /* of a hold; N */
   float impulse[3];                             /* in the last tick, kg m/s in the character's own units */
-  uint32_t unused;                              /* to the next double */
+  uint32_t unused;                              /* fills the struct up to the alignment of double */
 } sbri_load;
 
-/* The points that carry a vertex of a surface; weights sum to 1. */
+/* Points in which a vertex of a surface is embedded; weights sum to 1. */
 enum { SBRI_CARRIERS = 16 };
 typedef struct sbri_carriers {
   uint32_t count, slots[SBRI_CARRIERS]; /* of the island */

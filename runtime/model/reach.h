@@ -1,5 +1,5 @@
-/* How far off the places of a soft body are looked for: what bounds a place in a tick is found when it
- * begins, and springs throw back what was slow as fast as anything of the body goes. */
+/* Search distance for contacts of soft bodies. The motion of a point in a tick is predicted at its beginning,
+ * but springs may accelerate a slow point to the maximum speed of the body within the tick. */
 #ifndef SBRI_REACH_H
 #define SBRI_REACH_H
 
@@ -10,7 +10,7 @@
  * body's size. */
 #define SBRI_REACH_FRACTION 0.02f
 
-/* The fastest of the body's free points, m/s; velocities of its island. */
+/* Maximum speed of the body's free points, m/s; `velocities` are those of its island. */
 static inline float sbri_fastest_of(const sbri_body *body, const float *velocities) {
   float max = 0;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
@@ -22,8 +22,8 @@ static inline float sbri_fastest_of(const sbri_body *body, const float *velociti
   return sqrtf(max);
 }
 
-/* Metres of the world, for a place that goes `own` in the tick, of a character of that scale, on a body whose
- * fastest point goes `fastest`. */
+/* Search distance in world metres. `own`: displacement of the point in the tick; `fastest`: that of the
+ * body's fastest point; `scale`: that of the character. */
 static inline float sbri_reach_of(const sbri_body *body, float scale, float own, float fastest) {
   return (body->margin_m + SBRI_REACH_FRACTION * body->rest_size_m) * scale + (own > fastest ? own : fastest);
 }

@@ -1,17 +1,18 @@
-/* The model: constant tables made once from an asset and shared by all characters.
+/* The model: constant tables built once from an asset and shared by all characters.
  *
- * Points live in slots. An island is a group of bodies that act on each other, mostly one body alone; each is
- * stepped by one task. Its slots are first the free points, body after body, each body's from a multiple of
- * eight on and padded to one with inert lanes; then the held points, padded too. Within a body free points
- * are ordered by falling number of springs, so that the eight points of a block have about equally many.
- * Slots in tables of an island count from the island's first; skins count slots of the whole character.
+ * Points live in slots. An island is a group of bodies that act on each other, usually a single body; each
+ * island is stepped by one task. Its slots begin with the free points, body after body; those of each body
+ * begin at a multiple of eight and are padded to one with unused lanes. The pinned points follow, padded too.
+ * Within a body, free points are sorted by decreasing number of springs, so that the eight points of a block
+ * have similar numbers. Slots in tables of an island count from the island's first; skins count slots of the
+ * whole character.
  *
- * Frames are what holds and guides points: the rig's bones, then the character's root (the asset's origin,
- * turned to the heading), then the anchor (where the root stood when the character was put there: what the
- * world holds), then the rigid bodies that are no bone's.
+ * Frames pin and drive points: the bones of the rig, then the character's root (the asset's origin, rotated
+ * to the heading), then the anchor (the root at its last placement, to which world pins belong), then the
+ * rigid bodies that move no bone.
  *
- * Lengths are those of the asset. A character of scale s is simulated in its asset's metres, with time
- * running sqrt(s) times slower: that is the similarity the public header promises, and it needs no second
+ * Lengths are those of the asset. A character of scale s is simulated in metres of its asset, with time
+ * running sqrt(s) times slower. This is the similarity that the public header promises; it needs no second
  * table. */
 #ifndef SBRI_RUNTIME_MODEL_H
 #define SBRI_RUNTIME_MODEL_H

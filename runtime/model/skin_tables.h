@@ -1,5 +1,5 @@
-/* Tables by which the vertices of one mesh follow a character's points and bones, and by which their normals
- * are found. Everything stands in blocks of eight lanes; inert lanes have weight 0 or no area. */
+/* Tables that embed the vertices of a mesh in points and bones, and tables for normals. All tables are in
+ * blocks of eight lanes; unused lanes have weight 0 or no area. */
 #ifndef SBRI_SKIN_TABLES_H
 #define SBRI_SKIN_TABLES_H
 
@@ -7,9 +7,9 @@
 #include "math/wide.h"
 #include "sbrun/sbrun.h"
 
-/* One of the points that carry each of eight vertices. */
+/* One embedding point of each of eight vertices. */
 typedef struct sbri_carry_cell {
-  uint32_t slots[SBRI_BLOCK]; /* of the whole character */
+  uint32_t slots[SBRI_BLOCK]; /* in the whole character */
   float weights[SBRI_BLOCK];
 } sbri_carry_cell;
 
@@ -30,15 +30,15 @@ typedef struct sbri_influence {
   float weight;
 } sbri_influence;
 
-/* Polygons as quads, whose area vector is half the cross product of their diagonals: a triangle repeats its
- * first corner; longer polygons are cut from their first corner on. */
+/* Polygons as quads, whose area vector is half the cross product of their diagonals. A triangle repeats its
+ * first corner; longer polygons are fans from their first corner. */
 typedef struct sbri_face_block {
-  uint32_t corners[4][SBRI_BLOCK]; /* vertices; inert lanes repeat one */
+  uint32_t corners[4][SBRI_BLOCK]; /* vertices; unused lanes repeat one */
 } sbri_face_block;
 
-/* Which faces make up the sum of each group, in blocks of eight groups. */
+/* Faces whose sum gives each group, in blocks of eight groups. */
 typedef struct sbri_sum_cell {
-  uint32_t faces[SBRI_BLOCK]; /* inert lanes name a face without area */
+  uint32_t faces[SBRI_BLOCK]; /* unused lanes name a face without area */
 } sbri_sum_cell;
 typedef struct sbri_sum_table {
   uint32_t group_count;
@@ -46,33 +46,33 @@ typedef struct sbri_sum_table {
   const sbri_sum_cell *cells;
 } sbri_sum_table;
 
-/* Shares of a face's two diagonals in its tangent, times its area in the texture. */
+/* Weights of a face's two diagonals in its tangent, times its area in texture space. */
 typedef struct sbri_tangent_block {
   float fractions[2][SBRI_BLOCK];
 } sbri_tangent_block;
 
 typedef struct sbri_skin {
   uint32_t vertex_count;
-  const uint32_t *vertices;    /* (vertex_count) of a render level: which of the mesh's; NULL: all */
+  const uint32_t *vertices;    /* (vertex_count) of a render level: vertex of the full mesh; NULL: all */
   const uint32_t *cell_begins; /* (blocks of vertices + 1) */
   const sbri_carry_cell *cells;
   uint32_t cell_count;
-  /* Of a skin that may tear, else none: who rides on which tetrahedron, by vertices, and where the skin's
-   * cells, bindings and polygons begin in a character's state. */
+  /* For a skin that may tear, else none: bindings of vertices to tetrahedra, and the first cells, bindings
+   * and polygons of the skin in a character's state. */
   const struct sbri_binding *bindings;
   const uint32_t *binding_of; /* (vertex_count) UINT32_MAX: none */
   uint32_t binding_count, first_cell, first_binding, first_polygon;
-  const uint32_t *side_begins;    /* (polygons + 1) NULL: no side lies along a spring that may tear */
-  const uint32_t *side_strengths; /* of such springs, places in the character's strengths */
+  const uint32_t *side_begins;    /* (polygons + 1) NULL: no edge lies along a spring that may tear */
+  const uint32_t *side_strengths; /* of such springs, indices in the character's strengths */
   const sbri_frame_vertex *frame_vertices; /* (frame_vertex_count) */
   uint32_t frame_vertex_count;
   const sbri_influence *influences;
 
-  uint32_t face_block_count; /* the last lane of the last block is inert */
+  uint32_t face_block_count; /* the last lane of the last block is unused */
   const sbri_face_block *faces;
-  sbri_sum_table smooth;     /* one normal a vertex, shared where vertices lie at one place */
-  const uint32_t *smooth_of; /* (vertex_count) the group of each */
-  sbri_sum_table split;      /* a normal for each side of a hard edge */
+  sbri_sum_table smooth;     /* one normal per vertex, shared by vertices at the same position */
+  const uint32_t *smooth_of; /* (vertex_count) group of each */
+  sbri_sum_table split;      /* separate normals at hard edges */
   const uint32_t *split_of;  /* (corner_count) */
   uint32_t corner_count;
 

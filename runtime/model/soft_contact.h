@@ -1,5 +1,5 @@
-/* Possible contacts of soft bodies within a tick: one by one as they are found and reported, and eight side
- * by side as they are solved. */
+/* Possible contacts of soft bodies within a tick: singly for detection and reports, and in blocks of eight
+ * for the solver. */
 #ifndef SBRI_SOFT_CONTACT_H
 #define SBRI_SOFT_CONTACT_H
 
@@ -8,11 +8,11 @@
 #define SBRI_NO_COLLIDER UINT32_MAX
 #define SBRI_ITSELF (UINT32_MAX - 1)
 
-/* How a contact pressed in recent substeps of the tick (contact/contact.h): the sum of its normal velocity
- * changes and their time. time_s < 0: it struck in this tick. */
+/* Contact pressure in recent substeps of the tick (contact/contact.h): the sum of normal velocity changes and
+ * of the substeps. time_s < 0: there was an impact in this tick. */
 typedef struct sbri_pressing {
   float velocity_change, time_s; /* m/s, s */
-  float owed;                    /* by which bounds of friction fell short of the velocity changes, m/s */
+  float owed;                    /* sum of velocity changes beyond the bounds of friction, m/s */
 } sbri_pressing;
 
 /* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
@@ -44,30 +44,31 @@ typedef struct sbri_soft_contact {
 } sbri_soft_contact;
 
 /* Eight contacts of a body with ground and colliders, which no impulse of the body moves. An unused lane has
- * weights of 0 and lies far from its plane. */
+ * weights of 0 and is far from its plane. */
 typedef struct sbri_contact_block {
   uint32_t slots[4][SBRI_BLOCK];
-  uint32_t contacts[SBRI_BLOCK]; /* of the body; UINT32_MAX: an unused lane */
+  uint32_t contacts[SBRI_BLOCK]; /* index among the body's contacts; UINT32_MAX: unused lane */
   float weights[4][SBRI_BLOCK];
   float responses[4][SBRI_BLOCK]; /* velocity change of a point per velocity change of the sample */
   float normal[3][SBRI_BLOCK];
-  float mass_kg[SBRI_BLOCK];     /* effective, of an impulse at the sample; 0: an unused lane */
+  float mass_kg[SBRI_BLOCK];     /* effective mass for an impulse at the sample; 0: unused lane */
   float offset[SBRI_BLOCK];      /* n . x of the plane at the beginning of the present substep */
   float velocity[3][SBRI_BLOCK]; /* velocity of the other surface, m/s */
   float friction[SBRI_BLOCK], restitution[SBRI_BLOCK];
-  float active[SBRI_BLOCK];   /* 1: pushes, or arrives in this substep; else 0 */
+  float active[SBRI_BLOCK];   /* 1: has an impulse, or arrives in this substep; else 0 */
   float fraction[SBRI_BLOCK]; /* relaxation factor of an iteration by row sums; 0 if not active */
   float gap[SBRI_BLOCK], wanted[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
   float velocity_change[SBRI_BLOCK];         /* normal velocity change by the contact, m/s */
   float friction_impulse[3][SBRI_BLOCK];     /* friction, tangential */
   float pressing_change[SBRI_BLOCK], pressing_s[SBRI_BLOCK], pressing_owed[SBRI_BLOCK]; /* sbri_pressing */
-  float bound[SBRI_BLOCK], bound_slope[SBRI_BLOCK];    /* of friction, by the normal velocity change */
-  float pushed[SBRI_BLOCK], closing_speed[SBRI_BLOCK]; /* maxima in the tick, as of sbri_soft_contact */
+  float bound[SBRI_BLOCK],
+      bound_slope[SBRI_BLOCK]; /* of friction, as a function of the normal velocity change */
+  float pushed[SBRI_BLOCK], closing_speed[SBRI_BLOCK]; /* maxima in the tick, as in sbri_soft_contact */
   float given[3][SBRI_BLOCK];                          /* sum of velocity changes in the tick, m/s */
-  float clear_m; /* distance of the nearest when last looked at, less what it may have moved since */
-  bool moves;    /* some other surface moves */
+  float clear_m; /* separation of the nearest contact at the last check, minus the possible motion since */
+  bool moves;    /* some plane moves */
   bool is_near;  /* not idle in this substep */
-  bool pushes;   /* some lane is pushed, before or by an iteration */
+  bool pushes;   /* some lane has an impulse, from the warm start or an iteration */
 } sbri_contact_block;
 
 #endif

@@ -1,19 +1,20 @@
-/* How many substeps the explicit scheme needs.
+/* Number of substeps of the explicit integrators.
  *
- * A mode of angular frequency w is stable with substeps h while h w < 2 (sqrt(1 + z^2) - z), z its damping
- * ratio by forces taken at the beginning of the substep (here that of the springs' own damping, beta w / 2;
- * damping against the body's frame is exact and bounds nothing). w is that of the fastest mode at rest, plus
- * what tension adds: a spring stretched to length l resists sideways with k (1 - l0 / l), no more than that
- * share of k in all directions at once, of which `bound_rad_s` is the fastest mode. */
+ * A mode of angular frequency w is stable with substeps h while h w < 2 (sqrt(1 + z^2) - z). z is its damping
+ * ratio by forces from the beginning of the substep, here the springs' own damping, beta w / 2; damping
+ * relative to the body's frame is exact and needs no bound. w is the highest frequency at rest plus the
+ * effect of tension: a spring stretched to length l resists transversal motion with k (1 - l0 / l), at most
+ * that fraction of k in all directions at once, and `bound_rad_s` is the highest frequency with k in all
+ * directions. */
 #include "model/runtime_model.h"
 
-/* Springs that turn against each other under large strains change the fastest mode a little. Tetrahedra are
- * watched while they run (solvers/symplectic.h) and stiffen between two looks. Substeps whose number changes
- * from tick to tick also pump modes next to the limit: with 1.04 an undamped cube that fell came to three
- * times its energy. */
+/* Springs that rotate against each other under large strains change the highest frequency a little.
+ * Tetrahedra are monitored during the tick (solvers/symplectic.h) and stiffen between two checks. Substep
+ * counts that change from tick to tick also excite modes near the limit: with 1.04, an undamped cube that
+ * fell reached three times its energy. */
 static const double MARGIN = 1.1;
 
-/* More than any model may have, and far from where counts of them overflow. */
+/* Above the needs of any model, and far below overflow. */
 enum { MAX_COUNTED = 1 << 20 };
 
 uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch) {

@@ -1,11 +1,11 @@
-/* A vertex of a surface as a sample: by the four points that carry most of it. */
+/* Contact sample of a surface vertex: its four points with the largest weights. */
 #include <math.h>
 
 #include "model/runtime_model.h"
 
 enum { CARRIERS = 4 };
 
-/* One over the sum of w^2 / m: 0 where nothing of it is free. */
+/* 1 / sum of w^2 / m; 0 if no point is free. */
 static float mass_of(const sbri_island *island, const sbri_sample *s) {
   float sum = 0;
   for (int k = 0; k < CARRIERS; k++)

@@ -1,4 +1,4 @@
-/* Which bodies may tear. */
+/* Whether bodies may tear. */
 #include "model/runtime_model.h"
 
 bool sbri_body_tears(const sbri_body *body) {

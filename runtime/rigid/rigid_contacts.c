@@ -391,7 +391,7 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *wo
     sbri_touching_one *one = sbri_touching_add(&t->touching[contact->body], contact->collider, position,
         contact->normal, normal, contact->closing_speed);
     sbf_vec3 push = sbri_add(sbri_add_scaled(across, contact->normal, normal), contact->more);
-    if (one) sbri_touching_push(one, position, push);
+    if (one) sbri_touching_add_impulse(one, position, push);
   }
 }
 

@@ -40,7 +40,7 @@ uint32_t sbri_rigid_external_body_of(const sbri_rigid_tick *t, sbri_rigid_solvin
 }
 
 float sbri_rigid_external_body_inverse_mass(const sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 n) {
-  return sbri_dot(n, sbri_external_body_answer(&g->is, arm, n)) / g->is.lever;
+  return sbri_dot(n, sbri_external_body_response(&g->is, arm, n)) / g->is.lever;
 }
 
 void sbri_rigid_external_bodies_begin(sbri_rigid_solving *work, float step_s) {

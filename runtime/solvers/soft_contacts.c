@@ -121,7 +121,7 @@ static void correct_position(
 /* Applies the opposite impulse to the external body. */
 static void apply_external_reaction(
     const contact_set *c, const sbri_soft_contact *contact, sbf_vec3 velocity_change) {
-  sbri_external_body_push(
+  sbri_external_body_apply_impulse(
       external_body_of(c, contact), contact->arm, sbri_scale(velocity_change, -contact->sample.mass_kg));
 }
 
@@ -261,7 +261,7 @@ static float solve_external_contact(
   const sbri_external_body *g = external_body_of(c, contact);
   sbf_vec3 arm = contact->arm, v = sbri_sub(velocity_of(c, contact), sbri_external_body_velocity(g, arm)),
            n = contact->normal;
-  float normal_response = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_answer(g, arm, n));
+  float normal_response = 1 + s->mass_kg * sbri_dot(n, sbri_external_body_response(g, arm, n));
   float tangential_response =
       1 + s->mass_kg * g->lever * (g->max_inverse_mass + sbri_dot(arm, arm) * g->max_inverse_inertia);
   float speed = sbri_dot(n, v),
@@ -406,7 +406,7 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
     sbf_vec3 position = sbri_sample_position(t, &contact->sample);
     sbri_touching_one *one = sbri_touching_add(to, contact->collider, position, contact->normal,
         contact->pushed * contact->sample.mass_kg, contact->closing_speed);
-    if (one) sbri_touching_push(one, position, sbri_scale(contact->given, contact->sample.mass_kg));
+    if (one) sbri_touching_add_impulse(one, position, sbri_scale(contact->given, contact->sample.mass_kg));
   }
   report_planes(t, body, to);
 }

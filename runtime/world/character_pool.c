@@ -1,4 +1,4 @@
-/* Who is in a world: handles, and the list of what a tick steps. */
+/* Characters of a world by handle, and the work list of a tick. */
 #include "base/assert.h"
 #include "world/world.h"
 

@@ -1,4 +1,4 @@
-/* Memory of characters: as much as the detail level takes that they are on, and what is rigid of them. */
+/* Memory of characters: storage of their present detail level, and solver memory of rigid parts. */
 #include <string.h>
 
 #include "base/assert.h"

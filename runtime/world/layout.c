@@ -1,4 +1,4 @@
-/* Where the parts of a character's state and scratch lie in their blocks. */
+/* Offsets of the parts of a character's state and scratch memory. */
 #include "collide/host_body.h"
 #include "world/state.h"
 
@@ -16,7 +16,7 @@ size_t sbri_deltas_size(const sbr_model *model) {
   return model->frame_count * sizeof(sbri_delta) + model->asset->followers.count * sizeof(sbri_squash);
 }
 
-/* Room that no one count of the model says. */
+/* Sizes that are not counts of the model. */
 typedef struct extents {
   size_t vertices, faces, groups;              /* of the largest skin */
   size_t surface, surface_faces;               /* of all bodies' surfaces, padded */
@@ -36,8 +36,9 @@ static void measure_skins(const sbr_model *model, extents *e) {
   }
 }
 
-/* A touch of each sample, or point, on the ground and one on something else, a few between several things;
- * and of the body itself, points and edges. A quarter of coarse edges may be over ridges at once. */
+/* Capacity of contacts: each sample, or point, with the ground and with one collider, a few between several
+ * colliders, and self-contacts of points and edges. A quarter of the coarse edges may be in contact with
+ * ridges at once. */
 static uint32_t max_contacts(const sbri_body *body) {
   uint32_t slots = body->slot_end - body->slot_begin;
   uint32_t own = body->self_face_count ? slots + body->self_face_count : 0;
@@ -45,7 +46,7 @@ static uint32_t max_contacts(const sbri_body *body) {
   return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + edges + 64 : 0;
 }
 
-/* Offsets of each body's part in the arrays that all bodies share. */
+/* Assigns each body its part of the arrays that all bodies share. */
 static void distribute(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
     sbri_body *body = &model->bodies[i];
@@ -64,7 +65,7 @@ static void distribute(sbr_model *model, extents *e) {
   }
 }
 
-/* What a snapshot copies and the hash covers. */
+/* State is copied by snapshots and covered by the hash. */
 static void lay_out_state(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, end = 0;
@@ -109,7 +110,7 @@ static void lay_out_state(sbr_model *model) {
   l->used_size = l->state_size = (end + 63) & ~(size_t)63;
 }
 
-/* What means nothing between calls. */
+/* Scratch has no content between calls. */
 static void lay_out_scratch(sbr_model *model, const extents *e) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, end = 0;
@@ -167,13 +168,13 @@ static void lay_out_scratch(sbr_model *model, const extents *e) {
   l->owners = position(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
   l->frayed = position(&end, model->thread_cell_count ? slots : 0, 1);
   l->surface_vertices = position(&end, e->surface, sizeof(sbri_point));
-  bool steps = model->island_count > 0; /* the vertices alone are asked for without */
+  bool steps = model->island_count > 0; /* without islands only vertices are queried */
   l->surface_forces = position(&end, steps ? e->surface : 0, sizeof(sbri_point));
   l->surface_velocities = position(&end, steps ? e->surface : 0, sizeof(sbri_point));
   l->surface_faces = position(&end, steps ? e->surface_faces : 0, sizeof(sbri_point));
   if (model->base->detail_level_count > 1) {
     size_t bodies = model->asset->soft_bodies.count;
-    l->offsets = l->begins, l->speeds = l->moves; /* between ticks nothing else is there */
+    l->offsets = l->begins, l->speeds = l->moves; /* these arrays are unused between ticks */
     l->energies = position(&end, bodies, sizeof(double));
     l->fading = position(&end, padded(e->vertices), sizeof(sbri_point));
     l->pulls = position(&end, bodies + 1, sizeof(float));

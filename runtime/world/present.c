@@ -1,5 +1,5 @@
-/* The model's tables as a character has them now: with what its state has in place of theirs where it may
- * tear. */
+/* Present tables of a character: the model's, with those that tears change replaced by the character's state.
+ */
 #include "world/state.h"
 
 sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) {
@@ -16,7 +16,7 @@ sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) 
   if (island->cell_damping) now.cell_damping = sbri_thread_damping(c) + first * SBRI_BLOCK;
   if (island->cell_slack) now.cell_slack = sbri_thread_slack(c) + first * SBRI_BLOCK;
   now.links = sbri_thread_blocks(c) + island->first_thread_link;
-  for (uint32_t b = 0; b < island->body_count; b++) { /* parts may swing faster than they did as one */
+  for (uint32_t b = 0; b < island->body_count; b++) { /* torn parts may oscillate faster than the whole */
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     bool reserved = body->first_spare < body->slot_real_end;
     if (reserved && sbri_origins(c)[island->first_slot + body->first_spare] != SBRI_UNUSED)

@@ -4,7 +4,7 @@
 #include "math/usable.h"
 #include "world/world.h"
 
-/* How many numbers each has. */
+/* Number of values of each call. */
 static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_STEP] = 1,
     [SBRI_RECORDED_TICK] = 0,

@@ -65,8 +65,8 @@ typedef struct sbri_driver_motion {
 } sbri_driver_motion;
 
 /* A vertex of the previous detail level during a transition, asset metres: it continues as a mass on a
- * spring. Positions are relative to the vertex as posed by bones alone or, without bones, as the new level
- * has it. */
+ * spring. Positions are relative to the vertex as posed by bones alone or, without bones, as posed by
+ * the new level. */
 typedef struct sbri_fading_vertex {
   sbf_vec3 position, was; /* now and in the previous tick */
   sbf_vec3 still;         /* its equilibrium */
@@ -195,8 +195,9 @@ SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                   /
 SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                     /* (solid_count) */
 SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /* (binding_count) */
 SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
-SBRI_SCRATCH_PART(frayed, uint8_t, c->model->layout.frayed)  /* (slot_count) likewise: near a torn spring */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4) */
+SBRI_SCRATCH_PART(
+    frayed, uint8_t, c->model->layout.frayed) /* (slot_count) where springs may tear: near a torn spring */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                    /* (slot_count x 4) */
 SBRI_SCRATCH_PART(ground_pressing, float, c->model->layout.pressing)         /* (slot_count x 2) */
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
 SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
@@ -212,17 +213,18 @@ SBRI_SCRATCH_PART(contact_weights, float, c->model->layout.contact_weights)     
 SBRI_SCRATCH_PART(slot_contacts, uint8_t, c->model->layout.slot_contacts)              /* (slot_count) */
 SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)             /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching)      /* (rigid bodies) */
-SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
+SBRI_SCRATCH_PART(
+    self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies with self-contact) */
 SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, c->model->layout.self_balls)
 SBRI_SCRATCH_PART(
-    self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one a body) */
+    self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one per body) */
 SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
 SBRI_SCRATCH_PART(self_edges, uint8_t, c->model->layout.self_edges)
 SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbri_delta, c->model->layout.sampled_deltas) /* (frame_count) */
-SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
-SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
-SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (most groups of a mesh, padded) */
+SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (maximum vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (maximum faces of a mesh, padded) */
+SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (maximum groups of a mesh, padded) */
 SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertices) /* of all bodies */
 SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
 SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
@@ -230,7 +232,7 @@ SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* 
 /* Of the previous detail level during a transition: offset and speed of each point relative to its driver. */
 SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets) /* (slot_count) */
 SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)   /* (slot_count) */
-SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (most vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (maximum vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)          /* (bodies + 1) */
 SBRI_SCRATCH_PART(energies, double, c->model->layout.energies)   /* (bodies) J */
 #undef SBRI_SCRATCH_PART
