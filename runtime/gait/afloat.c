@@ -1,13 +1,13 @@
-/* Swimmers and fliers: they move in three dimensions, bank into turns, pitch along their path, and drift when
- * nothing drives them (spec 14.7, media). */
+/* Swimmers and fliers: they move in three dimensions, bank into turns, pitch along their path, and drift
+ * without a command (spec 14.7, media). */
 #include "gait/motion_kinds.h"
 #include "math/trig.h"
 
-static const float SMOOTHING_S = 0.3f; /* over which a drive takes effect */
-static const float REST_S = 1.2f;   /* over which the last of the speed dies away without drive, with drag */
-static const float LEANS_HZ = 0.9f; /* of critically damped followers of bank and pitch */
-static const float STILL = 0.004f;  /* m/s for each metre: slower, it hangs where it is */
-static const float GLIDE_S = 0.3f;  /* over which wings are held still, and beat again */
+static const float SMOOTHING_S = 0.3f; /* smoothing time of commands */
+static const float REST_S = 1.2f; /* time over which the remaining speed decays without command, with drag */
+static const float LEANS_HZ = 0.9f; /* critically damped followers of bank and pitch */
+static const float STILL = 0.004f;  /* m/s per metre of length: below this speed it hovers */
+static const float GLIDE_S = 0.3f;  /* transition time between gliding and beating wings */
 
 static const sbf_medium *medium_of(const sbri_rig *rig, sbf_medium *defaults) {
   if (rig->gait->medium) return rig->gait->medium;
@@ -33,8 +33,8 @@ float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_
   return -min * input->scale;
 }
 
-/* How it is turned against its heading. */
-static sbf_quat lean_of(const sbri_motion_state *m) {
+/* Rotation relative to the heading. */
+static sbf_quat tilt_rotation(const sbri_motion_state *m) {
   sbf_quat pitch = {0, 0, 0, 1}, bank = {0, 0, 0, 1};
   sbri_sincos(0.5f * m->pitch.value, &pitch.x, &pitch.w);
   sbri_sincos(-0.5f * m->bank.value, &bank.z, &bank.w);
@@ -43,19 +43,19 @@ static sbf_quat lean_of(const sbri_motion_state *m) {
 
 /* Vertical speed without drive: approaches the terminal speed, at which drag balances weight minus buoyancy.
  */
-static float drifted(float up, float buoyancy, float g, float length_m, float h) {
-  float spare = buoyancy - 1, max = sqrtf(fabsf(spare) * g * length_m);
+static float passive_velocity(float up, float buoyancy, float g, float length_m, float h) {
+  float excess = buoyancy - 1, max = sqrtf(fabsf(excess) * g * length_m);
   if (max > 0) {
-    float goal = spare > 0 ? max : -max;
-    return up + (goal - up) * (1 - sbri_exp(-h * fabsf(spare) * g / max));
+    float goal = excess > 0 ? max : -max;
+    return up + (goal - up) * (1 - sbri_exp(-h * fabsf(excess) * g / max));
   }
   return up * sbri_exp(-h * (fabsf(up) / length_m + 1 / REST_S));
 }
 
-/* A height above the ground, neither inside it nor out of the water. */
-static float bounded(const sbri_rig *rig, const sbri_gait_input *input, const sbri_motion_state *m,
+/* Bounds a height above the ground: neither in the ground nor out of the water. */
+static float bounded_height(const sbri_rig *rig, const sbri_gait_input *input, const sbri_motion_state *m,
     float ground, float height, float *up) {
-  float lowest = sbri_afloat_lowest(rig, input, lean_of(m));
+  float lowest = sbri_afloat_lowest(rig, input, tilt_rotation(m));
   if (sbri_is_kind(rig, SBF_GAIT_KIND_SWIM) && rig->asset->environment.has_water) {
     double surface = (double)rig->asset->environment.water_level - input->origin.y;
     float max = (float)surface - rig->high.y * input->scale - ground;
@@ -71,14 +71,14 @@ static float bounded(const sbri_rig *rig, const sbri_gait_input *input, const sb
   return height;
 }
 
-static void lean(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    const sbf_medium *medium, bool wanted) {
+static void update_tilt(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbf_medium *medium, bool has_command) {
   sbri_motion_state *m = sbri_motion(rig, state);
   float cruise = rig->gait->walk_speed * input->scale, speed = state->forward;
   float bank = sbri_atan2(medium->bank * speed * state->turn, gravity_of(rig));
   bank = sbri_clamp(bank, -medium->bank_limit, medium->bank_limit);
   float climb = sbri_atan2(m->up, fabsf(speed) + 0.25f * cruise);
-  if (!wanted) climb = 0; /* it sinks without pitching */
+  if (!has_command) climb = 0; /* passive sinking does not change the pitch */
   float pitch = -sbri_clamp(climb, -medium->pitch_limit, medium->pitch_limit);
   pitch += medium->tilt * sbri_clamp(speed / cruise, -1.5f, 1.5f);
   sbri_follower_step step = sbri_follower_step_of(LEANS_HZ, 1, 0, input->tick_s);
@@ -86,7 +86,7 @@ static void lean(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
   sbri_lag_tick(&m->pitch, pitch, &step);
 }
 
-static void glide(sbri_motion_state *m, const sbri_gait_input *input, const sbf_medium *medium) {
+static void update_glide(sbri_motion_state *m, const sbri_gait_input *input, const sbf_medium *medium) {
   bool still =
       medium->glide_ratio > 0 && input->forward > 0 && -input->up * medium->glide_ratio >= input->forward;
   m->glide += ((still ? 1.0f : 0.0f) - m->glide) * (1 - sbri_exp(-input->tick_s / GLIDE_S));
@@ -108,7 +108,7 @@ float sbri_afloat_move(
   if (!(length > size.y * 1e-3f)) length = size.y > 0 ? size.y : 1;
   length *= input->scale;
   bool goes = input->forward != 0 || input->sideways != 0 || input->up != 0,
-       wanted = goes || input->turn != 0;
+       has_command = goes || input->turn != 0;
   if (goes) {
     state->forward += (input->forward - state->forward) * smoothing;
     state->sideways += (input->sideways - state->sideways) * smoothing;
@@ -118,32 +118,32 @@ float sbri_afloat_move(
     float left = sbri_exp(-h * (speed / length + 1 / REST_S));
     state->forward *= left;
     state->sideways *= left;
-    m->up = drifted(m->up, medium->buoyancy, gravity_of(rig), length, h);
+    m->up = passive_velocity(m->up, medium->buoyancy, gravity_of(rig), length, h);
   }
   state->turn += (input->turn - state->turn) * smoothing;
   bool drifts = medium->buoyancy != 1;
-  if (!wanted && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->turn) < STILL) {
+  if (!has_command && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;
     if (!drifts) m->up = 0;
     if (state->standing_s < 1) state->standing_s += h;
   } else {
     state->standing_s = 0;
   }
-  lean(rig, state, input, medium, wanted);
-  glide(m, input, medium);
-  float turned = state->turn * h, ground = sbri_ground_below(input, state->position, NULL).y;
-  sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
+  update_tilt(rig, state, input, medium, has_command);
+  update_glide(m, input, medium);
+  float rotation = state->turn * h, ground = sbri_ground_below(input, state->position, NULL).y;
+  sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * rotation), h);
   float height = ground + state->position.y + m->up * h;
   state->position.x += step.x, state->position.z += step.z;
   float below = sbri_ground_below(input, state->position, NULL).y;
-  float at = bounded(rig, input, m, below, height - below, &m->up);
+  float at = bounded_height(rig, input, m, below, height - below, &m->up);
   step.y = at + below - ground - state->position.y;
   state->position.y = at;
-  state->heading = sbri_wrap_angle(state->heading + turned);
+  state->heading = sbri_wrap_angle(state->heading + rotation);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->distance_m += (double)sbri_length(step);
   *direction = step;
-  return turned;
+  return rotation;
 }
 
 sbr_transform sbri_afloat_root(
@@ -153,9 +153,9 @@ sbr_transform sbri_afloat_root(
   const sbf_medium *medium = medium_of(rig, &defaults);
   sbf_vec3 middle = sbri_scale(sbri_lerp(rig->low, rig->high, 0.5f), input->scale);
   sbr_transform root = level;
-  root.rotation = sbri_quat_normalize(sbri_quat_multiply(level.rotation, lean_of(m)));
-  sbf_vec3 moved = sbri_sub(sbri_rotate(level.rotation, middle), sbri_rotate(root.rotation, middle));
-  root.position = sbri_add(root.position, moved);
+  root.rotation = sbri_quat_normalize(sbri_quat_multiply(level.rotation, tilt_rotation(m)));
+  sbf_vec3 displacement = sbri_sub(sbri_rotate(level.rotation, middle), sbri_rotate(root.rotation, middle));
+  root.position = sbri_add(root.position, displacement);
   if (medium->bob > 0) {
     float s, c, cruise = rig->gait->walk_speed * input->scale;
     float rests = 1 - sbri_clamp(2 * sbri_motion_speed(rig, state) / cruise, 0, 1);

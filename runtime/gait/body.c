@@ -1,27 +1,30 @@
-/* The body over its feet: its height and tilt are those of the ground they stand on, it leans over those that
- * bear it, comes down where a leg would not reach, and hips and chest turn with the lines of the feet. */
+/* The body over its feet. Its height and tilt follow the ground below the feet; it leans over the supporting
+ * feet; it is lowered if a leg would not reach; hips and chest rotate with the lines of the feet. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers; the
-                                                                     crouch's also of the belly's room */
-static const float CROUCH_S = 0.08f;    /* by which the crouch lags, and looks ahead */
-static const float MAX_YAW = 0.8f;      /* rad: hips and chest turn less than so */
-static const float NARROWEST = 0.5f;    /* of the reach: feet turn the hips as if no nearer */
-static const float DEEPEST = 0.3f;      /* of a leg's reach: the body comes down by no more for a foot */
-static const float LOWEST = 0.3f;       /* of a leg's reach: no hip comes nearer to the ground than so */
-static const float EASY = 0.93f;        /* share of it that it comes down for in a stride */
-static const float UPRIGHT_HZ = 1;      /* of a critically damped follower */
-static const float CLEARANCE_S = 0.25f; /* by which the belly looks ahead */
-static const float CLEAR = 0.03f;       /* of the reach: what is kept between the belly and the ground */
-static const float RAISED = 0.1f;       /* of the reach: the body rises by no more for its belly */
-static const float UPRIGHT = 0.7f; /* cosine: legs that stand no flatter are eased by how high the body is */
+static const float
+    LEAN_HZ = 2.1f,
+    CROUCH_HZ = 4,
+    BEND_HZ =
+        2.5f; /* critically damped followers; that of the crouch is also used for the belly's clearance */
+static const float CROUCH_S = 0.08f; /* lag of the crouch, and its look-ahead */
+static const float MAX_YAW = 0.8f;   /* rad; bound of the yaw of hips and chest */
+static const float NARROWEST = 0.5f; /* fraction of the reach: minimum distance of feet in the hips' yaw */
+static const float DEEPEST = 0.3f;   /* fraction of a leg's reach: maximum lowering for a foot */
+static const float LOWEST = 0.3f;    /* fraction of a leg's reach: minimum height of a hip above the ground */
+static const float EASY = 0.93f;     /* fraction of the reach for which the body is lowered in a stride */
+static const float UPRIGHT_HZ = 1;   /* critically damped follower */
+static const float CLEARANCE_S = 0.25f; /* look-ahead of the belly */
+static const float CLEAR = 0.03f;       /* fraction of the reach: clearance between belly and ground */
+static const float RAISED = 0.1f;       /* fraction of the reach: maximum rise for the belly */
+static const float UPRIGHT = 0.7f;      /* cosine: legs steeper than this are smoothed by the body's height */
 static const float CROUCH_TOLERANCE =
-    0.06f;                      /* of the reach: as near as what it needs to come down is to what it does */
-static const float ABRUPT = 43; /* of the reach, a second squared: 1.2 % a frame of 1/60 s in a frame */
-static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
+    0.06f;                         /* fraction of the reach: tolerance between needed and present lowering */
+static const float ABRUPT = 43;    /* reaches per squared second; 1.2 % per frame of 1/60 s and frame */
+static const float SPARE = 0.965f; /* fraction of the full reach for which the body is lowered in advance */
 
 static sbf_quat yaw_rotation(float yaw) {
   float s, c;
@@ -31,32 +34,32 @@ static sbf_quat yaw_rotation(float yaw) {
 
 typedef enum feet_of { ALL, LEFT, RIGHT, FORE, AFT, HIPS_LEFT, HIPS_RIGHT, CHEST_LEFT, CHEST_RIGHT } feet_of;
 
-static bool is_of(const sbri_leg *leg, feet_of which) {
+static bool is_of(const sbri_leg *leg, feet_of feet) {
   bool left = leg->home.x > 0;
-  switch (which) {
+  switch (feet) {
   case LEFT:
   case RIGHT:
-    return left == (which == LEFT);
+    return left == (feet == LEFT);
   case FORE:
   case AFT:
-    return leg->fore == (which == FORE);
+    return leg->fore == (feet == FORE);
   case HIPS_LEFT:
   case HIPS_RIGHT:
-    return leg->hind && left == (which == HIPS_LEFT);
+    return leg->hind && left == (feet == HIPS_LEFT);
   case CHEST_LEFT:
   case CHEST_RIGHT:
-    return !leg->hind && left == (which == CHEST_LEFT);
+    return !leg->hind && left == (feet == CHEST_LEFT);
   default:
     return true;
   }
 }
 
-/* Mean of the places below some of the feet; false for none. */
-static bool feet_center(const sbri_rig *rig, const sbri_gait_state *state, feet_of which, sbf_vec3 *center) {
+/* Mean ground position of some of the feet; false if there are none. */
+static bool feet_center(const sbri_rig *rig, const sbri_gait_state *state, feet_of feet, sbf_vec3 *center) {
   sbf_vec3 sum = {0, 0, 0};
   float count = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    if (!is_of(&rig->legs[i], which)) continue;
+    if (!is_of(&rig->legs[i], feet)) continue;
     sum = sbri_add(sum, state->feet[i].ground);
     count += 1;
   }
@@ -64,19 +67,19 @@ static bool feet_center(const sbri_rig *rig, const sbri_gait_state *state, feet_
   return count > 0;
 }
 
-/* Turn of the line from the right foot to the left against the heading: how far one side is ahead. */
+/* Yaw of the line from the right foot to the left relative to the heading. */
 static float line_yaw(
     const sbri_rig *rig, const sbri_gait_state *state, float scale, feet_of on_left, feet_of on_right) {
   sbf_vec3 left, right;
   if (!feet_center(rig, state, on_left, &left) || !feet_center(rig, state, on_right, &right)) return 0;
   sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
-  float min = NARROWEST * rig->reach * scale, more = line.x - min; /* no less, smoothly */
-  float across = min + 0.5f * (more + sqrtf(more * more + 0.25f * min * min));
-  float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, across);
-  return MAX_YAW * yaw / (MAX_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
+  float min = NARROWEST * rig->reach * scale, more = line.x - min; /* smooth minimum */
+  float width = min + 0.5f * (more + sqrtf(more * more + 0.25f * min * min));
+  float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, width);
+  return MAX_YAW * yaw / (MAX_YAW + fabsf(yaw)); /* feet may cross, but hips must not rotate with them */
 }
 
-/* Slope, as an angle, between two places `run` apart. */
+/* Slope angle between two points at a horizontal distance of `run`. */
 static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
 }
@@ -85,31 +88,30 @@ static float full_reach(const sbri_leg *leg, float scale) {
   return leg->reach * (1 - leg->soft_reach) * scale;
 }
 
-/* How far the body must come down for a leg to have its ankle, that its hip is `away` from, within `reach`.
- */
-static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 away, float reach) {
-  float left = reach * reach - away.x * away.x - away.z * away.z;
-  float min = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-  /* A clip's lift of the hip is undone entirely, so that the foot stays on the ground. */
+/* Lowering of the body for which a leg with the vector `offset` from ankle to hip has the length `reach`. */
+static float lowering_into(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 offset, float reach) {
+  float left = reach * reach - offset.x * offset.x - offset.z * offset.z;
+  float min = LOWEST * LOWEST * reach * reach; /* lowering does not help legs that are too far to the side */
+  /* A rise of the hip by a clip is compensated entirely, so that the foot stays on the ground. */
   float lifted = state->feet[leg].hip.y - rig->rest[rig->legs[leg].upper].position.y * input->scale;
-  float drop = away.y - sqrtf(left > min ? left : min);
+  float drop = offset.y - sqrtf(left > min ? left : min);
   float max = DEEPEST * reach + (lifted > 0 ? lifted : 0);
   return drop < max ? drop : max;
 }
 
-/* The same with a fraction of its reach. */
-static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+/* Lowering for a fraction of the leg's reach. */
+static float lowering_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
-  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even rate */
+  float bent = state->bent.value; /* squared, so that legs as straight as at rest bend at a steady rate */
   if (fraction < l->rest_stretch) fraction = l->rest_stretch + bent * bent * (fraction - l->rest_stretch);
-  return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
+  return lowering_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
 }
 
-/* How far the body may come down, as it will stand in a moment, before its belly is on the ground. */
-static float clearance_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbr_transform *root) {
+/* Maximum lowering before the belly touches the ground, for the position of the body in a moment. */
+static float max_lowering_of_belly(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, const sbr_transform *root) {
   float max = rig->reach * input->scale, clear = CLEAR * max;
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CLEARANCE_S), fore, hind;
   float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
@@ -126,13 +128,13 @@ static float clearance_below(const sbri_rig *rig, const sbri_gait_state *state, 
   return max > min ? max : min;
 }
 
-/* The same for every leg and where its foot is, for the whole reach; and `spare`, for what is kept in hand.
- */
+/* Lowering for which all legs reach their feet; `early` receives that for a reach with a reserve. */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbr_transform *root, float *spare) {
-  float min = state->clearance.value < 0 ? state->clearance.value : 0, max = min; /* it rises for its belly */
+    const sbr_transform *root, float *early) {
+  float min = state->clearance.value < 0 ? state->clearance.value : 0,
+        max = min; /* the belly needs it to rise */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CROUCH_S);
-  *spare = min;
+  *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
@@ -140,19 +142,19 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += foot->lift + state->position.y;
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
-    float drop = drop_for(rig, state, input, i, hip, ankle, 1);
+    float drop = lowering_for(rig, state, input, i, hip, ankle, 1);
     if (foot->planted) hip = sbri_add(hip, ahead);
-    float early = drop_for(rig, state, input, i, hip, ankle, SPARE);
+    float reserved = lowering_for(rig, state, input, i, hip, ankle, SPARE);
     max = drop > max ? drop : max;
-    *spare = early > *spare ? early : *spare;
+    *early = reserved > *early ? reserved : *early;
   }
   return max;
 }
 
-/* From how far it would come down to where no planted knee straightens, or bends, more abruptly than it can:
- * legs that stand upright alone, whose knees turn as the body goes up and down. */
-static float soften_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbr_transform *root, float down) {
+/* Limits the lowering so that no planted knee exceeds its angular acceleration. Only steep legs count, whose
+ * knees move with the height of the body. */
+static float limit_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, float lowering) {
   float min = -1e6f, max = 1e6f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
@@ -160,21 +162,21 @@ static float soften_for_knees(const sbri_rig *rig, const sbri_gait_state *state,
     if (leg->lower < 0 || leg->carrier >= 0 || !foot->planted) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += state->position.y;
-    sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, i, root), ankle);
+    sbf_vec3 offset = sbri_sub(sbri_hip_of(rig, state, input, i, root), ankle);
     float full = full_reach(leg, input->scale), shortest, longest;
-    if (away.y <= UPRIGHT * sbri_length(away)) continue;
+    if (offset.y <= UPRIGHT * sbri_length(offset)) continue;
     if (!sbri_knee_range(leg, foot, input, full, &shortest, &longest)) continue;
-    float bent = drop_into(rig, state, input, i, away, shortest);
-    float straight = longest < full ? drop_into(rig, state, input, i, away, longest) : min;
+    float bent = lowering_into(rig, state, input, i, offset, shortest);
+    float straight = longest < full ? lowering_into(rig, state, input, i, offset, longest) : min;
     max = bent < max ? bent : max;
     min = straight > min ? straight : min;
   }
-  if (down > max) down = max;
-  return down < min ? min : down;
+  if (lowering > max) lowering = max;
+  return lowering < min ? min : lowering;
 }
 
-/* The same for where every foot comes down and lifts off in a stride: the wider, the lower the body goes, and
- * stays, so that it need not bob. */
+/* Lowering for the positions at which feet land and lift off in a stride. Wide strides keep the body low, so
+ * that it need not bob. */
 static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbr_transform *root, const sbri_stride *stride) {
   float max = 0;
@@ -182,18 +184,18 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
     if (leg->lower < 0 || leg->carrier >= 0) continue;
-    const sbri_home *now = &stride->homes[i];
-    sbri_roam roam = foot->planted ? now->roam : sbri_roam_of(rig, state, input, i, now->arm);
-    float half = stride->half_m * now->speed / stride->speed;
-    sbf_vec3 direction = sbri_normalize(now->velocity, sbri_vec3(0, 0, 0));
-    sbf_vec3 home = sbri_add(state->position, now->arm);
+    const sbri_home *home_state = &stride->homes[i];
+    sbri_roam roam = foot->planted ? home_state->roam : sbri_roam_of(rig, state, input, i, home_state->arm);
+    float half = stride->half_m * home_state->speed / stride->speed;
+    sbf_vec3 direction = sbri_normalize(home_state->velocity, sbri_vec3(0, 0, 0));
+    sbf_vec3 home = sbri_add(state->position, home_state->arm);
     home.y = foot->ground.y + state->position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
     float ahead = sbri_ahead(&roam, direction, half);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
-    float contact = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead), EASY);
+    float contact = lowering_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead), EASY);
     float leave =
-        drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead - 2 * half), EASY);
+        lowering_for(rig, state, input, i, hip, sbri_add_scaled(ankle, direction, ahead - 2 * half), EASY);
     float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = contact > leave ? contact : leave;
     drop = drop < bound ? drop : bound;
     max = drop > max ? drop : max;
@@ -201,14 +203,14 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
   return max;
 }
 
-/* Without the crouch. */
-static sbri_stance stance_over(
+/* Stance without lowering. */
+static sbri_stance stance_without_lowering(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = {.root = {state->position, yaw_rotation(state->heading)}};
-  sbf_vec3 all, hind, fore, left, right;
-  bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &all);
+  sbf_vec3 center, hind, fore, left, right;
+  bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &center);
   float raised = state->position.y;
-  stance.root.position.y = raised + (on_feet ? all.y : sbri_ground_below(input, state->position, NULL).y);
+  stance.root.position.y = raised + (on_feet ? center.y : sbri_ground_below(input, state->position, NULL).y);
   if (!on_feet) stance.root = sbri_motion_root(rig, state, input, stance.root);
   if (!on_feet) return stance;
   stance.root.position.x += state->sway_x.value, stance.root.position.z += state->sway_z.value;
@@ -221,14 +223,14 @@ static sbri_stance stance_over(
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
-  /* While it has to keep its balance the tilt is about the middle of the hips, so that what the legs bear
-   * stays over the feet; else about the ground between the feet. */
+  /* While the body must keep its balance, it tilts about the middle of the hips, so that its mass stays above
+   * the feet; otherwise about the ground between the feet. */
   sbf_vec3 middle = sbri_vec3(0, state->upright.value * rig->hips_y, 0.5f * (rig->hind_z + rig->fore_z));
   middle = sbri_scale(middle, input->scale);
   sbf_quat heading = stance.root.rotation;
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
-  sbf_vec3 moved = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
-  stance.root.position = sbri_add(stance.root.position, moved);
+  sbf_vec3 shift = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
+  stance.root.position = sbri_add(stance.root.position, shift);
   stance.hips_pitch = -pitch;
   stance.hips_yaw = line_yaw(rig, state, input->scale, HIPS_LEFT, HIPS_RIGHT);
   stance.chest_yaw = stance.hips_yaw;
@@ -245,29 +247,30 @@ float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sb
 /* The body's lowering: the greater of the planned and the necessary one. Where they are equal, legs are
  * nearly straight and knees turn fast, so the transition is smoothed as far as possible.
  */
-static void come_down(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static void lower_body(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     float needed, sbri_stance *stance) {
   float size = rig->reach * input->scale, tick = input->tick_s;
-  float down = state->crouch.value > needed ? state->crouch.value : needed, eased = down;
+  float lowering = state->crouch.value > needed ? state->crouch.value : needed, eased = lowering;
   if (state->eased || needed > state->crouch.value - CROUCH_TOLERANCE * size)
-    eased = soften_for_knees(rig, state, input, &stance->root, down);
-  if (eased != down || state->eased) {
-    float even = stance->root.position.y - state->root.position.y - state->rise * tick; /* as it has come */
-    float change = ABRUPT * size * tick * tick, low = even - change, high = even + change;
-    if (!state->eased && down < low) low = down;
-    if (!state->eased && down > high) high = down;
+    eased = limit_for_knees(rig, state, input, &stance->root, lowering);
+  if (eased != lowering || state->eased) {
+    float steady_change =
+        stance->root.position.y - state->root.position.y - state->rise * tick; /* at constant velocity */
+    float change = ABRUPT * size * tick * tick, low = steady_change - change, high = steady_change + change;
+    if (!state->eased && lowering < low) low = lowering;
+    if (!state->eased && lowering > high) high = lowering;
     eased = sbri_clamp(eased, low, high);
     if (eased < needed) eased = needed;
   }
-  stance->eased = eased != down;
+  stance->eased = eased != lowering;
   stance->lowered = eased;
   stance->root.position.y -= eased;
 }
 
 sbri_stance sbri_body_stance(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  sbri_stance stance = stance_over(rig, state, input);
-  if (rig->leg_count) come_down(rig, state, input, sbri_body_drop(rig, state, input, &stance.root), &stance);
+  sbri_stance stance = stance_without_lowering(rig, state, input);
+  if (rig->leg_count) lower_body(rig, state, input, sbri_body_drop(rig, state, input, &stance.root), &stance);
   return stance;
 }
 
@@ -282,48 +285,48 @@ void sbri_body_steps_keep(const sbri_rig *rig, sbri_gait_state *state, float tic
   if (head) state->steps.head = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, tick_s);
 }
 
-/* Leans on towards `lean`, no farther than the feet that stand allow. */
-static void sway_to(
+/* Sways towards `lean`, as far as the planted feet reach. */
+static void update_sway(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 lean) {
   sbri_lag x = state->sway_x, z = state->sway_z;
   sbri_lag_tick(&x, lean.x, &state->steps.lean);
   sbri_lag_tick(&z, lean.z, &state->steps.lean);
-  sbf_vec3 by = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
-  float size = sbri_length(by), fraction = 1;
-  sbf_vec3 direction = sbri_normalize(by, sbri_vec3(0, 0, 0));
+  sbf_vec3 step = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
+  float size = sbri_length(step), fraction = 1;
+  sbf_vec3 direction = sbri_normalize(step, sbri_vec3(0, 0, 0));
   for (uint32_t i = 0; size > 0 && i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     float left = sbri_remaining_reach(rig, state, input, i, direction) / size;
     if (left < fraction) fraction = left > 0 ? left : 0;
   }
-  state->sway_x = (sbri_lag){state->sway_x.value + fraction * by.x, fraction * x.rate};
-  state->sway_z = (sbri_lag){state->sway_z.value + fraction * by.z, fraction * z.rate};
+  state->sway_x = (sbri_lag){state->sway_x.value + fraction * step.x, fraction * x.rate};
+  state->sway_z = (sbri_lag){state->sway_z.value + fraction * step.z, fraction * z.rate};
 }
 
 sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t lifting, sbf_vec3 direction) {
-  if (!rig->leg_count) return stance_over(rig, state, input);
+  if (!rig->leg_count) return stance_without_lowering(rig, state, input);
   sbri_body_steps_keep(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
   sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
   if (!state->together || state->standing_s > 0) lean = stands;
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, direction);
-  sway_to(rig, state, input, lean);
+  update_sway(rig, state, input, lean);
   if (!stride) state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
-  bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
+  bool at_home = state->standing_s > 0 && !lifting; /* all feet are at home */
   if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &steps->bend);
   sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
   if (!stride) state->upright = (sbri_lag){0, 0};
-  sbri_stance stance = stance_over(rig, state, input);
+  sbri_stance stance = stance_without_lowering(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
-  float clearance = clearance_below(rig, state, input, &stance.root);
+  float clearance = max_lowering_of_belly(rig, state, input, &stance.root);
   sbri_lag_tick(&state->clearance, clearance, &steps->crouch);
   if (!stride) state->clearance = (sbri_lag){clearance, 0};
   if (wanted > state->clearance.value) wanted = state->clearance.value;
   sbri_lag_tick(&state->crouch, wanted, &steps->crouch);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};
-  come_down(rig, state, input, needed, &stance);
+  lower_body(rig, state, input, needed, &stance);
   return stance;
 }

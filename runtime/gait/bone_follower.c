@@ -1,4 +1,4 @@
-/* Followers: bones that go after their own animated pose as second-order systems. */
+/* Followers: bones that follow their own animated pose as second-order systems. */
 #include "gait/gait_state.h"
 
 /* gait/squash.c, gait/weight.c */

@@ -1,5 +1,5 @@
-/* The pose under the gait: bones against their parents, at rest, from poses keyed by the distance walked,
- * from clips that are played. */
+/* The pose below the gait: bones relative to their parents, from the rest pose, from poses keyed by the
+ * distance walked, and from clips. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 
@@ -13,7 +13,7 @@ static sbf_quat slerp(sbf_quat a, sbf_quat b, float t) {
   return sbri_quat_normalize(sbri_quat_multiply(sbri_quat_exp(sbri_scale(turn, t)), a));
 }
 
-/* Values of a track at a time, `width` numbers; keys as glTF has them. */
+/* Samples a track at a time into `width` numbers; keys as in glTF. */
 static void sample_track(const sbf_track *track, float time, uint32_t width, float *out) {
   bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC;
   uint32_t stride = width * (cubic ? 3 : 1), last = track->times.count - 1, low = 0, high = last;
@@ -66,13 +66,14 @@ static void play_clip(const sbri_rig *rig, const sbri_clip_layer *layer, sbr_tra
     } else {
       sample_track(track, layer->time_s, 3, v);
       sbf_vec3 to = {v[0], v[1], v[2]};
-      if (track->bone == body) to.x = local->position.x, to.z = local->position.z; /* the gait moves it */
+      if (track->bone == body)
+        to.x = local->position.x, to.z = local->position.z; /* the gait moves it horizontally */
       local->position = sbri_lerp(local->position, to, weight);
     }
   }
 }
 
-/* The gait's own clips, by its speed. */
+/* The clips of the gait, weighted by its speed. */
 static void play_gait_clips(
     const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
   if (!sbri_has_motion(rig)) return;

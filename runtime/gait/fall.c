@@ -7,20 +7,20 @@
 
 static const float GONE =
     0.4f; /* depth below a foot, as a fraction of a step's height, at which ground no longer supports it */
-static const float LOW = 1e-4f; /* m: nothing falls from so low */
+static const float LOW = 1e-4f; /* m; minimum height of a fall */
 
-/* Height of what the character stands on, from the origin. */
-static float level_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+/* Height of the ground that supports the character, relative to the origin. */
+static float support_height(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float sum = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) sum += state->feet[i].ground.y;
   return rig->leg_count ? sum / (float)rig->leg_count : sbri_ground_below(input, state->position, NULL).y;
 }
 
-/* Whether a planted foot has ground under its centre, or elsewhere under it, as at the edge of a stair. */
+/* Whether a planted foot has ground under its centre, or under another part, as at the edge of a stair. */
 static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, float gone) {
+    uint32_t leg, float unsupported) {
   sbf_vec3 position = state->feet[leg].ground, normal;
-  float min = position.y - gone;
+  float min = position.y - unsupported;
   if (sbri_ground_below(input, position, NULL).y >= min) return true;
   sbri_lay_sole(rig, state, input, leg, &position, &normal);
   return position.y >= min;
@@ -28,19 +28,19 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
 
 /* Whether nothing supports it: no planted foot has ground, or, without legs, there is none under the body. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  float gone = GONE * rig->girth.step_up * input->scale;
-  if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - gone;
+  float unsupported = GONE * rig->girth.step_up * input->scale;
+  if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - unsupported;
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (is_supported(rig, state, input, i, gone)) return false;
+    if (is_supported(rig, state, input, i, unsupported)) return false;
     stands = true;
   }
   return stands;
 }
 
-/* Feet below the body, all as high as the highest ground under them. */
-static void hang_feet(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+/* Places the feet below the body, at the height of the highest ground below them. */
+static void place_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float highest = -1e30f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot_put_down(rig, state, input, i);
@@ -58,19 +58,19 @@ bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   if (!state->falls && !(state->position.y > LOW) && !has_no_ground(rig, state, input)) return false;
   if (!state->falls) state->fall_speed = 0;
   float height = state->level + state->position.y;
-  hang_feet(rig, state, input);
+  place_feet_below(rig, state, input);
   state->fall_speed += input->gravity * input->tick_s;
   height -= state->fall_speed * input->tick_s;
-  state->level = level_below(rig, state, input);
+  state->level = support_height(rig, state, input);
   state->position.y = height - state->level;
   state->falls = state->position.y > LOW;
   if (state->falls) return true;
   state->position.y = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
-  state->level = level_below(rig, state, input);
+  state->level = support_height(rig, state, input);
   return true;
 }
 
 void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  state->level = level_below(rig, state, input);
+  state->level = support_height(rig, state, input);
 }

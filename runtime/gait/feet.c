@@ -9,7 +9,7 @@
 static const float REST_AFTER_S = 0.15f; /* time of standing after which feet return home */
 static const float SETTLED = 0.15f;      /* fraction of the trigger distance within which a foot is at home */
 static const float DUE = 0.9f;           /* in half strides behind home: the foot steps */
-static const float EARLY = 0.25f;        /* the same for the foot whose turn it is */
+static const float EARLY = 0.25f;        /* the same for the next foot in turn */
 static const float COMPANION = -0.3f;    /* the same for a foot that joins another of its group */
 static const float TWISTED = 0.6f;       /* maximum angle of a planted foot to the body, rad */
 static const float MISSED = 0.002f; /* fraction of the reach: a sole this far from its target must step */
@@ -43,38 +43,40 @@ static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, u
   return feet;
 }
 
-/* Displacement of a planted foot in half strides behind its home; sideways displacement and twist add to it.
+/* Displacement of a planted foot in half strides behind its home, including sideways displacement and twist.
  * While standing: in trigger distances from home. */
 static float displacement(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   const sbri_foot *foot = &state->feet[leg];
   const sbri_home *home = &stride->homes[leg];
-  sbf_vec3 away = sbri_sub(sbri_add(state->position, home->arm), foot->ground);
-  away.y = 0;
+  sbf_vec3 offset = sbri_sub(sbri_add(state->position, home->arm), foot->ground);
+  offset.y = 0;
   float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
-  if (state->standing_s > 0) return sbri_length(away) / trigger + 0.15f * twist;
+  if (state->standing_s > 0) return sbri_length(offset) / trigger + 0.15f * twist;
   sbf_vec3 direction = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
-  float behind = sbri_dot(away, direction), beside = sbri_length(sbri_add_scaled(away, direction, -behind));
+  float behind = sbri_dot(offset, direction),
+        beside = sbri_length(sbri_add_scaled(offset, direction, -behind));
   float half = stride->speed > 0 ? stride->half_m * home->speed / stride->speed : 0;
   float min = 0.4f * stride->half_m;
   if (half < min) half = min;
-  float late = half - sbri_ahead(&home->roam, direction, half); /* it lands this much short */
-  float off = (behind - late) / half, wide = 0.7f * beside / stride->half_m;
-  if (behind > 0 && off < DUE) {
+  float shortfall =
+      half - sbri_ahead(&home->roam, direction, half); /* its landing position is short by this much */
+  float result = (behind - shortfall) / half, wide = 0.7f * beside / stride->half_m;
+  if (behind > 0 && result < DUE) {
     float strain = sbri_strain(state, home, leg) / STRAINED;
-    if (strain > DUE) off = strain;
+    if (strain > DUE) result = strain;
   }
   float missed = foot->missed / (MISSED * rig->reach * input->scale);
-  if (missed > 1 && missed > off) off = missed; /* its leg cannot hold it there */
-  if (wide > NOTED && wide > off) off = wide;
-  return twist > NOTED && twist > off ? twist : off;
+  if (missed > 1 && missed > result) result = missed; /* out of the leg's reach */
+  if (wide > NOTED && wide > result) result = wide;
+  return twist > NOTED && twist > result ? twist : result;
 }
 
 /* Input of the selection of feet. */
 typedef struct choice {
   sbri_stride stride;
-  float off[SBRI_MAX_LEGS]; /* displacement of planted feet */
-  uint32_t next;            /* bit of the next foot, lifted or not; 0: none */
+  float displacements[SBRI_MAX_LEGS]; /* displacement of planted feet */
+  uint32_t next;                      /* bit of the next foot, lifted or not; 0: none */
 } choice;
 
 /* Displacement of the body in a time. */
@@ -105,14 +107,15 @@ static int32_t choose(
   if (state->standing_s > 0 && state->standing_s < REST_AFTER_S) return -1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted || state->pivot == i + 1) continue;
-    uint32_t own = 1u << (rig->legs[i].group & 15);
-    bool companion = in_air && groups == own;
-    float off = state->next == i + 1 ? c->off[i] + KEPT : c->off[i]; /* the body leans for that one already */
-    if (worst < 0 || off > max) worst = (int32_t)i, max = off;
+    uint32_t own_group = 1u << (rig->legs[i].group & 15);
+    bool companion = in_air && groups == own_group;
+    float value = state->next == i + 1 ? c->displacements[i] + KEPT
+                                       : c->displacements[i]; /* the body already leans for this foot */
+    if (worst < 0 || value > max) worst = (int32_t)i, max = value;
     if (in_air && !companion) continue;
     float min = companion ? COMPANION : wanted;
     if (state->standing_s > 0) min = SETTLED;
-    if (c->off[i] < min) continue;
+    if (c->displacements[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
     bool bears = (c->stride.together || c->stride.running) && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
@@ -123,7 +126,7 @@ static int32_t choose(
         continue;
       }
     }
-    if (best < 0 || c->off[i] > c->off[best]) best = (int32_t)i;
+    if (best < 0 || c->displacements[i] > c->displacements[best]) best = (int32_t)i;
   }
   c->next = worst >= 0 ? 1u << worst : 0;
   state->next = (uint32_t)(worst + 1);
@@ -136,13 +139,14 @@ static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacit
   return count < capacity ? count + 1 : count;
 }
 
-/* Puts a foot that is far behind, as after a teleport, at its home. */
+/* Moves a foot that is far behind, as after a teleport, to its home. */
 static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbf_vec3 home = sbri_add(state->position, stride->homes[leg].arm);
   const sbri_leg *l = &rig->legs[leg];
-  float lost = (rig->gait->legs.at[leg].jump_margin + l->upper_length + l->lower_length) * input->scale;
-  if (sbri_flat_distance(home, state->feet[leg].ground) <= lost) return false;
+  float max_distance =
+      (rig->gait->legs.at[leg].jump_margin + l->upper_length + l->lower_length) * input->scale;
+  if (sbri_flat_distance(home, state->feet[leg].ground) <= max_distance) return false;
   sbri_foot_put_down(rig, state, input, leg);
   return true;
 }
@@ -156,13 +160,13 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;
-    bool set_down = catch_up(rig, state, input, &c.stride, i);
+    bool placed = catch_up(rig, state, input, &c.stride, i);
     if (!foot->planted && sbri_swing_tick(rig, state, input, &c.stride, i)) {
       count = report(events, count, capacity, SBRI_GAIT_FOOT_DOWN, i, foot->ground);
-      set_down = true;
+      placed = true;
     }
-    if (set_down) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
-    if (foot->planted) c.off[i] = displacement(rig, state, input, &c.stride, i);
+    if (placed) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
+    if (foot->planted) c.displacements[i] = displacement(rig, state, input, &c.stride, i);
   }
   state->since_lift_m += c.stride.speed * input->tick_s;
   bool unbalanced = false;
@@ -179,7 +183,8 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   if (state->standing_s > 0) { /* next foot to return home, if any is away */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)
-      if (state->feet[i].planted && c.off[i] >= SETTLED && (worst < 0 || c.off[i] > c.off[worst]))
+      if (state->feet[i].planted && c.displacements[i] >= SETTLED &&
+          (worst < 0 || c.displacements[i] > c.displacements[worst]))
         worst = (int32_t)i;
     c.next = worst >= 0 ? 1u << worst : 0;
   }

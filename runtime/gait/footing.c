@@ -27,20 +27,21 @@ static float level_of(const sbri_rig *rig, const sbri_gait_state *state) {
   return count > 0 ? sum / count : state->position.y;
 }
 
-/* Lays a sole on the ground like a board: tilted to the slope under its corners, on the highest point below
- * it. Returns the distance of the ground from that plane. If it is too large, as across an edge, the sole
- * follows the ground under its middle. */
-static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float uneven, ground_spot *spot) {
+/* Fits a sole to the ground like a board: tilted to the slope under its corners, on the highest point below
+ * it. Returns the distance of the ground from that plane. If it is above `uneven`, as across an edge, the
+ * sole follows the ground under its middle. */
+static float fit_sole(
+    const sbri_gait_input *input, const sbf_vec3 corners[4], float uneven, ground_spot *spot) {
   float heights[4], rise = 0, worst = 0;
   for (int k = 0; k < 4; k++)
     heights[k] = sbri_ground_below(input, sbri_add(spot->position, corners[k]), NULL).y - spot->position.y;
   /* Corners surround the middle in pairs, so differences along both axes give the slopes. */
   sbf_vec3 fore = sbri_sub(sbri_add(corners[2], corners[3]), sbri_add(corners[0], corners[1]));
   sbf_vec3 left = sbri_sub(sbri_add(corners[1], corners[3]), sbri_add(corners[0], corners[2]));
-  float along = heights[2] + heights[3] - heights[0] - heights[1];
-  float across = heights[1] + heights[3] - heights[0] - heights[2];
+  float forward = heights[2] + heights[3] - heights[0] - heights[1];
+  float right = heights[1] + heights[3] - heights[0] - heights[2];
   sbf_vec3 slope = sbri_add(
-      sbri_scale(fore, along / sbri_dot(fore, fore)), sbri_scale(left, across / sbri_dot(left, left)));
+      sbri_scale(fore, forward / sbri_dot(fore, fore)), sbri_scale(left, right / sbri_dot(left, left)));
   for (int k = 0; k < 4; k++) {
     float over = heights[k] - sbri_dot(slope, corners[k]);
     worst = fabsf(over) > worst ? fabsf(over) : worst;
@@ -61,7 +62,7 @@ static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float 
 }
 
 /* On curved ground the highest points may lie between the corners. */
-static void raise_over_bumps(const sbri_gait_input *input, const sbf_vec3 corners[4], ground_spot *spot) {
+static void raise_to_highest(const sbri_gait_input *input, const sbf_vec3 corners[4], ground_spot *spot) {
   static const int edges[4][2] = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
   float rise = 0;
   for (int k = 0; k < 4; k++) {
@@ -78,15 +79,15 @@ static void find_corners(const sbri_rig *rig, const sbri_gait_state *state, floa
     sbf_vec3 corners[4], sbf_vec3 *outline) {
   const sbri_sole *sole = &rig->legs[leg].sole;
   const sbri_foot *foot = &state->feet[leg];
-  float turned =
+  float rotation =
       foot->planted ? 0 : state->turn * state->speed_fraction * (1 - foot->phase) * foot->duration_s;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
-    if (turned != 0) corner = sbri_turned(corner, turned); /* with the body's heading at landing */
+    if (rotation != 0) corner = sbri_turned(corner, rotation); /* with the body's heading at landing */
     corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * scale));
     if (!outline) continue;
     corner = sbri_vec3(sole->outline[k & 1 ? 0 : 1], 0, sole->outline[k & 2 ? 2 : 3]);
-    if (turned != 0) corner = sbri_turned(corner, turned);
+    if (rotation != 0) corner = sbri_turned(corner, rotation);
     outline[k] = sbri_headed(state, sbri_scale(corner, scale));
   }
 }
@@ -100,8 +101,8 @@ void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   find_corners(rig, state, input->scale, leg, corners, NULL);
   if (!sbri_ground_is_flat(input->ground, &level)) {
     float uneven = UNEVEN * rig->reach * input->scale;
-    bool even = lay(input, corners, uneven, &spot) <= uneven;
-    if (even) raise_over_bumps(input, corners, &spot);
+    bool even = fit_sole(input, corners, uneven, &spot) <= uneven;
+    if (even) raise_to_highest(input, corners, &spot);
   }
   *position = spot.position;
   *normal = spot.normal;
@@ -115,7 +116,7 @@ static int quality(
   spot->position = sbri_ground_below(input, wanted, &spot->normal);
   if (spot->normal.y < STEEPEST || fabsf(spot->position.y - f->level) > HIGHEST * reach) return 0;
   if (sbri_ground_is_flat(input->ground, &level)) return 2;
-  if (lay(input, f->corners, UNEVEN * reach, spot) > UNEVEN * reach) return 1;
+  if (fit_sole(input, f->corners, UNEVEN * reach, spot) > UNEVEN * reach) return 1;
   for (int k = 0; k < 4; k++) { /* no obstacle beside the sole that the rest of the foot would penetrate */
     float plane = -(spot->normal.x * f->outline[k].x + spot->normal.z * f->outline[k].z) / spot->normal.y;
     float high = sbri_ground_below(input, sbri_add(spot->position, f->outline[k]), NULL).y - spot->position.y;
@@ -125,11 +126,11 @@ static int quality(
 }
 
 bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 position, bool well) {
+    uint32_t leg, sbf_vec3 position, bool is_good) {
   footing f = {.level = level_of(rig, state)};
   ground_spot spot;
   find_corners(rig, state, input->scale, leg, f.corners, f.outline);
-  return quality(rig, input, &f, position, &spot) >= (well ? 2 : 1);
+  return quality(rig, input, &f, position, &spot) >= (is_good ? 2 : 1);
 }
 
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,

@@ -12,15 +12,15 @@
 static const float SMOOTHING_S = 0.18f; /* smoothing time of commands, s */
 static const float DISPLACED_S = 0.1f;  /* smoothing time of the speed of host displacements, s */
 static const float ACCELERATES = 0.2f;  /* maximum acceleration, in reaches per squared duration of a step */
-static const float BRISK_S =
-    0.4f; /* on level ground slower steps count once as these: large bodies took seconds */
+static const float BRISK_S = 0.4f;      /* on level ground, minimum duration of a step in this formula: large
+                                           bodies would take seconds to accelerate */
 static const float STILL =
     0.004f; /* speed below which the character stands still, m/s and rad/s per metre of leg */
 static const float LONG_S = 1;       /* maximum counted time of standing, s */
-static const float SLOWS_S = 0.05f;  /* time over which it slows down for feet at their reach, s */
+static const float SLOWS_S = 0.05f;  /* time constant for slowing down while feet are at their reach, s */
 static const float WAITS_S = 0.1f;   /* wait for balance after which the body slows down, s */
 static const float BALANCE_S = 0.2f; /* further wait after which it stands, s */
-static const float HURRY_S = 0.12f;  /* time over which it regains speed after a wait, s */
+static const float HURRY_S = 0.12f;  /* time constant for regaining speed after a wait, s */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
@@ -30,7 +30,7 @@ size_t sbri_gait_state_size(const sbri_rig *rig) {
   return (size + 15) & ~(size_t)15;
 }
 
-static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
+static void store_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->root = stance->root;
   state->hips_yaw = stance->hips_yaw;
   state->hips_pitch = stance->hips_pitch;
@@ -78,18 +78,19 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   state->root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
-  keep_stance(state, &stance);
+  store_stance(state, &stance);
   state->rise = 0;
   sbri_fall_note_level(rig, state, input);
   sbri_tails_reset(rig, state, input, &stance);
 }
 
 /* Change of speed and turn rate in a tick. */
-typedef struct gain {
+typedef struct velocity_gain {
   float ahead, aside, turn;
-} gain;
+} velocity_gain;
 
-static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+static velocity_gain limited_gain(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
   float ahead = (state->limit * input->forward - state->forward) * inverse_mass;
   float aside = (state->limit * input->sideways - state->sideways) * inverse_mass;
@@ -101,21 +102,21 @@ static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
     fraction = change > max ? max / change : 1;
   }
-  return (gain){fraction * ahead, fraction * aside, fraction * turn};
+  return (velocity_gain){fraction * ahead, fraction * aside, fraction * turn};
 }
 
 float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
-  gain by = gain_of(rig, memory, input);
-  float round = by.turn * radius_m;
-  return sqrtf(by.ahead * by.ahead + by.aside * by.aside + round * round);
+  velocity_gain gain = limited_gain(rig, memory, input);
+  float round = gain.turn * radius_m;
+  return sqrtf(gain.ahead * gain.ahead + gain.aside * gain.aside + round * round);
 }
 
 static bool is_displaced(const sbri_gait_input *input) {
   return input->turned != 0 || sbri_dot(input->moved, input->moved) > 0;
 }
 
-/* Moves and turns the body as far as walls allow. */
-static void go(
+/* Moves and rotates the body as far as walls allow. */
+static void move_body(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step, float turned) {
   sbf_vec3 from = state->position;
   state->position = sbri_add(from, step);
@@ -127,25 +128,25 @@ static void go(
   sbri_motion_tick(rig, state, input, step);
 }
 
-/* Applies displacement by the host. Its speed becomes the motion's speed, so that feet step and tails swing.
- */
+/* Applies displacement by the host. Its speed becomes the speed of the motion, so that feet step and tails
+ * swing. */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
-  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->moved), h), by = input->moved;
-  if (!sbri_is_afloat(rig)) by.y = 0;
+  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->moved), h), shift = input->moved;
+  if (!sbri_is_afloat(rig)) shift.y = 0;
   state->forward += (speed.z - state->forward) * blend;
   state->sideways += (speed.x - state->sideways) * blend;
   state->turn += (h * input->turned - state->turn) * blend;
   state->standing_s = 0;
   state->speed_fraction = 1;
   state->displaced = 1;
-  go(rig, state, input, by, input->turned);
+  move_body(rig, state, input, shift, input->turned);
   return input->turned;
 }
 
-float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *given) {
-  sbri_gait_input wants = sbri_motion_input(rig, given);
-  const sbri_gait_input *input = &wants;
+float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *host_input) {
+  sbri_gait_input command = sbri_motion_input(rig, host_input);
+  const sbri_gait_input *input = &command;
   if (is_displaced(input)) return displace(rig, state, input);
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   if (state->displaced && !wanted) state->forward = state->sideways = state->turn = 0;
@@ -157,10 +158,10 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     sbri_motion_tick(rig, state, input, direction);
     return round;
   }
-  gain by = gain_of(rig, state, input);
-  state->forward += by.ahead;
-  state->sideways += by.aside;
-  state->turn += by.turn;
+  velocity_gain gain = limited_gain(rig, state, input);
+  state->forward += gain.ahead;
+  state->sideways += gain.aside;
+  state->turn += gain.turn;
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;
@@ -170,7 +171,7 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   }
   float lasting = 1, max = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
   float balanced =
-      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* leaves the foot that lifts next room to lean */
+      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* leaves the next foot time for the body to lean */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
   float speed_fraction = lasting < max ? lasting : max,
         in_s = speed_fraction < state->speed_fraction ? SLOWS_S : HURRY_S;
@@ -179,12 +180,12 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   float h = input->tick_s * state->speed_fraction * sbri_hop_speed_fraction(rig, state, input),
         turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
-  go(rig, state, input, step, turned);
+  move_body(rig, state, input, step, turned);
   return turned;
 }
 
-/* Turns the head into the coming turn and stabilises it against the body's sway. */
-static void lead_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+/* Rotates the head into the coming turn and stabilises it against the body's sway. */
+static void update_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   const sbf_head_turn *head = rig->gait ? rig->gait->head : NULL;
   if (!head) return;
   float target = sbri_clamp(input->turn * head->lead, -head->limit, head->limit);
@@ -214,7 +215,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   float turned = sbri_body_move(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
-    sbri_foot *foot = &state->feet[i]; /* a planted foot does not turn with the body */
+    sbri_foot *foot = &state->feet[i]; /* a planted foot does not rotate with the body */
     if (foot->planted) foot->heading = sbri_wrap_angle(foot->heading - turned);
     sbri_foot_update_heading(rig, state, input, i);
   }
@@ -229,10 +230,10 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   else
     stance = sbri_body_stance(rig, state, input);
   if (!in_air) sbri_fall_note_level(rig, state, input);
-  lead_head(rig, state, input);
+  update_head(rig, state, input);
   sbri_tails_tick(rig, state, input, &stance, turned);
   state->rise = (stance.root.position.y - state->root.position.y) / input->tick_s;
-  keep_stance(state, &stance);
+  store_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);
   return count;

@@ -1,17 +1,17 @@
 /* Limits the angular acceleration of knees.
  *
- * A step is planned with what is known at its beginning; body and ground may then move otherwise. If the
- * foot's path would accelerate the knee too much, the knee lags behind and catches up as fast as it can stop
- * again. */
+ * A step is planned from the state at its beginning; body and ground may move differently later. If the
+ * foot's path would accelerate the knee too much, the knee lags and catches up as fast as it can still stop.
+ */
 #include "gait/gait_state.h"
 #include "math/trig.h"
 
 static const float PI = 3.14159265f;
-static const float ABRUPT =
-    285; /* rad/s2, 4.5 degrees a frame of 1/60 s in a frame: a knee's turn changes by no more */
-static const float QUICK = 2;       /* rad/s: a knee that turns no faster is not held, */
-static const float STRAIGHT = 2.7f; /* rad: unless it is as straight as this */
-static const float EXACT = 1e-5f;   /* rad: a knee so near to where it should be is there */
+static const float MAX_ACCELERATION =
+    285; /* rad/s2, maximum angular acceleration: 4.5 degrees per frame of 1/60 s and frame */
+static const float QUICK = 2;       /* rad/s; knees slower than this have no limit, */
+static const float STRAIGHT = 2.7f; /* rad; unless they are straighter than this */
+static const float EXACT = 1e-5f;   /* rad; tolerance below which a knee is at its target */
 
 float sbri_knee_angle(const sbri_leg *leg, float scale, float distance) {
   float upper = leg->upper_length * scale, lower = leg->lower_length * scale;
@@ -25,43 +25,45 @@ float sbri_knee_distance(const sbri_leg *leg, float scale, float angle) {
   return square > 0 ? sqrtf(square) : 0;
 }
 
-/* How fast to go towards a place so far off, so that it can be stopped at there. */
-static float approach(float away, float tick_s) {
-  float off = fabsf(away), change = ABRUPT * tick_s;
-  float speed = off <= change * tick_s ? off / tick_s
-                                       : sqrtf(2 * ABRUPT * off + 0.25f * change * change) - 0.5f * change;
-  return away < 0 ? -speed : speed;
+/* Maximum angular velocity towards a target at this distance at which it can still stop there. */
+static float approach(float distance, float tick_s) {
+  float size = fabsf(distance), change = MAX_ACCELERATION * tick_s;
+  float speed = size <= change * tick_s
+                    ? size / tick_s
+                    : sqrtf(2 * MAX_ACCELERATION * size + 0.25f * change * change) - 0.5f * change;
+  return distance < 0 ? -speed : speed;
 }
 
-float sbri_knee_follow(const sbri_foot *foot, float wanted, float tick_s) {
-  if (foot->knee_known < 2) return wanted;
-  float change = ABRUPT * tick_s, goes = (wanted - foot->knee_wanted) / tick_s;
-  float rate = goes + approach(foot->knee_wanted - foot->knee, tick_s);
-  float stops = approach(PI - foot->knee, tick_s); /* where the leg is straight */
-  if (rate > stops) rate = stops;
+float sbri_knee_follow(const sbri_foot *foot, float target, float tick_s) {
+  if (foot->knee_known < 2) return target;
+  float change = MAX_ACCELERATION * tick_s, rate_of_target = (target - foot->knee_wanted) / tick_s;
+  float rate = rate_of_target + approach(foot->knee_wanted - foot->knee, tick_s);
+  float stopping_rate = approach(PI - foot->knee, tick_s); /* must stop when the leg is straight */
+  if (rate > stopping_rate) rate = stopping_rate;
   rate = sbri_clamp(rate, foot->knee_rate - change, foot->knee_rate + change);
   float angle = sbri_clamp(foot->knee + rate * tick_s, 0, PI);
-  return fabsf(angle - wanted) > EXACT ? angle : wanted;
+  return fabsf(angle - target) > EXACT ? angle : target;
 }
 
-void sbri_knee_keep(sbri_foot *foot, float angle, float wanted, float tick_s) {
+void sbri_knee_keep(sbri_foot *foot, float angle, float target, float tick_s) {
   foot->knee_rate = foot->knee_known ? (angle - foot->knee) / tick_s : 0;
   foot->knee = angle;
-  foot->knee_wanted = wanted;
+  foot->knee_wanted = target;
   if (foot->knee_known < 2) foot->knee_known++;
 }
 
 bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait_input *input, float full,
     float *shortest, float *longest) {
   if (foot->knee_known < 2 || (foot->knee < STRAIGHT && fabsf(foot->knee_rate) < QUICK)) return false;
-  float tick = input->tick_s, change = ABRUPT * tick;
-  float ends = sbri_knee_angle(leg, input->scale, sbri_leg_span(leg, input->scale, full)),
-        left = ends - foot->knee;
-  float max = foot->knee_rate + change, stops = left > 0 ? approach(left, tick) : 0;
-  if (stops < max) max = stops > foot->knee_rate - change ? stops : foot->knee_rate - change;
+  float tick = input->tick_s, change = MAX_ACCELERATION * tick;
+  float straightest = sbri_knee_angle(leg, input->scale, sbri_leg_span(leg, input->scale, full)),
+        remaining = straightest - foot->knee;
+  float max = foot->knee_rate + change, stopping_rate = remaining > 0 ? approach(remaining, tick) : 0;
+  if (stopping_rate < max)
+    max = stopping_rate > foot->knee_rate - change ? stopping_rate : foot->knee_rate - change;
   float straight = foot->knee + max * tick, bent = foot->knee + (foot->knee_rate - change) * tick;
   *longest = *shortest = 0;
-  if (straight < ends)
+  if (straight < straightest)
     *longest = sbri_leg_upright(leg, input->scale, sbri_knee_distance(leg, input->scale, straight));
   else
     *longest = full;

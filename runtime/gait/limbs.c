@@ -1,11 +1,11 @@
-/* Limbs: legs within their limits, and what hosts ask IK chains to reach for. */
+/* Limbs: joint limits of legs, and targets of the host for IK chains. */
 #include "gait/gait_state.h"
 #include "ik/ik.h"
 
 static const uint32_t LEG_PASSES = 24;
 
-/* The joints of a chain as they are posed, from the root bone on; 0 where there are too many. */
-static uint32_t take_joints(const sbri_rig *rig, int32_t root_bone, int32_t end, const sbr_transform *root,
+/* Joints of a chain in the present pose, from the root bone on; returns 0 if there are too many. */
+static uint32_t read_joints(const sbri_rig *rig, int32_t root_bone, int32_t end, const sbr_transform *root,
     const sbr_transform *pose, sbri_ik_joint *joints, uint32_t *bones, sbr_transform *base) {
   uint32_t count = 0;
   for (int32_t b = end; b >= 0 && count < SBRI_IK_MAX_JOINTS; b = rig->parents[b]) {
@@ -21,17 +21,17 @@ static uint32_t take_joints(const sbri_rig *rig, int32_t root_bone, int32_t end,
   const sbr_transform *before = base;
   for (uint32_t i = 0; i < count; i++) {
     const sbr_transform *frame = &pose[bones[i]];
-    sbf_quat back = sbri_quat_conjugate(before->rotation);
-    joints[i] = (sbri_ik_joint){.offset = sbri_rotate(back, sbri_sub(frame->position, before->position)),
-        .rotation = sbri_quat_normalize(sbri_quat_multiply(back, frame->rotation)),
+    sbf_quat to_parent = sbri_quat_conjugate(before->rotation);
+    joints[i] = (sbri_ik_joint){.offset = sbri_rotate(to_parent, sbri_sub(frame->position, before->position)),
+        .rotation = sbri_quat_normalize(sbri_quat_multiply(to_parent, frame->rotation)),
         .limit = &rig->limits[bones[i]]};
     before = frame;
   }
   return count;
 }
 
-/* Puts the joints' answer into the pose, all that hangs on them following. */
-static void give_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const uint32_t *bones, float weight,
+/* Writes the solved joints to the pose; children follow. */
+static void write_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const uint32_t *bones, float weight,
     sbr_transform *pose) {
   sbr_transform frames[SBRI_IK_MAX_JOINTS];
   sbri_ik_compute_frames(chain, frames);
@@ -45,15 +45,15 @@ static void give_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const u
 
 static bool breaks_limit(const sbri_rig *rig, int32_t bone, const sbr_transform *pose) {
   if (!rig->limits[bone].active || rig->parents[bone] < 0) return false;
-  sbf_quat above = sbri_quat_conjugate(pose[rig->parents[bone]].rotation);
-  return !sbri_joint_limit_holds(&rig->limits[bone], sbri_quat_multiply(above, pose[bone].rotation), 1e-4f);
+  sbf_quat parent = sbri_quat_conjugate(pose[rig->parents[bone]].rotation);
+  return !sbri_joint_limit_holds(&rig->limits[bone], sbri_quat_multiply(parent, pose[bone].rotation), 1e-4f);
 }
 
 void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sbf_vec3 pole, float scale,
     sbr_transform *pose) {
-  const int32_t own[3] = {leg->upper, leg->lower, leg->foot};
+  const int32_t leg_bones[3] = {leg->upper, leg->lower, leg->foot};
   bool breaks = false;
-  for (int i = 0; i < 3; i++) breaks = breaks || breaks_limit(rig, own[i], pose);
+  for (int i = 0; i < 3; i++) breaks = breaks || breaks_limit(rig, leg_bones[i], pose);
   if (!breaks) return;
   sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
   uint32_t bones[SBRI_IK_MAX_JOINTS];
@@ -66,19 +66,20 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
       .tolerance = 2e-4f * (leg->upper_length + leg->lower_length) * scale,
       .iterations = LEG_PASSES};
   const sbr_transform none = {{0, 0, 0}, {0, 0, 0, 1}};
-  chain.count = take_joints(rig, leg->upper, leg->foot, &none, pose, joints, bones, &chain.base);
+  chain.count = read_joints(rig, leg->upper, leg->foot, &none, pose, joints, bones, &chain.base);
   if (chain.count == 0) return;
   sbri_ccd(&chain);
   if (!leg->last) {
-    give_joints(rig, &chain, bones, 1, pose);
+    write_joints(rig, &chain, bones, 1, pose);
     return;
   }
-  sbr_transform frames[SBRI_IK_MAX_JOINTS]; /* of three bones; the others are posed after them */
+  sbr_transform
+      frames[SBRI_IK_MAX_JOINTS]; /* first and last bones of the chain; bones between are posed later */
   sbri_ik_compute_frames(&chain, frames);
   for (uint32_t i = 0; i < chain.count; i++) pose[bones[i]] = frames[i];
 }
 
-static void take_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_ik_joint *joints,
+static void read_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_ik_joint *joints,
     const uint32_t *bones, uint32_t count) {
   for (uint32_t c = 0; c < source->comforts.count; c++)
     for (uint32_t i = 0; i < count; i++) {
@@ -91,15 +92,15 @@ static void take_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_
     }
 }
 
-/* The pole, moved with its bone. */
-static sbf_vec3 pole_now(const sbri_rig *rig, const sbf_ik_chain *source, const sbr_transform *root,
+/* Pole of the chain, moved with its bone. */
+static sbf_vec3 pole_position(const sbri_rig *rig, const sbf_ik_chain *source, const sbr_transform *root,
     float scale, const sbr_transform *pose) {
   int32_t bone = source->pole_bone >= 0 ? source->pole_bone : rig->parents[source->root];
   sbr_transform rest = {{0, 0, 0}, {0, 0, 0, 1}};
   if (bone >= 0) rest = rig->rest[bone];
   const sbr_transform *now = bone >= 0 ? &pose[bone] : root;
-  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rest.rotation), sbri_sub(source->pole, rest.position));
-  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(own, scale)));
+  sbf_vec3 local = sbri_rotate(sbri_quat_conjugate(rest.rotation), sbri_sub(source->pole, rest.position));
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(local, scale)));
 }
 
 static void reach(const sbri_rig *rig, uint32_t index, const sbri_limb_target *target, float scale,
@@ -115,15 +116,15 @@ static void reach(const sbri_rig *rig, uint32_t index, const sbri_limb_target *t
       .soft_reach = source->soft_reach,
       .tolerance = source->tolerance * scale,
       .iterations = source->iterations};
-  chain.count = take_joints(rig, source->root, source->end, root, pose, joints, bones, &chain.base);
+  chain.count = read_joints(rig, source->root, source->end, root, pose, joints, bones, &chain.base);
   if (chain.count == 0) return;
-  if (source->has_pole) chain.pole = pole_now(rig, source, root, scale, pose);
-  take_comforts(rig, source, joints, bones, chain.count);
+  if (source->has_pole) chain.pole = pole_position(rig, source, root, scale, pose);
+  read_comforts(rig, source, joints, bones, chain.count);
   sbri_ik_solve(source->solver, &chain);
-  give_joints(rig, &chain, bones, target->weight, pose);
+  write_joints(rig, &chain, bones, target->weight, pose);
 }
 
-/* ---- Chains of one root that name `fabrik`, as a tree ---- */
+/* Chains with a common root and solver `fabrik`, solved as a tree */
 
 typedef struct limb_tree {
   sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];
@@ -156,7 +157,7 @@ static bool add_to_tree(
   return true;
 }
 
-/* False where the chain at `first` is the only one of its root. */
+/* Solves them as a tree; returns false if the chain at `first` is the only one of its root. */
 static bool reach_as_tree(const sbri_rig *rig, const sbri_limb_target *targets, uint32_t first, float scale,
     const sbr_transform *root, sbr_transform *pose) {
   const sbf_ik_chain *source = &rig->asset->ik_chains.at[first];
@@ -167,8 +168,8 @@ static bool reach_as_tree(const sbri_rig *rig, const sbri_limb_target *targets, 
   for (uint32_t i = first; i < rig->asset->ik_chains.count; i++) {
     if (!joins_tree(rig, targets, i, source->root)) continue;
     const sbf_ik_chain *one = &rig->asset->ik_chains.at[i];
-    uint32_t count = take_joints(rig, one->root, one->end, root, pose, joints, bones, &base);
-    if (count) take_comforts(rig, one, joints, bones, count);
+    uint32_t count = read_joints(rig, one->root, one->end, root, pose, joints, bones, &base);
+    if (count) read_comforts(rig, one, joints, bones, count);
     if (count && !add_to_tree(&tree, joints, bones, count, targets[i].position)) return false;
   }
   if (tree.goal_count < 2) return false;
@@ -198,7 +199,7 @@ void sbri_limbs_reach(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     bool done = false;
     if (!(targets[i].weight > 0)) continue;
     for (uint32_t k = 0; k < i; k++) done = done || joins_tree(rig, targets, k, chain->root);
-    if (done && chain->solver == SBF_IK_SOLVER_FABRIK) continue; /* with the first of its tree */
+    if (done && chain->solver == SBF_IK_SOLVER_FABRIK) continue; /* solved with the first chain of its tree */
     bool tree =
         chain->solver == SBF_IK_SOLVER_FABRIK && reach_as_tree(rig, targets, i, input->scale, root, pose);
     if (!tree) reach(rig, i, &targets[i], input->scale, root, pose);

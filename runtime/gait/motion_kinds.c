@@ -3,8 +3,8 @@
 
 #include "math/trig.h"
 
-static const float STEERS_S = 0.15f;  /* over which fins and wheels take up a wanted turn */
-static const float TURNS_HOP = 0.05f; /* rad/s: a slower turn is not worth a hop */
+static const float STEERS_S = 0.15f;  /* time over which fins and wheels reach a commanded turn rate */
+static const float TURNS_HOP = 0.05f; /* rad/s; minimum turn rate that causes a hop */
 
 size_t sbri_motion_size(const sbri_rig *rig) {
   if (!sbri_has_motion(rig)) return 0;
@@ -20,42 +20,42 @@ void sbri_motion_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
 }
 
 sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *input) {
-  sbri_gait_input wanted = *input;
+  sbri_gait_input allowed = *input;
   switch (rig->gait ? rig->gait->kind : SBF_GAIT_KIND_WALK) {
   case SBF_GAIT_KIND_NONE:
-    wanted.forward = wanted.sideways = wanted.turn = wanted.up = 0;
+    allowed.forward = allowed.sideways = allowed.turn = allowed.up = 0;
     break;
   case SBF_GAIT_KIND_SLITHER: {
-    /* It goes after its nose: ahead, and it turns as it goes. */
-    if (wanted.forward < 0) wanted.forward = 0;
-    wanted.sideways = 0;
-    float length = rig->wave_length * input->scale, max = length > 0 ? 4 * wanted.forward / length : 0;
-    wanted.turn = sbri_clamp(wanted.turn, -max, max);
+    /* It follows its nose: it moves forward only, and turns only while moving. */
+    if (allowed.forward < 0) allowed.forward = 0;
+    allowed.sideways = 0;
+    float length = rig->wave_length * input->scale, max = length > 0 ? 4 * allowed.forward / length : 0;
+    allowed.turn = sbri_clamp(allowed.turn, -max, max);
     break;
   }
   case SBF_GAIT_KIND_ROLL:
-    wanted.sideways = 0;
-    sbri_wheels_allow(rig, &wanted);
+    allowed.sideways = 0;
+    sbri_wheels_allow(rig, &allowed);
     break;
   default:
     break;
   }
-  return wanted;
+  return allowed;
 }
 
 /* Hops: half of the time on the ground, twice as fast in the air. */
 float sbri_hop_speed_fraction(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (!sbri_is_kind(rig, SBF_GAIT_KIND_CRAWL) || rig->gait->undulation) return 1;
   sbri_motion_state *m = sbri_motion(rig, state);
-  bool wanted = input->forward != 0 || input->sideways != 0 || fabsf(input->turn) > TURNS_HOP;
-  if (!wanted && m->hop == 0) return 1; /* what is left of its speed dies away on the ground */
-  float before = m->hop;
+  bool has_command = input->forward != 0 || input->sideways != 0 || fabsf(input->turn) > TURNS_HOP;
+  if (!has_command && m->hop == 0) return 1; /* the remaining speed decays on the ground */
+  float old_phase = m->hop;
   m->hop += input->tick_s / rig->gait->step_duration;
-  if (before < 0.5f && m->hop >= 0.5f && !wanted) m->hop = 0;
-  if (m->hop >= 1) m->hop = wanted ? sbri_wrap(m->hop, 1) : 0;
-  /* The fraction of the tick for which it has been in the air. */
-  float end = m->hop < before ? m->hop + 1 : m->hop, span = end - before;
-  float air = (end < 1 ? end : 1) - (before > 0.5f ? before : 0.5f);
+  if (old_phase < 0.5f && m->hop >= 0.5f && !has_command) m->hop = 0;
+  if (m->hop >= 1) m->hop = has_command ? sbri_wrap(m->hop, 1) : 0;
+  /* Fraction of the tick in the air. */
+  float end = m->hop < old_phase ? m->hop + 1 : m->hop, span = end - old_phase;
+  float air = (end < 1 ? end : 1) - (old_phase > 0.5f ? old_phase : 0.5f);
   if (end > 1.5f) air += end - 1.5f;
   return span > 0 && air > 0 ? 2 * (air < span ? air / span : 1) : 0;
 }
@@ -70,7 +70,7 @@ static float wrapped(float time, float duration) {
   return duration > 0 ? sbri_wrap(time, duration) : 0;
 }
 
-/* Times of the gait's own clips. */
+/* Advances the gait's clips. */
 static void clips_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_motion_state *m = sbri_motion(rig, state);
   const sbf_gait *gait = rig->gait;

@@ -1,4 +1,4 @@
-/* Common parts of the kinds of gait: the state's speed, and bones rotated within their limits. */
+/* Common parts of the kinds of gait: the speed of the state, and bones rotated within their limits. */
 #include "gait/motion_kinds.h"
 
 bool sbri_has_motion(const sbri_rig *rig) {

@@ -4,33 +4,35 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float NEAR = 0.1f; /* of a step's height: how far a sole may be from what bears it */
+static const float NEAR =
+    0.1f; /* fraction of a step's height: maximum distance of a sole from the collider that supports it */
 
 /* Motion in a tick of a point that stands on a collider. */
-typedef struct ride {
+typedef struct floor_motion {
   sbf_vec3 displacement; /* m */
-  float turn;            /* rad, about +Y */
-} ride;
+  float rotation;        /* rad, about +Y */
+} floor_motion;
 
-static ride ride_on(const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 position) {
+static floor_motion apply_floor_motion(
+    const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 position) {
   sbri_collider_frame frame = sbri_collider_frame_of(c, input->origin, 1);
   sbf_vec3 ahead =
       sbri_rotate(c->turn_to, sbri_rotate(sbri_quat_conjugate(c->turn_from), sbri_vec3(0, 0, 1)));
-  return (ride){sbri_shape_displacement(&frame, sbri_into_shape(&frame, position, false)),
+  return (floor_motion){sbri_shape_displacement(&frame, sbri_into_shape(&frame, position, false)),
       sbri_atan2(ahead.x, ahead.z)};
 }
 
-/* Motion by the collider below `position`: of that point, and of the body at `body`. */
-static void find_ride(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 position, sbf_vec3 body,
-    ride *ride_of_position, ride *of_body) {
+/* Motion by the collider below `position`, of that point and of the body at `body`. */
+static void find_floor_motion(const sbri_rig *rig, const sbri_gait_input *input, sbf_vec3 position,
+    sbf_vec3 body, floor_motion *motion, floor_motion *of_body) {
   uint32_t number;
-  double off = (double)(NEAR * rig->girth.step_up * input->scale);
+  double tolerance = (double)(NEAR * rig->girth.step_up * input->scale);
   sbr_double3 world = {input->origin.x + (double)position.x, input->origin.y + (double)position.y,
       input->origin.z + (double)position.z};
-  *ride_of_position = *of_body = (ride){{0, 0, 0}, 0};
-  if (!sbri_surroundings_bearer(input->around, world, off, &number)) return;
-  *ride_of_position = ride_on(&input->around->colliders->at[number], input, position);
-  *of_body = ride_on(&input->around->colliders->at[number], input, body);
+  *motion = *of_body = (floor_motion){{0, 0, 0}, 0};
+  if (!sbri_surroundings_bearer(input->around, world, tolerance, &number)) return;
+  *motion = apply_floor_motion(&input->around->colliders->at[number], input, position);
+  *of_body = apply_floor_motion(&input->around->colliders->at[number], input, body);
 }
 
 static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
@@ -45,26 +47,26 @@ void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   if (!input->around || !input->around->colliders || !input->around->colliders->moving) return;
   if (state->falls || sbri_is_afloat(rig)) return;
   sbf_vec3 body = {state->position.x, state->level, state->position.z};
-  ride rides[SBRI_MAX_LEGS], of_body, mean = {{0, 0, 0}, 0};
+  floor_motion motions[SBRI_MAX_LEGS], of_body, mean = {{0, 0, 0}, 0};
   float count = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    find_ride(rig, input, state->feet[i].ground, body, &rides[i], &of_body);
-    mean.displacement = sbri_add(mean.displacement, of_body.displacement), mean.turn += of_body.turn;
+    find_floor_motion(rig, input, state->feet[i].ground, body, &motions[i], &of_body);
+    mean.displacement = sbri_add(mean.displacement, of_body.displacement), mean.rotation += of_body.rotation;
     count += 1;
   }
-  if (count > 0) mean.displacement = sbri_scale(mean.displacement, 1 / count), mean.turn /= count;
-  if (!rig->leg_count) find_ride(rig, input, body, body, &of_body, &mean);
-  if (mean.turn == 0 && !(sbri_dot(mean.displacement, mean.displacement) > 0)) return;
+  if (count > 0) mean.displacement = sbri_scale(mean.displacement, 1 / count), mean.rotation /= count;
+  if (!rig->leg_count) find_floor_motion(rig, input, body, body, &of_body, &mean);
+  if (mean.rotation == 0 && !(sbri_dot(mean.displacement, mean.displacement) > 0)) return;
   for (uint32_t i = 0; i < rig->leg_count; i++)
-    shift_step(&state->feet[i], state->feet[i].planted ? rides[i].displacement : mean.displacement);
+    shift_step(&state->feet[i], state->feet[i].planted ? motions[i].displacement : mean.displacement);
   state->position.x += mean.displacement.x,
-      state->position.z += mean.displacement.z; /* its y counts from the ground */
+      state->position.z += mean.displacement.z; /* its y is relative to the ground */
   state->root.position = sbri_add(state->root.position, mean.displacement);
   state->level += mean.displacement.y;
-  state->heading = sbri_wrap_angle(state->heading + mean.turn);
+  state->heading = sbri_wrap_angle(state->heading + mean.rotation);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   sbri_motion_rebase(rig, state, sbri_scale(mean.displacement, -1));
-  for (uint32_t i = 0; mean.turn != 0 && i < rig->leg_count; i++)
+  for (uint32_t i = 0; mean.rotation != 0 && i < rig->leg_count; i++)
     sbri_foot_update_orientation(rig, state, input, i);
 }

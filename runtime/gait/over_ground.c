@@ -1,4 +1,4 @@
-/* The plane that all of a gait goes by: turns about +Y, level distances, and the ground under a place. */
+/* Horizontal geometry: rotation about +Y, horizontal distances, and the ground below a point. */
 #include "gait/gait_state.h"
 #include "math/trig.h"
 

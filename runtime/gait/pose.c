@@ -1,5 +1,5 @@
-/* The pose: the spine shares the turn of hips and chest, the head leads, tails follow, legs reach for their
- * feet. */
+/* The pose: the spine distributes the yaw of hips and chest, the head leads, tails follow, legs reach for
+ * their feet. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "ik/ik.h"
@@ -8,22 +8,23 @@
 #include "math/trig.h"
 
 static const sbf_vec3 UP = {0, 1, 0};
-static const float SOLE_LOCKED = 5e-4f; /* of a leg's length: so near its place a sole is held */
-static const float HANGS = 0.25f;       /* phase of a step from which a foot hangs, and the same at its end */
-enum { SOLE_PASSES = 4 };
+static const float SOLE_TOLERANCE = 5e-4f; /* fraction of a leg's length: tolerance of a sole's position */
+static const float HANGING_PHASE =
+    0.25f; /* phase of a step from which on a foot hangs freely, and the same before its end */
+enum { SOLE_ITERATIONS = 4 };
 
 static sbf_quat yaw_rotation(float yaw) {
   return sbri_quat_about(UP, yaw);
 }
 
-/* Yaw against the heading that a bone of the spine has, or that its parent hands on. */
+/* Yaw relative to the heading that a bone of the spine has or inherits. */
 static float spine_yaw(const sbri_rig *rig, const sbri_stance *stance, int32_t bone) {
   if (bone < 0 || rig->spine_fraction[bone] < 0) return 0;
   return stance->hips_yaw + rig->spine_fraction[bone] * (stance->chest_yaw - stance->hips_yaw);
 }
 
-/* Turns of a tail's bone in world axes, beyond what the bones before it have turned. */
-static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
+/* Rotation of a tail's bone in world axes, relative to the bones before it. */
+static sbf_quat tail_rotation(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     uint32_t bone, sbf_vec3 up) {
   const sbri_lag *lags = (const sbri_lag *)(const void *)(state + 1);
   for (uint32_t t = 0; t < rig->tail_count; t++) {
@@ -31,19 +32,20 @@ static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, con
     for (uint32_t k = 0; k < tail->bone_count; k++) {
       if (tail->bone_indices[k] != bone) continue;
       const sbri_lag *lag = &lags[2 * (tail->first_state + k)];
-      /* A first bone may hang on the root rather than on the hips: what it already turned is taken off. */
-      float yaw_done = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
-      float pitch_done = k ? lag[-1].value : stance->hips_pitch; /* the root has it */
-      sbf_quat aside = sbri_quat_about(up, lag[0].value - yaw_done);
-      if (lag[1].value == pitch_done) return aside;
-      sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), lag[0].value));
-      return sbri_quat_multiply(sbri_quat_about(side, lag[1].value - pitch_done), aside);
+      /* The parent of a first bone may be the root instead of the hips; the rotation that it inherits is
+       * subtracted. */
+      float inherited_yaw = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
+      float inherited_pitch = k ? lag[-1].value : stance->hips_pitch; /* already in the root */
+      sbf_quat aside = sbri_quat_about(up, lag[0].value - inherited_yaw);
+      if (lag[1].value == inherited_pitch) return aside;
+      sbf_vec3 left = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), lag[0].value));
+      return sbri_quat_multiply(sbri_quat_about(left, lag[1].value - inherited_pitch), aside);
     }
   }
   return sbri_quat_identity();
 }
 
-/* Limits a bone's rotation against its parent's. */
+/* Clamps a bone's rotation relative to its parent. */
 static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *parent, sbr_transform *pose) {
   if (!rig->limits[bone].active) return;
   sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(parent->rotation), pose[bone].rotation);
@@ -52,23 +54,23 @@ static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *
   pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, limited));
 }
 
-/* By more than the gait, which keeps limits itself. */
+/* By clips or poses. The gait alone respects limits. */
 static bool is_animated(const sbri_rig *rig, const sbri_gait_state *state) {
   bool animated = rig->walks.walk_count > 0 || rig->base_local != rig->rest_local || sbri_has_motion(rig);
   for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
   return animated;
 }
 
-/* All bones before the legs are solved, parents first: `pose` holds them against their parents, and then in
- * world axes. */
+/* Poses all bones that do not depend on legs, parents first. On entry `pose` is relative to parents, on
+ * return in world axes. */
 static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     float scale, sbr_transform *pose) {
   sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
   bool animated = is_animated(rig, state);
   for (uint32_t i = 0; i < rig->bone_count; i++) {
-    if (rig->roles[i] == SBRI_ROLE_LEG) continue; /* against its parent until its leg is solved */
+    if (rig->roles[i] == SBRI_ROLE_LEG) continue; /* relative to its parent until its leg is solved */
     const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
-    sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* against its parent so far */
+    sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* still relative to its parent */
     sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), rotation;
     pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
     switch (rig->roles[i]) {
@@ -80,7 +82,7 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
       rotation = sbri_quat_about(up, state->head_yaw.value - stance->chest_yaw);
       break;
     case SBRI_ROLE_TAIL:
-      rotation = tail_turn(rig, state, stance, i, up);
+      rotation = tail_rotation(rig, state, stance, i, up);
       break;
     default:
       pose[i].rotation = sbri_quat_normalize(is);
@@ -92,15 +94,15 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
   }
 }
 
-/* The leg's pole, moved with its bone in the pose so far. */
+/* Pole of the leg, moved with its bone in the present pose. */
 static sbf_vec3 pole_of(
     const sbri_leg *leg, const sbr_transform *root, float scale, const sbr_transform *pose) {
   const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
   return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole_position, scale)));
 }
 
-/* Puts a bone of a leg somewhere; what else hangs on it goes along, or is posed later. */
-static void put_bone(
+/* Sets the transform of a leg's bone. Other children follow, or are posed later. */
+static void set_bone_transform(
     const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
   if (!leg->last && (leg->has_others || bone == leg->foot)) {
     sbf_quat rotation = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
@@ -115,29 +117,29 @@ static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
     sbf_quat own, sbr_transform *pose) {
   sbf_quat flat = sbri_quat_multiply(foot->turned, rig->rest[leg->foot].rotation);
   sbf_quat turned = sbri_quat_blend(own, flat, leg->copy_rotation);
-  put_bone(rig, leg, leg->foot, (sbr_transform){ankle, turned}, pose);
+  set_bone_transform(rig, leg, leg->foot, (sbr_transform){ankle, turned}, pose);
 }
 
-/* One bone: it points at where the foot should be. */
+/* A leg of one bone: it points at the foot's target. */
 static void pose_peg(
     const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle, sbr_transform *pose) {
-  sbf_vec3 hip = pose[leg->upper].position, spare = sbri_vec3(0, -1, 0);
-  sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
+  sbf_vec3 hip = pose[leg->upper].position, down = sbri_vec3(0, -1, 0);
+  sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), down);
   sbf_quat rotation = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
   sbri_rig_turn(rig, (uint32_t)leg->upper, rotation, pose);
   /* The leg has one fixed length; the foot stays at its position and takes the difference. */
   pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
 
-/* An ankle as near as the leg's soft reach lets it be stretched. */
-static sbf_vec3 eased_ankle(const sbri_leg *leg, sbf_vec3 hip, sbf_vec3 ankle, float scale) {
-  sbf_vec3 away = sbri_sub(ankle, hip);
-  float distance = sbri_length(away),
+/* Ankle position within the leg's soft reach. */
+static sbf_vec3 soft_ankle(const sbri_leg *leg, sbf_vec3 hip, sbf_vec3 ankle, float scale) {
+  sbf_vec3 offset = sbri_sub(ankle, hip);
+  float distance = sbri_length(offset),
         eased = sbri_soften_reach(distance, leg->reach * scale, leg->soft_reach);
-  return eased < distance ? sbri_add_scaled(hip, away, eased / distance) : ankle;
+  return eased < distance ? sbri_add_scaled(hip, offset, eased / distance) : ankle;
 }
 
-/* Two bones in closed form, then the limits of their joints. */
+/* Two bones in closed form, then joint limits. */
 static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
     sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position;
@@ -151,14 +153,14 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
       sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_back);
   sbf_quat thigh = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
   sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation));
-  put_bone(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
-  put_bone(rig, leg, leg->lower, (sbr_transform){solved.knee, shin}, pose);
+  set_bone_transform(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
+  set_bone_transform(rig, leg, leg->lower, (sbr_transform){solved.knee, shin}, pose);
   sbf_quat own = sbri_quat_multiply(lower, rig->rest[leg->foot].rotation);
   pose_foot(rig, leg, foot, solved.ankle, own, pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
 
-/* Where the ankle is from the middle of the sole, as the foot is turned in a pose. */
+/* Offset of the ankle from the middle of the sole for the foot's rotation in the pose. */
 static sbf_vec3 ankle_over_sole(
     const sbri_rig *rig, const sbri_leg *leg, float scale, const sbr_transform *pose) {
   sbf_quat turned =
@@ -166,8 +168,8 @@ static sbf_vec3 ankle_over_sole(
   return sbri_scale(sbri_rotate(turned, leg->ankle), scale);
 }
 
-/* What hangs on a leg that is solved. */
-static void pose_rest_of_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_leg *leg,
+/* Poses the other bones below a solved leg. */
+static void pose_children_of_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_leg *leg,
     float scale, sbr_transform *pose) {
   bool animated = is_animated(rig, state);
   for (uint32_t k = rig->subtree_begin[leg->upper] + 1; k < rig->subtree_end[leg->upper]; k++) {
@@ -186,15 +188,15 @@ static float span_of(const sbri_leg *leg, const sbr_transform *pose) {
   return sbri_length(sbri_sub(pose[leg->foot].position, pose[leg->upper].position));
 }
 
-/* Holds a leg's knee to what it can do in a tick, if it is in the air, and notes where it has come to. */
-static void soften_knee(const sbri_rig *rig, const sbri_gait_input *input, const sbri_leg *leg,
+/* Limits the angular acceleration of a swinging leg's knee, and stores its angle. */
+static void limit_knee(const sbri_rig *rig, const sbri_gait_input *input, const sbri_leg *leg,
     sbri_foot *foot, sbf_vec3 pole, sbf_vec3 fallback, sbri_advance advance, sbr_transform *pose) {
-  float wanted = 0, span = span_of(leg, pose);
+  float target = 0, span = span_of(leg, pose);
   if (advance == SBRI_ADVANCE_TICK) {
-    wanted = sbri_knee_angle(leg, input->scale, span);
-    bool swings = !foot->planted && leg->carrier < 0; /* what hangs on a chain goes as that is dragged */
-    float angle = swings ? sbri_knee_follow(foot, wanted, input->tick_s) : wanted;
-    foot->knee_locked = angle != wanted ? angle : 0;
+    target = sbri_knee_angle(leg, input->scale, span);
+    bool is_swinging = !foot->planted && leg->carrier < 0; /* chains drag the legs on them */
+    float angle = is_swinging ? sbri_knee_follow(foot, target, input->tick_s) : target;
+    foot->knee_locked = angle != target ? angle : 0;
   }
   if (foot->knee_locked > 0 && span > 0) {
     float fraction = sbri_knee_distance(leg, input->scale, foot->knee_locked) / span;
@@ -204,20 +206,20 @@ static void soften_knee(const sbri_rig *rig, const sbri_gait_input *input, const
     span = span_of(leg, pose);
   }
   if (advance == SBRI_ADVANCE_TICK)
-    sbri_knee_keep(foot, foot->knee_locked > 0 ? sbri_knee_angle(leg, input->scale, span) : wanted, wanted,
+    sbri_knee_keep(foot, foot->knee_locked > 0 ? sbri_knee_angle(leg, input->scale, span) : target, target,
         input->tick_s);
 }
 
-/* A leg whose long foot leans over its toe: its ankle goes where that takes it, and its sole stays. */
+/* A leg whose long foot leans over its toe: the ankle follows, and the sole stays. */
 static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *foot,
     const sbri_gait_input *input, sbf_vec3 sole, sbf_vec3 fallback, sbri_advance advance,
     sbr_transform *pose) {
-  float scale = input->scale, limited = SOLE_LOCKED * (leg->upper_length + leg->lower_length) * scale;
+  float scale = input->scale, limited = SOLE_TOLERANCE * (leg->upper_length + leg->lower_length) * scale;
   sbri_foot leaning = *foot;
   sbf_vec3 upright = sbri_ankle_over(leg, foot, sole, scale);
   sbf_vec3 ankle = sbri_long_foot_lean(
       leg, foot, pose[leg->upper].position, sole, upright, input, advance, &leaning.turned);
-  for (int pass = 0; pass < SOLE_PASSES; pass++) {
+  for (int iteration = 0; iteration < SOLE_ITERATIONS; iteration++) {
     solve_leg(rig, leg, &leaning, ankle, foot->pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active) break;
     ankle = sbri_add(sole, sbri_long_foot_over(rig, leg, foot, scale, pose));
@@ -247,38 +249,39 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
-  float near = foot->phase < 0.5f ? foot->phase : 1 - foot->phase; /* to lifting off or coming down */
-  float stands = foot->planted ? 1 : 1 - sbri_smooth(near / HANGS);
-  float limited = SOLE_LOCKED * (leg->upper_length + leg->lower_length) * scale;
+  float phase_to_ground =
+      foot->phase < 0.5f ? foot->phase : 1 - foot->phase; /* phase since lift-off, or until landing */
+  float planted_weight = foot->planted ? 1 : 1 - sbri_smooth(phase_to_ground / HANGING_PHASE);
+  float limited = SOLE_TOLERANCE * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
   if (leg->has_toe) {
     pose_long_foot(rig, leg, foot, input, sole, fallback, advance, pose);
-    if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
+    if (leg->last) pose_children_of_leg(rig, state, leg, scale, pose);
     return;
   }
-  for (int pass = 0; pass < SOLE_PASSES; pass++) {
-    solve_leg(rig, leg, foot, eased_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
+  for (int iteration = 0; iteration < SOLE_ITERATIONS; iteration++) {
+    solve_leg(rig, leg, foot, soft_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot at its ankle's limit keeps its position on the ground; in the air it follows the ankle. */
-    sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
-    foot->missed = sbri_length(sbri_sub(sbri_add(sole, over), pose[leg->foot].position));
-    if (foot->missed <= limited || stands <= 0) break;
-    ankle = sbri_lerp(flat, sbri_add(sole, over), stands);
+    sbf_vec3 offset = ankle_over_sole(rig, leg, scale, pose);
+    foot->missed = sbri_length(sbri_sub(sbri_add(sole, offset), pose[leg->foot].position));
+    if (foot->missed <= limited || planted_weight <= 0) break;
+    ankle = sbri_lerp(flat, sbri_add(sole, offset), planted_weight);
   }
-  soften_knee(rig, input, leg, foot, pole, fallback, advance, pose);
-  if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
+  limit_knee(rig, input, leg, foot, pole, fallback, advance, pose);
+  if (leg->last) pose_children_of_leg(rig, state, leg, scale, pose);
 }
 
-/* Where legs begin, as they are posed. */
-static void note_hips(
+/* Stores the hip positions of the pose. */
+static void store_hips(
     const sbri_rig *rig, sbri_gait_state *state, const sbr_transform *root, const sbr_transform *pose) {
-  sbf_quat back = sbri_quat_conjugate(root->rotation);
+  sbf_quat to_root = sbri_quat_conjugate(root->rotation);
   for (uint32_t i = 0; i < rig->leg_count; i++)
-    state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, root->position));
+    state->feet[i].hip = sbri_rotate(to_root, sbri_sub(pose[rig->legs[i].upper].position, root->position));
 }
 
-/* The body was lowered for the hips' position a tick ago. The gait moves them slowly enough for that; a clip,
- * or a change of its weight, may have raised them since. */
+/* The body was lowered for the hip positions of the previous tick. The gait moves them slowly enough for
+ * that; a clip or a weight follower may have raised them since. */
 static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     sbr_transform *root, sbr_transform *pose) {
   float drop = sbri_body_drop(rig, state, input, root);
@@ -288,14 +291,14 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
     if (rig->roles[i] != SBRI_ROLE_LEG) pose[i].position.y -= drop;
 }
 
-/* The gait plans for a body that is not moved by its weight, or each would answer the other. */
-static void weigh_down(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+/* The gait plans without weight followers, because otherwise both would react to each other. */
+static void apply_weights(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *root, sbr_transform *pose) {
   sbf_vec3 hips[SBRI_MAX_LEGS];
   bool moved = sbri_weights_pose(rig, state, input, advance, pose);
   if (!rig->leg_count || (!moved && !sbri_clips_play(state))) return;
   for (uint32_t i = 0; moved && i < rig->leg_count; i++) hips[i] = state->feet[i].hip;
-  if (moved) note_hips(rig, state, root, pose);
+  if (moved) store_hips(rig, state, root, pose);
   lower_to_feet(rig, state, input, root, pose);
   for (uint32_t i = 0; moved && i < rig->leg_count; i++) state->feet[i].hip = hips[i];
 }
@@ -326,8 +329,8 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   sbri_motion_pose(rig, state, input, &stance.root, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
   sbri_squashes_pose(rig, state, input, advance, pose);
-  note_hips(rig, state, &stance.root, pose);
-  weigh_down(rig, state, input, advance, &stance.root, pose);
+  store_hips(rig, state, &stance.root, pose);
+  apply_weights(rig, state, input, advance, &stance.root, pose);
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, advance, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);

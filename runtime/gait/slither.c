@@ -1,5 +1,5 @@
-/* Snakes: the nose follows the serpenoid curve (Hirose 1993), and every joint of the body the path that the
- * nose has taken over the ground. */
+/* Snakes: the nose follows the serpenoid curve (Hirose 1993), and every joint of the body follows the path of
+ * the nose over the ground. */
 #include <string.h>
 
 #include "gait/motion_kinds.h"
@@ -9,7 +9,7 @@ static const float TURN = 6.2831853f;
 enum { ORDERS = 8, TERMS = 9 };
 
 /* Bessel functions J_0 to J_{ORDERS-1} of x in [0, 1.5]: power series, exact to single precision. */
-static void bessel(float x, double out[ORDERS]) {
+static void bessel(float x, double values[ORDERS]) {
   double half = 0.5 * (double)x, power = 1, factorial = 1;
   for (int n = 0; n < ORDERS; n++) {
     double term = power / factorial, sum = 0;
@@ -17,13 +17,13 @@ static void bessel(float x, double out[ORDERS]) {
       sum += term;
       term *= -half * half / ((k + 1) * (double)(n + k + 1));
     }
-    out[n] = sum;
+    values[n] = sum;
     power *= half;
     factorial *= n + 1;
   }
 }
 
-/* The heading a sin(u), u = 2 pi phase, in the series of Jacobi and Anger, integrated term by term. */
+/* Integral of the heading a sin(u), u = 2 pi phase, by the Jacobi-Anger expansion, term by term. */
 sbf_vec3 sbri_serpenoid(float amplitude, float phase, float *mean) {
   double j[ORDERS], aside = 0, ahead = 0;
   bessel(amplitude, j);
@@ -39,14 +39,14 @@ sbf_vec3 sbri_serpenoid(float amplitude, float phase, float *mean) {
   return sbri_vec3((float)(aside / (double)TURN), 0, (float)(ahead / (double)TURN));
 }
 
-/* Where the nose is on its curve, `ahead` of the mean line that the body is on. */
-static sbf_vec3 nose_at(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+/* Position of the nose on its curve, `ahead` of the body on the mean line. */
+static sbf_vec3 nose_position(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     float phase, float along) {
   const sbf_undulation *wave = rig->gait->undulation;
   float mean, wavelength = wave->wavelength * rig->wave_length * input->scale;
-  sbf_vec3 off = sbri_scale(sbri_serpenoid(wave->heading_amplitude, phase, &mean), wavelength);
+  sbf_vec3 offset = sbri_scale(sbri_serpenoid(wave->heading_amplitude, phase, &mean), wavelength);
   sbf_vec3 nose = sbri_scale(rig->wave_joints[0], input->scale);
-  sbf_vec3 at = sbri_vec3(nose.x + off.x, 0, nose.z + off.z + along);
+  sbf_vec3 at = sbri_vec3(nose.x + offset.x, 0, nose.z + offset.z + along);
   sbf_vec3 headed = sbri_headed(state, at);
   return sbri_vec3(state->position.x + headed.x, 0, state->position.z + headed.z);
 }
@@ -63,10 +63,11 @@ void sbri_slither_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   float mean, spacing = spacing_of(rig, input),
               phase = spacing / (wave->wavelength * rig->wave_length * input->scale);
   (void)sbri_serpenoid(wave->heading_amplitude, 0, &mean);
-  m->nose = nose_at(rig, state, input, m->path_phase, 0);
-  /* As if it had come along its curve. */
+  m->nose = nose_position(rig, state, input, m->path_phase, 0);
+  /* An initial path along its curve. */
   for (uint32_t i = 0; i < SBRI_PATH_POINTS; i++)
-    m->path[i] = nose_at(rig, state, input, m->path_phase - phase * (float)i, -mean * spacing * (float)i);
+    m->path[i] =
+        nose_position(rig, state, input, m->path_phase - phase * (float)i, -mean * spacing * (float)i);
   m->path_count = SBRI_PATH_POINTS;
   m->path_ahead = 0;
 }
@@ -80,9 +81,9 @@ void sbri_slither_tick(
   (void)sbri_serpenoid(wave->heading_amplitude, 0, &mean);
   m->path_phase += went / (mean * wave->wavelength * rig->wave_length * input->scale);
   m->path_phase -= (float)(int32_t)m->path_phase;
-  m->nose = nose_at(rig, state, input, m->path_phase, 0);
+  m->nose = nose_position(rig, state, input, m->path_phase, 0);
   float spacing = spacing_of(rig, input);
-  for (uint32_t i = 0; i < SBRI_PATH_POINTS; i++) { /* no tick goes so far as to need more */
+  for (uint32_t i = 0; i < SBRI_PATH_POINTS; i++) { /* no tick moves so far that it needs more */
     sbf_vec3 displacement = sbri_sub(m->nose, m->path[0]);
     float far = sbri_length(displacement);
     if (!(far >= spacing)) break;
@@ -92,20 +93,20 @@ void sbri_slither_tick(
   m->path_ahead = sbri_flat_distance(m->nose, m->path[0]);
 }
 
-/* The point of the path at the straight distance `distance` from `from`, behind the beginning of segment
- * `*next`; segment 0 leads from the nose to the first point of m->path. Beyond its end the path continues
+/* Point of the path at the straight distance `distance` from `from`, behind the beginning of segment
+ * `*segment`; segment 0 leads from the nose to the first point of m->path. Beyond its end the path continues
  * straight. */
 static sbf_vec3 behind(const sbri_motion_state *m, sbf_vec3 from, float distance, uint32_t *segment) {
   for (uint32_t i = *segment; i < m->path_count; i++) {
     sbf_vec3 far = m->path[i];
     if (sbri_flat_distance(far, from) < distance) continue;
     /* |a + t (b - a)|^2 = d^2 with a inside the circle, or the last joint itself */
-    sbf_vec3 near = i == *segment ? from : i ? m->path[i - 1] : m->nose;
-    sbf_vec3 a = sbri_sub(near, from), b = sbri_sub(far, near);
+    sbf_vec3 start = i == *segment ? from : i ? m->path[i - 1] : m->nose;
+    sbf_vec3 a = sbri_sub(start, from), b = sbri_sub(far, start);
     float bb = sbri_dot(b, b), ab = sbri_dot(a, b), rest = distance * distance - sbri_dot(a, a);
     float root = ab * ab + bb * rest, t = bb > 0 ? (sqrtf(root > 0 ? root : 0) - ab) / bb : 0;
     *segment = i;
-    return sbri_add_scaled(near, b, sbri_clamp(t, 0, 1));
+    return sbri_add_scaled(start, b, sbri_clamp(t, 0, 1));
   }
   sbf_vec3 last = m->path[m->path_count - 1];
   *segment = m->path_count;
@@ -114,16 +115,16 @@ static sbf_vec3 behind(const sbri_motion_state *m, sbf_vec3 from, float distance
   return sbri_add_scaled(from, sbri_normalize(displacement, sbri_vec3(0, 0, -1)), distance);
 }
 
-/* A joint of the body on the ground, at its rest height above it. */
+/* A joint of the body above the ground, at its rest height. */
 static sbf_vec3 grounded(
     const sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 at, float rest_height) {
   float ground = sbri_ground_below(input, at, NULL).y;
   return sbri_vec3(at.x, ground + state->position.y + rest_height * input->scale, at.z);
 }
 
-/* A bone on the path: its ends and how it is turned from its rest against the root frame. */
+/* A bone on the path: its ends and its rotation from rest relative to the root frame. */
 typedef struct placed_bone {
-  sbf_vec3 front, back;
+  sbf_vec3 front, backward;
   sbf_quat rotation;
 } placed_bone;
 
@@ -134,14 +135,15 @@ static sbf_quat yaw_to(sbf_vec3 direction, sbf_vec3 rest) {
   return rotation;
 }
 
-/* What turns the direction of a bone at rest to `now`: about +Y, then up, so that its back stays up. */
-static sbf_quat turn_between(sbf_vec3 rest, sbf_vec3 now) {
+/* Rotation of the direction of a bone from `rest` to `now`: first about +Y, then up, so that its back stays
+ * up. */
+static sbf_quat rotation_between(sbf_vec3 rest, sbf_vec3 now) {
   float flat_rest = sqrtf(rest.x * rest.x + rest.z * rest.z), flat = sqrtf(now.x * now.x + now.z * now.z);
   float pitch = sbri_atan2(rest.y, flat_rest) - sbri_atan2(now.y, flat), s;
-  sbf_vec3 side = sbri_normalize(sbri_vec3(now.z, 0, -now.x), sbri_vec3(1, 0, 0));
+  sbf_vec3 left = sbri_normalize(sbri_vec3(now.z, 0, -now.x), sbri_vec3(1, 0, 0));
   sbf_quat up = {0, 0, 0, 1};
   sbri_sincos(0.5f * pitch, &s, &up.w);
-  up.x = side.x * s, up.z = side.z * s;
+  up.x = left.x * s, up.z = left.z * s;
   return sbri_quat_normalize(sbri_quat_multiply(up, yaw_to(now, rest)));
 }
 
@@ -156,7 +158,7 @@ static sbf_vec3 next_joint(const sbri_motion_state *m, sbf_vec3 from, sbf_vec3 r
   return behind(m, from, flat, segment);
 }
 
-/* Places the chain's bones from the nose to the `last`; returns that one. */
+/* Places the chain's bones from the nose to `last`; returns the last one. */
 static placed_bone set_bone(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t last) {
   const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
@@ -169,17 +171,18 @@ static placed_bone set_bone(
     uint32_t ahead = segment;
     sbf_vec3 direction = sbri_sub(front, behind(m, front, 0.02f * rig->wave_length * scale, &ahead));
     direction = sbri_normalize(direction, sbri_vec3(0, 0, 1));
-    sbf_vec3 back = next_joint(m, front, rest, direction, scale, &segment);
+    sbf_vec3 backward = next_joint(m, front, rest, direction, scale, &segment);
     if (k == last) {
       sbf_vec3 a = grounded(state, input, front, joints[2 * k].y);
-      sbf_vec3 b = grounded(state, input, back, joints[2 * k + 1].y);
+      sbf_vec3 b = grounded(state, input, backward, joints[2 * k + 1].y);
       float flat = rest.x * rest.x + rest.z * rest.z;
-      bool lies = flat > rest.y * rest.y;
-      sbf_quat rotation =
-          lies ? turn_between(sbri_scale(rest, -1), sbri_sub(a, b)) : yaw_to(direction, sbri_vec3(0, 0, 1));
+      bool on_ground = flat > rest.y * rest.y;
+      sbf_quat rotation = on_ground ? rotation_between(sbri_scale(rest, -1), sbri_sub(a, b))
+                                    : yaw_to(direction, sbri_vec3(0, 0, 1));
       return (placed_bone){a, b, rotation};
     }
-    front = next_joint(m, back, sbri_sub(joints[2 * k + 2], joints[2 * k + 1]), direction, scale, &segment);
+    front =
+        next_joint(m, backward, sbri_sub(joints[2 * k + 2], joints[2 * k + 1]), direction, scale, &segment);
   }
 }
 
@@ -188,7 +191,7 @@ void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   const sbf_undulation *wave = rig->gait->undulation;
   (void)root;
   if (!wave || sbri_motion(rig, state)->path_count < 2) return;
-  /* Parents before children, as in the asset, whatever the order along the chain. */
+  /* Parents before children, independent of the order along the chain. */
   for (uint32_t bone = 0; bone < rig->bone_count; bone++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != bone) continue;
@@ -197,9 +200,9 @@ void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
       sbri_rig_turn(rig, bone, sbri_quat_multiply(to, sbri_quat_conjugate(pose[bone].rotation)), pose);
       pose[bone].rotation = to;
       sbf_vec3 head = rig->rest[bone].position;
-      bool leads = sbri_length(sbri_sub(head, rig->wave_joints[2 * k])) <=
-                   sbri_length(sbri_sub(head, rig->wave_joints[2 * k + 1]));
-      sbri_rig_shift(rig, bone, sbri_sub(leads ? at.front : at.back, pose[bone].position), pose);
+      bool is_head_first = sbri_length(sbri_sub(head, rig->wave_joints[2 * k])) <=
+                           sbri_length(sbri_sub(head, rig->wave_joints[2 * k + 1]));
+      sbri_rig_shift(rig, bone, sbri_sub(is_head_first ? at.front : at.backward, pose[bone].position), pose);
       break;
     }
   }

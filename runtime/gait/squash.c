@@ -3,7 +3,7 @@
 #include "gait/gait_state.h"
 #include "math/quat.h"
 
-static bool squashes(const sbf_follower *source) {
+static bool is_squash(const sbf_follower *source) {
   return source->channel == SBF_FOLLOWER_CHANNEL_SQUASH;
 }
 
@@ -19,23 +19,23 @@ static float stretch_of(float lag, float limit) {
 }
 
 /* Position of a point on a squashed bone, world axes. */
-static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, sbf_vec3 position) {
-  sbf_vec3 off = sbri_sub(position, bone->position);
-  float across = 1 / sqrtf(along);
-  sbf_vec3 at = sbri_add_scaled(bone->position, off, across);
-  return sbri_add_scaled(at, axis, (along - across) * sbri_dot(axis, off));
+static sbf_vec3 squashed_point(const sbr_transform *bone, sbf_vec3 axis, float stretch, sbf_vec3 position) {
+  sbf_vec3 offset = sbri_sub(position, bone->position);
+  float across = 1 / sqrtf(stretch);
+  sbf_vec3 at = sbri_add_scaled(bone->position, offset, across);
+  return sbri_add_scaled(at, axis, (stretch - across) * sbri_dot(axis, offset));
 }
 
 /* Child bones move along unscaled; bones below a thigh are posed later. */
 static void shift_children(
-    const sbri_rig *rig, uint32_t bone, sbf_vec3 axis, float along, sbr_transform *pose) {
-  sbf_vec3 by = {0, 0, 0};
+    const sbri_rig *rig, uint32_t bone, sbf_vec3 axis, float stretch, sbr_transform *pose) {
+  sbf_vec3 shift = {0, 0, 0};
   for (uint32_t k = rig->subtree_begin[bone] + 1; k < rig->subtree_end[bone]; k++) {
     uint32_t b = rig->subtree[k];
     if (rig->roles[b] == SBRI_ROLE_LEG) continue;
     if (rig->parents[b] == (int32_t)bone)
-      by = sbri_sub(squashed(&pose[bone], axis, along, pose[b].position), pose[b].position);
-    pose[b].position = sbri_add(pose[b].position, by);
+      shift = sbri_sub(squashed_point(&pose[bone], axis, stretch, pose[b].position), pose[b].position);
+    pose[b].position = sbri_add(pose[b].position, shift);
   }
 }
 
@@ -47,7 +47,7 @@ void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     uint32_t b = (uint32_t)source->bone;
     sbri_bone_follower *follower = &followers[i];
     float length = rig->asset->bones.at[b].length;
-    if (!squashes(source)) continue;
+    if (!is_squash(source)) continue;
     sbf_vec3 axis = sbri_rotate(pose[b].rotation, sbri_squash_axis(source));
     if (advance == SBRI_ADVANCE_RESET) {
       sbri_position_follower_reset(&follower->position, pose[b].position);
@@ -72,7 +72,7 @@ void sbri_gait_begin_tick(const sbri_rig *rig, void *state) {
 
 float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float fraction) {
   const sbf_follower *source = &rig->asset->followers.at[follower];
-  if (!squashes(source)) return 1;
+  if (!is_squash(source)) return 1;
   const sbri_bone_follower *f = sbri_bone_followers(rig, (sbri_gait_state *)(uintptr_t)state) + follower;
   return fraction >= 1 ? f->stretch : f->stretch_before + (f->stretch - f->stretch_before) * fraction;
 }

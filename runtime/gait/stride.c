@@ -1,37 +1,38 @@
-/* How far feet go and how fast, from the speed alone: no clock.
+/* Range and speed of feet, from the speed alone: there is no clock.
  *
- * A foot comes down `half_m` ahead of its home and lifts off as far behind, so a stance lasts 2 half_m /
- * speed. In that time all other feet, or groups of feet, must have had their turn. While they can do so one
- * after the other, they do, and the body stays balanced; faster, the feet of a group go together; faster
- * still, steps get shorter in time. */
+ * A foot lands `half_m` ahead of its home and lifts off as far behind, so a stance lasts 2 half_m / speed. In
+ * that time all other feet, or groups of feet, must step. While there is time for one after the other, they
+ * do so, and the body stays balanced. At higher speed the feet of a group step together; at still higher
+ * speed steps become shorter in time. */
 #include "gait/gait_state.h"
 
-static const float USED = 0.75f;        /* share of what a foot may roam that a stride uses */
-static const float DEEPEST = 0.8f;      /* of the circle of an upright body, which comes down by no more */
-static const float LEANING = 0.8f;      /* share of the hips' height that a body keeps as it leans */
-static const float SURE = 1.0f;         /* share of what a foot may roam on average that it may roam always */
-static const float STRIDE_S = 0.5f;     /* over which it is averaged how wide strides may be */
-static const float STRETCH = 0.97f;     /* of the uneased reach */
-static const float MIN = 0.05f;         /* of a leg's length: a foot may always be so far off */
-static const float PEG = 0.25f;         /* the same of a leg of one bone */
-static const float SLACK = 1.15f;       /* time of a turn, in steps */
-static const float LEAN_S = 0.12f;      /* for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.5f;   /* the same on two legs */
-static const float LEAN_SLOW_S = 0.36f; /* and where it goes slower rather than out of balance */
-static const float SLOW = 0.35f;        /* reaches a second: up to here it keeps its balance */
-static const float LONGEST = 1.35f;     /* share of the usual time of a step, at speed */
-static const float SHORTEST = 0.25f;    /* share of the usual time below which no step goes */
-static const float MISSED = 0.002f;     /* of the reach: a sole so far from its place slows the body down */
-static const float MISSES = 0.01f;      /* and one so much farther stops it */
+static const float USED = 0.75f;        /* fraction of a foot's range that a stride uses */
+static const float DEEPEST = 0.8f;      /* fraction of the circle of an upright body; bounds its lowering */
+static const float LEANING = 0.8f;      /* fraction of the hips' height that a leaning body keeps */
+static const float SURE = 1.0f;         /* fraction of the mean range that is always available */
+static const float STRIDE_S = 0.5f;     /* time over which the maximum stride is averaged */
+static const float STRETCH = 0.97f;     /* fraction of the full reach */
+static const float MIN = 0.05f;         /* fraction of a leg's length: minimum range of a foot */
+static const float PEG = 0.25f;         /* the same for a leg of one bone */
+static const float SLACK = 1.15f;       /* time from step to step, in steps */
+static const float LEAN_S = 0.12f;      /* time for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.5f;   /* the same with two legs */
+static const float LEAN_SLOW_S = 0.36f; /* the same at low speed, where it keeps balance */
+static const float SLOW = 0.35f;        /* reaches per second: maximum speed with balance */
+static const float LONGEST = 1.35f;     /* maximum duration of a fast step relative to the usual one */
+static const float SHORTEST = 0.25f;    /* minimum duration of a step relative to the usual one */
+static const float MISSED =
+    0.002f; /* fraction of the reach: distance of a sole from its target from which on the body slows down */
+static const float MISSES = 0.01f; /* additional distance at which it stops */
 static const float BRAKES =
-    1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
-static const float BESIDE = 1.15f;   /* half soles: from the middle, foot by foot */
-static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
-static const float LEVEL = 0.05f;    /* of the reach: difference of height up to which ground is level */
+    1; /* reaches per squared duration of a step: deceleration for a foot at its reach */
+static const float BESIDE = 1.15f;   /* half soles: minimum distance of feet from the middle */
+static const uint32_t MANY_LEGS = 6; /* number of legs from which on half of them suffice for balance */
+static const float LEVEL = 0.05f;    /* fraction of the reach: maximum height difference of level ground */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
-  if (state->pivot) { /* about a foot: it moves the body round */
+  if (state->pivot) { /* rotation about a foot moves the body */
     sbf_vec3 arm = sbri_sub(state->position, state->feet[state->pivot - 1].ground);
     v.x += state->turn * arm.z, v.z -= state->turn * arm.x;
   }
@@ -42,12 +43,13 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
  * to forward motion only, because sideways the feet would collide. */
 static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
   if (rig->leg_count != 2 || rig->has_pegs || state->together) return x;
-  float ahead = state->forward * state->forward, aside = state->sideways * state->sideways;
-  float round = state->turn * rig->spread, all = ahead + aside + round * round;
+  float forward_square = state->forward * state->forward, sideways_square = state->sideways * state->sideways;
+  float rotation_speed = state->turn * rig->spread,
+        sum = forward_square + sideways_square + rotation_speed * rotation_speed;
   float min = BESIDE * rig->legs[leg].sole.left;
-  if (all <= 0 || fabsf(x) <= min) return x;
-  float near = x < 0 ? -min : min;
-  return x + ahead / all * (near - x);
+  if (sum <= 0 || fabsf(x) <= min) return x;
+  float min_x = x < 0 ? -min : min;
+  return x + forward_square / sum * (min_x - x);
 }
 
 sbf_vec3 sbri_home_arm(
@@ -105,7 +107,7 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
 }
 
-/* The ankle above `sole` relative to the hip, at the foot's height. */
+/* Vector from the hip to the ankle above `sole`, at the foot's height. */
 static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg,
     sbf_vec3 hip, sbf_vec3 sole, bool at_home) {
   const sbri_leg *l = &rig->legs[leg];
@@ -115,28 +117,29 @@ static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, floa
       at_home ? sbri_ankle_at_home(l, foot, sole, scale) : sbri_ankle_over(l, foot, sole, scale), hip);
 }
 
-/* The circle over the ground, about its hip, that a leg's foot may be in while its ankle is `from` it: its
- * radius; `off` receives where the ankle is from its middle, level. */
-static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *off) {
+/* Radius of the circle over the ground, about the hip, that a leg's foot can reach while its ankle is at
+ * `from` relative to the hip; `offset` receives the horizontal offset of the ankle from the centre. */
+static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset) {
   const sbri_leg *l = &rig->legs[leg];
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
   float upright = state->lowered - from.y, level = reach * reach - upright * upright;
-  float height = -lowered * from.y; /* the body comes down for its feet */
+  float height = -lowered * from.y; /* the body is lowered for its feet */
   float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
   if (min > lowered * upright) min = lowered * upright;
   if (height < min) height = min;
   if (height < upright - state->clearance.value)
-    height = upright - state->clearance.value; /* and no farther than its belly */
+    height = upright - state->clearance.value; /* and at most to the belly's clearance */
   if (from.y > 0) height = from.y;
-  *off = sbri_vec3(from.x, 0, from.z);
-  float over = reach * reach - height * height;
-  return over > 0 ? sqrtf(over) : 0;
+  *offset = sbri_vec3(from.x, 0, from.z);
+  float square = reach * reach - height * height;
+  return square > 0 ? sqrtf(square) : 0;
 }
 
 /* Distance from a point in a circle to its edge along a unit direction. */
-static float to_edge(sbf_vec3 off, float radius, sbf_vec3 direction) {
-  float along = sbri_dot(off, direction), square = along * along - sbri_dot(off, off) + radius * radius;
+static float to_edge(sbf_vec3 offset, float radius, sbf_vec3 direction) {
+  float along = sbri_dot(offset, direction),
+        square = along * along - sbri_dot(offset, offset) + radius * radius;
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
@@ -146,14 +149,14 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
   sbri_roam roam;
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->position, arm), true);
-  float radius = circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
-  float length = (l->upper_length + l->lower_length) * input->scale, away = sbri_length(roam.off);
-  if (l->lower < 0) radius = away + PEG * length;
-  roam.radius = radius < away + MIN * length ? away + MIN * length : radius;
+  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
+  float length = (l->upper_length + l->lower_length) * input->scale, offset = sbri_length(roam.off);
+  if (l->lower < 0) radius = offset + PEG * length;
+  roam.radius = radius < offset + MIN * length ? offset + MIN * length : radius;
   return roam;
 }
 
-/* How far ahead of its home, and behind, a foot goes at most, m. */
+/* Maximum distance of a foot ahead of its home and behind, m. */
 typedef struct span {
   float ahead, behind;
 } span;
@@ -166,13 +169,13 @@ float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
   span max = span_of(roam, direction);
   float middle = 0.5f * (max.ahead - max.behind), widest = 0.5f * (max.ahead + max.behind);
   if (half >= widest) return max.ahead;
-  float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide ones are about its hip */
+  float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide strides are centred at the hip */
   if (ahead > max.ahead) return max.ahead;
   return 2 * half - ahead > max.behind ? 2 * half - max.behind : ahead;
 }
 
-/* Where each leg's home moves and how far about it the foot may be; half of the widest stride that all of
- * them can take, m. */
+/* Velocity of each leg's home and the range of its foot. Returns half of the widest stride that all legs can
+ * take, m. */
 static float check_homes(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
   float max = 0;
@@ -211,29 +214,30 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
   bool quick = fastest > SLOW * rig->reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
-  float lean_two = slow ? LEAN_SLOW_S : LEAN_TWO_S;
-  float lean = rig->leg_count == 2 ? lean_two : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
-  float turn_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean), one_by_one = turn_s * s.speed;
-  s.together =
-      (turns > groups || rig->leg_count == 2) && turn_s * fastest > (state->together ? 0.62f : 0.74f) * max;
+  float lean_two_s = slow ? LEAN_SLOW_S : LEAN_TWO_S;
+  float lean_s = rig->leg_count == 2 ? lean_two_s : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
+  float turn_time_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean_s),
+        sequential_half = turn_time_s * s.speed;
+  s.together = (turns > groups || rig->leg_count == 2) &&
+               turn_time_s * fastest > (state->together ? 0.62f : 0.74f) * max;
   s.balanced = slow;
   s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chain_count &&
               sbri_stands_level(rig, state, input->scale);
   if (slow) s.together = false;
-  if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
-  float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
-  s.available_s = each > 0 ? max / each : 1e6f;
+  if (rig->has_pegs) s.together = true; /* rigid legs cannot follow a leaning body */
+  float half_per_second =
+      0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
+  s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
   s.duration_s = usual;
-  float needed = one_by_one;
-  if (slow && !s.together) { /* rather slower than out of balance */
-    float others = 0.5f * s.speed * (turns - 1);
-    if (others > 0) s.available_s = max / others - lean;
+  float needed = sequential_half;
+  if (slow && !s.together) { /* prefers low speed to loss of balance */
+    float half_per_step = 0.5f * s.speed * (turns - 1);
+    if (half_per_step > 0) s.available_s = max / half_per_step - lean_s;
     if (needed > max) needed = max;
-  } else if (s.together ||
-             needed > max) { /* as much time as the reach allows: the quicker a step, the harder */
+  } else if (s.together || needed > max) { /* uses all available time: quick steps are harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
     s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
-    needed = each * s.duration_s;
+    needed = half_per_second * s.duration_s;
     if (needed > max) needed = max;
   }
   float trigger = rig->gait->step_trigger * input->scale;
@@ -243,11 +247,11 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
 }
 
 float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
-  sbf_vec3 away = sbri_sub(state->feet[leg].ground, sbri_add(state->position, home->arm));
-  away.y = 0;
-  float distance = sbri_length(away);
+  sbf_vec3 offset = sbri_sub(state->feet[leg].ground, sbri_add(state->position, home->arm));
+  offset.y = 0;
+  float distance = sbri_length(offset);
   if (distance <= 0) return 0;
-  float roam = to_edge(home->roam.off, home->roam.radius, sbri_scale(away, 1 / distance));
+  float roam = to_edge(home->roam.off, home->roam.radius, sbri_scale(offset, 1 / distance));
   return distance / (roam > 1e-6f ? roam : 1e-6f);
 }
 
@@ -259,10 +263,10 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
   sbf_vec3 home = sbri_add(state->position, arm);
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
-  float radius = circle(rig, state, input, leg, from, lowered, &stance.off);
-  sbf_vec3 off = from_hip(rig, state, input->scale, leg, hip, home, true);
-  off.y = 0;
-  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(off);
+  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.off);
+  sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
+  offset.y = 0;
+  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(offset);
   if (l->lower < 0) radius = rest + PEG * length;
   stance.radius = radius < rest + MIN * length ? rest + MIN * length : radius;
   return stance;
@@ -276,7 +280,7 @@ float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, co
 }
 
 /* Remaining travel of a planted leg until the end of its reach, if its home moves at `speed`; m. */
-static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+static float remaining_travel(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float *speed) {
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), v = sbri_home_velocity(rig, state, leg, arm);
   *speed = sbri_length(v);
@@ -284,9 +288,9 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
   float left = to_edge(stance.off, stance.radius, sbri_scale(displacement, -1));
-  float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
-  if (turned != 0)
-    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * turned), -1));
+  float rotation = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* rotation until then */
+  if (rotation != 0)
+    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * rotation), -1));
   return left > 0 ? left : 0;
 }
 
@@ -295,12 +299,13 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (state->together && rig->legs[i].group == rig->legs[leg].group) { /* it goes along, if it is behind */
+    if (state->together &&
+        rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
       sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
       sbf_vec3 behind = sbri_sub(sbri_add(state->position, arm), state->feet[i].ground);
       if (sbri_dot(behind, sbri_home_velocity(rig, state, i, arm)) > 0) continue;
     }
-    float left = left_of(rig, state, input, i, &speed);
+    float left = remaining_travel(rig, state, input, i, &speed);
     if (left < min * speed * in_s) min = left / (speed * in_s);
   }
   return min;
@@ -317,7 +322,7 @@ float sbri_pace_of(
   *lasting = 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    float left = left_of(rig, state, input, i, &speed), missed = state->feet[i].missed;
+    float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].missed;
     if (speed <= 0) continue;
     missed /= rig->reach * input->scale;
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;

@@ -1,10 +1,10 @@
-/* Balance: the centre of mass over the polygon of the planted feet, now and at its predicted position. */
+/* Balance: the centre of mass above the polygon of the planted feet, now and at its predicted position. */
 #include "gait/gait_state.h"
 #include "skeleton/rig_mass.h"
 
-static const float NEEDED = 0.02f; /* of the legs' reach: how far inside before a foot lifts off */
-static const float SOUGHT = 0.05f; /* and where the body leans to */
-static const float MAX = 0.3f;     /* of the reach: farthest that it leans */
+static const float NEEDED = 0.02f; /* fraction of the legs' reach: margin inside before a foot lifts off */
+static const float SOUGHT = 0.05f; /* margin that the lean aims for */
+static const float MAX = 0.3f;     /* fraction of the reach: maximum lean */
 
 typedef struct polygon {
   sbf_vec3 at[4 * SBRI_MAX_LEGS + 1];
@@ -71,8 +71,8 @@ static float margin_of(const polygon *hull, sbf_vec3 p, sbf_vec3 *inwards) {
   return inside ? nearest : -nearest;
 }
 
-/* How far a place is from within `low` to `high`, less a margin at both ends. */
-static float into(float coordinate, float low, float high, float margin) {
+/* Distance of a coordinate from the range `low` to `high`, reduced by a margin at both ends. */
+static float distance_from_range(float coordinate, float low, float high, float margin) {
   float middle = 0.5f * (low + high);
   low = low + margin < middle ? low + margin : middle, high = high - margin > middle ? high - margin : middle;
   return sbri_clamp(coordinate, low, high) - coordinate;
@@ -81,8 +81,8 @@ static float into(float coordinate, float low, float high, float margin) {
 sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
   float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f}, margin = NEEDED * rig->reach;
   sbf_vec3 center;
-  bool leans = rig->leg_count && !rig->has_pegs && sbri_rig_center(rig, rig->rest, 1, &center);
-  if (!leans) return sbri_vec3(0, 0, 0);
+  bool can_lean = rig->leg_count && !rig->has_pegs && sbri_rig_center(rig, rig->rest, 1, &center);
+  if (!can_lean) return sbri_vec3(0, 0, 0);
   for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i / 4];
     float at[2] = {leg->home.x + leg->sole.corners[i % 4].x, leg->home.z + leg->sole.corners[i % 4].z};
@@ -91,7 +91,8 @@ sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
       high[k] = at[k] > high[k] ? at[k] : high[k];
     }
   }
-  return sbri_vec3(into(center.x, low[0], high[0], margin), 0, into(center.z, low[1], high[1], margin));
+  return sbri_vec3(distance_from_range(center.x, low[0], high[0], margin), 0,
+      distance_from_range(center.z, low[1], high[1], margin));
 }
 
 static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway_z) {
@@ -99,13 +100,14 @@ static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
 }
 
-/* The lesser of the margins at the centre and at the centre plus `direction`, with the direction of increase.
- */
+/* The smaller of the margins at the centre and at the centre plus `direction`, with the direction of
+ * increase. */
 static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 direction, sbf_vec3 *inwards) {
-  sbf_vec3 then;
-  float now = margin_of(hull, at, inwards), later = margin_of(hull, sbri_add(at, direction), &then);
-  if (later < now) *inwards = then;
-  return later < now ? later : now;
+  sbf_vec3 margin_then;
+  float margin_now = margin_of(hull, at, inwards),
+        later = margin_of(hull, sbri_add(at, direction), &margin_then);
+  if (later < margin_now) *inwards = margin_then;
+  return later < margin_now ? later : margin_now;
 }
 
 bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -130,9 +132,10 @@ sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, co
     float missing = sought - min_margin(&hull, at, direction, &inwards);
     if (missing <= 1e-5f * size) break;
     sbf_vec3 to_middle = sbri_vec3(middle.x - at.x, 0, middle.z - at.z);
-    float away = sbri_length(to_middle); /* a small polygon has no place so far inside */
-    sway = missing >= away ? sbri_add(sway, to_middle) : sbri_add_scaled(sway, inwards, missing);
-    if (missing >= away) break;
+    float distance_to_middle = sbri_length(to_middle); /* a small polygon has no point with this margin */
+    sway =
+        missing >= distance_to_middle ? sbri_add(sway, to_middle) : sbri_add_scaled(sway, inwards, missing);
+    if (missing >= distance_to_middle) break;
   }
   float length = sbri_length(sway), max = MAX * size;
   return length > max ? sbri_scale(sway, max / length) : sway;

@@ -27,9 +27,9 @@ void sbri_surroundings_find(const sbri_rig *rig, float scale, const sbri_collide
 /* Whether a collider of the set is an obstacle and floor for the body. */
 bool sbri_surroundings_has(const sbri_surroundings *around, uint32_t collider);
 
-/* The collider whose top at (x, z) is within `off` of the height y, as colliders stood when the tick began;
- * false if there is none. */
+/* The collider whose top at (x, z) is within `tolerance` of the height y, as colliders stood when the tick
+ * began; false if there is none. */
 bool sbri_surroundings_bearer(
-    const sbri_surroundings *around, sbr_double3 position, double off, uint32_t *collider);
+    const sbri_surroundings *around, sbr_double3 position, double tolerance, uint32_t *collider);
 
 #endif

@@ -10,7 +10,7 @@ static const float AS_PLANNED = 1.02f; /* needed time as a multiple of the avail
 static const float REPLANNED =
     0.02f;                           /* fraction of the reach: a target that moves further is planned again */
 static const float WIDEST = 1.7f;    /* in reaches: maximum length of a step that begins far behind */
-static const float MIN_LIMIT = 0.1f; /* of the wanted speed: standing, it would learn no more */
+static const float MIN_LIMIT = 0.1f; /* fraction of the commanded speed: minimum of the learned limit */
 enum { PASSES = 4 };
 
 /* Landing position: ahead of the foot's home at the time of landing. */
@@ -32,8 +32,8 @@ static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *stat
   sbf_vec3 direction = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
   float ahead = sbri_ahead(&at->roam, direction, half), max = WIDEST * rig->reach * input->scale;
-  float before = sbri_dot(sbri_sub(home, state->feet[leg].from), direction); /* of the step */
-  if (before + ahead > max) ahead = max > before ? max - before : 0;
+  float travelled = sbri_dot(sbri_sub(home, state->feet[leg].from), direction); /* distance along the step */
+  if (travelled + ahead > max) ahead = max > travelled ? max - travelled : 0;
   return sbri_add_scaled(home, direction, ahead);
 }
 
@@ -44,34 +44,34 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
   sbf_vec3 position, normal, wanted = target_position(rig, state, input, stride, leg, left);
   if (!sbri_footing(rig, state, input, leg, wanted, &position, &normal))
     position = foot->from, normal = foot->from_normal;
-  if (sbri_flat_distance(position, wanted) > 0) { /* another foothold: positions in between are not checked */
+  if (sbri_flat_distance(position, wanted) > 0) { /* another foothold: positions between are not checked */
     if (foot->phase > 0 && sbri_stands(rig, state, input, leg, foot->to, foot->phase < SET_PHASE)) return;
     fraction = 1;
   }
-  bool other = fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale;
-  if (foot->phase > SET_PHASE && other) return; /* too late for another level */
-  if (other) fraction = 1;                      /* there is no foothold between two levels */
+  bool is_other_level = fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale;
+  if (foot->phase > SET_PHASE && is_other_level) return; /* too late for another level */
+  if (is_other_level) fraction = 1;                      /* there is no foothold between two levels */
   foot->to = sbri_lerp(foot->to, position, fraction);
   foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, fraction), normal);
 }
 
 /* Needed time over available time of a step. */
-static float haste_of(const sbri_foot *foot) {
+static float time_ratio_of(const sbri_foot *foot) {
   return foot->leaves - foot->arrives + foot->climbs - foot->climbed;
 }
 
 /* Plans the step. Returns true if it is higher or faster than the previous plan. */
 static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
-  float clearance = foot->clearance, haste = haste_of(foot);
+  float clearance = foot->clearance, haste = time_ratio_of(foot);
   foot->planned = foot->to;
   sbri_step_plan(rig, state, input, leg);
-  return foot->clearance > clearance || haste_of(foot) > haste;
+  return foot->clearance > clearance || time_ratio_of(foot) > haste;
 }
 
 /* Adapts the speed to the duration of steps: long steps make the next ones slower, and the body too if the
  * legs have no spare time, as on stairs. */
-static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
   float fraction = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->needed_s += fraction * (needed_s - state->needed_s);
@@ -99,14 +99,14 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     if (needed <= AS_PLANNED * foot->duration_s) break;
     foot->duration_s = needed;
   }
-  learn(rig, state, input, stride, needed);
+  adapt_speed(rig, state, input, stride, needed);
   foot->x = sbri_glide_at(foot->ground.x), foot->z = sbri_glide_at(foot->ground.z);
   foot->base = sbri_glide_at(foot->ground.y), foot->rise = sbri_glide_at(0);
   foot->tilt_x = sbri_glide_at(foot->normal.x), foot->tilt_z = sbri_glide_at(foot->normal.z);
   foot->twist = sbri_glide_at(foot->heading);
 }
 
-static void put_down(sbri_foot *foot) {
+static void landed(sbri_foot *foot) {
   foot->ground = foot->to;
   foot->normal = foot->to_normal;
   foot->heading = 0;
@@ -118,7 +118,7 @@ static void put_down(sbri_foot *foot) {
 
 /* Moves `g` by the part of the tick after phase `begins`, so that it arrives at phase `ends`. The tick ends
  * at phase `now`. */
-static void glide(
+static void move_coordinate(
     sbri_glide *g, float target, const sbri_foot *foot, float tick_s, float begins, float ends) {
   float since = (foot->phase - begins) * foot->duration_s, step = since < tick_s ? since : tick_s;
   if (step > 0) sbri_glide_tick(g, target, (ends - foot->phase) * foot->duration_s + step, step);
@@ -126,15 +126,15 @@ static void glide(
 
 /* Moves the foot along its plan to its phase. */
 static void move(sbri_foot *foot, float tick_s) {
-  glide(&foot->x, foot->to.x, foot, tick_s, foot->leaves, foot->arrives);
-  glide(&foot->z, foot->to.z, foot, tick_s, foot->leaves, foot->arrives);
-  glide(&foot->base, foot->to.y, foot, tick_s, foot->climbs, foot->climbed);
+  move_coordinate(&foot->x, foot->to.x, foot, tick_s, foot->leaves, foot->arrives);
+  move_coordinate(&foot->z, foot->to.z, foot, tick_s, foot->leaves, foot->arrives);
+  move_coordinate(&foot->base, foot->to.y, foot, tick_s, foot->climbs, foot->climbed);
   float past = (foot->phase - 0.5f) * foot->duration_s; /* rises until the middle, then falls */
-  if (past < tick_s) glide(&foot->rise, foot->clearance, foot, tick_s, 0, 0.5f);
-  if (past > 0) glide(&foot->rise, 0, foot, tick_s, 0.5f, 1);
-  glide(&foot->tilt_x, foot->to_normal.x, foot, tick_s, 0, 1);
-  glide(&foot->tilt_z, foot->to_normal.z, foot, tick_s, 0, 1);
-  glide(&foot->twist, 0, foot, tick_s, 0, 1);
+  if (past < tick_s) move_coordinate(&foot->rise, foot->clearance, foot, tick_s, 0, 0.5f);
+  if (past > 0) move_coordinate(&foot->rise, 0, foot, tick_s, 0.5f, 1);
+  move_coordinate(&foot->tilt_x, foot->to_normal.x, foot, tick_s, 0, 1);
+  move_coordinate(&foot->tilt_z, foot->to_normal.z, foot, tick_s, 0, 1);
+  move_coordinate(&foot->twist, 0, foot, tick_s, 0, 1);
   foot->ground = sbri_vec3(foot->x.at, foot->base.at, foot->z.at);
   foot->lift = foot->rise.at;
   float x = foot->tilt_x.at, z = foot->tilt_z.at, y = 1 - x * x - z * z;
@@ -149,8 +149,8 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   if (foot->phase < RESTING_PHASE) {
     float left = 1 - foot->phase / RESTING_PHASE;
     aim(rig, state, input, stride, leg, FOLLOW * left);
-    float off = sbri_length(sbri_sub(foot->to, foot->planned));
-    bool off_plan = foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale;
+    float distance = sbri_length(sbri_sub(foot->to, foot->planned));
+    bool off_plan = foot->phase < SET_PHASE && distance > REPLANNED * rig->reach * input->scale;
     if (off_plan) (void)plan(rig, state, input, leg);
     if (off_plan && foot->clearance > rig->gait->step_height * input->scale) { /* over an obstacle */
       float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
@@ -159,12 +159,13 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   } else if (foot->to_normal.y != 0) {
     sbf_vec3 position = foot->to, normal = foot->to_normal;
     sbri_lay_sole(rig, state, input, leg, &position, &normal);
-    bool other = fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale; /* too late for that */
-    if (!other) foot->to = position, foot->to_normal = normal;
+    bool is_other_level =
+        fabsf(position.y - foot->to.y) > LEVEL * rig->reach * input->scale; /* too late for that */
+    if (!is_other_level) foot->to = position, foot->to_normal = normal;
   }
   bool down = foot->phase >= 1;
   if (down)
-    put_down(foot);
+    landed(foot);
   else
     move(foot, input->tick_s);
   sbri_foot_update_orientation(rig, state, input, leg);

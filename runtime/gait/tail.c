@@ -1,44 +1,44 @@
-/* Tails: every bone follows the one before it as a second-order system, the first follows the hips, so that a
- * turn, or a rise of the ground, runs down the tail late and swings over. Where the tail would dip into the
- * ground, now or soon, what its bones follow is raised. */
+/* Tails: every bone follows the one before it as a second-order system, and the first one follows the hips.
+ * So a turn of the body, or a change of slope, moves down the tail with a lag and overshoots. Where the tail
+ * would penetrate the ground, now or soon, the targets of its bones are raised. */
 #include "gait/gait_state.h"
 #include "gait/motion_kinds.h"
 #include "math/quat.h"
 #include "math/trig.h"
 #include "math/vec3.h"
 
-/* Bones of a tail whose ends are kept over the ground. */
+/* Maximum number of bones whose ends are kept above the ground. */
 enum { MAX_CLEARED = 32 };
 
-/* Times at which the ground is looked up ahead of the motion: a tail needs about so long to rise. */
+/* Look-ahead times of the ground: about the time that a tail needs to rise. */
 static const float AHEAD_S[] = {0, 0.15f, 0.3f};
 enum { LOOKUPS = sizeof AHEAD_S / sizeof *AHEAD_S };
 
-/* Follows `leader` and bends no farther than `limit` from it; returns where it has come to. */
-static float lag_behind(sbri_lag *lag, float leader, float limit, const sbri_follower_step *step) {
+/* Follows `leader` and bends by at most `limit` from it; returns the new value. */
+static float follow_leader(sbri_lag *lag, float leader, float limit, const sbri_follower_step *step) {
   sbri_lag_tick(lag, leader, step);
   float limited = sbri_clamp(lag->value, leader - limit, leader + limit);
   if (limited != lag->value) *lag = (sbri_lag){limited, 0};
   return limited;
 }
 
-/* A bone's step in world axes with this yaw and pitch; pitch above 0 raises what points back. */
+/* Vector of a bone in world axes at this yaw and pitch; positive pitch raises vectors that point backwards.
+ */
 static sbf_vec3 step_at(const sbri_stance *stance, sbf_vec3 step, float yaw, float pitch) {
-  sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), yaw));
+  sbf_vec3 left = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), yaw));
   sbf_vec3 level = sbri_rotate(stance->root.rotation, sbri_turned(step, yaw));
-  return sbri_rotate(sbri_quat_about(side, pitch - stance->hips_pitch), level);
+  return sbri_rotate(sbri_quat_about(left, pitch - stance->hips_pitch), level);
 }
 
-/* What must be added to a bone's pitch so that a point at `offset` from its head comes up by `rise`. */
+/* Change of a bone's pitch that raises a point at `offset` from its head by `rise`. */
 static float pitch_for(sbf_vec3 offset, float rise) {
   float level = sqrtf(offset.x * offset.x + offset.z * offset.z);
   return sbri_atan2(offset.y + rise, level) - sbri_atan2(offset.y, level);
 }
 
-/* A tail as it is posed now, and the height that the end of each bone must have. */
+/* Present pose of a tail, and the required height of the end of each bone. */
 typedef struct cleared_tail {
-  sbf_vec3
-      ends[MAX_CLEARED + 1]; /* the first bone's head, then the end of each bone; relative to the origin */
+  sbf_vec3 ends[MAX_CLEARED + 1]; /* head of the first bone, then ends of all bones; relative to the origin */
   float lowest[MAX_CLEARED];
   uint32_t count;
 } cleared_tail;
@@ -63,8 +63,8 @@ static void find_ground(const sbri_rig *rig, const sbri_tail *tail, const sbri_l
   }
 }
 
-/* By how much bone `k` must be raised against the pitch `leader` so that it and those behind it, straight on
- * from it, stay clear. */
+/* Rise of bone `k` from the pitch `leader` for which it and the bones behind it, straight on, clear the
+ * ground. */
 static float raise_of(const sbri_tail *tail, const cleared_tail *cleared, const sbri_gait_input *input,
     const sbri_stance *stance, uint32_t k, float yaw, float leader) {
   float raise = 0;
@@ -108,10 +108,10 @@ void sbri_tails_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     float yaw = stance->hips_yaw, pitch = stance->hips_pitch;
     for (uint32_t k = 0; k < tail->bone_count; k++) {
       sbri_lag *lag = &lags[2 * k];
-      lag[0].value -= turned_by; /* it stays where it pointed while the body turns under it */
-      yaw = lag_behind(&lag[0], yaw, tail->limit, &step);
+      lag[0].value -= turned_by; /* it keeps its direction while the body rotates */
+      yaw = follow_leader(&lag[0], yaw, tail->limit, &step);
       if (k < cleared.count) pitch += raise_of(tail, &cleared, input, stance, k, yaw, pitch);
-      pitch = lag_behind(&lag[1], pitch, tail->limit, &step);
+      pitch = follow_leader(&lag[1], pitch, tail->limit, &step);
     }
   }
 }

@@ -1,12 +1,12 @@
-/* Chains of bones that go after their first one.
+/* Chains of bones that follow their first one.
  *
  * distance: every bone is dragged at its spacing by the one before it (snake, fish, caterpillar, dragon).
- * lag: every bone keeps its direction in the world for a while. In both, the bend between two is bounded and
- * decays, so that a chain at rest is as straight as its rest pose. */
+ * lag: every bone keeps its direction in the world for a while. In both, the bend between two bones is
+ * bounded and decays, so that a chain at rest is as straight as in the rest pose. */
 #include "gait/gait_state.h"
 #include "math/trig.h"
 
-/* What turns a bone from how it would continue the one before it, cut and decayed. */
+/* Rotation of a bone relative to a straight continuation, limited and decayed. */
 static sbf_quat bend_of(sbf_quat rotation, const sbf_chain *chain, float decay) {
   sbf_vec3 v = sbri_scale(sbri_quat_log(rotation), decay);
   float angle = sbri_length(v);
@@ -14,7 +14,7 @@ static sbf_quat bend_of(sbf_quat rotation, const sbf_chain *chain, float decay) 
   return sbri_quat_exp(v);
 }
 
-/* From a bone's head to where the next one begins, at rest, in the bone's frame, at the chain's spacing. */
+/* Vector from a bone's head to the next one at rest, in the bone's frame, with the chain's spacing. */
 static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t k, float scale) {
   const sbr_transform *rest = &rig->rest[chain->bones.at[k]];
   float length = rig->asset->bones.at[chain->bones.at[k]].length;
@@ -28,7 +28,7 @@ static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t 
   return size > 0 ? sbri_scale(step, wanted * scale / size) : step;
 }
 
-/* Keeps a place over the ground at the height it has over it at rest. */
+/* Keeps the height above the ground at rest. */
 static float height_at(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbf_chain *chain, uint32_t k, sbf_vec3 position) {
   uint32_t bone = chain->bones.at[k];
@@ -37,8 +37,9 @@ static float height_at(const sbri_rig *rig, const sbri_gait_state *state, const 
   return sbri_ground_below(input, position, NULL).y + rest * input->scale + state->position.y;
 }
 
-/* The bone's turn in this tick, world axes, from `straight`, how it would continue the one before it. */
-static sbf_quat turn_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+/* Rotation of the bone in this tick, world axes, relative to `straight`, the continuation of the one before
+ * it. */
+static sbf_quat rotation_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_bone_chain *c, uint32_t k, sbf_vec3 head, sbf_quat straight, const sbri_chain_bone *was) {
   const sbf_chain *chain = c->source;
   float decay = sbri_exp(-chain->damping * input->tick_s);
@@ -47,8 +48,7 @@ static sbf_quat turn_of(const sbri_rig *rig, const sbri_gait_state *state, const
     return bend_of(rotation, chain, decay);
   }
   sbf_vec3 ideal = sbri_rotate(straight, rest_step(rig, chain, k, input->scale)), tip = was->tip;
-  if (sbri_dot(ideal, ideal) == 0)
-    return sbri_quat_identity(); /* a link without length has no direction of its own */
+  if (sbri_dot(ideal, ideal) == 0) return sbri_quat_identity(); /* a link without length has no direction */
   tip.y = height_at(rig, state, input, chain, k, tip);
   sbf_vec3 from = sbri_normalize(ideal, sbri_vec3(0, 0, 1));
   sbf_vec3 to = sbri_normalize(sbri_sub(tip, head), from);
@@ -66,20 +66,20 @@ static void pose_chain(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     sbf_quat now = pose[b].rotation;
     if (k > 0) {
       uint32_t a = chain->bones.at[k - 1];
-      sbf_quat between =
+      sbf_quat rest_rotation =
           sbri_quat_multiply(sbri_quat_conjugate(rig->rest[a].rotation), rig->rest[b].rotation);
-      now = sbri_quat_multiply(pose[a].rotation, between);
+      now = sbri_quat_multiply(pose[a].rotation, rest_rotation);
       if (chain->kind == SBF_CHAIN_KIND_DISTANCE) head = bones[k - 1].tip;
       if (advance == SBRI_ADVANCE_TICK)
-        now = sbri_quat_multiply(turn_of(rig, state, input, c, k, head, now, bone), now);
+        now = sbri_quat_multiply(rotation_of(rig, state, input, c, k, head, now, bone), now);
       else if (advance == SBRI_ADVANCE_NOT)
         now = bone->frame.rotation;
       now = sbri_quat_normalize(now);
       sbri_rig_turn(rig, b, sbri_quat_multiply(now, sbri_quat_conjugate(pose[b].rotation)), pose);
       sbri_rig_shift(rig, b, sbri_sub(head, pose[b].position), pose);
     }
-    sbf_vec3 moved = sbri_sub(head, bone->frame.position);
-    if (advance == SBRI_ADVANCE_TICK) bone->velocity = sbri_scale(moved, 1 / input->tick_s);
+    sbf_vec3 displacement = sbri_sub(head, bone->frame.position);
+    if (advance == SBRI_ADVANCE_TICK) bone->velocity = sbri_scale(displacement, 1 / input->tick_s);
     if (advance == SBRI_ADVANCE_RESET) bone->velocity = sbri_vec3(0, 0, 0);
     bone->frame = (sbr_transform){head, now};
     bone->tip = sbri_add(head, sbri_rotate(now, rest_step(rig, chain, k, input->scale)));

@@ -5,11 +5,11 @@
 
 static const float TURN = 6.2831853f;
 static const float RESTS = 0.3f;    /* weight of the wave at rest */
-static const float SWELLS_S = 0.4f; /* over which the weight follows the speed */
-static const float BEND_HZ = 1;     /* of the critically damped follower of the bend in a turn */
+static const float SWELLS_S = 0.4f; /* time over which the weight follows the speed */
+static const float BEND_HZ = 1;     /* critically damped follower of the bend in a turn */
 static const float MAX_BEND = 1.2f; /* rad, from the nose to the tail */
 
-/* Sums of the coefficients: at the tail. */
+/* Amplitude at the tail: the sum of the coefficients. */
 static float tail_amplitude(const sbf_undulation *wave) {
   return wave->exaggeration * (wave->amplitude.x + wave->amplitude.y + wave->amplitude.z);
 }
@@ -42,7 +42,7 @@ void sbri_undulation_tick(const sbri_rig *rig, sbri_gait_state *state, const sbr
   m->strength += (goal - m->strength) * (1 - sbri_exp(-input->tick_s / SWELLS_S));
   if (goal == 0 && m->strength < 1e-4f) m->strength = 0;
   float f = sbri_wave_frequency(wave, speed, length);
-  if (crawls && m->strength == 0) f = 0; /* it is still */
+  if (crawls && m->strength == 0) f = 0; /* no wave at rest */
   m->wave += (state->forward < 0 ? -f : f) * input->tick_s;
   m->wave -= (float)(int32_t)m->wave;
   if (m->wave < 0) m->wave += 1;
@@ -65,7 +65,7 @@ static float slope_at(const sbri_rig *rig, const sbri_motion_state *m, float s, 
   const sbf_undulation *wave = rig->gait->undulation;
   float slope = sbri_wave_slope(wave, m->strength, m->wave, s, displacement);
   if (rig->gait->kind != SBF_GAIT_KIND_CRAWL) return slope;
-  /* Never below the ground: raised by its amplitude. */
+  /* Raised by its amplitude, so that it stays above the ground. */
   float e = m->strength * wave->exaggeration, sine, cosine, rise;
   float a = e * (wave->amplitude.x + s * (wave->amplitude.y + s * wave->amplitude.z));
   *displacement += fabsf(a);
@@ -81,7 +81,7 @@ void sbri_undulation_pose(const sbri_rig *rig, sbri_gait_state *state, const sbr
   if (!wave) return;
   bool vertical = wave->plane == SBF_WAVE_PLANE_VERTICAL || rig->gait->kind == SBF_GAIT_KIND_CRAWL;
   float length = rig->wave_length * input->scale;
-  /* Parents first, as the asset's bones are. */
+  /* Parents first, in the order of the asset. */
   for (uint32_t b = 0; b < rig->bone_count; b++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != b) continue;
@@ -91,7 +91,7 @@ void sbri_undulation_pose(const sbri_rig *rig, sbri_gait_state *state, const sbr
         sbf_vec3 aside = vertical ? sbri_vec3(0, shift * length, 0) : sbri_vec3(shift * length, 0, 0);
         sbri_rig_shift(rig, b, sbri_rotate(root->rotation, aside), pose);
       }
-      /* s grows backward: where the wave goes to +x with s, the chain's line turns from -z to +x. */
+      /* s increases backwards: where the wave goes to +x with s, the chain's line rotates from -z to +x. */
       sbf_quat rotation = {0, 0, 0, 1};
       if (vertical)
         sbri_sincos(0.5f * angle, &rotation.x, &rotation.w);

@@ -1,15 +1,18 @@
-/* Poses keyed by the distance walked, under the gait: the walk for the speed, or the two between which it is.
- */
+/* Poses keyed by the distance walked, below the gait: the walk for the speed, or a blend of the two nearest
+ * ones. */
 #include "gait/gait_state.h"
 
-static const float FULL_AT = 0.5f; /* of the walking speed: from here on a walk of poses counts fully */
-static const float CATCH_UP = 4;   /* of what a walk is out of step it makes up most in half a cycle */
-static const float MAX_CATCH =
-    0.5f; /* correction as a fraction of the phase's own progress: it never runs backwards or twice as fast */
-static const float MIN_STEP = 0.4f, MAX_STEP = 2.5f; /* of half the poses' own cycle: what counts as a step */
+static const float FULL_AT =
+    0.5f; /* fraction of the walking speed from which on a walk has its full weight */
+static const float CATCH_UP =
+    4; /* rate of phase correction per cycle: most of an error is corrected in half a cycle */
+static const float MAX_CATCH = 0.5f; /* maximum correction as a fraction of the phase's own progress: it never
+                                        runs backwards or twice as fast */
+static const float MIN_STEP = 0.4f,
+                   MAX_STEP = 2.5f; /* accepted length of a step, in half cycles of the poses */
 
-/* The walks below and above a speed, and how far towards the second. */
-static float between(const sbri_walks *walks, float speed, const sbri_walk **low, const sbri_walk **high) {
+/* The walks below and above a speed, and the weight of the second. */
+static float find_walks(const sbri_walks *walks, float speed, const sbri_walk **low, const sbri_walk **high) {
   uint32_t k = 0;
   while (k + 1 < walks->walk_count && walks->walks[k + 1].speed <= speed) k++;
   *low = &walks->walks[k];
@@ -18,23 +21,23 @@ static float between(const sbri_walks *walks, float speed, const sbri_walk **low
   return span > 0 ? sbri_clamp((speed - (*low)->speed) / span, 0, 1) : 0;
 }
 
-/* In asset metres a second. */
+/* In asset metres per second. */
 static float speed_of(const sbri_gait_state *state, float scale) {
   return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->speed_fraction /
          scale;
 }
 
-/* A foot that has just come down says where in its cycle the walk ought to be, and how long half a cycle is.
- */
-static void keep_step(const sbri_walks *walks, sbri_gait_state *state, float half_cycle_m) {
+/* At a landing: updates the phase error of the walk, and the length of half a cycle. */
+static void synchronise(const sbri_walks *walks, sbri_gait_state *state, float half_cycle_m) {
   const int32_t legs[2] = {walks->first_leg, walks->other_leg};
   for (int half = 0; half < 2 && legs[half] >= 0; half++) {
     const sbri_foot *foot = &state->feet[legs[half]];
     if (!foot->planted || foot->was_planted) continue;
     state->walk_ahead = sbri_wrap(state->walk_phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
-    float gone = state->walk_since_m;
-    bool other = state->walk_landed == (uint32_t)(2 - half); /* a step of each in turn */
-    state->walk_half_m = other && gone > MIN_STEP * half_cycle_m && gone < MAX_STEP * half_cycle_m ? gone : 0;
+    float walked = state->walk_since_m;
+    bool other = state->walk_landed == (uint32_t)(2 - half); /* steps alternate */
+    state->walk_half_m =
+        other && walked > MIN_STEP * half_cycle_m && walked < MAX_STEP * half_cycle_m ? walked : 0;
     state->walk_landed = (uint32_t)half + 1;
     state->walk_since_m = 0;
   }
@@ -44,30 +47,31 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   const sbri_walks *walks = &rig->walks;
   if (!walks->walk_count) return;
   const sbri_walk *low, *high;
-  float t = between(walks, speed_of(state, scale), &low, &high);
+  float t = find_walks(walks, speed_of(state, scale), &low, &high);
   float cycle = low->cycle_m + t * (high->cycle_m - low->cycle_m);
   bool backwards = state->forward < 0 && -state->forward > fabsf(state->sideways);
   walked_m /= scale;
   state->walk_since_m += walked_m;
-  if (low->mirrored) keep_step(walks, state, 0.5f * cycle);
+  if (low->mirrored) synchronise(walks, state, 0.5f * cycle);
   if (state->standing_s > 0) state->walk_half_m = 0, state->walk_landed = 0;
   float fraction = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
   if (low->mirrored && !backwards) {
-    float max = MAX_CATCH * fraction, back = sbri_clamp(CATCH_UP * state->walk_ahead * fraction, -max, max);
-    fraction -= back;
-    state->walk_ahead -= back;
+    float max = MAX_CATCH * fraction,
+          correction = sbri_clamp(CATCH_UP * state->walk_ahead * fraction, -max, max);
+    fraction -= correction;
+    state->walk_ahead -= correction;
   }
   state->walk_phase = sbri_wrap(state->walk_phase + (backwards ? -fraction : fraction), 1);
 }
 
-/* Four frames about a phase, and what each counts there. */
+/* Four frames about a phase with their weights. */
 typedef struct sbri_between {
   const sbri_walk_frame *frames[4];
   float weights[4];
 } sbri_between;
 
-/* A cubic through the frames, its slope at each that of the line between its neighbours (Catmull and Rom
- * 1974): hips and shoulders go through the poses without a break. */
+/* Cubic through the frames with the slopes of Catmull and Rom (1974), so that hips and shoulders move
+ * smoothly. */
 static sbri_between frames_at(const sbri_walk *walk, float phase) {
   sbri_between b;
   float times[4];
@@ -81,9 +85,11 @@ static sbri_between frames_at(const sbri_walk *walk, float phase) {
     times[i] = b.frames[i]->at + (float)turns;
   }
   float span = times[2] - times[1], t = sbri_clamp((phase - times[1]) / span, 0, 1), u = 1 - t;
-  float in = t * u * u * span / (times[2] - times[0]), out = -t * t * u * span / (times[3] - times[1]);
+  float incoming = t * u * u * span / (times[2] - times[0]),
+        outgoing = -t * t * u * span / (times[3] - times[1]);
   float later = t * t * (3 - 2 * t);
-  b.weights[0] = -in, b.weights[1] = 1 - later - out, b.weights[2] = later + in, b.weights[3] = out;
+  b.weights[0] = -incoming, b.weights[1] = 1 - later - outgoing, b.weights[2] = later + incoming,
+  b.weights[3] = outgoing;
   return b;
 }
 
@@ -110,14 +116,14 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
   if (!walks->walk_count || weight <= 0) return;
   const sbri_walk *pair[2];
   sbri_between frames[2];
-  float faster = between(walks, speed, &pair[0], &pair[1]);
+  float upper = find_walks(walks, speed, &pair[0], &pair[1]);
   for (int i = 0; i < 2; i++) frames[i] = frames_at(pair[i], state->walk_phase);
   for (uint32_t j = 0; j < walks->bone_count; j++) {
     sbri_posed_bone at[2];
     for (int i = 0; i < 2; i++) at[i] = posed_at(&frames[i], j);
     uint32_t bone = walks->bones[j];
-    sbf_quat rotation = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
-    sbf_vec3 direction = sbri_lerp(at[0].translation, at[1].translation, faster);
+    sbf_quat rotation = sbri_quat_blend(at[0].rotation, at[1].rotation, upper);
+    sbf_vec3 direction = sbri_lerp(at[0].translation, at[1].translation, upper);
     const sbr_transform *rest = &rig->base_local[bone];
     sbr_transform *local = &locals[bone];
     local->position = sbri_lerp(local->position, sbri_add(rest->position, direction), weight);

@@ -9,20 +9,20 @@
 #include "math/trig.h"
 
 static const float WALKABLE = 0.6f; /* cosine of the steepest slope that is ground: gait/footing.c */
-static const float CEILING = 0.9f;  /* the same of what is above */
-static const float DEEPEST = 2;     /* radii: what is deeper inside of triangles is behind them */
+static const float CEILING = 0.9f;  /* the same for ceilings */
+static const float DEEPEST = 2;     /* radii; points deeper inside triangles are behind them */
 enum { PASSES = 4, MAX_PARTS = 16 };
 
 typedef struct body_move {
   const sbri_rig *rig;
   sbri_gait_state *state;
   const sbri_gait_input *input;
-  sbf_quat rotation; /* of the balls about the body's place */
+  sbf_quat rotation; /* of the spheres about the body's position */
   bool afloat, any;
 } body_move;
 
-/* Takes away the part of the speed that goes into a wall. */
-static void slow_down(body_move *m, sbf_vec3 normal) {
+/* Removes the part of the speed that goes into a wall. */
+static void remove_inward_velocity(body_move *m, sbf_vec3 normal) {
   sbri_gait_state *state = m->state;
   sbf_vec3 v = sbri_body_velocity(state);
   float into = sbri_dot(v, normal);
@@ -31,8 +31,8 @@ static void slow_down(body_move *m, sbf_vec3 normal) {
   state->forward = v.z, state->sideways = v.x;
 }
 
-/* Pushes a ball out of one collider. */
-static bool push_out(body_move *m, sbf_vec3 position, float radius, const sbri_collider *c) {
+/* Resolves the penetration of a sphere and one collider. */
+static bool resolve_collider(body_move *m, sbf_vec3 position, float radius, const sbri_collider *c) {
   sbri_gait_state *state = m->state;
   sbri_collider_frame frame = sbri_collider_frame_of(c, m->input->origin, 1);
   sbri_nearest found;
@@ -48,23 +48,23 @@ static bool push_out(body_move *m, sbf_vec3 position, float radius, const sbri_c
     n = sbri_vec3(n.x / level, 0, n.z / level);
   }
   if (!(deep > 0)) return false;
-  if (deep > radius) deep = radius; /* the rest in the next pass */
+  if (deep > radius) deep = radius; /* the rest in the next iteration */
   state->position = sbri_add_scaled(state->position, n, deep);
-  slow_down(m, n);
+  remove_inward_velocity(m, n);
   return true;
 }
 
-/* Where the asset's origin is. */
+/* Position of the asset's origin. */
 static sbf_vec3 middle_of(const sbri_gait_state *state) {
   return sbri_vec3(state->position.x, state->level + state->position.y, state->position.z);
 }
 
-static void push_out_all(body_move *m) {
+static void resolve_colliders(body_move *m) {
   const sbri_surroundings *around = m->input->around;
   const sbri_girth *girth = &m->rig->girth;
-  bool pushed = true;
-  for (int pass = 0; pass < PASSES && pushed; pass++) {
-    pushed = false;
+  bool resolved = true;
+  for (int pass = 0; pass < PASSES && resolved; pass++) {
+    resolved = false;
     for (uint32_t b = 0; b < girth->bumper_count; b++) {
       float radius = girth->bumpers[b].radius * m->input->scale;
       sbf_vec3 arm = sbri_rotate(m->rotation, sbri_scale(girth->bumpers[b].position, m->input->scale));
@@ -76,11 +76,12 @@ static void push_out_all(body_move *m) {
       while (sbri_bounds_walk_next(&walk, &i)) {
         uint32_t number = around->colliders->listed[i];
         if (!sbri_surroundings_has(around, number)) continue;
-        pushed =
-            push_out(m, sbri_add(middle_of(m->state), arm), radius, &around->colliders->at[number]) || pushed;
+        resolved =
+            resolve_collider(m, sbri_add(middle_of(m->state), arm), radius, &around->colliders->at[number]) ||
+            resolved;
       }
     }
-    m->any = m->any || pushed;
+    m->any = m->any || resolved;
   }
 }
 
@@ -98,14 +99,14 @@ bool sbri_walls_keep_out(
   sbri_sincos(0.5f * turned, &s, &c);
   body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->root.rotation),
       sbri_is_afloat(rig), false};
-  /* Each part of the displacement is at most a ball's size, so that no ball jumps over a wall. */
+  /* Substeps of at most a sphere's size, so that no sphere passes through a wall. */
   sbf_vec3 displacement = sbri_sub(state->position, from);
   float parts = sbri_length(displacement) / (smallest(&rig->girth) * input->scale) + 1;
   int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;
   state->position = from;
   for (int k = 0; k < count; k++) {
     state->position = sbri_add_scaled(state->position, displacement, 1 / (float)count);
-    push_out_all(&m);
+    resolve_colliders(&m);
   }
   return m.any;
 }

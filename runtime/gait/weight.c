@@ -3,30 +3,30 @@
 #include "gait/gait_state.h"
 #include "math/quat.h"
 
-static bool weighs(const sbri_rig *rig, const sbf_follower *source) {
+static bool is_weight(const sbri_rig *rig, const sbf_follower *source) {
   return source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT && rig->roles[source->bone] != SBRI_ROLE_LEG;
 }
 
-/* The lag in lengths of the bone, saturating smoothly at the limit in any direction. */
-static sbf_vec3 eased_lag(const sbf_follower *source, const sbri_position_follower *follower, float length) {
+/* The lag in lengths of the bone, smoothly limited in any direction. */
+static sbf_vec3 limited_lag(
+    const sbf_follower *source, const sbri_position_follower *follower, float length) {
   sbf_vec3 lag = sbri_scale(sbri_sub(follower->value, follower->followed), source->strength / length);
   return sbri_scale(lag, source->limit / (source->limit + sbri_length(lag)));
 }
 
-/* How far up it moves: down no farther than a walking body's belly has room for. */
-static float heave(const sbri_rig *rig, const sbri_gait_state *state, float lag) {
+/* Vertical displacement: downwards at most by the belly's clearance. */
+static float vertical_shift(const sbri_rig *rig, const sbri_gait_state *state, float lag) {
   float clearance = rig->leg_count ? state->clearance.value - state->lowered : -lag;
   return lag < -clearance ? -(clearance > 0 ? clearance : 0) : lag;
 }
 
-/* The rotation by the length of the horizontal vector `aside`, in rad, that leans the bone in its direction.
- */
+/* Rotation by the length of the horizontal vector `aside`, in rad, that leans the bone in its direction. */
 static sbf_quat lean_towards(sbf_vec3 aside) {
   return sbri_quat_exp(sbri_vec3(aside.z, 0, -aside.x));
 }
 
-/* A bone and what hangs on it; what is below a thigh is posed later. */
-static void move(const sbri_rig *rig, uint32_t bone, sbf_quat lean, float up, sbr_transform *pose) {
+/* Moves a bone and its children. Bones below a thigh are posed later. */
+static void move_bone(const sbri_rig *rig, uint32_t bone, sbf_quat lean, float up, sbr_transform *pose) {
   sbf_vec3 head = pose[bone].position;
   for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
     uint32_t b = rig->subtree[k];
@@ -46,7 +46,7 @@ bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     uint32_t b = (uint32_t)source->bone;
     float length = rig->asset->bones.at[b].length * input->scale;
     sbri_position_follower *follower = &followers[i].position;
-    if (!weighs(rig, source)) continue;
+    if (!is_weight(rig, source)) continue;
     if (advance == SBRI_ADVANCE_RESET) {
       sbri_position_follower_reset(follower, pose[b].position);
     } else if (advance == SBRI_ADVANCE_TICK) {
@@ -55,9 +55,9 @@ bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
       sbri_position_follower_tick(follower, pose[b].position, &step);
     }
     if (input->hold || !(length > 0)) continue;
-    sbf_vec3 lag = eased_lag(source, follower, length);
+    sbf_vec3 lag = limited_lag(source, follower, length);
     if (lag.x == 0 && lag.y == 0 && lag.z == 0) continue;
-    move(rig, b, lean_towards(lag), heave(rig, state, lag.y * length), pose);
+    move_bone(rig, b, lean_towards(lag), vertical_shift(rig, state, lag.y * length), pose);
     moved = true;
   }
   return moved;

@@ -1,11 +1,11 @@
-/* Wheels turn by the distance that they roll, the links of tracks run around them (spec 14.7). */
+/* Wheels rotate by the distance that they roll; the links of tracks move around them (spec 14.7). */
 #include "gait/motion_kinds.h"
 #include "math/trig.h"
 
 static const float TURN = 6.2831853f;
-static const float FULL_STEER = 0.02f; /* m/s: slower, a wheel steers as if it went as fast */
+static const float FULL_STEER = 0.02f; /* m/s; at lower speed, wheels steer as at this speed */
 
-/* Mean distance ahead of the wheels that do not steer, or do. */
+/* Mean z of the wheels that steer, or do not. */
 static bool mean_z(const sbri_rig *rig, bool steers, float *z, float *limit) {
   uint32_t count = 0;
   *z = 0, *limit = 1.5f;
@@ -29,10 +29,10 @@ void sbri_wheels_allow(const sbri_rig *rig, sbri_gait_input *input) {
   if (!(base > 0)) return;
   float max = fabsf(input->forward) * s / (c * base);
   input->turn = sbri_clamp(input->turn, -max, max);
-  input->sideways = -input->turn * fixed * input->scale; /* the axle that does not steer goes straight */
+  input->sideways = -input->turn * fixed * input->scale; /* the fixed axle has no sideways velocity */
 }
 
-/* Velocity of a wheel's head over the ground, along the body's axes. */
+/* Velocity of a wheel's head over the ground, in body axes. */
 static sbf_vec3 velocity_at(const sbri_gait_state *state, sbf_vec3 position, float scale) {
   return sbri_vec3(state->sideways + state->turn * position.z * scale, 0,
       state->forward - state->turn * position.x * scale);
@@ -44,7 +44,7 @@ static float steer_of(const sbf_wheel *wheel, sbf_vec3 velocity) {
   return sbri_clamp(angle, -wheel->steer_limit, wheel->steer_limit);
 }
 
-/* Mean of the links at rest. */
+/* Mean position of the links at rest. */
 static sbf_vec3 tread_middle(const sbri_rig *rig, const sbf_tread *tread) {
   sbf_vec3 sum = {0, 0, 0};
   for (uint32_t k = 0; k < tread->bones.count; k++)
@@ -82,7 +82,7 @@ void sbri_wheels_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   }
 }
 
-static sbf_quat about(sbf_vec3 axis, float angle) {
+static sbf_quat rotation_about(sbf_vec3 axis, float angle) {
   float s, c;
   sbri_sincos(0.5f * angle, &s, &c);
   return (sbf_quat){axis.x * s, axis.y * s, axis.z * s, c};
@@ -104,13 +104,13 @@ static void pose_tread(const sbri_rig *rig, const sbf_tread *tread, float distan
     float length = link_length(rig, tread, from), t = length > 0 ? sbri_clamp(distance / length, 0, 1) : 0;
     const sbr_transform *a = &rig->rest[tread->bones.at[from]], *b = &rig->rest[tread->bones.at[to]];
     const sbr_transform *rest = &rig->rest[bone];
-    sbf_vec3 moved = sbri_sub(sbri_lerp(a->position, b->position, t), rest->position);
+    sbf_vec3 shift = sbri_sub(sbri_lerp(a->position, b->position, t), rest->position);
     sbf_quat rotation =
         sbri_quat_multiply(sbri_quat_blend(a->rotation, b->rotation, t), sbri_quat_conjugate(rest->rotation));
     sbf_quat parent = sbri_motion_parent_turn(rig, bone, root, pose);
     sbri_rig_turn(rig, bone,
         sbri_quat_multiply(sbri_quat_multiply(parent, rotation), sbri_quat_conjugate(parent)), pose);
-    sbri_rig_shift(rig, bone, sbri_scale(sbri_rotate(parent, moved), scale), pose);
+    sbri_rig_shift(rig, bone, sbri_scale(sbri_rotate(parent, shift), scale), pose);
   }
 }
 
@@ -122,10 +122,10 @@ void sbri_wheels_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     uint32_t bone = (uint32_t)wheel->bone;
     sbf_quat parent = sbri_motion_parent_turn(rig, bone, root, pose);
     sbf_vec3 axis = sbri_normalize(wheel->axis, sbri_vec3(1, 0, 0));
-    sbf_quat rotation = about(axis, angles[i]);
+    sbf_quat rotation = rotation_about(axis, angles[i]);
     if (wheel->steer_limit > 0) {
       sbf_vec3 v = velocity_at(state, rig->rest[bone].position, input->scale);
-      rotation = sbri_quat_multiply(about(sbri_vec3(0, 1, 0), steer_of(wheel, v)), rotation);
+      rotation = sbri_quat_multiply(rotation_about(sbri_vec3(0, 1, 0), steer_of(wheel, v)), rotation);
     }
     sbri_rig_turn(rig, bone,
         sbri_quat_multiply(sbri_quat_multiply(parent, rotation), sbri_quat_conjugate(parent)), pose);
