@@ -208,7 +208,7 @@ void sbr_character_teleport(
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
   sbri_header(c)->moved = sbri_vec3(0, 0, 0), sbri_header(c)->turned = 0;
   put(world, c, position, heading);
-  sbri_rigid_carry(c);
+  sbri_rigid_move_with_pose(c);
   sbri_jiggles_reset(c);
   sbri_fade_end(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));

@@ -94,5 +94,6 @@ void sbr_character_apply_rigid_impulse(sbr_world *world, sbr_character_id charac
   sbr_double3 origin = sbri_header(c)->origin;
   sbf_vec3 at = {
       (float)(position.x - origin.x), (float)(position.y - origin.y), (float)(position.z - origin.z)};
-  sbri_rigid_push(c, rigid_body, sbri_scale(at, 1 / c->scale), sbri_scale(impulse, sbri_own_impulse(c)));
+  sbri_rigid_apply_impulse(
+      c, rigid_body, sbri_scale(at, 1 / c->scale), sbri_scale(impulse, sbri_own_impulse(c)));
 }

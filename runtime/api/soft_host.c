@@ -114,7 +114,7 @@ static void push_carriers(const soft_call *call, sbf_vec3 own) {
     int32_t carrier = now.rigid_body_of_pinned[slot - now.free_count];
     const sbri_point *x = &sbri_positions(c)[now.first_slot + slot];
     if (carrier >= 0 && sbri_rigid_is_simulated(c, (uint32_t)carrier))
-      sbri_rigid_push(c, (uint32_t)carrier, sbri_vec3(x->x, x->y, x->z), part);
+      sbri_rigid_apply_impulse(c, (uint32_t)carrier, sbri_vec3(x->x, x->y, x->z), part);
   }
 }
 

@@ -144,7 +144,7 @@ bool sbri_character_is_awake(const sbri_character *c) {
   return simulated ? !sbri_rigid_drive(c)->asleep : c->model->island_count == 0;
 }
 
-/* Wakes for this tick. The rest time goes on, so that bodies that lie on each other fall asleep together. */
+/* Wakes a character for this tick. Its rest time continues, so that stacked bodies fall asleep together. */
 static void wake_for_tick(sbri_character *c) {
   sbri_character_wake(c);
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_states(c)[i].asleep = 0;
@@ -157,7 +157,7 @@ static uint32_t group_of_pair(const sbri_body_contacts *all, const sbri_contact_
 
 /* Counting sort of the pairs by group; stable within a group. */
 static void sort_pairs(sbri_body_contacts *all) {
-  uint32_t *ends = all->member_of, first = 0; /* scratch: no character has its index yet */
+  uint32_t *ends = all->member_of, first = 0; /* scratch: no character has an index yet */
   for (uint32_t i = 0; i < all->character_capacity; i++) ends[i] = 0;
   for (uint32_t i = 0; i < all->pair_count; i++) ends[group_of_pair(all, &all->found_pairs[i])]++;
   for (uint32_t i = 0; i < all->character_capacity; i++) {

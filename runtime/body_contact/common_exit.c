@@ -13,9 +13,10 @@ static const float OPPOSED_COSINE = -0.3f, OPPOSED_COMPONENT = 0.5f;
 /* A new direction replaces the current one if its exit is shorter by this factor. */
 static const float SWITCH_FACTOR = 0.6f;
 /* No common exit if it is longer than the nearest exit of the deepest point by this factor: a body that is
- * wrapped, as by an arm, leaves as it came. */
+ * wrapped by another, as by an arm, leaves the way it came. */
 static const float MAX_LENGTH_FACTOR = 3;
-/* Or, of limbs, than this fraction of the sum of their thicknesses: their edges' middles are never deep. */
+/* The same for limbs, as a fraction of the sum of their thicknesses: the middles of their edges are never
+ * deep. */
 static const float LIMB_EXIT_FRACTION = 0.75f;
 /* An edge deeper than this fraction of the other body's thickness passes through it. */
 static const float EDGE_DEEP_FRACTION = 0.25f;
@@ -23,7 +24,7 @@ static const float EDGE_DEEP_FRACTION = 0.25f;
 static const float EDGE_CONTACT_FRACTION = 0.1f;
 /* Cosine above which a direction is along an edge. */
 static const float ALONG_EDGE_COSINE = 0.7f;
-/* Of the smaller thickness. */
+/* Fraction of the smaller thickness. */
 static const float CLUSTER_MARGIN_FRACTION = 0.25f;
 /* Limbs below this sine between their axes do not cross. */
 static const float CROSSING_SINE = 0.2f;
@@ -36,7 +37,7 @@ typedef struct crossing {
                                         nearest faces */
   uint32_t first_contact;            /* index of the pair's first contact */
   float max_exit_m;                  /* longest exit searched, m */
-  float cluster_margin_m;            /* m; contacts so near to a cluster must not block its exit */
+  float cluster_margin_m;            /* m; contacts this close to a cluster must not block its exit */
 } crossing;
 
 static float sign_of(uint32_t side) {

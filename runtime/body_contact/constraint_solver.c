@@ -10,8 +10,8 @@
  * 2010). */
 #include "body_contact/constraint_solver.h"
 
-/* Upper bounds. Pushes go on from those of the step before, so that what presses on soft bodies is found over
- * a few steps; a tower of rigid boxes stands only if each step finds them all. */
+/* Upper bounds. Impulses continue from the previous step, so the contacts of soft bodies converge over a few
+ * steps; a tower of rigid boxes stands only if every step converges. */
 enum {
   MAX_RIGID_ROUNDS = 32,
   MAX_RIGID_STEPS = 400,
@@ -19,13 +19,13 @@ enum {
   STEP_ATTEMPTS = 6,
   MAX_SOFT_ITERATIONS = 12
 };
-/* A sweep that changes no velocity by more is the last. */
+/* Sweeps end when none changes a velocity by more than this. */
 static const float CONVERGED_RIGID_M_S = 2e-5f, CONVERGED_SOFT_M_S = 2e-4f;
 /* Compliance of a contact of rigid bodies, as a fraction of the velocity change that its impulse alone
  * causes: without it the impulses of several contacts of a face are not unique. The position correction
  * compensates for it at a depth of micrometres. */
 static const float RIGID_COMPLIANCE = 1e-4f;
-/* m^2/s^2: below this slip has no direction. */
+/* m^2/s^2: slip below this has no direction. */
 static const float MIN_SLIP = 1e-20f;
 
 static sbri_four multiply_symmetric(const float m[6], sbri_four v) {
@@ -168,7 +168,7 @@ static void take_step(sbri_contact_constraint *r, float fraction) {
           clamp_friction(r, friction_impulse, normal_impulse), r->wide_normal, normal_impulse));
 }
 
-/* How much the energy that the impulses minimise has fallen, J twice: with the velocity error e it falls from
+/* Twice the decrease of the energy that the impulses minimise, J: with the velocity error e it decreases from
  * p to p + d by d (e(p) + e(p + d)) / 2. */
 static float fall_of_energy(const sbri_contact_constraint *rows, uint32_t count) {
   float sum = 0;
@@ -181,8 +181,8 @@ static float fall_of_energy(const sbri_contact_constraint *rows, uint32_t count)
   return sum;
 }
 
-/* The step is right while the same contacts press and stick. Where the cones cut it off so that the energy
- * grows, less of it is taken, in the end nothing. */
+/* The step is exact while the same contacts are active and stick. If the friction cones cut it off so that
+ * the energy increases, a smaller fraction is applied, in the end nothing. */
 static void apply_active_steps(sbri_contact_constraint *rows, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
     rows[i].change = sbri_rigid_velocity_error(&rows[i]), rows[i].search_direction = rows[i].impulse;
@@ -287,7 +287,7 @@ static void solve_soft(sbri_contact_constraint *rows, uint32_t count) {
   }
 }
 
-/* ---- All ---- */
+/* ---- All contacts ---- */
 
 void sbri_solve_constraints(sbri_contact_constraint *rows, uint32_t count) {
   sbri_solver_body fixed_body = {.inverse_mass = 0};

@@ -1,9 +1,9 @@
 /* Contact impulses before a step.
  *
- * Gravity, springs and joints act in the step that follows. Gravity is predicted, or all that rests would
- * sink by a step's fall. Other forces are answered after they have moved points, into each other or
- * tangentially, by a fraction per step. Predicting them from the previous step too would make soft bodies
- * drive each other. */
+ * Gravity, springs and joints act in the step that follows. Gravity is predicted; otherwise all resting
+ * bodies would sink by the fall of a step. Other forces are compensated after they have moved points,
+ * normally or tangentially, by a fraction per step. Predicting them from the previous step too would make
+ * soft bodies excite each other. */
 #include "body_contact/constraint_solver.h"
 
 /* Slower contacts do not bounce. */
@@ -16,7 +16,7 @@ static const float SLIDING_FRACTION = 0.999f;
 /* Soft contacts deeper than this fraction of the smaller body, or of the margin, use the learnt bias;
  * fraction of a change that a step learns. */
 static const float DEEP_FRACTION = 0.003f, DEEP_MARGIN_FRACTION = 0.1f, BIAS_GAIN = 0.3f;
-/* A soft body with an element of less of its volume, or a spring that is stretched by more, is crushed. */
+/* A soft body counts as crushed below this volume ratio of an element, or above this stretch of a spring. */
 static const float CRUSHED_RATIO = 0.15f, CRUSHED_STRETCH = 0.8f;
 static const sbf_vec3 zero = {0, 0, 0};
 
@@ -37,7 +37,7 @@ static float push_out_rate(const sbri_contact *t) {
 static float target_speed(const sbri_contact_constraint *r, float step_s) {
   float rate = push_out_rate(r->contact), depth = -r->separation;
   if (r->separation > SLACK_M) return -(r->separation - (1 - rate) * SLACK_M) / step_s;
-  if (is_plane(r->contact) && depth > 0) return 0; /* the body's own step lifts it */
+  if (is_plane(r->contact) && depth > 0) return 0; /* the body's own step corrects it */
   float speed = rate * depth / step_s;
   return speed > MAX_PUSH_OUT_M_S ? MAX_PUSH_OUT_M_S : speed;
 }
@@ -54,7 +54,7 @@ static sbf_vec3 gravity_acceleration(const sbr_world *world, const sbri_contact_
   return sbri_scale(weight, rate);
 }
 
-/* Tangential slip of a against b since they stick. */
+/* Tangential slip of a relative to b since they stick. */
 static sbf_vec3 current_slip(const sbri_contact_constraint *r) {
   const sbri_contact *t = r->contact;
   sbf_vec3 movement = sbri_sub(r->offset, t->stick_separation);
@@ -68,9 +68,9 @@ static float deep_threshold(const sbri_contact *t) {
   return t->margin > 0 && by_margin < by_size ? by_margin : by_size;
 }
 
-/* Learns how the last step has changed the normal velocity. The change is taken over gradually, but at once
- * where an impact compresses soft bodies, which would interpenetrate meanwhile. Contacts that began deep
- * leave gently. */
+/* Learns how the last step has changed the normal velocity. The bias follows gradually, but at once if an
+ * impact compresses soft bodies, which would interpenetrate meanwhile. Contacts that began deep separate
+ * slowly. */
 static void update_external_bias(sbri_contact_constraint *r, float speed) {
   sbri_contact *t = r->contact;
   float change = speed - t->solved_speed - t->external_bias;
@@ -130,7 +130,7 @@ static void prepare_target(
     r->target_velocity = sbri_add_scaled(
         r->target_velocity, t->normal, predicted_bias(r, step_s * sbri_dot(acceleration, t->normal)));
   }
-  bool rebounds = is_plane(t) && speed < -MIN_BOUNCE_SPEED_M_S; /* the body's own step makes it bounce */
+  bool rebounds = is_plane(t) && speed < -MIN_BOUNCE_SPEED_M_S; /* the body's own step handles the bounce */
   if (rebounds) t->is_loaded = false;
   bool is_open = overlaps_by_pins(world, group, r);
   if (is_open) t->is_loaded = false;

@@ -157,7 +157,7 @@ void sbri_contact_surfaces_free(sbr_world *world, uint32_t character) {
   all->surfaces[character] = all->level_surfaces[character] = NULL;
 }
 
-/* ---- Memory of all ---- */
+/* ---- Memory of all characters ---- */
 
 static void free_bodies(sbr_world *world) {
   sbri_body_contacts *all = world->body_contacts;

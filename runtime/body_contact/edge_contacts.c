@@ -76,7 +76,7 @@ static void add_edge_contact(const edge_search *m, const surface_edge *p, const 
       {1 - found.fractions[0], found.fractions[0]}, {1 - found.fractions[1], found.fractions[1]}};
   uint32_t hash = p->ends[0] * 0x9e3779b1u ^ p->ends[1] * 0x85ebca6bu ^ q->ends[0] * 0xc2b2ae35u ^
                   q->ends[1] * 0x27d4eb2fu;
-  sbri_contact t = {.feature = hash | 0x80000000u, /* features of vertices are less */
+  sbri_contact t = {.feature = hash | 0x80000000u, /* features of vertices are below this */
       .a = sbri_soft_contact_side(m->a, p->ends, weights[0], 2),
       .b = sbri_pair_body_side(m->b, q->ends, weights[1], 2),
       .normal = found.normal,

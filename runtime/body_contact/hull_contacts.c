@@ -6,7 +6,7 @@
 
 /* Contact margin beside the motion, as a fraction of the hulls' sizes. */
 static const float NEAR_FRACTION = 0.02f;
-/* Hulls that move by more than this fraction of the smaller one's size are tested where they come near. */
+/* Hulls that move by more than this fraction of the smaller one's size are tested at the time of impact. */
 static const float FAST_FRACTION = 0.5f;
 enum { CENTER_FEATURE = 1 }; /* feature of a center contact; corners have 0 */
 
@@ -56,7 +56,7 @@ void sbri_find_hull_contacts(const sbri_narrow_phase *f, const sbri_pair_body *a
   float near = NEAR_FRACTION * (sizes[0] + sizes[1]), reach = sbri_length(displacement) + near;
   sbri_hull_pair pair;
   bool fast = sbri_length(displacement) > FAST_FRACTION * fminf(sizes[0], sizes[1]);
-  if (fast) { /* at the time when they come near */
+  if (fast) { /* at the time of impact */
     const sbri_placed_hull from[2] = {hull_a, hull_b}, to[2] = {hull_at(a, &to_a), hull_at(b, &to_b)};
     float fraction = sbri_hulls_sweep(from, to, near);
     if (fraction > 1) return;

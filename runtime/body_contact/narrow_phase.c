@@ -49,7 +49,7 @@ static sbri_surface_face face_of(const sbri_pair_body *p, uint32_t triangle) {
   return face;
 }
 
-/* A search for triangles of `b` near points of `a`. It goes beyond the margin: a resting contact would
+/* A search for triangles of `b` near points of `a`. It extends beyond the margin: a resting contact would
  * otherwise be lost every other tick, and the body would sink. */
 typedef struct face_search {
   const sbri_pair_body *b;
@@ -284,7 +284,7 @@ static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
     const sbri_rigid_contact *source = &work->contacts[i];
     bool is_dynamic =
         source->external_body &&
-        sbri_rigid_external_body_gives(&work->external_bodies[source->external_body - 1], source->normal);
+        sbri_rigid_external_body_is_mobile(&work->external_bodies[source->external_body - 1], source->normal);
     if (is_dynamic && source->external_body > sbri_count_member_externals(m)) continue;
     if (f->group->contact_count >= f->group->contact_capacity) return;
     SBF_ASSERT(f->group->first_contact + f->group->contact_count < f->world->body_contacts->contact_capacity);
@@ -310,7 +310,7 @@ static void add_plane_contacts(const sbri_narrow_phase *f, uint32_t member) {
 
 /* ---- All ---- */
 
-/* Whether a soft body and a hull are nearer than any search between them goes. */
+/* Whether a soft body and a hull are within the search distance. */
 static bool may_collide_with_hull(const sbri_pair_body *soft, const sbri_pair_body *rigid) {
   const sbri_contact_surface *s = soft->surface;
   if (!s->triangle_count) return true;
@@ -320,7 +320,7 @@ static bool may_collide_with_hull(const sbri_pair_body *soft, const sbri_pair_bo
   return sbri_boxes_overlap(&grown, &s->tree.nodes[0].box);
 }
 
-/* The same of two soft bodies. */
+/* The same for two soft bodies. */
 static bool may_collide(const sbri_pair_body *a, const sbri_pair_body *b) {
   if (!a->surface->triangle_count || !b->surface->triangle_count) return true;
   float distance = fmaxf(sbri_pair_search_distance(sbri_pair_margin(a, b), b),
@@ -346,7 +346,7 @@ static void update_surfaces(const sbri_narrow_phase *f) {
   }
 }
 
-/* Marks the islands that contacts push. */
+/* Marks the islands in contact. */
 static void mark_islands(const sbri_narrow_phase *f) {
   const sbri_contact *contacts = f->world->body_contacts->contacts + f->group->first_contact;
   for (uint32_t i = 0; i < f->group->contact_count; i++) {

@@ -17,7 +17,7 @@ void sbri_convex_set_frame(sbri_convex *convex, sbfi_d3 position, sbf_quat rotat
       sbfi_d3_scale((sbfi_d3){2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}, scale);
 }
 
-/* Simplices */
+/* ---- Simplices ---- */
 
 /* Points of the Minkowski difference a - b, with the point of b that each comes from. */
 typedef struct simplex {
@@ -120,7 +120,7 @@ static bool reduce(simplex *s) {
   return s->count < 4 || reduce_tetrahedron(s);
 }
 
-/* Distance */
+/* ---- Distance ---- */
 
 static void add_support(
     simplex *s, const sbri_convex *a, sbfi_d3 offset, const sbri_convex *b, sbfi_d3 direction) {

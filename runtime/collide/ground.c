@@ -44,7 +44,7 @@ static double stairs(const sbr_ground *ground, double x, double z, sbf_vec3 *nor
   return z > 0 && rise_run[1] > 0 ? rise_run[0] * (double)floor_of(z / rise_run[1]) : 0;
 }
 
-/* Noise: gradients at the corners of squares of 1 m, blended (Perlin, Improving Noise, 2002) */
+/* ---- Noise: gradients at the corners of squares of 1 m, blended (Perlin, Improving Noise, 2002) ---- */
 
 typedef struct gradient {
   double x, z; /* each in -1..1 */

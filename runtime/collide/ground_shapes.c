@@ -11,7 +11,7 @@ static sbf_vec3 normal_of(double slope_x, double slope_z) {
   return (sbf_vec3){(float)(-slope_x * s), (float)s, (float)(-slope_z * s)};
 }
 
-/* Plane */
+/* ---- Plane ---- */
 
 static double plane(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
   const double *p = ground->parameters;
@@ -28,7 +28,7 @@ sbr_ground sbr_ground_plane(double height_m, sbf_vec3 normal) {
   return (sbr_ground){plane, NULL, {height_m, slope_x, slope_z, 0}};
 }
 
-/* Height field */
+/* ---- Height field ---- */
 
 /* The cell of a coordinate, and the fraction in it, 0 to 1; beyond the edge, the edge of the last cell. */
 static uint32_t square_of(double at, uint32_t corners, double *fraction, bool *inside) {
@@ -61,7 +61,7 @@ sbr_ground sbr_ground_height_field(const sbr_height_field *field) {
   return (sbr_ground){height_field, field, {0, 0, 0, 0}};
 }
 
-/* Obstacles */
+/* ---- Obstacles ---- */
 
 /* Height of the obstacle's top; false outside it. */
 static bool top_of(const sbr_obstacle *o, double x, double z, double *y, sbf_vec3 *normal) {
@@ -99,7 +99,7 @@ sbr_ground sbr_ground_with_obstacles(const sbr_obstacle_set *set) {
   return (sbr_ground){obstacles, set, {0, 0, 0, 0}};
 }
 
-/* Rays */
+/* ---- Rays ---- */
 
 static double rays(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
   const sbr_ray_caster *caster = ground->user;

@@ -10,7 +10,7 @@
  */
 static const float ON_IT_FRACTION = 1e-5f;
 
-/* Build */
+/* ---- Build ---- */
 
 /* Aspect ratio from which a face's normal is computed in double precision. */
 static const float SLIVER = 1e-3f;
@@ -109,7 +109,7 @@ bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_c
   return true;
 }
 
-/* Queries */
+/* ---- Queries ---- */
 
 float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face) {
   float max = -INFINITY;

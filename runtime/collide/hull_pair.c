@@ -9,7 +9,7 @@ static const float EDGE_FRACTION = 0.05f, EDGE_M = 1e-5f;
 
 enum { MAX_CORNERS = 32 };
 
-/* Axes */
+/* ---- Axes ---- */
 
 typedef struct axis {
   float gap;
@@ -109,7 +109,7 @@ static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, floa
   return true;
 }
 
-/* Manifold points */
+/* ---- Manifold points ---- */
 
 void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, float gap) {
   uint32_t at = pair->count;

@@ -10,7 +10,7 @@ enum { MAX_FACES = 2 * SBRI_HULL_VERTICES - 4 };
 static const uint32_t NONE = UINT32_MAX;
 static const double STEPS = 1 << 20; /* sums of products of three of them are below 2^63 */
 
-/* Integer vectors */
+/* ---- Integer vectors ---- */
 
 typedef struct int3 {
   int64_t x, y, z;
@@ -33,7 +33,7 @@ static int64_t rounded(double x) {
   return (int64_t)(x < 0 ? x - 0.5 : x + 0.5);
 }
 
-/* Growth */
+/* ---- Growth ---- */
 
 typedef struct face {
   uint32_t corners[3];
@@ -160,7 +160,7 @@ static void grow(hull_growth *g) {
   }
 }
 
-/* Conversion from and to metres */
+/* ---- Conversion from and to metres ---- */
 
 /* A step is a power of two, so that multiples of it are exact floats. */
 static double count_steps(hull_growth *g, const sbf_vec3 *points, int3 *low) {

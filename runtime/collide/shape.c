@@ -8,7 +8,7 @@ sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return sbri_normalize(sbri_cross(sbri_sub(b, a), sbri_sub(c, a)), sbri_vec3(0, 0, 0));
 }
 
-/* Nearest points */
+/* ---- Nearest points ---- */
 
 static sbri_nearest nearest_on_ball(sbf_vec3 x, sbf_vec3 center, float radius) {
   sbf_vec3 offset = sbri_sub(x, center), n = sbri_normalize(offset, up);
@@ -96,7 +96,7 @@ bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth
   return found->gap <= reach;
 }
 
-/* Ray entry */
+/* ---- Ray entry ---- */
 
 /* The smallest t in 0..1 at which x + t displacement is at `radius` from the origin; -1: none. */
 static float enter_round(sbf_vec3 x, sbf_vec3 displacement, float radius) {

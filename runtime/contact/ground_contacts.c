@@ -161,7 +161,7 @@ static float min_height(const sbri_island_tick *t, const sbri_sample_group *grou
   return low - group->beyond * (high - low);
 }
 
-/* Flat ground: heights only */
+/* ---- Flat ground: heights only ---- */
 
 typedef struct flat_search {
   const sbri_island_tick *tick;

@@ -16,7 +16,7 @@ static const float MIN_WEIGHT = -1, MAX_WEIGHT = 2;
 /* Smaller weights are dropped. */
 static const float MIN_PART_WEIGHT = 1e-5f;
 
-/* Samples on edges */
+/* ---- Samples on edges ---- */
 
 /* Sets the effective mass of the sample; returns false if it has no free point. */
 static bool set_mass(const sbri_island_tick *t, sbri_sample *s) {
@@ -76,7 +76,7 @@ static bool sample_between(
   return set_mass(t, to);
 }
 
-/* Edges */
+/* ---- Edges ---- */
 
 typedef struct edge_query {
   const sbri_shape_pair *is;

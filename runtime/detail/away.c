@@ -41,6 +41,6 @@ void sbri_away_arrive(const sbr_world *world, sbri_character *c) {
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, pose);
   pose[sbri_root_frame(c->model)] = sbri_current_root_frame(c, input.ground);
   sbri_rigid_frames_follow(c, pose);
-  sbri_rigid_carry(c);
+  sbri_rigid_move_with_pose(c);
   sbri_character_stop(c);
 }

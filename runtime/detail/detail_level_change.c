@@ -68,7 +68,7 @@ static void take_shared(sbri_character *c, const sbri_character *was) {
   memcpy(sbri_previous_pose(c), sbri_previous_pose(was), frames * sizeof(sbr_transform));
   memcpy(
       sbri_soft_touching(c), sbri_soft_touching(was), is->asset->soft_bodies.count * sizeof(sbri_touching));
-  sbri_rigid_take(c, was);
+  sbri_rigid_copy_state(c, was);
 }
 
 /* Counters of an island continue in the island that has its first body. */

@@ -124,7 +124,7 @@ static void reach(const sbri_rig *rig, uint32_t index, const sbri_limb_target *t
   write_joints(rig, &chain, bones, target->weight, pose);
 }
 
-/* Chains with a common root and solver `fabrik`, solved as a tree */
+/* ---- Chains with a common root and solver `fabrik`, solved as a tree ---- */
 
 typedef struct limb_tree {
   sbri_ik_joint joints[SBRI_IK_MAX_JOINTS];

@@ -19,29 +19,29 @@
 #include "rigid/sym6.h"
 #include "solvers/spring_forces.h"
 
-/* Steps may be longer than those that the answers are for by rounding alone. */
+/* Relative tolerance of the step length for which the responses were computed. */
 static const float LONGEST = 1.001f;
 
-/* Greatest displacement of a bone against its soft body in a step, as a fraction of the body's cells: within
- * it the responses of the rest shape are valid. */
+/* Maximum displacement of a bone relative to its soft body in a step, as a fraction of the body's cells:
+ * within it the responses of the rest shape are valid. */
 static const float MAX_TRAVEL = 0.1f;
 
 static float longest_step_s(const sbri_character *c) {
   return c->model->asset->environment.control_tick / SBRI_ATTACHED_STEPS;
 }
 
-bool sbri_may_bear(const sbri_character *c, uint32_t body) {
+bool sbri_can_attach(const sbri_character *c, uint32_t body) {
   return sbri_rigid_is_simulated(c, body) && c->model->rigid.attached[body].bearable;
 }
 
-/* Of islands that hang on one body, that one. */
-static bool hangs_on(const sbri_character *c, uint32_t island, uint32_t body) {
+/* Whether the island is attached to that body only. */
+static bool is_attached_to(const sbri_character *c, uint32_t island, uint32_t body) {
   const sbri_island *is = &c->model->islands[island];
   return is->carrier_count == 1 && is->carriers[0] == body;
 }
 
-/* Root of the mean square of how fast the island's points move against the body, m/s. */
-static float speed_against(const sbri_character *c, const sbri_island *island, const sbri_rigid_body *is,
+/* Root mean square speed of the island's points relative to the body, m/s. */
+static float relative_speed(const sbri_character *c, const sbri_island *island, const sbri_rigid_body *is,
     const sbri_rigid_body_state *body) {
   const sbri_point *at = sbri_positions(c) + island->first_slot;
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
@@ -50,9 +50,9 @@ static float speed_against(const sbri_character *c, const sbri_island *island, c
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     sbf_vec3 arm = sbri_sub(sbri_vec3(at[slot].x, at[slot].y, at[slot].z), body->pose.position);
-    sbf_vec3 off = sbri_sub(
+    sbf_vec3 offset = sbri_sub(
         sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), sbri_add(body->velocity, sbri_cross(turn, arm)));
-    sum += island->masses[slot] * sbri_dot(off, off), kg += island->masses[slot];
+    sum += island->masses[slot] * sbri_dot(offset, offset), kg += island->masses[slot];
   }
   return kg > 0 ? sqrtf(sum / kg) : 0;
 }
@@ -61,17 +61,17 @@ float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s) {
   float max = tick_s / (LONGEST * longest_step_s(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
-    if (!hangs_on(c, i, body) || !(island->cell_m > 0)) continue;
-    float speed = speed_against(c, island, &c->model->rigid.bodies[body], &sbri_rigid_bodies(c)[body]);
+    if (!is_attached_to(c, i, body) || !(island->cell_m > 0)) continue;
+    float speed = relative_speed(c, island, &c->model->rigid.bodies[body], &sbri_rigid_bodies(c)[body]);
     float steps = tick_s * speed / (MAX_TRAVEL * island->cell_m);
     max = steps > max ? steps : max;
   }
   return max;
 }
 
-/* ---- How heavy ---- */
+/* ---- Attached mass ---- */
 
-/* Axes of rest in space, as columns. */
+/* Rest axes in space, as columns. */
 static void axes_of(sbf_quat rotation, double axes[3][3]) {
   const sbf_vec3 to[3] = {sbri_rotate(rotation, sbri_vec3(1, 0, 0)),
       sbri_rotate(rotation, sbri_vec3(0, 1, 0)), sbri_rotate(rotation, sbri_vec3(0, 0, 1))};
@@ -79,8 +79,8 @@ static void axes_of(sbf_quat rotation, double axes[3][3]) {
     axes[0][k] = (double)to[k].x, axes[1][k] = (double)to[k].y, axes[2][k] = (double)to[k].z;
 }
 
-/* Each of the four blocks as A block A^T. */
-static void turn_mass(const sbri_attached_mass *attached, double axes[3][3], double to[6][6]) {
+/* Rotates each of the four blocks: A block A^T. */
+static void rotate_mass(const sbri_attached_mass *attached, double axes[3][3], double to[6][6]) {
   const double *from[6];
   for (int i = 0; i < 6; i++) from[i] = attached->mass[i];
   for (int block = 0; block < 4; block++) {
@@ -97,7 +97,7 @@ static void turn_mass(const sbri_attached_mass *attached, double axes[3][3], dou
   }
 }
 
-static sbf_quat turn_of(const sbri_rigid_body *is, const sbr_transform *pose) {
+static sbf_quat rotation_of(const sbri_rigid_body *is, const sbr_transform *pose) {
   return sbri_quat_normalize(sbri_quat_multiply(pose->rotation, sbri_quat_conjugate(is->axes)));
 }
 
@@ -110,14 +110,14 @@ void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *t, float step_
     if (!burden->on) continue;
     burden->begin = body->pose, burden->velocity = body->velocity,
     burden->angular_momentum = body->angular_momentum;
-    axes_of(turn_of(&t->model->bodies[b], &body->pose), axes);
-    turn_mass(&t->model->attached[b], axes, burden->mass);
+    axes_of(rotation_of(&t->model->bodies[b], &body->pose), axes);
+    rotate_mass(&t->model->attached[b], axes, burden->mass);
   }
 }
 
-/* Change of velocity by an impulse and a moment: of bone and soft body together, and of the bone alone. */
-static void push(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotation, sbf_vec3 impulse, sbf_vec3 moment,
-    sbf_vec3 *velocity, sbf_vec3 *turn) {
+/* Velocity change by an impulse and a moment: of bone and soft body together, and of the bone alone. */
+static void apply_impulse(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotation, sbf_vec3 impulse,
+    sbf_vec3 moment, sbf_vec3 *velocity, sbf_vec3 *turn) {
   const sbri_rigid_body *is = &t->model->bodies[b];
   sbri_rigid_body_state *body = &t->bodies[b];
   float moments[3][3];
@@ -139,34 +139,34 @@ static void push(const sbri_rigid_tick *t, uint32_t b, sbf_quat rotation, sbf_ve
       sbri_add(body->angular_momentum, sbri_angular_momentum_from_velocity(is, rotation, *turn));
 }
 
-void sbri_burden_push(const sbri_rigid_tick *t, uint32_t b, const sbri_reaction *by) {
+void sbri_burden_apply_impulse(const sbri_rigid_tick *t, uint32_t b, const sbri_reaction *changes) {
   sbf_vec3 velocity, turn;
-  push(t, b, t->bodies[b].pose.rotation, by->impulse, by->moment, &velocity, &turn);
+  apply_impulse(t, b, t->bodies[b].pose.rotation, changes->impulse, changes->moment, &velocity, &turn);
 }
 
-/* ---- Borne along ---- */
+/* ---- Motion of the attached points ---- */
 
-/* By how much a body's speeds have changed beyond its weight. */
+/* Velocity changes of a body, without gravity. */
 typedef struct change {
   sbf_vec3 velocity, angular_velocity; /* of the centre; rad/s */
-  sbf_vec3 about;                      /* where that was when the step began */
-  sbf_quat rotation;                   /* since rest */
+  sbf_vec3 about;                      /* its centre at the beginning of the step */
+  sbf_quat rotation;                   /* since the rest pose */
   float step_s;
 } change;
 
-/* The points take their shares. */
-static void bear(const sbri_character *c, const sbri_island *island, const change *by,
+/* Applies the changes to the points. */
+static void move_points(const sbri_character *c, const sbri_island *island, const change *changes,
     const sbri_rigid_body *is, sbri_lane_sums *sums) {
   const sbri_attached_responses *answers = island->answers;
-  sbf_quat back = sbri_quat_conjugate(by->rotation);
-  sbf_vec3 angular_velocity = sbri_rotate(back, by->angular_velocity),
+  sbf_quat to_body = sbri_quat_conjugate(changes->rotation);
+  sbf_vec3 angular_velocity = sbri_rotate(to_body, changes->angular_velocity),
            arm = sbri_sub(answers->about, is->center),
-           velocity = sbri_add(sbri_rotate(back, by->velocity), sbri_cross(angular_velocity, arm));
+           velocity = sbri_add(sbri_rotate(to_body, changes->velocity), sbri_cross(angular_velocity, arm));
   const float speeds[6] = {
       velocity.x, velocity.y, velocity.z, angular_velocity.x, angular_velocity.y, angular_velocity.z};
   double axes[3][3];
-  axes_of(by->rotation, axes);
-  sbri_wide a[3][3], step = sbri_wide_all(by->step_s);
+  axes_of(changes->rotation, axes);
+  sbri_wide a[3][3], step = sbri_wide_all(changes->step_s);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) a[i][j] = sbri_wide_all((float)axes[i][j]);
   sbri_point *points = sbri_positions(c) + island->first_slot;
@@ -180,61 +180,68 @@ static void bear(const sbri_character *c, const sbri_island *island, const chang
       for (int k = 1; k < 6; k++)
         u[i] = u[i] + sbri_wide_load(fractions + (3 * k + i) * SBRI_BLOCK) * sbri_wide_all(speeds[k]);
     }
-    sbri_wide gain[3];
-    for (int i = 0; i < 3; i++) gain[i] = a[i][0] * u[0] + a[i][1] * u[1] + a[i][2] * u[2];
+    sbri_wide point_change[3];
+    for (int i = 0; i < 3; i++) point_change[i] = a[i][0] * u[0] + a[i][1] * u[1] + a[i][2] * u[2];
     float *at = velocities + (size_t)3 * block + lane;
     sbri_wide3 x = sbri_wide_load_points(points + slot), v = sbri_load3(at);
-    sbri_store3(at, (sbri_wide3){v.x + gain[0], v.y + gain[1], v.z + gain[2]});
-    sbri_wide_store_points(
-        points + slot, (sbri_wide3){x.x + step * gain[0], x.y + step * gain[1], x.z + step * gain[2]});
+    sbri_store3(at, (sbri_wide3){v.x + point_change[0], v.y + point_change[1], v.z + point_change[2]});
+    sbri_wide_store_points(points + slot, (sbri_wide3){x.x + step * point_change[0],
+                                              x.y + step * point_change[1], x.z + step * point_change[2]});
     /* (x + h g) x (v + g) - x x v = (x - h v) x g */
     sbri_wide m = sbri_wide_load(island->masses + slot);
-    sbri_wide3 r = {x.x - step * v.x - sbri_wide_all(by->about.x),
-        x.y - step * v.y - sbri_wide_all(by->about.y), x.z - step * v.z - sbri_wide_all(by->about.z)};
-    sbri_lane_sums_add(sums, lane, r, (sbri_wide3){m * gain[0], m * gain[1], m * gain[2]});
+    sbri_wide3 r = {x.x - step * v.x - sbri_wide_all(changes->about.x),
+        x.y - step * v.y - sbri_wide_all(changes->about.y),
+        x.z - step * v.z - sbri_wide_all(changes->about.z)};
+    sbri_lane_sums_add(
+        sums, lane, r, (sbri_wide3){m * point_change[0], m * point_change[1], m * point_change[2]});
   }
 }
 
 /* Momentum that the system gave to the soft body, minus the momentum that its points took. */
-static void find_left(const sbri_rigid_burden *burden, const change *by, const sbri_lane_sums *taken,
-    sbf_vec3 *impulse, sbf_vec3 *moment) {
-  const double x[6] = {(double)by->velocity.x, (double)by->velocity.y, (double)by->velocity.z,
-      (double)by->angular_velocity.x, (double)by->angular_velocity.y, (double)by->angular_velocity.z};
-  double given[6];
-  for (int i = 0; i < 6; i++) given[i] = sbri_dot6(burden->mass[i], x);
-  *impulse = sbri_sub(sbri_vec3((float)given[0], (float)given[1], (float)given[2]), sbri_lanes_force(taken));
-  *moment = sbri_sub(sbri_vec3((float)given[3], (float)given[4], (float)given[5]), sbri_lanes_moment(taken));
+static void find_remainder(const sbri_rigid_burden *burden, const change *changes,
+    const sbri_lane_sums *applied, sbf_vec3 *impulse, sbf_vec3 *moment) {
+  const double x[6] = {(double)changes->velocity.x, (double)changes->velocity.y, (double)changes->velocity.z,
+      (double)changes->angular_velocity.x, (double)changes->angular_velocity.y,
+      (double)changes->angular_velocity.z};
+  double total[6];
+  for (int i = 0; i < 6; i++) total[i] = sbri_dot6(burden->mass[i], x);
+  *impulse =
+      sbri_sub(sbri_vec3((float)total[0], (float)total[1], (float)total[2]), sbri_lanes_force(applied));
+  *moment =
+      sbri_sub(sbri_vec3((float)total[3], (float)total[4], (float)total[5]), sbri_lanes_moment(applied));
 }
 
-static void bear_all(const sbri_character *c, uint32_t b, const change *by, sbri_lane_sums *taken) {
+static void move_all_points(
+    const sbri_character *c, uint32_t b, const change *changes, sbri_lane_sums *applied) {
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (hangs_on(c, i, b)) bear(c, &c->model->islands[i], by, &c->model->rigid.bodies[b], taken);
+    if (is_attached_to(c, i, b))
+      move_points(c, &c->model->islands[i], changes, &c->model->rigid.bodies[b], applied);
 }
 
-/* What is left over of the first sharing is shared once more, and what then is left is the bone's. */
+/* The remainder of the first distribution is distributed once more; the rest of that goes to the bone. */
 void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *t, float step_s, float weight_s) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     const sbri_rigid_burden *burden = &sbri_burdens(c)[b];
     const sbri_rigid_body *is = &t->model->bodies[b];
     sbri_rigid_body_state *body = &t->bodies[b];
-    sbri_lane_sums taken = {{{0}}, {{0}}}, again = taken;
+    sbri_lane_sums applied = {{{0}}, {{0}}}, again = applied;
     sbf_vec3 impulse, moment;
     if (!burden->on) continue;
-    sbf_vec3 fallen = sbri_scale(t->gravity, weight_s * is->source->gravity_scale);
-    change by = {.velocity = sbri_sub(sbri_sub(body->velocity, burden->velocity), fallen),
+    sbf_vec3 fall = sbri_scale(t->gravity, weight_s * is->source->gravity_scale);
+    change changes = {.velocity = sbri_sub(sbri_sub(body->velocity, burden->velocity), fall),
         .angular_velocity = sbri_angular_velocity_from_momentum(
             is, burden->begin.rotation, sbri_sub(body->angular_momentum, burden->angular_momentum)),
         .about = burden->begin.position,
-        .rotation = turn_of(is, &burden->begin),
+        .rotation = rotation_of(is, &burden->begin),
         .step_s = step_s};
-    bear_all(c, b, &by, &taken);
-    find_left(burden, &by, &taken, &impulse, &moment);
-    sbf_vec3 displacement = sbri_sub(body->pose.position, by.about);
-    push(t, b, burden->begin.rotation, impulse, sbri_sub(moment, sbri_cross(displacement, impulse)),
-        &by.velocity, &by.angular_velocity);
-    by.about = body->pose.position, by.step_s = 0; /* it has gone where it goes */
-    bear_all(c, b, &by, &again);
-    find_left(burden, &by, &again, &impulse, &moment);
+    move_all_points(c, b, &changes, &applied);
+    find_remainder(burden, &changes, &applied, &impulse, &moment);
+    sbf_vec3 displacement = sbri_sub(body->pose.position, changes.about);
+    apply_impulse(t, b, burden->begin.rotation, impulse, sbri_sub(moment, sbri_cross(displacement, impulse)),
+        &changes.velocity, &changes.angular_velocity);
+    changes.about = body->pose.position, changes.step_s = 0; /* its motion is already final */
+    move_all_points(c, b, &changes, &again);
+    find_remainder(burden, &changes, &again, &impulse, &moment);
     body->velocity = sbri_add_scaled(body->velocity, impulse, is->inverse_mass);
     body->angular_momentum = sbri_add(body->angular_momentum, moment);
   }

@@ -26,9 +26,9 @@
 #include "tear/tear.h"
 
 /* -log(SBRI_DAMPING_KEPT) */
-static const float CALMING_OF_TICK = 0.35667494f;
+static const float DAMPING_OF_TICK = 0.35667494f;
 
-/* ---- Before ---- */
+/* ---- Before the tick ---- */
 
 static bool may_collide(const sbri_island_tick *t) {
   bool any = false;
@@ -62,59 +62,59 @@ void sbri_coupled_begin(sbri_coupled *group) {
   if (group->any) sbri_coupled_request_steps_of_bones(group);
 }
 
-/* ---- Meanwhile ---- */
+/* ---- In the tick ---- */
 
-static void pull_on(const sbri_character *c, int32_t carrier, sbf_vec3 at, sbf_vec3 impulse) {
+static void apply_reaction(const sbri_character *c, int32_t carrier, sbf_vec3 at, sbf_vec3 impulse) {
   if (carrier < 0) return;
   sbri_reaction *r = &sbri_reactions(c)[carrier];
   r->impulse = sbri_add(r->impulse, impulse);
   r->moment = sbri_add(r->moment, sbri_cross(sbri_sub(at, r->about), impulse));
 }
 
-/* What the damping of a point against its guides has given it, back to those who carry these. */
-static void pull_on_drivers(
+/* Applies the reaction of a point's damping to the rigid bodies of its drivers. */
+static void apply_driver_reaction(
     const sbri_character *c, const sbri_body *body, uint32_t index, sbf_vec3 at, sbf_vec3 impulse) {
   const int32_t *carriers = c->model->carrier_of_frame;
   if (!body->drivers) {
-    pull_on(c, carriers[body->driver_frame], at, impulse);
+    apply_reaction(c, carriers[body->driver_frame], at, impulse);
     return;
   }
   const sbri_driver *driver = &body->drivers[index];
   for (int k = 0; k < SBRI_DRIVERS; k++)
     if (driver->weights[k] > 0)
-      pull_on(c, carriers[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
+      apply_reaction(c, carriers[driver->frames[k]], at, sbri_scale(impulse, driver->weights[k]));
 }
 
 /* Reduces a decay where the rigid body is lighter than the soft body, so that relative velocity reaches zero
  * and does not change sign, as in an implicit step. */
-static float inverse_mass_along(const sbri_character *c, uint32_t frame, float lost) {
+static float inverse_mass_along(const sbri_character *c, uint32_t frame, float removed) {
   int32_t carrier = c->model->carrier_of_frame[frame];
   if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return 1;
-  return 1 / (1 + lost * c->model->rigid.pinned_weights[carrier]);
+  return 1 / (1 + removed * c->model->rigid.pinned_weights[carrier]);
 }
 
 static float inverse_mass_of_drivers(
-    const sbri_character *c, const sbri_body *body, uint32_t index, float lost) {
-  if (!body->drivers) return inverse_mass_along(c, body->driver_frame, lost);
+    const sbri_character *c, const sbri_body *body, uint32_t index, float removed) {
+  if (!body->drivers) return inverse_mass_along(c, body->driver_frame, removed);
   const sbri_driver *driver = &body->drivers[index];
   float min = 1;
   for (int k = 0; k < SBRI_DRIVERS; k++) {
-    float inverse_mass = driver->weights[k] > 0 ? inverse_mass_along(c, driver->frames[k], lost) : 1;
+    float inverse_mass = driver->weights[k] > 0 ? inverse_mass_along(c, driver->frames[k], removed) : 1;
     min = inverse_mass < min ? inverse_mass : min;
   }
   return min;
 }
 
 /* Bodies with one pin frame and one decay for all points: eight lanes at a time, in a fixed order of
- * summation.
- */
-static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri_body *body, float fraction) {
+ * summation. */
+static void damp_uniform(
+    sbri_character *c, const sbri_island *island, const sbri_body *body, float fraction) {
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *along = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
   int32_t carrier = c->model->carrier_of_frame[body->driver_frame];
   sbf_vec3 about = carrier >= 0 ? sbri_reactions(c)[carrier].about : sbri_vec3(0, 0, 0);
-  sbri_lane_sums taken = {{{0}}, {{0}}};
+  sbri_lane_sums removed_sums = {{{0}}, {{0}}};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *at = sbri_triple(velocities, slot);
     sbri_wide3 v = sbri_load3(at), u = sbri_load3(sbri_const_triple(along, slot));
@@ -125,22 +125,23 @@ static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri
     sbri_wide3 x = sbri_wide_load_points(positions + slot);
     x.x = x.x - sbri_wide_all(about.x), x.y = x.y - sbri_wide_all(about.y),
     x.z = x.z - sbri_wide_all(about.z);
-    sbri_lane_sums_add(&taken, slot % SBRI_BLOCK, x, (sbri_wide3){m * change.x, m * change.y, m * change.z});
+    sbri_lane_sums_add(
+        &removed_sums, slot % SBRI_BLOCK, x, (sbri_wide3){m * change.x, m * change.y, m * change.z});
   }
   if (carrier < 0) return;
   sbri_reaction *r = &sbri_reactions(c)[carrier];
-  r->impulse = sbri_sub(r->impulse, sbri_lanes_force(&taken));
-  r->moment = sbri_sub(r->moment, sbri_lanes_moment(&taken));
+  r->impulse = sbri_sub(r->impulse, sbri_lanes_force(&removed_sums));
+  r->moment = sbri_sub(r->moment, sbri_lanes_moment(&removed_sums));
 }
 
-/* The decay of what points move by against their guides, over h, at a further `calming` 1/s. */
+/* Damps the points relative to their drivers over h, with an additional rate `extra_damping`, 1/s. */
 static void damp(
-    sbri_character *c, const sbri_island *island, const sbri_body *body, float calming, float h) {
-  if (!body->is_pinned || !(body->alpha_1_s + calming > 0)) return;
-  float lost = 1 - sbri_exp(-(body->alpha_1_s + calming) * h); /* at most */
-  float fraction = body->drivers ? 0 : lost * inverse_mass_along(c, body->driver_frame, lost);
+    sbri_character *c, const sbri_island *island, const sbri_body *body, float extra_damping, float h) {
+  if (!body->is_pinned || !(body->alpha_1_s + extra_damping > 0)) return;
+  float removed = 1 - sbri_exp(-(body->alpha_1_s + extra_damping) * h); /* upper bound */
+  float fraction = body->drivers ? 0 : removed * inverse_mass_along(c, body->driver_frame, removed);
   if (!body->drivers && !body->alphas) {
-    damp_evenly(c, island, body, fraction);
+    damp_uniform(c, island, body, fraction);
     return;
   }
   size_t first = island->first_slot;
@@ -152,20 +153,21 @@ static void damp(
     float *v = velocities + at, m = island->masses[slot];
     const float *u = along + at;
     if (!(m > 0)) continue;
-    if (body->alphas) lost = 1 - sbri_exp(-(body->alphas[slot] + calming) * h);
+    if (body->alphas) removed = 1 - sbri_exp(-(body->alphas[slot] + extra_damping) * h);
     if (body->alphas || body->drivers)
-      fraction = lost * inverse_mass_of_drivers(c, body, slot - body->slot_begin, lost);
+      fraction = removed * inverse_mass_of_drivers(c, body, slot - body->slot_begin, removed);
     sbf_vec3 change = {(u[0] - v[0]) * fraction, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * fraction,
         (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * fraction};
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
     const sbri_point *x = &positions[slot];
-    pull_on_drivers(c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
+    apply_driver_reaction(
+        c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
   }
 }
 
 /* In flight gravity acts on soft and rigid bodies over the same time, so they fall together, whatever their
  * step sizes, and the soft body keeps its shape. */
-static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 velocity_change) {
+static void change_velocity(sbri_character *c, const sbri_island *island, sbf_vec3 velocity_change) {
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -175,7 +177,7 @@ static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 ve
   }
 }
 
-static void act_on_island(
+static void step_island(
     sbri_coupled *group, uint32_t index, float step_s, float fraction, sbf_vec3 velocity_change) {
   sbri_character *c = group->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
@@ -184,11 +186,11 @@ static void act_on_island(
   sbri_compute_pin_targets(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
   sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + first);
   (void)sbri_driver_velocities_find(c, &now, step_s);
-  if (group->falls) gain_speed(c, &now, velocity_change);
-  bool calms = sbri_island_states(c)[index].damping_ticks > 0; /* soft/recovery.c */
-  float calming = calms ? CALMING_OF_TICK * fraction / step_s : 0;
+  if (group->falls) change_velocity(c, &now, velocity_change);
+  bool is_damped = sbri_island_states(c)[index].damping_ticks > 0; /* soft/recovery.c */
+  float extra_damping = is_damped ? DAMPING_OF_TICK * fraction / step_s : 0;
   for (uint32_t b = 0; b < now.body_count; b++)
-    damp(c, &now, &c->model->bodies[now.bodies[b]], calming, step_s);
+    damp(c, &now, &c->model->bodies[now.bodies[b]], extra_damping, step_s);
   sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
   tick.tick_s = step_s, tick.fraction = fraction;
   tick.external_rad_s = &now.external_rad_s;
@@ -205,19 +207,19 @@ static sbri_reaction no_reaction(
   const sbri_rigid_body *is = &t->model->bodies[b];
   const sbf_vec3 *turns = &is->inverse_inertia;
   float max = turns->x > turns->y ? turns->x : turns->y;
-  float fraction = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_swell(&t->pull, b, step_s) : 0;
+  float fraction = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_mass_factor(&t->pull, b, step_s) : 0;
   return (sbri_reaction){.about = t->bodies[b].pose.position,
       .inverse_mass = fraction * is->inverse_mass,
       .inverse_inertia = fraction * (max > turns->z ? max : turns->z)};
 }
 
-/* What has been moved at once against the bodies that hold it moves these by their part of it, in the step
- * that follows: for that step they are as much faster as it takes, so that joints go along with it. */
+/* Immediate shifts of pinned points also move their rigid bodies by their part. This adds the velocity that
+ * makes up for it in the next step, so that joints take part. */
 static void shift(sbri_character *c, const sbri_rigid_tick *t, float rate) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     const sbri_reaction *r = &sbri_reactions(c)[b];
     if (!(r->inverse_mass > 0)) continue;
-    float fraction = rate * r->inverse_mass * t->model->bodies[b].mass; /* by sbri_rigid_swell */
+    float fraction = rate * r->inverse_mass * t->model->bodies[b].mass; /* as in sbri_rigid_mass_factor */
     t->bodies[b].velocity = sbri_add_scaled(t->bodies[b].velocity, r->shift, rate * r->inverse_mass);
     t->bodies[b].angular_momentum = sbri_add_scaled(t->bodies[b].angular_momentum, r->shift_turn, fraction);
   }
@@ -237,43 +239,43 @@ void sbri_coupled_before_step(
   sbri_rigid_pose(c, group->animated, to, step_s, velocity_change, sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), to, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from, velocity_change);
+    if (sbri_island_is_coupled(c, i)) step_island(group, i, step_s, to - from, velocity_change);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
     const sbri_reaction *r = &sbri_reactions(c)[b];
     if (sbri_burdens(c)[b].on) {
-      sbri_burden_push(t, b, r);
+      sbri_burden_apply_impulse(t, b, r);
       continue;
     }
-    float fraction = 1 / sbri_rigid_swell(&t->pull, b, step_s);
+    float fraction = 1 / sbri_rigid_mass_factor(&t->pull, b, step_s);
     body->velocity = sbri_add_scaled(body->velocity, r->impulse, fraction * t->model->bodies[b].inverse_mass);
     body->angular_momentum = sbri_add_scaled(body->angular_momentum, r->moment, fraction);
   }
   shift(c, t, 1 / step_s);
 }
 
-/* ---- After ---- */
+/* ---- After the tick ---- */
 
-/* A step that has been taken in halves has had its weight for less. */
+/* A step that was halved had gravity for a shorter time. */
 void sbri_coupled_after_step(
     const sbri_coupled *group, const sbri_rigid_tick *t, float step_s, float weight_s) {
   sbri_character *c = group->character;
   shift(c, t, -1 / step_s);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
-    /* The body went at its centre's speed, where the points did at that of the places which hold them. */
+    /* The body moved at the velocity of its centre, the points at that of their pins. */
     const sbri_reaction *r = &sbri_reactions(c)[b];
     if (!(r->inverse_mass > 0)) continue;
     sbf_vec3 more = sbri_sub(r->shift_moment, sbri_cross(r->shift, t->bodies[b].velocity));
     t->bodies[b].angular_momentum = sbri_add(t->bodies[b].angular_momentum, more);
     sbri_burdens(c)[b].angular_momentum =
-        sbri_add(sbri_burdens(c)[b].angular_momentum, more); /* none that it shares */
+        sbri_add(sbri_burdens(c)[b].angular_momentum, more); /* shared with none */
   }
   if (!group->falls || weight_s == group->weight_s) return;
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
-    gain_speed(c, &now, sbri_scale(t->gravity, weight_s - group->weight_s));
+    change_velocity(c, &now, sbri_scale(t->gravity, weight_s - group->weight_s));
   }
 }
 
@@ -291,8 +293,8 @@ void sbri_coupled_end(sbri_coupled *group) {
     sbri_island_report_contacts(&tick, c);
     sbri_compute_pin_targets(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
     if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
-    sbri_whole_momentum lost;
-    if (sbri_island_recover(group->world, c, i, &lost)) sbri_attached_body_take_momentum(c, i, &lost);
+    sbri_whole_momentum removed;
+    if (sbri_island_recover(group->world, c, i, &removed)) sbri_attached_body_take_momentum(c, i, &removed);
   }
 }
 

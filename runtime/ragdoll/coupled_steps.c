@@ -12,21 +12,21 @@
 #include "solvers/router.h"
 #include "solvers/tetrahedron_forces.h"
 
-/* More steps of rigid parts than this are not taken in a tick. */
+/* Maximum number of steps of rigid parts per tick. */
 enum { MAX_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
 
 /* Displacement of a point against its pin frames in a step, as a fraction of its body's cells. */
 static const float MAX_TRAVEL = 0.25f;
 
-/* Greatest angular frequency times step size of a bone on a soft body that is stiffer than at rest; at rest
+/* Maximum angular frequency times step size of a bone on a soft body that is stiffer than at rest; at rest
  * the bound is SBRI_RIGID_MAX_SWING. */
 static const float MAX_STIFFENED_SWING = 1.2f;
 
 /* Undamped bodies never come to rest, and gain energy by each change of a step size near the stability limit:
- * they take so many times as many steps. */
+ * factor on their number of steps. */
 static const float FINER_UNDAMPED = 1.25f;
 
-/* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
+/* Rounds up to one of few step counts, because a leapfrog gains energy if its step size changes often. */
 static uint32_t rounded_steps(uint32_t steps) {
   uint32_t whole = 4;
   while (whole < steps && whole < MAX_STEPS) whole *= 2;
@@ -35,9 +35,8 @@ static uint32_t rounded_steps(uint32_t steps) {
   return whole;
 }
 
-/* As many as the soft body takes by itself, so that both have equal steps: modes of a stiff body can resonate
- * with other steps. Sweeping schemes damp these modes and do not need it.
- */
+/* The soft body's own number of substeps, so that both have equal steps: modes of a stiff body can resonate
+ * with other steps. Sweeping schemes damp these modes and do not need it. */
 static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
   const sbri_island *island = t->island;
   if (island->scheme->sweeps || island->substeps) return island->substeps;
@@ -46,7 +45,7 @@ static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
   return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, finer * tick_s), stretch));
 }
 
-/* As many as keep up with how fast all that is soft makes a body swing, at rest: always the same. */
+/* Constant number of steps for the oscillation frequency of a body on its soft bodies at rest. */
 static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
   return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MAX_SWING;
 }
@@ -60,13 +59,13 @@ static void take_steps(sbri_coupled *group, float steps) {
 }
 
 static bool may_be_attached(const sbri_character *c, const sbri_island *island) {
-  return island->carrier_count == 1 && sbri_may_bear(c, island->carriers[0]);
+  return island->carrier_count == 1 && sbri_can_attach(c, island->carriers[0]);
 }
 
 /* The number of steps that the tick needs. Bones with implicitly coupled bodies are checked last, when those
  * of all others are known. */
 static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
-  if (carrier < 0 || !sbri_may_bear(group->character, (uint32_t)carrier)) {
+  if (carrier < 0 || !sbri_can_attach(group->character, (uint32_t)carrier)) {
     take_steps(group, steps);
     return;
   }
@@ -76,7 +75,7 @@ static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
 
 /* ---- By displacement ---- */
 
-/* Of the fastest point against its guides, m/s. */
+/* Maximum speed of a point relative to its drivers, m/s. */
 static float speed_against_drivers(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot,
               *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
@@ -94,7 +93,7 @@ static float speed_against_drivers(const sbri_character *c, const sbri_island *i
   return sqrtf(max);
 }
 
-/* Looks a step of the present length ahead. */
+/* Predicts a step of the present length. */
 static void check_directions(sbri_coupled *group) {
   sbri_character *c = group->character;
   float fraction = 1 / (float)group->steps, step_s = tick_of(group) * fraction;
@@ -119,16 +118,15 @@ static void check_directions(sbri_coupled *group) {
 
 /* ---- By impact ---- */
 
-/* For what strikes the ground faster than its own substeps resolve, which is about its speed of sound. Bones
- * of attached bodies take as many: what lies between a bone and the ground holds it up, but only after a
- * step. */
+/* For impacts faster than a body's own substeps resolve, at about its speed of sound. Bones of attached
+ * bodies take as many: a soft body between a bone and the ground supports the bone, but only after a step. */
 static void request_steps_of_impact(sbri_coupled *group, const sbri_island_tick *tick) {
   float steps = fminf(ceilf(sbri_impact_substeps(tick, tick_of(group))), MAX_STEPS);
   if (steps > (float)group->steps && steps > (float)steps_of(tick, tick_of(group)))
     take_steps(group, (float)rounded_steps((uint32_t)steps));
 }
 
-/* ---- For a tick, and for what is left of it ---- */
+/* ---- For a tick, and for its remainder ---- */
 
 void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_island *island = tick->island;
@@ -145,8 +143,8 @@ static bool is_lightly_damped(const sbri_character *c) {
   return any;
 }
 
-/* What nothing damps gains whenever steps near those that are just stable change: so it takes as many as
- * before, unless half as many would do. */
+/* Undamped bodies gain energy whenever the step size changes near the stability limit. So the number of steps
+ * stays as before unless half as many would suffice. */
 void sbri_coupled_request_steps_of_bones(sbri_coupled *group) {
   const sbri_character *c = group->character;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {

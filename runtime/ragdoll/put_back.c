@@ -33,8 +33,9 @@ static bool find_velocity(
   return true;
 }
 
-/* False where something else than simulated bodies holds some of it, which then takes what it lacks. */
-static bool go_with_bones(sbri_character *c, const sbri_island *island) {
+/* Returns false if the island is pinned to anything except simulated bodies, which then takes the difference.
+ */
+static bool set_bone_velocities(sbri_character *c, const sbri_island *island) {
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -62,8 +63,8 @@ static void add_bones(const sbri_character *c, const sbri_island *island, sbri_w
   }
 }
 
-/* About its own centre of mass. */
-static void find_turning(const sbri_whole_momentum *m, double to[3]) {
+/* Angular momentum about its own centre of mass. */
+static void find_angular_momentum(const sbri_whole_momentum *m, double to[3]) {
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     to[k] = m->angular[k] - (m->first[i] * m->linear[j] - m->first[j] * m->linear[i]) / m->mass;
@@ -77,8 +78,8 @@ static void add_moments(double d[6][6], double mass, const double center[3], sbf
     for (int j = 0; j <= i; j++) d[3 + i][3 + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Masses and moments of inertia of bones and soft body, about the common centre. */
-static void weigh(
+/* Mass matrix of bones and soft body, about the common centre. */
+static void find_mass_matrix(
     const sbri_character *c, const sbri_island *island, const double center[3], double d[6][6]) {
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++)
@@ -96,14 +97,14 @@ static void weigh(
   }
 }
 
-static void change(
-    sbri_character *c, const sbri_island *island, sbf_vec3 center, sbf_vec3 by, sbf_vec3 turn) {
+static void apply_change(
+    sbri_character *c, const sbri_island *island, sbf_vec3 center, sbf_vec3 change, sbf_vec3 turn) {
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     sbf_vec3 arm = sbri_sub(sbri_vec3(points[slot].x, points[slot].y, points[slot].z), center);
-    sbf_vec3 more = sbri_add(by, sbri_cross(turn, arm));
+    sbf_vec3 more = sbri_add(change, sbri_cross(turn, arm));
     if (!(island->masses[slot] > 0)) continue;
     v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
   }
@@ -111,7 +112,7 @@ static void change(
     uint32_t b = island->carriers[k];
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
-    sbf_vec3 more = sbri_add(by, sbri_cross(turn, sbri_sub(body->pose.position, center)));
+    sbf_vec3 more = sbri_add(change, sbri_cross(turn, sbri_sub(body->pose.position, center)));
     body->velocity = sbri_add(body->velocity, more);
     body->angular_momentum = sbri_add(body->angular_momentum,
         sbri_angular_momentum_from_velocity(&c->model->rigid.bodies[b], body->pose.rotation, turn));
@@ -120,21 +121,21 @@ static void change(
 
 void sbri_attached_body_take_momentum(sbri_character *c, uint32_t index, const sbri_whole_momentum *had) {
   const sbri_island *island = &c->model->islands[index];
-  if (island->scheme->forceless || !go_with_bones(c, island) || !(had->mass > 0)) return;
-  sbri_whole_momentum before = *had, now = sbri_island_momentum(c, index);
-  double turned[3], turns[3], center[3], d[6][6] = {{0}}, x[6];
-  add_bones(c, island, &before);
+  if (island->scheme->forceless || !set_bone_velocities(c, island) || !(had->mass > 0)) return;
+  sbri_whole_momentum old_momentum = *had, now = sbri_island_momentum(c, index);
+  double rotated[3], turns[3], center[3], d[6][6] = {{0}}, x[6];
+  add_bones(c, island, &old_momentum);
   add_bones(c, island, &now);
-  find_turning(&before, turned);
-  find_turning(&now, turns);
+  find_angular_momentum(&old_momentum, rotated);
+  find_angular_momentum(&now, turns);
   for (int k = 0; k < 3; k++) {
     center[k] = now.first[k] / now.mass, d[k][k] = now.mass;
-    x[k] = before.linear[k] - now.linear[k], x[3 + k] = turned[k] - turns[k];
+    x[k] = old_momentum.linear[k] - now.linear[k], x[3 + k] = rotated[k] - turns[k];
   }
-  weigh(c, island, center, d);
+  find_mass_matrix(c, island, center, d);
   sbri_sym6_factor(d);
   sbri_sym6_solve_forward(d, x);
   sbri_sym6_solve_back(d, x);
-  change(c, island, sbri_vec3((float)center[0], (float)center[1], (float)center[2]),
+  apply_change(c, island, sbri_vec3((float)center[0], (float)center[1], (float)center[2]),
       sbri_vec3((float)x[0], (float)x[1], (float)x[2]), sbri_vec3((float)x[3], (float)x[4], (float)x[5]));
 }

@@ -25,13 +25,13 @@ bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
 bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
 /* Applies an impulse at a point to a simulated body; both in the character's own units. */
-void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse);
+void sbri_rigid_apply_impulse(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse);
 /* Wakes the rigid bodies. Call after any change to modes, drives or motion. */
 void sbri_rigid_wake(sbri_character *c);
 /* Whether no rigid body moves by itself. */
 bool sbri_rigid_is_still(const sbri_character *c);
 /* Sets a body's frame and zero velocity. */
-void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform transform);
+void sbri_rigid_set_frame(sbri_rigid_body_state *body, sbr_transform transform);
 
 /* ---- ragdoll/reflex.c ---- */
 
@@ -49,9 +49,9 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float
  * file. */
 void sbri_rigid_reset(sbri_character *c, bool as_in_file);
 /* Copies the state of rigid bodies from another detail level of the model. */
-void sbri_rigid_take(sbri_character *c, const sbri_character *was);
+void sbri_rigid_copy_state(sbri_character *c, const sbri_character *was);
 /* Moves rigid bodies with the pose and sets their velocities to zero. */
-void sbri_rigid_carry(sbri_character *c);
+void sbri_rigid_move_with_pose(sbri_character *c);
 /* Adapts positions to a shift of the origin, asset metres. */
 void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift);
 
@@ -103,13 +103,13 @@ uint32_t sbri_coupled_steps_left(const sbri_coupled *group, float rest, uint32_t
 
 /* Whether a body is simulated and its soft bodies can be attached in long steps; and the number of steps of
  * such a tick. */
-bool sbri_may_bear(const sbri_character *c, uint32_t body);
+bool sbri_can_attach(const sbri_character *c, uint32_t body);
 float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s);
 /* Before a step: selects the bodies whose attached masses are included, by `needed_steps`, and computes these
  * masses. */
 void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *tick, float step_s);
 /* Adds the impulse of attached soft bodies to their body. */
-void sbri_burden_push(const sbri_rigid_tick *tick, uint32_t body, const sbri_reaction *by);
+void sbri_burden_apply_impulse(const sbri_rigid_tick *tick, uint32_t body, const sbri_reaction *by);
 /* After the step: moves attached points by the velocity changes of their bones. */
 void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *tick, float step_s, float weight_s);
 

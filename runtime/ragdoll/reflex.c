@@ -14,7 +14,8 @@
  * many seconds. */
 static const float STILL_M_S = 0.15f, LONGEST_FALL_S = 5;
 
-/* How fast the help draws, at first and at last; its greatest accelerations, of places and of turns. */
+/* Frequency of the external force at the beginning and at the end; its maximum accelerations, linear and
+ * angular. */
 static const float FIRST_HZ = 1, LAST_HZ = 6, MAX_M_S2 = 40, MAX_RAD_S2 = 200;
 
 /* It has arrived when no body is farther off than this (asset metres and rad), or after so many times the
@@ -23,14 +24,14 @@ static const float ARRIVED_M = 0.01f, ARRIVED_RAD = 0.06f, LATE_S = 1.5f;
 
 static const float TWO_PI = 6.28318530718f;
 
-static bool is_taken(const sbri_character *c, uint32_t body) {
+static bool is_affected(const sbri_character *c, uint32_t body) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
   return is->mass > 0 && is->source->motion != SBF_BODY_MOTION_DYNAMIC;
 }
 
 static void set_all(sbri_character *c, sbr_rigid_mode mode, float fraction) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
-    if (!is_taken(c, b)) continue;
+    if (!is_affected(c, b)) continue;
     sbri_rigid_bodies(c)[b].mode = (uint32_t)mode;
     sbri_rigid_bodies(c)[b].fraction = fraction;
   }
@@ -54,7 +55,7 @@ void sbri_reflex_end(sbri_character *c) {
   sbri_rigid_wake(c);
 }
 
-/* ---- Where it gets up ---- */
+/* ---- Standing up ---- */
 
 /* The body nearest to the root of the bones; -1: there is none. */
 static int32_t hips_of(const sbri_character *c) {
@@ -71,7 +72,7 @@ static float heading_of(sbf_quat rotation) {
   return sbri_atan2(front.x - front.y * up.x, front.z - front.y * up.z);
 }
 
-static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
+static void place_standing(const sbr_world *world, sbri_character *c) {
   int32_t body = hips_of(c);
   if (body < 0) return;
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
@@ -79,21 +80,22 @@ static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
   float heading = heading_of(sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes))), s, k, old;
   sbf_vec3 position;
   sbri_sincos(0.5f * heading, &s, &k);
-  sbf_vec3 off = sbri_rotate((sbf_quat){0, s, 0, k}, is->center);
+  sbf_vec3 distance = sbri_rotate((sbf_quat){0, s, 0, k}, is->center);
   sbri_gait_get_placement(sbri_gait(c), &position, &old);
-  position.x = c->scale * (now->position.x - off.x), position.z = c->scale * (now->position.z - off.z);
+  position.x = c->scale * (now->position.x - distance.x),
+  position.z = c->scale * (now->position.z - distance.z);
   sbri_surroundings around;
   sbri_gait_input input = sbri_gait_input_of(world, c, &around);
   sbri_gait_reset(&c->model->rig, sbri_gait(c), &input, position, heading);
 }
 
-/* ---- From tick to tick ---- */
+/* ---- Every tick ---- */
 
 static float fastest_of(const sbri_character *c) {
   float max = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
-    if (!is_taken(c, b)) continue;
+    if (!is_affected(c, b)) continue;
     sbf_vec3 turn = sbri_angular_velocity_from_momentum(
         &c->model->rigid.bodies[b], body->pose.rotation, body->angular_momentum);
     float speed = sbri_length(body->velocity) + c->model->rigid.bodies[b].radius * sbri_length(turn);
@@ -102,16 +104,16 @@ static float fastest_of(const sbri_character *c) {
   return max;
 }
 
-static sbf_vec3 turn_to(const sbr_transform *to, const sbr_transform *from) {
+static sbf_vec3 rotation_to(const sbr_transform *to, const sbr_transform *from) {
   return sbri_quat_log(sbri_quat_multiply(to->rotation, sbri_quat_conjugate(from->rotation)));
 }
 
 static bool has_arrived(const sbri_character *c) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     const sbr_transform *to = &sbri_rigid_targets(c)[b], *at = &sbri_rigid_bodies(c)[b].pose;
-    if (!is_taken(c, b)) continue;
+    if (!is_affected(c, b)) continue;
     if (sbri_length(sbri_sub(to->position, at->position)) > ARRIVED_M ||
-        sbri_length(turn_to(to, at)) > ARRIVED_RAD)
+        sbri_length(rotation_to(to, at)) > ARRIVED_RAD)
       return false;
   }
   return true;
@@ -132,7 +134,7 @@ bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
     if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return false;
     drive->posture = SBR_POSTURE_RISING;
     drive->posture_s = 0;
-    stand_where_it_lies(world, c);
+    place_standing(world, c);
     return true;
   }
   float w = strength_of(drive);
@@ -154,12 +156,12 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float st
   if (drive->posture != SBR_POSTURE_RISING) return;
   float fraction = strength_of(drive), w = TWO_PI * (FIRST_HZ + (LAST_HZ - FIRST_HZ) * fraction);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
-    if (!is_taken(c, b) || !sbri_rigid_is_simulated(c, b)) continue;
+    if (!is_affected(c, b) || !sbri_rigid_is_simulated(c, b)) continue;
     const sbri_rigid_body *is = &t->model->bodies[b];
     sbri_rigid_body_state *body = &t->bodies[b];
     sbf_vec3 turn = sbri_angular_velocity_from_momentum(is, body->pose.rotation, body->angular_momentum);
     sbf_vec3 pull = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
-    sbf_vec3 twist = sbri_scale(turn_to(&t->targets[b], &body->pose), w * w);
+    sbf_vec3 twist = sbri_scale(rotation_to(&t->targets[b], &body->pose), w * w);
     pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), fraction * MAX_M_S2);
     twist = bounded(sbri_add_scaled(twist, turn, -2 * w), fraction * MAX_RAD_S2);
     float load = 1 + t->model->attached_masses[b] * is->inverse_mass;

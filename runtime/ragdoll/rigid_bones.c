@@ -1,4 +1,4 @@
-/* A character's rigid bodies and its bones: where one has the other. */
+/* Conversion between poses of rigid bodies and bones. */
 #include "math/quat.h"
 #include "ragdoll/ragdoll.h"
 #include "solvers/scheme.h"
@@ -15,12 +15,12 @@ bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
   return false;
 }
 
-void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform transform) {
+void sbri_rigid_set_frame(sbri_rigid_body_state *body, sbr_transform transform) {
   body->pose = transform;
   body->velocity = body->angular_momentum = body->fine = sbri_vec3(0, 0, 0);
 }
 
-void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse) {
+void sbri_rigid_apply_impulse(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse) {
   sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[rigid_body];
   sbf_vec3 arm = sbri_sub(at, body->pose.position);
   body->velocity = sbri_add_scaled(body->velocity, impulse, c->model->rigid.bodies[rigid_body].inverse_mass);
@@ -70,7 +70,7 @@ sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *po
 /* ---- From bodies to bones ---- */
 
 /* The body's motion from rest to `now`, applied to a position and rotation of the rest pose. */
-static sbr_transform carried(
+static sbr_transform move_with_body(
     const sbri_character *c, uint32_t body, const sbr_transform *now, const sbr_transform *rest) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
   sbf_quat rotation = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
@@ -91,16 +91,16 @@ sbr_transform sbri_rigid_ahead(
   return to;
 }
 
-/* A bone as the pose `by` has it against its parent, where that is at `parent_now`. */
-static sbr_transform against(
+/* A bone in the pose `by` relative to its parent, for a parent at `parent_now`. */
+static sbr_transform compose_bone(
     const sbr_transform *by, uint32_t bone, uint32_t parent, const sbr_transform *parent_now) {
   sbf_quat rotation = sbri_quat_multiply(parent_now->rotation, sbri_quat_conjugate(by[parent].rotation));
-  sbf_vec3 away = sbri_sub(by[bone].position, by[parent].position);
-  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(rotation, away)),
+  sbf_vec3 offset = sbri_sub(by[bone].position, by[parent].position);
+  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(rotation, offset)),
       sbri_quat_normalize(sbri_quat_multiply(rotation, by[bone].rotation))};
 }
 
-static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float fraction) {
+static sbr_transform blend(const sbr_transform *a, const sbr_transform *b, float fraction) {
   return (sbr_transform){
       sbri_lerp(a->position, b->position, fraction), sbri_quat_blend(a->rotation, b->rotation, fraction)};
 }
@@ -113,20 +113,20 @@ void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, flo
     uint32_t frame = i < model->rig.bone_count ? model->rig.subtree[i] : i;
     int32_t body = model->carrier_of_frame[frame];
     if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
-      pose[frame] = fraction < 1 ? between(&before[frame], &animated[frame], fraction) : animated[frame];
+      pose[frame] = fraction < 1 ? blend(&before[frame], &animated[frame], fraction) : animated[frame];
       continue;
     }
     if (sbri_body_frame(model, (uint32_t)body) == frame) {
       sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s, velocity_change),
                     rest = sbri_frame_rest(model, frame);
-      pose[frame] = carried(c, (uint32_t)body, &now, &rest);
+      pose[frame] = move_with_body(c, (uint32_t)body, &now, &rest);
       continue;
     }
     uint32_t parent = (uint32_t)model->rig.parents[frame];
-    pose[frame] = against(animated, frame, parent, &pose[parent]);
+    pose[frame] = compose_bone(animated, frame, parent, &pose[parent]);
     if (fraction >= 1) continue;
-    sbr_transform was = against(before, frame, parent, &pose[parent]);
-    pose[frame] = between(&was, &pose[frame], fraction);
+    sbr_transform was = compose_bone(before, frame, parent, &pose[parent]);
+    pose[frame] = blend(&was, &pose[frame], fraction);
   }
 }
 
@@ -136,6 +136,6 @@ void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose) {
     int32_t bone = c->model->rigid.bodies[b].source->bone;
     uint32_t frame = sbri_body_frame(c->model, b);
     sbr_transform at = sbri_rigid_target(c, pose, b), rest = sbri_frame_rest(c->model, frame);
-    pose[frame] = bone < 0 ? pose[sbri_root_frame(c->model)] : carried(c, b, &at, &rest);
+    pose[frame] = bone < 0 ? pose[sbri_root_frame(c->model)] : move_with_body(c, b, &at, &rest);
   }
 }

@@ -1,26 +1,26 @@
-/* A tick of a character's rigid parts among the rest of it, with the soft bodies that are coupled to them. */
+/* A tick of a character's rigid parts, with the soft bodies that are coupled to them. */
 #include <string.h>
 
 #include "math/quat.h"
 #include "ragdoll/ragdoll.h"
 
-/* Fraction of its size a second below which an undriven body comes to rest. */
+/* Fraction of its size per second below which an undriven body comes to rest. */
 static const float IDLE_1_S = 0.01f;
-/* The same for a body that is damping out: its greatest speed falls to this fraction within the period of a
- * swinging hand. */
+/* The same for decaying motion: its maximum speed falls by this factor within the period of a swinging hand.
+ */
 static const float DAMPING_1_S = 0.2f, CALMING = 0.8f, DAMPING_S = 0.5f;
 
 /* ---- Stepping ---- */
 
-static bool is_lost(const sbri_rigid_body_state *body) {
+static bool has_invalid_numbers(const sbri_rigid_body_state *body) {
   const float *numbers = &body->pose.position.x;
   bool lost = false;
   for (int i = 0; i < 16; i++) lost = lost || !(fabsf(numbers[i]) < 1e6f);
   return lost;
 }
 
-/* Speed of the fastest over its size, 1/s; infinite where something may not rest. */
-static float restlessness(const sbri_character *c) {
+/* Maximum speed of a body over its size, 1/s; infinite if a body must not rest. */
+static float max_relative_speed(const sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
   float max = sbri_coupled_are_idle(c) ? 0 : INFINITY;
   for (uint32_t b = 0; b < model->body_count; b++) {
@@ -35,9 +35,9 @@ static float restlessness(const sbri_character *c) {
   return max;
 }
 
-/* Whether all has moved slowly for some time, and more slowly than in as much time before: what swings out
- * comes to rest, what slumps or tips grows faster and does not. */
-static bool is_calming(const sbr_world *world, const sbri_character *c, float fraction) {
+/* Whether all motion has been slow for some time and has decayed since the interval before. Oscillations that
+ * decay come to rest; a body that slumps or tips accelerates and does not. */
+static bool is_decaying(const sbr_world *world, const sbri_character *c, float fraction) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   float tick_s = (float)world->tick_s * c->time_scale;
   if (!(fraction <= DAMPING_1_S)) {
@@ -57,8 +57,8 @@ static void may_sleep(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   if (!world->sleep_ticks) return;
-  float fraction = restlessness(c);
-  bool is_idle = fraction <= IDLE_1_S, calms = is_calming(world, c, fraction);
+  float fraction = max_relative_speed(c);
+  bool is_idle = fraction <= IDLE_1_S, calms = is_decaying(world, c, fraction);
   drive->idle_ticks = is_idle ? drive->idle_ticks + 1 : 0;
   if (!calms && drive->idle_ticks < world->sleep_ticks) return;
   drive->asleep = 1;
@@ -68,8 +68,8 @@ static void may_sleep(const sbr_world *world, sbri_character *c) {
   sbri_coupled_put_to_sleep(world, c);
 }
 
-/* Whether what holds the sleepers has moved. */
-static bool is_moved(const sbri_character *c) {
+/* Whether a kinematic body next to sleeping ones has moved. */
+static bool has_moved_support(const sbri_character *c) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     if (!sbri_rigid_is_simulated(c, b) &&
         memcmp(&sbri_rigid_targets(c)[b], &sbri_rigid_bodies(c)[b].pose, sizeof(sbr_transform)) != 0)
@@ -77,13 +77,13 @@ static bool is_moved(const sbri_character *c) {
   return false;
 }
 
-static void act(void *user, const sbri_rigid_tick *tick, float from, float to, float weight_s) {
+static void begin_step(void *user, const sbri_rigid_tick *tick, float from, float to, float weight_s) {
   sbri_coupled *group = user;
   if (group->any) sbri_coupled_before_step(group, tick, from, to, weight_s);
   sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
 }
 
-static void acted(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
+static void end_step(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
   const sbri_coupled *group = user;
   if (group->any) sbri_coupled_after_step(group, tick, step_s, weight_s);
   if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
@@ -121,7 +121,8 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
     sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
   memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
-  if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
+  if (drive->asleep &&
+      (world->colliders.moving || has_moved_support(c) || !sbri_coupled_sleep(&parts->coupled)))
     drive->asleep = drive->idle_ticks = 0, drive->damped_before = 0;
   if (drive->asleep || !c->rigid_work) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
@@ -131,8 +132,8 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   parts->tick = tick_of(world, c);
   sbri_coupled_begin(&parts->coupled);
   bool any = parts->coupled.any;
-  parts->tick.pull = (sbri_rigid_pull){.act = act,
-      .acted = acted,
+  parts->tick.pull = (sbri_rigid_pull){.act = begin_step,
+      .acted = end_step,
       .user = &parts->coupled,
       .squares = any ? model->pinned_squares : NULL,
       .burdens = any ? sbri_burdens(c) : NULL,
@@ -146,10 +147,11 @@ void sbri_rigid_parts_end(sbri_rigid_parts *parts) {
   const sbri_rigid_model *model = &c->model->rigid;
   sbri_rigid_end(&parts->tick, &parts->work);
   bool lost = false;
-  for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
-  if (lost) /* no motion any more: back to where the animation has them */
+  for (uint32_t b = 0; b < model->body_count; b++)
+    lost = lost || has_invalid_numbers(&sbri_rigid_bodies(c)[b]);
+  if (lost) /* invalid numbers: resets to the animation */
     for (uint32_t b = 0; b < model->body_count; b++)
-      sbri_rigid_put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
+      sbri_rigid_set_frame(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
   sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
   sbri_coupled_end(&parts->coupled);
   may_sleep(parts->coupled.world, c);
@@ -159,7 +161,7 @@ void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
   sbri_rigid_parts parts;
   if (!sbri_rigid_parts_begin(world, c, &parts)) return;
   uint32_t steps = parts.tick.substeps, done = 0;
-  float begin = 0; /* of the steps that are as long as each other */
+  float begin = 0; /* where steps of equal length begin */
   for (float from = 0, to; done < steps; from = to) {
     to = begin + (1 - begin) * ((float)++done / (float)steps);
     sbri_rigid_advance(&parts.tick, &parts.work, from, to);

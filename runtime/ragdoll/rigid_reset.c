@@ -1,4 +1,4 @@
-/* Putting a character's rigid bodies somewhere at once. */
+/* Sets positions of a character's rigid bodies at once. */
 #include <string.h>
 
 #include "math/vec3.h"
@@ -11,7 +11,7 @@ void sbri_rigid_reset(sbri_character *c, bool as_in_file) {
   if (as_in_file) sbri_rigid_set_drive(c, &drive);
   for (uint32_t b = 0; b < model->body_count; b++) {
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
-    sbri_rigid_put_at(body, sbri_rigid_target(c, sbri_pose(c), b));
+    sbri_rigid_set_frame(body, sbri_rigid_target(c, sbri_pose(c), b));
     if (!as_in_file) continue;
     bool dynamic = model->bodies[b].source->motion == SBF_BODY_MOTION_DYNAMIC && model->bodies[b].mass > 0;
     body->mode = dynamic ? SBR_RIGID_PASSIVE : SBR_RIGID_KINEMATIC;
@@ -24,12 +24,12 @@ void sbri_rigid_reset(sbri_character *c, bool as_in_file) {
   sbri_rigid_wake(c);
 }
 
-void sbri_rigid_carry(sbri_character *c) {
+void sbri_rigid_move_with_pose(sbri_character *c) {
   if (!c->model->rigid.body_count) return;
   sbri_reflex_end(c);
   sbri_rigid_drive(c)->stored_contacts = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
-    sbri_rigid_put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_target(c, sbri_pose(c), b));
+    sbri_rigid_set_frame(&sbri_rigid_bodies(c)[b], sbri_rigid_target(c, sbri_pose(c), b));
   sbri_rigid_wake(c);
 }
 
@@ -44,7 +44,7 @@ void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift) {
   }
 }
 
-void sbri_rigid_take(sbri_character *c, const sbri_character *was) {
+void sbri_rigid_copy_state(sbri_character *c, const sbri_character *was) {
   const sbri_rigid_model *model = &c->model->rigid;
   size_t bodies = model->body_count, joints = model->joint_count, kept = sbri_rigid_contact_capacity(model);
   memcpy(sbri_rigid_bodies(c), sbri_rigid_bodies(was), bodies * sizeof(sbri_rigid_body_state));

@@ -12,8 +12,8 @@ static sbf_vec3 times(sbf_vec3 a, sbf_vec3 b) {
   return (sbf_vec3){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-/* p turned backwards by what cay turns forwards, a being half the turn: (1 + a^)^-1 (1 - a^) p. */
-static sbf_vec3 turned_back(sbf_vec3 a, sbf_vec3 p) {
+/* Rotates p by the inverse Cayley transform of a, half the rotation: (1 + a^)^-1 (1 - a^) p. */
+static sbf_vec3 inverse_rotated(sbf_vec3 a, sbf_vec3 p) {
   float square = sbri_dot(a, a), fraction = 1 / (1 + square), along = 2 * sbri_dot(a, p);
   sbf_vec3 across = sbri_cross(a, p);
   return (sbf_vec3){((1 - square) * p.x + along * a.x - 2 * across.x) * fraction,
@@ -21,7 +21,7 @@ static sbf_vec3 turned_back(sbf_vec3 a, sbf_vec3 p) {
       ((1 - square) * p.z + along * a.z - 2 * across.z) * fraction};
 }
 
-/* Each pass leaves of the error about as much as the body turns in half a step. */
+/* An iteration reduces the error by a factor of about half the rotation of a step. */
 static int passes_for(float square) {
   return square < 1e-9f ? 0 : square < 1e-6f ? 2 : square < 1e-3f ? 3 : 6;
 }
@@ -32,14 +32,14 @@ sbf_vec3 sbri_free_turn(
            w = times(body->inverse_inertia, p);
   sbf_vec3 half = sbri_scale(w, 0.5f * step_s);
   for (int pass = passes_for(sbri_dot(half, half)); pass > 0; pass--) {
-    w = times(body->inverse_inertia, sbri_scale(sbri_add(p, turned_back(half, p)), 0.5f));
+    w = times(body->inverse_inertia, sbri_scale(sbri_add(p, inverse_rotated(half, p)), 0.5f));
     half = sbri_scale(w, 0.5f * step_s);
   }
   *to = sbri_quat_normalize(sbri_quat_multiply(rotation, (sbf_quat){half.x, half.y, half.z, 1}));
   return sbri_rotate(rotation, w);
 }
 
-/* ---- The same, of as many bodies at once as there are lanes: each operation as above ---- */
+/* ---- The same operations for one body per lane ---- */
 
 static sbri_wide3 cross(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -62,7 +62,7 @@ static sbri_wide3 turn_by(sbri_wide3 u, sbri_wide w, sbri_wide3 v) {
   return add(add(v, scale(t, w)), cross(u, t));
 }
 
-static sbri_wide3 all_turned_back(sbri_wide3 a, sbri_wide3 p) {
+static sbri_wide3 all_inverse_rotated(sbri_wide3 a, sbri_wide3 p) {
   const sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2);
   sbri_wide square = dot(a, a), fraction = one / (one + square), along = two * dot(a, p);
   sbri_wide3 across = cross(a, p);
@@ -100,11 +100,11 @@ void sbri_free_turns(sbri_free_turning *t, float step_s) {
   }
   for (int pass = 0; pass < max; pass++) {
     sbri_mask continues = sbri_wide_load(passes) > sbri_wide_all((float)pass);
-    sbri_wide3 mean = scale(add(p, all_turned_back(half, p)), sbri_wide_all(0.5f));
+    sbri_wide3 mean = scale(add(p, all_inverse_rotated(half, p)), sbri_wide_all(0.5f));
     w = chosen(continues, all_times(inverse_mass, mean), w);
     half = scale(w, half_s);
   }
-  /* turn (half, 1) */
+  /* rotation (half, 1) */
   sbri_wide x = w_of * half.x + u.x + u.y * half.z - u.z * half.y;
   sbri_wide y = w_of * half.y - u.x * half.z + u.y + u.z * half.x;
   sbri_wide z = w_of * half.z + u.x * half.y - u.y * half.x + u.z;

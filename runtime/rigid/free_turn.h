@@ -1,12 +1,12 @@
-/* Bodies that nothing twists, as many at once as there are lanes: bit for bit sbri_free_turn of each. */
+/* Torque-free rotation of several bodies, one per lane: bit for bit sbri_free_turn of each. */
 #ifndef SBRI_FREE_TURN_H
 #define SBRI_FREE_TURN_H
 
 #include "math/wide.h"
 #include "rigid/rigid_state.h"
 
-/* Lane after lane. Before: turns and angular momenta, as sbri_free_turning_put has them. After: where they
- * turn to, and the mean angular velocities in place of the momenta. */
+/* One body per lane. Before: rotations and angular momenta, as set by sbri_free_turning_put. After: the final
+ * rotations, and the mean angular velocities in place of the momenta. */
 typedef struct sbri_free_turning {
   float x[SBRI_LANES], y[SBRI_LANES], z[SBRI_LANES], w[SBRI_LANES];
   float angular_momentum[3][SBRI_LANES];

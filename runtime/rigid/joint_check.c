@@ -1,4 +1,5 @@
-/* A step's rows from one pass to the next: what they want, how they have moved, and which of them act. */
+/* Constraint rows between two iterations: their targets, their velocity changes, and which of them are
+ * active. */
 #include "rigid/joint_rows.h"
 
 #include <string.h>
@@ -18,15 +19,15 @@ void sbri_joint_rows_set_targets(sbri_edge *e) {
 }
 
 /* The drive's part of its row's impulse: the rest is joint damping at the velocity after the solve. */
-static float of_drive(const sbri_row *row) {
+static float drive_impulse(const sbri_row *row) {
   return row->impulse + row->attached_mass * (row->target - row->give * row->impulse);
 }
 
 /* A drive at its limit becomes a constant impulse on the right-hand side. If the joint has damping as well,
  * the row stays in the system for the damping alone. */
-static void give_max(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
+static void saturate_drive(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
   if (row->attached_mass > 0) {
-    float max = of_drive(row) > 0 ? row->max : -row->max;
+    float max = drive_impulse(row) > 0 ? row->max : -row->max;
     row->give = 1 / row->attached_mass;
     row->target = row->give * max;
     row->max = 0;
@@ -40,41 +41,45 @@ static void give_max(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row
       sbri_add6_rates(work->system.nodes[e->nodes[side]].push, row->rates[side], row->impulse);
 }
 
-/* By how much b's turn against a's has changed by the pass before, and by the last. */
-static void find_turns(const sbri_rigid_system *s, const sbri_edge *e, sbf_vec3 *was, sbf_vec3 *now) {
+/* Changes of the relative angular velocity by the previous iteration and by the last one. */
+static void find_relative_changes(
+    const sbri_rigid_system *s, const sbri_edge *e, sbf_vec3 *previous, sbf_vec3 *now) {
   static const double none[6] = {0, 0, 0, 0, 0, 0};
   const int32_t a = e->nodes[SBRI_A], b = e->nodes[SBRI_B];
-  const double *a_was = a >= 0 ? s->nodes[a].was : none, *b_was = b >= 0 ? s->nodes[b].was : none,
+  const double *a_previous = a >= 0 ? s->nodes[a].was : none, *b_previous = b >= 0 ? s->nodes[b].was : none,
                *a_now = a >= 0 ? s->nodes[a].x : none, *b_now = b >= 0 ? s->nodes[b].x : none;
-  *was = sbri_vec3((float)(b_was[3] - a_was[3]), (float)(b_was[4] - a_was[4]), (float)(b_was[5] - a_was[5]));
+  *previous = sbri_vec3((float)(b_previous[3] - a_previous[3]), (float)(b_previous[4] - a_previous[4]),
+      (float)(b_previous[5] - a_previous[5]));
   *now = sbri_vec3((float)(b_now[3] - a_now[3]), (float)(b_now[4] - a_now[4]), (float)(b_now[5] - a_now[5]));
 }
 
-/* A limit that is near enough now to be looked at gets what it would have had from the step's begin on. */
-static void wake_limit(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e, sbri_row *row,
-    sbf_vec3 was, float step_s) {
+/* Initialises a limit that is close to its bound now, as if it had been active since the beginning of the
+ * step. */
+static void activate_limit(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e,
+    sbri_row *row, sbf_vec3 previous, float step_s) {
   sbri_joint_frames *joint_frames = &work->joint_frames[e - work->system.edges];
   row->clear = 0;
   row->now = sbri_joint_coordinate(&model->joints[e->joint], joint_frames, (sbf_joint_axis)row->axis);
-  if (row->axis == SBF_JOINT_AXIS_TWIST) row->now = sbri_nearest_turn(row->now, row->low, row->high);
+  if (row->axis == SBF_JOINT_AXIS_TWIST) row->now = sbri_nearest_twist(row->now, row->low, row->high);
   sbri_limit_ready(work, model, e, joint_frames, row, step_s);
   row->wanted = row->target - row->speed;
-  row->moved = sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), was);
+  row->moved =
+      sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), previous);
 }
 
-/* Upper bound of dry friction, in multiples of its torque: it counts in a hit. */
-static const float DRY_MORE = 2;
+/* Upper bound of the friction torque as a multiple of the static torque: it matters in impacts. */
+static const float MAX_DRY_FACTOR = 2;
 
 static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
   sbri_ball *ball = e->ball;
   if (!(ball->dry > 0)) return false;
-  sbf_vec3 was, now;
-  find_turns(s, e, &was, &now);
-  const double *slow = ball->attached_rhs;
-  double turns =
-      (double)sbri_length(sbri_vec3(now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]));
-  if (!(ball->dry * turns > (double)DRY_MORE * ball->max_dry)) return false;
-  double dry = ball->max_dry / turns;
+  sbf_vec3 previous, now;
+  find_relative_changes(s, e, &previous, &now);
+  const double *initial = ball->attached_rhs;
+  double relative_speed = (double)sbri_length(
+      sbri_vec3(now.x - (float)initial[0], now.y - (float)initial[1], now.z - (float)initial[2]));
+  if (!(ball->dry * relative_speed > (double)MAX_DRY_FACTOR * ball->max_dry)) return false;
+  double dry = ball->max_dry / relative_speed;
   ball->attached_inertia += dry - ball->dry;
   ball->dry = dry;
   return true;
@@ -82,9 +87,9 @@ static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
 
 static bool slip_row(sbri_row *row) {
   if (!row->active || !(row->dry > 0)) return false;
-  float turns = fabsf(row->target - row->give * row->impulse), pull = row->target / row->give;
-  if (!(row->dry * turns > DRY_MORE * row->max_dry)) return false;
-  float dry = row->max_dry / turns, rate = 1 / row->give + dry - row->dry;
+  float relative_speed = fabsf(row->target - row->give * row->impulse), pull = row->target / row->give;
+  if (!(row->dry * relative_speed > MAX_DRY_FACTOR * row->max_dry)) return false;
+  float dry = row->max_dry / relative_speed, rate = 1 / row->give + dry - row->dry;
   row->attached_mass += dry - row->dry;
   row->dry = dry;
   row->give = 1 / rate;
@@ -93,14 +98,15 @@ static bool slip_row(sbri_row *row) {
 }
 
 static void move_ball(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e, float step_s) {
-  const double *slow = e->ball->attached_rhs; /* how they turned when the step was made, backwards */
-  sbf_vec3 was, now;
-  find_turns(&work->system, e, &was, &now);
-  sbf_vec3 turn = {now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]};
-  float reach = sbri_turn_reach(sbri_length(turn), step_s);
+  const double *initial =
+      e->ball->attached_rhs; /* minus their relative angular velocity at the beginning of the step */
+  sbf_vec3 previous, now;
+  find_relative_changes(&work->system, e, &previous, &now);
+  sbf_vec3 relative = {now.x - (float)initial[0], now.y - (float)initial[1], now.z - (float)initial[2]};
+  float reach = sbri_turn_reach(sbri_length(relative), step_s);
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
-    if (row->clear > 0 && row->clear <= reach) wake_limit(work, model, e, row, was, step_s);
+    if (row->clear > 0 && row->clear <= reach) activate_limit(work, model, e, row, previous, step_s);
     if (!row->sign) continue;
     row->was = row->moved;
     row->moved =
@@ -116,7 +122,7 @@ void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *mode
       sbri_row *row = &e->rows[r];
       if (!row->sign) continue;
       row->was = row->moved;
-      row->moved = (float)sbri_row_moved(&work->system, e, row);
+      row->moved = (float)sbri_row_rate_change(&work->system, e, row);
     }
   }
 }
@@ -133,7 +139,7 @@ bool sbri_joint_rows_agree(const sbri_rigid_solving *work) {
   return true;
 }
 
-void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float fraction) {
+void sbri_joint_rows_scale_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
@@ -148,15 +154,15 @@ bool sbri_joint_rows_check(const sbri_rigid_tick *t, sbri_rigid_solving *work, s
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
     if (row->sign) {
-      bool was = row->active;
+      bool previous = row->active;
       float speed = row->speed;
-      if (!was && row->kind == SBRI_ROW_LIMIT) sbri_limit_choose_side(row, speed + row->moved, step_s);
+      if (!previous && row->kind == SBRI_ROW_LIMIT) sbri_limit_choose_side(row, speed + row->moved, step_s);
       row->wanted = row->target - speed;
       row->active = sbri_limit_acts(row, speed + row->moved, step_s);
       if (!row->active) row->impulse = 0;
-      changed = changed || row->active != was;
-    } else if (row->active && row->max > 0 && fabsf(of_drive(row)) > row->max * 1.0001f) {
-      give_max(work, e, row);
+      changed = changed || row->active != previous;
+    } else if (row->active && row->max > 0 && fabsf(drive_impulse(row)) > row->max * 1.0001f) {
+      saturate_drive(work, e, row);
       changed = true;
     } else if (slip_row(row)) {
       slips = true;

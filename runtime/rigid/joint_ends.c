@@ -1,27 +1,27 @@
-/* What is still off of joints at a step's end, and what their limits throw back. */
+/* Position errors of joints at the end of a step, and restitution of limits. */
 #include "rigid/joint_rows.h"
 
 #include <string.h>
 
-/* What is off is put right no faster than this, in m/s and rad/s. */
+/* Maximum rates of error correction, in m/s and rad/s. */
 static const float MAX_CORRECTION_M_S = 20, MAX_CORRECTION_RAD_S = 60;
-/* A limit that is broken by more, having been found to be free, makes a step one to be taken again. */
-static const float MISSED = 2e-3f;
+/* A step is repeated if an inactive limit is violated by more than this. */
+static const float MAX_VIOLATION = 2e-3f;
 
 static sbf_vec3 along_axes(const sbri_joint_frames *joint_frames, sbf_vec3 v) {
   return sbri_add_scaled(sbri_add_scaled(sbri_scale(joint_frames->axes[0], v.x), joint_frames->axes[1], v.y),
       joint_frames->axes[2], v.z);
 }
 
-/* What of a ball's place is off. */
-static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 separation, float step_s) {
-  sbf_vec3 off = sbri_sub(wanted, separation);
-  float rates[3] = {off.x / step_s, off.y / step_s, off.z / step_s}, worst = 0;
+/* Position error of a ball joint. */
+static float correct_ball(sbri_ball *ball, sbf_vec3 target, sbf_vec3 separation, float step_s) {
+  sbf_vec3 error = sbri_sub(target, separation);
+  float rates[3] = {error.x / step_s, error.y / step_s, error.z / step_s}, worst = 0;
   for (int k = 0; k < 3; k++) {
     ball->rhs[k] = (double)sbri_clamp(rates[k], -MAX_CORRECTION_M_S, MAX_CORRECTION_M_S);
     ball->attached_rhs[k] = 0;
   }
-  const float parts[3] = {fabsf(off.x), fabsf(off.y), fabsf(off.z)};
+  const float parts[3] = {fabsf(error.x), fabsf(error.y), fabsf(error.z)};
   for (int k = 0; k < 3; k++) worst = parts[k] > worst ? parts[k] : worst;
   return worst;
 }
@@ -34,35 +34,36 @@ static float correct_rows(
     sbf_joint_axis axis = (sbf_joint_axis)row->axis;
     e->rhs[r] = 0;
     if (row->kind > SBRI_ROW_LIMIT) continue;
-    bool at_zero = row->kind == SBRI_ROW_LOCKED && joint->locked >> axis & 1;
-    float now = at_zero ? sbri_joint_locked_coordinate(joint_frames, axis)
-                        : sbri_joint_coordinate(joint, joint_frames, axis);
-    if (axis == SBF_JOINT_AXIS_TWIST && !at_zero) now = sbri_nearest_turn(now, row->end, row->end);
-    float off = row->end - now;
-    if (row->kind == SBRI_ROW_LIMIT && !((float)row->sign * off > 0)) continue;
-    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MAX_CORRECTION_M_S, MAX_CORRECTION_RAD_S);
-    worst = fabsf(off) > worst ? fabsf(off) : worst;
+    bool is_locked = row->kind == SBRI_ROW_LOCKED && joint->locked >> axis & 1;
+    float now = is_locked ? sbri_joint_locked_coordinate(joint_frames, axis)
+                          : sbri_joint_coordinate(joint, joint_frames, axis);
+    if (axis == SBF_JOINT_AXIS_TWIST && !is_locked) now = sbri_nearest_twist(now, row->end, row->end);
+    float error = row->end - now;
+    if (row->kind == SBRI_ROW_LIMIT && !((float)row->sign * error > 0)) continue;
+    e->rhs[r] = (double)sbri_clamped_rate(axis, error / step_s, MAX_CORRECTION_M_S, MAX_CORRECTION_RAD_S);
+    worst = fabsf(error) > worst ? fabsf(error) : worst;
   }
   return worst;
 }
 
-/* By how much limits that were found to be free are broken, but for those that are out of reach. */
-static float missed(
+/* Maximum violation of inactive limits, except those out of reach. */
+static float find_violation(
     const sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames, float reach) {
   float worst = 0;
   for (uint32_t r = 0; r < e->row_count; r++) {
     const sbri_row *row = &e->rows[r];
     if (row->kind != SBRI_ROW_LIMIT || row->active || row->clear > reach) continue;
     float now = sbri_joint_coordinate(joint, joint_frames, (sbf_joint_axis)row->axis);
-    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, row->low, row->high);
-    float beyond = now < row->low ? row->low - now : now - row->high;
-    float begun = row->now < row->low ? row->low - row->now : row->now - row->high;
-    if (beyond > MISSED && beyond > begun) worst = beyond > worst ? beyond : worst;
+    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, row->low, row->high);
+    float violation = now < row->low ? row->low - now : now - row->high;
+    float violation_at_begin = row->now < row->low ? row->low - row->now : row->now - row->high;
+    if (violation > MAX_VIOLATION && violation > violation_at_begin)
+      worst = violation > worst ? violation : worst;
   }
   return worst;
 }
 
-/* How far the bodies of a ball may turn against each other in the step. */
+/* Maximum relative rotation of a ball joint's bodies in the step. */
 static float reach_in_step(
     const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e, float step_s) {
   if (!e->ball) return 0;
@@ -72,7 +73,7 @@ static float reach_in_step(
       step_s);
 }
 
-/* Whether nothing but a ball's place is to be looked at, at the step's end. */
+/* Whether only the point of a ball joint needs to be checked at the end of the step. */
 static bool is_bare_ball(const sbri_edge *e, float reach) {
   if (!e->ball || e->ball->end.x != 0 || e->ball->end.y != 0 || e->ball->end.z != 0) return false;
   for (uint32_t r = 0; r < e->row_count; r++)
@@ -85,7 +86,7 @@ float sbri_joint_rows_correct(
   sbri_edge *e = &work->system.edges[edge];
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   bool any = e->ball != NULL;
-  for (uint32_t r = 0; r < e->row_count; r++) /* a limit that was not seen to be run into */
+  for (uint32_t r = 0; r < e->row_count; r++) /* an inactive limit may be violated */
     any = any || e->rows[r].kind == SBRI_ROW_LIMIT;
   for (uint32_t r = 0; r < e->active_count; r++) any = any || e->rows[e->actives[r]].kind <= SBRI_ROW_LIMIT;
   if (!any) {
@@ -106,8 +107,9 @@ float sbri_joint_rows_correct(
   if (e->ball)
     position_error =
         correct_ball(e->ball, along_axes(&joint_frames, e->ball->end), joint_frames.separation, step_s);
-  float off = correct_rows(e, joint, &joint_frames, step_s), beyond = missed(e, joint, &joint_frames, reach);
-  float worst = off > beyond ? off : beyond;
+  float error = correct_rows(e, joint, &joint_frames, step_s),
+        violation = find_violation(e, joint, &joint_frames, reach);
+  float worst = error > violation ? error : violation;
   return worst > position_error ? worst : position_error;
 }
 

@@ -1,10 +1,10 @@
-/* Rates of the angles. With Q = S T seen in frame a, w the angular velocity of b against a there, n the unit
+/* Rates of the angles. With Q = S T in frame a, w the angular velocity of b relative to a there, n the unit
  * axis of S (its x is 0), s its angle and t = tan(s / 2):
+ *
  *   twist'  = w.(1, n_z t, -n_y t), from twist = 2 atan2(Q.x, Q.w) and Q' = w Q / 2;
- *   swing'  = w.n: twisting b about its own x, which is square to n, does not change it;
- *   swing_y' = n_y (w.n) + s e_y (cot(s) (w.e) - w.x), e = n x X: the axis n turns about X as b's x circles
- * it.
- */
+ *   swing'  = w.n: twisting b about its own x, which is perpendicular to n, does not change it;
+ *   swing_y' = n_y (w.n) + s e_y (cot(s) (w.e) - w.x), e = n x X: the axis n rotates about X as b's x circles
+ *               it. */
 #include "rigid/joint_frames.h"
 
 sbf_vec3 sbri_joint_separation(
@@ -84,33 +84,33 @@ float sbri_joint_coordinate(const sbri_rigid_joint *joint, sbri_joint_frames *p,
   }
 }
 
-static void put(float to[6], sbf_vec3 linear, sbf_vec3 angular) {
+static void set_rates(float to[6], sbf_vec3 linear, sbf_vec3 angular) {
   to[0] = linear.x, to[1] = linear.y, to[2] = linear.z;
   to[3] = angular.x, to[4] = angular.y, to[5] = angular.z;
 }
 
 /* Rate of the origins' distance along a direction that is fixed in frame a: the direction's rotation counts.
  */
-static void put_linear(const sbri_joint_frames *p, sbf_vec3 along, float rates[SBRI_SIDES][6]) {
-  put(rates[SBRI_B], along, sbri_cross(p->arms[SBRI_B], along));
-  sbf_vec3 back = sbri_scale(along, -1);
-  put(rates[SBRI_A], back, sbri_cross(sbri_add(p->arms[SBRI_A], p->separation), back));
+static void set_linear_rates(const sbri_joint_frames *p, sbf_vec3 direction, float rates[SBRI_SIDES][6]) {
+  set_rates(rates[SBRI_B], direction, sbri_cross(p->arms[SBRI_B], direction));
+  sbf_vec3 back = sbri_scale(direction, -1);
+  set_rates(rates[SBRI_A], back, sbri_cross(sbri_add(p->arms[SBRI_A], p->separation), back));
 }
 
 /* g in frame a. */
-static void put_angular(const sbri_joint_frames *p, sbf_vec3 g, float rates[SBRI_SIDES][6]) {
+static void set_angular_rates(const sbri_joint_frames *p, sbf_vec3 g, float rates[SBRI_SIDES][6]) {
   const sbf_vec3 none = {0, 0, 0};
   sbf_vec3 w =
       sbri_add_scaled(sbri_add_scaled(sbri_scale(p->axes[0], g.x), p->axes[1], g.y), p->axes[2], g.z);
-  put(rates[SBRI_B], none, w);
-  put(rates[SBRI_A], none, sbri_scale(w, -1));
+  set_rates(rates[SBRI_B], none, w);
+  set_rates(rates[SBRI_A], none, sbri_scale(w, -1));
 }
 
-static void put_pulley(
+static void set_pulley_rates(
     const sbri_rigid_joint *joint, const sbri_joint_frames *p, float rates[SBRI_SIDES][6]) {
   for (int side = 0; side < SBRI_SIDES; side++) {
     sbf_vec3 pull = sbri_scale(p->pulls[side], side == SBRI_B ? joint->source->pulley_ratio : 1);
-    put(rates[side], pull, sbri_cross(p->arms[side], pull));
+    set_rates(rates[side], pull, sbri_cross(p->arms[side], pull));
   }
 }
 
@@ -123,29 +123,30 @@ void sbri_joint_compute_gradient(
   case SBF_JOINT_AXIS_LINEAR_X:
   case SBF_JOINT_AXIS_LINEAR_Y:
   case SBF_JOINT_AXIS_LINEAR_Z:
-    put_linear(p, p->axes[axis - SBF_JOINT_AXIS_LINEAR_X], rates);
+    set_linear_rates(p, p->axes[axis - SBF_JOINT_AXIS_LINEAR_X], rates);
     return;
   case SBF_JOINT_AXIS_TWIST:
-    put_angular(p, sbri_vec3(1, t[1], -t[0]), rates);
+    set_angular_rates(p, sbri_vec3(1, t[1], -t[0]), rates);
     return;
   case SBF_JOINT_AXIS_SWING:
-    put_angular(p, sbri_vec3(0, n_y, n_z), rates);
+    set_angular_rates(p, sbri_vec3(0, n_y, n_z), rates);
     return;
   case SBF_JOINT_AXIS_SWING_Y:
   case SBF_JOINT_AXIS_SWING_Z: {
     find_angles(p);
-    /* s cot(s), from the half angle's tangent; 1 at 0. */
+    /* s cot(s), from the tangent of the half angle; 1 at 0 */
     float s = p->swing, across = s < 1e-4f ? 1 : s * (1 - tangent * tangent) / (2 * tangent);
     bool y = axis == SBF_JOINT_AXIS_SWING_Y;
-    float along = y ? n_y : n_z, e = y ? n_z : -n_y; /* e = (0, n_z, -n_y) */
-    put_angular(p, sbri_vec3(-s * e, along * n_y + across * e * n_z, along * n_z - across * e * n_y), rates);
+    float direction = y ? n_y : n_z, e = y ? n_z : -n_y; /* e = (0, n_z, -n_y) */
+    set_angular_rates(
+        p, sbri_vec3(-s * e, direction * n_y + across * e * n_z, direction * n_z - across * e * n_y), rates);
     return;
   }
   case SBF_JOINT_AXIS_DISTANCE:
   default:
     if (joint->source->kind == SBF_JOINT_KIND_PULLEY)
-      put_pulley(joint, p, rates);
+      set_pulley_rates(joint, p, rates);
     else
-      put_linear(p, sbri_normalize(p->separation, p->axes[0]), rates);
+      set_linear_rates(p, sbri_normalize(p->separation, p->axes[0]), rates);
   }
 }

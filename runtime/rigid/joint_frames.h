@@ -1,5 +1,5 @@
-/* Where a joint's two frames are, the coordinates of one against the other (spec 8.3), and how fast these
- * change with the bodies' motion. */
+/* Frames of a joint, the coordinates of one relative to the other (spec 8.3), and their rates for the bodies'
+ * motion. */
 #ifndef SBRI_JOINT_FRAMES_H
 #define SBRI_JOINT_FRAMES_H
 
@@ -11,33 +11,32 @@ typedef struct sbri_joint_frames {
   sbf_vec3 arms[SBRI_SIDES]; /* from the bodies' centres of mass to the frames' origins */
   sbf_vec3 separation;       /* from frame a's origin to frame b's */
   sbf_vec3 axes[3];          /* of frame a */
-  sbf_quat rotation;         /* Q: frame b seen from frame a */
+  sbf_quat rotation;         /* Q: rotation of frame b in frame a */
   float half_tangent[2];     /* y and z of S's axis times the tangent of half its angle */
-  bool has_angles;           /* the next two are worked out when they are first asked for */
+  bool has_angles;           /* the next two are computed on demand */
   sbri_swing_twist angles;
-  float swing;                /* length of the swing */
-  sbf_vec3 pulls[SBRI_SIDES]; /* of a pulley: unit vectors from where its ropes hang to the frames */
+  float swing;                /* angle of the swing */
+  sbf_vec3 pulls[SBRI_SIDES]; /* of a pulley: unit vectors from the anchors of its ropes to the frames */
   float ropes[SBRI_SIDES];    /* of a pulley, m */
 } sbri_joint_frames;
 
-/* `fine` is what the places of b lose by rounding, less that of a's.
- * `poses` of the two bodies' own frames, that of the anchor where a body is absent; `anchor` likewise, for
- * pulleys. All in one space. */
+/* `poses`: of the two bodies' frames; that of the anchor if a body is absent. `anchor`: likewise, for
+ * pulleys. `fine`: low-order part of the position of b minus that of a. All in one space. */
 sbri_joint_frames sbri_joint_frames_of(const sbri_rigid_joint *joint,
     const sbr_transform *const poses[SBRI_SIDES], const sbr_transform *anchor, sbf_vec3 fine);
 
-/* Of that only from frame a's origin to frame b's. */
+/* Only the vector from frame a's origin to frame b's. */
 sbf_vec3 sbri_joint_separation(
     const sbri_rigid_joint *joint, const sbr_transform *const poses[SBRI_SIDES], sbf_vec3 fine);
 
 float sbri_joint_coordinate(
     const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames, sbf_joint_axis axis);
-/* The same of a coordinate that is held at 0: 0 where that is, with the same rate there, but of an angle
- * twice the tangent of half of it. */
+/* The coordinate of a locked axis: 0 at the same state and with the same rate there, but for an angle twice
+ * the tangent of its half. */
 float sbri_joint_locked_coordinate(const sbri_joint_frames *joint_frames, sbf_joint_axis axis);
 
 /* The coordinate's rate is rates[A].(v_a, w_a) + rates[B].(v_b, w_b), with the velocities of the centres of
- * mass and the angular ones. */
+ * mass and the angular velocities. */
 void sbri_joint_compute_gradient(const sbri_rigid_joint *joint, sbri_joint_frames *joint_frames,
     sbf_joint_axis axis, float rates[SBRI_SIDES][6]);
 

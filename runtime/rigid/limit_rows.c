@@ -1,4 +1,4 @@
-/* Limits' rows: speeds, sides, and how far off a limit is out of reach. */
+/* Rows of limits: speeds, sides, and the reach of a step. */
 #include "rigid/joint_rows.h"
 
 #include "rigid/sym6.h"
@@ -7,8 +7,8 @@ static const float TURN = 6.28318530718f;
 /* Stiffness of limits relative to the lighter body's inertia. The position error that this leaves is
  * corrected at the end of the step. */
 static const double FIRM = 1e5;
-/* Upper bound of the rate of swing and twist, in multiples of the relative angular velocity; and the margin
- * for steps of finite length. */
+/* Upper bound of the rate of swing and twist, as a multiple of the relative angular speed; and a margin for
+ * steps of finite length. */
 static const float REACH = 1.4f, REACH_MIN = 0.02f;
 
 float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *model,
@@ -22,7 +22,7 @@ float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *mod
   return speed;
 }
 
-float sbri_nearest_turn(float value, float low, float high) {
+float sbri_nearest_twist(float value, float low, float high) {
   float outside = value < low ? low - value : value > high ? value - high : 0, best = value;
   for (int direction = -1; direction <= 1; direction += 2) {
     float other = value + (float)direction * TURN;
@@ -60,5 +60,5 @@ void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *mo
   sbri_joint_compute_gradient(joint, joint_frames, (sbf_joint_axis)row->axis, row->rates);
   row->speed = sbri_row_speed(work, model, joint, row);
   sbri_limit_choose_side(row, row->speed, step_s);
-  row->give = (float)(sbri_row_alone(&work->system, e, row) / FIRM);
+  row->give = (float)(sbri_row_response(&work->system, e, row) / FIRM);
 }

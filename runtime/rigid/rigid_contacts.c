@@ -11,21 +11,21 @@
 #include "collide/ground.h"
 #include "rigid/rigid_work.h"
 
-/* How much stiffer than the body's own inertia. */
+/* Contact stiffness relative to the body's own inertia: normal and tangential. */
 static const float FIRM = 300, FIRM_ACROSS = 30;
-/* What presses with more than its body's weight, as a toe with a leg on it, grips as much harder, and no more
- * than this. */
+/* A contact with a load above its body's weight, such as a toe below a leg, has proportionally stiffer
+ * friction, up to this factor. */
 static const float MAX_LOAD = 1000;
-/* s: in longer steps contacts are stiffer in proportion, so that a body at rest sinks in equally far. */
+/* s: in longer steps contacts are stiffer, so that a resting body has the same penetration. */
 static const float FIRM_STEPS_1_S = 240;
 /* Forces below this fraction of the body's weight, or of the normal force, are ignored. */
 static const float FRICTION_TOLERANCE = 1e-3f;
 /* Tolerances as fractions of friction's bound: of the force, and of the bound itself. */
 static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
-/* Fraction of a sticking contact's tangential force that decays in a step: a creep of micrometres a second.
- */
+/* Fraction of a sticking contact's tangential force that decays in a step. It causes a creep of micrometres
+ * per second. */
 static const float FRICTION_RELEASE = 0.005f;
-/* m: a vertex no higher than this counts as on the ground. */
+/* m: maximum height of a vertex that counts as on the ground */
 static const float LYING_M = 1e-4f;
 /* Fraction of a penetration that is corrected in a substep, and the greatest velocity of the correction. */
 static const float LIFT_FRACTION = 0.2f, LIFT_MAX_M_S = 0.5f;
@@ -39,15 +39,17 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
   const sbri_rigid_body *body = &t->model->bodies[b];
   const sbri_rigid_body_state *s = &t->bodies[b];
   if (sbri_rigid_stair_contacts_find(t, work, b, node)) return;
-  sbf_vec3 turn = sbri_angular_velocity_from_momentum(body, s->pose.rotation, s->angular_momentum), normal;
-  float fastest = sbri_length(s->velocity) + sbri_length(turn) * body->radius;
+  sbf_vec3 angular_velocity =
+               sbri_angular_velocity_from_momentum(body, s->pose.rotation, s->angular_momentum),
+           normal;
+  float fastest = sbri_length(s->velocity) + sbri_length(angular_velocity) * body->radius;
   float travel =
       2 * fastest * t->tick_s + 2 * sbri_length(t->gravity) * t->tick_s * t->tick_s + 0.02f * body->radius;
-  float under = height_at(t, s->pose.position.x, s->pose.position.z, &normal);
-  float slope = normal.y > 0.1f ? 1 / normal.y : 10; /* and ground that rises nearby by as much again */
+  float ground = height_at(t, s->pose.position.x, s->pose.position.z, &normal);
+  float slope = normal.y > 0.1f ? 1 / normal.y : 10; /* ground nearby may rise by as much again */
   double flat;
   float reach = body->radius * (sbri_ground_is_flat(t->ground, &flat) ? 1 : 1 + slope) + travel;
-  if (s->pose.position.y - under > reach) return;
+  if (s->pose.position.y - ground > reach) return;
   for (uint32_t i = 0; i < body->vertex_count && work->rigid_contact_count < work->max_contacts; i++) {
     sbf_vec3 at = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, body->vertices[i]));
     float y = height_at(t, at.x, at.z, &normal);
@@ -72,14 +74,14 @@ void sbri_rigid_contacts_find(const sbri_rigid_tick *t, sbri_rigid_solving *work
     list_body(t, work, work->system.nodes[i].body, (int32_t)i);
 }
 
-/* 1 / mass that answers a push along n at an arm. */
+/* Inverse effective mass along n at a lever arm. */
 static float inverse_mass_of(const sbri_rigid_body *body, sbf_quat rotation, sbf_vec3 arm, sbf_vec3 n) {
-  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rotation), sbri_cross(arm, n)), i = body->inverse_inertia;
-  return body->inverse_mass + own.x * own.x * i.x + own.y * own.y * i.y + own.z * own.z * i.z;
+  sbf_vec3 local = sbri_rotate(sbri_quat_conjugate(rotation), sbri_cross(arm, n)), i = body->inverse_inertia;
+  return body->inverse_mass + local.x * local.x * i.x + local.y * local.y * i.y + local.z * local.z * i.z;
 }
 
-static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 turn, sbf_vec3 arm) {
-  return sbri_add(velocity, sbri_cross(turn, arm));
+static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 angular_velocity, sbf_vec3 arm) {
+  return sbri_add(velocity, sbri_cross(angular_velocity, arm));
 }
 
 static sbri_rigid_external_body *external_body_of(
@@ -87,47 +89,49 @@ static sbri_rigid_external_body *external_body_of(
   return contact->external_body ? &work->external_bodies[contact->external_body - 1] : NULL;
 }
 
-/* Of the place against what it touches. */
+/* Relative velocity of the contact point. */
 static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
   const sbri_part_motion *m = &work->motions[contact->body];
   const sbri_rigid_external_body *g = external_body_of(work, contact);
-  sbf_vec3 under = g ? sbri_external_body_velocity(&g->is, contact->external_body_arm) : contact->velocity;
-  return sbri_sub(velocity_at(m->velocity, m->turn, contact->arm), under);
+  sbf_vec3 other_velocity =
+      g ? sbri_external_body_velocity(&g->is, contact->external_body_arm) : contact->velocity;
+  return sbri_sub(velocity_at(m->velocity, m->turn, contact->arm), other_velocity);
 }
 
-/* Of what it touches, in all the tick so far. */
-static sbf_vec3 gone_with(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+/* Mean velocity of the other side since the beginning of the tick. */
+static sbf_vec3 mean_plane_velocity(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
   const sbri_rigid_external_body *g = external_body_of(work, contact);
   return g ? velocity_at(g->is.begin_velocity, g->is.begin_angular_velocity, contact->external_body_arm)
            : contact->velocity;
 }
 
-/* Neither presses at that change of velocity nor has any friction: the most of those nearby. */
+/* Whether the contact has neither normal force nor friction at that velocity change, as most nearby ones. */
 static bool is_idle(const sbri_rigid_contact *contact, sbf_vec3 du) {
   return !(contact->bound > 0) && !(sbri_dot(contact->normal, sbri_sub(contact->target, du)) > 0);
 }
 
-/* Friction linearised at a change of velocity du: it sticks, a spring that continues from the force of the
- * step before, or slides with Coulomb's bound against the direction of that force. */
+/* Linearises friction at a velocity change du. The contact sticks, as a spring that continues from the force
+ * of the previous step, or slides with Coulomb's bound against the direction of that force. */
 static void linearise(sbri_rigid_contact *contact, sbf_vec3 du) {
-  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
+  sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
   if (is_idle(contact, du)) {
     contact->slides = true, contact->active = false;
     contact->drag = sbri_vec3(0, 0, 0), contact->side_grip = 0;
     return;
   }
-  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -sbri_dot(n, off)), contact->grip);
-  float across = sbri_length(pull);
-  contact->slides = across > contact->bound;
-  contact->active = sbri_dot(n, off) > 0;
+  sbf_vec3 pull =
+      sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -sbri_dot(n, error)), contact->grip);
+  float tangential = sbri_length(pull);
+  contact->slides = tangential > contact->bound;
+  contact->active = sbri_dot(n, error) > 0;
   contact->drag = sbri_vec3(0, 0, 0);
   contact->side_grip = 0;
   if (!contact->slides || !(contact->bound > 0)) return;
-  sbf_vec3 along = sbri_scale(pull, 1 / across);
-  contact->side = sbri_cross(n, along);
-  contact->side_grip = contact->grip * contact->bound / across;
+  sbf_vec3 direction = sbri_scale(pull, 1 / tangential);
+  contact->side = sbri_cross(n, direction);
+  contact->side_grip = contact->grip * contact->bound / tangential;
   contact->drag = sbri_add_scaled(
-      sbri_scale(along, contact->bound), contact->side, contact->side_grip * sbri_dot(contact->side, du));
+      sbri_scale(direction, contact->bound), contact->side, contact->side_grip * sbri_dot(contact->side, du));
 }
 
 void sbri_rigid_contacts_linearise(
@@ -141,41 +145,45 @@ void sbri_rigid_contacts_linearise(
     sbf_vec3 n = contact->normal;
     contact->arm = sbri_rotate(s->pose.rotation, contact->at);
     const sbri_rigid_external_body *external_body = external_body_of(work, contact);
-    float plane = contact->offset + since_s * sbri_dot(n, gone_with(work, contact));
+    float plane = contact->offset + since_s * sbri_dot(n, mean_plane_velocity(work, contact));
     contact->gap = sbri_dot(n, sbri_add(s->pose.position, contact->arm)) - plane;
     sbf_vec3 u = slip_of(work, contact);
-    float speed = sbri_dot(n, u), lift = -LIFT_FRACTION * contact->gap / step_s;
-    float wanted = contact->gap > 0 ? -contact->gap / step_s : lift < LIFT_MAX_M_S ? lift : LIFT_MAX_M_S;
-    float gives = external_body
-                      ? sbri_rigid_external_body_inverse_mass(external_body, contact->external_body_arm, n)
-                      : 0,
+    float speed = sbri_dot(n, u), correction = -LIFT_FRACTION * contact->gap / step_s;
+    float target_speed = contact->gap > 0            ? -contact->gap / step_s
+                         : correction < LIFT_MAX_M_S ? correction
+                                                     : LIFT_MAX_M_S;
+    float external_inverse_mass = external_body ? sbri_rigid_external_body_inverse_mass(
+                                                      external_body, contact->external_body_arm, n)
+                                                : 0,
           mass = body->mass;
     if (external_body && external_body->is.max_inverse_mass * mass > 1)
       mass = 1 / external_body->is.max_inverse_mass;
-    contact->inverse_mass = inverse_mass_of(body, s->pose.rotation, contact->arm, n) + gives;
-    float weight = 1 / contact->inverse_mass, alone = weight * (wanted - speed);
-    contact->target = sbri_sub(sbri_scale(n, wanted), u);
+    contact->inverse_mass = inverse_mass_of(body, s->pose.rotation, contact->arm, n) + external_inverse_mass;
+    float weight = 1 / contact->inverse_mass, single_impulse = weight * (target_speed - speed);
+    contact->target = sbri_sub(sbri_scale(n, target_speed), u);
     contact->more = sbri_vec3(0, 0, 0);
     contact->bounce_m_s = 0;
     contact->closing_speed = -speed;
-    if (speed < wanted && -speed > bounce_from) {
-      /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
-      sbf_vec3 falls = external_body ? sbri_sub(t->gravity, external_body->is.acceleration) : t->gravity;
-      float g = -sbri_dot(n, falls), half = 0.5f * g * step_s, begin = speed + half;
+    if (speed < target_speed && -speed > bounce_from) {
+      /* The velocity belongs to half a substep ago; before that, the fall in the substep counts. */
+      sbf_vec3 fall = external_body ? sbri_sub(t->gravity, external_body->is.acceleration) : t->gravity;
+      float g = -sbri_dot(n, fall), half = 0.5f * g * step_s, begin = speed + half;
       float square = begin * begin + 2 * g * (contact->gap > 0 ? contact->gap : 0);
       contact->bounce_m_s = contact->restitution * (square > 0 ? sqrtf(square) : 0) + half;
       if (!(contact->restitution > 0)) contact->bounce_m_s = 0;
     }
-    float normal = work->kick_s * contact->normal_n, own = mass * sbri_length(t->gravity) * step_s;
-    float load = sbri_clamp(own > 0 ? normal / own : 1, 1, MAX_LOAD);
+    float normal = work->kick_s * contact->normal_n, own_weight = mass * sbri_length(t->gravity) * step_s;
+    float load = sbri_clamp(own_weight > 0 ? normal / own_weight : 1, 1, MAX_LOAD);
     contact->stiff = firmer * FIRM * weight;
     contact->grip = load * firmer * FIRM_ACROSS * weight;
-    contact->tolerance = FRICTION_TOLERANCE * load * own;
-    if (!(contact->known && (normal > 0 || speed > -bounce_from))) normal = alone > 0 ? alone : 0;
+    contact->tolerance = FRICTION_TOLERANCE * load * own_weight;
+    if (!(contact->known && (normal > 0 || speed > -bounce_from)))
+      normal = single_impulse > 0 ? single_impulse : 0;
     contact->bound = contact->friction * normal;
-    sbf_vec3 pinned = sbri_scale(contact->drag_n, contact->known ? (1 - FRICTION_RELEASE) * work->kick_s : 0);
-    contact->hold = sbri_add_scaled(pinned, n, -sbri_dot(n, pinned));
-    /* What stuck most likely sticks on, and what slid slides on as it did. */
+    sbf_vec3 old_friction =
+        sbri_scale(contact->drag_n, contact->known ? (1 - FRICTION_RELEASE) * work->kick_s : 0);
+    contact->hold = sbri_add_scaled(old_friction, n, -sbri_dot(n, old_friction));
+    /* Starts from the state of the previous step: sticking or sliding. */
     linearise(contact, contact->known ? sbri_sub(contact->target, contact->left) : sbri_vec3(0, 0, 0));
     if (!contact->known) continue;
     if (contact->normal_n > 0 && contact->gap < LYING_M) contact->active = true;
@@ -183,26 +191,26 @@ void sbri_rigid_contacts_linearise(
   }
 }
 
-/* The same to the host's body that it touches, and what couples both. */
+/* Adds the same to the host's body, and the coupling of both. */
 static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_contact *contact, float more,
-    float grip, float across, sbf_vec3 f) {
+    float grip, float side_grip, sbf_vec3 f) {
   const double n[3] = {(double)contact->normal.x, (double)contact->normal.y, (double)contact->normal.z};
   const double p[3] = {(double)contact->side.x, (double)contact->side.y, (double)contact->side.z};
   double w[3][3];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      w[i][j] = (i == j ? (double)grip : 0) + (double)more * n[i] * n[j] + (double)across * p[i] * p[j];
+      w[i][j] = (i == j ? (double)grip : 0) + (double)more * n[i] * n[j] + (double)side_grip * p[i] * p[j];
   sbri_rigid_external_body_couple(g, contact->external_body_arm, contact->arm, w);
-  sbri_rigid_external_body_push(g, contact->external_body_arm, sbri_scale(f, -1));
+  sbri_rigid_external_body_apply_impulse(g, contact->external_body_arm, sbri_scale(f, -1));
 }
 
-/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) where it sticks and
- * stiff n n^T + side_grip side side^T where it slides, and f the impulse at zero change of velocity. */
+/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) for sticking and stiff n
+ * n^T + side_grip side side^T for sliding, and f the impulse at zero velocity change. */
 static void add_contact(
     sbri_node *node, const sbri_rigid_contact *contact, sbri_rigid_external_body *external_body) {
   float stiff = contact->active ? contact->stiff : 0, grip = contact->slides ? 0 : contact->grip,
         more = stiff - grip;
-  float across = contact->slides ? contact->side_grip : 0;
+  float side_grip = contact->slides ? contact->side_grip : 0;
   const float n[3] = {contact->normal.x, contact->normal.y, contact->normal.z};
   const float p[3] = {contact->side.x, contact->side.y, contact->side.z};
   sbf_vec3 arm_w[3]; /* columns of arm x W */
@@ -210,7 +218,7 @@ static void add_contact(
     float column[3];
     for (int i = 0; i < 3; i++) column[i] = (i == j ? grip : 0) + more * n[i] * n[j];
     if (contact->slides)
-      for (int i = 0; i < 3; i++) column[i] += across * p[i] * p[j];
+      for (int i = 0; i < 3; i++) column[i] += side_grip * p[i] * p[j];
     arm_w[j] = sbri_cross(contact->arm, sbri_vec3(column[0], column[1], column[2]));
     node->d[3][j] += arm_w[j].x, node->d[4][j] += arm_w[j].y, node->d[5][j] += arm_w[j].z;
     for (int i = j; i < 3; i++) node->d[i][j] += column[i];
@@ -222,18 +230,18 @@ static void add_contact(
     const float to[3] = {turned.x, turned.y, turned.z};
     for (int j = 0; j <= i; j++) node->d[3 + i][3 + j] += to[j];
   }
-  float wanted = sbri_dot(contact->normal, contact->target);
-  sbf_vec3 f = sbri_scale(contact->normal, stiff * wanted);
+  float target_speed = sbri_dot(contact->normal, contact->target);
+  sbf_vec3 f = sbri_scale(contact->normal, stiff * target_speed);
   if (contact->slides) {
     f = sbri_add(f, contact->drag);
   } else {
-    sbf_vec3 along = sbri_add_scaled(contact->target, contact->normal, -wanted);
-    f = sbri_add(f, sbri_add_scaled(contact->hold, along, contact->grip));
+    sbf_vec3 direction = sbri_add_scaled(contact->target, contact->normal, -target_speed);
+    f = sbri_add(f, sbri_add_scaled(contact->hold, direction, contact->grip));
   }
   sbf_vec3 moment = sbri_cross(contact->arm, f);
   const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
   for (int i = 0; i < 6; i++) node->b[i] += both[i];
-  if (external_body) add_external_body(external_body, contact, more, grip, across, f);
+  if (external_body) add_external_body(external_body, contact, more, grip, side_grip, f);
 }
 
 void sbri_rigid_contacts_add(sbri_rigid_solving *work) {
@@ -244,31 +252,32 @@ void sbri_rigid_contacts_add(sbri_rigid_solving *work) {
   }
 }
 
-/* W x of add_contact. */
+/* W x, as in add_contact. */
 static sbf_vec3 reaction_velocity(const sbri_rigid_contact *contact, sbf_vec3 x) {
-  float along = sbri_dot(contact->normal, x);
-  sbf_vec3 f = sbri_scale(contact->normal, contact->active ? contact->stiff * along : 0);
+  float normal_part = sbri_dot(contact->normal, x);
+  sbf_vec3 f = sbri_scale(contact->normal, contact->active ? contact->stiff * normal_part : 0);
   if (contact->slides)
     return sbri_add_scaled(f, contact->side, contact->side_grip * sbri_dot(contact->side, x));
-  return sbri_add_scaled(f, sbri_add_scaled(x, contact->normal, -along), contact->grip);
+  return sbri_add_scaled(f, sbri_add_scaled(x, contact->normal, -normal_part), contact->grip);
 }
 
-static sbf_vec3 moved_now(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
+static sbf_vec3 velocity_change_now(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
   const double *x = work->system.nodes[contact->node].x;
-  sbf_vec3 moved = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
+  sbf_vec3 change = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
       sbri_vec3((float)x[3], (float)x[4], (float)x[5]), contact->arm);
   const sbri_rigid_external_body *g = external_body_of(work, contact);
-  return g ? sbri_sub(moved, sbri_rigid_external_body_moved(g, contact->external_body_arm)) : moved;
+  return g ? sbri_sub(change, sbri_rigid_external_body_velocity_change(g, contact->external_body_arm))
+           : change;
 }
 
-/* The impulse at a change of velocity; it depends on nothing else. */
+/* Impulse at a velocity change, without linearisation. */
 static sbf_vec3 impulse_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
-  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
-  float into = sbri_dot(n, off);
+  sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
+  float into = sbri_dot(n, error);
   *normal = into > 0 ? contact->stiff * into : 0;
-  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -into), contact->grip);
-  float across = sbri_length(pull);
-  return across > contact->bound ? sbri_scale(pull, contact->bound / across) : pull;
+  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -into), contact->grip);
+  float tangential = sbri_length(pull);
+  return tangential > contact->bound ? sbri_scale(pull, contact->bound / tangential) : pull;
 }
 
 static double dot_of(sbf_vec3 a, sbf_vec3 b) {
@@ -279,16 +288,17 @@ void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     const sbri_rigid_contact *contact = &work->contacts[i];
     if (is_idle(contact, contact->was) && is_idle(contact, contact->moved)) continue;
-    sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, contact->was),
+    sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, contact->was),
              displacement = sbri_sub(contact->moved, contact->was);
-    float into = sbri_dot(n, off), along = sbri_dot(n, displacement);
+    float into = sbri_dot(n, error), normal_part = sbri_dot(n, displacement);
     sbri_contact_search *p = &work->pushes[work->push_count++];
     *p = (sbri_contact_search){
-        .stiff = (double)contact->stiff, .into = (double)into, .distance = (double)along};
+        .stiff = (double)contact->stiff, .into = (double)into, .distance = (double)normal_part};
     if (!(contact->bound > 0)) continue;
-    sbf_vec3 across = sbri_add_scaled(off, n, -into), turn = sbri_add_scaled(displacement, n, -along);
-    sbf_vec3 pull = sbri_add_scaled(contact->hold, across, contact->grip),
-             grip = sbri_scale(turn, contact->grip);
+    sbf_vec3 tangential = sbri_add_scaled(error, n, -into),
+             tangential_change = sbri_add_scaled(displacement, n, -normal_part);
+    sbf_vec3 pull = sbri_add_scaled(contact->hold, tangential, contact->grip),
+             grip = sbri_scale(tangential_change, contact->grip);
     p->bound = (double)contact->bound;
     p->inverse_mass = 1 / (double)contact->grip;
     p->pull_pull = dot_of(pull, pull), p->pull_grip = dot_of(pull, grip), p->grip_grip = dot_of(grip, grip);
@@ -299,18 +309,18 @@ void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     contact->was = contact->moved;
-    contact->moved = moved_now(work, contact);
+    contact->moved = velocity_change_now(work, contact);
   }
 }
 
-/* The same as the last pass had it. */
+/* Impulse at a velocity change by the last linearisation. */
 static sbf_vec3 linear_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
-  sbf_vec3 n = contact->normal, off = sbri_sub(contact->target, du);
-  float into = sbri_dot(n, off);
+  sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
+  float into = sbri_dot(n, error);
   *normal = contact->active ? contact->stiff * into : 0;
   if (contact->slides)
     return sbri_add_scaled(contact->drag, contact->side, -contact->side_grip * sbri_dot(contact->side, du));
-  return sbri_add_scaled(contact->hold, sbri_add_scaled(off, n, -into), contact->grip);
+  return sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -into), contact->grip);
 }
 
 float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
@@ -321,15 +331,15 @@ float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
     float normal, linear;
     sbf_vec3 was = linear_at(contact, contact->moved, &linear),
              is = impulse_at(contact, contact->moved, &normal);
-    float across = sbri_length(sbri_sub(was, is));
-    float along = fabsf(normal - linear);
-    if (along > contact->tolerance || across > CHANGE * contact->bound + contact->tolerance)
-      energy += contact->inverse_mass * (along * along + across * across);
+    float tangential = sbri_length(sbri_sub(was, is));
+    float normal_part = fabsf(normal - linear);
+    if (normal_part > contact->tolerance || tangential > CHANGE * contact->bound + contact->tolerance)
+      energy += contact->inverse_mass * (normal_part * normal_part + tangential * tangential);
   }
   return energy;
 }
 
-void sbri_rigid_contacts_take_solution(sbri_rigid_solving *work) {
+void sbri_rigid_contacts_keep_solution(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     if (!contact->active && is_idle(contact, contact->moved)) continue;
@@ -348,16 +358,16 @@ void sbri_rigid_contacts_check(sbri_rigid_solving *work) {
 }
 
 bool sbri_rigid_contacts_bound(sbri_rigid_solving *work) {
-  float off = 0, all = 0, tolerance_sum = 0;
+  float error = 0, all = 0, tolerance_sum = 0;
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     float normal, used = sbri_length(impulse_at(contact, contact->moved, &normal)),
                   bound = contact->friction * normal;
     all += bound;
     tolerance_sum += contact->tolerance;
-    if (contact->slides || used > bound) off += fabsf(bound - contact->bound);
+    if (contact->slides || used > bound) error += fabsf(bound - contact->bound);
   }
-  if (off <= BOUND_CHANGE * all + tolerance_sum) return false;
+  if (error <= BOUND_CHANGE * all + tolerance_sum) return false;
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     float normal;
@@ -372,7 +382,7 @@ void sbri_rigid_contacts_apply_impulse(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     if (!contact->active && !(contact->bound > 0)) continue;
-    sbf_vec3 direction = reaction_velocity(contact, moved_now(work, contact));
+    sbf_vec3 direction = reaction_velocity(contact, velocity_change_now(work, contact));
     contact->more = sbri_sub(contact->more, direction);
   }
 }
@@ -381,16 +391,16 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *wo
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     float normal;
-    sbf_vec3 across = impulse_at(contact, contact->moved, &normal);
+    sbf_vec3 tangential = impulse_at(contact, contact->moved, &normal);
     contact->known = true;
     contact->left = sbri_sub(contact->target, contact->moved);
     contact->normal_n = normal / work->kick_s;
-    contact->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
+    contact->drag_n = sbri_scale(tangential, normal > 0 ? 1 / work->kick_s : 0);
     if (!(normal > 0)) continue;
     sbf_vec3 position = sbri_add(t->bodies[contact->body].pose.position, contact->arm);
     sbri_touching_one *one = sbri_touching_add(&t->touching[contact->body], contact->collider, position,
         contact->normal, normal, contact->closing_speed);
-    sbf_vec3 push = sbri_add(sbri_add_scaled(across, contact->normal, normal), contact->more);
+    sbf_vec3 push = sbri_add(sbri_add_scaled(tangential, contact->normal, normal), contact->more);
     if (one) sbri_touching_add_impulse(one, position, push);
   }
 }
@@ -406,7 +416,7 @@ bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work) {
     const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
     for (int k = 0; k < 6; k++) work->system.nodes[contact->node].b[k] += both[k];
     if (contact->external_body)
-      sbri_rigid_external_body_push(
+      sbri_rigid_external_body_apply_impulse(
           external_body_of(work, contact), contact->external_body_arm, sbri_scale(f, -1));
     contact->more = sbri_add(contact->more, f);
     any = true;

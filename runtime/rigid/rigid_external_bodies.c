@@ -53,9 +53,9 @@ void sbri_rigid_external_bodies_end_step(sbri_rigid_solving *work, float step_s)
     sbri_external_body_end_step(&work->external_bodies[i].is, step_s);
 }
 
-/* ---- The system ---- */
+/* ---- System ---- */
 
-/* What y moves a place of it by. */
+/* Velocity change of a point on it per y. */
 static void rates_of(const sbri_rigid_external_body *g, sbf_vec3 arm, double rates[3][6]) {
   float root = sqrtf(g->is.lever);
   for (int k = 0; k < 3; k++) {
@@ -67,14 +67,14 @@ static void rates_of(const sbri_rigid_external_body *g, sbf_vec3 arm, double rat
   }
 }
 
-sbf_vec3 sbri_rigid_external_body_moved(const sbri_rigid_external_body *g, sbf_vec3 arm) {
+sbf_vec3 sbri_rigid_external_body_velocity_change(const sbri_rigid_external_body *g, sbf_vec3 arm) {
   double rates[3][6];
   rates_of(g, arm, rates);
   return sbri_vec3(
       (float)sbri_dot6(rates[0], g->y), (float)sbri_dot6(rates[1], g->y), (float)sbri_dot6(rates[2], g->y));
 }
 
-void sbri_rigid_external_body_push(sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
+void sbri_rigid_external_body_apply_impulse(sbri_rigid_external_body *g, sbf_vec3 arm, sbf_vec3 impulse) {
   const double p[3] = {(double)impulse.x, (double)impulse.y, (double)impulse.z};
   double rates[3][6];
   rates_of(g, arm, rates);
@@ -136,14 +136,14 @@ void sbri_rigid_solve(sbri_rigid_solving *work) {
   }
 }
 
-/* ---- Passes ---- */
+/* ---- Iterations ---- */
 
-void sbri_rigid_external_bodies_note(sbri_rigid_solving *work) {
+void sbri_rigid_external_bodies_store_solution(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->external_body_count; i++)
     memcpy(work->external_bodies[i].was, work->external_bodies[i].y, sizeof work->external_bodies[i].was);
 }
 
-void sbri_rigid_external_bodies_hold_back(sbri_rigid_solving *work, float fraction) {
+void sbri_rigid_external_bodies_scale_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
     for (int k = 0; k < 6; k++) g->y[k] = g->was[k] + (double)fraction * (g->y[k] - g->was[k]);
@@ -168,7 +168,7 @@ static sbf_vec3 moved_by(float roots[3][3], const double y[3], float fraction) {
   return sbri_vec3(v[0], v[1], v[2]);
 }
 
-void sbri_rigid_external_bodies_take(sbri_rigid_solving *work) {
+void sbri_rigid_external_bodies_apply_solution(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->external_body_count; i++) {
     sbri_rigid_external_body *g = &work->external_bodies[i];
     float root = sqrtf(g->is.lever);

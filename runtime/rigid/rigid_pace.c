@@ -1,6 +1,6 @@
-/* How many steps a tick takes: as many as the model says, more where what is pulled at swings fast or turns
- * fast, fewer in flight, and one where everything has lain or hung still for a while. What soft bodies ask
- * for comes on top (ragdoll/coupled.c). */
+/* Number of steps in a tick: that of the model, more for fast oscillation by joint forces and for fast
+ * rotation, fewer in flight, and one if all bodies have been at rest for a while. Requests of soft bodies are
+ * added (ragdoll/coupled.c). */
 #include "rigid/rigid_work.h"
 
 /* Number of slow ticks after which all bodies count as resting. A swinging body is slow for fewer. */
@@ -8,20 +8,20 @@ enum { LYING_TICKS = 20 };
 
 /* In flight a tick has at least the model's number of substeps divided by this. */
 enum { MAX_FEWER = 4 };
-/* In flight fewer substeps are used again below this fraction of what they allow. */
+/* In flight the number of substeps is reduced only below this fraction of the bound. */
 static const float NEARLY = 0.75f;
 
 /* rad: the greatest rotation of a body in a step, so that an arc is close to its tangent. */
 static const float MAX_TURN = 0.2f;
-/* Greatest angular frequency times step size, from the joint forces of the step itself. It counts where its
- * square is so many times that of the tick before, as with light parts between heavy ones. */
+/* Maximum angular frequency times step size, for joint forces of the step itself. It counts only if its
+ * square has grown by this factor since the previous tick, as for light parts between heavy ones. */
 static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
-/* A bound of what pulls is no smaller for rounding. */
+/* Factor on force bounds against rounding. */
 static const float ROUNDED = 1.001f;
-/* Fraction of its size a second below which a body counts as slow. */
+/* Fraction of its size per second below which a body counts as slow. */
 static const float SLOW_1_S = 0.1f;
 
-float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
+float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
   if (pull->burdens && pull->burdens[body].on) return 1;
   float swell = pull->squares
                     ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MAX_SWING * SBRI_RIGID_MAX_SWING)
@@ -31,17 +31,17 @@ float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s)
 
 /* Rotational stiffness of a body about each of its own axes, from the forces at its joints: a force F at the
  * lever arm r gives r.F - r_i F_i about the axis i. */
-static void add_pull(
+static void add_force_stiffness(
     const sbri_rigid_joint *joint, int side, sbf_quat rotation, sbf_vec3 force, float stiffness[3]) {
   sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(rotation), force);
   if (side == SBRI_A) f = sbri_scale(f, -1);
-  float along = sbri_dot(r, f);
-  stiffness[0] += along - r.x * f.x;
-  stiffness[1] += along - r.y * f.y;
-  stiffness[2] += along - r.z * f.z;
+  float axial = sbri_dot(r, f);
+  stiffness[0] += axial - r.x * f.x;
+  stiffness[1] += axial - r.y * f.y;
+  stiffness[2] += axial - r.z * f.z;
 }
 
-static void find_pulls(
+static void find_force_stiffness(
     const sbri_rigid_tick *t, const sbri_rigid_solving *work, uint32_t b, float stiffness[3]) {
   const sbri_rigid_model *model = t->model;
   const sbri_rigid_body *body = &model->bodies[b];
@@ -49,11 +49,11 @@ static void find_pulls(
   for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
     const sbri_rigid_joint *joint = &model->joints[model->joints_of[k]];
     int side = joint->bodies[SBRI_B] == (int32_t)b ? SBRI_B : SBRI_A;
-    add_pull(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
+    add_force_stiffness(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
   }
 }
 
-/* Nothing is near, nothing holds it, and nothing draws it: weight pulls at no joint. */
+/* Whether no contact, joint to the world or drive acts; gravity causes no joint forces. */
 static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   if (work->rigid_contact_count || work->system.loop_count) return false;
   for (uint32_t e = 0; e < work->system.edge_count; e++)
@@ -68,9 +68,9 @@ static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) 
 }
 
 /* Number of substeps: the model's; 1 where all bodies rest; in flight enough for rotations and swings. */
-static uint32_t min_steps(const sbri_rigid_tick *t, bool lies, bool flies, float steps) {
-  if (lies) return 1;
-  if (!flies) return t->substeps;
+static uint32_t min_steps(const sbri_rigid_tick *t, bool is_resting, bool is_flying_now, float steps) {
+  if (is_resting) return 1;
+  if (!is_flying_now) return t->substeps;
   uint32_t count = t->substeps > MAX_FEWER ? t->substeps / MAX_FEWER : 1;
   while (count < t->substeps && (float)count < steps) count *= 2;
   return count < t->substeps ? count : t->substeps;
@@ -81,7 +81,7 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     float stiffness[3];
     const sbf_vec3 *inverse_mass = &t->model->bodies[work->system.nodes[i].body].inverse_inertia;
-    find_pulls(t, work, work->system.nodes[i].body, stiffness);
+    find_force_stiffness(t, work, work->system.nodes[i].body, stiffness);
     const float squares[3] = {
         stiffness[0] * inverse_mass->x, stiffness[1] * inverse_mass->y, stiffness[2] * inverse_mass->z};
     for (int a = 0; a < 3; a++) fastest = squares[a] > fastest ? squares[a] : fastest;
@@ -90,7 +90,7 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
 }
 
 /* Upper bound of the squared frequency that the edge's force gives its bodies, over all directions. */
-static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_edge *e) {
+static void store_frequency(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_edge *e) {
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   sbf_vec3 pull = work->pulls[e->joint];
   float square = sbri_dot(pull, pull);
@@ -103,21 +103,21 @@ static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const 
   }
 }
 
-bool sbri_rigid_pulls_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+bool sbri_rigid_oscillates_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   sbri_rigid_system *s = &work->system;
   float max = PULLED_SWING / step_s;
   max *= max;
   for (uint32_t i = 0; i < s->node_count; i++) s->nodes[i].pulled = 0;
-  for (uint32_t i = 0; i < s->edge_count; i++) note_pull(t, work, &s->edges[i]);
+  for (uint32_t i = 0; i < s->edge_count; i++) store_frequency(t, work, &s->edges[i]);
   bool may = false;
   for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].pulled > max;
-  if (!may) return false; /* mostly, and directions need not be looked at */
+  if (!may) return false; /* the common case, without checking directions */
   float swings = sbri_rigid_swings(t, work);
   return swings > max && swings > PULLED_MORE * work->swings;
 }
 
-/* Of the fastest body at a joint, rad/s. */
-static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+/* Maximum rotation speed of a body with a joint, rad/s. */
+static float max_rotation_speed(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float fastest = 0;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     if (work->system.nodes[i].edge < 0) continue;
@@ -130,22 +130,26 @@ static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *wo
   return fastest;
 }
 
-uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+uint32_t sbri_rigid_step_count(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   work->swings = sbri_rigid_swings(t, work);
-  float turns = t->tick_s * fastest_turn(t, work) / MAX_TURN;
+  float turns = t->tick_s * max_rotation_speed(t, work) / MAX_TURN;
   float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MAX_SWING;
   float steps = turns > swings ? turns : swings;
-  /* Powers of two. Fewer than before only if a quarter would do, in flight if half would do with a margin, or
-   * if the bodies have landed or taken off: a leapfrog gains energy if its step size changes often. */
-  bool lies = t->drive->slow_ticks >= LYING_TICKS, flies = is_flying(t, work), flew = t->drive->flies;
-  uint32_t count = min_steps(t, lies, flies, steps),
+  /* Powers of two. The number decreases only if a quarter would suffice, in flight if half would suffice with
+   * a margin, or if the bodies have landed or taken off: a leapfrog gains energy if its step size changes
+   * often. */
+  bool is_resting = t->drive->slow_ticks >= LYING_TICKS, is_flying_now = is_flying(t, work),
+       flew = t->drive->flies;
+  uint32_t count = min_steps(t, is_resting, is_flying_now, steps),
            max = t->substeps > SBRI_RIGID_MAX_SUBSTEPS ? t->substeps : SBRI_RIGID_MAX_SUBSTEPS;
   while ((float)count < steps && 2 * count <= max) count *= 2;
-  uint32_t before = t->drive->substeps;
-  bool nearly = flies || work->rigid_contact_count ? steps > NEARLY * (float)count : before < 4 * count;
-  if (!lies && flies == flew && before > count && before <= max && nearly) count = before;
+  uint32_t old_steps = t->drive->substeps;
+  bool nearly =
+      is_flying_now || work->rigid_contact_count ? steps > NEARLY * (float)count : old_steps < 4 * count;
+  if (!is_resting && is_flying_now == flew && old_steps > count && old_steps <= max && nearly)
+    count = old_steps;
   t->drive->substeps = count;
-  t->drive->flies = flies;
+  t->drive->flies = is_flying_now;
   return count;
 }
 

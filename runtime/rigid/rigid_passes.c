@@ -1,17 +1,16 @@
-/* Newton passes over a step's system until the active set is consistent.
+/* Newton iterations over a step's system until the active set is consistent.
  *
- * In each pass contacts, limits and friction are linearised at the changes of velocity of the pass before; in
- * the first pass at those of the step before. From the second pass on a line search follows, also where
- * drives are at their limit or dry friction slips: without it these may cycle with limits. Friction's bounds
- * stay fixed until the rest has converged. Then they are updated from the normal forces, and the passes
- * continue if that changes the result.
- */
+ * In each iteration contacts, limits and friction are linearised at the velocity changes of the previous one;
+ * in the first iteration at those of the previous step. From the second iteration on a line search follows,
+ * also where drives are at their limit or dry friction slips: without it these may cycle with limits.
+ * Friction's bounds stay fixed until the rest has converged. Then they are updated from the normal forces,
+ * and the iterations continue if that changes the result. */
 #include <string.h>
 
 #include "rigid/rigid_work.h"
 
 enum { MAX_PASSES = 40, MAX_BOUNDS = 3 };
-/* Tolerance of rigid_coarse: fraction of the kinetic energy of the step's changes of velocity. */
+/* Tolerance of rigid_coarse: fraction of the kinetic energy of the step's velocity changes. */
 static const double LEFT = 1e-3;
 
 void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
@@ -33,8 +32,8 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   sbri_system_factor(&work->system);
 }
 
-/* Scales the step from the pass before back by that fraction. */
-static void hold_back(sbri_rigid_solving *work, float fraction) {
+/* Reduces the change since the previous iteration to that fraction. */
+static void scale_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
     for (int k = 0; k < 6; k++) node->x[k] = node->was[k] + (double)fraction * (node->x[k] - node->was[k]);
@@ -43,11 +42,11 @@ static void hold_back(sbri_rigid_solving *work, float fraction) {
     sbri_rigid_contact *contact = &work->contacts[i];
     contact->moved = sbri_lerp(contact->was, contact->moved, fraction);
   }
-  sbri_rigid_external_bodies_hold_back(work, fraction);
-  sbri_joint_rows_hold_back(work, fraction);
+  sbri_rigid_external_bodies_scale_back(work, fraction);
+  sbri_joint_rows_scale_back(work, fraction);
 }
 
-/* Of the changes of velocity, J twice. */
+/* Twice the kinetic energy of the velocity changes, J. */
 static double energy_of(const sbri_rigid_tick *t, const sbri_rigid_system *s) {
   double sum = 0;
   for (uint32_t i = 0; i < s->node_count; i++) {
@@ -62,10 +61,10 @@ static double energy_of(const sbri_rigid_tick *t, const sbri_rigid_system *s) {
   return sum;
 }
 
-/* Whether touches do what the last pass had them do, or nearly where that is enough. */
+/* Whether contact impulses agree with their linearisation, or nearly if that suffices. */
 static bool contacts_agree(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  double off = (double)sbri_rigid_contacts_error(work);
-  return off == 0 || (t->coarse && off < LEFT * energy_of(t, &work->system));
+  double difference = (double)sbri_rigid_contacts_error(work);
+  return difference == 0 || (t->coarse && difference < LEFT * energy_of(t, &work->system));
 }
 
 void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
@@ -73,7 +72,7 @@ void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   int bounds = t->coarse ? 0 : MAX_BOUNDS;
   for (int pass = 0; pass < MAX_PASSES; pass++) {
     for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
-    sbri_rigid_external_bodies_note(work);
+    sbri_rigid_external_bodies_store_solution(work);
     for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_set_targets(&s->edges[e]);
     sbri_rigid_factor(t, work);
     sbri_rigid_solve(work);
@@ -81,11 +80,11 @@ void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     sbri_joint_rows_move(work, t->model, step_s);
     bool agree = contacts_agree(t, work), all = agree && sbri_joint_rows_agree(work);
     if (work->external_body_count && pass + 1 == MAX_PASSES && !all) {
-      sbri_rigid_contacts_take_solution(work); /* else the host's bodies got what the hulls did not give */
+      sbri_rigid_contacts_keep_solution(work); /* external bodies must get the impulses that the hulls get */
       return;
     }
     float fraction = pass > 0 && !all ? sbri_rigid_search(t, work, step_s) : 1;
-    if (fraction < 1) hold_back(work, fraction);
+    if (fraction < 1) scale_back(work, fraction);
     bool changed = !agree || fraction < 1;
     if (changed) sbri_rigid_contacts_check(work);
     for (uint32_t e = 0; e < s->edge_count; e++)

@@ -1,23 +1,23 @@
-/* Line search between two passes.
+/* Line search between two iterations.
  *
- * With fixed friction bounds, contacts, drives and springs have an energy of the changes of velocity which is
- * convex together with the kinetic energy. A pass is a Newton step towards its minimum, as if no contact
- * changed its state on the way (Todorov, Convex and analytically-invertible dynamics with contacts and
- * constraints, 2014). The search finds where the slope along the step is 0. With it the passes converge;
- * without it they may cycle. */
+ * With fixed friction bounds, contacts, drives and springs have an energy of the velocity changes which is
+ * convex together with the kinetic energy. An iteration is a Newton step towards its minimum, as if no
+ * contact changed its state on the way (Todorov, Convex and analytically-invertible dynamics with contacts
+ * and constraints, 2014). The search finds where the slope along the step is 0. With it the iterations
+ * converge; without it they may cycle. */
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-/* Enough evaluations to find where friction begins to stick: in a hard hit it changes sign within 0.05 mm/s
- * of metres a second. A search that ends earlier makes the passes oscillate around that point. The last
- * evaluations are bisections: where the slope is steep on one side and flat on the other, the secant method
- * stalls. */
+/* Enough evaluations to find where friction begins to stick: in a hard impact it changes sign within 0.05
+ * mm/s of metres per second. A search that ends earlier makes the iterations oscillate around that point. The
+ * last evaluations are bisections: where the slope is steep on one side and flat on the other, the secant
+ * method stalls. */
 enum { SECANTS = 20, SEARCHES = 60 };
-/* Of the slope at the begin, what may be left. */
+/* Remaining slope at convergence, as a fraction of the initial one. */
 static const float LEVEL = 0.01f;
 /* The slope at the end above which the step is too long, as a fraction of that at its beginning. */
 static const float FAR = 0.3f;
-/* And of the energy that weight gives all bodies in a step from rest. */
+/* Tolerance as a fraction of the kinetic energy that gravity gives all bodies in a step from rest. */
 static const double TRIFLE = 1e-5;
 
 static void add_attached(const sbri_rigid_solving *work, const sbri_edge *e, double *slope, double *rise) {
@@ -79,9 +79,9 @@ static void find_slope(
   sbri_rigid_external_bodies_compute_slope(work, slope, rise);
 }
 
-/* A unilateral row and its friction along the step: `into` changes from its initial value by -`travel`, and
- * the force is proportional to it. Friction changes from P by -G, up to its bound; the squares of both and
- * the grip are stored. */
+/* Adds limits: a unilateral row along the step. `into` changes from its initial value by -`distance`, and the
+ * force is proportional to it. Friction changes from P by -G, up to its bound; the squares of both and the
+ * grip are stored. */
 static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -97,7 +97,7 @@ static void add_limits(sbri_rigid_solving *work) {
 }
 
 /* Slope from contacts and limits at that fraction of the step. */
-static double pushed(const sbri_rigid_solving *work, double fraction) {
+static double slope_of_contacts(const sbri_rigid_solving *work, double fraction) {
   double sum = 0;
   for (uint32_t i = 0; i < work->push_count; i++) {
     const sbri_contact_search *p = &work->pushes[i];
@@ -112,11 +112,12 @@ static double pushed(const sbri_rigid_solving *work, double fraction) {
   return sum;
 }
 
-static double moved_by_weight(const sbri_rigid_tick *t, const sbri_rigid_solving *work, float step_s) {
+static double gravity_energy(const sbri_rigid_tick *t, const sbri_rigid_solving *work, float step_s) {
   double mass = 0, speed = (double)(sbri_length(t->gravity) * step_s);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     mass += (double)t->model->bodies[work->system.nodes[i].body].mass;
-  for (uint32_t i = 0; i < work->external_body_count; i++) { /* to which a trifle of the bodies' is none */
+  for (uint32_t i = 0; i < work->external_body_count;
+       i++) { /* its energy is negligible compared with the bodies' */
     double light = 1 / (double)work->external_bodies[i].is.max_inverse_mass;
     mass = light < mass ? light : mass;
   }
@@ -129,9 +130,9 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   work->push_count = 0;
   sbri_rigid_contacts_find_changes(work);
   add_limits(work);
-  double first = slope - pushed(work, 0);
-  double last = slope + rise - pushed(work, 1), level = -(double)LEVEL * first;
-  double min_level = TRIFLE * moved_by_weight(t, work, step_s);
+  double first = slope - slope_of_contacts(work, 0);
+  double last = slope + rise - slope_of_contacts(work, 1), level = -(double)LEVEL * first;
+  double min_level = TRIFLE * gravity_energy(t, work, step_s);
   if (level < min_level) level = min_level;
   if (!(first < 0) || last <= level || last <= -(double)FAR * first) return 1;
   float low = 0, high = 1;
@@ -139,12 +140,12 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     float fraction = low + (high - low) * (float)(first / (first - last));
     float min = low + 0.02f * (high - low), max = high - 0.02f * (high - low);
     fraction = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(fraction, min, max);
-    double here = slope + (double)fraction * rise - pushed(work, (double)fraction);
+    double here = slope + (double)fraction * rise - slope_of_contacts(work, (double)fraction);
     if (here >= 0 && here <= level) return fraction;
     if (here < 0)
       low = fraction, first = here;
     else
       high = fraction, last = here;
   }
-  return high; /* beyond what stopped it there, so that the next pass sees that */
+  return high; /* beyond the discontinuity, so that the next iteration sees it */
 }

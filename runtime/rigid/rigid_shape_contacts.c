@@ -7,7 +7,7 @@
 #include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
 
-/* Touches that shapes may give a body, of the room that there is for all. */
+/* Maximum number of shape contacts of a body, within the capacity for all. */
 enum { MAX_TRIANGLES = 64 };
 
 /* Contact margin: a fraction of the body's size, on top of its displacement in the tick. */
@@ -23,10 +23,10 @@ typedef struct shape_pair {
   sbri_collider_frame frame;
   uint32_t collider;
   sbri_placed_hull hull; /* in the shape's frame and lengths */
-  float reach, radius;   /* likewise */
+  float reach, radius;   /* in the same units */
 } shape_pair;
 
-/* A place of the hull over one of the shape, both in the shape's frame. */
+/* Adds a contact of a hull point and a shape point, both in the shape's frame. */
 static void add_contact(const shape_pair *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf_vec3 normal) {
   if (m->work->rigid_contact_count >= m->work->max_contacts) return;
   const sbri_collider *c = m->frame.collider;
@@ -58,9 +58,9 @@ static sbf_vec3 vertex(const shape_pair *m, uint32_t i) {
       m->hull.at, sbri_rotate(m->hull.rotation, sbri_scale(m->hull.hull->vertices[i], m->hull.scale)));
 }
 
-/* ---- Round and endless shapes ---- */
+/* ---- Round and infinite shapes ---- */
 
-/* How far x is from the hull. */
+/* Distance of x from the hull. */
 static float hull_distance(const shape_pair *m, sbf_vec3 x, sbf_vec3 *position, sbf_vec3 *normal) {
   sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(m->hull.rotation), sbri_sub(x, m->hull.at));
   float gap = sbri_hull_nearest(m->hull.hull, sbri_scale(own, 1 / m->hull.scale), position, normal);
@@ -69,7 +69,7 @@ static float hull_distance(const shape_pair *m, sbf_vec3 x, sbf_vec3 *position, 
   return gap * m->hull.scale;
 }
 
-/* A ball about `middle`, against the hull's surface. */
+/* Contact of a sphere with the hull. */
 static void collide_ball(const shape_pair *m, sbf_vec3 middle) {
   sbf_vec3 on_hull, normal;
   float radius = m->frame.collider->shape->radius;
@@ -83,8 +83,8 @@ static float distance_at(const shape_pair *m, float y) {
   return hull_distance(m, sbri_vec3(0, y, 0), &position, &normal);
 }
 
-/* Both ends, and the place between that is nearest: the distance to a convex thing has one least place along
- * a line (golden section). */
+/* Both ends, and the nearest point between them: the distance to a convex shape has a single minimum along a
+ * line (golden section search). */
 static void collide_capsule(const shape_pair *m) {
   const float golden = 0.618034f, half = m->frame.collider->shape->half_sizes.y;
   float low = -half, high = half;
@@ -136,7 +136,7 @@ static void collide_triangle(const shape_pair *m, const sbf_vec3 at[3]) {
   sbri_placed_hull triangle = {&flat, {0, 0, 0}, {0, 0, 0, 1}, 1};
   sbri_hull_pair pair;
   if (!sbri_collide_hulls(&m->hull, &triangle, m->reach, &pair)) return;
-  if (sbri_dot(pair.normal, n) < 0.1f) { /* sideways, as between two triangles of one plane, or behind */
+  if (sbri_dot(pair.normal, n) < 0.1f) { /* sideways, as between coplanar triangles, or behind */
     if (sbri_dot(pair.normal, n) < -0.1f && pair.gap > 0) return;
     pair.normal = n;
     for (uint32_t i = 0; i < pair.count; i++)
@@ -159,7 +159,7 @@ static void collide_triangles(const shape_pair *m) {
   }
 }
 
-/* ---- All ---- */
+/* ---- All shapes ---- */
 
 /* Where the centre's path enters the shape: the plane there, for the hull's extreme point in that direction.
  */

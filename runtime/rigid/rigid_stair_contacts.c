@@ -1,8 +1,8 @@
 /* Hulls against the built-in stairs. A height function alone has no risers and no nosings.
  *
- * Stairs are the union of one quadrant a step: everything below its tread and behind its riser. A hull
+ * Stairs are the union of one quadrant per step: everything below its tread and behind its riser. A hull
  * collides with each quadrant near it as with any other hull (rigid_shape_contacts.c), so it rests across
- * nosings and leans on risers. A quadrant has one edge and no bottom: there is nothing else to catch on. */
+ * nosings and leans on risers. A quadrant has one edge and no bottom, so nothing else can catch a hull. */
 #include "collide/ground.h"
 #include "collide/hull_pair.h"
 #include "rigid/rigid_work.h"
@@ -11,7 +11,7 @@
 static const float NEAR_FRACTION = 0.02f;
 /* Extent of the part of a quadrant that is tested, in sizes of the body. */
 static const float PIECE = 6;
-/* A body over more steps than that sees but heights: to it they are a slope. */
+/* A body across more steps than this uses the height function: at its size, stairs are a slope. */
 enum { MAX_STEPS = 12 };
 
 /* y below 0, z above 0, and as wide. */
@@ -44,7 +44,7 @@ typedef struct stairs {
   double rise, run; /* m, world */
 } stairs;
 
-/* Where the edge of a step's quadrant is, in the character's lengths. */
+/* Position of the edge of a step's quadrant, in the character's units. */
 static sbf_vec3 edge_of(const stairs *s, int64_t step, float x) {
   const sbri_rigid_tick *t = s->tick;
   double z = s->run * (double)(s->rise > 0 ? step : step + 1);
@@ -52,7 +52,7 @@ static sbf_vec3 edge_of(const stairs *s, int64_t step, float x) {
       (float)((z - t->origin.z) / (double)t->scale));
 }
 
-/* Which step is at a place; none is before the first. */
+/* Index of the step at a position; below the first one: 0. */
 static int64_t step_at(const stairs *s, float z) {
   double world = (s->tick->origin.z + (double)(s->tick->scale * z)) / s->run;
   int64_t step = world < 1e9 ? (int64_t)(world > 0 ? world : 0) : 1000000000;
@@ -84,12 +84,12 @@ static void collide_step(
   sbf_vec3 x = pose->position;
   sbri_placed_hull hull = {&body->hull, x, pose->rotation, 1};
   sbri_placed_hull piece = {&quadrant, edge_of(s, step, x.x), {0, 0, 0, 1}, PIECE * body->radius};
-  bool level = s->rise > 0 && step == 0; /* before the first riser there is none */
+  bool level = s->rise > 0 && step == 0; /* nothing is in front of the first riser */
   if (level) piece.at.z = x.z - 0.5f * piece.scale;
   if (s->rise < 0) piece.rotation = (sbf_quat){0, 1, 0, 0};
   float above = x.y - piece.at.y, before = s->rise < 0 ? x.z - piece.at.z : piece.at.z - x.z;
   if (above > body->radius + reach || before > body->radius + reach) return;
-  /* Deep below the edge and far behind it: that of a step that bears it. */
+  /* Far below and behind the edge: belongs to a step that supports it. */
   if (-above > 0.5f * piece.scale || -before > 0.5f * piece.scale + body->radius) return;
   sbri_hull_pair pair;
   if (sbri_collide_hulls(&hull, &piece, reach, &pair)) add_pair(s, work, b, node, step, &pair);
@@ -111,5 +111,5 @@ bool sbri_rigid_stair_contacts_find(
   uint32_t before = work->rigid_contact_count;
   for (int64_t step = first; step <= last; step++) collide_step(&s, work, b, node, step, reach);
   return work->rigid_contact_count > before ||
-         travel <= max; /* what is fast may be through before it is near */
+         travel <= max; /* fast bodies might pass through before they are near */
 }

@@ -105,7 +105,8 @@ typedef struct sbri_rigid_burden {
 
 /* External forces on the bodies. `act` is called before each step over a fraction of the tick, with the
  * seconds over which gravity acts in it; it adds impulses to linear and angular velocities
- * (sbri_rigid_swell). `acted` is called after the step, with its seconds and those over which gravity acted.
+ * (sbri_rigid_mass_factor). `acted` is called after the step, with its seconds and those over which gravity
+ * acted.
  */
 typedef struct sbri_rigid_pull {
   void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
@@ -144,7 +145,7 @@ uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model);
 
 /* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
  * heavier, to all but weight. */
-float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s);
+float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s);
 
 /* Moments of inertia of a rotated body, in space. */
 void sbri_rigid_compute_moments(sbf_vec3 own, sbf_quat rotation, float to[3][3]);

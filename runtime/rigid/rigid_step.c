@@ -1,13 +1,15 @@
 /* One tick of a character's rigid parts, in small steps.
  *
- * A step is a leapfrog with constraints, SHAKE for bodies that turn (Ryckaert, Ciccotti, Berendsen, Numerical
+ * A step is a leapfrog with constraints: SHAKE for rotating bodies (Ryckaert, Ciccotti, Berendsen, Numerical
  * integration of the Cartesian equations of motion of a system with constraints, 1977; Kol, Laird,
- * Leimkuhler, A symplectic method for rigid-body molecular simulation, 1997): velocities take up weight, then
- * the impulses of the joints along their directions at the step's begin, such that the joints hold at the
- * step's END; so a pendulum neither gains nor loses by the step's size. The impulses follow from a linear
- * system (rigid_system.h) that is solved exactly, and once more with what the way along an arc has left. No
- * impulse is summed over sweeps. Which limits and touches push is found in a few passes over the same system
- * (rigid_passes.c), of which the first goes by what pushed in the step before. */
+ * Leimkuhler, A symplectic method for rigid-body molecular simulation, 1997). Gravity changes velocities,
+ * then joint impulses act along their directions at the beginning of the step, such that the joints hold at
+ * its END. So a pendulum neither gains nor loses energy by the step size.
+ *
+ * The impulses follow from a linear system (rigid_system.h) that is solved exactly, and once more for the
+ * error that rotation along an arc leaves. No impulse is accumulated over sweeps. A few iterations over the
+ * same system find the active limits and contacts (rigid_passes.c); the first one starts from those of the
+ * previous step. */
 #include <string.h>
 
 #include "math/quat_log.h"
@@ -15,23 +17,22 @@
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { MAX_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
-/* With shapes, beside its vertices with the ground. */
+enum { MAX_CORRECTIONS = 4, CONTACT_HALVINGS = 4 };
+/* Capacity of contacts with shapes, in addition to vertices on the ground. */
 enum { CONTACTS_OF_BODY = 24 };
-/* Copies of the host's bodies that have a mass; those beyond them are taken for what nothing moves. */
+/* Capacity of external bodies; further ones are treated as immovable. */
 enum { EXTERNAL_BODIES = 6, EXTERNAL_BODIES_OF_BODY = 2 };
 
-/* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
- * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
+/* Maximum joint error at the end of a step, in m and rad, before it is corrected again; and before the first
+ * correction if the step was predicted (sbri_rigid_predicts_arcs). */
 typedef struct tolerance {
   float fine, fine_at_once;
   float curved_foreseen;
 } tolerance;
 static const tolerance EXACT = {2e-5f, 5e-6f, 1e-2f}, ROUGH = {1e-4f, 1e-4f, 2e-2f};
-/* And before the step is taken again in halves. */
+/* Error above which the step is repeated in halves. */
 static const float COARSE = 3e-4f;
-/* m and rad: distance between arcs and their tangents, or from the prediction, above which a step is halved.
- */
+/* m and rad: initial error, or deviation from the prediction, above which a step is halved. */
 static const float CURVED = 3e-3f;
 
 /* ---- Memory ---- */
@@ -42,8 +43,9 @@ static void *carve(unsigned char **memory, size_t count, size_t size) {
   return at;
 }
 
-/* Lays the arrays out from `memory` on; returns how much they take. The edges' arrays follow their joints. */
-static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_solving *work) {
+/* Places the arrays from `memory` on; returns their size. The edges' arrays are in the order of their joints.
+ */
+static size_t place_arrays(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_solving *work) {
   unsigned char *at = memory;
   size_t bodies = m->body_count, joints = m->joint_count, rows = m->row_count,
          loop_rows = m->loop_row_capacity;
@@ -87,10 +89,10 @@ uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model) {
 size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
   sbri_rigid_solving work;
   unsigned char none[16];
-  return model->body_count ? lay_out(model, none, &work) : 0;
+  return model->body_count ? place_arrays(model, none, &work) : 0;
 }
 
-static void give_edges_memory(const sbri_rigid_model *m, sbri_rigid_solving *work) {
+static void assign_edge_arrays(const sbri_rigid_model *m, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     sbri_edge *e = &work->system.edges[i];
     const sbri_rigid_joint *joint = &m->joints[e->joint];
@@ -105,37 +107,36 @@ static void give_edges_memory(const sbri_rigid_model *m, sbri_rigid_solving *wor
 
 /* ---- Motions ---- */
 
-static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float t) {
+static sbr_transform blend(const sbr_transform *a, const sbr_transform *b, float t) {
   return (sbr_transform){
       sbri_lerp(a->position, b->position, t), sbri_quat_blend(a->rotation, b->rotation, t)};
 }
 
-static void follow(sbri_part_motion *m, const sbr_transform *begin, const sbr_transform *end, float from,
+static void interpolate(sbri_part_motion *m, const sbr_transform *begin, const sbr_transform *end, float from,
     float to, float step_s) {
-  m->from = between(begin, end, from), m->to = between(begin, end, to);
+  m->from = blend(begin, end, from), m->to = blend(begin, end, to);
   m->fine_from = m->fine_to = sbri_vec3(0, 0, 0);
   m->velocity = sbri_scale(sbri_sub(m->to.position, m->from.position), 1 / step_s);
   sbf_quat rotation = sbri_quat_multiply(m->to.rotation, sbri_quat_conjugate(m->from.rotation));
   m->turn = sbri_scale(sbri_quat_log(rotation), 1 / step_s);
 }
 
-/* Where a body goes with the velocity that it has. */
-static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float step_s) {
+/* Predicts a body's position at its present velocity. */
+static void predict_position(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float step_s) {
   sbri_rigid_body_state *s = &t->bodies[b];
   m->velocity = s->velocity;
-  sbf_vec3 displacement =
-      sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
+  sbf_vec3 displacement = sbri_add_scaled(m->fine_from, s->velocity, step_s); /* compensated sum */
   m->to.position = sbri_add(m->from.position, displacement);
   m->fine_to = sbri_sub(displacement, sbri_sub(m->to.position, m->from.position));
 }
 
-/* All simulated bodies; rotations eight lanes at a time. */
+/* All simulated bodies; one rotation per lane. */
 static void advance_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   const sbri_node *nodes = work->system.nodes;
   uint32_t count = work->system.node_count;
   for (uint32_t i = 0; i < count; i += SBRI_LANES) {
     sbri_free_turning turning;
-    for (uint32_t k = 0; k < SBRI_LANES; k++) { /* the last fills what lanes are left */
+    for (uint32_t k = 0; k < SBRI_LANES; k++) { /* the last block repeats a body in unused lanes */
       uint32_t b = nodes[i + k < count ? i + k : count - 1].body;
       sbri_free_turning_put(&turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation,
           t->bodies[b].angular_momentum);
@@ -144,7 +145,7 @@ static void advance_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     for (uint32_t k = 0; k < SBRI_LANES && i + k < count; k++) {
       uint32_t b = nodes[i + k].body;
       sbri_part_motion *m = &work->motions[b];
-      go(t, b, m, step_s);
+      predict_position(t, b, m, step_s);
       m->turn = sbri_vec3(
           turning.angular_momentum[0][k], turning.angular_momentum[1][k], turning.angular_momentum[2][k]);
       m->to.rotation = (sbf_quat){turning.x[k], turning.y[k], turning.z[k], turning.w[k]};
@@ -165,16 +166,16 @@ void sbri_rigid_compute_moments(sbf_vec3 own, sbf_quat rotation, float to[3][3])
       to[i][j] = to[j][i] = m[0][i] * a[0][j] + m[1][i] * a[1][j] + m[2][i] * a[2][j];
 }
 
-/* `from` and `to`: shares of the tick. */
+/* `from` and `to`: fractions of the tick. */
 static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   const sbri_rigid_model *model = t->model;
-  /* Velocities are those of the middle of the step before. */
+  /* Velocities belong to the middle of the previous step. */
   float step_s = t->tick_s * (to - from);
   work->kick_s = 0.5f * (work->last_step_s + step_s);
   for (uint32_t b = 0; b < model->body_count; b++) {
     sbri_part_motion *m = &work->motions[b];
     if (m->node < 0) {
-      follow(m, &work->begins[b], &t->targets[b], from, to, step_s);
+      interpolate(m, &work->begins[b], &t->targets[b], from, to, step_s);
       continue;
     }
     sbri_rigid_body_state *s = &t->bodies[b];
@@ -186,7 +187,7 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     const sbf_vec3 *inverse_mass = &model->bodies[b].inverse_inertia;
     node->inverse_mass[0] = model->bodies[b].inverse_mass;
     node->inverse_mass[1] = (inverse_mass->x + inverse_mass->y + inverse_mass->z) / 3;
-    node->swell = sbri_rigid_swell(&t->pull, b, step_s);
+    node->swell = sbri_rigid_mass_factor(&t->pull, b, step_s);
     node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
@@ -194,10 +195,10 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
   advance_all(t, work, step_s);
 }
 
-/* ---- A step ---- */
+/* ---- Steps ---- */
 
-/* Gives the bodies the changes of velocity that were solved for. */
-static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+/* Applies the solved velocity changes to the bodies. */
+static void apply_solution(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
     sbri_rigid_body_state *s = &t->bodies[node->body];
@@ -210,11 +211,11 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     s->angular_momentum = sbri_add(
         s->angular_momentum, sbri_vec3(angular_momentum[0], angular_momentum[1], angular_momentum[2]));
   }
-  sbri_rigid_external_bodies_take(work);
+  sbri_rigid_external_bodies_apply_solution(work);
 }
 
-static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
-  take(t, work);
+static void apply_and_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  apply_solution(t, work);
   advance_all(t, work, step_s);
 }
 
@@ -225,7 +226,7 @@ static void clear_b(sbri_rigid_solving *work) {
     memset(work->external_bodies[i].b, 0, sizeof work->external_bodies[i].b);
 }
 
-/* What an edge has done to body b in the step: an impulse, and a moment about the joint's place on b. */
+/* Impulse of an edge on body b in the step, and its moment about the joint's point on b. */
 static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, sbf_vec3 *moment) {
   sbf_vec3 impulse = {0, 0, 0}, about = {0, 0, 0},
            arm = work->joint_frames[e - work->system.edges].arms[SBRI_B];
@@ -243,18 +244,18 @@ static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, s
   return sbri_add(impulse, sbri_vec3((float)i[0], (float)i[1], (float)i[2]));
 }
 
-/* Notes what pulls in the step; whether that lets some body swing too fast for it. */
+/* Stores joint forces. Returns whether they make a body oscillate too fast for the step size. */
 static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
-  if (work->rigid_contact_count) return false; /* what strikes pulls for a step alone */
+  if (work->rigid_contact_count) return false; /* impact forces last for one step only */
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
     work->pulls[e->joint] = sbri_scale(impulse, 1 / work->kick_s);
   }
-  return sbri_rigid_pulls_too_fast(t, work, step_s);
+  return sbri_rigid_oscillates_too_fast(t, work, step_s);
 }
 
-static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+static void store_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float rate = 1 / t->tick_s;
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -268,7 +269,7 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work
   }
 }
 
-static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+static void apply_restitution(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   if (work->external_body_count) {
     sbri_rigid_external_bodies_update_seen(work);
     sbri_rigid_factor(t, work);
@@ -279,79 +280,79 @@ static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
   if (!any) return;
   sbri_rigid_solve(work);
-  sbri_system_note(&work->system);
+  sbri_system_add_impulses(&work->system);
   sbri_rigid_contacts_apply_impulse(work);
-  take(t, work);
+  apply_solution(t, work);
 }
 
 /* One step over that fraction of the tick. Returns whether the joints hold at its end. */
 static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
-  float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
+  float step_s = t->tick_s * (to - from), max_error = 0, first_error = 0;
   sbri_rigid_system *s = &work->system;
   begin_step(t, work, from, to);
   sbri_rigid_contacts_linearise(t, work, t->tick_s * from, step_s);
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
   sbri_rigid_iterate(t, work, step_s);
-  sbri_system_note(s);
-  take_and_go(t, work, step_s);
-  bool foresees = sbri_rigid_foresees(t, work);
+  sbri_system_add_impulses(s);
+  apply_and_advance(t, work, step_s);
+  bool predicts_arcs = sbri_rigid_predicts_arcs(t, work);
   const tolerance *max = t->coarse ? &ROUGH : &EXACT;
   for (int pass = 0; pass < MAX_CORRECTIONS && s->edge_count; pass++) {
-    worst = 0;
+    max_error = 0;
     for (uint32_t e = 0; e < s->edge_count; e++) {
-      float off = sbri_joint_rows_correct(t, work, e, step_s);
-      worst = off > worst ? off : worst;
+      float error = sbri_joint_rows_correct(t, work, e, step_s);
+      max_error = error > max_error ? error : max_error;
     }
-    if (pass == 0) curved = worst;
-    if (worst < (pass > 0 ? max->fine : foresees ? max->fine_at_once : 0)) break;
+    if (pass == 0) first_error = max_error;
+    if (max_error < (pass > 0 ? max->fine : predicts_arcs ? max->fine_at_once : 0)) break;
     clear_b(work);
     sbri_rigid_solve(work);
-    sbri_system_note(s);
+    sbri_system_add_impulses(s);
     sbri_rigid_contacts_apply_impulse(work);
-    take_and_go(t, work, step_s);
+    apply_and_advance(t, work, step_s);
   }
-  return worst < COARSE && curved < (foresees ? max->curved_foreseen : CURVED) &&
+  return max_error < COARSE && first_error < (predicts_arcs ? max->curved_foreseen : CURVED) &&
          !is_too_fast(t, work, step_s);
 }
 
-static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {
-  sbri_rigid_body_state *kept = work->kept + (size_t)depth * t->model->body_count;
+static void store_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {
+  sbri_rigid_body_state *stored = work->kept + (size_t)depth * t->model->body_count;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
-    *(restore ? &t->bodies[b] : &kept[b]) = *(restore ? &kept[b] : &t->bodies[b]);
+    *(restore ? &t->bodies[b] : &stored[b]) = *(restore ? &stored[b] : &t->bodies[b]);
   }
 }
 
 /* A step; if the joints do not hold at its end, as when a whip cracks, two steps of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
-  int max = work->rigid_contact_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
-  keep_bodies(t, work, depth, false);
+  int max = work->rigid_contact_count ? CONTACT_HALVINGS : SBRI_RIGID_HALVINGS;
+  store_bodies(t, work, depth, false);
   if (!step(t, work, from, to) && depth + 1 < max) {
-    keep_bodies(t, work, depth, true);
+    store_bodies(t, work, depth, true);
     float middle = 0.5f * (from + to);
     substep(t, work, from, middle, depth + 1);
     substep(t, work, middle, to, depth + 1);
     return;
   }
   work->last_step_s = t->tick_s * (to - from);
-  throw_back(t, work);
+  apply_restitution(t, work);
   sbri_rigid_contacts_report(t, work);
   sbri_rigid_external_bodies_end_step(work, work->last_step_s);
-  note_forces(t, work);
+  store_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
     t->bodies[b].pose = work->motions[b].to, t->bodies[b].fine = work->motions[b].fine_to;
   }
 }
 
-/* The joints' pulls on bodies that have just begun to move, by short steps that are then taken back: the
- * first passes on a push that one of them was given, which is no pull, and the second has what is left. */
-static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+/* Joint forces of bodies that have just begun to move, from two short steps that are then undone. The first
+ * one transmits initial impulses, which are not forces; the second one shows the remaining forces. */
+static void probe_joint_forces(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   const float fraction = 1 / (float)SBRI_RIGID_MAX_SUBSTEPS;
   work->last_step_s = fraction * t->tick_s;
-  keep_bodies(t, work, 0, false);
+  store_bodies(t, work, 0, false);
   for (int k = 0; k < 2; k++) (void)step(t, work, 0, fraction);
-  keep_bodies(t, work, 0, true);
+  store_bodies(t, work, 0, true);
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
@@ -371,11 +372,11 @@ static void break_joints(const sbri_rigid_tick *t) {
 }
 
 void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  lay_out(t->model, t->work, work);
-  sbri_part_motion *still = &work->motions[t->model->body_count];
-  *still = (sbri_part_motion){.from = t->anchor, .to = t->anchor};
+  place_arrays(t->model, t->work, work);
+  sbri_part_motion *anchor = &work->motions[t->model->body_count];
+  *anchor = (sbri_part_motion){.from = t->anchor, .to = t->anchor};
   sbri_rigid_tree_make(t, work);
-  give_edges_memory(t->model, work);
+  assign_edge_arrays(t->model, work);
   for (uint32_t b = 0; b < t->model->body_count; b++) work->begins[b] = t->bodies[b].pose;
   for (uint32_t j = 0; j < t->model->joint_count; j++)
     work->pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
@@ -383,17 +384,17 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
   sbri_rigid_shape_contacts_find(t, work);
   sbri_stored_contacts_apply(t, work);
   work->last_step_s = t->drive->last_step_s;
-  if (work->last_step_s == 0 && work->system.node_count) probe_pulls(t, work);
-  t->substeps = sbri_rigid_pace(t, work);
+  if (work->last_step_s == 0 && work->system.node_count) probe_joint_forces(t, work);
+  t->substeps = sbri_rigid_step_count(t, work);
   if (t->substeps < t->pull.steps) t->substeps = t->pull.steps;
 }
 
 void sbri_rigid_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   if (!work->system.node_count) return;
-  float before_s = work->last_step_s, step_s = t->tick_s * (to - from);
-  if (t->pull.act) t->pull.act(t->pull.user, t, from, to, 0.5f * (before_s + step_s));
+  float old_step_s = work->last_step_s, step_s = t->tick_s * (to - from);
+  if (t->pull.act) t->pull.act(t->pull.user, t, from, to, 0.5f * (old_step_s + step_s));
   substep(t, work, from, to, 0);
-  float weight_s = step_s + 0.5f * (before_s - work->last_step_s);
+  float weight_s = step_s + 0.5f * (old_step_s - work->last_step_s);
   if (t->pull.acted) t->pull.acted(t->pull.user, t, step_s, weight_s);
 }
 
@@ -401,7 +402,7 @@ void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (work->motions[b].node >= 0) continue;
     sbri_part_motion all;
-    follow(&all, &work->begins[b], &t->targets[b], 0, 1, t->tick_s);
+    interpolate(&all, &work->begins[b], &t->targets[b], 0, 1, t->tick_s);
     t->bodies[b].pose = t->targets[b], t->bodies[b].fine = sbri_vec3(0, 0, 0);
     t->bodies[b].velocity = all.velocity;
     t->bodies[b].angular_momentum =

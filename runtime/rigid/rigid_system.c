@@ -21,13 +21,13 @@ void sbri_edge_list_active(sbri_edge *e) {
     if (e->rows[r].active) e->actives[e->active_count++] = (uint16_t)r;
 }
 
-/* The side of an edge that is the node. */
+/* The side of an edge at the node. */
 static int side_of(const sbri_edge *e, int32_t node) {
   return e->nodes[SBRI_B] == node ? SBRI_B : SBRI_A;
 }
 
-/* Cholesky factorisation of (count x count), lower, as sbri_sym6_factor. A row whose pivot is below its
- * `least`, or, where that is NULL, below a fraction of its diagonal, gets the pivot 0. */
+/* Cholesky factorisation of (count x count), lower, as in sbri_sym6_factor. A row whose pivot is below its
+ * `min`, or, if that is NULL, below a fraction of its diagonal, gets the pivot 0. */
 static void factor_dense(double *a, uint32_t count, const double *min) {
   for (uint32_t k = 0; k < count; k++) {
     double *row = a + (size_t)k * count, own = row[k];
@@ -52,7 +52,7 @@ static void forward_dense(const double *l, uint32_t count, double *b) {
   }
 }
 
-static void back_dense(const double *l, uint32_t count, double *b) {
+static void solve_back_dense(const double *l, uint32_t count, double *b) {
   for (uint32_t i = count; i-- > 0;) {
     double sum = b[i];
     for (uint32_t j = i + 1; j < count; j++) sum -= l[(size_t)j * count + i] * b[j];
@@ -109,24 +109,24 @@ static void forward_node(sbri_rigid_system *s, sbri_node *node, bool with_rhs) {
     sbri_add6(s->nodes[node->parent].b, e->w + 6 * (size_t)r, e->t[r]);
 }
 
-static void back_node(sbri_rigid_system *s, sbri_node *node, bool keep) {
+static void solve_back_node(sbri_rigid_system *s, sbri_node *node, bool keeps_impulses) {
   memcpy(node->x, node->b, sizeof node->x);
   if (node->edge >= 0) {
     sbri_edge *e = &s->edges[node->edge];
     for (uint32_t r = 0; node->parent >= 0 && r < e->active_count; r++)
       e->t[r] -= sbri_dot6(e->w + 6 * (size_t)r, s->nodes[node->parent].x);
-    back_dense(e->g, e->active_count, e->t);
+    solve_back_dense(e->g, e->active_count, e->t);
     for (uint32_t r = 0; r < e->active_count; r++) {
       sbri_add6(node->x, e->y + 6 * (size_t)r, e->t[r]);
-      if (keep) e->rows[e->actives[r]].impulse += (float)e->t[r];
+      if (keeps_impulses) e->rows[e->actives[r]].impulse += (float)e->t[r];
     }
   }
   sbri_sym6_solve_back(node->d, node->x);
 }
 
-/* Of the nodes' b, to their x; `with_rhs` of the edges, else as if that were 0; rows of the tree may keep
- * their impulses. */
-static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
+/* Solves from the nodes' b to their x; `with_rhs`: with the edges' right-hand sides, else with 0;
+ * `keeps_impulses`: stores the impulses of rows. */
+static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keeps_impulses) {
   for (uint32_t i = 0; i < s->step_count; i++)
     if (s->steps[i].pair)
       sbri_balls_solve_forward(s->steps[i].pair, with_rhs);
@@ -134,9 +134,9 @@ static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
       forward_node(s, s->steps[i].node, with_rhs);
   for (uint32_t i = s->step_count; i-- > 0;)
     if (s->steps[i].pair)
-      sbri_balls_solve_back(s->steps[i].pair, keep);
+      sbri_balls_solve_back(s->steps[i].pair, keeps_impulses);
     else
-      back_node(s, s->steps[i].node, keep);
+      solve_back_node(s, s->steps[i].node, keeps_impulses);
 }
 
 /* ---- Loops ---- */
@@ -145,26 +145,26 @@ static void clear_b(sbri_rigid_system *s) {
   for (uint32_t i = 0; i < s->node_count; i++) memset(s->nodes[i].b, 0, sizeof s->nodes[i].b);
 }
 
-static void keep_b(sbri_rigid_system *s, double *kept, bool restore) {
+static void store_b(sbri_rigid_system *s, double *kept, bool restore) {
   for (uint32_t i = 0; i < s->node_count; i++)
     memcpy(
         restore ? s->nodes[i].b : kept + 6 * i, restore ? kept + 6 * i : s->nodes[i].b, sizeof s->nodes[i].b);
 }
 
-/* x of what the row sees, from 6 numbers a node. */
-static double seen_by(const sbri_edge *e, const sbri_row *row, const double *x) {
+/* Change of the row's rate by x, 6 numbers per node. */
+static double rate_of(const sbri_edge *e, const sbri_row *row, const double *x) {
   double sum = 0;
   for (int side = 0; side < SBRI_SIDES; side++)
     if (e->nodes[side] >= 0) sum += sbri_dot6_rates(row->rates[side], x + 6 * (size_t)e->nodes[side]);
   return sum;
 }
 
-static void push(sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row, double impulse) {
+static void apply_impulse(sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row, double impulse) {
   for (int side = 0; side < SBRI_SIDES; side++)
     if (e->nodes[side] >= 0) sbri_add6_rates(s->nodes[e->nodes[side]].b, row->rates[side], impulse);
 }
 
-double sbri_row_alone(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
+double sbri_row_response(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
   double sum = 0;
   for (int side = 0; side < SBRI_SIDES; side++) {
     const float *j = row->rates[side];
@@ -186,13 +186,13 @@ static void factor_loops(sbri_rigid_system *s) {
   }
   s->loop_row_count = count;
   double *b = s->responses + (size_t)s->loop_row_capacity * s->node_count * 6;
-  keep_b(s, b, false);
+  store_b(s, b, false);
   uint32_t at = 0;
   for (uint32_t l = 0; l < s->loop_count; l++) {
     const sbri_edge *e = &s->edges[s->loops[l]];
     for (uint32_t r = 0; r < e->active_count; r++, at++) {
       clear_b(s);
-      push(s, e, &e->rows[e->actives[r]], 1);
+      apply_impulse(s, e, &e->rows[e->actives[r]], 1);
       solve_tree(s, false, false);
       double *response = s->responses + (size_t)at * s->node_count * 6;
       for (uint32_t i = 0; i < s->node_count; i++)
@@ -206,13 +206,13 @@ static void factor_loops(sbri_rigid_system *s) {
       const sbri_row *row = &e->rows[e->actives[r]];
       double *to = s->loop_matrix + (size_t)at * count;
       for (uint32_t k = 0; k <= at; k++)
-        to[k] = seen_by(e, row, s->responses + (size_t)k * s->node_count * 6);
-      to[at] += row->give + GIVE * sbri_row_alone(s, e, row);
-      s->loop_rhs[at] = REDUNDANT * sbri_row_alone(s, e, row);
+        to[k] = rate_of(e, row, s->responses + (size_t)k * s->node_count * 6);
+      to[at] += row->give + GIVE * sbri_row_response(s, e, row);
+      s->loop_rhs[at] = REDUNDANT * sbri_row_response(s, e, row);
     }
   }
   factor_dense(s->loop_matrix, count, s->loop_rhs);
-  keep_b(s, b, true);
+  store_b(s, b, true);
 }
 
 void sbri_system_factor(sbri_rigid_system *s) {
@@ -226,9 +226,9 @@ void sbri_system_solve(sbri_rigid_system *s) {
     solve_tree(s, true, true);
     return;
   }
-  /* First as if the loops were open, then with what closes them. */
+  /* First with open loops, then with the impulses that close them. */
   double *b = s->responses + (size_t)s->loop_row_capacity * s->node_count * 6;
-  keep_b(s, b, false);
+  store_b(s, b, false);
   solve_tree(s, true, false);
   double *x = b + (size_t)s->node_count * 6;
   for (uint32_t i = 0; i < s->node_count; i++) memcpy(x + 6 * i, s->nodes[i].x, sizeof s->nodes[i].x);
@@ -236,23 +236,23 @@ void sbri_system_solve(sbri_rigid_system *s) {
   for (uint32_t l = 0; l < s->loop_count; l++) {
     const sbri_edge *e = &s->edges[s->loops[l]];
     for (uint32_t r = 0; r < e->active_count; r++, at++)
-      s->loop_rhs[at] = e->rhs[r] - seen_by(e, &e->rows[e->actives[r]], x);
+      s->loop_rhs[at] = e->rhs[r] - rate_of(e, &e->rows[e->actives[r]], x);
   }
   forward_dense(s->loop_matrix, s->loop_row_count, s->loop_rhs);
-  back_dense(s->loop_matrix, s->loop_row_count, s->loop_rhs);
-  keep_b(s, b, true);
+  solve_back_dense(s->loop_matrix, s->loop_row_count, s->loop_rhs);
+  store_b(s, b, true);
   at = 0;
   for (uint32_t l = 0; l < s->loop_count; l++) {
     const sbri_edge *e = &s->edges[s->loops[l]];
     for (uint32_t r = 0; r < e->active_count; r++, at++) {
-      push(s, e, &e->rows[e->actives[r]], s->loop_rhs[at]);
+      apply_impulse(s, e, &e->rows[e->actives[r]], s->loop_rhs[at]);
       e->rows[e->actives[r]].impulse += (float)s->loop_rhs[at];
     }
   }
   solve_tree(s, true, true);
 }
 
-void sbri_system_note(sbri_rigid_system *s) {
+void sbri_system_add_impulses(sbri_rigid_system *s) {
   for (uint32_t i = 0; i < s->step_count; i++)
-    if (s->steps[i].pair) sbri_balls_note(s->steps[i].pair);
+    if (s->steps[i].pair) sbri_balls_add_impulses(s->steps[i].pair);
 }

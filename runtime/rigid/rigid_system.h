@@ -87,7 +87,7 @@ typedef struct sbri_node {
   double was[6];             /* x of the pass before */
   double push[6];            /* impulses that are known already: of drives that give their maximum */
   float inertia[3][3];       /* in space */
-  float swell;               /* sbri_rigid_swell */
+  float swell;               /* sbri_rigid_mass_factor */
   const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
   float pulled;              /* (rad/s)^2 that its joints' pulls swing it by, at most */
   float inverse_mass[2];     /* 1 / mass, and the mean of 1 / moment of inertia */
@@ -130,7 +130,8 @@ typedef struct sbri_rigid_system {
 } sbri_rigid_system;
 
 /* What the nodes' x do to the row's rate. */
-static inline double sbri_row_moved(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
+static inline double sbri_row_rate_change(
+    const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
   double sum = 0;
   for (int side = 0; side < SBRI_SIDES; side++)
     if (e->nodes[side] >= 0) sum += sbri_dot6_rates(row->rates[side], s->nodes[e->nodes[side]].x);
@@ -138,7 +139,7 @@ static inline double sbri_row_moved(const sbri_rigid_system *s, const sbri_edge 
 }
 
 /* What a unit impulse of the row would change its rate by if nothing else held its bodies. */
-double sbri_row_alone(const sbri_rigid_system *system, const sbri_edge *edge, const sbri_row *row);
+double sbri_row_response(const sbri_rigid_system *system, const sbri_edge *edge, const sbri_row *row);
 
 /* Factors the system of the rows that are active and the nodes' d, which it overwrites. */
 void sbri_system_factor(sbri_rigid_system *system);
@@ -148,7 +149,7 @@ void sbri_system_factor(sbri_rigid_system *system);
 void sbri_system_solve(sbri_rigid_system *system);
 
 /* Adds what the last solution has done to the balls' impulses and moments. */
-void sbri_system_note(sbri_rigid_system *system);
+void sbri_system_add_impulses(sbri_rigid_system *system);
 
 /* Lists which rows are active. */
 void sbri_edge_list_active(sbri_edge *edge);

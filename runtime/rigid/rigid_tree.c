@@ -8,7 +8,7 @@ static bool is_movable(const sbri_rigid_tick *t, int32_t body) {
   return body >= 0 && t->bodies[body].mode != SBR_RIGID_KINEMATIC && t->model->bodies[body].mass > 0;
 }
 
-/* The joints that act, those of the tree marked in `in_tree`. */
+/* Selects the active joints and marks those of the tree in `in_tree`. */
 static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint8_t *in_tree) {
   sbri_rigid_system *s = &work->system;
   const sbri_rigid_model *m = t->model;
@@ -42,7 +42,7 @@ static void add_node(sbri_rigid_solving *work, uint32_t body, int32_t parent, in
   s->nodes[s->node_count++] = (sbri_node){.body = body, .parent = parent, .edge = edge};
 }
 
-/* Whether it holds a place and lets all turns free, but for limits. */
+/* Whether it locks a point and leaves all rotations free except for limits. */
 static bool is_ball(const sbri_rigid_joint *joint) {
   const sbf_limit_list *limits = &joint->source->limits;
   if (joint->source->kind != SBF_JOINT_KIND_SPHERICAL) return false;
@@ -66,14 +66,14 @@ static bool is_on_ball(const sbri_rigid_system *s, uint32_t node) {
   return s->nodes[node].edge >= 0 && s->edges[s->nodes[node].edge].ball;
 }
 
-/* So far on from a ball another is looked for that goes along with it; a limb's is a place or two off. */
+/* Number of entries after a ball in which a partner is searched; that of a limb is one or two away. */
 enum { PARTNERS = 16 };
 
-/* Puts balls in pairs and all in the order of elimination: from the end of the list on, which is behind what
- * it hangs on, each with the next that nothing else waits for. */
+/* Pairs ball joints and orders all nodes for elimination, from the end of the list, where the leaves are.
+ * Each joint is paired with the next one whose children are all done. */
 static void list_steps(sbri_rigid_solving *work) {
   sbri_rigid_system *s = &work->system;
-  uint32_t *waits = work->roots, pair_count = 0; /* for so many that hang on it, */
+  uint32_t *waits = work->roots, pair_count = 0; /* number of children not yet eliminated */
   const uint32_t gone = UINT32_MAX;
   for (uint32_t i = 0; i < s->node_count; i++) waits[i] = 0;
   for (uint32_t i = 0; i < s->node_count; i++)
@@ -103,7 +103,7 @@ static void list_steps(sbri_rigid_solving *work) {
   }
 }
 
-/* Follows the tree's joints from what is in the list of nodes already. */
+/* Extends the tree from the nodes that are already in the list. */
 static void grow(const sbri_rigid_tick *t, sbri_rigid_solving *work, const int32_t *edge_of_joint,
     const uint8_t *in_tree, uint32_t from) {
   sbri_rigid_system *s = &work->system;
@@ -131,7 +131,7 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t e = 0; e < s->edge_count; e++) edge_of_joint[s->edges[e].joint] = (int32_t)e;
   s->node_count = 0;
   for (uint32_t b = 0; b <= m->body_count; b++) work->motions[b].node = -1;
-  for (uint32_t e = 0; e < s->edge_count; e++) { /* what hangs on the world first */
+  for (uint32_t e = 0; e < s->edge_count; e++) { /* nodes with a joint to the world first */
     const sbri_rigid_joint *joint = &m->joints[s->edges[e].joint];
     bool a = is_movable(t, joint->bodies[SBRI_A]), b = is_movable(t, joint->bodies[SBRI_B]);
     if (!in_tree[e] || (a && b)) continue;
@@ -139,7 +139,7 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     add_node(work, (uint32_t)joint->bodies[a ? SBRI_A : SBRI_B], -1, (int32_t)e);
     grow(t, work, edge_of_joint, in_tree, from);
   }
-  for (uint32_t b = 0; b < m->body_count; b++) { /* and what nothing holds */
+  for (uint32_t b = 0; b < m->body_count; b++) { /* then bodies without joints */
     if (!is_movable(t, (int32_t)b) || work->motions[b].node >= 0) continue;
     uint32_t from = s->node_count;
     add_node(work, b, -1, -1);

@@ -1,4 +1,4 @@
-/* What a tick of rigid parts works with: scratch, laid out in one block. */
+/* Work memory of a tick of rigid parts, in one block. */
 #ifndef SBRI_RIGID_WORK_H
 #define SBRI_RIGID_WORK_H
 
@@ -6,9 +6,11 @@
 #include "rigid/rigid_external_bodies.h"
 #include "rigid/rigid_state.h"
 
-/* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
+/* Number of times that a step may be halved, plus one; and the maximum number of steps per tick unless the
+ * model sets more. */
 enum { SBRI_RIGID_HALVINGS = 8, SBRI_RIGID_MAX_SUBSTEPS = 64 };
-/* Greatest angular frequency times step, by what pulled in the tick before: 2 is where a leapfrog ends. */
+/* Maximum angular frequency times step size, by the joint forces of the previous tick: the stability limit of
+ * a leapfrog is 2. */
 #define SBRI_RIGID_MAX_SWING 0.8f
 
 /* How a body moves in a substep, if nothing more acts on it. */
@@ -55,7 +57,7 @@ typedef struct sbri_rigid_solving {
 
 /* ---- rigid_step.c ---- */
 
-/* A tick in three parts, so that several characters can be stepped together: the beginning, which chooses the
+/* A tick in three parts, so that several characters can be stepped together: the beginning, which selects the
  * number of substeps and fills `work`; a step over a fraction of the tick; the end. */
 void sbri_rigid_begin(sbri_rigid_tick *tick, sbri_rigid_solving *work);
 void sbri_rigid_advance(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float from, float to);
@@ -63,103 +65,103 @@ void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- rigid_pace.c ---- */
 
-/* Square of the angular frequency at which the joints' pulls let some body swing, (rad/s)^2. */
+/* Square of the maximum angular frequency of a body by the joints' forces, (rad/s)^2. */
 float sbri_rigid_swings(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
-/* Whether what pulls in a step, and did not before, lets some body swing too fast for it, as a light link of
- * a chain that is suddenly taut: a leapfrog gains by that without bound. */
-bool sbri_rigid_pulls_too_fast(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
-/* How many steps the coming tick takes; and whether the bodies have but moved slowly in the last. */
-uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+/* Whether new joint forces make a body oscillate too fast for the step size, such as a light link of a chain
+ * that becomes taut. A leapfrog would gain energy without bound. */
+bool sbri_rigid_oscillates_too_fast(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
+/* Number of steps in the coming tick; and whether all bodies moved slowly in the last one. */
+uint32_t sbri_rigid_step_count(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 
-/* Whether joints reckon with the arcs that bodies turn along as they go: in flight, and where something is
- * near which stops them within a step. What swings by what pulls at it, as a whip, goes by the tangents, by
- * which its steps are judged. */
-static inline bool sbri_rigid_foresees(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
+/* Whether joints predict the arcs of rotating bodies: in flight, and near objects that may stop them within a
+ * step. Otherwise, as for a whip under tension, they use tangents, and the error controls the step size. */
+static inline bool sbri_rigid_predicts_arcs(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
   return tick->drive->flies || work->rigid_contact_count > 0;
 }
 
-/* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
+/* ---- rigid_passes.c: solves for the nodes' x and the active rows and contacts of a step. ---- */
 void sbri_rigid_iterate(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
-/* The system with what acts, factored; its right-hand sides so far are pushes and touches. */
+/* Factors the system with the active rows and contacts; the right-hand sides contain known impulses and
+ * contacts. */
 void sbri_rigid_factor(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- rigid_tree.c: the system's graph of simulated bodies and unbroken joints. ---- */
+/* ---- rigid_tree.c: the graph of simulated bodies and unbroken joints. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- joint_rows.c, joint_check.c, joint_ends.c ---- */
 
-/* The rows of an edge for a substep, from the bodies' motions so far. */
+/* Makes the rows of an edge for a substep, from the bodies' predicted motions. */
 void sbri_joint_rows_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
 /* Lists the active rows, with their right-hand sides. */
 void sbri_joint_rows_set_targets(sbri_edge *edge);
-/* Takes from the nodes' x how the limits' rates change. */
+/* Computes the rate changes of the limits from the nodes' x. */
 void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s);
-/* Whether limits push in the last pass's system just where they would at what it came to. */
+/* Whether the active limits of the last iteration agree with its result. */
 bool sbri_joint_rows_agree(const sbri_rigid_solving *work);
-/* And back by that fraction of it. */
-void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float fraction);
-/* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
- * maximum; whether anything has changed, which where it is coarse dry friction does not count for. */
+/* Reduces the changes of the last iteration to that fraction. */
+void sbri_joint_rows_scale_back(sbri_rigid_solving *work, float fraction);
+/* Removes rows that pull, adds violated ones, and gives drives beyond their maximum that maximum. Returns
+ * whether anything has changed; with `coarse`, dry friction does not count. */
 bool sbri_joint_rows_check(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, sbri_edge *edge, float step_s);
-/* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
+/* Sets right-hand sides for the errors at the end of the substep; returns the largest error, m or rad. */
 float sbri_joint_rows_correct(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
-/* And for being thrown back by limits that were run into; whether any is. */
+/* Sets right-hand sides for restitution at limits; returns whether there is any. */
 bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model);
 
 /* ---- rigid_shape_contacts.c ---- */
 
-/* Adds places that may touch shapes of the host within the tick. */
+/* Adds possible contacts with host shapes within the tick. */
 void sbri_rigid_shape_contacts_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- rigid_stair_contacts.c ---- */
 
-/* Adds places of a body that may touch stairs of the ground; false where its vertices are to be looked at. */
+/* Adds possible contacts of a body with built-in stairs; returns false if its vertices must be checked
+ * instead. */
 bool sbri_rigid_stair_contacts_find(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t body, int32_t node);
 
 /* ---- stored_contacts.c ---- */
 
-/* Gives the touches that were there in the tick before what they did then; and keeps that. */
+/* Restores the impulses of contacts of the previous tick; and stores the present ones. */
 void sbri_stored_contacts_apply(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 void sbri_stored_contacts_save(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 
 /* ---- rigid_contacts.c ---- */
 
-/* Lists the vertices that may touch the ground within the tick, with the ground's planes. */
+/* Lists vertices that may touch the ground within the tick, with the ground's planes. */
 void sbri_rigid_contacts_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
-/* Their places, and what they want, for a substep that begins so long after the tick. */
+/* Prepares the contacts for a substep that begins `since_s` after the tick. */
 void sbri_rigid_contacts_linearise(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, float since_s, float step_s);
-/* Adds what acts to the nodes' d and b. */
+/* Adds active contacts to the nodes' d and b. */
 void sbri_rigid_contacts_add(sbri_rigid_solving *work);
-/* Adds to what each has given what a solve beyond the passes, by the nodes' x, makes it give. */
+/* After a solve beyond the iterations: adds its changes by the nodes' x to the contact impulses. */
 void sbri_rigid_contacts_apply_impulse(sbri_rigid_solving *work);
-/* Notes what the bodies touch, when a substep is over, and what the next one begins with. */
+/* At the end of a substep: reports contacts, and stores the initial values of the next substep. */
 void sbri_rigid_contacts_report(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
-/* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.
- */
+/* Adds restitution at the end of a substep to the nodes' b; returns whether there is any. */
 bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work);
-/* Takes from the nodes' x how the places' velocities change. */
+/* Computes the velocity changes of the contact points from the nodes' x. */
 void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work);
-/* Lists the contacts and limits that may be active somewhere between the pass before and the last. */
+/* Lists the contacts and limits that may be active somewhere between the previous iteration and the last. */
 void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work);
-/* By how much what they do at the velocities that the last pass came to is not what they did in its system:
- * the energy, J, by which that would move each body alone; 0 where it makes no difference. */
+/* Difference between contact impulses at the velocities of the last iteration and their linearisation, as the
+ * energy, J, by which it would move each body alone; 0 if negligible. */
 float sbri_rigid_contacts_error(const sbri_rigid_solving *work);
-/* What they give is what the last pass had them give, where passes have ended before both are the same. */
-void sbri_rigid_contacts_take_solution(sbri_rigid_solving *work);
-/* Who presses, and who slides, by the last pass. */
+/* Keeps the impulses of the last iteration if iterations end before they are consistent. */
+void sbri_rigid_contacts_keep_solution(sbri_rigid_solving *work);
+/* Updates active and sliding contacts after an iteration. */
 void sbri_rigid_contacts_check(sbri_rigid_solving *work);
-/* Bounds of friction from what presses by the last pass; whether that makes a difference. */
+/* Updates the bounds of friction from the normal forces of the last iteration; returns whether that changes
+ * the result. */
 bool sbri_rigid_contacts_bound(sbri_rigid_solving *work);
 
 /* ---- rigid_search.c ---- */
 
-/* The best fraction of the step from the pass before to the last; 1 where the whole step is not too long.
- */
+/* Best fraction of the step from the previous iteration to the last; 1 if the whole step is not too long. */
 float sbri_rigid_search(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 
 /* The motion of one side of an edge. */

@@ -1,13 +1,12 @@
-/* Symmetric matrices of six rows: a body's mass and moments, with what hangs on it. Lower halves.
- * In double precision: a light body between heavy ones leaves of its numbers what single precision rounds
- * off. */
+/* Symmetric 6x6 matrices: mass matrix of a body, with attached bodies. Lower halves. Double precision,
+ * because single precision would lose a light body between heavy ones. */
 #ifndef SBRI_SYM6_H
 #define SBRI_SYM6_H
 
 #include <math.h>
 
-/* A = L L^T in place; on the diagonal the pivots' inverses. A pivot that rounding has left without sign gets
- * the inverse 0: that motion is not there. */
+/* A = L L^T in place, with inverse pivots on the diagonal. A pivot that is lost in rounding gets the inverse
+ * 0: that motion is blocked. */
 static inline void sbri_sym6_factor(double a[6][6]) {
   for (int k = 0; k < 6; k++) {
     double pivot = a[k][k], inverse = 0;
@@ -44,7 +43,7 @@ static inline double sbri_dot6(const double a[6], const double b[6]) {
   return ((a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/* The same of a row's rates. */
+/* The same for the rates of a row. */
 static inline double sbri_dot6_rates(const float a[6], const double b[6]) {
   return ((a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])) + (a[4] * b[4] + a[5] * b[5]);
 }

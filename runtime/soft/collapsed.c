@@ -50,7 +50,7 @@ static bool is_any_empty(const sbri_character *c, const sbri_island *island, flo
   return false;
 }
 
-/* Energies, J */
+/* ---- Energies, J ---- */
 
 /* Kinetic energy relative to the drivers, or to the rigid motion of a body without pins. */
 static double kinetic_of(const sbri_character *c, const sbri_island *island) {
@@ -137,7 +137,7 @@ static double weight_of(const sbri_island *island, const sbri_point *positions, 
   return energy;
 }
 
-/* False equilibria */
+/* ---- False equilibria ---- */
 
 static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)

@@ -50,7 +50,7 @@ static void damp_out(sbri_character *c, uint32_t index, bool coupled) {
   }
 }
 
-/* Motion of loose bodies */
+/* ---- Motion of loose bodies ---- */
 
 static float *velocity_at(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   return sbri_velocities(c) + 3 * (size_t)(island->first_slot + slot / SBRI_BLOCK * SBRI_BLOCK) +
@@ -136,7 +136,7 @@ static void set_motion(
   }
 }
 
-/* Reset */
+/* ---- Reset ---- */
 
 /* A body that is reset this many times in a row, each within RELAPSE_TICKS of the last, moves as a rigid body
  * for a while: at first for RIGID_TICKS, then for twice as long each time, up to eight times. */

@@ -74,7 +74,7 @@ static void colour_points(descent_maker *m, uint32_t *count) {
   }
 }
 
-/* Blocks */
+/* ---- Blocks ---- */
 
 static void fill_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_t element) {
   const sbfi_spring *s = &m->island->springs[element / 4];

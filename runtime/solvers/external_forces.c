@@ -28,7 +28,7 @@ static sbf_vec3 velocity_of(const sbri_island_tick *t, uint32_t slot) {
   return sbri_slot_velocity(t, t->velocities, slot);
 }
 
-/* Surfaces */
+/* ---- Surfaces ---- */
 
 static uint32_t lane_corners(const sbri_skin *skin, uint32_t face, uint32_t corners[4]) {
   const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];
@@ -182,7 +182,7 @@ static void add_bending(const sbri_island_tick *t, const sbri_body *body) {
   }
 }
 
-/* Force fields */
+/* ---- Force fields ---- */
 
 sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v) {
   sbf_vec3 offset = sbri_sub(x, field->position), none = {0, 0, 0};
@@ -232,7 +232,7 @@ void sbri_compute_external_forces(const sbri_island_tick *t, float h) {
   if (t->model->asset->environment.fields.count) add_fields(t, h);
 }
 
-/* Stiffness of gases */
+/* ---- Stiffness of gases ---- */
 
 /* Squared frequency of one gas, rad^2/s^2: p / V times the sum of w |grad V|^2, plus the rotation of its
  * faces. */
@@ -265,7 +265,7 @@ void sbri_update_gas_stiffness(const sbri_island_tick *t) {
   if (GAS_MARGIN * GAS_MARGIN * square > rest * rest) *t->external_rad_s = GAS_MARGIN * sqrt(square);
 }
 
-/* Energies */
+/* ---- Energies ---- */
 
 double sbri_external_energy(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, sbri_point *vertices) {

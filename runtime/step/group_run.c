@@ -46,7 +46,7 @@ static bool is_in_contact(const sbri_group_member *m, uint32_t island) {
   return is_stepped_here(m, island) && sbri_contact_islands(m->character)[island];
 }
 
-/* Begin of the tick */
+/* ---- Begin of the tick ---- */
 
 static uint32_t steps_of(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
@@ -106,7 +106,7 @@ static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) 
   return max;
 }
 
-/* Steps */
+/* ---- Steps ---- */
 
 /* Returns the number of such steps per tick that the island needs now. */
 static uint32_t advance_island(
@@ -151,7 +151,7 @@ static uint32_t advance(const sbr_world *world, sbri_group_member *m, float from
   return max;
 }
 
-/* End of the tick */
+/* ---- End of the tick ---- */
 
 /* The whole tick of an island without contacts. */
 static void run_without_contacts(const sbr_world *world, const sbri_group_member *m, uint32_t index) {

@@ -47,7 +47,7 @@ void sbri_event_add(sbr_world *world, sbri_event_kind kind, const void *event) {
   memcpy((char *)events->at[kind] + events->counts[kind]++ * size, event, size);
 }
 
-/* Public calls: sbrun/events.h */
+/* ---- Public calls: sbrun/events.h ---- */
 
 sbr_contact_events sbr_world_get_contact_events(const sbr_world *world) {
   if (!world) return (sbr_contact_events){0};
