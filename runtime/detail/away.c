@@ -1,5 +1,5 @@
-/* Characters that are away: gait without a body. The place goes where it is driven, over the ground; the pose
- * goes along as it last was; nothing steps. */
+/* Offscreen characters: gait without a body. The position follows the command over the ground; the last pose
+ * moves along; nothing is stepped. */
 #include "detail/detail_levels.h"
 #include "math/quat.h"
 #include "pose/frames.h"

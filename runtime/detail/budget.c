@@ -1,6 +1,6 @@
-/* Saving: the change for the worse that costs the fewest pixels a visit saved comes first, then the next one,
- * until it is enough. Of one character they become dearer one after the other (the detail levels on its lower
- * hull), so the order is that of all of them together. Ties go to the character that was made first. */
+/* Saving: changes to coarser levels are taken in the order of pixels of error per saved visit until the
+ * budget suffices. The changes of one character have increasing prices (its levels are on the lower hull), so
+ * the order holds for all characters together. Ties go to the character that was created first. */
 #include "detail/choose.h"
 
 static bool is_before(const sbri_saving *a, const sbri_saving *b) {

@@ -1,6 +1,7 @@
-/* Choosing detail levels: for each character the coarsest that is near enough on the screen, then coarser
- * ones until the budget lasts. A change for the better comes at once; one for the worse waits until it is
- * well below what is allowed, and a while. Done by one thread, in the order of the characters. */
+/* Selection of detail levels: for each character the coarsest level with an acceptable error on the screen,
+ * then coarser ones until the budget suffices. A change to a finer level is immediate; one to a coarser level
+ * waits until the error is well below the bound, and for a while. Runs on one thread, in the order of the
+ * characters. */
 #include "detail/choose.h"
 
 /* The coarsest level with a pose; for a character that may touch others, the coarsest with bodies. */
@@ -32,7 +33,7 @@ static uint32_t detail_level_for(const sbr_world *world, const sbri_character *c
   return found;
 }
 
-/* False: nothing is chosen for it. */
+/* Returns false if the character needs no choice. */
 static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choice, double *visits) {
   sbri_character *c = &world->characters[index];
   if (!c->model || sbri_header(c)->paused) return false;
@@ -40,7 +41,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   const sbr_model *base = c->model->base;
   float pixels = sbri_pixels_of(world, c);
   if (pixels > 0 && head->unseen_ticks > 0)
-    head->detail_level_ticks = UINT32_MAX; /* as a new one: nobody saw it */
+    head->detail_level_ticks = UINT32_MAX; /* as if new: it was not visible */
   head->unseen_ticks = pixels > 0 ? 0 : head->unseen_ticks < UINT32_MAX ? head->unseen_ticks + 1 : UINT32_MAX;
   double now = head->asleep ? 0 : base->detail_levels[head->detail_level].visits;
   if (base->detail_level_count == 1 || head->set_detail_level_plus_1) {
@@ -49,7 +50,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   }
   pixels *= sbri_speed_factor(c) * c->scale;
   uint32_t detail_level = detail_level_for(world, c, pixels);
-  if (head->asleep && detail_level >= head->detail_level) return false; /* it already costs nothing */
+  if (head->asleep && detail_level >= head->detail_level) return false; /* it costs nothing already */
   *choice = (sbri_choice){index, detail_level, last_posed(c), pixels};
   if (detail_level > choice->last) choice->last = detail_level;
   *visits += base->detail_levels[detail_level].visits;
@@ -70,7 +71,7 @@ void sbri_detail_choose(sbr_world *world) {
     sbri_character_state *head = sbri_header(c);
     const sbr_detail_level *detail_levels = c->model->base->detail_levels;
     uint32_t detail_level = detail->choices[i].detail_level;
-    /* Where the budget is short two characters would take turns. */
+    /* If the budget is short, two characters would alternate. */
     if (is_short && detail_level < head->detail_level &&
         detail_levels[head->detail_level].kind != SBR_DETAIL_OFFSCREEN &&
         head->detail_level_ticks < sbri_ticks_of(world, detail->is.stay_s)) {

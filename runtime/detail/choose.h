@@ -7,19 +7,19 @@
 typedef struct sbri_eye {
   sbr_view view;
   sbf_vec3 forward;             /* unit */
-  float cone_sine, cone_cosine; /* of half the angle of the cone around all it sees */
-  float pixels;                 /* that a metre has at a metre */
+  float cone_sine, cone_cosine; /* of half the angle of the cone around its view */
+  float pixels;                 /* pixels of a metre at a distance of a metre */
 } sbri_eye;
 
-/* A character that is chosen for. */
+/* A character with a choice of levels. */
 typedef struct sbri_choice {
-  uint32_t character, detail_level, last; /* what it is to be on, and the coarsest that it may */
-  float pixels;                           /* pixels of a metre of error; 0: it is not visible */
+  uint32_t character, detail_level, last; /* its level, and the coarsest allowed one */
+  float pixels;                           /* pixels per metre of error; 0: not visible */
 } sbri_choice;
 
-/* A change for the worse that would save something. */
+/* A change to a coarser level that would save visits. */
 typedef struct sbri_saving {
-  float price; /* pixels a visit */
+  float price; /* pixels per saved visit */
   uint32_t choice, to;
 } sbri_saving;
 
@@ -28,29 +28,28 @@ typedef struct sbri_detail {
   sbri_eye eyes[SBR_MAX_VIEWS];
   uint32_t eye_count;
   sbri_choice *choices; /* (character_capacity) */
-  sbri_saving *savings; /* likewise: a heap, the cheapest first */
+  sbri_saving *savings; /* (character_capacity) a heap with the cheapest first */
   uint32_t choice_count, saving_count;
-  bool is_short; /* in this tick the budget does not last for what is wanted */
+  bool is_short; /* in this tick the budget does not suffice for acceptable errors */
   double visits; /* of the last tick */
 } sbri_detail;
 
 /* ---- detail/choose.c ---- */
 
-/* At the beginning of a tick: what each character goes over to. */
+/* Call at the beginning of a tick: sets the next level of each character. */
 void sbri_detail_choose(sbr_world *world);
 
 /* ---- detail/visibility.c ---- */
 
 sbri_eye sbri_eye_of(const sbr_view *view);
-/* Pixels that a metre of the character has where it is shown largest; 0: no view has it. */
+/* Maximum of pixels per metre over all views; 0: not visible. */
 float sbri_pixels_of(const sbr_world *world, const sbri_character *c);
-/* Factor on the error at rest for the speed at which the character is driven. */
+/* Factor on the error at rest for the commanded speed. */
 float sbri_speed_factor(const sbri_character *c);
 
 /* ---- detail/budget.c ---- */
 
-/* Coarsens the choices, least visible first, until all cost at most `most` of `visits`; returns their cost.
- */
+/* Coarsens the choices, least visible first, until all cost at most `max` of `visits`; returns their cost. */
 double sbri_budget_keep(const sbr_world *world, double visits, double max);
 
 #endif

@@ -13,7 +13,7 @@
 
 enum { ATTEMPTS = 4 };
 
-/* Longer than that no detail level is counted to have been kept: 200 days. */
+/* Maximum counted duration of a level: 200 days. */
 static const uint32_t LONG_TICKS = 1u << 30;
 
 /* ---- Before ---- */
@@ -41,7 +41,7 @@ static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
   }
 }
 
-/* Whether it moves: not where what holds it has jumped. */
+/* Returns whether it moves: false if its pins have jumped. */
 static bool keep_soft(sbri_character *c, float tick_s) {
   const sbr_model *model = c->model;
   bool moves = true;
@@ -95,7 +95,7 @@ static sbf_vec3 mean_of(const sbri_sources *sources, const sbri_point *of) {
   return sum;
 }
 
-/* `fraction` of the shape before, and of how it moved, at its guides' places. */
+/* Applies `fraction` of the old shape and motion, relative to the drivers. */
 static void shape(sbri_character *c, const sbri_character *was, const sbri_body *body,
     const sbri_sources *sources, float fraction) {
   const sbri_island *island = &c->model->islands[body->island];
@@ -122,7 +122,7 @@ static double elastic_of(const sbr_world *world, const sbri_character *c, uint32
   return sbri_body_health(world, c, body).elastic_j;
 }
 
-/* Energy goes with the square of a small strain. */
+/* Energy is proportional to the square of a small strain. */
 static void shape_within(const sbr_world *world, sbri_character *c, const sbri_character *was, uint32_t index,
     const sbri_sources *sources) {
   const sbri_body *body = &c->model->bodies[index];
@@ -139,7 +139,7 @@ static void shape_within(const sbr_world *world, sbri_character *c, const sbri_c
 
 /* ---- Jiggles ---- */
 
-/* How far and how fast the body's points were off their guides on average. */
+/* Mean displacement and velocity of the body's points relative to their drivers. */
 static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
   const sbri_body *body = &was->model->bodies[index];
   *offset = *speed = sbri_vec3(0, 0, 0);
@@ -153,7 +153,7 @@ static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *off
   }
 }
 
-/* Followers take that over, and go on as their bones go. */
+/* Followers continue with these, and with the motion of their bones. */
 static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
@@ -170,7 +170,7 @@ static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
   }
 }
 
-/* ---- All of it ---- */
+/* ---- All steps ---- */
 
 static void take_soft(
     const sbr_world *world, sbri_character *c, const sbri_character *was, bool moves, float tick_s) {
@@ -189,7 +189,7 @@ static void take_soft(
   }
 }
 
-/* Into the spare room; what it had stays as it was, and is the spare one then. */
+/* Switches to the spare storage; the old state is unchanged and becomes the spare one. */
 static void go_over(const sbr_world *world, sbri_character *c) {
   float tick_s = (float)world->tick_s * c->time_scale;
   bool was_soft = sbri_get_detail_level(c)->kind == SBR_DETAIL_SOFT;
@@ -212,7 +212,7 @@ static void go_over(const sbr_world *world, sbri_character *c) {
 
 /* Visible jump at a change as a fraction of the amplitude, measured on hard shaking. */
 static const float JUMPS_FRACTION = 0.15f;
-/* No longer is one that is to be finer kept from it, s; one that is driven elsewhere again and again. */
+/* Maximum delay of a change to a coarser level, s; and of a character whose command changes repeatedly. */
 static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
 
 /* Additional lag of a body in the next tick because the drive changes; earlier motion does not show it. Asset
@@ -239,7 +239,7 @@ static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t d
   return shows > detail->is.error_px && !(finer && (float)head->swing_ticks++ * (float)world->tick_s > max_s);
 }
 
-/* Where it goes, of what it is to be. */
+/* The requested level, or the nearest possible one. */
 static uint32_t find_next_detail_level(const sbri_character *c) {
   const sbr_model *base = c->model->base;
   uint32_t detail_level = sbri_header(c)->next_detail_level, collides = sbri_coarsest_colliding_level(base);
@@ -264,10 +264,9 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
     head->fade_kept = 0;
     return;
   }
-  if (!same && c->spare.model != c->model->base->levels[detail_level]) return; /* there is no memory for it */
+  if (!same && c->spare.model != c->model->base->levels[detail_level]) return; /* no memory for it */
   bool coarser = detail_level > head->detail_level, chosen = world->detail && !head->set_detail_level_plus_1;
-  if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short)
-    return; /* one after the other */
+  if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short) return; /* once per tick only */
   bool returns = sbri_is_away(c);
   bool unseen = head->unseen_ticks > 0 || returns || (is_new && chosen), fades = !unseen && !same;
   if (fades && !kept && !must_collide) {
@@ -275,7 +274,7 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
     return;
   }
   if (fades && must_collide) {
-    (void)sbri_fade_keep(world, c); /* at once: somebody is coming */
+    (void)sbri_fade_keep(world, c); /* at once: the character may be about to become visible */
   } else if (fades && swings_too_far(world, c, detail_level, sbri_fade_keep(world, c))) {
     head->next_detail_level = head->detail_level;
     head->detail_level_ticks = head->fade_kept = 0;

@@ -13,21 +13,22 @@
 #include "pose/frames.h"
 #include "skin/skin.h"
 
-/* Duration: a quarter of a second, or longer for large differences. No vertex becomes faster by it than this
- * fraction of the character's size a second, except an oscillating one, which ends within so many radians. */
+/* Duration: a quarter of a second, or longer for large differences. It adds at most this fraction of the
+ * character's size per second to a vertex's speed, except for oscillating vertices, whose oscillation ends
+ * within this phase. */
 static const float FADES_S = 0.25f, MAX_SIZES_1_S = 0.05f, SWINGS_RAD = 9.4f;
 static const uint32_t MAX_TICKS = 240;
 
 /* Ratio of the steepest to the mean slope of the blend. */
 static const float STEEPEST = 1.875f;
 
-/* Greatest amplitude of the oscillation, in multiples of the sampled displacement. */
+/* Maximum amplitude of the oscillation, in multiples of the sampled displacement. */
 static const float MAX_REACHES = 2;
 
-/* How far it turns in a tick, at most: what swings faster than three moments can tell. */
+/* Maximum phase per tick: three samples cannot resolve faster oscillation. */
 static const float MAX_TURN_RAD = 1.5f;
 
-/* The bones' detail level; NULL: there is none. */
+/* Detail level of bones; NULL: none. */
 static const sbr_model *bones_of(const sbri_character *c) {
   const sbr_model *base = c->model->base, *last = base->levels[base->detail_level_count - 1];
   return last->kind == SBR_DETAIL_BONES ? last : NULL;
@@ -65,7 +66,7 @@ static void skin_of(sbri_character *c, const sbr_model *model, uint32_t mesh, bo
       to);
 }
 
-/* What fades, over a skin and, where there are, bones'. */
+/* Computes the blend of a skin and, if present, that of the bones. */
 static void mix(const sbri_character *c, uint32_t mesh, const sbri_skin *skin, const sbri_point *bones,
     float fraction, sbri_point *to) {
   const sbri_character_state *head = sbri_header(c);
@@ -89,7 +90,7 @@ void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t ren
   mix(c, render_mesh, skin, bones ? sbri_fading(c) : NULL, fraction, vertices);
 }
 
-/* As it is shown when this tick is over, or when it began, from the bones. */
+/* The displayed vertices at the end or the beginning of this tick, relative to the bones. */
 static void shown(sbri_character *c, uint32_t mesh, bool now, sbri_point *to) {
   const sbr_model *bones = bones_of(c);
   sbri_point *from = sbri_fading(c);
@@ -117,7 +118,7 @@ void sbri_fade_record(sbri_character *c) {
   sbri_header(c)->fade_kept = 1;
 }
 
-/* ---- Its oscillation ---- */
+/* ---- Oscillation ---- */
 
 /* Fits the oscillation to three positions a tick apart, with a bounded amplitude. Returns the amplitude. */
 static float attach(sbri_fading_vertex *g, float turn) {

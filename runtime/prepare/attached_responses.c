@@ -1,37 +1,36 @@
-/* Response of a soft body to a change of velocity of the rigid body that it is attached to: the change of its
+/* Response of a soft body to a velocity change of the rigid body that it is attached to: the change of its
  * points' velocities at the end of the step, for the implicit coupling (ragdoll/attached_bodies.c).
  *
- * If its frame's velocity changes by u, a mode of angular frequency w has taken the fraction 1 - cos(w h) of
- * u after a step h: little for a slow mode, an arbitrary amount for one that has oscillated several times.
- * The response uses a fraction that is stable for every w: close to the exact one for small w h, and 1 for w
- * h above 1.8, where a reaction one step late would be unstable: v = X u - p(h^2 M^-1 K) X u,   X u: rigid
- * motion of the free points. p is the polynomial of least degree that is 1 at 0 and at most a thousandth
- * between 1.8^2 and the square of the fastest mode: Chebyshev's, by its recurrence (Zhou and Saad, A
- * Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The reaction on the rigid body is
+ * If its frame's velocity changes by u, a mode of angular frequency w has followed by the fraction 1 - cos(w
+ * h) of u after a step h: little for a slow mode, an arbitrary amount for one that has oscillated several
+ * times. The response uses a fraction that is stable for every w: close to the exact one for small w h, and 1
+ * for w h above 1.8, where a reaction one step late would be unstable: v = X u - p(h^2 M^-1 K) X u, where X u
+ * is the rigid motion of the free points. p is the polynomial of lowest degree that is 1 at 0 and at most a
+ * thousandth between 1.8^2 and the square of the fastest mode: Chebyshev's, by its recurrence (Zhou and Saad,
+ * A Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The reaction on the rigid body is
  * X^T M v. That matrix is symmetric: mass and moments of inertia that the rigid body has in the step in
  * addition to its own.
  *
  * This conserves momentum but not energy: fast modes gain some in each exchange (an undamped soft body eight
- * times as heavy as its bone gains twelve times the energy of a hit in nine seconds). So it is used only for
- * bodies whose own damping takes more than that. */
+ * times as heavy as its bone gains twelve times the energy of an impact in nine seconds). So it is used only
+ * for bodies whose own damping removes more than that. */
 #include <string.h>
 
 #include "mechanics/network.h"
 #include "prepare/island_maker.h"
 #include "solvers/scheme.h"
 
-/* Square of w h from which on all goes along, and what may then stay behind. */
+/* Squared w h from which on a mode follows completely, and the tolerance of that. */
 static const double ALONG = 3.2, BEHIND = 1e-3;
-/* The fastest mode is known from below. */
+/* The estimate of the fastest mode is a lower bound. */
 static const double FASTEST_MARGIN = 1.1;
 enum { MAX_DEGREE = 64 };
-/* Greatest ratio of a soft body's mass to its bone's: the bone takes the errors of rounding and strain. */
+/* Maximum ratio of a soft body's mass to its bone's: the bone takes the errors of rounding and strain. */
 static const float MAX_ATTACHED_TRAVEL = 10;
-/* Least damping ratio of the soft body's slowest stretching mode. */
+/* Minimum damping ratio of the soft body's slowest stretching mode. */
 static const float MIN_DAMPING = 0.03f;
 
-/* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
- */
+/* The only rigid body to which pinned points and springs of the island belong; -1: several, or none. */
 static int32_t carrier_alone(const sbri_island_maker *m) {
   const sbri_island *island = m->island;
   const int32_t *carriers = m->model->carrier_of_frame;
@@ -54,7 +53,7 @@ static int32_t carrier_alone(const sbri_island_maker *m) {
   return found;
 }
 
-/* Whether no point of the island's bodies is damped by too little. */
+/* Whether all points of the island's bodies have enough damping. */
 static bool is_damped(const sbri_island_maker *m) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
@@ -67,7 +66,7 @@ static bool is_damped(const sbri_island_maker *m) {
   return true;
 }
 
-/* The rigid motion at one of its six speeds. */
+/* Rigid motion for one of the six velocities. */
 static sbfi_d3 rigid_motion(sbf_vec3 arm, int which) {
   double x = (double)arm.x, y = (double)arm.y, z = (double)arm.z;
   const sbfi_d3 all[6] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -z, y}, {z, 0, -x}, {-y, x, 0}};
@@ -89,7 +88,7 @@ static sbf_vec3 arm_of(const sbri_island *island, uint32_t slot, sbf_vec3 about)
   return (sbf_vec3){at->x - about.x, at->y - about.y, at->z - about.z};
 }
 
-/* Of one speed: the points' shares, and a column of the masses. */
+/* For one velocity: the fractions of the points, and a column of the mass matrix. */
 static void fill(const sbri_island *island, sbri_attached_responses *answers, float *fractions,
     const double *lags, int column) {
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
@@ -113,7 +112,7 @@ static void make_even(double mass[6][6]) {
     for (int j = 0; j < i; j++) mass[i][j] = mass[j][i] = 0.5 * (mass[i][j] + mass[j][i]);
 }
 
-/* y = (middle - h^2 M^-1 K) x of free points, 0 of held ones. */
+/* y = (middle - h^2 M^-1 K) x for free points, 0 for pinned ones. */
 static void apply(
     const sbf_spring_network *network, double middle, double square_s, const double *x, double *y) {
   sbfi_network_apply(network, NULL, x, y);
@@ -124,7 +123,8 @@ static void apply(
   }
 }
 
-/* What stays behind of the motion in `now`, in place; `work` is twice as long as that. */
+/* Filters the motion in `now` in place, so that the part remains that does not follow; `work` has twice its
+ * size. */
 static void filter(
     const sbf_spring_network *network, double square_s, double fastest, double *now, double *work) {
   size_t size = 3 * (size_t)network->point_count;
@@ -133,7 +133,7 @@ static void filter(
   double *was = work, *next = work + size;
   int degree = 1;
   for (double value = before; degree < MAX_DEGREE && 1 / value > BEHIND;
-       degree++) { /* T of the degree at 0 */
+       degree++) { /* T of this degree at 0 */
     double then = 2 * middle / half * value - min;
     min = value, value = then;
   }
@@ -186,7 +186,8 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
 
 /* ---- On bodies ---- */
 
-/* Adds mass and moments about `place`, expressed at `from`: the velocity there is u + w x (place - from). */
+/* Adds a mass matrix about the response's `about`, expressed at `from`: the velocity there is u + w x (about
+ * - from). */
 static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, double to[6][6]) {
   double x = (double)(answers->about.x - from.x), y = (double)(answers->about.y - from.y),
          z = (double)(answers->about.z - from.z);

@@ -1,21 +1,21 @@
-/* Surface edges that are long enough to penetrate a host's shape between their end points: across a
- * right-angled edge the depth is half of the length. */
+/* Surface edges that are long enough to penetrate a host shape between their ends: across a right-angled edge
+ * the depth is half of the length. */
 #include "math/vec3.h"
 #include "prepare/prepare.h"
 
-/* Of the thickness that a sheet keeps: the diagonal of its square on both sides. And of that of a body: a
- * quarter of it is what may be in it unnoticed. */
+/* Minimum length as a multiple of a sheet's margin: the diagonal of its square on both sides. And as a
+ * fraction of a body's thickness, of which a quarter may penetrate unnoticed. */
 static const float OF_MARGIN = 2.8f, OF_THICKNESS = 0.5f;
 #define NOT_THERE UINT32_MAX
 
-/* A square bar's whose surface and volume are these. */
+/* That of a square bar with the same surface and volume. */
 static float thickness_of(const sbri_body *body) {
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
   return measures.sheet || !(measures.area > 0) ? 0 : (float)(4 * measures.volume / measures.area);
 }
 
-/* The sample or slot of each vertex; false if it has neither. */
+/* Sample or slot of each vertex; false if it has neither. */
 static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t *ends) {
   for (uint32_t v = 0; v < body->surface.vertex_count; v++) ends[v] = NOT_THERE;
   for (uint32_t i = 0; i < body->sample_count; i++)
@@ -28,7 +28,7 @@ static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t
   return true;
 }
 
-/* Lists the other end of each side at its lesser one: at first counts, then where the next one goes. */
+/* Lists the other end of each edge at its lower one: first counts, then positions of the next one. */
 static uint32_t list_sides(const sbf_polygon_mesh *mesh, float min, uint32_t *begins, uint32_t *others) {
   uint32_t vertices = mesh->positions.count, count = 0;
   for (int pass = 0; pass < 2; pass++) {

@@ -31,7 +31,7 @@ static float weight_below_0(const sbri_sample *s) {
 }
 
 static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
-  if (!(s.mass_kg > 0)) return; /* goes where its bones go */
+  if (!(s.mass_kg > 0)) return; /* it follows bones only */
   float beyond = weight_below_0(&s);
   body->sample_beyond = beyond > body->sample_beyond ? beyond : body->sample_beyond;
   samples[body->sample_count++] = s;
@@ -39,11 +39,11 @@ static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
 
 /* ---- Points of the level on the surface ---- */
 
-/* Distance to the surface, as a fraction of the tetrahedra's edges, within which a level's point is a sample:
- * farther outside it would hold the body too high, farther inside it would add nothing. */
+/* Distance from the surface, as a fraction of the tetrahedra's edges, within which a point of the level is a
+ * sample. Farther outside it would support the body too high; farther inside it would add nothing. */
 static const float OUTSIDE_FRACTION = 0.02f, INSIDE_FRACTION = 0.25f;
 
-/* Between a triangle and a point: the square, and whether the point is behind. */
+/* Distance of a triangle and a point: its square, and whether the point is behind. */
 typedef struct distance {
   float square;
   bool behind;
@@ -73,7 +73,7 @@ static distance distance_to(sbf_vec3 x, const sbf_vec3 corners[3]) {
 typedef struct surface_points {
   const sbri_body *body;
   distance *nearest; /* (points of the level) */
-  float reach;       /* m: points further off are not looked at any closer */
+  float reach;       /* m; points farther away are skipped */
 } surface_points;
 
 static void find_from(const surface_points *p, const sbf_vec3 corners[3]) {
@@ -169,7 +169,7 @@ static keyed_sample keyed(const sbri_sample *s, uint32_t number) {
   return made;
 }
 
-/* Puts samples that the same points carry behind each other. */
+/* Sorts samples so that those with the same points are adjacent. */
 static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_arena *scratch) {
   uint32_t count = body->sample_count, groups = 0;
   keyed_sample *sorted = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *sorted);
@@ -193,7 +193,7 @@ static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_
   return true;
 }
 
-/* ---- All of them ---- */
+/* ---- All samples ---- */
 
 static bool mark_used(const sbf_polygon_mesh *mesh, sbfi_arena *scratch, uint8_t **used) {
   *used = sbfi_arena_allocate(scratch, mesh->positions.count, sizeof **used);

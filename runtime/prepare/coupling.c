@@ -1,17 +1,17 @@
 /* Coupling of soft and rigid bodies: the rigid bodies that each island is pinned to, the springs that reach
- * pinned points, and the greatest frequency of a rigid body on its soft bodies.
+ * pinned points, and the maximum frequency of a rigid body on its soft bodies.
  *
- * The frequency is an upper bound: the soft points are held and the rigid body moves. Springs and regions
+ * The frequency is an upper bound: the soft points are fixed and the rigid body moves. Springs and regions
  * count with their stiffness in the worst direction, a tetrahedron with its P-wave modulus M = mu + lambda
  * (mechanics/neo_hookean.h) times V |G|^2, where G is its strain by a unit motion of the pinned corners.
- * Rotations about the principal axes count likewise over the moments of inertia. The square of the frequency
- * is at most the sum of both. */
+ * Rotations about the principal axes count in the same way over the moments of inertia. The square of the
+ * frequency is at most the sum of both. */
 #include "mechanics/neo_hookean.h"
 #include "prepare/prepare.h"
 
-/* ---- Which rigid body holds which island ---- */
+/* ---- Rigid bodies of islands ---- */
 
-/* A bone goes with the body of the nearest bone above it, or its own, that has one. */
+/* A bone belongs to the body of the nearest bone above it, or itself, that has one. */
 bool sbri_carriers_list(sbr_model *model) {
   const sbri_rigid_model *rigid = &model->rigid;
   int32_t *carriers = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *carriers);
@@ -52,9 +52,9 @@ static bool list_pinned(sbr_model *model, sbri_island *island) {
   return true;
 }
 
-/* ---- How fast ---- */
+/* ---- Stiffness ---- */
 
-/* N/m, and N m/rad about each of the body's own axes. */
+/* N/m, and N m/rad about each axis of the body. */
 typedef struct stiffness {
   double along, about[3];
 } stiffness;
@@ -99,7 +99,7 @@ static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *bo
                                    : (sbfi_d3){-r.y, r.x, 0};
       moves[i] = carrier_of(island, slots[i]) == carrier ? turned : (sbfi_d3){0, 0, 0};
     }
-    /* In the body's own axes on one side only: a norm does not ask. */
+    /* In the body's axes on one side only: the norm does not depend on the other. */
     sum->about[axis] += modulus * square_of_strain(t, moves);
   }
 }
@@ -157,7 +157,7 @@ static float square_of(const sbri_rigid_body *body, const stiffness *s) {
   return (float)(s->along * (double)body->inverse_mass + turning);
 }
 
-/* ---- How heavy ---- */
+/* ---- Attached mass ---- */
 
 static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point *at, float mass) {
   int32_t carrier = model->carrier_of_frame[frame];
@@ -181,7 +181,7 @@ static void add_weights(const sbr_model *model, const sbri_island *island, const
 }
 
 bool sbri_coupling_make(sbr_model *model) {
-  sbri_rigid_model *rigid = &model->rigid; /* on each detail level its own */
+  sbri_rigid_model *rigid = &model->rigid; /* each detail level has its own */
   rigid->pinned_weights = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->pinned_squares = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
   rigid->attached_masses = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));

@@ -1,14 +1,15 @@
-/* The detail levels of a model beside its first: coarser levels, jiggle, bones alone, away. */
+/* The detail levels of a model except its first: coarser levels, jiggle, bones only, offscreen. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 #include "solvers/scheme.h"
 
-/* Error of a level that states none, as a fraction of the body's size: about that of a swinging body. */
+/* Error of a level without a stated one, as a fraction of the body's size: about that of an oscillating body.
+ */
 static const float UNSTATED_FRACTION = 0.02f;
 
-/* What else a tick costs, in visits of tetrahedra, of which each takes 6 ns: a visit of a spring or of a
- * point by a region, a substep of an island beside those, a gait and its pose, a follower, a place that
- * moves. Measured: 1.9 ns, 1 us, 5 us, 50 ns and 0.5 us. */
+/* Other costs of a tick in visits of tetrahedra, each of which takes 6 ns: a visit of a spring, or of a point
+ * by a region; a substep of an island in addition to those; a gait and its pose; a follower; a character that
+ * moves without a pose. Measured: 1.9 ns, 1 us, 5 us, 50 ns and 0.5 us. */
 static const float SPRING_VISITS = 0.33f, SUBSTEP_VISITS = 150;
 static const float GAIT_VISITS = 800, FOLLOWER_VISITS = 8, AWAY_VISITS = 80;
 
@@ -18,7 +19,7 @@ static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model's levels of detail");
 }
 
-/* ---- Which there are ---- */
+/* ---- Selection of levels ---- */
 
 static bool any_jiggle(const sbr_model *model) {
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
@@ -106,7 +107,7 @@ static void rate(const sbr_model *model, sbr_detail_level *detail_level) {
   }
 }
 
-/* ---- Making ---- */
+/* ---- Build ---- */
 
 static sbf_status make_detail_level(
     sbr_model *base, const sbr_model_options *options, sbr_detail_level detail_level, sbf_diagnostic *error) {
@@ -123,7 +124,7 @@ static sbf_status make_detail_level(
   return sbri_model_prepare(made, &own, error);
 }
 
-/* Soft ones that are as dear as the one before are of no use. */
+/* Drops soft levels that cost as much as the one before. */
 static void drop_last(sbr_model *base) {
   sbr_model *last = base->levels[--base->detail_level_count];
   sbf_allocator allocator = last->arena.allocator;
@@ -175,9 +176,9 @@ static bool number_vertices(sbr_model *base) {
   return first != NULL;
 }
 
-/* ---- How bodies swing ---- */
+/* ---- Oscillation of bodies ---- */
 
-/* Of a body without a jiggle. */
+/* Frequency of a body without a jiggle. */
 static const float SWINGS_HZ = 8;
 static const float TWO_PI = 6.2831853f;
 
@@ -197,7 +198,7 @@ static void note_embedding(const sbr_model *base, uint32_t body, uint32_t *with,
   }
 }
 
-/* Which body most of each vertex is of, and how fast that swings. */
+/* The body with the largest weight in each vertex, and its frequency. */
 static bool note_swings(sbr_model *base) {
   uint32_t bodies = base->asset->soft_bodies.count;
   size_t vertices = base->first_vertices[base->asset->render_meshes.count];
@@ -219,7 +220,7 @@ static bool note_swings(sbr_model *base) {
   return true;
 }
 
-/* ---- What changes go by ---- */
+/* ---- Sources of changes ---- */
 
 static bool make_sources(sbr_model *base) {
   for (uint32_t to = 0; to < base->detail_level_count; to++) {
@@ -262,7 +263,7 @@ sbf_status sbri_detail_levels_make(
 void sbri_detail_levels_free(sbr_model *model) {
   for (uint32_t r = model->detail_level_count; r-- > 1;) {
     sbr_model *one = model->levels[r];
-    if (one == model->levels[r - 1]) continue; /* away */
+    if (one == model->levels[r - 1]) continue; /* offscreen */
     sbf_allocator allocator = one->arena.allocator;
     sbfi_arena_free(&one->arena);
     sbfi_free(&allocator, one, sizeof *one);

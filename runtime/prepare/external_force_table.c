@@ -1,5 +1,5 @@
-/* What acts on a body beside springs and weight: gas inside its surface, a dense medium outside, bending of
- * sheets, fields; and how much faster it makes the fastest mode. */
+/* External forces on a body: gas inside its surface, a dense medium outside, bending of sheets, and fields;
+ * and their effect on the highest frequency. */
 #include <string.h>
 
 #include "math/trig.h"
@@ -7,7 +7,7 @@
 #include "solvers/surface_forces.h"
 
 /* Fraction of its rest volume down to which a gas's stiffness, which grows with the square of the
- * compression, is bounded in advance. Beyond, it is updated at run time (sbri_update_gas_stiffness). */
+ * compression, is bounded in advance. Below it is updated at run time (sbri_update_gas_stiffness). */
 static const double MIN_GAS_FRACTION = 0.5;
 
 static bool has_flexion(const sbf_level *level) {
@@ -27,13 +27,13 @@ static bool make_hinges(sbr_model *model, sbri_body *body) {
   return good;
 }
 
-/* ---- How fast they make it ---- */
+/* ---- Frequency bounds ---- */
 
 static float mass_inverse(const sbri_island *island, uint32_t slot) {
   return slot < island->free_count ? island->inverse_masses[slot] : 0;
 }
 
-/* Gershgorin's bound of the hinges alone, rad^2/s^2; `rows` is (slot_count), 0. */
+/* Gershgorin's bound for the hinges alone, rad^2/s^2; `rows` has (slot_count) zeros. */
 static double hinges_bound(const sbri_island *island, const sbri_body *body, double *rows) {
   double max = 0;
   for (uint32_t i = 0; i < body->hinge_count; i++) {
@@ -70,8 +70,8 @@ static float vertex_mass_inverse(const sbri_island *island, const sbri_skin *ski
   return sum;
 }
 
-/* Of the gas: p V0 / V^2 times the sum of w |grad V|^2, and the turning of the faces, p times a third of the
- * sides around a point. */
+/* Bound for the gas: p V0 / V^2 times the sum of w |grad V|^2, plus the rotation of the faces, p times a
+ * third of the edges around a point. */
 static double gas_bound(const sbri_island *island, sbri_body *body) {
   const sbri_skin *skin = &body->surface;
   const sbf_polygon_mesh *mesh = &body->source->surface;
@@ -88,7 +88,7 @@ static double gas_bound(const sbri_island *island, sbri_body *body) {
       double w = (double)vertex_mass_inverse(island, skin, corners[k]),
              fraction = around * around / (16 * size);
       sum += 4 * w * fraction *
-             fraction; /* a point has about four faces; |grad V| is at most their areas' shares */
+             fraction; /* a point has about four faces; |grad V| is at most its parts of their areas */
       double turn = 4 * w * around / 6;
       turning = turn > turning ? turn : turning;
     }
@@ -99,7 +99,7 @@ static double gas_bound(const sbri_island *island, sbri_body *body) {
   return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / MIN_GAS_FRACTION;
 }
 
-/* The pressure's factors at the surface's vertices, where maps scale it. */
+/* Pressure factors at the surface's vertices, where maps scale it. */
 static bool find_gas_factors(sbr_model *model, sbri_body *body) {
   const sbf_soft_body *is = body->source;
   float *factors = NULL;

@@ -5,12 +5,12 @@
 
 typedef struct side {
   uint32_t low, high; /* source points */
-  uint32_t across;    /* the third of its triangle */
-  uint32_t order;     /* in the mesh; and whether it runs from low to high */
+  uint32_t across;    /* third corner of its triangle */
+  uint32_t order;     /* index in the mesh; and whether it runs from low to high */
   bool forward;
 } side;
 
-/* By ends, then as the mesh has them. */
+/* Order by ends, then by index. */
 static bool comes_before(const side *a, const side *b) {
   if (a->low != b->low) return a->low < b->low;
   if (a->high != b->high) return a->high < b->high;
@@ -40,7 +40,7 @@ static bool add_side(sbfi_array *sides, uint32_t from, uint32_t to, uint32_t acr
   return sbfi_array_append(sides, &s, 1);
 }
 
-/* Sides of the triangles that the polygons are cut into from their first corner. */
+/* Edges of the triangles that the polygons are divided into from their first corner. */
 static bool list_sides(const sbf_polygon_mesh *mesh, sbfi_array *sides) {
   const uint32_t *corners = mesh->polygon_points.at;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
@@ -57,7 +57,7 @@ static float rigidity_of(const sbf_attributes *is) {
   return is->young_modulus * t * t * t / (12 * (1 - is->poisson_ratio * is->poisson_ratio));
 }
 
-/* The hinge of two triangles over one side; false where a point is missing or it has no size. */
+/* The hinge of two triangles at an edge; false where a point is missing or it has no size. */
 static bool make_hinge(const sbri_island *island, const sbri_body *body, const float *factors, const side *s,
     const side *other, sbri_hinge *hinge) {
   const uint32_t points[4] = {
@@ -80,7 +80,7 @@ static bool make_hinge(const sbri_island *island, const sbri_body *body, const f
   return true;
 }
 
-/* `sides` is empty. */
+/* `sides` is empty on entry. */
 static bool list_hinges(const sbri_island *island, const sbri_body *body, sbfi_arena *keep, sbfi_array *sides,
     const float *factors, const sbri_hinge **found, uint32_t *found_count) {
   if (!list_sides(&body->source->surface, sides)) return false;

@@ -15,7 +15,7 @@ static uint32_t padded(uint32_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
 }
 
-/* ---- What holds each point, and what it weighs ---- */
+/* ---- Pins and masses ---- */
 
 static bool read_goals(sbri_island_maker *m, uint32_t index) {
   const sbri_body *body = sbri_maker_body(m, index);
@@ -104,14 +104,15 @@ static void count_valences(const sbri_island_maker *m, uint32_t index, uint32_t 
     }
 }
 
-/* Room for points that split. */
+/* Number of spare slots for points that split. */
 static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
   bool frays = sbri_body_frays(body) && !m->island->scheme->forceless;
   if (!frays && !sbri_body_tears(body)) return 0;
   return m->options->tear_points ? m->options->tear_points : body->level->positions.count / 2;
 }
 
-/* Free points by falling valence, equal ones in the level's order, from slot `next` on. */
+/* Appends free points from slot `next` on by decreasing number of springs, equal ones in the level's order.
+ */
 static bool append_unpinned(sbri_island_maker *m, uint32_t index, uint32_t next, uint32_t *slot_from_point) {
   sbri_body *body = sbri_maker_body(m, index);
   uint32_t count = body->level->positions.count, max = 0;
@@ -192,7 +193,7 @@ static bool fill_slots(sbri_island_maker *m) {
   return true;
 }
 
-/* Which pin set holds each slot: the first of those that hold its point. */
+/* The pin set of each pinned slot: the first one that pins its point. */
 static bool list_pins(sbri_island_maker *m) {
   sbri_island *island = m->island;
   uint32_t pinned_count = island->slot_count - island->free_count;
@@ -218,7 +219,7 @@ static bool list_pins(sbri_island_maker *m) {
   return true;
 }
 
-/* ---- All of it ---- */
+/* ---- All steps ---- */
 
 static bool make(sbri_island_maker *m) {
   uint32_t count = m->island->body_count;

@@ -1,4 +1,4 @@
-/* What several steps of the making of an island need. */
+/* Shared parts of building an island. */
 #include "prepare/island_maker.h"
 
 #include "mechanics/level_points.h"
@@ -6,7 +6,7 @@
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass) {
   float volume = mass / body->attributes.density, low = 0, high = 1;
   while (high * high * high < volume) high *= 2;
-  for (int i = 0; i < 30; i++) { /* the cube root, without a library's */
+  for (int i = 0; i < 30; i++) { /* cube root without a library function */
     float middle = 0.5f * (low + high);
     *(middle * middle * middle < volume ? &low : &high) = middle;
   }

@@ -1,12 +1,12 @@
-/* What the making of an island passes from step to step. */
+/* State of building an island. */
 #ifndef SBRI_ISLAND_MAKER_H
 #define SBRI_ISLAND_MAKER_H
 
 #include "prepare/prepare.h"
 
-/* A pin of weight below 1: a spring of no rest length to a held slot of its own. */
+/* A pin with a weight below 1: a spring of rest length 0 to a pinned slot of its own. */
 typedef struct sbri_goal {
-  uint32_t body, point, set, frame; /* body: place in the island */
+  uint32_t body, point, set, frame; /* body: index in the island */
   float stiffness, damping;
   sbf_vec3 position;
 } sbri_goal;
@@ -15,13 +15,13 @@ typedef struct sbri_island_maker {
   sbr_model *model;
   sbri_island *island;
   const sbr_model_options *options;
-  sbfi_arena scratch;   /* until the island is made */
-  uint32_t **frames;    /* of each body, (points): what holds each point */
-  sbf_vec3 **positions; /* and where */
+  sbfi_arena scratch;   /* until the island is built */
+  uint32_t **frames;    /* of each body, (points): pin frame of each point */
+  sbf_vec3 **positions; /* and its position */
   float **masses;       /* (points) kg */
   sbfi_array goals;     /* sbri_goal */
   uint32_t first_goal;  /* slot of the first goal's far end */
-  sbfi_array springs;   /* sbfi_spring, while they are listed */
+  sbfi_array springs;   /* sbfi_spring, while springs are listed */
   sbfi_array bounds;    /* sbfi_spring_bounds of each */
   bool states_rest_lengths;
   sbri_point *rest; /* the island's own tables, while they are filled */
@@ -42,32 +42,32 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t in
  * without a stated one and without a length to derive it from. */
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
-/* Each false where memory runs out. */
-/* How the island answers the rigid body that it hangs on, where that is one alone. */
+/* All return false if memory runs out. */
+/* Response of the island to the rigid body that it is attached to, if that is a single one. */
 bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network *network);
-/* What weight maps of the body make of a property, as factors at its level's points; NULL: 1 everywhere. */
+/* Factors of weight maps on a property, at the points of the body's level; NULL: 1 everywhere. */
 bool sbri_factors_find(
     sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors);
-/* Their mean at the corners of a tetrahedron. */
+/* Their mean over the corners of a tetrahedron. */
 static inline float sbri_factor_of(const float *factors, const uint32_t corners[4]) {
   return factors
              ? 0.25f * (factors[corners[0]] + factors[corners[1]] + factors[corners[2]] + factors[corners[3]])
              : 1;
 }
-/* Strain limits, yield and tear of the tetrahedra, in the order of the blocks; after these. */
+/* Strain limits, yield and tear of the tetrahedra, in the order of the blocks; call after these. */
 bool sbri_solid_limits_make(sbri_island_maker *m);
-bool sbri_tetrahedra_list(sbri_island_maker *m); /* finds which act, and their moduli */
+bool sbri_tetrahedra_list(sbri_island_maker *m); /* lists active tetrahedra and their moduli */
 /* The island's tetrahedra for a network over its slots; the arrays are scratch. */
 bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network);
-/* Lays them out; `network` has them. */
+/* Builds the blocks from `network`. */
 bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network);
-/* The regions of bodies that match shapes; then w of the fastest into `region_rad_s`. */
+/* Regions of shape matching bodies; sets `region_rad_s` to the highest frequency. */
 bool sbri_regions_make(sbri_island_maker *m);
-/* Lowest angular frequency of the body's regions at rest, linearised, its held points held and rigid motion
- * left out; `scratch` is of 9 doubles a slot of the island. */
+/* Lowest angular frequency of the body's regions at rest, linearised, with fixed pinned points and without
+ * rigid motion; `scratch` has 9 doubles per slot of the island. */
 double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, double *scratch);
-bool sbri_island_springs(sbri_island_maker *m); /* lists them, finds frequencies and damping, lays them out */
-/* Sets rest lengths so that they bear the weight, where the bodies ask for it and something holds them. */
+bool sbri_island_springs(sbri_island_maker *m); /* lists them, finds frequencies and damping, builds tables */
+/* Sets rest lengths so that springs support the weight, if the bodies request it and are pinned. */
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network);
 
 #endif

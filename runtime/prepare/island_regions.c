@@ -1,5 +1,4 @@
-/* The regions of an island's bodies that match shapes: weights and offsets, eight regions of about one size a
- * block. */
+/* Regions of shape matching bodies: weights and offsets, in blocks of eight regions of similar size. */
 #include <string.h>
 
 #include "mechanics/shape_region.h"
@@ -14,10 +13,10 @@ static bool acts(const sbri_body *body) {
 typedef struct region_weights {
   const sbri_island *island;
   const sbri_body *body;
-  uint32_t *uses;   /* (points) in how many regions each point is */
+  uint32_t *uses;   /* (points) number of regions with each point */
   uint32_t *begins; /* (regions + 1) */
-  double *weights;  /* of the region looked at: (its points) a, kg */
-  sbfi_d3 *rest;    /* and where they are at rest */
+  double *weights;  /* of the present region: (its points) a, kg */
+  sbfi_d3 *rest;    /* and their rest positions */
 } region_weights;
 
 static float mass_of(const region_weights *r, uint32_t point) {
@@ -25,7 +24,7 @@ static float mass_of(const region_weights *r, uint32_t point) {
   return slot < r->island->free_count ? r->island->masses[slot] : 0;
 }
 
-/* Of region `number`, into weights and rest; 0 points where all of them are held. */
+/* Fills weights and rest of region `number`; returns its number of points, 0 if all of them are pinned. */
 static uint32_t weigh(const region_weights *r, uint32_t number) {
   const uint32_t *points = r->body->level->regions->points.at + r->begins[number];
   uint32_t count = r->begins[number + 1] - r->begins[number], free_count = 0;
@@ -63,7 +62,7 @@ static bool open_weights(sbri_island_maker *m, const sbri_body *body, region_wei
   return r->weights && r->rest;
 }
 
-/* The regions that act, the largest first, equal ones in the level's order. */
+/* Active regions by decreasing size, equal ones in the level's order. */
 static bool sort_regions(sbri_island_maker *m, const region_weights *r, uint32_t *order, uint32_t *count) {
   const sbf_u32_list sizes = r->body->level->regions->sizes;
   uint32_t max = 0;
@@ -99,7 +98,7 @@ static void fill_lane(const region_weights *r, uint32_t number, sbri_region_bloc
   block->inverse_sums[lane] = (float)(1 / sum);
 }
 
-/* Lanes without a region name a point of the block's first one. */
+/* Unused lanes hold a point of the block's first region. */
 static void fill_block(const region_weights *r, const uint32_t *order, uint32_t count,
     sbri_region_block *block, sbri_region_member *members) {
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)

@@ -1,7 +1,7 @@
 /* Strain limits, yield and tear of the tetrahedra of an island, in the order of its blocks. */
 #include "prepare/island_maker.h"
 
-/* What weight maps make of the strains, of one body. */
+/* Factors of weight maps on the strains of a body. */
 typedef struct solid_factors {
   const float *yield, *tear;
 } solid_factors;
@@ -11,8 +11,8 @@ static bool is_bounded(const sbf_attributes *is) {
          (is->yield_strain > 0 && is->yield_flow > 0);
 }
 
-/* While every stretch s is within 1 - d and 1 + d, nothing is beyond; where one is not, (s^2 - 1)^2 is more
- * than (2 d - d^2)^2. */
+/* While every stretch s is within 1 - d and 1 + d, no limit is exceeded; otherwise some (s^2 - 1)^2 is above
+ * (2 d - d^2)^2. */
 static float square_below(const sbri_solid_limits *limits, uint32_t lane) {
   float nearest = 1;
   if (limits->min[lane] > -1 && -limits->min[lane] < nearest) nearest = -limits->min[lane];

@@ -1,5 +1,5 @@
-/* The springs of an island, and what it swings by: springs are listed once each, then laid out for the eight
- * points of a block at a time. */
+/* Springs of an island and its frequencies: springs are listed once each, then arranged for eight points of a
+ * block at a time. */
 #include <string.h>
 
 #include "mechanics/level_points.h"
@@ -14,7 +14,7 @@ static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   return sqrtf(x * x + y * y + z * z);
 }
 
-/* Of two points of levels: pins hold some elsewhere. */
+/* Distance of two points of levels at rest, without pins, which may move them. */
 static float authored_distance(const sbri_body *a, uint32_t from, const sbri_body *b, uint32_t to) {
   const sbf_vec3 *p = &a->level->positions.at[from], *q = &b->level->positions.at[to];
   float x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
@@ -30,9 +30,9 @@ static bool add(sbri_island_maker *m, sbfi_spring spring, const sbfi_spring_boun
   return inert || (sbfi_array_append(&m->springs, &spring, 1) && sbfi_array_append(&m->bounds, bounds, 1));
 }
 
-/* ---- Listing ---- */
+/* ---- Spring list ---- */
 
-/* What weight maps make of the attributes of springs: factors at the level's points; NULL: 1 everywhere. */
+/* Factors of weight maps on the attributes of springs, at the level's points; NULL: 1 everywhere. */
 typedef struct spring_factors {
   const float *damping, *yield, *tear;
 } spring_factors;
@@ -41,7 +41,7 @@ static float factor_of(const float *factors, const uint32_t ends[2]) {
   return factors ? 0.5f * (factors[ends[0]] + factors[ends[1]]) : 1;
 }
 
-/* What a set does not state is the body's. */
+/* Attributes that the set does not state are those of the body. */
 static sbfi_spring_bounds bounds_of(
     const sbf_attributes *is, const sbf_spring_set *set, const spring_factors *by, const uint32_t ends[2]) {
   sbfi_spring_bounds bounds = {set->strain_min > -1 ? set->strain_min : is->strain_min,
@@ -73,7 +73,8 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
     return false;
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
-    if (level->model != SBF_ELASTIC_MODEL_SPRINGS && !set->extra) { /* beside another model only these act */
+    if (level->model != SBF_ELASTIC_MODEL_SPRINGS &&
+        !set->extra) { /* with another material model only these are active */
       stiffness += set->ends.count;
       continue;
     }
@@ -151,7 +152,7 @@ static bool list_springs(sbri_island_maker *m) {
   return true;
 }
 
-/* What the springs are like at rest. */
+/* Finds properties of the springs at rest. */
 static void measure_springs(sbri_island *island) {
   double lengths = 0;
   for (uint32_t i = 0; i < island->spring_count; i++) {
@@ -187,11 +188,11 @@ static void put(const sbri_island *island, const cell_tables *t, uint32_t *used,
   if (t->links) t->links[index * SBRI_BLOCK + lane] = island->link_of_spring[spring];
 }
 
-/* Springs that go along with a point which splits: not more than half of what any has, since the greater
- * part stays; nor than this. */
+/* Maximum number of springs that move with a split point: half of those of any point, since the larger part
+ * stays, and at most this. */
 enum { MAX_PARTING = 32 };
 
-/* Room in the rows of slots that are room for points. */
+/* Reserves spring rows for spare slots. */
 static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
@@ -206,14 +207,14 @@ static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
 
 static bool make_cells(sbri_island_maker *m) {
   sbri_island *island = m->island;
-  /* What holds a body feels it only where there is something to be moved. */
+  /* Reactions on pinned points are needed only with rigid bodies. */
   island->cell_slot_count = m->model->rigid.body_count ? island->slot_count : island->free_count;
   uint32_t block_count = island->cell_slot_count / SBRI_BLOCK;
   uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
   uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
   if (!begins || !ends || !used) return false;
-  bool damped = false, slack = false; /* kernels look for slack where they look for damping */
+  bool damped = false, slack = false; /* kernels check for slack only if there is damping */
   for (uint32_t i = 0; i < island->spring_count; i++) {
     used[island->springs[i].a]++, used[island->springs[i].b]++;
     slack = slack || island->springs[i].slack != 0;
@@ -255,20 +256,20 @@ static bool make_cells(sbri_island_maker *m) {
 
 /* ---- Frequencies ---- */
 
-/* Lattices above this size only get an upper bound of their lowest mode: refining it would take more than a
- * tenth of a second, and the bound of a fine lattice is close. */
+/* For lattices above this size only an upper bound of the lowest mode is computed: refining it would take
+ * more than a tenth of a second, and the bound of a fine lattice is close. */
 enum { MAX_REFINED = 3000 };
 
-/* Greatest displacement of a body's points by its bones, as a fraction of their distance from the pins.
- * Beyond it the bones move the whole body along: springs cannot tell inside from outside and would not
- * restore it. A sudden start sways twice as far as a slow one. Bending of a sheet does not count, because a
- * sheet has no inside. */
+/* Maximum displacement of a body's points by its bones, as a fraction of their distance from the pins. Beyond
+ * it the bones move the whole body along: springs cannot distinguish inside from outside and would not
+ * restore it. A sudden start displaces a body twice as far as a slow one. Bending of a sheet does not count,
+ * because a sheet has no inside. */
 static const float MAX_SWAY = 0.25f;
 
-/* Number of a body's points from which its reach is found. */
+/* Number of a body's points from which its extent is estimated. */
 enum { REACH_SAMPLES = 256 };
 
-/* How far from what holds it the body reaches, in m; no farther than it is large. */
+/* Extent of the body from its pins, m; at most its size. */
 static float reach_of(const sbri_body *body, uint32_t free_count) {
   const sbf_vec3 *at = body->level->positions.at;
   uint32_t count = body->level->positions.count, step = count / REACH_SAMPLES + 1;
@@ -285,7 +286,7 @@ static float reach_of(const sbri_body *body, uint32_t free_count) {
   return sqrtf(reach2);
 }
 
-/* What an oscillator of `w` rad/s must not feel so as to sway no farther than that, in m. */
+/* Bounds the drivers' acceleration so that an oscillator of `w` rad/s moves by at most `sway`, m. */
 static void bound_start(sbri_island *island, float sway, float w) {
   float acceleration = sway * w * w, push = sway * w;
   if (!(acceleration > 0)) return;
@@ -294,7 +295,7 @@ static void bound_start(sbri_island *island, float sway, float w) {
   if (first || push < island->max_push_m_s) island->max_push_m_s = push;
 }
 
-/* rad/s, of the body's lowest mode in the network, and by its regions. */
+/* Frequency of the body's lowest mode in the network, and by its regions, rad/s. */
 static double lowest_of(
     const sbri_island *island, const sbri_body *body, const sbf_spring_network *own, double *scratch) {
   double elastic = sbf_network_lowest(own, body->tetrahedron_count < MAX_REFINED, scratch);
@@ -363,7 +364,7 @@ static bool find_alphas(sbri_island_maker *m) {
   return true;
 }
 
-/* Friction of each point, where a map scales it. */
+/* Friction of each point, if a map scales it. */
 static bool find_frictions(sbri_island_maker *m) {
   uint32_t free_count = m->island->free_count;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
@@ -400,8 +401,8 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
     ends[i] = (sbf_uint2){{s->a, s->b}};
     stiffness[i] = s->slack < 0 ? s->stiffness_n_m * (1 - s->slack) : s->stiffness_n_m;
     if (s->rest_length_m > 0) continue;
-    /* A spring of no length, as a goal's, pulls alike in all directions: as an anchor, and if both its ends
-     * are free no more than twice that. */
+    /* A spring of rest length 0, such as a goal's, is isotropic: it counts like an anchor, or at most twice
+     * if both ends are free. */
     bool a_free = s->a < island->free_count, b_free = s->b < island->free_count;
     float k = a_free && b_free ? 2 * s->stiffness_n_m : s->stiffness_n_m;
     stiffness[i] = 0;
@@ -419,7 +420,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
   island->fastest_rad_s = sbri_fastest(&network, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
-  double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster by more than their sum */
+  double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster than by their sum */
   island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;

@@ -48,16 +48,16 @@ bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) 
 
 /* ---- Blocks ---- */
 
-/* So many blocks are open at a time, and a tetrahedron goes into the first that has none of its free points:
- * more than a point has tetrahedra as a rule, few enough that a block's stay close in memory. */
+/* Number of open blocks. A tetrahedron goes into the first one with none of its free points. It is above the
+ * usual number of tetrahedra at a point, and small enough that a block's elements stay close in memory. */
 enum { OPEN_BLOCKS = 64 };
 #define NO_ELEMENT UINT32_MAX
 
 typedef struct packing {
   const sbri_island *island;
   const sbf_uint4 *corners; /* slots */
-  uint32_t *elements;       /* (count x 8) of each lane, NO_ELEMENT where it is inert; block after block */
-  uint64_t *users;          /* (free_count) which of the open blocks have the slot */
+  uint32_t *elements;       /* (count x 8) of each lane, NO_ELEMENT if unused; block after block */
+  uint64_t *users;          /* (free_count) bits of open blocks with the slot */
   uint64_t open;
   uint32_t at[OPEN_BLOCKS], filled[OPEN_BLOCKS]; /* number and lanes of each open block */
   uint32_t block_count;
@@ -79,7 +79,7 @@ static uint32_t min_bit(uint64_t mask) {
   return bit;
 }
 
-/* The place for the next block; it replaces the oldest one if all are in use. */
+/* Position for the next block; replaces the oldest one if all are in use. */
 static uint32_t open_block(packing *p) {
   uint32_t index = 0;
   if (p->open == UINT64_MAX) {
@@ -122,8 +122,8 @@ static bool is_corner(const packing *p, const uint32_t *lanes, uint32_t slot) {
   return false;
 }
 
-/* A slot that no lane of the block moves: a held one, or a free one that is none of its corners; slot_count:
- * there is none. */
+/* A slot that no lane of the block moves: a pinned one, or a free one that is not among its corners;
+ * slot_count: none. */
 static uint32_t find_spare(const packing *p, const uint32_t *lanes) {
   for (uint32_t slot = p->island->slot_count; slot-- > 0;)
     if (slot >= p->island->free_count || !is_corner(p, lanes, slot)) return slot;
@@ -136,7 +136,7 @@ static uint32_t lanes_filled(const packing *p, uint32_t block) {
   return count;
 }
 
-/* The last lanes of a block move to blocks of their own while it leaves no spare slot. */
+/* Moves the last lanes of a block to blocks of their own until it has a spare slot. */
 static void leave_spare(packing *p, uint32_t block) {
   uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK, count = lanes_filled(p, block);
   while (count < SBRI_BLOCK && find_spare(p, lanes) == p->island->slot_count) {
@@ -147,7 +147,7 @@ static void leave_spare(packing *p, uint32_t block) {
   }
 }
 
-/* Full blocks first, then those that are not once more without the inert lanes, then as they are. */
+/* Full blocks first, then the others without unused lanes, then the others as they are. */
 static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
   uint32_t full = 0, loose = 0, next;
   for (uint32_t block = 0; block < p->block_count; block++) {
@@ -188,7 +188,7 @@ static bool pack(sbri_island_maker *m, packing *p) {
   return true;
 }
 
-/* What the lattice states, else the body's by its weight maps. */
+/* Beta stated by the lattice, else that of the body with its weight maps. */
 static float beta_of(const sbri_body *body, const float *factors, uint32_t t) {
   const sbf_f32_list *stated = &body->level->lattice.stiffness_damping;
   if (stated->count) return stated->at[stated->count == 1 ? 0 : t];
@@ -219,7 +219,7 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
   }
 }
 
-/* Greatest beta, and whether there is any. */
+/* Finds the maximum beta, and whether there is any. */
 static bool find_damping(sbri_island_maker *m, const float *const *factors) {
   float max = 0;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
@@ -233,7 +233,7 @@ static bool find_damping(sbri_island_maker *m, const float *const *factors) {
   return max > 0;
 }
 
-/* Mean length of their sides at rest, m. */
+/* Mean length of their edges at rest, m. */
 static float mean_side(const sbri_island *island, const sbf_uint4 *corners) {
   double sum = 0;
   for (uint32_t t = 0; t < island->tetrahedron_count; t++)

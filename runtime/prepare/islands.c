@@ -1,9 +1,9 @@
-/* Which bodies are simulated, at which level, and which of them must be stepped together. */
+/* Selection of simulated bodies, their levels, and islands. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 
-/* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, or
- * was not loaded, the next coarser one that is, else the next finer. */
+/* The level with the wanted number, or the coarsest one. If its model is not stepped, or it was not loaded,
+ * the next coarser one that is, else the next finer one. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
   uint32_t count = body->levels.count, first = wanted < count ? wanted : count - 1;
   if (count == 0) return NULL;
@@ -23,8 +23,8 @@ static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level,
       body->id, sbf_elastic_model_name(level->model));
 }
 
-/* Of a coarser detail level: the wanted number or the next finer one that is near enough, else the first
- * detail level's. */
+/* Level of a coarser detail level: the wanted number or the next finer one with an acceptable error, else
+ * that of the first detail level. */
 static const sbf_level *coarser_of(const sbr_model *model, uint32_t body, uint32_t wanted) {
   const sbri_body *first = &model->base->bodies[body];
   const sbf_level_list *levels = &first->source->levels;
@@ -41,7 +41,7 @@ static uint32_t first_of(const uint32_t *joined, uint32_t body) {
   return body;
 }
 
-/* Ends are points of levels named by number, which a load does not compare with them. */
+/* Ends are points of levels by number, which loading does not check. */
 static sbf_status check_ends(const sbr_model *model, const sbf_cross_springs *cross, sbf_diagnostic *error) {
   if (!sbri_cross_springs_act(model, cross)) return SBF_OK;
   const sbf_level *levels[] = {model->bodies[cross->body_a].level, model->bodies[cross->body_b].level};
@@ -56,7 +56,7 @@ static sbf_status check_ends(const sbr_model *model, const sbf_cross_springs *cr
   return SBF_OK;
 }
 
-/* `joined` leads from each body to the first of its group. */
+/* `joined` links each body to the first of its group. */
 static void join(const sbr_model *model, uint32_t *joined) {
   const sbf_asset *asset = model->asset;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) joined[i] = i;

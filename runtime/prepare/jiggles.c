@@ -1,4 +1,4 @@
-/* Jiggles: the follower that replaces bodies with one pin frame. */
+/* Jiggles: followers that replace bodies with one pin frame. */
 #include "prepare/prepare.h"
 
 /* The frame that moves the body rigidly. */

@@ -1,4 +1,4 @@
-/* What a file asks for and this runtime does not do. */
+/* Features of a file that this runtime does not support. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 
@@ -48,7 +48,7 @@ static body_counts count_bodies(const sbr_model *model) {
       n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
                   body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA &&
                   body->levels.at[i].model != SBF_ELASTIC_MODEL_SHAPE_MATCHING;
-    /* Tetrahedra beside regions carry what is embedded in them. */
+    /* Tetrahedra of a body with regions only embed its surface. */
     bool regions = level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
     n.beside +=
         (level->regions != NULL && !regions) || level->jiggle != NULL ||

@@ -1,4 +1,4 @@
-/* What the levels of bodies are good for. */
+/* Assessment of levels. */
 #include "prepare/prepare.h"
 
 /* Error, as a fraction of the body's size, above which a level is never used.

@@ -16,7 +16,7 @@ typedef struct colouring {
   const sbri_island *island;
   const sbri_body *bodies;        /* of the model */
   uint64_t (*used)[COLOUR_WORDS]; /* (free_count) colours of the springs at each point */
-  uint32_t *colours;              /* (spring_count) COLOURS: none was left */
+  uint32_t *colours;              /* (spring_count) COLOURS: none free */
   uint32_t *ordered;              /* (spring_count) springs by colour */
   uint32_t counts[COLOURS + 1];
 } colouring;
@@ -49,7 +49,7 @@ static void colour(colouring *c) {
   for (uint32_t i = 0; i < c->island->spring_count; i++) c->ordered[begins[c->colours[i]]++] = i;
 }
 
-/* Whether it is room for points that split: such a one may come to be an end of any spring. */
+/* Whether it is a spare slot: a split point may become an end of any spring. */
 static bool is_reserved(const colouring *c, uint32_t slot) {
   for (uint32_t b = 0; b < c->island->body_count; b++) {
     const sbri_body *body = &c->bodies[c->island->bodies[b]];
@@ -58,7 +58,7 @@ static bool is_reserved(const colouring *c, uint32_t slot) {
   return false;
 }
 
-/* A slot that none of the springs has an end at; slot_count: there is none. */
+/* A slot without an end of these springs; slot_count: none. */
 static uint32_t spare_slot(const colouring *c, const uint32_t *springs, uint32_t count) {
   const sbri_island *island = c->island;
   for (uint32_t slot = island->slot_count; slot-- > 0;) {
@@ -70,7 +70,7 @@ static uint32_t spare_slot(const colouring *c, const uint32_t *springs, uint32_t
   return island->slot_count;
 }
 
-/* How many of the springs make the next block: eight, or fewer with a spare slot for the inert lanes. */
+/* Number of springs in the next block: eight, or fewer with a spare slot for unused lanes. */
 static uint32_t take(const colouring *c, const uint32_t *springs, uint32_t left, uint32_t *spare) {
   uint32_t count = left < SBRI_BLOCK ? left : SBRI_BLOCK;
   *spare = 0;
@@ -120,7 +120,7 @@ static bool is_disjoint(const sbri_island *island, const uint32_t *springs, uint
   return true;
 }
 
-/* Walks the colours; with `t` NULL it only counts the blocks. */
+/* Visits the colours; with `t` NULL it only counts the blocks. */
 static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring_bounds *bounds) {
   uint32_t block = 0;
   const uint32_t *next = c->ordered;

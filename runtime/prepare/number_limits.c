@@ -1,5 +1,5 @@
-/* Refuses assets whose numbers are so large that the simulation's products of them are infinite. The format
- * allows every finite number. */
+/* Refuses assets with numbers so large that products in the simulation become infinite. The format allows
+ * every finite number. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -7,10 +7,10 @@
 #include "model/element_path.h"
 #include "prepare/prepare.h"
 
-/* m. Inertia goes by the fifth power of lengths. */
+/* m; inertia has the fifth power of lengths */
 static const double MAX_LENGTH_M = 1e6;
 
-/* A list of points without a unit is of lengths too. */
+/* Lists of points without a unit are lengths too. */
 static bool is_length(const sbfi_field *field) {
   return strcmp(field->unit, "m") == 0 || (field->type == SBFI_LIST && field->width == 3);
 }

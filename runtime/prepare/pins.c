@@ -1,4 +1,4 @@
-/* What the pins of a level hold, and which frames carry the points that no pin holds fast. */
+/* Pins of a level, and the drivers of points that are not fully pinned. */
 #include "prepare/pins.h"
 
 #include "math/quat.h"
@@ -37,25 +37,24 @@ void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *fr
     const sbf_pin_set *set = &level->pins.at[s];
     for (uint32_t i = 0; i < set->points.count; i++) {
       uint32_t point = set->points.at[i];
-      if (sbri_pin_weight(set, i) < 1 || frames[point] != SBRI_FREE) continue; /* the first set holds it */
+      if (sbri_pin_weight(set, i) < 1 || frames[point] != SBRI_FREE) continue; /* the first set counts */
       frames[point] = sbri_pin_frame(model, set);
       positions[point] = sbri_pin_position(model, level, set, i);
     }
   }
 }
 
-/* ---- Guides ---- */
+/* ---- Drivers ---- */
 
 enum { SWEEPS = 200 };
 
 typedef struct spread {
   const sbri_island *island;
   uint32_t first, count; /* free slots of the body */
-  uint32_t *frames;      /* (frame_count) the frames that hold the body */
+  uint32_t *frames;      /* (frame_count) pin frames of the body */
   uint32_t frame_count;
-  float *fractions; /* (count x frame_count) */
-  uint32_t *link_begins,
-      *links; /* corners that share a tetrahedron with each point, once for each; NULL: none */
+  float *fractions;              /* (count x frame_count) */
+  uint32_t *link_begins, *links; /* corners that share a tetrahedron with each point, once each; NULL: none */
 } spread;
 
 static uint32_t frame_position(const spread *s, uint32_t frame) {
@@ -64,7 +63,7 @@ static uint32_t frame_position(const spread *s, uint32_t frame) {
   return index;
 }
 
-/* What the other end of a spring adds to a point's shares. */
+/* Adds the weights of the other end of a spring to those of a point. */
 static void add_contributions(const spread *s, float *to, uint32_t other, float weight) {
   if (other >= s->island->free_count) {
     to[frame_position(s, s->island->frame_of_pinned[other - s->island->free_count])] += weight;
@@ -74,7 +73,7 @@ static void add_contributions(const spread *s, float *to, uint32_t other, float 
   }
 }
 
-/* What regions join with each point: those 1, 2, 4, 8 ... places further round the region. */
+/* Links of regions: points 1, 2, 4, 8 ... indices further in the region. */
 static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
   const sbf_shape_regions *regions = body->level->regions;
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins), *links = NULL;
@@ -100,7 +99,7 @@ static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scra
   return true;
 }
 
-/* What tetrahedra, or regions, join with each point. */
+/* Links of tetrahedra or regions. */
 static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
   if (body->first_region_block < body->region_block_end) return list_region_links(s, body, scratch);
   if (body->tetrahedron_count == 0) return true;
@@ -124,7 +123,7 @@ static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
   return true;
 }
 
-/* One pass of relaxation towards the mean of the neighbours, weighted by stiffness. */
+/* One iteration of relaxation towards the mean of the neighbours, weighted by stiffness. */
 static void sweep(const spread *s, float *scratch) {
   for (uint32_t i = 0; i < s->count; i++) {
     uint32_t slot = s->first + i, block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
@@ -149,7 +148,7 @@ static void sweep(const spread *s, float *scratch) {
   }
 }
 
-/* The greatest shares, summing to one; all of it to `otherwise` where nothing reaches the point. */
+/* The largest weights, with sum 1; only `otherwise` if nothing reaches the point. */
 static sbri_driver driver_of(const spread *s, const float *fractions, uint32_t otherwise) {
   sbri_driver driver = {{otherwise, otherwise, otherwise, otherwise}, {1, 0, 0, 0}};
   float sum = 0, taken[SBRI_DRIVERS] = {0};

@@ -1,15 +1,15 @@
-/* Springs that bear a body's weight in the shape it was authored in.
+/* Springs that support a body's weight in its authored shape.
  *
- * The small displacements u under the weight f, K u = f, pull a spring of direction n by k n.(u_b - u_a).
- * With rest lengths shorter by n.(u_b - u_a) the springs pull just so where they are, and the authored shape
- * is at rest. (The inverse of a static solve, to first order exact; what Twigg and Kacic-Alesic, Optimization
- * for Sag-Free Simulations, 2011, ask of it.) */
+ * The small displacements u under the weight f, K u = f, change the tension of a spring of direction n by k
+ * n.(u_b - u_a). With rest lengths shorter by n.(u_b - u_a) the springs have this tension at the authored
+ * positions, so the authored shape is at rest. (This is the inverse of a static solve, exact to first order,
+ * the problem of Twigg and Kacic-Alesic, Optimization for Sag-Free Simulations, 2011.) */
 #include "prepare/island_maker.h"
 #include "solvers/scheme.h"
 
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 
-/* Least rest length as a fraction of the distance at rest, for any mass of the body. */
+/* Minimum rest length as a fraction of the distance at rest, for any mass of the body. */
 static const float MIN_FRACTION = 0.05f;
 
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network) {
@@ -40,10 +40,10 @@ bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network
     if (s->rest_length_m > 0) {
       if (!(length > 0)) continue;
       double change = (x * (ub[0] - ua[0]) + y * (ub[1] - ua[1]) + z * (ub[2] - ua[2])) / length;
-      if (change < 0 && s->slack < 1) change /= 1 - (double)s->slack; /* it pushes, as its slack lets it */
+      if (change < 0 && s->slack < 1) change /= 1 - (double)s->slack; /* under compression, with its slack */
       float loaded = (float)(s->rest_length_m - change), min = MIN_FRACTION * s->rest_length_m;
       s->rest_length_m = loaded > min ? loaded : min;
-    } else if (s->b >= island->free_count) { /* a goal: its far end moves instead */
+    } else if (s->b >= island->free_count) { /* goal: moves its pinned end instead */
       q->x -= (float)ua[0], q->y -= (float)ua[1], q->z -= (float)ua[2];
     }
   }

@@ -1,5 +1,5 @@
-/* The order in which a model is made of an asset: bones, rigid parts, islands of soft bodies, skins,
- * schemes. */
+/* Order in which a model is built from an asset: bones, rigid parts, islands of soft bodies, skins, schemes.
+ */
 #include "prepare/prepare.h"
 
 #include <float.h>
@@ -10,17 +10,17 @@
 #include "skin/skin.h"
 #include "solvers/router.h"
 
-/* Error of a step, of schemes that control it, where nothing else is said: a tenth of a millimetre. */
+/* Default error of a step of schemes with error control: a tenth of a millimetre. */
 static const float STEP_ERROR_M = 1e-4f;
 
-/* Of a control tick for rigid parts, where nothing else is said. */
+/* Default number of substeps per tick of rigid parts. */
 enum { RIGID_SUBSTEPS = 4 };
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
 }
 
-/* The finest that a level of the island asks for. */
+/* The smallest error that a level of the island states. */
 static float min_step_error(const sbr_model *model, const sbri_island *island) {
   float min = FLT_MAX;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -30,8 +30,8 @@ static float min_step_error(const sbr_model *model, const sbri_island *island) {
   return min < FLT_MAX ? min : STEP_ERROR_M;
 }
 
-/* What the call asks for; else what the level does, and where the runtime does not have that or it cannot
- * step the island, the default, which follows the same energy. */
+/* The scheme that the call sets, else that of the level. If the runtime does not have it, or it cannot step
+ * the island, the default, which follows the same energy. */
 static sbf_status choose_scheme(
     sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error) {
   const sbri_body *first = &model->bodies[island->bodies[0]];
@@ -55,7 +55,7 @@ static sbf_status choose_scheme(
   return SBF_OK;
 }
 
-/* Diagonals of the boxes of each body and of all of them. */
+/* Diagonals of the bounding boxes of each body and of all bodies. */
 static void measure(sbr_model *model) {
   float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   bool any = false;
@@ -83,8 +83,8 @@ static void measure(sbr_model *model) {
   model->rest_size_m = sqrtf(square);
 }
 
-/* Of bodies that are to tear and have nothing that can: springs between pinned points alone. Their spare
- * slots are padding then, since no state says where these come from. */
+/* For bodies that may tear but have no elements that can, only springs between pinned points: turns spare
+ * slots into padding, since no state has their origins. */
 static void return_spare_slots(const sbr_model *model, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = &model->bodies[island->bodies[b]];
@@ -133,7 +133,7 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
   return status;
 }
 
-/* With all that makes them fast known. */
+/* Call when all frequencies are known. */
 static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
@@ -171,7 +171,7 @@ static bool make_skins(sbr_model *model) {
   return true;
 }
 
-/* Bones and rigid parts: those of the first detail level. */
+/* Bones and rigid parts; detail levels share those of the first one. */
 static bool make_bones(sbr_model *model) {
   if (model->base != model) {
     model->rig = model->base->rig;

@@ -1,9 +1,9 @@
-/* The lowest mode of a body of regions, by which it is damped.
+/* The lowest mode of a body of regions, for its damping.
  *
- * Linearised at rest, a point is pulled by k (u - d - t x r), d and t the region's displacement and turn that
- * fit those of its points best. No mode is faster than the greatest w, so that power iteration on w^2 - H
- * finds the slowest; rigid motion, of a body that nothing holds, is taken out in each step. The quotient of
- * what comes of it is the frequency from above. */
+ * Linearised at rest, the force on a point is k (u - d - t x r), with d and t the region's displacement and
+ * rotation that fit those of its points best. No mode is faster than the maximum w, so power iteration on w^2
+ * - H finds the slowest; rigid motion of a body without pins is removed in each step. The Rayleigh quotient
+ * of the result is an upper bound of the frequency. */
 #include <string.h>
 
 #include "mechanics/shape_region.h"
@@ -11,7 +11,7 @@
 
 enum { STEPS = 150 };
 
-/* The symmetric 3 x 3 system g x = b by Cramer's rule; 0 where it has no solution. */
+/* Solves the symmetric 3 x 3 system g x = b by Cramer's rule; 0 if it has no solution. */
 static sbfi_d3 solve(const double g[6], sbfi_d3 b) {
   sbfi_d3 u = {g[0], g[3], g[5]}, v = {g[3], g[1], g[4]}, w = {g[5], g[4], g[2]};
   sbfi_d3 vw = sbfi_d3_cross(v, w), wu = sbfi_d3_cross(w, u), uv = sbfi_d3_cross(u, v);
@@ -20,7 +20,7 @@ static sbfi_d3 solve(const double g[6], sbfi_d3 b) {
   return sbfi_d3_scale((sbfi_d3){sbfi_d3_dot(vw, b), sbfi_d3_dot(wu, b), sbfi_d3_dot(uv, b)}, 1 / det);
 }
 
-/* What fits displacements as a rigid one: sums over weighted points. */
+/* Fit of a rigid motion to displacements: sums over weighted points. */
 typedef struct rigid_fit {
   double weight, g[6];
   sbfi_d3 center, drift, turn;
@@ -37,7 +37,7 @@ static sbfi_d3 rigid_part(const rigid_fit *fit, sbfi_d3 r) {
   return sbfi_d3_add(fit->drift, sbfi_d3_cross(fit->turn, r));
 }
 
-/* Forces of one region on the slots it is of, into `forces`. */
+/* Adds the forces of one region on its slots to `forces`. */
 static void add_region(const sbri_island *island, const sbri_region_block *block, uint32_t lane,
     const sbfi_d3 *moves, sbfi_d3 *forces) {
   const sbri_region_member *members = island->region_members + block->first_member;
@@ -67,7 +67,7 @@ static sbfi_d3 rest_of(const sbri_island *island, uint32_t slot) {
   return (sbfi_d3){p->x, p->y, p->z};
 }
 
-/* Takes the body's rigid motion out of its points' displacements. */
+/* Removes the body's rigid motion from its points' displacements. */
 static void take_rigid(const sbri_island *island, const sbri_body *body, sbfi_d3 *moves) {
   rigid_fit fit = {0};
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
@@ -86,7 +86,7 @@ static void take_rigid(const sbri_island *island, const sbri_body *body, sbfi_d3
     moves[slot] = sbfi_d3_sub(moves[slot], rigid_part(&fit, sbfi_d3_sub(rest_of(island, slot), fit.center)));
 }
 
-/* Bends of any kind, none of them rigid. */
+/* Arbitrary deformation without rigid motion. */
 static sbfi_d3 first_guess(sbfi_d3 r, uint32_t slot) {
   double jitter = 0.01 * (double)(slot * 2654435761u >> 16) / 65536;
   return (sbfi_d3){r.z * r.z - r.y * r.y + jitter, r.x * r.x + r.z * r.y - jitter, r.x * r.y - r.z + jitter};

@@ -1,10 +1,9 @@
-/* What soft bodies enclose at rest, and which of them keep it. */
+/* Rest volumes of soft bodies, and which bodies keep their volume. */
 #include "prepare/prepare.h"
 
 #include "skin/skin.h"
 
-/* Greatest opening of a surface that still has a volume, as a fraction of its area: a stray triangle.
- */
+/* Maximum opening of a surface that still has a volume, as a fraction of its area: a missing triangle. */
 static const double MAX_OPENING = 0.05;
 
 bool sbri_rest_volumes_find(sbr_model *model) {

@@ -4,7 +4,7 @@
 #include "mechanics/joint_freedom.h"
 #include "sbfmt/mechanics.h"
 
-/* Greatest number of rows of joints that close loops; they are solved as a dense matrix. */
+/* Maximum number of rows of joints that close loops; they are solved as a dense matrix. */
 enum { MAX_LOOP_ROWS = 96 };
 
 static const float EARTH_M_S2 = 9.81f;
@@ -13,12 +13,12 @@ static float inverse(float value) {
   return value > 0 ? 1 / value : 0;
 }
 
-/* From asset space at rest to the body's own frame. */
+/* From asset space at rest to the body's frame. */
 static sbf_vec3 own_position(const sbri_rigid_body *body, sbf_vec3 position) {
   return sbri_rotate(sbri_quat_conjugate(body->axes), sbri_sub(position, body->center));
 }
 
-/* Least moment of inertia as a fraction of the greatest: a thin body has almost none about its long axis and
+/* Minimum moment of inertia as a fraction of the maximum: a thin body has almost none about its long axis and
  * would reach any angular velocity. */
 static const float MIN_MOMENT = 1e-3f;
 
@@ -53,7 +53,8 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
       mesh->polygon_points.at, arena);
 }
 
-/* From local to the file's frame of the body, whose axes at rest are those of asset space, to its own. */
+/* From `local`, in the file's frame of the body, whose axes at rest are those of asset space, to the body's
+ * frame. */
 static sbri_rigid_frame frame_of(const sbri_rigid_body *body, const sbf_frame *local) {
   sbf_quat rotation = sbri_quat_normalize(local->rotation);
   if (!body) return (sbri_rigid_frame){local->position, rotation};
@@ -122,7 +123,7 @@ static bool sort_joints(sbri_rigid_model *model, sbfi_arena *arena) {
   return true;
 }
 
-/* ---- What hangs on a joint ---- */
+/* ---- Loads of joints ---- */
 
 typedef struct load {
   float moment, mass; /* kg m^2 about the joint, kg */
@@ -153,7 +154,7 @@ static load find_load(
   return all;
 }
 
-/* Of the two sides of a joint the lighter one hangs on the other. */
+/* The lighter side of a joint is the load of the other. */
 static bool find_loads(sbri_rigid_model *model, sbri_rigid_joint *joints, sbfi_arena *arena) {
   uint32_t *seen = sbfi_arena_allocate(arena, (size_t)model->body_count + 1, sizeof *seen);
   uint32_t *queue = sbfi_arena_allocate(arena, (size_t)model->body_count + 1, sizeof *queue);

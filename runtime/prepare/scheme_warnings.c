@@ -1,6 +1,6 @@
-/* Schemes that a call or a file asks for, or that are all that is left, where they are known to be off the
- * energy by more than a tenth: by the figures of docs/solvers.md, which tests/runtime/test_scheme_bias.c
- * holds. */
+/* Warnings about schemes that a call or a file selects, or that remain as the only choice, if their energy
+ * error is known to be above a tenth: by the numbers of docs/solvers.md, which
+ * tests/runtime/test_scheme_bias.c checks. */
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 #include "solvers/scheme.h"
@@ -14,11 +14,11 @@ static double network_softness(uint32_t stable, uint32_t taken) {
   return 0.34 * ratio * ratio;
 }
 
-/* False: nothing is known against it. */
+/* Returns false if there is no reason for a warning. */
 static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnostic *found) {
   double tick_s = (double)model->asset->environment.control_tick;
   sbri_island open = *island;
-  open.substeps = 0; /* as many as would be needed */
+  open.substeps = 0; /* the automatic number */
   uint32_t stable = sbri_stable_substeps(&open, tick_s, island->rest_stretch),
            taken = sbri_scheme_substeps(island, tick_s, island->rest_stretch);
   const char *id = model->bodies[island->bodies[0]].source->id;
@@ -30,7 +30,7 @@ static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnost
         "with "
         "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
         id, (int)SBRI_MAX_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
-  /* The number that is needed has a tenth to spare. */
+  /* The required number includes a margin of a tenth. */
   else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
         "body \"%s\" is stepped by symplectic with %u substeps a tick and is stable with %u: it may burst; "

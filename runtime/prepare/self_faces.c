@@ -16,7 +16,7 @@ static bool find_slots(const sbri_island *island, const sbri_body *body, uint32_
   return true;
 }
 
-/* Whom the sides join each slot to: at first how many begin at each, then where the next one goes. */
+/* Neighbours of each slot by edges: first counts, then positions of the next one. */
 static bool make_rings(sbr_model *model, sbri_body *body, const uint32_t *sides) {
   uint32_t slots = model->islands[body->island].slot_count, count = 3 * body->self_face_count;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)slots + 2, sizeof *begins);

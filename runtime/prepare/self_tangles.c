@@ -1,10 +1,10 @@
-/* Whether a surface goes through itself at rest: it is then let be where it goes through itself later. */
+/* Whether a surface intersects itself at rest. Its intersections are then not resolved. */
 #include "collide/bounds_tree.h"
 #include "collide/sides.h"
 #include "collide/triangle.h"
 #include "prepare/prepare.h"
 
-/* What only touches at rest does not go through: shares of a side and of a triangle. */
+/* Fractions of an edge and of a triangle: smaller intersections at rest count as contact. */
 static const float WITHIN = 1e-3f;
 
 typedef struct surface {

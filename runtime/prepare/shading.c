@@ -1,10 +1,10 @@
-/* Faces of a mesh, and which of them make up each normal and tangent. */
+/* Faces of a mesh, and the faces of each normal and tangent. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "prepare/prepare.h"
 
-/* Authored normals nearer than this (1.8 degrees) are one smooth side of an edge. */
+/* Cosine above which authored normals (within 1.8 degrees) are equal at an edge. */
 static const float SAME_SIDE = 0.9995f;
 
 /* ---- Faces ---- */
@@ -20,7 +20,7 @@ static uint32_t count_faces(const sbf_polygon_mesh *mesh) {
   return count;
 }
 
-/* Places of the four corners of a polygon's face k, among the polygon's corners. */
+/* Indices of the four corners of a polygon's face k, among the polygon's corners. */
 static void face_corners(uint32_t size, uint32_t k, uint32_t corners[4]) {
   uint32_t first = 2 * k + 1;
   corners[0] = 0, corners[1] = first, corners[2] = first + 1;
@@ -50,7 +50,7 @@ bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *
 
 /* ---- Sums ---- */
 
-/* `group_of_corner` (corners) names the group that each corner's polygon counts for. */
+/* `group_of_corner` (corners): the group to which each corner's polygon contributes. */
 static bool make_sums(sbri_sum_table *table, uint32_t group_count, const uint32_t *group_of_corner,
     const sbf_polygon_mesh *mesh, uint32_t inert_face, sbfi_arena *arena, sbfi_arena *scratch) {
   uint32_t block_count = (group_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
@@ -85,7 +85,7 @@ static bool make_sums(sbri_sum_table *table, uint32_t group_count, const uint32_
   return true;
 }
 
-/* ---- Groups: vertices or corners at one place whose authored normals agree ---- */
+/* ---- Groups: vertices or corners at one position with equal authored normals ---- */
 
 typedef struct placed {
   uint32_t bits[3], vertex;
@@ -98,7 +98,7 @@ static int compare_positions(const void *a, const void *b) {
   return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
 }
 
-/* The first vertex at the place of each. */
+/* The first vertex at the position of each. */
 static bool find_positions(uint32_t *first_at_position, const sbf_polygon_mesh *mesh, sbfi_arena *scratch) {
   uint32_t count = mesh->positions.count;
   placed *sorted = sbfi_arena_allocate(scratch, count, sizeof *sorted);
@@ -119,14 +119,15 @@ static bool find_positions(uint32_t *first_at_position, const sbf_polygon_mesh *
 
 typedef struct group {
   sbf_vec3 normal;
-  uint32_t next; /* another group at the same place, or UINT32_MAX */
+  uint32_t next; /* another group at the same position, or UINT32_MAX */
 } group;
 
-/* Gives each item the group at its place whose normal is its own; `normals` NULL: one group a place. */
+/* Assigns each item the group at its position with the same normal; `normals` NULL: one group per position.
+ */
 typedef struct grouping {
   group *groups;
   uint32_t group_count;
-  uint32_t *first_group; /* (vertices) of the place, by its first vertex */
+  uint32_t *first_group; /* (vertices) of the position, by its first vertex */
 } grouping;
 
 static bool begin_grouping(grouping *g, uint32_t max, uint32_t vertex_count, sbfi_arena *scratch) {

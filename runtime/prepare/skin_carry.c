@@ -13,12 +13,12 @@ typedef struct carry {
   sbr_model *model;
   sbri_skin *skin;
   uint32_t source_count;       /* vertices of the mesh */
-  const uint32_t *position_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
+  const uint32_t *position_of; /* (source_count) index in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
-  sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
+  sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until cells are assigned */
   sbfi_array pieces;   /* piece */
-  bool shared;         /* the embedding at hand has vertices that several points carry */
+  bool shared;         /* the present embedding has vertices with several points */
 } carry;
 
 static uint32_t position_of(const carry *c, uint32_t vertex) {
@@ -35,8 +35,8 @@ static bool is_among(uint32_t point, const uint32_t points[4]) {
   return point == points[0] || point == points[1] || point == points[2] || point == points[3];
 }
 
-/* A tetrahedron that all the points are corners of, counted in its island; UINT32_MAX: there is none, or it
- * is held all around. A point may be named several times. */
+/* A tetrahedron with all the points as corners, index in its island; UINT32_MAX: none, or fully pinned. A
+ * point may occur several times. */
 static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, const uint32_t points[4]) {
   const sbri_island *island = &model->islands[body->island];
   for (uint32_t i = 0; i < 4; i++) {
@@ -69,8 +69,7 @@ static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, co
   return true;
 }
 
-/* The corners of a tetrahedron that may tear, all four and in its own order; false in `bound` where it is
- * none. */
+/* Corners of a tetrahedron that may tear, all four in its own order; `bound` is false if there is none. */
 static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   *bound = false;
@@ -135,7 +134,7 @@ static bool keep_bindings(carry *c, const uint32_t *indices) {
   return true;
 }
 
-/* Weights that do not sum to one, as of shares painted by hand, are brought there. */
+/* Normalises weights whose sum is not 1, as in hand-painted maps. */
 static bool fill_cells(carry *c, uint32_t *counts) {
   sbri_skin *skin = c->skin;
   const carrier *carriers = c->carriers.at;
@@ -183,7 +182,7 @@ static bool add_piece(carry *c, uint32_t vertex, uint32_t frame, float weight) {
   return weight == 0 || sbfi_array_append(&c->pieces, &(piece){vertex, frame, weight}, 1);
 }
 
-/* What the guides of a point of the first detail level carry. */
+/* Adds the drivers of a point of the first detail level. */
 static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   const sbri_island *island = &c->model->base->islands[body->island];
   uint32_t slot = body->slot_from_point[point];
@@ -196,7 +195,7 @@ static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32
   return true;
 }
 
-/* Frames that carry the vertices as bodies of the first detail level would without inertia, or jiggles. */
+/* Frames of the vertices if bodies follow their drivers without inertia, or jiggle. */
 static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sbf_embedding *embedding) {
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
@@ -226,7 +225,7 @@ static bool add_all_pieces(carry *c, uint32_t render_mesh) {
   return true;
 }
 
-/* Pieces in the order of their vertices: where those of each begin. */
+/* Sorts pieces by vertices: first piece of each vertex. */
 static bool sort_pieces(carry *c, const uint32_t **begins, const piece **sorted) {
   const piece *pieces = c->pieces.at;
   uint32_t *starts = sbfi_arena_allocate(&c->scratch, (size_t)c->source_count + 2, sizeof *starts);
@@ -235,11 +234,11 @@ static bool sort_pieces(carry *c, const uint32_t **begins, const piece **sorted)
   for (size_t i = 0; i < c->pieces.count; i++) starts[pieces[i].vertex + 2]++;
   for (uint32_t v = 0; v < c->source_count; v++) starts[v + 2] += starts[v + 1];
   for (size_t i = 0; i < c->pieces.count; i++) to[starts[pieces[i].vertex + 1]++] = pieces[i];
-  *begins = starts, *sorted = to; /* they have moved on by one place */
+  *begins = starts, *sorted = to; /* each now marks the beginning of the next */
   return true;
 }
 
-/* One influence a frame, summing to one; returns where they end. */
+/* One influence per frame, with sum 1; returns the end index. */
 static uint32_t join_pieces(const piece *pieces, uint32_t count, sbri_influence *to, uint32_t begin) {
   uint32_t end = begin;
   float sum = 0;
@@ -255,7 +254,7 @@ static uint32_t join_pieces(const piece *pieces, uint32_t count, sbri_influence 
   return end;
 }
 
-/* Vertices that no body moves: they follow pieces, else the skin's weights, else `frame`. */
+/* Vertices without a body: they follow pieces, else the skin's weights, else `frame`. */
 static bool fill_frames(
     carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
   sbri_skin *skin = c->skin;

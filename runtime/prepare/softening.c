@@ -8,10 +8,10 @@
 
 enum { POWER_ITERATIONS = 40, MAX_ROUNDS = 8 };
 
-/* Power iteration comes from below; what it may still lack. */
+/* Margin of the power iteration, whose estimate is a lower bound. */
 static const double POWER_MARGIN = 1.03;
 
-/* Bulk modulus is given up down to this Poisson's ratio. */
+/* Poisson's ratio down to which the bulk modulus is reduced. */
 static const double MIN_POISSON = 0.35;
 
 /* Tolerance of the body's fastest mode below the limit, as a fraction; the search aims at its middle. */
@@ -21,7 +21,7 @@ double sbri_fastest(const sbf_spring_network *network, double *scratch) {
   return POWER_MARGIN * sbf_network_highest(network, POWER_ITERATIONS, scratch);
 }
 
-/* The greatest w for which a tick takes no more than the budget. */
+/* The maximum w for which a tick is within the budget. */
 static double find_limit(void) {
   sbri_island of = {.tetrahedron_count = 1};
   double low = 0, high = 1e6;
@@ -41,9 +41,9 @@ static void add_volumes(const sbf_spring_network *network, double *volumes) {
       volumes[network->tetrahedra[t].at[k]] += element.volume;
 }
 
-/* The square of an element's fastest mode for each Pa of 3 lambda + 2 mu: V |G| over the least mass that it
- * gives a corner, |G| the Frobenius norm of the Gram matrix of its shape functions' gradients; 0: all its
- * corners are held. */
+/* The square of an element's fastest mode per Pa of 3 lambda + 2 mu: V |G| over the smallest mass of a
+ * corner, |G| the Frobenius norm of the Gram matrix of its shape functions' gradients; 0: all its corners are
+ * pinned. */
 static double find_square_per_pa(
     const sbf_spring_network *network, uint32_t t, const sbfi_tetrahedron *element, const double *volumes) {
   double gram = 0, mass = 0;
@@ -59,8 +59,8 @@ static double find_square_per_pa(
   return mass > 0 ? element->volume * sqrt(gram) / mass : 0;
 }
 
-/* Young's modulus and Poisson's ratio with which 3 lambda + 2 mu is no more than `most`; the shares of the
- * shear and bulk moduli that are left go into the island. */
+/* Reduces Young's modulus and Poisson's ratio so that 3 lambda + 2 mu is at most `max`; updates the minimum
+ * remaining fractions of the shear and bulk moduli in the island. */
 static void soften_element(sbri_island *island, float *young, float *poisson, double max) {
   double e = (double)*young, nu = (double)*poisson;
   double mu = e / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu), bulk = lambda + 2 * mu / 3;
@@ -76,7 +76,7 @@ static void soften_element(sbri_island *island, float *young, float *poisson, do
   if ((float)bulk_fraction < island->softened_bulk) island->softened_bulk = (float)bulk_fraction;
 }
 
-/* What an element is made of as stated, and what 3 lambda + 2 mu is bounded by. */
+/* Stated material of an element, and the bound of 3 lambda + 2 mu. */
 typedef struct stated_element {
   float young, poisson;
   double square_per_pa;
@@ -120,7 +120,7 @@ bool sbri_soften(sbri_island_maker *m, sbf_spring_network *network, double *scra
       stated[t].square_per_pa = find_square_per_pa(network, t, &element, volumes);
   }
   network->young_modulus = young, network->poisson_ratios = poisson;
-  double cap = limit * limit; /* enough in any case, and then raised */
+  double cap = limit * limit; /* certainly sufficient; raised below */
   for (int round = 0; round < MAX_ROUNDS; round++) {
     soften_all(m->island, stated, count, cap, young, poisson);
     fastest = sbri_fastest(network, scratch);

@@ -4,14 +4,14 @@
 #include "math/vec3.h"
 #include "prepare/prepare.h"
 
-/* Keeps points that lie in a plane from being extrapolated off it. */
+/* Prevents extrapolation perpendicular to a plane of points. */
 static const double RIDGE = 1e-3;
 
 typedef struct nearest {
   uint32_t slots[SBRI_SOURCES];
   double squares[SBRI_SOURCES];
   uint32_t count;
-  double beyond; /* square of the first that is not among them */
+  double beyond; /* squared distance of the nearest point that is not included */
 } nearest;
 
 static double square_between(const sbri_point *a, const sbri_point *b) {
@@ -19,7 +19,7 @@ static double square_between(const sbri_point *a, const sbri_point *b) {
   return x * x + y * y + z * z;
 }
 
-/* Ties go to what is listed first. */
+/* Ties keep the first one. */
 static void add(nearest *n, uint32_t slot, double square) {
   uint32_t at = n->count < SBRI_SOURCES ? n->count++ : SBRI_SOURCES;
   if (at == SBRI_SOURCES && square >= n->squares[SBRI_SOURCES - 1]) {
@@ -32,7 +32,7 @@ static void add(nearest *n, uint32_t slot, double square) {
   n->squares[at] = square, n->slots[at] = slot;
 }
 
-/* m x = (1, 0, 0, 0), m symmetric and positive. */
+/* Solves m x = (1, 0, 0, 0) for a symmetric positive definite m. */
 static void solve(double m[4][4], double x[4]) {
   double b[4] = {1, 0, 0, 0};
   for (int k = 0; k < 4; k++)

@@ -6,7 +6,7 @@
 #include "mechanics/neo_hookean.h"
 #include "prepare/prepare.h"
 
-/* A side of a tetrahedron: its points in rising order, then whose. */
+/* A face of a tetrahedron: its points in ascending order, then its element. */
 typedef struct side {
   uint32_t points[3], tetrahedron, corner;
 } side;

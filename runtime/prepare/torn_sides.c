@@ -1,12 +1,12 @@
-/* Springs that may tear and that hold a skin's polygons together: where such a spring has torn, the polygon
+/* Springs that may tear and that hold a skin's polygons together: after such a spring has torn, the polygon
  * spans the tear. */
 #include <math.h>
 #include <string.h>
 
 #include "prepare/prepare.h"
 
-/* The points with at least a twentieth of the vertex's weight, as slots of the character, greatest weight
- * first. None for a vertex that follows something else, or one side of a tear (tear/torn_network.c). */
+/* The points with at least a twentieth of the vertex's weight, as slots of the character, by decreasing
+ * weight. None for a vertex that follows something else, or one side of a tear (tear/torn_network.c). */
 typedef struct carriers {
   uint32_t slots[4], count;
 } carriers;
@@ -31,7 +31,7 @@ static carriers carriers_of(const sbri_skin *skin, uint32_t vertex) {
   return found;
 }
 
-/* The link of the island's spring between two of its slots, if that may tear; UINT32_MAX: none. */
+/* The link of the spring between two slots of the island, if it may tear; UINT32_MAX: none. */
 static uint32_t link_between(const sbri_island *island, uint32_t a, uint32_t b) {
   if (a >= island->free_count) {
     uint32_t other = a;
@@ -47,7 +47,7 @@ static uint32_t link_between(const sbri_island *island, uint32_t a, uint32_t b) 
   return UINT32_MAX;
 }
 
-/* The same in a character's strengths. */
+/* The same as an index in a character's strengths. */
 static uint32_t strength_between(const sbr_model *model, uint32_t a, uint32_t b) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
@@ -66,10 +66,9 @@ static uint32_t add(const sbr_model *model, uint32_t *strengths, uint32_t count,
   return count;
 }
 
-/* Springs between the heaviest points of a side's two ends, and between all points of the first end. If
- * vertices are points, these are the springs along the sides; in an embedding network, those that a torn
- * polygon spans.
- */
+/* Springs between the heaviest points of the two ends of an edge, and between all points of the first end. If
+ * vertices are points, these are the springs along the edges; in an embedding network, those that a torn
+ * polygon spans. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points) {
   if (model->flow_count == 0 || sizes->count == 0) return true;

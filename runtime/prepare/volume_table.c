@@ -8,14 +8,14 @@ static bool add_contribution(sbfi_array *contributions, uint32_t slot, uint32_t 
   return sbfi_array_append(contributions, &(sbri_face_weight){slot, face, weight}, 1);
 }
 
-/* The points of a vertex get its part of each of its faces: of a quad an eighth of the product of its
+/* The points of a vertex get its part of each of its faces: of a quad an eighth of the cross product of its
  * diagonals, a quarter of the area; of a triangle a sixth, a third of the area. */
 static bool list_fractions(const sbri_skin *skin, uint32_t first_slot, sbfi_array *contributions) {
   for (uint32_t face = 0; face < skin->face_block_count * SBRI_BLOCK; face++) {
     const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];
     uint32_t lane = face % SBRI_BLOCK, corners[4];
     for (int k = 0; k < 4; k++) corners[k] = block->corners[k][lane];
-    if (corners[0] == corners[1] && corners[1] == corners[2]) continue; /* inert */
+    if (corners[0] == corners[1] && corners[1] == corners[2]) continue; /* padding */
     int count = corners[3] == corners[0] ? 3 : 4;
     for (int k = 0; k < count; k++) {
       uint32_t in_block = corners[k] / SBRI_BLOCK, vertex_lane = corners[k] % SBRI_BLOCK;
@@ -59,7 +59,7 @@ static bool fill_table(
   return true;
 }
 
-/* The rigid body that holds all that is held, or all on which it hangs; -1: several, or something else. */
+/* The rigid body of all pinned points, or of the whole surface; -1: several, or something else. */
 static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
   int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
   for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
@@ -70,7 +70,7 @@ static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
   return carrier;
 }
 
-/* Of what is held: a free point's pull is another's push on the bone. */
+/* Pinned points, which get the reactions. */
 static bool list_pinned(
     sbr_model *model, sbri_body *body, const sbri_face_weight *face_weights, size_t count) {
   const sbri_island *island = &model->islands[body->island];
@@ -85,7 +85,7 @@ static bool list_pinned(
   return true;
 }
 
-/* Where each vertex is one point, faces may name the points: `volume_faces`. */
+/* If each vertex is one point, faces may index points: `volume_faces`. */
 static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena) {
   const sbri_skin *skin = &body->surface;
   for (uint32_t v = 0; v < skin->vertex_count; v++) {

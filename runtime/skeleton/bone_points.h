@@ -1,11 +1,10 @@
-/* The points of a character's parts, each with the bone that moves it. */
+/* Points of a character's parts, each with the bone that moves it. */
 #ifndef SBRI_BONE_POINTS_H
 #define SBRI_BONE_POINTS_H
 
 #include "skeleton/rig.h"
 
-/* `position`: in the rest pose, asset metres. `bone`: that moves it, of several the one with the largest
- * weight. */
+/* `position`: in the rest pose, asset metres. `bone`: the bone that moves it, with the largest weight. */
 typedef void sbri_take_point(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 position);
 
 /* Calls `take` for the vertices of all skins; without skins, for the surfaces of soft bodies on bones. */

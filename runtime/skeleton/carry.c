@@ -1,4 +1,4 @@
-/* Clips of another skeleton: what `convert --motion` does, for hosts that have both assets loaded. */
+/* Clips of another skeleton, like `convert --motion`, for hosts that have both assets loaded. */
 #include "motion/carried_motion.h"
 #include "sbrun/animation.h"
 

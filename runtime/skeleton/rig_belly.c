@@ -1,9 +1,9 @@
-/* The belly: the lowest of what legs carry, which the body keeps off the ground. */
+/* The belly: the lowest points between the legs, which the body keeps above the ground. */
 #include "skeleton/rig_belly.h"
 
 static const float RISES =
-    0.35f; /* a point so much higher for each metre that it is farther out matters as much */
-static const float DRAGS = 0.08f; /* of the reach: what hangs lower at rest is let drag */
+    0.35f; /* height per metre of distance from the middle at which a point counts equally */
+static const float DRAGS = 0.08f; /* fraction of the reach: points lower than this at rest may drag */
 
 typedef struct belly_points {
   sbf_vec3 at[SBRI_BELLY];
@@ -11,7 +11,7 @@ typedef struct belly_points {
   float middle; /* z */
 } belly_points;
 
-/* What the body's place and tilt carry: no leg, and nothing that lags behind as a chain. */
+/* Whether the bone moves with the body: no legs and no chains. */
 static bool is_trunk(const sbri_rig *rig, int32_t bone) {
   for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
     if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
@@ -55,7 +55,7 @@ static void visit_skins(const sbri_rig *rig, belly_points *f) {
 
 void sbri_rig_find_belly(sbri_rig *rig) {
   belly_points f = {.middle = 0.5f * (rig->hind_z + rig->fore_z)};
-  if (rig->leg_count == 0 || rig->chain_count) return; /* what a chain bends lies where it lies */
+  if (rig->leg_count == 0 || rig->chain_count) return; /* chains follow the ground by themselves */
   if (!visit_bodies(rig, &f)) visit_skins(rig, &f);
   for (uint32_t k = 0; k < SBRI_BELLY; k++)
     if (f.any[k] && f.at[k].y > DRAGS * rig->reach) rig->belly[rig->belly_count++] = f.at[k];

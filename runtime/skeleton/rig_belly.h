@@ -1,10 +1,10 @@
-/* What of the body is kept off the ground. */
+/* Points of the body that are kept above the ground. */
 #ifndef SBRI_RIG_BELLY_H
 #define SBRI_RIG_BELLY_H
 
 #include "skeleton/rig.h"
 
-/* The rig's `belly`, once the bones' roles are known. */
+/* Sets the rig's `belly`, after the roles of the bones are known. */
 void sbri_rig_find_belly(sbri_rig *rig);
 
 #endif

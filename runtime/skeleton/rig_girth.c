@@ -1,28 +1,29 @@
-/* The collision volume of a body for walls: a set of balls.
+/* The collision volume of a body for walls: a set of spheres.
  *
- * The vertices of all parts but tails, in the gait's rest pose (arms down), are sorted into cubes. Each cube
- * that contains vertices gets a ball inside its bounds. There are none below the height of a step, because
- * feet step onto things that low; lower vertices count as if they were at that height. */
+ * The vertices of all parts except tails, in the gait's rest pose (arms down), are sorted into cubes. Each
+ * cube with vertices gets a sphere inside its bounds. There are none below the height of a step, because feet
+ * step onto things that low; lower vertices count at that height. */
 #include "skeleton/rig_girth.h"
 
 #include "skeleton/bone_points.h"
 
-static const float STEP_UP = 0.6f;         /* of the legs' mean length, or of a height that is less */
-static const float STEP_UP_LEGLESS = 0.2f; /* of the height of what has no legs */
-static const float NOSE = 0.25f;           /* of its length: what leads in a body that follows its nose */
-static const float FINEST = 8;             /* cubes along its longest side, at first */
-static const float COARSER = 1.2f;         /* while too many cubes hold vertices */
-static const float FILLED = 0.5f;          /* of its bounds: about how much of a body is flesh */
-static const float DENSITY = 1000;         /* kg/m^3 */
+static const float STEP_UP = 0.6f; /* fraction of the legs' mean length, or of the height if that is less */
+static const float STEP_UP_LEGLESS = 0.2f; /* fraction of the height of a body without legs */
+static const float NOSE =
+    0.25f;                     /* fraction of the length: the leading part of a body that follows its nose */
+static const float FINEST = 8; /* initial number of cubes along the longest side */
+static const float COARSER = 1.2f; /* factor on the cubes' size while there are too many */
+static const float FILLED = 0.5f;  /* fraction of its bounds that a body fills, about */
+static const float DENSITY = 1000; /* kg/m^3 */
 
-/* Whether walls keep it out: a tail follows where the body went. */
+/* Whether walls keep it out; a tail follows the body's path. */
 static bool is_stiff(const sbri_rig *rig, int32_t bone) {
   for (int32_t b = bone; rig->leg_count && b >= 0; b = rig->parents[b])
     if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
   return bone >= 0;
 }
 
-/* From the rest pose into that of the gait, by the bones' chain up to the root. */
+/* From the rest pose to that of the gait, by the bone's ancestors. */
 static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
   const sbr_transform *rest = &rig->rest[bone];
   sbf_vec3 x = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(position, rest->position));
@@ -50,14 +51,14 @@ static void extend(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest)
   b->high = sbri_vec3(fmaxf(b->high.x, p.x), fmaxf(b->high.y, p.y), fmaxf(b->high.z, p.z));
 }
 
-/* ---- Balls ---- */
+/* ---- Spheres ---- */
 
 typedef struct cubes {
   bounds body;
   float edge;   /* m */
-  float lowest; /* m: no ball reaches below */
+  float lowest; /* m; lower bound of spheres */
   int32_t cells[SBRI_BUMPERS][3];
-  uint32_t count; /* SBRI_BUMPERS + 1: there are too many */
+  uint32_t count; /* SBRI_BUMPERS + 1: too many */
 } cubes;
 
 static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
@@ -65,7 +66,7 @@ static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
   if (c->count > SBRI_BUMPERS || !is_stiff(rig, bone)) return;
   sbf_vec3 p = posed(rig, bone, rest);
   if (p.z < c->body.low.z) return;
-  if (p.y < c->lowest) p.y = c->lowest; /* feet too: above them they would be in a wall */
+  if (p.y < c->lowest) p.y = c->lowest; /* feet included: above them they would be in a wall */
   int32_t cell[3] = {(int32_t)((p.x - c->body.low.x) / c->edge), (int32_t)((p.y - c->body.low.y) / c->edge),
       (int32_t)((p.z - c->body.low.z) / c->edge)};
   for (uint32_t i = 0; i < c->count; i++)
@@ -75,7 +76,7 @@ static void fill(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 rest) {
   c->count++;
 }
 
-/* A ball's middle along an axis: in the middle of its cube, as far as the ball stays between the bounds. */
+/* Centre of a sphere along an axis: in the middle of its cube, moved into the bounds. */
 static float middle(float low, float high, float edge, float radius, int32_t cell) {
   float at = low + edge * ((float)cell + 0.5f);
   if (high - low < 2 * radius) return 0.5f * (low + high);

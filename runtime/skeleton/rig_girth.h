@@ -1,4 +1,4 @@
-/* How much room a body takes: balls in it, which walls keep out. */
+/* Collision volume of a body: spheres that walls keep out. */
 #ifndef SBRI_RIG_GIRTH_H
 #define SBRI_RIG_GIRTH_H
 

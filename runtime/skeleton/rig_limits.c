@@ -1,4 +1,4 @@
-/* Limits of bones against their parents, from the joints between the bodies that move with them. */
+/* Limits of bones relative to their parents, from the joints between the bodies that move with them. */
 #include "skeleton/rig_limits.h"
 #include "math/trig.h"
 #include "mechanics/joint_freedom.h"
@@ -9,7 +9,7 @@ static int32_t bone_of(const sbf_asset *asset, int32_t body) {
   return body >= 0 ? asset->rigid_bodies.at[body].bone : -1;
 }
 
-/* What the kind alone says of the rotations: free, or held at 0. */
+/* Rotations that the kind of joint leaves free or locks at 0. */
 static void open_kind(sbf_joint_kind kind, sbri_joint_limit *limit) {
   float twist = sbfi_joint_is_free(kind, SBF_JOINT_AXIS_TWIST) ? ALL_ROUND : 0;
   float swing = sbfi_joint_is_free(kind, SBF_JOINT_AXIS_SWING) ? ALL_ROUND : 0;
@@ -52,7 +52,7 @@ void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits) {
     for (uint32_t k = 0; k < joint->limits.count; k++) take_limit(&joint->limits.at[k], limit);
     limit->active = true;
     sbri_joint_limit_ready(limit);
-    /* A pose that breaks it at rest would never be left alone. */
+    /* A limit that the rest pose violates is ignored. */
     if (sbri_joint_limit_excess(limit, rig->rest_local[bone].rotation) > 1e-3f) limit->active = false;
   }
 }
@@ -69,7 +69,7 @@ float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose) {
   return worst;
 }
 
-/* Distance of hip and ankle at a bend of the knee: 0 is straight. */
+/* Distance of hip and ankle for a bend of the knee: 0 is straight. */
 static float span_at(const sbri_leg *leg, float bend) {
   float a = leg->upper_length, b = leg->lower_length, sine, cosine;
   sbri_sincos(bend, &sine, &cosine);
@@ -82,14 +82,14 @@ float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg) {
   sbf_vec3 hip = rig->rest[leg->upper].position, knee = rig->rest[leg->lower].position;
   sbf_vec3 ankle = rig->rest[leg->foot].position, thigh = sbri_sub(knee, hip), shin = sbri_sub(ankle, knee);
   float cosine = sbri_dot(thigh, shin) / (leg->upper_length * leg->lower_length), bend = sbri_acos(cosine);
-  sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(knee, hip)); /* as the leg is solved */
+  sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(knee, hip)); /* as in the leg solver */
   if (sbri_length(side) < 1e-6f * length * length)
     side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
   side = sbri_normalize(side, sbri_vec3(1, 0, 0));
   if (sbri_dot(sbri_rotate(sbri_quat_about(side, 0.1f), shin), thigh) > sbri_dot(shin, thigh))
-    side = sbri_scale(side, -1); /* turns about it bend the knee more */
+    side = sbri_scale(side, -1); /* rotation about it bends the knee more */
   sbf_quat back = sbri_quat_conjugate(rig->rest[leg->upper].rotation);
-  float low = 0, high = bend; /* stretched, as at rest */
+  float low = 0, high = bend; /* stretched, and at rest */
   for (int pass = 0; pass < 16; pass++) {
     float middle = pass == 0 ? 0 : 0.5f * (low + high);
     sbf_quat turned =

@@ -10,7 +10,7 @@
 #include "skeleton/rig_tails.h"
 #include "skeleton/rig_walks.h"
 
-/* Share of what a leg stretches from its rest that a long foot's lean adds to its reach. */
+/* Fraction of a leg's stretch from rest that the lean of a long foot adds to its reach. */
 static const float LEANS = 0.4f;
 
 static size_t rounded(size_t size) {
@@ -32,7 +32,7 @@ static void *carve(char **memory, size_t size) {
   return at;
 }
 
-/* Bones from hips to chest share the turn between the two evenly; all others follow their parent. */
+/* Bones from hips to chest divide the rotation between the two evenly; all others follow their parent. */
 static void distribute_spine(const sbri_rig *rig, float *fraction) {
   for (uint32_t i = 0; i < rig->bone_count; i++) fraction[i] = -1;
   if (!rig->gait || rig->gait->hips < 0) return;
@@ -69,7 +69,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
       .toe_copies = chain->copy_rotation,
       .soft_reach = chain->soft_reach};
   leg->home.y = from->sole;
-  /* Without a pole the leg goes on bending the way it is bent at rest. */
+  /* Without a pole the leg keeps bending in its direction at rest. */
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
   leg->pole_position = leg->pole;
@@ -93,7 +93,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }
 
-/* Those on the chest are in front; without one, on four legs and more, those before the middle of all. */
+/* Legs on the chest are in front; without a chest, for four legs or more, those before the mean of all. */
 static void find_fore_legs(sbri_rig *rig) {
   float fore = 0, hind = 0, middle = 0;
   uint32_t fore_count = 0, count = rig->leg_count;
@@ -144,7 +144,7 @@ static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
   }
 }
 
-/* Legs that hang on a chain have their homes where it goes. */
+/* Legs on a chain have homes that follow it. */
 static void find_carriers(sbri_rig *rig) {
   for (uint32_t l = 0; l < rig->leg_count; l++) {
     sbri_leg *leg = &rig->legs[l];
@@ -162,13 +162,13 @@ static void find_carriers(sbri_rig *rig) {
   }
 }
 
-/* Every bone's stretch in an order in which what hangs on a bone follows it at once. */
+/* Order of bones in which the subtree of a bone follows it directly. */
 static void order_bones(const sbri_rig *rig, uint32_t *subtree, uint32_t *begin, uint32_t *end) {
   uint32_t n = rig->bone_count, roots = 0;
-  for (uint32_t i = 0; i < n; i++) end[i] = 1; /* how many bones its stretch has */
+  for (uint32_t i = 0; i < n; i++) end[i] = 1; /* size of the subtree */
   for (uint32_t i = n; i-- > 0;)
     if (rig->parents[i] >= 0) end[rig->parents[i]] += end[i];
-  for (uint32_t i = 0; i < n; i++) { /* `subtree` serves for where the next child of a bone begins */
+  for (uint32_t i = 0; i < n; i++) { /* `subtree` temporarily holds the position of a bone's next child */
     int32_t parent = rig->parents[i];
     begin[i] = parent >= 0 ? subtree[parent] : roots;
     *(parent >= 0 ? &subtree[parent] : &roots) += end[i];
@@ -195,7 +195,7 @@ static bool on_chain(const sbri_rig *rig, uint32_t bone) {
   return false;
 }
 
-/* Legs below which there is nothing that moves by itself, and which hang on no chain that moves them. */
+/* Legs whose subtree has nothing that moves by itself, and that are not on a moving chain. */
 static void find_last_legs(sbri_rig *rig, uint8_t *roles) {
   for (uint32_t l = 0; l < rig->leg_count; l++) {
     sbri_leg *leg = &rig->legs[l];

@@ -9,7 +9,7 @@ static sbf_vec3 third_of(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return sbri_scale(sbri_add(sbri_add(a, b), c), 0.25f);
 }
 
-/* Places of what is added are in asset space until all is. */
+/* Sums are about asset space until all is added. */
 static void add_triangle(
     const sbri_rig *rig, int32_t bone, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbri_bone_mass *masses) {
   sbf_vec3 from = rig->rest[bone].position;

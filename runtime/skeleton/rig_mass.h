@@ -6,7 +6,7 @@
 
 void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses);
 
-/* The centre of mass of a pose; false where nothing is known of masses. */
+/* The centre of mass of a pose; false if masses are unknown. */
 bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale, sbf_vec3 *center);
 
 #endif

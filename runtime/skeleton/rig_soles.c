@@ -1,12 +1,12 @@
-/* Soles: the lowest part of what hangs on a foot. */
+/* Soles: the lowest part of the points on a foot. */
 #include "skeleton/rig_soles.h"
 
 /* Fractions of a foot's height: the part that needs ground under it; and the part that counts as sole,
  * because a round foot is wider above. */
-static const float LARGEST = 0.6f; /* of a leg's length: half a sole */
+static const float LARGEST = 0.6f; /* fraction of a leg's length: maximum of half a sole */
 static const float BAND = 0.12f, CONTACT_BAND = 0.06f;
 
-/* What is measured one after the other: how high it is, what is near the ground, what touches it. */
+/* Three passes: height, points near the ground, points in contact. */
 enum { HEIGHT, POINTS, CUT };
 
 typedef struct foot_points {
@@ -59,8 +59,8 @@ static bool is_in_outline(const foot_points *f, sbf_vec3 p, sbf_vec3 home) {
          z >= outline[3];
 }
 
-/* Where edges of the foot's surface pass the height that touches: of a hoof or a ball, no more than its
- * lowest vertex may lie below. */
+/* Intersections of the foot's surface edges with the contact height: for a hoof or a ball, only its lowest
+ * vertex may be below it. */
 static void take_cut(foot_points *f, const sbf_polygon_mesh *mesh, sbf_vec3 home) {
   const uint32_t *corners = mesh->polygon_points.at;
   float height = touching_height(f);
@@ -111,8 +111,8 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
     else
       visit_skins(rig, foot, pass, leg->home, &f);
   }
-  /* Its middle is what stands on the ground. Nothing is seen of the foot, or something far from it hangs on
-   * it: a small sole below the ankle will do. */
+  /* Its middle stands on the ground. If the foot has no points, or has some that are far away: a small sole
+   * below the ankle. */
   float length = leg->upper_length + leg->lower_length, min = 0.02f * length;
   float x = 0.5f * (f.sole.left + f.sole.right), z = 0.5f * (f.sole.toe + f.sole.heel);
   if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0};

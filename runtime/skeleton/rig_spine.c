@@ -34,7 +34,7 @@ static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
   return sbri_add(rig->rest[bone].position, sbri_rotate(rig->rest[bone].rotation, along));
 }
 
-/* Of what is seen; else of the bodies; else of the bones. */
+/* Bounds of the visible parts; else of the bodies; else of the bones. */
 static void find_bounds(sbri_rig *rig) {
   const sbf_asset *asset = rig->asset;
   bool any = false;
@@ -60,7 +60,7 @@ static float distance(sbf_vec3 a, sbf_vec3 b) {
   return sbri_length(sbri_sub(a, b));
 }
 
-/* Front and back end of each bone, and where these are along the chain. */
+/* Front and back end of each bone, and their positions along the chain. */
 static void find_chain(
     sbri_rig *rig, const sbf_undulation *wave, sbf_vec3 *joints, float *middles, float *heads) {
   uint32_t n = wave->bones.count;

@@ -1,10 +1,10 @@
-/* What kinds of gait other than walking need of a rig: its bounds, the chain of its wave, its rest pose. */
+/* Tables of a rig for kinds of gait other than walking: bounds, chain of the wave, rest pose. */
 #ifndef SBRI_RIG_SPINE_H
 #define SBRI_RIG_SPINE_H
 
 #include "skeleton/rig.h"
 
-/* Bytes of the tables, and their making in a block of that size, after the bones are known. */
+/* Size of the tables in bytes; and the build in a block of that size, after the bones are known. */
 size_t sbri_rig_spine_size(const sbf_asset *asset);
 void sbri_rig_find_spine(sbri_rig *rig, void *memory);
 

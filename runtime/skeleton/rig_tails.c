@@ -4,7 +4,7 @@
 #include "math/vec3.h"
 #include "skeleton/bone_points.h"
 
-static const float MARGIN = 1.1f; /* of how far the skin hangs down */
+static const float MARGIN = 1.1f; /* factor on the skin's depth below the bone */
 
 static const sbf_chain *chain_of(const sbf_asset *asset, uint32_t tail) {
   return &asset->chains.at[asset->gaits.at[0].tails.at[tail].chain];
@@ -29,7 +29,7 @@ typedef struct depths {
   sbri_tail_bone *bones; /* of all tails */
 } depths;
 
-/* How far below its bone's axis a point is. */
+/* Updates the depth of a point below its bone's axis. */
 static void deepen(void *user, const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
   const depths *d = user;
   for (uint32_t t = 0; t < rig->tail_count; t++)
@@ -52,7 +52,7 @@ static sbf_vec3 step_of(const sbri_rig *rig, const sbri_tail *tail, uint32_t k) 
   return sbri_rotate(rest->rotation, sbri_vec3(0, rig->asset->bones.at[bone].length, 0));
 }
 
-/* A joint keeps what hangs lower of the two bones there, and no more than it has at rest. */
+/* A joint has the larger clearance of its two bones, but at most that at rest. */
 static void set_clearances(const sbri_rig *rig, const sbri_tail *tail, sbri_tail_bone *bones) {
   for (uint32_t k = 0; k < tail->bone_count; k++) {
     float tip_y = rig->rest[tail->bone_indices[k]].position.y + bones[k].step.y, wanted = bones[k].clearance;

@@ -2,7 +2,8 @@
 
 #include "math/quat.h"
 
-static const float SAME_POSITION = 0.02f; /* of the distance from the plane: so near are mirror images */
+static const float SAME_POSITION =
+    0.02f; /* fraction of the distance from the plane: tolerance of mirror images */
 
 static bool is_of_walk(const sbf_pose *pose) {
   return pose->distance > 0;
@@ -15,7 +16,7 @@ static bool is_mirrored(const sbf_asset *asset, float speed) {
   return false;
 }
 
-/* How many poses walks have, mirrored ones counted for themselves; at most. */
+/* Maximum number of poses of all walks, with mirrored ones. */
 static size_t frame_count(const sbf_asset *asset) {
   size_t count = 0;
   for (uint32_t i = 0; i < asset->poses.count; i++)
@@ -33,7 +34,7 @@ static sbf_vec3 mirrored_position(sbf_vec3 p) {
   return sbri_vec3(-p.x, p.y, p.z);
 }
 
-/* Where the bone ends, asset space. */
+/* Position of the bone's end, asset space. */
 static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
   sbf_vec3 along = {0, rig->asset->bones.at[bone].length, 0};
   return sbri_add(rig->rest[bone].position, sbri_rotate(rig->rest[bone].rotation, along));
@@ -44,9 +45,9 @@ uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
   float near = SAME_POSITION * (fabsf(head.x) + fabsf(tail.x) + rig->asset->bones.at[bone].length);
   uint32_t best = bone;
   for (uint32_t k = 0; k <= rig->bone_count; k++) {
-    uint32_t i = k ? k - 1 : bone; /* itself first: in the middle another may lie just so */
+    uint32_t i = k ? k - 1 : bone; /* itself first: in the middle another one may match as well */
     float off = sbri_length(sbri_sub(rig->rest[i].position, head));
-    if (off >= near) continue; /* what begins elsewhere need not be looked at closer */
+    if (off >= near) continue; /* its head is too far away */
     off += sbri_length(sbri_sub(tail_of(rig, i), tail));
     if (off < near) near = off, best = i;
   }
@@ -79,7 +80,7 @@ static void fill_frame(const sbri_rig *rig, const sbf_pose *pose, bool mirrored,
   }
 }
 
-/* Lists the bones that walks move; `position_of` gets each one's place from 1, 0 for others. */
+/* Lists the bones that walks move; `position_of` receives the index of each from 1, 0 for others. */
 static uint32_t list_bones(const sbri_rig *rig, uint32_t *position_of, uint32_t *bones) {
   const sbf_pose_list *poses = &rig->asset->poses;
   uint32_t count = 0;
@@ -95,7 +96,7 @@ static uint32_t list_bones(const sbri_rig *rig, uint32_t *position_of, uint32_t 
   return count;
 }
 
-/* The pose of a walk that comes next after a distance; NULL behind the last. */
+/* The next pose of a walk after a distance; NULL after the last. */
 static const sbf_pose *next_pose(const sbf_asset *asset, float speed, float distance) {
   const sbf_pose *next = NULL;
   for (uint32_t i = 0; i < asset->poses.count; i++) {
@@ -107,7 +108,7 @@ static const sbf_pose *next_pose(const sbf_asset *asset, float speed, float dist
   return next;
 }
 
-/* The leg that a mirrored walk's first half begins with, and the one across from it. */
+/* The leg that begins the first half of a mirrored walk, and the opposite one. */
 static void find_legs(sbri_walks *walks, const sbri_rig *rig) {
   walks->first_leg = walks->other_leg = -1;
   for (uint32_t i = 1; i < rig->leg_count; i++)
@@ -120,7 +121,7 @@ void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
   size_t max = frame_count(asset);
   *walks = (sbri_walks){.first_leg = -1, .other_leg = -1};
   if (!max) return;
-  sbri_walk *walk = memory; /* what needs the widest steps first */
+  sbri_walk *walk = memory; /* strictest alignment first */
   sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + max);
   sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + max);
   uint32_t *position_of = (uint32_t *)(void *)(posed + max * rig->bone_count),

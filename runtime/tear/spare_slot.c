@@ -1,4 +1,4 @@
-/* Room for points that split: slots of a body that are not used yet. */
+/* Spare slots for points that split. */
 #include "tear/spare_slot.h"
 
 uint32_t sbri_find_spare_slot(const sbri_character *c, const sbri_island *island, uint32_t slot) {

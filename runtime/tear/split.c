@@ -1,17 +1,16 @@
 /* Splits points of lattices where tetrahedra have torn.
  *
- * The intact tetrahedra around a point of a torn one are grouped by shared sides. If there are several
+ * The intact tetrahedra around a point of a torn one are grouped by shared faces. If there are several
  * groups, the largest keeps the point. Each other group gets a spare point of the body at the same position
  * and velocity, with mass in proportion to the volume of its tetrahedra: momentum and energy are conserved.
- * Torn tetrahedra keep their mass. Pinned points do not split because they would not separate.
- */
+ * Torn tetrahedra keep their mass. Pinned points do not split because they would not separate. */
 #include <string.h>
 
 #include "tear/spare_slot.h"
 #include "tear/split_springs.h"
 #include "tear/tear.h"
 
-/* Greatest number of tetrahedra around a point that are considered. */
+/* Maximum number of tetrahedra around a point that are considered. */
 enum { MAX_AROUND = 192 };
 
 static void unsplit_springs(sbri_character *c, const sbri_island *island) {
@@ -65,7 +64,7 @@ static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int co
   return &s->blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
 }
 
-/* What is whole and has the slot for a corner. */
+/* Lists the intact tetrahedra with the slot as a corner. */
 static void query_around(splitting *s, uint32_t slot) {
   const sbri_tear_table *table = s->island->tears;
   uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
@@ -82,7 +81,7 @@ static void flood(splitting *s, uint32_t from) {
   uint32_t queue[MAX_AROUND], end = 1;
   queue[0] = from, s->parts[from] = s->part_count;
   for (uint32_t next = 0; next < end; next++)
-    for (uint32_t k = 0; k < 4; k++) { /* sides that have the point */
+    for (uint32_t k = 0; k < 4; k++) { /* faces with the point */
       if (k == s->corners[queue[next]]) continue;
       uint32_t other = s->island->tears->neighbours[s->elements[queue[next]]][k], i = 0;
       while (i < s->count && s->elements[i] != other) i++;
@@ -102,7 +101,7 @@ static float volume_of(const splitting *s, uint32_t part) {
   return sum;
 }
 
-/* How many parts could not be split off. */
+/* Returns the number of groups that could not be split off. */
 static uint32_t split(splitting *s, uint32_t slot) {
   query_around(s, slot);
   s->part_count = 0;

@@ -15,21 +15,21 @@
 #include "tear/spare_slot.h"
 #include "tear/spring_network.h"
 
-/* Points of more springs do not split: hubs in the middle of sections, which join all there is. */
+/* Points with more springs do not split: hubs in the middle of sections, which connect all points. */
 enum { MAX_SPRINGS = 192 };
 
 typedef struct spring_star {
   uint32_t links[MAX_SPRINGS], others[MAX_SPRINGS];
-  uint32_t parts[MAX_SPRINGS]; /* the first of its springs that it hangs together with */
+  uint32_t parts[MAX_SPRINGS]; /* the first of its springs to which it is connected */
   uint32_t count;
 } spring_star;
 
 typedef struct fraying {
   sbri_character *c;
-  sbri_island island; /* as it is now */
+  sbri_island island; /* its present state */
   sbri_network whole, rest;
   const uint32_t *origins;
-  uint32_t *owners; /* (slots) of nodes around the point looked at, its first spring; else SBRI_UNUSED */
+  uint32_t *owners; /* (slots) first spring of each node around the present point; else SBRI_UNUSED */
   spring_star now, made;
 } fraying;
 
@@ -50,7 +50,7 @@ static void claim(const fraying *f, spring_star *star, uint32_t node, uint32_t s
   star->parts[a > b ? a : b] = a < b ? a : b;
 }
 
-/* Each spring claims the point at its other end and those that one has springs to; false: too many. */
+/* Each spring claims the point at its other end and the neighbours of that point; false: too many. */
 static bool query_around(const fraying *f, const sbri_network *network, uint32_t slot, spring_star *star) {
   uint32_t origin = f->origins[slot];
   star->count = 0;
@@ -79,14 +79,14 @@ static uint32_t size_of(const spring_star *star, uint32_t part) {
   return size;
 }
 
-/* What a spring of the point hung together with at rest. */
+/* The group of a point's spring at rest. */
 static uint32_t fabric_of(const fraying *f, uint32_t spring) {
   for (uint32_t i = 0; i < f->made.count; i++)
     if (f->made.links[i] == f->now.links[spring]) return f->made.parts[i];
   return SBRI_UNUSED;
 }
 
-/* Whether that part of the fabric leaves the point to a greater one. */
+/* Whether the group separates from the point, because another group is larger. */
 static bool leaves(const fraying *f, uint32_t part) {
   uint32_t size = size_of(&f->now, part), fabric = fabric_of(f, part);
   if (size < 2) return false;
@@ -112,7 +112,7 @@ static float stiffness_of(const fraying *f, uint32_t slot, uint32_t spring) {
   return f->island.cells[cell_of(f, slot, f->now.links[spring])].stiffness[slot % SBRI_BLOCK];
 }
 
-/* The spring's row of one slot to the end of another's, whose row `at` is the next. */
+/* Moves the spring's row of one slot to the end of another's, whose next row is `at`. */
 static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to, uint32_t at) {
   const sbri_island *island = &f->island;
   sbri_spring_cell *cells = sbri_thread_cells(f->c) + island->first_thread_cell;
@@ -133,7 +133,7 @@ static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to
   if (cell + 1 > ends[block]) ends[block] = cell + 1;
 }
 
-/* The spring has `to` for an end from now on, in place of `from`. */
+/* Changes an end of the spring from `from` to `to`. */
 static void move_spring(const fraying *f, uint32_t spring, uint32_t from, uint32_t to, uint32_t at) {
   const sbri_island *island = &f->island;
   uint32_t link = f->now.links[spring], other = f->now.others[spring];
@@ -146,7 +146,7 @@ static void move_spring(const fraying *f, uint32_t spring, uint32_t from, uint32
         to;
 }
 
-/* How many parts could not be split off. */
+/* Returns the number of groups that could not be split off. */
 static uint32_t split(fraying *f, uint32_t slot) {
   const sbri_island *island = &f->island;
   if (!query_around(f, &f->whole, slot, &f->now) || size_of(&f->now, 0) == f->now.count) return 0;
@@ -180,7 +180,7 @@ static uint32_t split(fraying *f, uint32_t slot) {
   return unsplit;
 }
 
-/* ---- All of an island ---- */
+/* ---- A whole island ---- */
 
 /* Ends of torn springs and their neighbours: no other point can have lost a connection. */
 static void mark(const fraying *f, uint8_t *frayed) {

@@ -1,10 +1,11 @@
-/* Points of networks of springs that split. */
+/* Splitting of points in spring networks. */
 #ifndef SBRI_SPLIT_SPRINGS_H
 #define SBRI_SPLIT_SPRINGS_H
 
 #include "world/state.h"
 
-/* Splits the points of an island that frays; returns how many it had no room for. */
+/* Splits the points of an island whose springs may tear; returns the number of splits that failed for lack of
+ * slots. */
 uint32_t sbri_island_split_springs(sbri_character *c, uint32_t island);
 
 #endif

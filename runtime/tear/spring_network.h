@@ -1,20 +1,20 @@
-/* Networks of springs as graphs. */
+/* Spring networks as graphs. */
 #ifndef SBRI_SPRING_NETWORK_H
 #define SBRI_SPRING_NETWORK_H
 
 #include "model/runtime_model.h"
 
-/* An island's springs from point to point: as made, or as they are now. */
+/* Springs of an island from point to point: in the original or the present state. */
 typedef struct sbri_network {
-  const sbri_island *island; /* as sbri_island_now has it, or the model's */
-  const float *strengths;    /* of its links; NULL: all springs are whole */
+  const sbri_island *island; /* from sbri_island_now, or the model's */
+  const float *strengths;    /* of its links; NULL: all springs are intact */
 } sbri_network;
 typedef struct sbri_network_end {
   uint32_t row, other, link; /* cell, slot of the other end, link of the island */
 } sbri_network_end;
 
-/* Goes to the next whole spring of the slot, from `end->row` on, which begins with 0; false: there is none.
- * Held slots list none. */
+/* Advances to the next intact spring of the slot, from `end->row` on, which begins at 0; false: none. Pinned
+ * slots list none. */
 static inline bool sbri_network_next(const sbri_network *n, uint32_t slot, sbri_network_end *end) {
   const sbri_island *island = n->island;
   if (slot >= island->free_count) return false;

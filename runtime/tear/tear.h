@@ -1,4 +1,4 @@
-/* What has torn: points that split, and skins that open where they do. */
+/* Effects of tears: split points, and skins that open there. */
 #ifndef SBRI_TEAR_H
 #define SBRI_TEAR_H
 
@@ -6,16 +6,17 @@
 
 /* ---- tear/split.c ---- */
 
-/* Nothing torn, no point split. */
+/* Resets to no split points. */
 void sbri_reset_splits(sbri_character *c);
-/* Splits the points of what has torn in this tick; returns how many it had no room for. */
+/* Splits points next to elements that tore in this tick; returns the number of splits that failed for lack of
+ * slots. */
 uint32_t sbri_island_split(sbri_character *c, uint32_t island);
 
 /* ---- tear/torn_skin.c ---- */
 
 void sbri_restore_skins(sbri_character *c);
-/* After elements of the island have torn and its points have split. Skins belong to no one island: not for
- * tasks. */
+/* Call after elements of the island have torn and its points have split. Skins belong to several islands: not
+ * for tasks. */
 void sbri_skins_follow(sbri_character *c, uint32_t island);
 
 #endif

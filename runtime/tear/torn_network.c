@@ -17,11 +17,11 @@ void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t i
   t->whole = (sbri_network){&t->island, sbri_strengths(c) + made->first_flow};
   t->rest = (sbri_network){made, NULL};
   t->origins = sbri_origins(c) + made->first_slot;
-  t->seen = sbri_owners(c) + made->first_slot; /* all SBRI_UNUSED between looks */
+  t->seen = sbri_owners(c) + made->first_slot; /* all SBRI_UNUSED between queries */
   t->queue = t->seen + c->model->slot_count;
 }
 
-/* Whether so few springs lead from one to the other. */
+/* Whether few enough springs connect the two. */
 static bool is_near(const sbri_torn_network *t, const sbri_network *network, uint32_t from, uint32_t to) {
   uint32_t end = 1, step_end = 1;
   bool found = from == to;
@@ -38,7 +38,7 @@ static bool is_near(const sbri_torn_network *t, const sbri_network *network, uin
   return found;
 }
 
-/* From the free one, since held points list no springs. */
+/* Searches from the free end, since pinned points list no springs. */
 static bool is_joined(const sbri_torn_network *t, const sbri_network *network, uint32_t a, uint32_t b) {
   return a < t->island.free_count ? is_near(t, network, a, b) : is_near(t, network, b, a);
 }
@@ -68,7 +68,7 @@ static uint32_t heaviest_of(const carriers *is) {
   return heavy;
 }
 
-/* The copy of that point, or itself, which is not parted from `from`; SBRI_UNUSED: none. */
+/* The copy of a point, or the point itself, that is connected to `from`; SBRI_UNUSED: none. */
 static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t slot) {
   if (!is_parted(t, from, slot)) return slot;
   for (uint32_t b = 0; b < t->island.body_count; b++) {
@@ -82,7 +82,7 @@ static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t 
   return SBRI_UNUSED;
 }
 
-/* The point whose side has the greatest weight. */
+/* The point on the side with the largest weight. */
 static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
   uint32_t best = 0;
   float max = -1;
@@ -112,8 +112,8 @@ static sbf_vec3 rest_position(const sbri_torn_network *t, const carriers *made) 
   return sbri_scale(sum, 1 / all);
 }
 
-/* The least weights of sum 1 by which `count` points come nearest to the place: with M = B' B + e, B the
- * points' offsets from it, those in proportion to M^-1 1. */
+/* The smallest weights with sum 1 by which `count` points approximate the position: with M = B' B + e and B
+ * the offsets of the points, in proportion to M^-1 1. */
 static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weights) {
   double m[CARRIERS][CARRIERS], size = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) size += (double)sbri_dot(offsets[i], offsets[i]);
@@ -121,7 +121,7 @@ static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weight
     for (uint32_t j = 0; j < count; j++) m[i][j] = (double)sbri_dot(offsets[i], offsets[j]);
     m[i][i] += 1e-4 * size + 1e-30, weights[i] = 1;
   }
-  for (uint32_t i = 0; i < count; i++) /* symmetric and positive: no pivots */
+  for (uint32_t i = 0; i < count; i++) /* symmetric positive definite: no pivoting */
     for (uint32_t row = i + 1; row < count; row++) {
       double fraction = m[row][i] / m[i][i];
       for (uint32_t j = i; j < count; j++) m[row][j] -= fraction * m[i][j];
@@ -140,7 +140,7 @@ static bool has(const carriers *is, uint32_t count, uint32_t slot) {
   return false;
 }
 
-/* On one side alone: what is left of the carriers, then the side's other points. */
+/* Moves the vertex to one side: its remaining carriers, then other points of the side. */
 static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
   carriers next = {{0}, {0}};
   double weights[CARRIERS];
@@ -161,7 +161,7 @@ static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, con
   *is = next;
 }
 
-/* ---- What the tears of a tick do ---- */
+/* ---- Updates after the tears of a tick ---- */
 
 bool sbri_network_vertex_follow(const sbri_torn_network *t, const sbri_skin *skin, uint32_t binding) {
   const sbri_binding *bound = &skin->bindings[binding];

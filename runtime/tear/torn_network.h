@@ -1,23 +1,23 @@
-/* Skins of networks of springs that tear. */
+/* Skins of spring networks that tear. */
 #ifndef SBRI_TORN_NETWORK_H
 #define SBRI_TORN_NETWORK_H
 
 #include "tear/spring_network.h"
 #include "world/state.h"
 
-/* An island that frays, after its points have split. */
+/* An island whose springs may tear, after its points have split. */
 typedef struct sbri_torn_network {
   sbri_character *c;
-  sbri_island island; /* as it is now */
+  sbri_island island; /* its present state */
   sbri_network whole, rest;
   const uint32_t *origins;
   uint32_t *seen, *queue; /* (slots) */
 } sbri_torn_network;
 void sbri_torn_network_begin(sbri_torn_network *network, sbri_character *c, uint32_t island);
-/* Puts a vertex on one side of what has torn; whether its carriers have changed, or lie near a torn spring.
+/* Moves a vertex to one side of a tear; returns whether its carriers have changed, or are near a torn spring.
  */
 bool sbri_network_vertex_follow(const sbri_torn_network *network, const sbri_skin *skin, uint32_t binding);
-/* Whether a tear has parted what two vertices ride on. */
+/* Whether a tear has separated the carriers of two vertices. */
 bool sbri_network_vertices_part(
     const sbri_torn_network *network, const sbri_skin *skin, uint32_t binding_a, uint32_t binding_b);
 

@@ -1,18 +1,17 @@
 /* Skins of lattices and networks that tear.
  *
  * A vertex follows its tetrahedron. If that has torn, the vertex follows an intact tetrahedron at its corner
- * of greatest weight, extrapolated from the rest shape; without one it stays with the torn corners. A polygon
- * is hidden once the tetrahedra of two neighbouring corners, connected by few sides at rest, have lost that
- * connection. For networks tear/torn_network.c decides both. For cloth, whose vertices are points, a polygon
- * is hidden once a spring along one of its sides has torn.
- */
+ * with the largest weight, extrapolated from the rest shape; without one it stays with the torn corners. A
+ * polygon is hidden once the tetrahedra of two neighbouring corners, connected by few faces at rest, have
+ * lost that connection. For networks tear/torn_network.c decides both. For cloth, whose vertices are points,
+ * a polygon is hidden once a spring along one of its edges has torn. */
 #include <string.h>
 
 #include "mechanics/neo_hookean.h"
 #include "tear/tear.h"
 #include "tear/torn_network.h"
 
-/* Greatest number of sides between the tetrahedra of two neighbouring corners. */
+/* Maximum number of faces between the tetrahedra of two neighbouring corners. */
 enum { MAX_SIDES = 6 };
 
 static void repair(sbri_character *c, const sbri_skin *skin) {
@@ -51,7 +50,7 @@ static bool has_corner(const tearing *t, uint32_t element, uint32_t slot) {
   return false;
 }
 
-/* A whole tetrahedron with that slot for a corner, a neighbour if there is one; SBRI_UNUSED: none. */
+/* An intact tetrahedron with that slot as a corner, preferably a neighbour; SBRI_UNUSED: none. */
 static uint32_t find_whole(const tearing *t, uint32_t element, uint32_t slot) {
   const sbri_tear_table *table = t->island->tears;
   for (uint32_t k = 0; k < 4; k++) {
@@ -80,7 +79,7 @@ static sbfi_d3 rest_corner(const tearing *t, uint32_t element, uint32_t k) {
   return sbfi_d3_of(body->level->positions.at[point]);
 }
 
-/* Weights of the same place at rest on another tetrahedron. */
+/* Weights of the same rest position in another tetrahedron. */
 static void move_weights(
     const tearing *t, sbri_carry_cell *cells, uint32_t lane, uint32_t from, uint32_t to) {
   const sbri_body *body = body_of(t, to);
@@ -101,7 +100,7 @@ static void move_weights(
   cells[3].weights[lane] = sum * (float)weights.z;
 }
 
-/* Whether its carriers have changed. */
+/* Returns whether its carriers have changed. */
 static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
   const sbri_binding *binding = &skin->bindings[i];
   uint32_t *bound = &sbri_bound_to(t->c)[skin->first_binding + i], lane = binding->vertex % SBRI_BLOCK,
@@ -126,7 +125,7 @@ static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
 
 /* ---- Polygons ---- */
 
-/* Whether few sides connect one to the other: through intact tetrahedra, or at rest through all. */
+/* Whether few faces connect one to the other: through intact tetrahedra, or at rest through all. */
 static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest) {
   uint32_t *stamps = sbri_visits(t->c) + t->island->first_solid,
            *queue = sbri_queue(t->c) + t->island->first_solid;
@@ -146,8 +145,7 @@ static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest
   return found;
 }
 
-/* The tetrahedron that the vertex rode on when it was made, or does now; SBRI_UNUSED: on none of this island.
- */
+/* The tetrahedron of the vertex, at rest or now; SBRI_UNUSED: none of this island. */
 static uint32_t ridden(const tearing *t, const sbri_skin *skin, uint32_t vertex, bool at_rest) {
   uint32_t i = skin->binding_of[vertex];
   if (i == UINT32_MAX || skin->bindings[i].island != t->index) return SBRI_UNUSED;
@@ -192,7 +190,7 @@ static void follow_vertices(const tearing *t, const sbri_skin *skin) {
   }
 }
 
-/* Polygons of the mesh or of a level of it, which names the mesh's vertices too: `skin` is the mesh's. */
+/* Polygons of the mesh or of a render level, which uses the mesh's vertices: `skin` is the mesh's. */
 static void open_polygons(const tearing *t, const sbri_skin *skin, const sbf_u32_list *sizes,
     const uint32_t *points, uint32_t *torn) {
   const uint8_t *touched = sbri_touched(t->c) + skin->first_binding;
