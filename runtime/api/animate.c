@@ -1,4 +1,4 @@
-/* The animation layer as hosts see it. */
+/* Public calls for animation. */
 #include "gait/gait_state.h"
 #include "sbrun/animation.h"
 #include "world/world.h"

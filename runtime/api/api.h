@@ -1,4 +1,4 @@
-/* What the calls of hosts share. */
+/* Shared parts of public calls. */
 #ifndef SBRI_API_H
 #define SBRI_API_H
 
@@ -17,12 +17,12 @@ void sbri_body_user_data_free(const sbf_allocator *allocator, const sbr_model *m
 
 /* ---- api/record.c ---- */
 
-/* After a step: the hash, where a second is over since the last one. */
+/* Call after a step: records the hash once per second. */
 void sbri_record_hash(sbr_world *world);
 
 /* ---- api/detail_host.c ---- */
 
-/* The `index`-th of `count` views, as in recordings. */
+/* Sets the `index`-th of `count` views, as in recordings. */
 void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_view *view);
 void sbri_detail_free(sbr_world *world);
 

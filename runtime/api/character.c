@@ -1,4 +1,4 @@
-/* Characters made, moved and ended by their host. */
+/* Public calls that create, move and destroy characters. */
 #include <string.h>
 
 #include "api/api.h"
@@ -30,14 +30,15 @@ static bool reserve_work(sbr_world *world, size_t more) {
   return true;
 }
 
-static double whole(double metres) {
+static double rounded(double metres) {
   return (double)(int64_t)(metres < 0 ? metres - 0.5 : metres + 0.5);
 }
 
-/* The origin at whole metres near `position`, and the gait's state standing there. */
-static void put(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
+/* Sets the origin to whole metres near `position`, and places the gait's state there. */
+static void set_origin(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
   double ground = sbri_ground_height(&c->ground, position.x, position.z, NULL);
-  sbri_header(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
+  sbri_header(c)->origin =
+      (sbr_double3){rounded(position.x), rounded(ground + position.y), rounded(position.z)};
   sbr_double3 origin = sbri_header(c)->origin;
   sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
   sbf_vec3 point = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
@@ -49,7 +50,7 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   sbri_rigid_frames_follow(c, sbri_pose(c));
 }
 
-/* Beyond, numbers of single precision do not last: a tick of the least is 17 s of one of scale 1. */
+/* Bounds by single precision: a tick of the smallest scale is 17 s of a character of scale 1. */
 static const float MIN_SCALE = 1e-6f, MAX_SCALE = 1e6f;
 
 static sbf_status check_definition(const sbr_character_definition *definition, sbf_diagnostic *error) {
@@ -69,9 +70,10 @@ static sbf_status check_definition(const sbr_character_definition *definition, s
   return SBF_OK;
 }
 
-/* It stands at its position, at rest. */
-static void begin(sbr_world *world, sbri_character *c, const sbr_character_definition *definition) {
-  put(world, c, definition->position, definition->heading);
+/* Places the character at rest. */
+static void set_initial_position(
+    sbr_world *world, sbri_character *c, const sbr_character_definition *definition) {
+  set_origin(world, c, definition->position, definition->heading);
   sbri_rigid_reset(c, true);
   sbri_jiggles_reset(c);
   sbri_restore_elements(c);
@@ -122,9 +124,8 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
   }
   sbri_header(c)->detail_level = sbri_header(c)->next_detail_level = detail_level;
-  sbri_header(c)->detail_level_ticks =
-      UINT32_MAX; /* it has not ticked: it may go over to any other at once */
-  begin(world, c, definition);
+  sbri_header(c)->detail_level_ticks = UINT32_MAX; /* it has not ticked: it may change its level at once */
+  set_initial_position(world, c, definition);
   *character = sbri_id_of(world, c);
   sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
   return SBF_OK;
@@ -207,7 +208,7 @@ void sbr_character_teleport(
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
   sbri_header(c)->moved = sbri_vec3(0, 0, 0), sbri_header(c)->turned = 0;
-  put(world, c, position, heading);
+  set_origin(world, c, position, heading);
   sbri_rigid_move_with_pose(c);
   sbri_jiggles_reset(c);
   sbri_fade_end(c);
@@ -228,8 +229,8 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbr_double3 origin = sbri_header(c)->origin;
   sbri_header(c)->forward = sbri_header(c)->sideways = sbri_header(c)->turn = sbri_header(c)->up = 0;
   memset(sbri_loads(c), 0, SBR_LOAD_CAPACITY * sizeof(sbri_load));
-  put(world, c, (sbr_double3){origin.x + (double)position.x, position.y, origin.z + (double)position.z},
-      heading);
+  set_origin(world, c,
+      (sbr_double3){origin.x + (double)position.x, position.y, origin.z + (double)position.z}, heading);
   sbri_rigid_reset(c, false);
   sbri_jiggles_reset(c);
   sbri_fade_end(c);

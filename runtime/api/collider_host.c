@@ -1,4 +1,4 @@
-/* The host's shapes in a world: sbrun/collision.h. */
+/* Public calls for colliders: sbrun/collision.h. */
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "math/usable.h"
@@ -6,7 +6,7 @@
 
 enum { COLLIDER_COOKIE = 0x5b72636f, INDEX_BITS = 16 };
 
-static const float OWN = -1; /* of what touches */
+static const float OWN = -1; /* that of the body in contact */
 
 bool sbri_collider_set_make(sbri_collider_set *set, uint32_t capacity, const sbf_allocator *allocator) {
   *set = (sbri_collider_set){.capacity = capacity};
@@ -55,7 +55,7 @@ static bool is_position(sbr_double3 position, sbf_quat rotation) {
   return sbri_usable(numbers, 7);
 }
 
-/* What is not to be, as an answer; SBF_OK: nothing. */
+/* Checks a definition; SBF_OK if it has no error. */
 static sbf_status check_body(
     const sbr_world *world, const sbr_collider_definition *d, sbf_diagnostic *error) {
   const double numbers[11] = {(double)d->mass, (double)d->inertia.x, (double)d->inertia.y,
@@ -80,7 +80,7 @@ static float inverse(float number) {
   return number > 0 ? 1 / number : 0;
 }
 
-static void stir(sbr_world *world) {
+static void mark_changed(sbr_world *world) {
   world->colliders.stirred = true;
 }
 
@@ -132,7 +132,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
             inverse(definition->inertia.z)},
         .axes = sbri_quat_normalize(definition->inertia_axes),
         .centre = definition->centre};
-  stir(world);
+  mark_changed(world);
   *collider = sbri_collider_name(set, index);
   return SBF_OK;
 }
@@ -155,10 +155,10 @@ void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider) {
   sbri_collider *c = collider_of(world, collider);
   if (!c) return;
   uint32_t index = (uint32_t)(c - world->colliders.at);
-  for (uint32_t i = 0; i < world->colliders.end; i++) /* what it had the mass of is nobody's part now */
+  for (uint32_t i = 0; i < world->colliders.end; i++) /* its other colliders lose their mass */
     if (world->colliders.at[i].leader == index) world->colliders.at[i].leader = i;
   *c = (sbri_collider){.generation = c->generation};
-  stir(world);
+  mark_changed(world);
 }
 
 void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
@@ -167,7 +167,7 @@ void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 p
   c->next = position;
   c->turn_next = sbri_quat_normalize(rotation);
   c->body.goes = false;
-  stir(world);
+  mark_changed(world);
 }
 
 void sbr_collider_set_transform(
@@ -177,24 +177,24 @@ void sbr_collider_set_transform(
   c->from = c->to = c->next = position;
   c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
   c->body.goes = false;
-  stir(world);
+  mark_changed(world);
 }
 
 /* Changes of velocity below this fraction of gravity's, and below this speed in m/s, are ignored: hosts damp
  * their bodies. */
-static const float FROM_WEIGHT = 0.2f, FROM_NOWHERE_M_S = 0.01f;
+static const float MIN_GRAVITY_FRACTION = 0.2f, MIN_CHANGE_M_S = 0.01f;
 
-/* Impulse from the host's other bodies since the motion was last set, by the change of velocity. */
-static void find_holder(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
+/* Impulse of the host's other bodies since the motion was last set, from the velocity change. */
+static void find_external_impulse(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
   b->blocked_normal = sbri_vec3(0, 0, 0);
   if (!b->goes || !(m->since_s > 0)) {
     b->sharers = b->sharing = 0;
     return;
   }
-  sbf_vec3 known = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->inverse_mass);
-  sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->reported_velocity), known);
+  sbf_vec3 expected = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->inverse_mass);
+  sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->reported_velocity), expected);
   float size = sbri_length(other), weight = sbri_length(b->acceleration) * m->since_s;
-  if (size > FROM_WEIGHT * weight + FROM_NOWHERE_M_S) b->blocked_normal = sbri_scale(other, 1 / size);
+  if (size > MIN_GRAVITY_FRACTION * weight + MIN_CHANGE_M_S) b->blocked_normal = sbri_scale(other, 1 / size);
 }
 
 void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion) {
@@ -207,15 +207,15 @@ void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const s
   c->to = c->next = motion->position;
   c->turn_to = c->turn_next = sbri_quat_normalize(motion->rotation);
   sbf_vec3 of_mass = sbri_add(v, sbri_cross(w, sbri_rotate(c->turn_to, c->body.centre)));
-  find_holder(&c->body, motion, of_mass);
+  find_external_impulse(&c->body, motion, of_mass);
   c->body.goes = c->body.is_reported = true;
   c->body.velocity = v, c->body.reported_velocity = of_mass, c->body.angular_velocity = w,
   c->body.acceleration = a;
   c->body.handed = sbri_vec3(0, 0, 0);
-  stir(world);
+  mark_changed(world);
 }
 
-static sbf_vec3 taken(double sum[3]) {
+static sbf_vec3 take_sum(double sum[3]) {
   sbf_vec3 all = {(float)sum[0], (float)sum[1], (float)sum[2]};
   sum[0] = sum[1] = sum[2] = 0;
   return all;
@@ -224,8 +224,8 @@ static sbf_vec3 taken(double sum[3]) {
 sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id collider) {
   sbri_collider *c = collider_of(world, collider);
   if (!c) return (sbr_collider_impulse){{0, 0, 0}, {0, 0, 0}};
-  sbf_vec3 impulse = taken(c->impulse);
+  sbf_vec3 impulse = take_sum(c->impulse);
   sbri_host_body *body = &world->colliders.at[c->leader].body;
   body->handed = sbri_add(body->handed, impulse);
-  return (sbr_collider_impulse){impulse, taken(c->moment)};
+  return (sbr_collider_impulse){impulse, take_sum(c->moment)};
 }

@@ -1,4 +1,4 @@
-/* Choosing detail levels as hosts ask for it: sbrun/detail.h. */
+/* Public calls for the selection of detail levels: sbrun/detail.h. */
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "detail/choose.h"

@@ -1,4 +1,4 @@
-/* Detail levels as hosts know them: sbrun/detail.h. */
+/* Public calls for detail levels: sbrun/detail.h. */
 #include "world/world.h"
 
 uint32_t sbr_model_get_detail_levels(
@@ -20,7 +20,7 @@ void sbr_character_set_detail_level(sbr_world *world, sbr_character_id character
   sbri_record(world, SBRI_RECORDED_DETAIL_LEVEL, (const double[]){character.value, detail_level});
   uint32_t last = c->model->base->detail_level_count - 1;
   if (detail_level != SBR_DETAIL_AUTOMATIC && detail_level > last) detail_level = last;
-  sbri_header(c)->set_detail_level_plus_1 = detail_level + 1; /* 0: chosen */
+  sbri_header(c)->set_detail_level_plus_1 = detail_level + 1; /* 0: automatic */
   if (detail_level == SBR_DETAIL_AUTOMATIC) return;
   if (sbri_header(c)->next_detail_level != detail_level) sbri_character_wake(c);
   sbri_header(c)->next_detail_level = detail_level;

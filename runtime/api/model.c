@@ -1,4 +1,4 @@
-/* Models as a host has them: created of an asset, asked, destroyed. */
+/* Public calls for models. */
 #include "base/diagnostic.h"
 #include "math/usable.h"
 #include "model/kernels.h"
@@ -6,7 +6,7 @@
 #include "solvers/scheme.h"
 #include "world/state.h"
 
-/* Substeps of rigid parts in a control tick. */
+/* Maximum substeps of rigid parts per control tick. */
 enum { MODEL_COOKIE = 0x5b726d6f, MAX_RIGID_SUBSTEPS = 1000 };
 
 sbr_model_options sbr_default_model_options(void) {

@@ -1,4 +1,4 @@
-/* Recordings as they are played: sbrun/record.h. */
+/* Playback of recordings: sbrun/record.h. */
 #include <string.h>
 
 #include "api/api.h"
@@ -20,7 +20,7 @@ static double double_at(const unsigned char *from) {
   return value;
 }
 
-/* Numbers from a file are bounded before they become integers. */
+/* Bounds numbers of a file before they become integers. */
 static uint32_t whole(double value) {
   return value >= 0 && value <= 4294967295.0 ? (uint32_t)value : UINT32_MAX;
 }
@@ -68,7 +68,7 @@ static sbf_vec3 vec3_at(const double *n) {
   return (sbf_vec3){(float)n[0], (float)n[1], (float)n[2]};
 }
 
-/* False where it is none of them. A call that failed while it was recorded fails again. */
+/* Returns false for other calls. A call that failed while it was recorded fails again. */
 static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
   uint32_t body = whole(n[1]), vertex = whole(n[2]);
   const sbr_soft_hold hold = {{n[3], n[4], n[5]}, (float)n[6], (float)n[7], (float)n[8]};
@@ -87,7 +87,7 @@ static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id,
   return true;
 }
 
-/* `n` has zeros behind its numbers. */
+/* `n` is padded with zeros. */
 static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   sbr_character_id id = {whole(n[0])};
   const sbr_ik_target target = {
@@ -156,7 +156,7 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   }
 }
 
-/* The next whole record: its size, 0 where there is none or (`bad`) it is not one. */
+/* The next complete record: returns its size, 0 if there is none or (`bad`) it is invalid. */
 static size_t read(
     const sbr_replay *r, size_t size, uint32_t *what, double numbers[SBRI_RECORDED_MAX], bool *bad) {
   const unsigned char *from = r->bytes + r->at;
@@ -179,7 +179,7 @@ static bool steps(uint32_t what) {
   return what == SBRI_RECORDED_STEP || what == SBRI_RECORDED_TICK;
 }
 
-/* Plays hashes that come next. */
+/* Plays the hashes that come next. */
 static void play_hashes(sbr_replay *r) {
   double numbers[SBRI_RECORDED_MAX];
   uint32_t what;

@@ -1,4 +1,4 @@
-/* Recordings as they are written: sbrun/record.h. */
+/* Writing of recordings: sbrun/record.h. */
 #include "api/api.h"
 
 static void write_hash(sbr_world *world) {

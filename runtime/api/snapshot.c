@@ -1,5 +1,5 @@
-/* Saving and restoring all mutable state, and its hash. A snapshot is for the process that made it: it is no
- * file format. */
+/* Saves, restores and hashes all mutable state. A snapshot is valid in its process only: it is no file
+ * format. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -51,12 +51,11 @@ sbf_status sbr_world_save_snapshot(const sbr_world *world, void *bytes, size_t s
   }
   sbri_contact_cache_save(world, to);
   to += sbri_contact_cache_size(world);
-  memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* what other detail levels would need */
+  memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* space for other detail levels */
   return SBF_OK;
 }
 
-/* The model of the detail level that a state is on; NULL: it is none of the character's, or does not lie
- * within. */
+/* The model of the detail level of a state; NULL: it is invalid for the character or the snapshot. */
 static const sbr_model *model_of(
     const sbri_character *c, const snapshot_part *part, const unsigned char *state, size_t left) {
   sbri_character_state head;
@@ -68,8 +67,8 @@ static const sbr_model *model_of(
   return model && part->size == model->layout.state_size ? model : NULL;
 }
 
-/* Whether the snapshot is of this world with these characters, and there is room for the detail levels that
- * they were on; nothing is changed before that is known. */
+/* Whether the snapshot belongs to this world and its characters, and storage exists for their detail levels;
+ * checked before anything changes. */
 static bool fits(sbr_world *world, const unsigned char *bytes, size_t size) {
   const unsigned char *end = bytes + size;
   snapshot_header head;
@@ -153,7 +152,7 @@ uint64_t sbr_world_get_state_hash(const sbr_world *world) {
     sbfi_hash64_add_f32(&hash, &sbri_previous_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
     sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
         (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
-    /* Positions, the tick before and velocities follow each other. */
+    /* Positions, previous positions and velocities are adjacent. */
     sbfi_hash64_add_f32(&hash, (const float *)(const void *)(c->state + l->positions),
         (l->solids - l->positions) / sizeof(float));
     sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),

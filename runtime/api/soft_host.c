@@ -1,4 +1,4 @@
-/* What hosts do to soft bodies: sbrun/soft_body.h. */
+/* Public calls for soft bodies: sbrun/soft_body.h. */
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "math/usable.h"
@@ -7,7 +7,7 @@
 #include "soft/soft.h"
 #include "solvers/scheme.h"
 
-/* A call, and the character and body that it names; NULL where it fails. */
+/* A call with its character and body; NULL if it fails. */
 typedef struct soft_call {
   const char *name;
   sbri_character *c;
@@ -38,7 +38,7 @@ static bool find_body(const sbr_world *world, sbr_character_id character, uint32
   return false;
 }
 
-/* Its carriers, or none of the whole body. */
+/* Finds the points of the vertex, or none for the whole body. */
 static bool find_vertex(
     soft_call *call, uint32_t vertex, bool may_be_whole, sbf_status *status, sbf_diagnostic *error) {
   if (vertex == SBR_WHOLE_BODY && may_be_whole) return true;
@@ -100,13 +100,13 @@ sbf_status sbr_character_set_soft_velocity(sbr_world *world, sbr_character_id ch
   return SBF_OK;
 }
 
-/* To free points, and to the simulated bodies that hold the others. */
-static void push_carriers(const soft_call *call, sbf_vec3 own) {
+/* Applies an impulse to free points, and to the rigid bodies of pinned ones. */
+static void apply_impulse(const soft_call *call, sbf_vec3 impulse) {
   sbri_character *c = call->c;
   const sbri_island now = sbri_island_now(c, &c->model->islands[call->body->island]);
   for (uint32_t k = 0; k < call->at.count; k++) {
     uint32_t slot = call->at.slots[k];
-    sbf_vec3 part = sbri_scale(own, call->at.weights[k]);
+    sbf_vec3 part = sbri_scale(impulse, call->at.weights[k]);
     if (slot < now.free_count) {
       add_velocity(velocity_of(c, call->body, slot), sbri_scale(part, now.inverse_masses[slot]));
       continue;
@@ -129,20 +129,20 @@ sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id c
       character.value, soft_body, vertex, (double)impulse.x, (double)impulse.y, (double)impulse.z};
   if ((status = check_numbers(call.name, numbers, 6, error)) != SBF_OK) return status;
   sbri_record(world, SBRI_RECORDED_SOFT_IMPULSE, numbers);
-  sbf_vec3 own = sbri_scale(impulse, sbri_own_impulse(call.c));
+  sbf_vec3 own_impulse = sbri_scale(impulse, sbri_own_impulse(call.c));
   if (vertex == SBR_WHOLE_BODY) {
     const sbri_island now = sbri_island_now(call.c, &call.c->model->islands[call.body->island]);
-    sbf_vec3 velocity_change = sbri_scale(own, 1 / sbri_body_mass(call.c, call.body));
+    sbf_vec3 velocity_change = sbri_scale(own_impulse, 1 / sbri_body_mass(call.c, call.body));
     for (uint32_t slot = call.body->slot_begin; slot < call.body->slot_end; slot++)
       if (now.masses[slot] > 0) add_velocity(velocity_of(call.c, call.body, slot), velocity_change);
   } else {
-    push_carriers(&call, own);
+    apply_impulse(&call, own_impulse);
   }
   wake(call.c, call.body);
   return SBF_OK;
 }
 
-/* ---- Loads that last ---- */
+/* ---- Persistent loads ---- */
 
 static sbri_load *find_hold(sbri_character *c, uint32_t soft_body, uint32_t vertex) {
   for (uint32_t i = 0; i < SBR_LOAD_CAPACITY; i++) {

@@ -1,4 +1,4 @@
-/* The host's pointers for bodies, and whether bodies and joints exist. */
+/* User pointers of bodies, and checks whether bodies and joints exist. */
 #include <string.h>
 
 #include "api/api.h"

@@ -1,4 +1,4 @@
-/* Worlds made and ended, and the time that passes in them. */
+/* Public calls that create, step and destroy worlds. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ enum {
   MAX_COLLIDERS = 65534,
   MAX_EVENTS = 1 << 20
 };
-/* No frame is longer. */
+/* Maximum length of a frame. */
 static const double LONGEST_S = 3600;
 
 sbr_world_definition sbr_default_world_definition(void) {

@@ -1,4 +1,4 @@
-/* A world as lines and points: sbrun/debug.h. */
+/* Draws a world as lines and points: sbrun/debug.h. */
 #include "body_contact/body_contacts.h"
 #include "debug/debug_lines.h"
 #include "skin/skin.h"

@@ -1,11 +1,11 @@
-/* Rigid bodies, joints and colliders as lines: sbrun/debug.h. */
+/* Draws rigid bodies, joints and colliders as lines: sbrun/debug.h. */
 #include "debug/debug_lines.h"
 
 #include "math/trig.h"
 #include "ragdoll/ragdoll.h"
 #include "rigid/joint_frames.h"
 
-/* Pose of the body's own frame, asset metres; of the anchor frame where `body` is negative. */
+/* Pose of a body's frame, asset metres; that of the anchor frame if `body` is negative. */
 static sbr_transform body_pose(const sbri_character *c, int32_t body) {
   const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
   if (body < 0) return (sbr_transform){sbri_scale(anchor->position, 1 / c->scale), anchor->rotation};
@@ -23,7 +23,7 @@ void sbri_draw_rigid_bodies(const sbri_character *c, const sbri_debug_lines *to)
 
 /* ---- Joints ---- */
 
-/* A cone about `axes[0]` of that half angle: its rim, and four lines from the apex. */
+/* A cone about `axes[0]` with that half angle: its rim, and four lines from the apex. */
 static void draw_cone(
     const sbri_debug_lines *to, sbf_vec3 apex, const sbf_vec3 axes[3], float half_rad, float size) {
   float sine, cosine;
@@ -37,7 +37,7 @@ static void draw_cone(
   sbri_draw_line(to, apex, sbri_sub(center, z), SBRI_DRAW_YELLOW);
 }
 
-/* Limits in frame a: angles as arcs that the moving axis sweeps, lengths as segments. */
+/* Limits in frame a: angles as arcs of the moving axis, lengths as segments. */
 static void draw_limit(
     const sbri_debug_lines *to, const sbf_limit *limit, sbf_vec3 origin, const sbf_vec3 axes[3], float size) {
   sbf_vec3 x = sbri_scale(axes[0], size), y = sbri_scale(axes[1], size), z = sbri_scale(axes[2], size);
@@ -63,7 +63,7 @@ static void draw_limit(
     draw_cone(to, origin, axes, limit->max, size);
     break;
   default:
-    break; /* distances are the line between the frames */
+    break; /* distances are drawn between the frames */
   }
 }
 
@@ -94,7 +94,7 @@ void sbri_draw_joints(const sbri_character *c, float size, const sbri_debug_line
 
 void sbri_draw_rigid_contacts(const sbri_character *c, double tick_s, const sbri_debug_lines *to) {
   const sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  /* Forces of the last tick as its impulses, from the character's units to the world's. */
+  /* Forces of the last tick as impulses, from the character's units to the world's. */
   float impulse_per_n = (float)tick_s * c->scale * c->scale * c->scale;
   for (uint32_t i = 0; c->model->rigid.body_count && i < drive->stored_contacts; i++) {
     const sbri_stored_contact *kept = &sbri_rigid_kept(c)[i];
@@ -107,7 +107,7 @@ void sbri_draw_rigid_contacts(const sbri_character *c, double tick_s, const sbri
 
 /* ---- Colliders ---- */
 
-static const float PLANE_HALF_M = 5; /* of the square that stands for a plane */
+static const float PLANE_HALF_M = 5; /* half size of the square that represents a plane */
 
 static void draw_round(const sbri_debug_lines *to, const sbr_shape *shape, const sbr_transform *pose) {
   float r = shape->radius, half = shape->kind == SBR_SHAPE_CAPSULE ? shape->half_sizes.y : 0;

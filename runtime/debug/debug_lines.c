@@ -3,7 +3,7 @@
 #include "math/trig.h"
 
 static const float TURN = 6.28318530718f;
-enum { ARC_STEPS = 24 }; /* of a whole turn */
+enum { ARC_STEPS = 24 }; /* steps per full turn */
 
 static sbr_double3 in_world(const sbri_debug_lines *to, sbf_vec3 x) {
   double s = (double)to->scale;

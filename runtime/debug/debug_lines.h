@@ -1,4 +1,4 @@
-/* Lines and points of sbr_world_draw (sbrun/debug.h), from a space of their own to the host's functions. */
+/* Lines and points of sbr_world_draw (sbrun/debug.h), converted to world space for the host's functions. */
 #ifndef SBRI_DEBUG_LINES_H
 #define SBRI_DEBUG_LINES_H
 
@@ -20,7 +20,7 @@ enum {
 /* Size of a point. */
 #define SBRI_POINT_PIXELS 6.0f
 
-/* Where lines go: positions times `scale`, then plus `origin`, are in world metres. */
+/* Target of lines: positions times `scale` plus `origin` are in world metres. */
 typedef struct sbri_debug_lines {
   const sbr_debug_draw *draw;
   sbr_double3 origin;
@@ -31,15 +31,14 @@ void sbri_draw_line(const sbri_debug_lines *to, sbf_vec3 a, sbf_vec3 b, uint32_t
 void sbri_draw_point(const sbri_debug_lines *to, sbf_vec3 at, float size_pixels, uint32_t color);
 void sbri_draw_box(
     const sbri_debug_lines *to, const sbri_box *box, const sbr_transform *pose, uint32_t color);
-/* Part of a circle about `center`: from the tip of `x` by `angles` of a turn towards `y`; x and y are radii.
- */
+/* An arc about `center`, from the tip of `x` by the angles towards `y`; x and y are radii. */
 void sbri_draw_arc(const sbri_debug_lines *to, sbf_vec3 center, sbf_vec3 x, sbf_vec3 y, float from_rad,
     float to_rad, uint32_t color);
-/* Edges of a hull whose own frame has that pose. */
+/* Edges of a hull in that pose. */
 void sbri_draw_hull(
     const sbri_debug_lines *to, const sbri_hull *hull, const sbr_transform *pose, uint32_t color);
 
-/* A contact: red where it carries an impulse (N s), with a line along its normal, else blue. */
+/* A contact: red with an impulse (N s), with a line along its normal; else blue. */
 void sbri_draw_contact(const sbri_debug_lines *to, sbf_vec3 at, sbf_vec3 normal, float impulse);
 
 /* ---- debug/debug_draw_rigid.c ---- */

@@ -1,4 +1,4 @@
-/* The times of the last tick, and what the world holds: sbrun/debug.h. */
+/* Times of the last tick, and counts of the world: sbrun/debug.h. */
 #include <string.h>
 
 #include "body_contact/body_contacts.h"

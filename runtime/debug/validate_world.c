@@ -1,4 +1,4 @@
-/* The rules that a world's state keeps between two steps: sbrun/debug.h. */
+/* Invariants of a world's state between two steps: sbrun/debug.h. */
 #include <stdio.h>
 
 #include "base/diagnostic.h"
@@ -14,7 +14,7 @@ typedef struct checking {
   const char *fault; /* NULL: none yet */
 } checking;
 
-/* Notes the first rule that is broken; returns whether this one holds. */
+/* Stores the first violated invariant; returns whether this one holds. */
 static bool expect(checking *k, bool holds, const char *rule) {
   if (!holds && !k->fault) k->fault = rule;
   return holds;
@@ -116,7 +116,7 @@ static void check_character(checking *k) {
   check_rigid_bodies(k);
 }
 
-/* ---- The world's own ---- */
+/* ---- World ---- */
 
 static void check_colliders(checking *k) {
   const sbri_collider_set *set = &k->world->colliders;

@@ -6,7 +6,7 @@
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 
-static void carry(
+static void move_frame(
     sbr_transform *frame, const sbr_transform *from, const sbr_transform *to, sbf_quat rotation) {
   sbf_vec3 arm = sbri_sub(frame->position, from->position);
   frame->position = sbri_add(to->position, sbri_rotate(rotation, arm));
@@ -29,7 +29,7 @@ void sbri_away_tick(const sbr_world *world, sbri_character *c) {
   sbf_quat rotation =
       sbri_quat_normalize(sbri_quat_multiply(to.rotation, sbri_quat_conjugate(from.rotation)));
   for (uint32_t f = 0; f < model->frame_count; f++)
-    if (f != root && f != anchor) carry(&pose[f], &from, &to, rotation);
+    if (f != root && f != anchor) move_frame(&pose[f], &from, &to, rotation);
   pose[root] = to;
 }
 

@@ -25,7 +25,7 @@ static float *velocity_of(const sbri_character *c, uint32_t slot) {
 /* Displacement and velocity of the points relative to their pin frames; for loose bodies relative to the
  * root.
  */
-static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
+static void store_body(sbri_character *c, const sbri_body *body, bool moves) {
   const sbri_island *island = &c->model->islands[body->island];
   sbri_point *drivers = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
   sbri_compute_driver_positions(c->model, body, sbri_deltas(c), drivers);
@@ -42,7 +42,7 @@ static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
 }
 
 /* Returns whether it moves: false if its pins have jumped. */
-static bool keep_soft(sbri_character *c, float tick_s) {
+static bool store_soft_motion(sbri_character *c, float tick_s) {
   const sbr_model *model = c->model;
   bool moves = true;
   memset(sbri_offsets(c), 0, model->slot_count * sizeof(sbri_point));
@@ -50,13 +50,13 @@ static bool keep_soft(sbri_character *c, float tick_s) {
   for (uint32_t i = 0; i < model->island_count; i++)
     moves = sbri_driver_velocities_find(c, &model->islands[i], tick_s) && moves;
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
-    if (model->bodies[b].level) keep_body(c, &model->bodies[b], moves);
+    if (model->bodies[b].level) store_body(c, &model->bodies[b], moves);
   return moves;
 }
 
 /* ---- State that all detail levels share ---- */
 
-static void take_shared(sbri_character *c, const sbri_character *was) {
+static void copy_shared_state(sbri_character *c, const sbri_character *was) {
   const sbr_model *is = c->model;
   uint32_t frames = sbri_first_jiggle_frame(is);
   uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
@@ -72,7 +72,7 @@ static void take_shared(sbri_character *c, const sbri_character *was) {
 }
 
 /* Counters of an island continue in the island that has its first body. */
-static void take_counts(sbri_character *c, const sbri_character *was) {
+static void copy_counters(sbri_character *c, const sbri_character *was) {
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     uint32_t body = c->model->islands[i].bodies[0];
     if (!was->model->bodies[body].level) continue;
@@ -96,15 +96,15 @@ static sbf_vec3 mean_of(const sbri_sources *sources, const sbri_point *of) {
 }
 
 /* Applies `fraction` of the old shape and motion, relative to the drivers. */
-static void shape(sbri_character *c, const sbri_character *was, const sbri_body *body,
+static void apply_shape(sbri_character *c, const sbri_character *was, const sbri_body *body,
     const sbri_sources *sources, float fraction) {
   const sbri_island *island = &c->model->islands[body->island];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 off = mean_of(&sources[island->first_slot + slot], sbri_offsets(was));
+    sbf_vec3 offset = mean_of(&sources[island->first_slot + slot], sbri_offsets(was));
     sbri_point *p = &positions[slot];
-    *p = (sbri_point){p->x + fraction * off.x, p->y + fraction * off.y, p->z + fraction * off.z, 0};
+    *p = (sbri_point){p->x + fraction * offset.x, p->y + fraction * offset.y, p->z + fraction * offset.z, 0};
   }
 }
 
@@ -123,17 +123,17 @@ static double elastic_of(const sbr_world *world, const sbri_character *c, uint32
 }
 
 /* Energy is proportional to the square of a small strain. */
-static void shape_within(const sbr_world *world, sbri_character *c, const sbri_character *was, uint32_t index,
-    const sbri_sources *sources) {
+static void apply_shape_within_energy(const sbr_world *world, sbri_character *c, const sbri_character *was,
+    uint32_t index, const sbri_sources *sources) {
   const sbri_body *body = &c->model->bodies[index];
   double max_j = sbri_energies(was)[index];
   float fraction = 1;
-  shape(c, was, body, sources, fraction);
+  apply_shape(c, was, body, sources, fraction);
   for (int n = 0; n < ATTEMPTS && body->is_pinned; n++) {
     double now = elastic_of(world, c, index);
     if (!(now > max_j)) return;
     fraction *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(max_j / now) : 0;
-    shape(c, was, body, sources, fraction);
+    apply_shape(c, was, body, sources, fraction);
   }
 }
 
@@ -154,7 +154,7 @@ static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *off
 }
 
 /* Followers continue with these, and with the motion of their bones. */
-static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
+static void set_followers(sbri_character *c, const sbri_character *was, float tick_s) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
     sbri_position_follower *follower = &sbri_jiggles(c)[j];
@@ -172,7 +172,7 @@ static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
 
 /* ---- All steps ---- */
 
-static void take_soft(
+static void copy_soft_bodies(
     const sbr_world *world, sbri_character *c, const sbri_character *was, bool moves, float tick_s) {
   const sbr_model *is = c->model;
   const sbri_sources *sources = is->sources ? is->sources[sbri_header(was)->detail_level] : NULL;
@@ -182,7 +182,7 @@ static void take_soft(
   }
   for (uint32_t b = 0; sources && b < is->asset->soft_bodies.count; b++) {
     if (!is->bodies[b].level || !was->model->bodies[b].level) continue;
-    shape_within(world, c, was, b, sources);
+    apply_shape_within_energy(world, c, was, b, sources);
     add_speeds(c, was, &is->bodies[b], sources);
     if (moves && !is->bodies[b].is_pinned && !was->model->bodies[b].is_pinned)
       sbri_body_copy_momentum(c, was, b);
@@ -190,24 +190,24 @@ static void take_soft(
 }
 
 /* Switches to the spare storage; the old state is unchanged and becomes the spare one. */
-static void go_over(const sbr_world *world, sbri_character *c) {
+static void switch_storage(const sbr_world *world, sbri_character *c) {
   float tick_s = (float)world->tick_s * c->time_scale;
   bool was_soft = sbri_get_detail_level(c)->kind == SBR_DETAIL_SOFT;
   for (uint32_t b = 0; was_soft && b < c->model->asset->soft_bodies.count; b++)
     sbri_energies(c)[b] = elastic_of(world, c, b);
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-  bool moves = was_soft && keep_soft(c, tick_s);
+  bool moves = was_soft && store_soft_motion(c, tick_s);
   const sbri_character was = *c;
   sbri_character_storage_swap(c);
-  take_shared(c, &was);
-  take_counts(c, &was);
+  copy_shared_state(c, &was);
+  copy_counters(c, &was);
   sbri_jiggles_reset(c);
-  swing(c, &was, tick_s);
+  set_followers(c, &was, tick_s);
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   sbri_restore_elements(c);
-  take_soft(world, c, &was, moves, tick_s);
+  copy_soft_bodies(world, c, &was, moves, tick_s);
 }
 
 /* Visible jump at a change as a fraction of the amplitude, measured on hard shaking. */
@@ -226,7 +226,8 @@ static float lags_m(const sbr_world *world, const sbri_character *c) {
 /* For an automatic change that the budget does not demand: whether a level without oscillation would miss too
  * much, or a jump would be visible. The change is tried again later, or at once if it is to a finer level.
  */
-static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t detail_level, float swings_m) {
+static bool has_visible_jump(
+    const sbr_world *world, sbri_character *c, uint32_t detail_level, float swings_m) {
   const sbri_detail *detail = world->detail;
   sbri_character_state *head = sbri_header(c);
   const sbr_detail_level *detail_levels = c->model->base->detail_levels;
@@ -275,14 +276,14 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
   }
   if (fades && must_collide) {
     (void)sbri_fade_keep(world, c); /* at once: the character may be about to become visible */
-  } else if (fades && swings_too_far(world, c, detail_level, sbri_fade_keep(world, c))) {
+  } else if (fades && has_visible_jump(world, c, detail_level, sbri_fade_keep(world, c))) {
     head->next_detail_level = head->detail_level;
     head->detail_level_ticks = head->fade_kept = 0;
     return;
   }
   head->fade_kept = head->swing_ticks = 0;
   if (returns) sbri_away_arrive(world, c);
-  if (!same) go_over(world, c);
+  if (!same) switch_storage(world, c);
   head = sbri_header(c);
   c->left_detail_level_plus_1 = head->detail_level + 1;
   head->detail_level = detail_level;

@@ -46,13 +46,13 @@ static sbf_vec3 of_point(const sbri_point *p) {
   return sbri_vec3(p->x, p->y, p->z);
 }
 
-static float turn_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
+static float phase_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
   float turn = c->model->base->swing_rad_s[body] * (float)world->tick_s * c->time_scale;
   return turn < MAX_TURN_RAD ? turn : MAX_TURN_RAD;
 }
 
 /* Second difference over a tick, per metre of displacement, of an oscillation with that phase per tick. */
-static float pull_of(float turn) {
+static float acceleration_per_displacement(float turn) {
   float sine, cosine;
   sbri_sincos(0.5f * turn, &sine, &cosine);
   return 4 * sine * sine;
@@ -91,7 +91,7 @@ void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t ren
 }
 
 /* The displayed vertices at the end or the beginning of this tick, relative to the bones. */
-static void shown(sbri_character *c, uint32_t mesh, bool now, sbri_point *to) {
+static void displayed(sbri_character *c, uint32_t mesh, bool now, sbri_point *to) {
   const sbr_model *bones = bones_of(c);
   sbri_point *from = sbri_fading(c);
   skin_of(c, c->model, mesh, now, to);
@@ -112,7 +112,7 @@ void sbri_fade_record(sbri_character *c) {
   make_deltas(c);
   for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
     sbri_fading_vertex *to = sbri_faded(c) + first_vertex(c, m);
-    shown(c, m, false, was);
+    displayed(c, m, false, was);
     for (uint32_t v = 0; v < vertex_count(c, m); v++) to[v].kept = of_point(&was[v]);
   }
   sbri_header(c)->fade_kept = 1;
@@ -123,7 +123,7 @@ void sbri_fade_record(sbri_character *c) {
 /* Fits the oscillation to three positions a tick apart, with a bounded amplitude. Returns the amplitude. */
 static float attach(sbri_fading_vertex *g, float turn) {
   sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->position), sbri_scale(g->was, 2));
-  g->still = sbri_add_scaled(g->was, bend, 1 / pull_of(turn));
+  g->still = sbri_add_scaled(g->was, bend, 1 / acceleration_per_displacement(turn));
   sbf_vec3 off = sbri_sub(g->position, g->still), went = sbri_sub(g->position, g->was);
   float reach = MAX_REACHES * fmaxf(sbri_length(g->position), sbri_length(g->was));
   float swings = sqrtf(sbri_dot(off, off) + sbri_dot(went, went) / (turn * turn));
@@ -149,13 +149,13 @@ float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
     sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, m);
     const uint32_t *with = c->model->base->swings_with + first_vertex(c, m);
     sbri_point *was = sbri_sums(c), *is = sbri_vertices(c);
-    shown(c, m, false, was);
-    shown(c, m, true, is);
+    displayed(c, m, false, was);
+    displayed(c, m, true, is);
     for (uint32_t v = 0; v < vertex_count(c, m); v++) {
       all[v].position = all[v].was = all[v].still = of_point(&is[v]);
       if (!swings) continue;
       all[v].was = of_point(&was[v]);
-      max = fmaxf(max, attach(&all[v], turn_of(world, c, with[v])));
+      max = fmaxf(max, attach(&all[v], phase_of(world, c, with[v])));
     }
   }
   return max;
@@ -170,7 +170,7 @@ void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
   uint32_t bodies = c->model->asset->soft_bodies.count;
   uint32_t vertices = first_vertex(c, c->model->asset->render_meshes.count);
   float *pulls = sbri_pulls(c);
-  for (uint32_t b = 0; b <= bodies; b++) pulls[b] = pull_of(turn_of(world, c, b));
+  for (uint32_t b = 0; b <= bodies; b++) pulls[b] = acceleration_per_displacement(phase_of(world, c, b));
   for (uint32_t v = 0; v < vertices; v++) advance(&sbri_faded(c)[v], pulls[c->model->base->swings_with[v]]);
 }
 
@@ -183,7 +183,7 @@ void sbri_fade_end(sbri_character *c) {
 }
 
 /* Of bodies that nothing holds: what fades is the difference to the new skin. */
-static void take_off(sbri_character *c, uint32_t mesh) {
+static void subtract(sbri_character *c, uint32_t mesh) {
   sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, mesh);
   sbri_point *is = sbri_fading(c);
   skin_of(c, c->model, mesh, true, is);
@@ -196,14 +196,14 @@ void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
   const sbr_model *base = c->model->base;
   uint32_t meshes = base->asset->render_meshes.count;
   float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->tick_s;
-  for (uint32_t m = 0; m < meshes && !bones_of(c); m++) take_off(c, m);
+  for (uint32_t m = 0; m < meshes && !bones_of(c); m++) subtract(c, m);
   for (uint32_t v = 0; v < first_vertex(c, meshes); v++) {
     const sbri_fading_vertex *g = &sbri_faded(c)[v];
     sbf_vec3 swing = sbri_sub(g->position, g->still);
     off = fmaxf(off, sbri_dot(g->still, g->still)), swings = fmaxf(swings, sbri_dot(swing, swing));
   }
   for (uint32_t b = 0; b <= base->asset->soft_bodies.count; b++)
-    slowest = fminf(slowest, turn_of(world, c, b));
+    slowest = fminf(slowest, phase_of(world, c, b));
   sbri_fade_end(c);
   if (!(off < 1e12f && swings < 1e12f)) return;
   float max_m_s = MAX_SIZES_1_S * base->rest_size_m;

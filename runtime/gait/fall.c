@@ -40,7 +40,7 @@ static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, con
 }
 
 /* Places the feet below the body, at the height of the highest ground below them. */
-static void place_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+static void set_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float highest = -1e30f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot_put_down(rig, state, input, i);
@@ -58,7 +58,7 @@ bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   if (!state->falls && !(state->position.y > LOW) && !has_no_ground(rig, state, input)) return false;
   if (!state->falls) state->fall_speed = 0;
   float height = state->level + state->position.y;
-  place_feet_below(rig, state, input);
+  set_feet_below(rig, state, input);
   state->fall_speed += input->gravity * input->tick_s;
   height -= state->fall_speed * input->tick_s;
   state->level = support_height(rig, state, input);

@@ -1,8 +1,8 @@
 /* Cyclic coordinate descent. */
 #include "ik/ik.h"
 
-/* Joints from the end to the root. While a joint turns, the frames of those before it stand still, so a pass
- * needs no frame but the ones it began with and the place of the end. */
+/* Joints from the end to the root. While a joint rotates, the frames of those before it do not move, so an
+ * iteration only needs its initial frames and the position of the end. */
 static void pass(sbri_ik_chain *chain, sbf_vec3 target, const sbr_transform *frames) {
   sbf_vec3 end = frames[chain->count - 1].position;
   for (uint32_t i = chain->count - 1; i-- > 0;) {

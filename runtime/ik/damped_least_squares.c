@@ -1,20 +1,20 @@
-/* Damped least squares. Every joint turns about any axis, so that the Jacobian of the end's place is, joint
- * by joint, the cross product with the arm to the end: its square is a sum of 3 x 3 blocks, and what is
- * solved is a system of three rows, or of six with the end's rotation, however long the chain is. */
+/* Damped least squares. Every joint rotates about any axis, so the Jacobian of the end's position consists,
+ * joint by joint, of the cross product with the arm to the end. Its square is a sum of 3 x 3 blocks, and the
+ * system has three rows, or six with the end's rotation, however long the chain is. */
 #include <string.h>
 
 #include "ik/ik.h"
 
-static const float MAX_STEP = 0.5f;     /* of the reach: what the end is asked to move in one pass */
-static const float MAX_TURN = 0.8f;     /* rad, of a joint in one pass */
-static const float MIN_DAMPING = 1e-5f; /* share of the reach, squared */
+static const float MAX_STEP = 0.5f; /* fraction of the reach: maximum displacement of the end per iteration */
+static const float MAX_TURN = 0.8f; /* rad: maximum rotation of a joint per iteration */
+static const float MIN_DAMPING = 1e-5f; /* fraction of the reach, squared */
 
 typedef struct system {
   double a[6][6], b[6];
   int size;
 } system;
 
-/* Cholesky; the matrix is symmetric and, being damped, positive. */
+/* Cholesky; the matrix is symmetric and, because of the damping, positive definite. */
 static void solve_system(system *s, float *x) {
   int n = s->size;
   for (int i = 0; i < n; i++) {
@@ -58,7 +58,7 @@ static sbf_vec3 cut(sbf_vec3 v, float max) {
   return size > max ? sbri_scale(v, max / size) : v;
 }
 
-/* What a joint's comfort asks for in this pass, a rotation vector in world axes. */
+/* Rotation vector by a joint's comfort in this iteration, in world axes. */
 static sbf_vec3 comfort_of(const sbri_ik_chain *chain, uint32_t i, const sbr_transform *frames) {
   const sbri_ik_joint *joint = &chain->joints[i];
   if (joint->comfort_weight <= 0) return sbri_vec3(0, 0, 0);
@@ -73,7 +73,7 @@ static sbf_vec3 comfort_of(const sbri_ik_chain *chain, uint32_t i, const sbr_tra
   return sbri_scale(asked, 0.5f * joint->comfort_weight);
 }
 
-/* One pass; `reach` makes turns and metres comparable. */
+/* One iteration; `reach` makes angles and lengths comparable. */
 static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_transform *frames) {
   uint32_t n = chain->count;
   bool turns = chain->copy_rotation > 0;
@@ -105,8 +105,8 @@ static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_t
   float y[6] = {0};
   solve_system(&s, y);
   sbf_vec3 push = {y[0], y[1], y[2]}, twist = sbri_scale(sbri_vec3(y[3], y[4], y[5]), unit);
-  /* From the end on: a turn changes nothing of the frames before it. Turns of the world are carried on by the
-   * frames after, so each joint's own share is its whole turn. */
+  /* From the end on: a rotation does not change the frames before it. Later frames inherit rotations, so each
+   * joint's own part is its whole rotation. */
   for (uint32_t i = n; i-- > 0;) {
     sbf_vec3 r = sbri_sub(end, frames[i].position);
     sbf_vec3 turn = sbri_add(asks[i], sbri_cross(r, push));
@@ -126,7 +126,7 @@ sbri_ik_result sbri_damped_least_squares(sbri_ik_chain *chain) {
   sbf_vec3 target = sbri_ik_begin(chain, frames);
   float reach = sbri_ik_reach(chain);
   uint32_t passes = 0, last = chain->count - 1;
-  /* What is too far is reached for at full length: asked for more, the chain would swing about. */
+  /* A target out of reach is moved to full length: with a farther one the chain would oscillate. */
   sbf_vec3 far = target, root = frames[0].position, away = sbri_sub(target, root);
   if (sbri_length(away) > reach) target = sbri_add_scaled(root, away, reach / sbri_length(away));
   while (passes < chain->iterations && reach > 0) {

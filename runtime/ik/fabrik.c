@@ -1,16 +1,16 @@
-/* Forward and backward reaching, on a tree of joints; a chain is a tree without branches.
+/* FABRIK on a tree of joints; a chain is a tree without branches.
  *
- * The backward pass moves places alone. The forward pass turns the joints towards those places, from the root
- * on, and so keeps lengths, limits and the least twist. */
+ * The backward pass moves positions only. The forward pass rotates the joints towards these positions, from
+ * the root on, and so keeps lengths, limits and minimum twist. */
 #include "ik/ik.h"
 
-enum { PATIENCE = 16 }; /* passes */
+enum { PATIENCE = 16 }; /* iterations */
 
 typedef struct point_set {
-  sbf_vec3 at[SBRI_IK_MAX_JOINTS];   /* where the backward pass puts the joints */
-  sbf_vec3 sums[SBRI_IK_MAX_JOINTS]; /* of what the children ask for */
-  float counts[SBRI_IK_MAX_JOINTS];  /* how many ask; 0: nothing below has a goal */
-  float lengths[SBRI_IK_MAX_JOINTS]; /* from the parent */
+  sbf_vec3 at[SBRI_IK_MAX_JOINTS];   /* positions after the backward pass */
+  sbf_vec3 sums[SBRI_IK_MAX_JOINTS]; /* of the positions that the children require */
+  float counts[SBRI_IK_MAX_JOINTS];  /* number of these; 0: no goal below */
+  float lengths[SBRI_IK_MAX_JOINTS]; /* to the parent */
   sbr_transform frames[SBRI_IK_MAX_JOINTS];
 } point_set;
 
@@ -43,8 +43,8 @@ static void backward(const sbri_ik_tree *tree, point_set *p) {
   }
 }
 
-/* Turn that brings a joint's children nearest to where they should be: the sum of their arms into the sum of
- * those wanted, then about that line for the arm farthest off it. */
+/* Rotation that moves a joint's children closest to their targets: the sum of their arms to the sum of the
+ * targets, then about that line for the arm farthest from it. */
 static sbf_quat turn_of(const sbri_ik_tree *tree, const point_set *p, uint32_t joint) {
   sbf_vec3 is = {0, 0, 0}, wanted = {0, 0, 0}, side_is = {0, 0, 0}, side_wanted = {0, 0, 0};
   const sbr_transform *frame = &p->frames[joint];
@@ -75,7 +75,7 @@ static sbf_quat turn_of(const sbri_ik_tree *tree, const point_set *p, uint32_t j
   return sbri_quat_multiply(sbri_quat_about(to_unit, angle), rotation);
 }
 
-/* Whether the limits let every joint go where the backward pass put it. */
+/* Returns whether limits allow every joint to reach its position of the backward pass. */
 static bool forward(sbri_ik_tree *tree, point_set *p) {
   bool free = true;
   for (uint32_t i = 0; i < tree->count; i++) {
@@ -103,7 +103,7 @@ static float worst_error(const sbri_ik_tree *tree, const point_set *p) {
   return worst;
 }
 
-/* One goal beyond the chain's whole length: all joints on the line to it, in one pass. */
+/* A single goal beyond the chain's full length: all joints are on the line to it, in one iteration. */
 static bool stretch_out(sbri_ik_tree *tree, point_set *p, bool *free) {
   if (tree->goal_count != 1) return false;
   uint32_t end = tree->goals[0].joint;
@@ -122,7 +122,7 @@ static bool stretch_out(sbri_ik_tree *tree, point_set *p, bool *free) {
   return true;
 }
 
-/* A chain without limits needs no rotations until it is there: places alone, to and fro. */
+/* A chain without limits needs no rotations before it converges: positions only. */
 static bool is_free_chain(const sbri_ik_tree *tree) {
   if (tree->goal_count != 1 || tree->goals[0].joint != tree->count - 1) return false;
   for (uint32_t i = 1; i < tree->count; i++)
@@ -156,7 +156,7 @@ static uint32_t solve_positions(sbri_ik_tree *tree, point_set *p) {
   return passes;
 }
 
-/* With `patience` above 0 it gives up where so many passes do not take a fifth off the error. */
+/* With `patience` above 0 it stops if as many iterations do not reduce the error by a fifth. */
 static uint32_t solve(sbri_ik_tree *tree, point_set *p, uint32_t patience) {
   uint32_t passes = 0;
   bool free = true;
@@ -181,7 +181,7 @@ static uint32_t solve(sbri_ik_tree *tree, point_set *p, uint32_t patience) {
       if (error > 0.8f * mark) break;
       mark = error;
     }
-    if (fabsf(error - before) < 1e-3f * tree->tolerance) break; /* no nearer than this */
+    if (fabsf(error - before) < 1e-3f * tree->tolerance) break; /* no improvement */
   }
   return passes;
 }
@@ -210,9 +210,9 @@ static void give_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
   for (uint32_t i = 0; i < chain->count; i++) chain->joints[i].rotation = rotations[i];
 }
 
-/* Limits may stop it in a corner, above all where joints are hinges: places that one joint after another is
- * to go to are of no use to joints that only turn about one line. With what is left of the passes joints are
- * turned for the end's sake, one by one from where they began; the better of both answers stays. */
+/* Limits may stop the chain in a local minimum, above all with hinges: positions are of no use to joints that
+ * rotate about one line only. With the remaining iterations joints are rotated for the end's sake, one by one
+ * from their initial rotations; the better result is kept. */
 static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_with, sbri_ik_result so_far) {
   sbf_quat kept[SBRI_IK_MAX_JOINTS];
   sbri_ik_chain rest = *chain;

@@ -1,8 +1,8 @@
-/* What the solvers of chains share. */
+/* Shared parts of the chain solvers. */
 #include "ik/ik.h"
 
 static const float STRAIGHT = 1e-3f; /* sine of the angle below which a chain counts as straight */
-static const float UNFOLD = 0.25f;   /* rad, by which such a chain is bent so that it can fold */
+static const float UNFOLD = 0.25f;   /* rad; bend of a straight chain so that it can fold */
 
 float sbri_soften_reach(float distance, float reach, float soft) {
   float range = soft * reach, start = reach - range;
@@ -38,8 +38,8 @@ void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat rotation, const
       sbri_joint_limit_clamp(chain->joints[index].limit, sbri_quat_normalize(local));
 }
 
-/* The part of `v` at right angles to the unit vector `along`; taken twice, for the sake of a `v` nearly along
- * it. */
+/* The part of `v` perpendicular to the unit vector `along`; applied twice, for precision if `v` is nearly
+ * parallel. */
 static sbf_vec3 across(sbf_vec3 v, sbf_vec3 along) {
   for (int i = 0; i < 2; i++) v = sbri_add_scaled(v, along, -sbri_dot(v, along));
   return v;
@@ -50,8 +50,8 @@ static sbf_vec3 any_across(sbf_vec3 along) {
   return sbri_normalize(sbri_cross(along, spare), sbri_vec3(0, 1, 0));
 }
 
-/* A straight chain whose target lies on its own line would never leave that line: it is bowed, towards the
- * pole where there is one. */
+/* A straight chain with a target on its line would stay on that line, so it is bent, towards the pole if it
+ * has one. */
 static void unfold(sbri_ik_chain *chain, sbf_vec3 target, sbr_transform *frames) {
   uint32_t n = chain->count;
   float reach = sbri_ik_reach(chain);
@@ -70,7 +70,7 @@ static void unfold(sbri_ik_chain *chain, sbf_vec3 target, sbr_transform *frames)
   }
 }
 
-/* Turns the chain about the line from its root to its end until it bows towards the pole. */
+/* Rotates the chain about the line from its root to its end until it bends towards the pole. */
 static void turn_to_pole(sbri_ik_chain *chain, sbr_transform *frames) {
   uint32_t n = chain->count;
   if (!chain->has_pole || n < 3) return;
@@ -96,8 +96,7 @@ sbf_vec3 sbri_ik_comfort_fraction(const sbri_ik_joint *joint, sbf_vec3 turn) {
   return sbri_vec3(turn.x * (1 - slack.x), turn.y * (1 - slack.y), turn.z * (1 - slack.z));
 }
 
-/* Before solving: the way to the comfort by its weight, about each of the joint's own axes as much as it may.
- */
+/* Before solving: moves to the comfort by its weight, about each of the joint's own axes. */
 static void take_comfort(sbri_ik_joint *joint) {
   if (sbri_ik_comfort_is_even(joint)) {
     joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);
@@ -151,7 +150,7 @@ sbri_ik_result sbri_ik_finish(
     sbf_quat kept = chain->joints[0].rotation;
     turn_to_pole(chain, frames);
     float turned = sbri_length(sbri_sub(frames[last].position, target));
-    if (turned > error + chain->tolerance) { /* the root's limit forbids it: the target goes first */
+    if (turned > error + chain->tolerance) { /* forbidden by the root's limit: the target has priority */
       chain->joints[0].rotation = kept;
       sbri_ik_compute_frames(chain, frames);
     }

@@ -1,4 +1,4 @@
-/* The solver that a chain names. */
+/* Calls the solver that a chain names. */
 #include "ik/ik.h"
 
 sbri_ik_result sbri_ik_solve(sbf_ik_solver solver, sbri_ik_chain *chain) {

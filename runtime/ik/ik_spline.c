@@ -11,7 +11,7 @@ static sbf_vec3 curve_at(const curve *q, float t) {
   return sbri_add(p, sbri_scale(q->c, t * t));
 }
 
-/* The parameter, from `t` on, where the curve leaves a sphere; 2: it never does. */
+/* The parameter, from `t` on, where the curve leaves a sphere; 2: never. */
 static float leave(const curve *q, sbf_vec3 from, float t, float length) {
   float low = t, high = 2;
   for (int k = 1; k <= 32; k++) {
@@ -34,9 +34,8 @@ static float leave(const curve *q, sbf_vec3 from, float t, float length) {
   return high;
 }
 
-/* Puts the joints on the curve, one length after the other; what the curve is too short for goes straight on.
- * Returns how much of the chain lies beyond the curve's end (or, negative, how much of the curve beyond the
- * chain's). */
+/* Places the joints on the curve, one length after the other, and straight on beyond its end. Returns the
+ * length of the chain beyond the curve's end, or minus the length of the curve beyond the chain's. */
 static float lay(const sbri_ik_chain *chain, const curve *q, sbf_vec3 *positions) {
   float t = 0;
   positions[0] = q->a;
@@ -67,7 +66,7 @@ sbri_ik_result sbri_ik_spline(sbri_ik_chain *chain) {
   bow = sbri_add_scaled(bow, along, -sbri_dot(bow, along));
   sbf_vec3 spare = fabsf(along.x) < 0.9f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 0, 1);
   bow = sbri_normalize(bow, sbri_normalize(sbri_cross(along, spare), spare));
-  /* How far it bows so that the last joint comes to the target. */
+  /* The bend for which the last joint meets the target. */
   float low = 0, high = 2 * reach;
   uint32_t passes = 0, max = chain->iterations < 40 ? chain->iterations : 40;
   curve q = {root, middle, target};

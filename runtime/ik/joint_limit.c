@@ -1,15 +1,15 @@
 #include "ik/joint_limit.h"
 
 static const float PI = 3.14159265f;
-static const float MAX_TWIST = 3.1f; /* rad: a bound beyond it is told by arctangents */
-static const float SLACK = 1e-5f;    /* rad: what rounding may put beyond a bound it was cut to */
+static const float MAX_TWIST = 3.1f; /* rad: a bound beyond this needs arctangents */
+static const float SLACK = 1e-5f;    /* rad: tolerance of clamped angles against rounding */
 
 sbri_swing_twist sbri_swing_twist_of(sbf_quat q) {
   float sign = q.w < 0 ? -1.0f : 1.0f;
   q = (sbf_quat){sign * q.x, sign * q.y, sign * q.z, sign * q.w};
   float size = sqrtf(q.x * q.x + q.w * q.w);
   sbri_swing_twist parts = {0, 0, 0};
-  if (size < 1e-9f) { /* half a turn of swing: any twist would do */
+  if (size < 1e-9f) { /* swing of half a turn: the twist is undefined */
     float half_turn = PI / sqrtf(q.y * q.y + q.z * q.z + 1e-30f);
     parts.swing_y = q.y * half_turn, parts.swing_z = q.z * half_turn;
     return parts;
@@ -31,7 +31,7 @@ sbf_quat sbri_swing_twist_join(sbri_swing_twist parts) {
   return sbri_quat_multiply(swing, sbri_quat_about(sbri_vec3(1, 0, 0), parts.twist));
 }
 
-/* By how much `angle` lies outside; `bound` receives the nearer one, the circle taken into account. */
+/* Distance of `angle` from the range; `bound` receives the nearer bound, on the circle. */
 static float outside(float angle, const float range[2], float *bound) {
   if (angle >= range[0] && angle <= range[1]) return 0;
   float below = range[0] - angle, above = angle - range[1];
@@ -49,7 +49,7 @@ static sbri_swing_twist seen(const sbri_joint_limit *limit, sbf_quat local) {
   return sbri_swing_twist_of(seen_as(limit, local));
 }
 
-/* Tangent of half an angle, of less than half a turn. */
+/* Tangent of half an angle below half a turn. */
 static float half_tangent(float angle) {
   float s, c;
   sbri_sincos(0.5f * sbri_clamp(angle, -MAX_TWIST, MAX_TWIST), &s, &c);
@@ -65,15 +65,15 @@ void sbri_joint_limit_ready(sbri_joint_limit *limit) {
   limit->cone_square = y[0] <= 0 && y[1] >= 0 && z[0] <= 0 && z[1] >= 0 ? s * s : 0;
 }
 
-/* Whether q is within, or off by no more than half of what a clamp lets pass. Of the swing's half angle the
- * sine s is known, and 1 <= asin(s) / s <= 1 + (pi/2 - 1) s^2, its series having no negative term. False says
- * nothing. */
+/* Sufficient test that q is within the limit, or beyond it by at most half of the tolerance. With s the sine
+ * of half the swing angle, 1 <= asin(s) / s <= 1 + (pi/2 - 1) s^2, since its series has no negative term.
+ * False means nothing. */
 static bool is_surely_within(const sbri_joint_limit *limit, sbf_quat q) {
   float size2 = q.x * q.x + q.w * q.w, sine2 = q.y * q.y + q.z * q.z;
   if (sine2 > limit->cone_square || size2 < 0.1f) return false;
   float sign = q.w < 0 ? -1.0f : 1.0f, x = sign * q.x, w = sign * q.w;
   if (x < limit->twist_tangents[0] * w || x > limit->twist_tangents[1] * w) return false;
-  /* The swing's y and z, at most; all by the square root of size2. */
+  /* Upper bounds of the swing's y and z; all multiplied by the root of size2. */
   float rate = 2 + 1.1416f * sine2, size = sqrtf(size2), spare = 0.5f * SLACK;
   float y = rate * (q.w * q.y - q.x * q.z), z = rate * (q.w * q.z + q.x * q.y);
   return y >= size * (limit->swing_y[0] - spare) && y <= size * (limit->swing_y[1] + spare) &&
@@ -106,7 +106,7 @@ sbf_quat sbri_joint_limit_clamp(const sbri_joint_limit *limit, sbf_quat local) {
   p.swing_y = sbri_clamp(p.swing_y, limit->swing_y[0], limit->swing_y[1]);
   p.swing_z = sbri_clamp(p.swing_z, limit->swing_z[0], limit->swing_z[1]);
   float swing = sqrtf(p.swing_y * p.swing_y + p.swing_z * p.swing_z);
-  if (swing > limit->cone) { /* a box without 0 wins over the cone */
+  if (swing > limit->cone) { /* a box without 0 has priority over the cone */
     float fraction = limit->cone / swing;
     p.swing_y = sbri_clamp(p.swing_y * fraction, limit->swing_y[0], limit->swing_y[1]);
     p.swing_z = sbri_clamp(p.swing_z * fraction, limit->swing_z[0], limit->swing_z[1]);

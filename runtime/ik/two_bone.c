@@ -2,8 +2,8 @@
 
 #include "ik/ik.h"
 
-/* The part of `v` at right angles to the unit vector `along`; taken twice, because of a `v` nearly along it
- * the first leaves hardly more than its own rounding. */
+/* The part of `v` perpendicular to the unit vector `along`; applied twice, because the first result for a
+ * nearly parallel `v` is mostly rounding. */
 static sbf_vec3 across(sbf_vec3 v, sbf_vec3 along) {
   for (int i = 0; i < 2; i++) v = sbri_add_scaled(v, along, -sbri_dot(v, along));
   return v;
@@ -44,5 +44,5 @@ sbri_ik_result sbri_ik_two_bone(sbri_ik_chain *chain) {
   sbri_ik_result result = sbri_ik_finish(chain, target, frames, 1);
   float away = sbri_length(sbri_sub(solved.ankle, target));
   if (result.error <= away + chain->tolerance) return result;
-  return sbri_ccd(chain); /* a limit is in the way */
+  return sbri_ccd(chain); /* a limit forbids the result */
 }

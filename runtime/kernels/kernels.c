@@ -1,7 +1,7 @@
-/* Which of the tables of kernels this machine runs. */
+/* Selection of the kernels for this machine. */
 #include "model/kernels.h"
 
-/* The fastest first. */
+/* In order of speed, fastest first. */
 static const sbri_kernels *const tables[] = {
 #ifdef SBRI_HAS_X86_64
     &sbri_kernels_avx512, &sbri_kernels_avx2,

@@ -1,4 +1,4 @@
-/* One number at a time: what every width has to agree with. */
+/* One lane: the reference for all other widths. */
 #define SBRI_WIDE_SCALAR
 #define SBRI_KERNELS sbri_kernels_scalar
 #include "kernels/kernel_table.h"

@@ -12,7 +12,7 @@ sbri_follower_step sbri_follower_step_of(float f, float z, float r, float h) {
   } else if (root2 > -1e-6f) {
     float decay = sbri_exp(-z * angle);
     cosine = decay, sine = decay * angle;
-  } else { /* two decays; the slower one's exponent z - root without cancelling */
+  } else { /* two decays; the exponent of the slower one is z - root without cancellation */
     float root = sqrtf(-root2), slow = sbri_exp(-angle / (z + root)), fast = sbri_exp(-angle * (z + root));
     cosine = 0.5f * (slow + fast), sine = 0.5f * (slow - fast) / root;
   }

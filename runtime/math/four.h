@@ -1,13 +1,13 @@
-/* A vector of three beside an unused fourth number, in one register where the machine has such: for loops
- * that go from one body to the next, so that no lanes can be filled with several. Each operation is the IEEE
- * one, and sums are in the order of sbri_dot, so that the bits are the same everywhere. */
+/* A vector of three and an unused fourth number, in one SIMD register if available: for loops from one body
+ * to the next, where lanes cannot hold several bodies. Each operation is the IEEE one, and sums have the
+ * order of sbri_dot, so that the bits are the same everywhere. */
 #ifndef SBRI_FOUR_H
 #define SBRI_FOUR_H
 
 #include "math/vec3.h"
 
 #if defined(__GNUC__)
-/* May lie anywhere that a float may. */
+/* Aligned like a float. */
 typedef float sbri_four __attribute__((vector_size(16), aligned(4)));
 
 static inline sbri_four sbri_four_of(sbf_vec3 v) {

@@ -1,6 +1,5 @@
-/* Pushes on points and their moments, summed by lanes of eight: the same bits for any number of lanes at
- * once.
- */
+/* Forces (or impulses) on points and their moments, summed by lanes of eight: the same bits for any SIMD
+ * width. */
 #ifndef SBRI_LANE_SUMS_H
 #define SBRI_LANE_SUMS_H
 

@@ -23,7 +23,7 @@ static inline sbf_vec3 sbri_rotate(sbf_quat q, sbf_vec3 v) {
   return sbri_add(sbri_add_scaled(v, t, q.w), sbri_cross(u, t));
 }
 
-/* The axes of its frame: what it turns +X, +Y and +Z to. */
+/* The axes of its frame: the images of +X, +Y and +Z. */
 static inline sbf_vec3 sbri_quat_x(sbf_quat q) {
   float y = 2 * q.y, z = 2 * q.z;
   return (sbf_vec3){1 - (q.y * y + q.z * z), q.x * y + q.w * z, q.x * z - q.w * y};
@@ -44,7 +44,7 @@ static inline sbf_quat sbri_quat_normalize(sbf_quat q) {
   return (sbf_quat){q.x * s, q.y * s, q.z * s, q.w * s};
 }
 
-/* Between two rotations the short way: normalised linear interpolation, exact at both ends. */
+/* Normalised linear interpolation along the shorter arc, exact at both ends. */
 static inline sbf_quat sbri_quat_blend(sbf_quat a, sbf_quat b, float t) {
   float sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1.0f : 1.0f, u = t * sign, s = 1 - t;
   return sbri_quat_normalize(
@@ -55,7 +55,7 @@ static inline sbf_quat sbri_quat_blend(sbf_quat a, sbf_quat b, float t) {
 static inline sbf_quat sbri_quat_between(sbf_vec3 from, sbf_vec3 to) {
   float w = 1 + sbri_dot(from, to);
   sbf_vec3 axis = sbri_cross(from, to);
-  if (w < 1e-6f) { /* opposite: half a turn about anything square to it */
+  if (w < 1e-6f) { /* opposite: half a turn about any perpendicular axis */
     axis = sbri_cross(from, fabsf(from.x) < 0.9f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0));
     w = 0;
   }

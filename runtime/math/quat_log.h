@@ -1,11 +1,11 @@
-/* Rotations as rotation vectors, and back: axis times angle in rad. */
+/* Conversion of rotations to rotation vectors and back: axis times angle in rad. */
 #ifndef SBRI_QUAT_LOG_H
 #define SBRI_QUAT_LOG_H
 
 #include "math/quat.h"
 #include "math/trig.h"
 
-/* Rotation vector of q, the shorter way: its length is within [0, pi]. */
+/* Rotation vector of q along the shorter arc: its length is within [0, pi]. */
 static inline sbf_vec3 sbri_quat_log(sbf_quat q) {
   float sign = q.w < 0 ? -1.0f : 1.0f;
   sbf_vec3 v = {sign * q.x, sign * q.y, sign * q.z};

@@ -10,7 +10,7 @@
 static const double quarter_turn = 1.57079632679489661923;
 static const double quarter_turn_rest = 6.123233995736766036e-17; /* pi/2 less the constant above */
 
-/* The nearest whole number, halves away from 0; |x| < 2^62. */
+/* The nearest integer, halves away from 0; |x| < 2^62. */
 static int64_t nearest(double x) {
   return (int64_t)(x < 0 ? x - 0.5 : x + 0.5);
 }
@@ -29,7 +29,7 @@ static double cosine_series(double x) {
 
 void sbri_sincos(float angle, float *sine, float *cosine) {
   double x = angle;
-  if (x == 0) { /* as of all that stands straight */
+  if (x == 0) { /* x = 0 without rounding */
     *sine = angle, *cosine = 1;
     return;
   }

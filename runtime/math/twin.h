@@ -1,12 +1,12 @@
-/* Two numbers of double precision side by side, where the machine has registers for such, for what comes in
- * pairs: lanes never mix, and each operation is the IEEE one, so that the bits are those of one after the
- * other. Elsewhere a plain double, SBRI_TWINS being 1. The ordinary operators + - * / work between them. */
+/* Two doubles in one SIMD register if available, for things that come in pairs. Lanes never mix, and each
+ * operation is the IEEE one, so the bits equal those of scalar code. Elsewhere a plain double, with
+ * SBRI_TWINS 1. The operators + - * / work on them. */
 #ifndef SBRI_TWIN_H
 #define SBRI_TWIN_H
 
 #if defined(__GNUC__)
 enum { SBRI_TWINS = 2 };
-/* May lie anywhere that a double may. */
+/* Aligned like a double. */
 typedef double sbri_twin __attribute__((vector_size(16), aligned(8)));
 
 static inline sbri_twin sbri_twin_of(double a, double b) {

@@ -1,4 +1,4 @@
-/* Numbers as hosts give them: none that is none, and none greater than any that a host has a use for. */
+/* Checks numbers of the host: not NaN, and not above a bound that no host needs. */
 #ifndef SBRI_USABLE_H
 #define SBRI_USABLE_H
 

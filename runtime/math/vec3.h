@@ -1,4 +1,4 @@
-/* Three-vectors: the arithmetic everything in the runtime shares. No library function but sqrtf. */
+/* Vectors of three: arithmetic shared by the runtime. The only library function is sqrtf. */
 #ifndef SBRI_VEC3_H
 #define SBRI_VEC3_H
 
@@ -34,7 +34,7 @@ static inline sbf_vec3 sbri_lerp(sbf_vec3 a, sbf_vec3 b, float t) {
   return sbri_add_scaled(a, sbri_sub(b, a), t);
 }
 
-/* Of unit length; `otherwise` where `a` is too short to say. */
+/* Unit vector; `otherwise` if `a` is too short. */
 static inline sbf_vec3 sbri_normalize(sbf_vec3 a, sbf_vec3 otherwise) {
   float length = sbri_length(a);
   return length > 1e-12f ? sbri_scale(a, 1 / length) : otherwise;
@@ -44,7 +44,7 @@ static inline float sbri_clamp(float value, float low, float high) {
   return value < low ? low : value > high ? high : value;
 }
 
-/* Remainder by a period greater than 0, in [0, period]; 0 where the value's rounding exceeds the period. */
+/* Remainder by a period greater than 0, in [0, period]; 0 if the value's rounding exceeds the period. */
 static inline float sbri_wrap(float value, float period) {
   float periods = value / period;
   if (!(fabsf(periods) < 0x1p24f)) return 0;

@@ -1,15 +1,15 @@
-/* Eight lanes of single precision, whatever the machine has.
+/* Eight lanes of single precision on any machine.
  *
  * sbri_wide holds SBRI_LANES floats: 8 with AVX2, 4 with SSE, NEON and WebAssembly, and 1 elsewhere, where it
  * is a plain float. Kernels work on blocks of eight lanes, SBRI_LANES at a time:
  *
  *   for (int lane = 0; lane < 8; lane += SBRI_LANES) { sbri_wide x = sbri_wide_load(block + lane); ... }
  *
- * with the ordinary operators + - * / between wides. Lanes never mix, and each operation is the IEEE one, so
- * that all widths give the same bits. There is no reciprocal, no fused multiply-add and no horizontal sum
- * here; sums over lanes go through sbri_tree_sum (math/reduce.h).
+ * The operators + - * / work on wides. Lanes never mix, and each operation is the IEEE one, so that all
+ * widths give the same bits. There is no reciprocal, no fused multiply-add and no horizontal sum here; sums
+ * over lanes use sbri_tree_sum (math/reduce.h).
  *
- * Define SBRI_WIDE_SCALAR to get the one-lane twin on any machine. */
+ * Define SBRI_WIDE_SCALAR to get the one-lane version on any machine. */
 #ifndef SBRI_WIDE_H
 #define SBRI_WIDE_H
 
@@ -36,7 +36,7 @@ enum { SBRI_BLOCK = 8 }; /* lanes of a block */
 #define SBRI_LANES 1
 #endif
 
-/* For inner loops that are called with constants, which a copy of their own is to know. */
+/* For inner loops with constant arguments, which are to be specialised. */
 #if defined(__GNUC__)
 #define SBRI_INLINE static inline __attribute__((always_inline))
 #else
@@ -87,7 +87,7 @@ static inline sbri_wide sbri_wide_sqrt(sbri_wide a) {
 #endif
 }
 
-/* mask ? a : b, lane by lane. Comparisons of wides (a < b) make masks; masks join with & and |. */
+/* mask ? a : b, lane by lane. Comparisons of wides (a < b) give masks; masks combine with & and |. */
 static inline sbri_wide sbri_wide_select(sbri_mask mask, sbri_wide a, sbri_wide b) {
 #if SBRI_LANES > 1
   return (sbri_wide)(((sbri_mask)a & mask) | ((sbri_mask)b & ~mask));
@@ -95,7 +95,7 @@ static inline sbri_wide sbri_wide_select(sbri_mask mask, sbri_wide a, sbri_wide 
   return mask ? a : b;
 #endif
 }
-/* a > b ? a : b and a < b ? a : b: b where either is not a number. */
+/* a > b ? a : b and a < b ? a : b: b if either is NaN. */
 static inline sbri_wide sbri_wide_max(sbri_wide a, sbri_wide b) {
 #if SBRI_LANES == 8
   return (sbri_wide)_mm256_max_ps((__m256)a, (__m256)b);
@@ -175,13 +175,14 @@ SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_
   return r;
 }
 
-/* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
+/* The points at `indices[0]` to `indices[SBRI_LANES - 1]`, transposed so that each coordinate fills a wide.
+ */
 SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *indices) {
   sbri_wide4 r = sbri_wide_gather4(points, indices);
   return (sbri_wide3){r.x, r.y, r.z};
 }
 
-/* Each lane to its own place; where two lanes name one place the last one stays. */
+/* Each lane to its own index; if two lanes have the same index the last one is kept. */
 SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *indices, sbri_wide4 v) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
@@ -190,7 +191,7 @@ SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *indices,
          zw_high = _mm256_unpackhi_ps((__m256)v.z, (__m256)v.w);
   __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
       _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-#define SBRI_PUT(i) /* written out: a loop would keep the rows in memory */                                  \
+#define SBRI_PUT(i) /* unrolled: a loop would keep the rows in memory */                                     \
   _mm_storeu_ps(&points[indices[i]].x, _mm256_castps256_ps128(rows[i]));                                     \
   _mm_storeu_ps(&points[indices[(i) + 4]].x, _mm256_extractf128_ps(rows[i], 1))
   SBRI_PUT(0);
@@ -212,7 +213,7 @@ SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *indices,
 #endif
 }
 
-/* The numbers at those places. */
+/* The numbers at those indices. */
 static inline sbri_wide sbri_wide_gather_floats(const float *numbers, const uint32_t *indices) {
   float lanes[SBRI_LANES];
   for (int i = 0; i < SBRI_LANES; i++) lanes[i] = numbers[indices[i]];
@@ -225,7 +226,7 @@ static inline sbri_wide3 sbri_wide_load_points(const sbri_point *points) {
   return sbri_wide_gather(points, in_order);
 }
 
-/* Back again; w becomes 0. */
+/* Stores points; w becomes 0. */
 SBRI_INLINE void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 #if SBRI_LANES == 8
   __m256 zero = _mm256_setzero_ps();
@@ -257,7 +258,7 @@ SBRI_INLINE void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 #endif
 }
 
-/* points[places[i]] += lane i of v, or -= it, one after the other; their fourth number becomes anything. */
+/* points[indices[i]] += lane i of v, or -= it, one after the other; their fourth number becomes undefined. */
 SBRI_INLINE void sbri_wide_scatter_sum(
     sbri_point *points, const uint32_t *indices, sbri_wide3 v, bool subtract) {
 #if SBRI_LANES == 8

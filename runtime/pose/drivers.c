@@ -4,7 +4,7 @@
 #include "math/quat.h"
 #include "pose/frames.h"
 
-/* A rigid motion as three rows of four, the last of them the translation. */
+/* A rigid motion as three rows of four; the last column is the translation. */
 typedef struct rows {
   float at[3][4];
 } rows;
@@ -53,7 +53,7 @@ void sbri_compute_driver_positions(
   }
 }
 
-/* sbri_delta_position of a group of lanes without a squash, to the bit. */
+/* sbri_delta_position for a group of lanes without squash, with the same bits. */
 static sbri_wide3 placed(const sbri_delta *d, sbri_wide3 v) {
   const sbri_wide ux = sbri_wide_all(d->rotation.x), uy = sbri_wide_all(d->rotation.y),
                   uz = sbri_wide_all(d->rotation.z), w = sbri_wide_all(d->rotation.w), two = sbri_wide_all(2);

@@ -1,4 +1,4 @@
-/* How the frames of a pose have moved since rest, and are squashed. */
+/* Motion of the frames of a pose since rest, with squash. */
 #include "pose/frames.h"
 #include "collide/ground.h"
 #include "math/quat.h"
@@ -10,14 +10,14 @@ static bool same_bits(const sbf_quat *a, const sbf_quat *b) {
 
 static sbri_delta delta_of(const sbr_model *model, uint32_t frame, sbr_transform now, float scale) {
   sbr_transform rest = sbri_frame_rest(model, frame);
-  sbf_quat rotation = sbri_quat_identity(); /* exactly, for a frame that has not turned */
+  sbf_quat rotation = sbri_quat_identity(); /* exact for a frame without rotation */
   if (!same_bits(&now.rotation, &rest.rotation))
     rotation = sbri_quat_normalize(sbri_quat_multiply(now.rotation, sbri_quat_conjugate(rest.rotation)));
   sbf_vec3 at = sbri_sub(sbri_scale(now.position, 1 / scale), sbri_rotate(rotation, rest.position));
   return (sbri_delta){.position = at, .rotation = rotation};
 }
 
-/* Squashes lie behind the deltas, one for each follower that may be one. */
+/* Squashes are stored after the deltas, one for each possible squash follower. */
 static void squash(const sbri_character *c, float fraction, sbri_delta *deltas) {
   const sbf_follower_list *followers = &c->model->asset->followers;
   sbri_squash *squashes = (sbri_squash *)(void *)(deltas + c->model->frame_count);

@@ -21,7 +21,7 @@ void sbri_compute_driver_positions(
     const sbr_model *model, const sbri_body *body, const sbri_delta *deltas, sbri_point *positions);
 /* Target positions of an island's pinned points, at their slots in `positions`. */
 void sbri_compute_pin_targets(const sbri_island *island, const sbri_delta *deltas, sbri_point *positions);
-/* Makes the island's drivers at rest in the last tick; returns whether they were already. */
+/* Sets the drivers of the island at rest in the last tick; returns whether they were already. */
 void sbri_drivers_stop(sbri_character *c, const sbri_island *island);
 bool sbri_drivers_rest(const sbri_character *c, const sbri_island *island);
 

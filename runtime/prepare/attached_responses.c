@@ -31,7 +31,7 @@ static const float MAX_ATTACHED_TRAVEL = 10;
 static const float MIN_DAMPING = 0.03f;
 
 /* The only rigid body to which pinned points and springs of the island belong; -1: several, or none. */
-static int32_t carrier_alone(const sbri_island_maker *m) {
+static int32_t single_rigid_body(const sbri_island_maker *m) {
   const sbri_island *island = m->island;
   const int32_t *carriers = m->model->carrier_of_frame;
   int32_t found = -1;
@@ -67,10 +67,10 @@ static bool is_damped(const sbri_island_maker *m) {
 }
 
 /* Rigid motion for one of the six velocities. */
-static sbfi_d3 rigid_motion(sbf_vec3 arm, int which) {
+static sbfi_d3 rigid_motion(sbf_vec3 arm, int index) {
   double x = (double)arm.x, y = (double)arm.y, z = (double)arm.z;
   const sbfi_d3 all[6] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -z, y}, {z, 0, -x}, {-y, x, 0}};
-  return all[which];
+  return all[index];
 }
 
 static sbf_vec3 middle_of(const sbri_island *island) {
@@ -107,7 +107,7 @@ static void fill(const sbri_island *island, sbri_attached_responses *answers, fl
   }
 }
 
-static void make_even(double mass[6][6]) {
+static void symmetrise(double mass[6][6]) {
   for (int i = 0; i < 6; i++)
     for (int j = 0; j < i; j++) mass[i][j] = mass[j][i] = 0.5 * (mass[i][j] + mass[j][i]);
 }
@@ -155,7 +155,7 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
   sbri_island *island = m->island;
   uint32_t points = island->slot_count;
   island->lightly_damped = !is_damped(m);
-  if (island->scheme != &sbri_symplectic || island->region_block_count || carrier_alone(m) < 0 ||
+  if (island->scheme != &sbri_symplectic || island->region_block_count || single_rigid_body(m) < 0 ||
       island->lightly_damped)
     return true;
   sbf_spring_network network = *found;
@@ -179,7 +179,7 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
     filter(&network, h * h, fastest, lags, lags + size);
     fill(island, answers, fractions, lags, column);
   }
-  make_even(answers->mass);
+  symmetrise(answers->mass);
   island->answers = answers;
   return true;
 }
@@ -202,7 +202,7 @@ static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, doub
       for (int k = 0; k < 6; k++) to[i][j] += move[k][i] * half[k][j];
 }
 
-static bool is_carried_by(const sbri_island *island, uint32_t carrier) {
+static bool is_attached_to(const sbri_island *island, uint32_t carrier) {
   for (uint32_t i = 0; i < island->carrier_count; i++)
     if (island->carriers[i] == carrier) return true;
   return false;
@@ -214,7 +214,7 @@ void sbri_attached_mass_join(sbr_model *model) {
     bool any = false, all = true;
     for (uint32_t i = 0; i < model->island_count; i++) {
       const sbri_island *island = &model->islands[i];
-      if (!is_carried_by(island, c)) continue;
+      if (!is_attached_to(island, c)) continue;
       any = true;
       all = all && island->answers && island->scheme == &sbri_symplectic && !island->splits &&
             !(island->external_rad_s > 0);

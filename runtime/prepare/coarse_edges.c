@@ -29,7 +29,7 @@ static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t
 }
 
 /* Lists the other end of each edge at its lower one: first counts, then positions of the next one. */
-static uint32_t list_sides(const sbf_polygon_mesh *mesh, float min, uint32_t *begins, uint32_t *others) {
+static uint32_t list_edges(const sbf_polygon_mesh *mesh, float min, uint32_t *begins, uint32_t *other_ends) {
   uint32_t vertices = mesh->positions.count, count = 0;
   for (int pass = 0; pass < 2; pass++) {
     const uint32_t *c = mesh->polygon_points.at;
@@ -38,7 +38,7 @@ static uint32_t list_sides(const sbf_polygon_mesh *mesh, float min, uint32_t *be
         uint32_t a = c[k], b = c[(k + 1) % mesh->polygon_sizes.at[p]], low = a < b ? a : b;
         if (!(sbri_length(sbri_sub(mesh->positions.at[b], mesh->positions.at[a])) > min)) continue;
         if (pass)
-          others[begins[low + 1]++] = a + b - low;
+          other_ends[begins[low + 1]++] = a + b - low;
         else
           begins[low + 2]++, count++;
       }
@@ -53,20 +53,21 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   float min = fmaxf(OF_MARGIN * body->margin_m, OF_THICKNESS * thickness_of(body));
   uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)body->surface.vertex_count + 1, sizeof *ends);
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)vertices + 3, sizeof *begins);
-  uint32_t *others = sbfi_arena_allocate(scratch, (size_t)mesh->polygon_points.count + 1, sizeof *others);
-  if (!ends || !begins || !others) return false;
+  uint32_t *other_ends =
+      sbfi_arena_allocate(scratch, (size_t)mesh->polygon_points.count + 1, sizeof *other_ends);
+  if (!ends || !begins || !other_ends) return false;
   if (!find_ends(&model->islands[body->island], body, ends)) return true;
   for (uint32_t i = 0; i < vertices + 3; i++) begins[i] = 0;
-  uint32_t max = list_sides(mesh, min, begins, others), count = 0;
+  uint32_t max = list_edges(mesh, min, begins, other_ends), count = 0;
   if (!max) return true;
   uint32_t *edges = sbfi_arena_allocate(&model->arena, 2 * (size_t)max, sizeof *edges);
   if (!edges) return false;
   for (uint32_t v = 0; v < vertices; v++)
     for (uint32_t i = begins[v]; i < begins[v + 1]; i++) {
       uint32_t k = begins[v];
-      while (others[k] != others[i]) k++;
-      if (k < i || ends[v] == NOT_THERE || ends[others[i]] == NOT_THERE) continue;
-      edges[2 * count] = ends[v], edges[2 * count + 1] = ends[others[i]], count++;
+      while (other_ends[k] != other_ends[i]) k++;
+      if (k < i || ends[v] == NOT_THERE || ends[other_ends[i]] == NOT_THERE) continue;
+      edges[2 * count] = ends[v], edges[2 * count + 1] = ends[other_ends[i]], count++;
     }
   body->coarse_edges = edges, body->coarse_edge_count = count;
   return true;

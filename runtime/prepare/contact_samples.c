@@ -14,7 +14,7 @@
 
 enum { CARRIERS = 4 };
 
-static bool is_carried(const sbri_skin *skin) {
+static bool is_embedded(const sbri_skin *skin) {
   if (skin->vertex_count == 0 || skin->frame_vertex_count > 0) return false;
   for (uint32_t v = 0; v < skin->vertex_count; v++) {
     uint32_t block = v / SBRI_BLOCK, begin = skin->cell_begins[block];
@@ -49,7 +49,7 @@ typedef struct distance {
   bool behind;
 } distance;
 
-static sbf_vec3 nearest_on_side(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b) {
+static sbf_vec3 nearest_on_edge(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b) {
   sbf_vec3 side = sbri_sub(b, a);
   float square = sbri_dot(side, side), t = square > 0 ? sbri_dot(sbri_sub(x, a), side) / square : 0;
   return sbri_add_scaled(a, side, t < 0 ? 0 : t > 1 ? 1 : t);
@@ -62,7 +62,7 @@ static distance distance_to(sbf_vec3 x, const sbf_vec3 corners[3]) {
   for (int k = 0; k < 3; k++) {
     sbf_vec3 a = corners[k], b = corners[(k + 1) % 3];
     inside = inside && sbri_dot(sbri_cross(sbri_sub(b, a), sbri_sub(x, a)), n) >= 0;
-    sbf_vec3 off = sbri_sub(x, nearest_on_side(x, a, b));
+    sbf_vec3 off = sbri_sub(x, nearest_on_edge(x, a, b));
     float square = sbri_dot(off, off);
     min = min < 0 || square < min ? square : min;
   }
@@ -108,7 +108,7 @@ static float mean_edge(const sbri_body *body) {
   return cube > 0 ? (float)edge : 0;
 }
 
-static float mean_side(const sbf_polygon_mesh *mesh) {
+static float mean_edge_of(const sbf_polygon_mesh *mesh) {
   const uint32_t *corners = mesh->polygon_points.at;
   double sum = 0, count = 0;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
@@ -147,7 +147,7 @@ typedef struct keyed_sample {
   uint32_t key[CARRIERS], number; /* its slots in order */
 } keyed_sample;
 
-static int compare_carriers(const keyed_sample *a, const keyed_sample *b) {
+static int compare_keys(const keyed_sample *a, const keyed_sample *b) {
   for (int k = 0; k < CARRIERS; k++)
     if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
   return 0;
@@ -155,7 +155,7 @@ static int compare_carriers(const keyed_sample *a, const keyed_sample *b) {
 
 static int compare_samples(const void *left, const void *right) {
   const keyed_sample *a = left, *b = right;
-  int order = compare_carriers(a, b);
+  int order = compare_keys(a, b);
   return order ? order : (a->number > b->number) - (a->number < b->number);
 }
 
@@ -176,14 +176,14 @@ static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_
   if (!sorted) return false;
   for (uint32_t i = 0; i < count; i++) sorted[i] = keyed(&samples[i], i);
   qsort(sorted, count, sizeof *sorted, compare_samples);
-  for (uint32_t i = 0; i < count; i++) groups += i == 0 || compare_carriers(&sorted[i - 1], &sorted[i]) != 0;
+  for (uint32_t i = 0; i < count; i++) groups += i == 0 || compare_keys(&sorted[i - 1], &sorted[i]) != 0;
   sbri_sample_group *at = sbfi_arena_allocate(&model->arena, (size_t)groups + 1, sizeof *at);
   if (!at) return false;
   body->sample_groups = at, body->sample_group_count = groups;
   at--;
   for (uint32_t i = 0; i < count; i++) {
     samples[i] = sorted[i].sample;
-    if (i == 0 || compare_carriers(&sorted[i - 1], &sorted[i]) != 0) {
+    if (i == 0 || compare_keys(&sorted[i - 1], &sorted[i]) != 0) {
       *++at = (sbri_sample_group){.first = i};
       memcpy(at->slots, sorted[i].key, sizeof at->slots);
     }
@@ -206,7 +206,7 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   const sbri_island *island = &model->islands[body->island];
   const sbf_polygon_mesh *mesh = &body->source->surface;
   float edge = mean_edge(body);
-  bool sparse = edge > 0 && mean_side(mesh) > edge;
+  bool sparse = edge > 0 && mean_edge_of(mesh) > edge;
   size_t count = (size_t)body->surface.vertex_count + (sparse ? body->level->positions.count : 0);
   sbri_sample *samples = sbfi_arena_allocate(&model->arena, count, sizeof *samples);
   uint8_t *used;
@@ -226,7 +226,7 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
 }
 
 bool sbri_samples_make(sbr_model *model, sbri_body *body) {
-  if (!body->level || !is_carried(&body->surface)) return true;
+  if (!body->level || !is_embedded(&body->surface)) return true;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   bool good = make(model, body, &scratch);

@@ -63,14 +63,14 @@ static int32_t carrier_of(const sbri_island *island, uint32_t slot) {
   return slot >= island->free_count ? island->rigid_body_of_pinned[slot - island->free_count] : -1;
 }
 
-static sbf_vec3 own_arm(const sbri_rigid_body *body, const sbri_point *at) {
+static sbf_vec3 local_arm(const sbri_rigid_body *body, const sbri_point *at) {
   sbf_vec3 arm = sbri_sub(sbri_vec3(at->x, at->y, at->z), body->center);
   return sbri_rotate(sbri_quat_conjugate(body->axes), arm);
 }
 
 static void add_point(
     const sbri_island *island, const sbri_rigid_body *body, uint32_t slot, double k, stiffness *sum) {
-  sbf_vec3 r = own_arm(body, &island->rest[slot]);
+  sbf_vec3 r = local_arm(body, &island->rest[slot]);
   double x = (double)r.x, y = (double)r.y, z = (double)r.z;
   sum->along += k;
   sum->about[0] += k * (y * y + z * z), sum->about[1] += k * (z * z + x * x);
@@ -93,11 +93,11 @@ static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *bo
   sum->along += modulus * square_of_strain(t, moves);
   for (int axis = 0; axis < 3; axis++) {
     for (int i = 0; i < 4; i++) {
-      sbfi_d3 r = sbfi_d3_of(own_arm(body, &island->rest[slots[i]]));
-      sbfi_d3 turned = axis == 0   ? (sbfi_d3){0, -r.z, r.y}
-                       : axis == 1 ? (sbfi_d3){r.z, 0, -r.x}
-                                   : (sbfi_d3){-r.y, r.x, 0};
-      moves[i] = carrier_of(island, slots[i]) == carrier ? turned : (sbfi_d3){0, 0, 0};
+      sbfi_d3 r = sbfi_d3_of(local_arm(body, &island->rest[slots[i]]));
+      sbfi_d3 rotated = axis == 0   ? (sbfi_d3){0, -r.z, r.y}
+                        : axis == 1 ? (sbfi_d3){r.z, 0, -r.x}
+                                    : (sbfi_d3){-r.y, r.x, 0};
+      moves[i] = carrier_of(island, slots[i]) == carrier ? rotated : (sbfi_d3){0, 0, 0};
     }
     /* In the body's axes on one side only: the norm does not depend on the other. */
     sum->about[axis] += modulus * square_of_strain(t, moves);
@@ -149,33 +149,35 @@ static void add_island(const sbr_model *model, const sbri_island *island, uint32
 
 static float square_of(const sbri_rigid_body *body, const stiffness *s) {
   const float inverse_mass[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
-  double turning = 0;
+  double rotational = 0;
   for (int axis = 0; axis < 3; axis++) {
     double square = s->about[axis] * (double)inverse_mass[axis];
-    turning = square > turning ? square : turning;
+    rotational = square > rotational ? square : rotational;
   }
-  return (float)(s->along * (double)body->inverse_mass + turning);
+  return (float)(s->along * (double)body->inverse_mass + rotational);
 }
 
 /* ---- Attached mass ---- */
 
-static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point *at, float mass) {
+static void add_attached_mass(const sbr_model *model, uint32_t frame, const sbri_point *at, float mass) {
   int32_t carrier = model->carrier_of_frame[frame];
   if (carrier < 0) return;
   const sbri_rigid_body *body = &model->rigid.bodies[carrier];
-  sbf_vec3 r = own_arm(body, at), inverse_mass = body->inverse_inertia;
-  float turning = inverse_mass.x > inverse_mass.y ? inverse_mass.x : inverse_mass.y;
-  turning = turning > inverse_mass.z ? turning : inverse_mass.z;
+  sbf_vec3 r = local_arm(body, at), inverse_mass = body->inverse_inertia;
+  float rotational = inverse_mass.x > inverse_mass.y ? inverse_mass.x : inverse_mass.y;
+  rotational = rotational > inverse_mass.z ? rotational : inverse_mass.z;
   model->rigid.attached_masses[carrier] += mass;
-  model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * turning);
+  model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * rotational);
 }
 
-static void add_weights(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
+static void add_attached_masses(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
   for (uint32_t slot = body->slot_begin; body->is_pinned && slot < body->slot_real_end; slot++) {
-    if (!body->drivers) add_weight(model, body->driver_frame, &island->rest[slot], island->masses[slot]);
+    if (!body->drivers)
+      add_attached_mass(model, body->driver_frame, &island->rest[slot], island->masses[slot]);
     for (int k = 0; body->drivers && k < SBRI_DRIVERS; k++) {
       const sbri_driver *driver = &body->drivers[slot - body->slot_begin];
-      add_weight(model, driver->frames[k], &island->rest[slot], driver->weights[k] * island->masses[slot]);
+      add_attached_mass(
+          model, driver->frames[k], &island->rest[slot], driver->weights[k] * island->masses[slot]);
     }
   }
 }
@@ -193,7 +195,7 @@ bool sbri_coupling_make(sbr_model *model) {
     if (!list_pinned(model, &model->islands[i])) return false;
   for (uint32_t i = 0; i < model->island_count; i++)
     for (uint32_t b = 0; b < model->islands[i].body_count; b++)
-      add_weights(model, &model->islands[i], &model->bodies[model->islands[i].bodies[b]]);
+      add_attached_masses(model, &model->islands[i], &model->bodies[model->islands[i].bodies[b]]);
   for (uint32_t b = 0; b < model->rigid.body_count; b++) {
     stiffness sum = {0, {0, 0, 0}};
     for (uint32_t i = 0; i < model->island_count; i++)

@@ -45,7 +45,7 @@ static uint32_t max_levels(const sbf_asset *asset) {
 }
 
 /* A body that yields or tears has a shape that no other level has, and relaxation has no velocities. */
-static bool keeps_its_level(const sbr_model *model) {
+static bool has_single_level(const sbr_model *model) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
     if (island->link_flows || island->solid_flows || island->splits || island->scheme->forceless) return true;
@@ -69,7 +69,7 @@ static float stated_error(const sbf_level *level) {
 
 /* Visits of each tetrahedron and of each spring in a substep: block descent makes four sweeps, over every
  * point of an element. */
-static float styles_of(const sbri_island *island, bool solid) {
+static float visits_per_substep(const sbri_island *island, bool solid) {
   if (island->scheme->kind == SBF_SCHEME_HEUN) return 2;
   if (island->scheme->kind == SBF_SCHEME_BLOCK_DESCENT) return solid ? 16 : 8;
   return 1;
@@ -100,9 +100,10 @@ static void rate(const sbr_model *model, sbr_detail_level *detail_level) {
     uint32_t members = 0;
     for (uint32_t k = 0; k < island->region_block_count; k++)
       members += SBRI_BLOCK * island->region_blocks[k].member_count;
-    float visits = styles_of(island, true) * (float)island->tetrahedron_count +
-                   styles_of(island, false) * SPRING_VISITS * (float)(island->spring_count + members) +
-                   SUBSTEP_VISITS;
+    float visits =
+        visits_per_substep(island, true) * (float)island->tetrahedron_count +
+        visits_per_substep(island, false) * SPRING_VISITS * (float)(island->spring_count + members) +
+        SUBSTEP_VISITS;
     detail_level->visits += visits * (float)sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
   }
 }
@@ -142,7 +143,8 @@ static sbf_status make_coarser(sbr_model *base, const sbr_model_options *options
         make_detail_level(base, options, (sbr_detail_level){.kind = SBR_DETAIL_SOFT, .level = level}, error);
     if (status != SBF_OK) return status;
     uint32_t last = base->detail_level_count - 1;
-    if (keeps_its_level(base->levels[last]) || is_point_pinned(base->levels[last]) != is_point_pinned(base)) {
+    if (has_single_level(base->levels[last]) ||
+        is_point_pinned(base->levels[last]) != is_point_pinned(base)) {
       drop_last(base);
       continue;
     }
@@ -152,7 +154,8 @@ static sbf_status make_coarser(sbr_model *base, const sbr_model_options *options
   return status;
 }
 
-static sbf_status make_unsoft(sbr_model *base, const sbr_model_options *options, sbf_diagnostic *error) {
+static sbf_status make_levels_without_soft(
+    sbr_model *base, const sbr_model_options *options, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   if (!is_point_pinned(base)) return status;
   if (any_jiggle(base))
@@ -199,7 +202,7 @@ static void note_embedding(const sbr_model *base, uint32_t body, uint32_t *with,
 }
 
 /* The body with the largest weight in each vertex, and its frequency. */
-static bool note_swings(sbr_model *base) {
+static bool store_swings(sbr_model *base) {
   uint32_t bodies = base->asset->soft_bodies.count;
   size_t vertices = base->first_vertices[base->asset->render_meshes.count];
   uint32_t *with = sbfi_arena_allocate(&base->arena, vertices + 1, sizeof *with);
@@ -245,11 +248,11 @@ sbf_status sbri_detail_levels_make(
   model->detail_levels[0] = (sbr_detail_level){.kind = SBR_DETAIL_SOFT, .level = options->level};
   model->detail_level_count = 1;
   rate(model, &model->detail_levels[0]);
-  if (options->detail_levels && !keeps_its_level(model)) {
+  if (options->detail_levels && !has_single_level(model)) {
     sbf_status status = make_coarser(model, options, error);
-    if (status == SBF_OK) status = make_unsoft(model, options, error);
+    if (status == SBF_OK) status = make_levels_without_soft(model, options, error);
     if (status != SBF_OK) return status;
-    if (!number_vertices(model) || !note_swings(model) || !make_sources(model)) return no_memory(error);
+    if (!number_vertices(model) || !store_swings(model) || !make_sources(model)) return no_memory(error);
   }
   for (uint32_t r = 0; r < model->detail_level_count; r++) {
     uint32_t islands = model->levels[r]->island_count;

@@ -3,50 +3,50 @@
 #include "mechanics/level_points.h"
 #include "solvers/surface_forces.h"
 
-typedef struct side {
+typedef struct edge {
   uint32_t low, high; /* source points */
-  uint32_t across;    /* third corner of its triangle */
+  uint32_t opposite;  /* third corner of its triangle */
   uint32_t order;     /* index in the mesh; and whether it runs from low to high */
   bool forward;
-} side;
+} edge;
 
 /* Order by ends, then by index. */
-static bool comes_before(const side *a, const side *b) {
+static bool is_before(const edge *a, const edge *b) {
   if (a->low != b->low) return a->low < b->low;
   if (a->high != b->high) return a->high < b->high;
   return a->order < b->order;
 }
 
-static void sift(side *sides, size_t root, size_t count) {
+static void sift(edge *edges, size_t root, size_t count) {
   for (size_t child; (child = 2 * root + 1) < count; root = child) {
-    if (child + 1 < count && comes_before(&sides[child], &sides[child + 1])) child++;
-    if (!comes_before(&sides[root], &sides[child])) return;
-    side swapped = sides[root];
-    sides[root] = sides[child], sides[child] = swapped;
+    if (child + 1 < count && is_before(&edges[child], &edges[child + 1])) child++;
+    if (!is_before(&edges[root], &edges[child])) return;
+    edge swapped = edges[root];
+    edges[root] = edges[child], edges[child] = swapped;
   }
 }
 
-static void sort_sides(side *sides, size_t count) {
-  for (size_t i = count / 2; i-- > 0;) sift(sides, i, count);
+static void sort_edges(edge *edges, size_t count) {
+  for (size_t i = count / 2; i-- > 0;) sift(edges, i, count);
   for (size_t end = count; end-- > 1;) {
-    side swapped = sides[0];
-    sides[0] = sides[end], sides[end] = swapped;
-    sift(sides, 0, end);
+    edge swapped = edges[0];
+    edges[0] = edges[end], edges[end] = swapped;
+    sift(edges, 0, end);
   }
 }
 
-static bool add_side(sbfi_array *sides, uint32_t from, uint32_t to, uint32_t across) {
-  side s = {from < to ? from : to, from < to ? to : from, across, (uint32_t)sides->count, from < to};
-  return sbfi_array_append(sides, &s, 1);
+static bool add_edge(sbfi_array *edges, uint32_t from, uint32_t to, uint32_t opposite) {
+  edge s = {from < to ? from : to, from < to ? to : from, opposite, (uint32_t)edges->count, from < to};
+  return sbfi_array_append(edges, &s, 1);
 }
 
 /* Edges of the triangles that the polygons are divided into from their first corner. */
-static bool list_sides(const sbf_polygon_mesh *mesh, sbfi_array *sides) {
+static bool list_edges(const sbf_polygon_mesh *mesh, sbfi_array *edges) {
   const uint32_t *corners = mesh->polygon_points.at;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++) {
       uint32_t a = corners[0], b = corners[k - 1], c = corners[k];
-      if (!add_side(sides, a, b, c) || !add_side(sides, b, c, a) || !add_side(sides, c, a, b)) return false;
+      if (!add_edge(edges, a, b, c) || !add_edge(edges, b, c, a) || !add_edge(edges, c, a, b)) return false;
     }
   return true;
 }
@@ -58,10 +58,10 @@ static float rigidity_of(const sbf_attributes *is) {
 }
 
 /* The hinge of two triangles at an edge; false where a point is missing or it has no size. */
-static bool make_hinge(const sbri_island *island, const sbri_body *body, const float *factors, const side *s,
-    const side *other, sbri_hinge *hinge) {
+static bool make_hinge(const sbri_island *island, const sbri_body *body, const float *factors, const edge *s,
+    const edge *other, sbri_hinge *hinge) {
   const uint32_t points[4] = {
-      s->forward ? s->low : s->high, s->forward ? s->high : s->low, s->across, other->across};
+      s->forward ? s->low : s->high, s->forward ? s->high : s->low, s->opposite, other->opposite};
   float factor = 0;
   sbf_vec3 x[4];
   for (int k = 0; k < 4; k++) {
@@ -80,21 +80,21 @@ static bool make_hinge(const sbri_island *island, const sbri_body *body, const f
   return true;
 }
 
-/* `sides` is empty on entry. */
-static bool list_hinges(const sbri_island *island, const sbri_body *body, sbfi_arena *keep, sbfi_array *sides,
+/* `edges` is empty on entry. */
+static bool list_hinges(const sbri_island *island, const sbri_body *body, sbfi_arena *keep, sbfi_array *edges,
     const float *factors, const sbri_hinge **found, uint32_t *found_count) {
-  if (!list_sides(&body->source->surface, sides)) return false;
-  side *at = sides->at;
-  sort_sides(at, sides->count);
-  sbri_hinge *hinges = sbfi_arena_allocate(keep, sides->count / 2 + 1, sizeof *hinges);
+  if (!list_edges(&body->source->surface, edges)) return false;
+  edge *at = edges->at;
+  sort_edges(at, edges->count);
+  sbri_hinge *hinges = sbfi_arena_allocate(keep, edges->count / 2 + 1, sizeof *hinges);
   if (!hinges) return false;
   uint32_t count = 0;
-  for (size_t i = 0; i + 1 < sides->count; i++) {
+  for (size_t i = 0; i + 1 < edges->count; i++) {
     bool pair = at[i].low == at[i + 1].low && at[i].high == at[i + 1].high;
-    bool third = i + 2 < sides->count && at[i + 2].low == at[i].low && at[i + 2].high == at[i].high;
+    bool third = i + 2 < edges->count && at[i + 2].low == at[i].low && at[i + 2].high == at[i].high;
     if (!pair) continue;
     if (!third && make_hinge(island, body, factors, &at[i], &at[i + 1], &hinges[count])) count++;
-    for (i++; i + 1 < sides->count && at[i + 1].low == at[i].low && at[i + 1].high == at[i].high;) i++;
+    for (i++; i + 1 < edges->count && at[i + 1].low == at[i].low && at[i + 1].high == at[i].high;) i++;
   }
   *found = hinges, *found_count = count;
   return true;
@@ -111,10 +111,10 @@ bool sbri_hinges_find(const sbri_island *island, const sbri_body *body, sbfi_are
   if (!factors) return false;
   for (uint32_t i = 0; i < count; i++) factors[i] = 1;
   sbfi_level_weigh(body->source, body->level, SBF_WEIGHT_PROPERTY_BENDING_STIFFNESS, factors);
-  sbfi_array sides;
-  sbfi_array_init(&sides, &keep->allocator, sizeof(side));
-  bool good = list_hinges(island, body, keep, &sides, factors, hinges, hinge_count);
-  sbfi_array_free(&sides);
+  sbfi_array edges;
+  sbfi_array_init(&edges, &keep->allocator, sizeof(edge));
+  bool good = list_hinges(island, body, keep, &edges, factors, hinges, hinge_count);
+  sbfi_array_free(&edges);
   return good;
 }
 

@@ -39,7 +39,7 @@ static bool read_goals(sbri_island_maker *m, uint32_t index) {
 /* Interior points, which have no face, all get the same mass by the rule for masses. If they are free, their
  * total is divided in proportion to the stiffness of their springs. Otherwise the centre point, which has a
  * spring to every surface point, would be twice as fast as all others and double the number of substeps. */
-static bool inside_fraction(sbri_island_maker *m, const sbri_body *body, float *masses) {
+static bool distribute_interior_mass(sbri_island_maker *m, const sbri_body *body, float *masses) {
   const sbf_level *level = body->level;
   const sbf_polygon_mesh *mesh = &body->source->surface;
   uint32_t count = level->positions.count, total = 0;
@@ -85,7 +85,7 @@ static bool read_body(sbri_island_maker *m, uint32_t index) {
     free_count += !pinned[i];
   }
   double sum = sbf_level_masses(body->source, body->level, pinned, masses);
-  if (m->options->free && !inside_fraction(m, body, masses)) return false;
+  if (m->options->free && !distribute_interior_mass(m, body, masses)) return false;
   float min = free_count ? (float)(sum / free_count) * MIN_MASS_FRACTION : 0;
   for (uint32_t i = 0; i < count; i++)
     if (!pinned[i] && masses[i] < min) masses[i] = min;
@@ -113,7 +113,7 @@ static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
 
 /* Appends free points from slot `next` on by decreasing number of springs, equal ones in the level's order.
  */
-static bool append_unpinned(sbri_island_maker *m, uint32_t index, uint32_t next, uint32_t *slot_from_point) {
+static bool append_free(sbri_island_maker *m, uint32_t index, uint32_t next, uint32_t *slot_from_point) {
   sbri_body *body = sbri_maker_body(m, index);
   uint32_t count = body->level->positions.count, max = 0;
   uint32_t *valences = sbri_scratch(m, count, sizeof *valences);
@@ -140,7 +140,7 @@ static bool make_slots(sbri_island_maker *m) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
     uint32_t *slots = sbri_keep(m, body->level->positions.count, sizeof *slots);
-    if (!slots || !append_unpinned(m, b, next, slots)) return false;
+    if (!slots || !append_free(m, b, next, slots)) return false;
     body->slot_from_point = slots;
     next = body->slot_end;
   }

@@ -25,7 +25,7 @@ static float mass_of(const region_weights *r, uint32_t point) {
 }
 
 /* Fills weights and rest of region `number`; returns its number of points, 0 if all of them are pinned. */
-static uint32_t weigh(const region_weights *r, uint32_t number) {
+static uint32_t find_weights(const region_weights *r, uint32_t number) {
   const uint32_t *points = r->body->level->regions->points.at + r->begins[number];
   uint32_t count = r->begins[number + 1] - r->begins[number], free_count = 0;
   double sum = 0;
@@ -70,11 +70,11 @@ static bool sort_regions(sbri_island_maker *m, const region_weights *r, uint32_t
   uint32_t *begins = sbri_scratch(m, (size_t)max + 2, sizeof *begins);
   if (!begins) return false;
   for (uint32_t i = 0; i < sizes.count; i++)
-    if (weigh(r, i)) begins[max - sizes.at[i] + 1]++;
+    if (find_weights(r, i)) begins[max - sizes.at[i] + 1]++;
   for (uint32_t size = 0; size <= max; size++) begins[size + 1] += begins[size];
   *count = begins[max + 1];
   for (uint32_t i = 0; i < sizes.count; i++)
-    if (weigh(r, i)) order[begins[max - sizes.at[i]]++] = i;
+    if (find_weights(r, i)) order[begins[max - sizes.at[i]]++] = i;
   return true;
 }
 
@@ -82,7 +82,7 @@ static void fill_lane(const region_weights *r, uint32_t number, sbri_region_bloc
     sbri_region_member *members, uint32_t lane) {
   const sbf_shape_regions *regions = r->body->level->regions;
   const uint32_t *points = regions->points.at + r->begins[number];
-  uint32_t count = weigh(r, number);
+  uint32_t count = find_weights(r, number);
   double square = (double)regions->stiffness * regions->stiffness, sum = 0;
   sbfi_d3 center = sbfi_region_center(r->weights, r->rest, count);
   for (uint32_t i = 0; i < block->member_count; i++) {

@@ -63,7 +63,7 @@ typedef struct packing {
   uint32_t block_count;
 } packing;
 
-static void shut(packing *p, uint32_t index) {
+static void close_block(packing *p, uint32_t index) {
   const uint32_t *lanes = p->elements + (size_t)p->at[index] * SBRI_BLOCK;
   p->open &= ~(UINT64_C(1) << index);
   for (uint32_t lane = 0; lane < p->filled[index]; lane++)
@@ -85,7 +85,7 @@ static uint32_t open_block(packing *p) {
   if (p->open == UINT64_MAX) {
     for (uint32_t i = 1; i < OPEN_BLOCKS; i++)
       if (p->at[i] < p->at[index]) index = i;
-    shut(p, index);
+    close_block(p, index);
   } else {
     index = min_bit(~p->open);
   }
@@ -96,7 +96,7 @@ static uint32_t open_block(packing *p) {
   return index;
 }
 
-static void put(packing *p, uint32_t t) {
+static void add_element(packing *p, uint32_t t) {
   uint64_t fitting = p->open;
   uint32_t index = OPEN_BLOCKS;
   for (int k = 0; k < 4; k++) {
@@ -113,7 +113,7 @@ static void put(packing *p, uint32_t t) {
     uint32_t slot = p->corners[t].at[k];
     if (slot < p->island->free_count) p->users[slot] |= UINT64_C(1) << index;
   }
-  if (p->filled[index] == SBRI_BLOCK) shut(p, index);
+  if (p->filled[index] == SBRI_BLOCK) close_block(p, index);
 }
 static bool is_corner(const packing *p, const uint32_t *lanes, uint32_t slot) {
   for (uint32_t lane = 0; lane < SBRI_BLOCK && lanes[lane] != NO_ELEMENT; lane++)
@@ -137,7 +137,7 @@ static uint32_t lanes_filled(const packing *p, uint32_t block) {
 }
 
 /* Moves the last lanes of a block to blocks of their own until it has a spare slot. */
-static void leave_spare(packing *p, uint32_t block) {
+static void ensure_spare(packing *p, uint32_t block) {
   uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK, count = lanes_filled(p, block);
   while (count < SBRI_BLOCK && find_spare(p, lanes) == p->island->slot_count) {
     uint32_t *own = p->elements + (size_t)p->block_count++ * SBRI_BLOCK;
@@ -181,8 +181,8 @@ static bool pack(sbri_island_maker *m, packing *p) {
   p->users = sbri_scratch(m, island->free_count, sizeof *p->users);
   uint32_t *ordered = sbri_scratch(m, 2 * count * SBRI_BLOCK, sizeof *ordered);
   if (!p->elements || !p->users || !ordered) return false;
-  for (uint32_t t = 0; t < count; t++) put(p, t);
-  for (uint32_t block = 0; block < p->block_count; block++) leave_spare(p, block);
+  for (uint32_t t = 0; t < count; t++) add_element(p, t);
+  for (uint32_t block = 0; block < p->block_count; block++) ensure_spare(p, block);
   arrange(p, ordered, island);
   p->elements = ordered;
   return true;
@@ -234,7 +234,7 @@ static bool find_damping(sbri_island_maker *m, const float *const *factors) {
 }
 
 /* Mean length of their edges at rest, m. */
-static float mean_side(const sbri_island *island, const sbf_uint4 *corners) {
+static float mean_edge(const sbri_island *island, const sbf_uint4 *corners) {
   double sum = 0;
   for (uint32_t t = 0; t < island->tetrahedron_count; t++)
     for (int i = 0; i < 4; i++)
@@ -263,7 +263,7 @@ bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *networ
   float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
   if (damped && !damping) return false;
   fill(m, &p, blocks, damping, factors, lanes);
-  float side = mean_side(island, network->tetrahedra);
+  float side = mean_edge(island, network->tetrahedra);
   if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;
   island->tetrahedron_blocks = blocks;
   island->tetrahedron_damping = damping;

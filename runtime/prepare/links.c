@@ -23,9 +23,9 @@ typedef struct colouring {
 
 static uint32_t min_colour(const uint64_t *a, const uint64_t *b) {
   for (uint32_t word = 0; word < COLOUR_WORDS; word++) {
-    uint64_t taken = (a ? a[word] : 0) | (b ? b[word] : 0);
-    for (uint32_t bit = 0; bit < 64 && taken != UINT64_MAX; bit++)
-      if (!(taken >> bit & 1)) return 64 * word + bit;
+    uint64_t used_count = (a ? a[word] : 0) | (b ? b[word] : 0);
+    for (uint32_t bit = 0; bit < 64 && used_count != UINT64_MAX; bit++)
+      if (!(used_count >> bit & 1)) return 64 * word + bit;
   }
   return COLOURS;
 }
@@ -71,8 +71,9 @@ static uint32_t spare_slot(const colouring *c, const uint32_t *springs, uint32_t
 }
 
 /* Number of springs in the next block: eight, or fewer with a spare slot for unused lanes. */
-static uint32_t take(const colouring *c, const uint32_t *springs, uint32_t left, uint32_t *spare) {
-  uint32_t count = left < SBRI_BLOCK ? left : SBRI_BLOCK;
+static uint32_t next_block_size(
+    const colouring *c, const uint32_t *springs, uint32_t remaining, uint32_t *spare) {
+  uint32_t count = remaining < SBRI_BLOCK ? remaining : SBRI_BLOCK;
   *spare = 0;
   if (count == SBRI_BLOCK) return count;
   while ((*spare = spare_slot(c, springs, count)) == c->island->slot_count) count--;
@@ -121,15 +122,15 @@ static bool is_disjoint(const sbri_island *island, const uint32_t *springs, uint
 }
 
 /* Visits the colours; with `t` NULL it only counts the blocks. */
-static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring_bounds *bounds) {
+static uint32_t visit_colours(const colouring *c, const link_tables *t, const sbfi_spring_bounds *bounds) {
   uint32_t block = 0;
   const uint32_t *next = c->ordered;
   for (uint32_t k = 0; k <= COLOURS; k++)
-    for (uint32_t left = c->counts[k]; left > 0;) {
-      uint32_t spare, count = take(c, next, k == COLOURS ? 1 : left, &spare);
+    for (uint32_t remaining = c->counts[k]; remaining > 0;) {
+      uint32_t spare, count = next_block_size(c, next, k == COLOURS ? 1 : remaining, &spare);
       SBF_ASSERT(count > 0 && count <= SBRI_BLOCK && is_disjoint(c->island, next, count));
       if (t) fill(t, c->island, bounds, block, next, count, spare);
-      block++, next += count, left -= count;
+      block++, next += count, remaining -= count;
     }
   return block;
 }
@@ -171,10 +172,10 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
   link_tables t = {0};
   if (good) {
     colour(c);
-    island->link_block_count = walk(c, NULL, bounds);
+    island->link_block_count = visit_colours(c, NULL, bounds);
     good = allocate(model, island, bounds, &t);
   }
-  if (good) walk(c, &t, bounds);
+  if (good) visit_colours(c, &t, bounds);
   sbfi_arena_free(&scratch);
   island->links = t.links, island->link_damping = t.damping, island->link_slack = t.slack,
   island->link_limits = t.limits;

@@ -23,18 +23,18 @@ static sbfi_d3 solve(const double g[6], sbfi_d3 b) {
 /* Fit of a rigid motion to displacements: sums over weighted points. */
 typedef struct rigid_fit {
   double weight, g[6];
-  sbfi_d3 center, drift, turn;
+  sbfi_d3 center, drift, rotation;
 } rigid_fit;
 
-static void add_turning(rigid_fit *fit, double k, sbfi_d3 r, sbfi_d3 u) {
-  fit->turn = sbfi_d3_add(fit->turn, sbfi_d3_scale(sbfi_d3_cross(r, u), k));
+static void add_rotation(rigid_fit *fit, double k, sbfi_d3 r, sbfi_d3 u) {
+  fit->rotation = sbfi_d3_add(fit->rotation, sbfi_d3_scale(sbfi_d3_cross(r, u), k));
   fit->g[0] += k * (r.y * r.y + r.z * r.z), fit->g[1] += k * (r.z * r.z + r.x * r.x);
   fit->g[2] += k * (r.x * r.x + r.y * r.y), fit->g[3] -= k * r.x * r.y;
   fit->g[4] -= k * r.y * r.z, fit->g[5] -= k * r.z * r.x;
 }
 
 static sbfi_d3 rigid_part(const rigid_fit *fit, sbfi_d3 r) {
-  return sbfi_d3_add(fit->drift, sbfi_d3_cross(fit->turn, r));
+  return sbfi_d3_add(fit->drift, sbfi_d3_cross(fit->rotation, r));
 }
 
 /* Adds the forces of one region on its slots to `forces`. */
@@ -48,11 +48,11 @@ static void add_region(const sbri_island *island, const sbri_region_block *block
     sbfi_d3 r = {at[0][lane], at[1][lane], at[2][lane]}, u = moves[members[i].slots[lane]];
     fit.weight += k;
     fit.drift = sbfi_d3_add(fit.drift, sbfi_d3_scale(u, k));
-    add_turning(&fit, k, r, u);
+    add_rotation(&fit, k, r, u);
   }
   if (!(fit.weight > 0)) return;
   fit.drift = sbfi_d3_scale(fit.drift, 1 / fit.weight);
-  fit.turn = solve(fit.g, fit.turn);
+  fit.rotation = solve(fit.g, fit.rotation);
   for (uint32_t i = 0; i < block->member_count; i++) {
     uint32_t slot = members[i].slots[lane];
     const float(*at)[SBRI_BLOCK] = members[i].offsets;
@@ -68,7 +68,7 @@ static sbfi_d3 rest_of(const sbri_island *island, uint32_t slot) {
 }
 
 /* Removes the body's rigid motion from its points' displacements. */
-static void take_rigid(const sbri_island *island, const sbri_body *body, sbfi_d3 *moves) {
+static void remove_rigid_motion(const sbri_island *island, const sbri_body *body, sbfi_d3 *moves) {
   rigid_fit fit = {0};
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     double m = island->masses[slot];
@@ -80,8 +80,8 @@ static void take_rigid(const sbri_island *island, const sbri_body *body, sbfi_d3
   fit.center = sbfi_d3_scale(fit.center, 1 / fit.weight);
   fit.drift = sbfi_d3_scale(fit.drift, 1 / fit.weight);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
-    add_turning(&fit, island->masses[slot], sbfi_d3_sub(rest_of(island, slot), fit.center), moves[slot]);
-  fit.turn = solve(fit.g, fit.turn);
+    add_rotation(&fit, island->masses[slot], sbfi_d3_sub(rest_of(island, slot), fit.center), moves[slot]);
+  fit.rotation = solve(fit.g, fit.rotation);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     moves[slot] = sbfi_d3_sub(moves[slot], rigid_part(&fit, sbfi_d3_sub(rest_of(island, slot), fit.center)));
 }
@@ -111,7 +111,7 @@ double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, dou
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     moves[slot] = first_guess(rest_of(island, slot), slot);
   for (int step = 0; step < STEPS; step++) {
-    if (!pinned) take_rigid(island, body, moves);
+    if (!pinned) remove_rigid_motion(island, body, moves);
     memset(forces, 0, island->slot_count * sizeof *forces);
     for (uint32_t b = body->first_region_block; b < body->region_block_end; b++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)

@@ -14,7 +14,7 @@ static float inverse(float value) {
 }
 
 /* From asset space at rest to the body's frame. */
-static sbf_vec3 own_position(const sbri_rigid_body *body, sbf_vec3 position) {
+static sbf_vec3 local_position(const sbri_rigid_body *body, sbf_vec3 position) {
   return sbri_rotate(sbri_quat_conjugate(body->axes), sbri_sub(position, body->center));
 }
 
@@ -42,7 +42,7 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
   sbf_vec3 *vertices = sbfi_arena_allocate(arena, count, sizeof *vertices);
   if (!vertices) return false;
   for (uint32_t i = 0; i < count; i++) {
-    vertices[i] = own_position(body, source->hull->positions.at[i]);
+    vertices[i] = local_position(body, source->hull->positions.at[i]);
     float length = sbri_length(vertices[i]);
     body->radius = length > body->radius ? length : body->radius;
   }
@@ -58,7 +58,7 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
 static sbri_rigid_frame frame_of(const sbri_rigid_body *body, const sbf_frame *local) {
   sbf_quat rotation = sbri_quat_normalize(local->rotation);
   if (!body) return (sbri_rigid_frame){local->position, rotation};
-  return (sbri_rigid_frame){own_position(body, sbri_add(body->source->center, local->position)),
+  return (sbri_rigid_frame){local_position(body, sbri_add(body->source->center, local->position)),
       sbri_quat_multiply(sbri_quat_conjugate(body->axes), rotation)};
 }
 
@@ -132,11 +132,11 @@ typedef struct load {
 
 /* All bodies connected to a body without passing `joint` or a visited body, as one rigid body. */
 static load find_load(
-    const sbri_rigid_model *model, uint32_t joint, uint32_t body, uint32_t *seen, uint32_t *queue) {
+    const sbri_rigid_model *model, uint32_t joint, uint32_t body, uint32_t *visited, uint32_t *queue) {
   sbf_vec3 about = rest_position(model, &model->joints[joint], SBRI_B);
   load all = {0, 0, {0, 0, 0}};
   uint32_t count = 0;
-  queue[count++] = body, seen[body] = joint + 1;
+  queue[count++] = body, visited[body] = joint + 1;
   for (uint32_t i = 0; i < count; i++) {
     const sbri_rigid_body *is = &model->bodies[queue[i]];
     sbf_vec3 arm = sbri_sub(is->center, about);
@@ -146,8 +146,8 @@ static load find_load(
     for (uint32_t k = is->joint_begin; k < is->joint_end; k++) {
       const sbri_rigid_joint *next = &model->joints[model->joints_of[k]];
       int32_t other = next->bodies[next->bodies[SBRI_A] == (int32_t)queue[i] ? SBRI_B : SBRI_A];
-      if (model->joints_of[k] == joint || other < 0 || seen[other] == joint + 1) continue;
-      seen[other] = joint + 1;
+      if (model->joints_of[k] == joint || other < 0 || visited[other] == joint + 1) continue;
+      visited[other] = joint + 1;
       queue[count++] = (uint32_t)other;
     }
   }
@@ -156,18 +156,18 @@ static load find_load(
 
 /* The lighter side of a joint is the load of the other. */
 static bool find_loads(sbri_rigid_model *model, sbri_rigid_joint *joints, sbfi_arena *arena) {
-  uint32_t *seen = sbfi_arena_allocate(arena, (size_t)model->body_count + 1, sizeof *seen);
+  uint32_t *visited = sbfi_arena_allocate(arena, (size_t)model->body_count + 1, sizeof *visited);
   uint32_t *queue = sbfi_arena_allocate(arena, (size_t)model->body_count + 1, sizeof *queue);
-  if (!seen || !queue) return false;
-  for (uint32_t b = 0; b < model->body_count; b++) seen[b] = 0;
+  if (!visited || !queue) return false;
+  for (uint32_t b = 0; b < model->body_count; b++) visited[b] = 0;
   for (uint32_t j = 0; j < model->joint_count; j++) {
     load min = {0, INFINITY, {0, 0, 0}};
     for (int side = 0; side < SBRI_SIDES; side++) {
       int32_t body = joints[j].bodies[side], other = joints[j].bodies[1 - side];
       if (body < 0 || (other >= 0 && other == body)) continue;
-      for (uint32_t b = 0; side == 1 && b < model->body_count; b++) seen[b] = 0;
-      if (other >= 0) seen[other] = j + 1;
-      load found = find_load(model, j, (uint32_t)body, seen, queue);
+      for (uint32_t b = 0; side == 1 && b < model->body_count; b++) visited[b] = 0;
+      if (other >= 0) visited[other] = j + 1;
+      load found = find_load(model, j, (uint32_t)body, visited, queue);
       if (found.mass < min.mass) min = found;
     }
     joints[j].reach_inertia = min.moment;

@@ -18,7 +18,7 @@ static sbf_vec3 position(const surface *s, uint32_t slot) {
   return sbri_vec3(s->rest[slot].x, s->rest[slot].y, s->rest[slot].z);
 }
 
-static bool goes_through(const surface *s, const uint32_t ends[2], const uint32_t *c) {
+static bool has_crossing(const surface *s, const uint32_t ends[2], const uint32_t *c) {
   sbf_vec3 p[3], from = position(s, ends[0]), displacement = sbri_sub(position(s, ends[1]), from);
   float weights[3];
   for (int k = 0; k < 3; k++) {
@@ -31,14 +31,14 @@ static bool goes_through(const surface *s, const uint32_t ends[2], const uint32_
   return weights[0] > WITHIN && weights[1] > WITHIN && weights[2] > WITHIN;
 }
 
-static bool side_goes_through(const surface *s, uint32_t number) {
+static bool edge_crosses(const surface *s, uint32_t number) {
   const uint32_t *c = s->body->self_faces + number / 3 * 3, ends[2] = {c[number % 3], c[(number + 1) % 3]};
   sbri_bounds_walk walk;
   uint32_t triangle;
   sbri_bounds_walk_begin(
       &walk, &s->tree, sbri_box_with(sbri_box_of_point(position(s, ends[0])), position(s, ends[1])));
   while (sbri_bounds_walk_next(&walk, &triangle))
-    if (goes_through(s, ends, s->body->self_faces + 3 * (size_t)triangle)) return true;
+    if (has_crossing(s, ends, s->body->self_faces + 3 * (size_t)triangle)) return true;
   return false;
 }
 
@@ -55,7 +55,7 @@ static bool find(surface *s, sbri_body *body, sbfi_arena *scratch) {
   }
   sbri_bounds_tree_make(&s->tree, s->boxes, count);
   for (uint32_t i = 0; i < 3 * count && !body->is_tangled; i++)
-    body->is_tangled = body->self_sides[i] != SBRI_SAME_SIDE && side_goes_through(s, i);
+    body->is_tangled = body->self_sides[i] != SBRI_SAME_SIDE && edge_crosses(s, i);
   return true;
 }
 

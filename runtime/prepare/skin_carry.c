@@ -115,7 +115,7 @@ static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *
 }
 
 /* `indices` has the cell of each carrier. */
-static bool keep_bindings(carry *c, const uint32_t *indices) {
+static bool store_bindings(carry *c, const uint32_t *indices) {
   sbri_skin *skin = c->skin;
   uint32_t count = (uint32_t)c->bindings.count;
   if (count == 0) return true;
@@ -169,7 +169,7 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   skin->cell_begins = begins;
   skin->cells = cells;
   skin->cell_count = (uint32_t)cell_count;
-  return keep_bindings(c, indices);
+  return store_bindings(c, indices);
 }
 
 /* Attaches a vertex rigidly to a body, for detail levels without soft bodies. */

@@ -48,17 +48,18 @@ static void solve(double m[4][4], double x[4]) {
   }
 }
 
-static sbri_sources weigh(const nearest *n, const sbri_point *rest, const sbri_point *at, uint32_t first) {
-  double m[4][4] = {{0}}, theta[SBRI_SOURCES], away[SBRI_SOURCES][4], x[4], sum = 0;
+static sbri_sources find_weights(
+    const nearest *n, const sbri_point *rest, const sbri_point *at, uint32_t first) {
+  double m[4][4] = {{0}}, theta[SBRI_SOURCES], distance[SBRI_SOURCES][4], x[4], sum = 0;
   double reach = 1.1 * (n->beyond < 1e300 ? n->beyond : n->squares[n->count - 1]) + 1e-30;
   for (uint32_t i = 0; i < n->count; i++) {
     const sbri_point *p = &rest[n->slots[i]];
     double fraction = 1 - n->squares[i] / reach;
     theta[i] = fraction > 0 ? fraction * fraction + 1e-6 : 1e-6;
-    away[i][0] = 1, away[i][1] = (double)p->x - at->x, away[i][2] = (double)p->y - at->y,
-    away[i][3] = (double)p->z - at->z;
+    distance[i][0] = 1, distance[i][1] = (double)p->x - at->x, distance[i][2] = (double)p->y - at->y,
+    distance[i][3] = (double)p->z - at->z;
     for (int j = 0; j < 4; j++)
-      for (int k = 0; k < 4; k++) m[j][k] += theta[i] * away[i][j] * away[i][k];
+      for (int k = 0; k < 4; k++) m[j][k] += theta[i] * distance[i][j] * distance[i][k];
     sum += theta[i];
   }
   for (int k = 1; k < 4; k++) m[k][k] += RIDGE * sum * reach;
@@ -67,7 +68,7 @@ static sbri_sources weigh(const nearest *n, const sbri_point *rest, const sbri_p
   double whole = 0;
   for (uint32_t i = 0; i < n->count; i++) {
     double w = 0;
-    for (int k = 0; k < 4; k++) w += x[k] * away[i][k];
+    for (int k = 0; k < 4; k++) w += x[k] * distance[i][k];
     s.slots[i] = first + n->slots[i];
     s.weights[i] = (float)(w * theta[i]);
     whole += w * theta[i];
@@ -90,7 +91,8 @@ bool sbri_sources_make(sbr_model *to, const sbr_model *from, const sbri_sources 
         add(&n, at, square_between(&island->rest[slot], &others->rest[at]));
       }
       if (n.count)
-        made[island->first_slot + slot] = weigh(&n, others->rest, &island->rest[slot], others->first_slot);
+        made[island->first_slot + slot] =
+            find_weights(&n, others->rest, &island->rest[slot], others->first_slot);
     }
   }
   *sources = made;

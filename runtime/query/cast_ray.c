@@ -10,7 +10,7 @@ typedef struct ray {
   sbr_double3 from;
   sbf_vec3 direction;
   const sbr_query_filter *filter;
-  float fraction; /* of the ray, to the nearest hit so far */
+  float fraction; /* of the ray, up to the nearest hit so far */
   bool any;
   sbr_object object;
   sbf_vec3 normal;
@@ -51,7 +51,7 @@ static void hit_ground(ray *r) {
     note(r, (float)fraction, normal, &sbri_no_object);
 }
 
-/* Asset metres relative to the character's origin. */
+/* In asset metres relative to the character's origin. */
 static sbf_vec3 into_asset(const sbri_character *c, sbr_double3 x) {
   sbr_double3 o = sbri_header(c)->origin;
   return sbri_scale(sbri_vec3((float)(x.x - o.x), (float)(x.y - o.y), (float)(x.z - o.z)), 1 / c->scale);

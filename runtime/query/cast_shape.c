@@ -1,4 +1,4 @@
-/* Shapes that are cast: sbrun/query.h. */
+/* Shape casts: sbrun/query.h. */
 #include "collide/ground.h"
 #include "math/usable.h"
 #include "query/query_targets.h"
@@ -6,20 +6,19 @@
 enum { MAX_HOST_ADVANCES = 256, MAX_GROUND_PARTS = 256 };
 /* m: distance of contact with a host's geometry; and the length of a part of a cast over uneven ground. */
 static const double HOST_CONTACT_M = 1e-4, GROUND_PART_M = 0.5;
-/* m: hits so near to each other are at the same distance. */
+/* m; hits closer than this count as equally distant */
 static const double SAME_M = 5e-6;
 
 typedef struct cast {
   sbri_convex shape; /* at the origin of the query */
   sbfi_d3 displacement;
   double fraction;  /* of the nearest hit so far; above 1: none */
-  double alignment; /* cosine of its normal to that of its triangle; 1: it is none */
+  double alignment; /* cosine between its normal and that of its triangle; 1: no triangle */
   sbri_closest contact;
   sbr_object object;
 } cast;
 
-/* Of triangles that are hit at the same distance, the one that the contact lies over, not one that it is
- * beside. */
+/* Of triangles that are hit at the same distance, keeps the one below the contact, not one beside it. */
 static void note(cast *c, const sbri_query_piece *piece, double fraction, const sbri_closest *contact) {
   bool is_triangle = piece->kind == SBRI_PIECE_CONVEX && sbfi_d3_dot(piece->normal, piece->normal) > 0;
   double alignment = is_triangle ? sbfi_d3_dot(piece->normal, contact->normal) : 1;
@@ -97,7 +96,7 @@ static bool begins_below(const cast *c, const sbri_query_space *space) {
   return false;
 }
 
-/* In parts, so that long casts see the ground as finely as short ones. */
+/* In parts, so that long casts sample the ground as finely as short ones. */
 static void hit_ground(cast *c, sbri_query_space *space) {
   double level, flat = sqrt(c->displacement.x * c->displacement.x + c->displacement.z * c->displacement.z);
   double wanted = 1 + flat / GROUND_PART_M;

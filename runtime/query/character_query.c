@@ -1,4 +1,4 @@
-/* How characters are: sbrun/sbrun.h, sbrun/animation.h. */
+/* Queries of characters: sbrun/sbrun.h, sbrun/animation.h. */
 #include "sbrun/animation.h"
 #include "skeleton/rig_limits.h"
 #include "skeleton/rig_mass.h"

@@ -1,4 +1,4 @@
-/* Intersection of a ray with a ground that is given by its heights. */
+/* Intersection of a ray with a ground of heights. */
 #ifndef SBRI_GROUND_RAY_H
 #define SBRI_GROUND_RAY_H
 

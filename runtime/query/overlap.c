@@ -140,7 +140,7 @@ static double depth_at_plane(const shape_query *q, const sbri_query_piece *piece
   for (uint32_t i = 0; i < q->shape.count; i++) {
     sbfi_d3 off = sbfi_d3_sub(sbri_convex_point(&q->shape, i), piece->convex.position);
     double height = sbfi_d3_dot(piece->normal, off);
-    if (height < min) min = height; /* gcc 12.2 for aarch64 breaks down over fmin here */
+    if (height < min) min = height; /* gcc 12.2 for aarch64 crashes on fmin here */
   }
   return min - q->shape.radius;
 }

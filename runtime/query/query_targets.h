@@ -1,4 +1,4 @@
-/* What queries find in a world, as convex pieces: hulls, balls, capsules, and triangles of surfaces. */
+/* Targets of queries in a world as convex pieces: hulls, spheres, capsules, and triangles of surfaces. */
 #ifndef SBRI_QUERY_TARGETS_H
 #define SBRI_QUERY_TARGETS_H
 
@@ -9,7 +9,7 @@
 
 static const sbr_object sbri_no_object = {.soft_body = -1, .rigid_body = -1};
 
-/* A filter that is NULL becomes `*all`. False for a wrong cookie. */
+/* Sets `*filter` to the default if `given` is NULL. Returns false for a wrong cookie. */
 bool sbri_query_filter_of(const sbr_query_filter *given, sbr_query_filter *filter);
 /* Whether a query considers an object on these layers. */
 bool sbri_query_accepts(
@@ -26,17 +26,17 @@ typedef struct sbri_query_piece {
     SBRI_PIECE_CONVEX,
     SBRI_PIECE_PLANE,
     SBRI_PIECE_HOST,  /* a host's geometry */
-    SBRI_PIECE_INSIDE /* of a mesh: what is behind all its faces */
+    SBRI_PIECE_INSIDE /* of a mesh: the volume behind all its faces */
   } kind;
-  sbri_convex convex;     /* of a plane its position; of the last two the shape's frame */
+  sbri_convex convex;     /* position of a plane; the shape's frame for the last two kinds */
   sbfi_d3 normal;         /* of a plane, or of a triangle that is solid behind it; else 0 */
-  const sbr_shape *shape; /* of the last two */
+  const sbr_shape *shape; /* for the last two kinds */
 } sbri_query_piece;
 
-/* False ends the visit of the object. */
+/* Return false to end the visit of the object. */
 typedef bool sbri_query_visitor(void *context, const sbri_query_piece *piece);
 
-/* What a query sees: `box` in metres from `origin`. */
+/* Region of a query: `box` in metres from `origin`. */
 typedef struct sbri_query_space {
   const sbr_world *world;
   const sbr_query_filter *filter;
@@ -53,7 +53,7 @@ void sbri_query_visit_ground(const sbri_query_space *space, sbri_query_visitor *
 /* A sphere, capsule, box or hull as a convex shape at the origin; false for other kinds. */
 bool sbri_query_convex_of(const sbr_shape *shape, sbf_quat rotation, sbri_convex *convex, sbf_vec3 ends[2]);
 sbri_box sbri_convex_bounds(const sbri_convex *convex);
-/* Whether the shape's first point is inside of a mesh. */
+/* Whether the shape's first point is inside a mesh. */
 bool sbri_query_is_inside(const sbri_query_piece *piece, const sbri_convex *convex);
 /* Signed distance of a displaced convex shape's points, less its radius, from a host's geometry, up to
  * `reach`; `normal` receives the normal at the nearest one. */

@@ -1,4 +1,4 @@
-/* How rigid bodies and joints are: sbrun/rigid.h. */
+/* Queries of rigid bodies and joints: sbrun/rigid.h. */
 #include "math/quat.h"
 #include "mechanics/joint_freedom.h"
 #include "ragdoll/ragdoll.h"
@@ -34,7 +34,7 @@ sbr_rigid_state sbr_character_get_rigid_state(
   return state;
 }
 
-/* Of one limit that is hard: by how much it is broken. */
+/* Violation of a hard limit. */
 static float beyond(const sbf_limit *limit, float value) {
   const float turn = 6.28318530718f;
   float best = INFINITY;
@@ -90,7 +90,7 @@ sbr_joint_state sbr_character_get_joint_state(
   if (!bounded && joint->source->kind == SBF_JOINT_KIND_DISTANCE) state.separation = fabsf(length);
   if (!bounded && joint->source->kind == SBF_JOINT_KIND_PULLEY) state.separation = length > 0 ? length : 0;
   float s = c->scale;
-  state.force = sbri_scale(now->force, s * s * s); /* mass times length over the square of time */
+  state.force = sbri_scale(now->force, s * s * s); /* units: mass times length over time squared */
   state.torque = sbri_scale(now->torque, s * s * s * s);
   state.broken = now->broken != 0;
   return state;

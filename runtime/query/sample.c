@@ -1,4 +1,4 @@
-/* What the host reads: the moment between the last two ticks. */
+/* Public reads, interpolated between the last two ticks. */
 #include <string.h>
 
 #include "detail/detail_levels.h"
@@ -12,8 +12,8 @@ static float tick_fraction(const sbr_world *world) {
   return (float)(1.0 - (double)world->ahead_units / (double)world->tick_units);
 }
 
-/* Mixes the last two ticks' points and frames into scratch, once a sampled moment. The frames' deltas there
- * are those of the tick between steps, which makes them anew. */
+/* Interpolates the last two ticks' points and frames into scratch, once per sampled time. The scratch of
+ * deltas is that of the tick, which computes them anew. */
 static void sample(const sbr_world *world, sbri_character *c) {
   if (c->sampled_at == world->stamp) return;
   c->sampled_at = world->stamp;
@@ -76,7 +76,7 @@ static uint32_t min(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-/* Tangents square to the normals, in place of the sums of the faces'. */
+/* Tangents perpendicular to the normals, from the sums over faces. */
 static void write_tangents(const sbri_character *c, const sbri_skin *skin, const sbri_point *vertices,
     const sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t count) {
   c->model->kernels->tangents(skin, vertices, sbri_faces(c));

@@ -1,13 +1,13 @@
 /* Stress and energy of elements: sbrun/soft_body.h.
  *
- * A linear element's Cauchy stress is its forces' virial, s = -(1 / v) sum_i f_i x_i^T over its corners, v
- * the present volume: the same as P F^T / J without forming F, so that what has yielded needs no rest shape.
- * With edges d_k and the forces of solvers/tetrahedron_forces.h, -f_k = sum_j K_kj d_j + p n_k. */
+ * The Cauchy stress of a linear element is the virial of its forces, s = -(1 / v) sum_i f_i x_i^T over its
+ * corners, with v the present volume. It equals P F^T / J without forming F, so yielded elements need no rest
+ * shape. With edges d_k and the forces of solvers/tetrahedron_forces.h, -f_k = sum_j K_kj d_j + p n_k. */
 #include "mechanics/spring.h"
 #include "mechanics/vector.h"
 #include "soft/soft.h"
 
-/* As tetrahedra are listed, with the places of their edges. */
+/* Indices of the edge pairs in the order of sbri_tetrahedron_block.stiffness. */
 static const int stiffness_at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
 static const sbri_body *body_of(const sbri_character *c, uint32_t soft_body) {
@@ -64,7 +64,7 @@ uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id c
   for (uint32_t t = 0; tetrahedra && t < body->tetrahedron_count && t < capacity; t++) {
     uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)];
     tetrahedra[t] = state_of(&blocks[at / SBRI_BLOCK], at % SBRI_BLOCK, positions);
-    /* Moduli of a body that moves alike go with its scale: forces by its cube, areas by its square. */
+    /* Moduli scale so that bodies of all sizes move alike: forces with the cube, areas with the square. */
     float s = c->scale;
     for (int i = 0; i < 6; i++) tetrahedra[t].stress[i] *= s;
     tetrahedra[t].energy_density *= s, tetrahedra[t].rest_volume *= s * s * s;
@@ -89,8 +89,7 @@ static sbr_spring_state spring_state_of(
   return is;
 }
 
-/* Springs that bear nothing, between pinned points, are not among the island's; the others stand there in the
- * same order. */
+/* Springs between pinned points are not among the island's; the others are there in the same order. */
 uint32_t sbr_character_get_springs(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbr_spring_state *springs, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);

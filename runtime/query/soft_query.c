@@ -1,4 +1,4 @@
-/* How soft bodies move and are held: sbrun/soft_body.h. */
+/* Queries of motion and pins of soft bodies: sbrun/soft_body.h. */
 #include "math/vec3.h"
 #include "soft/soft.h"
 
@@ -37,7 +37,7 @@ uint32_t sbr_character_find_nearest_vertex(
   const sbri_character *c = sbri_character_of(world, character);
   uint32_t nearest = SBR_WHOLE_BODY, count = sbr_character_get_surface(world, character, soft_body, NULL, 0);
   if (!c || count == 0 || soft_body >= c->model->asset->soft_bodies.count) return nearest;
-  /* Which that call has found, in the character's own units. */
+  /* computed by that call, in the character's own units */
   const sbri_point *vertices = sbri_surface_vertices(c) + c->model->bodies[soft_body].first_vertex;
   sbr_double3 o = sbri_header(c)->origin;
   double min = 0, s = (double)c->scale;
@@ -57,7 +57,7 @@ static sbf_vec3 position_of(const sbri_character *c, const sbri_island *island, 
   return sbri_vec3(x->x, x->y, x->z);
 }
 
-/* The set's mean place and how many points it holds. */
+/* The mean position of the set and its number of points. */
 static sbr_pin_reaction begin_set(const sbri_character *c, uint32_t soft_body, uint32_t number) {
   const sbri_body *body = &c->model->bodies[soft_body];
   const sbri_island *island = &c->model->islands[body->island];
@@ -73,7 +73,7 @@ static sbr_pin_reaction begin_set(const sbri_character *c, uint32_t soft_body, u
   return r;
 }
 
-/* Elements pull on the places with `element_forces`: the pins push back with as much. */
+/* Adds the reactions to `element_forces` on the pinned points. */
 static void add_forces(const sbri_character *c, uint32_t soft_body, uint32_t number, sbr_pin_reaction *r) {
   const sbri_island *island = &c->model->islands[c->model->bodies[soft_body].island];
   const sbri_point *forces = sbri_element_forces(c) + island->first_slot;

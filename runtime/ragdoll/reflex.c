@@ -72,7 +72,7 @@ static float heading_of(sbf_quat rotation) {
   return sbri_atan2(front.x - front.y * up.x, front.z - front.y * up.z);
 }
 
-static void place_standing(const sbr_world *world, sbri_character *c) {
+static void set_standing_pose(const sbr_world *world, sbri_character *c) {
   int32_t body = hips_of(c);
   if (body < 0) return;
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
@@ -134,7 +134,7 @@ bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
     if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return false;
     drive->posture = SBR_POSTURE_RISING;
     drive->posture_s = 0;
-    place_standing(world, c);
+    set_standing_pose(world, c);
     return true;
   }
   float w = strength_of(drive);

@@ -45,7 +45,7 @@ static void *carve(unsigned char **memory, size_t count, size_t size) {
 
 /* Places the arrays from `memory` on; returns their size. The edges' arrays are in the order of their joints.
  */
-static size_t place_arrays(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_solving *work) {
+static size_t assign_arrays(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_solving *work) {
   unsigned char *at = memory;
   size_t bodies = m->body_count, joints = m->joint_count, rows = m->row_count,
          loop_rows = m->loop_row_capacity;
@@ -89,7 +89,7 @@ uint32_t sbri_rigid_contact_capacity(const sbri_rigid_model *model) {
 size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
   sbri_rigid_solving work;
   unsigned char none[16];
-  return model->body_count ? place_arrays(model, none, &work) : 0;
+  return model->body_count ? assign_arrays(model, none, &work) : 0;
 }
 
 static void assign_edge_arrays(const sbri_rigid_model *m, sbri_rigid_solving *work) {
@@ -372,7 +372,7 @@ static void break_joints(const sbri_rigid_tick *t) {
 }
 
 void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  place_arrays(t->model, t->work, work);
+  assign_arrays(t->model, t->work, work);
   sbri_part_motion *anchor = &work->motions[t->model->body_count];
   *anchor = (sbri_part_motion){.from = t->anchor, .to = t->anchor};
   sbri_rigid_tree_make(t, work);

@@ -16,8 +16,8 @@ void sbri_skin_compute_vertices(const sbr_model *model, const sbri_skin *skin, c
   }
 }
 
-/* Of the cones from the surface's first vertex: a third of the product of base vector and place. A quad
- * counts as its two triangles along the diagonal from its first corner. */
+/* Sum of the cones from the surface's first vertex: a third of the dot product of base vector and position. A
+ * quad counts as its two triangles along the diagonal from its first corner. */
 double sbri_skin_volume(const sbri_skin *skin, const sbri_point *vertices) {
   double six_fold = 0;
   if (skin->vertex_count == 0) return 0;

@@ -1,12 +1,14 @@
-/* Skins in eight lanes: vertices from points, faces from vertices, normals from faces. Written for the lanes
- * of the file that includes it; see model/kernels.h. Results are padded to whole blocks. */
+/* Skins in eight lanes: vertices from points, faces from vertices, normals from faces. Results are padded to
+ * whole blocks.
+ *
+ * Written for the lanes of the including file; see model/kernels.h. */
 #ifndef SBRI_SKIN_LANES_H
 #define SBRI_SKIN_LANES_H
 
 #include "math/reduce.h"
 #include "model/skin_tables.h"
 
-/* Vertices that points carry; 0 for the others. */
+/* Vertices that are embedded in points; 0 for the others. */
 static inline void sbri_lanes_compute_vertices(
     const sbri_skin *skin, const sbri_point *points, sbri_point *vertices) {
   uint32_t block_count = (skin->vertex_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
@@ -50,7 +52,7 @@ static inline void sbri_lanes_compute_faces(
     }
 }
 
-/* The tangent of every face, times its area in the texture. */
+/* The tangent of every face, times its area in texture space. */
 static inline void sbri_lanes_compute_tangents(
     const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces) {
   for (uint32_t block = 0; block < skin->face_block_count; block++)
@@ -63,7 +65,7 @@ static inline void sbri_lanes_compute_tangents(
     }
 }
 
-/* Sums of faces, one a group. */
+/* Sums of faces, one per group. */
 static inline void sbri_lanes_compute_sums(
     const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums) {
   uint32_t block_count = (table->group_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
@@ -80,7 +82,7 @@ static inline void sbri_lanes_compute_sums(
     }
 }
 
-/* Such sums as unit vectors; +Y where there is no area. */
+/* These sums as unit vectors; +Y if there is no area. */
 static inline void sbri_lanes_compute_normals(
     const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals) {
   sbri_lanes_compute_sums(table, faces, normals);
@@ -97,7 +99,7 @@ static inline void sbri_lanes_compute_normals(
   }
 }
 
-/* Faces as above, and the volume of the cones over them from the first corner of the first one. */
+/* The same faces, and the volume of the cones over them from the first corner of the first one. */
 static inline float sbri_lanes_volume(
     const sbri_face_block *blocks, uint32_t block_count, const sbri_point *vertices, sbri_point *faces) {
   float lanes[SBRI_BLOCK] = {0};

@@ -65,7 +65,7 @@ static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int co
 }
 
 /* Lists the intact tetrahedra with the slot as a corner. */
-static void query_around(splitting *s, uint32_t slot) {
+static void find_tetrahedra_around(splitting *s, uint32_t slot) {
   const sbri_tear_table *table = s->island->tears;
   uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
   s->count = 0;
@@ -103,7 +103,7 @@ static float volume_of(const splitting *s, uint32_t part) {
 
 /* Returns the number of groups that could not be split off. */
 static uint32_t split(splitting *s, uint32_t slot) {
-  query_around(s, slot);
+  find_tetrahedra_around(s, slot);
   s->part_count = 0;
   for (uint32_t i = 0; i < s->count; i++)
     if (s->parts[i] == SBRI_UNUSED) flood(s, i);

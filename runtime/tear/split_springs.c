@@ -51,7 +51,7 @@ static void claim(const fraying *f, spring_star *star, uint32_t node, uint32_t s
 }
 
 /* Each spring claims the point at its other end and the neighbours of that point; false: too many. */
-static bool query_around(const fraying *f, const sbri_network *network, uint32_t slot, spring_star *star) {
+static bool find_star(const fraying *f, const sbri_network *network, uint32_t slot, spring_star *star) {
   uint32_t origin = f->origins[slot];
   star->count = 0;
   for (sbri_network_end end = {0}; sbri_network_next(network, slot, &end);) {
@@ -87,7 +87,7 @@ static uint32_t fabric_of(const fraying *f, uint32_t spring) {
 }
 
 /* Whether the group separates from the point, because another group is larger. */
-static bool leaves(const fraying *f, uint32_t part) {
+static bool separates(const fraying *f, uint32_t part) {
   uint32_t size = size_of(&f->now, part), fabric = fabric_of(f, part);
   if (size < 2) return false;
   for (uint32_t other = 0; other < f->now.count; other++) {
@@ -149,14 +149,14 @@ static void move_spring(const fraying *f, uint32_t spring, uint32_t from, uint32
 /* Returns the number of groups that could not be split off. */
 static uint32_t split(fraying *f, uint32_t slot) {
   const sbri_island *island = &f->island;
-  if (!query_around(f, &f->whole, slot, &f->now) || size_of(&f->now, 0) == f->now.count) return 0;
-  if (!query_around(f, &f->rest, f->origins[slot], &f->made)) return 0;
+  if (!find_star(f, &f->whole, slot, &f->now) || size_of(&f->now, 0) == f->now.count) return 0;
+  if (!find_star(f, &f->rest, f->origins[slot], &f->made)) return 0;
   float all = 0, mass = island->masses[slot], left = mass;
   uint32_t unsplit = 0;
   bool leaving[MAX_SPRINGS];
   for (uint32_t i = 0; i < f->now.count; i++) {
     all += stiffness_of(f, slot, i);
-    leaving[i] = f->now.parts[i] == i && leaves(f, i);
+    leaving[i] = f->now.parts[i] == i && separates(f, i);
   }
   for (uint32_t part = 0; part < f->now.count; part++) {
     if (!leaving[part]) continue;

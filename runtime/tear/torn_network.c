@@ -42,7 +42,7 @@ static bool is_near(const sbri_torn_network *t, const sbri_network *network, uin
 static bool is_joined(const sbri_torn_network *t, const sbri_network *network, uint32_t a, uint32_t b) {
   return a < t->island.free_count ? is_near(t, network, a, b) : is_near(t, network, b, a);
 }
-static bool is_parted(const sbri_torn_network *t, uint32_t a, uint32_t b) {
+static bool is_separated(const sbri_torn_network *t, uint32_t a, uint32_t b) {
   return !is_joined(t, &t->whole, a, b) && is_joined(t, &t->rest, t->origins[a], t->origins[b]);
 }
 
@@ -69,8 +69,8 @@ static uint32_t heaviest_of(const carriers *is) {
 }
 
 /* The copy of a point, or the point itself, that is connected to `from`; SBRI_UNUSED: none. */
-static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t slot) {
-  if (!is_parted(t, from, slot)) return slot;
+static uint32_t connected_copy(const sbri_torn_network *t, uint32_t from, uint32_t slot) {
+  if (!is_separated(t, from, slot)) return slot;
   for (uint32_t b = 0; b < t->island.body_count; b++) {
     const sbri_body *body = &t->c->model->bodies[t->island.bodies[b]];
     if (t->origins[slot] < body->slot_begin || t->origins[slot] >= body->slot_real_end) continue;
@@ -89,7 +89,7 @@ static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
   for (uint32_t k = 0; k < CARRIERS; k++) {
     float sum = 0;
     for (uint32_t l = 0; l < CARRIERS; l++)
-      if (is->weights[l] > 0 && copy_beside(t, is->slots[k], is->slots[l]) != SBRI_UNUSED)
+      if (is->weights[l] > 0 && connected_copy(t, is->slots[k], is->slots[l]) != SBRI_UNUSED)
         sum += is->weights[l];
     if (is->weights[k] > 0 && sum > max + 1e-4f) best = k, max = sum;
   }
@@ -141,14 +141,14 @@ static bool has(const carriers *is, uint32_t count, uint32_t slot) {
 }
 
 /* Moves the vertex to one side: its remaining carriers, then other points of the side. */
-static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
+static void move_to_side(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
   carriers next = {{0}, {0}};
   double weights[CARRIERS];
   sbf_vec3 offsets[CARRIERS], position = rest_position(t, made);
   uint32_t count = 0, from = is->slots[side];
   float all = 0;
   for (uint32_t k = 0; k < CARRIERS; k++) {
-    uint32_t slot = is->weights[k] != 0 ? copy_beside(t, from, is->slots[k]) : SBRI_UNUSED;
+    uint32_t slot = is->weights[k] != 0 ? connected_copy(t, from, is->slots[k]) : SBRI_UNUSED;
     all += is->weights[k];
     if (slot != SBRI_UNUSED && !has(&next, count, slot)) next.slots[count++] = slot;
   }
@@ -175,16 +175,17 @@ bool sbri_network_vertex_follow(const sbri_torn_network *t, const sbri_skin *ski
   if (!near) return false;
   for (uint32_t k = 0; k < CARRIERS; k++)
     for (uint32_t l = 0; l < k; l++)
-      parted = parted || (is.weights[k] != 0 && is.weights[l] != 0 && is_parted(t, is.slots[k], is.slots[l]));
+      parted =
+          parted || (is.weights[k] != 0 && is.weights[l] != 0 && is_separated(t, is.slots[k], is.slots[l]));
   if (!parted) return true;
   uint32_t side = choose_side(t, &is);
   carriers copies = is;
   for (uint32_t k = 0; k < CARRIERS; k++) {
-    if (is.weights[k] != 0) copies.slots[k] = copy_beside(t, is.slots[side], is.slots[k]);
+    if (is.weights[k] != 0) copies.slots[k] = connected_copy(t, is.slots[side], is.slots[k]);
     lost = lost || copies.slots[k] == SBRI_UNUSED;
   }
   if (lost)
-    ride_on(t, &is, side, &made);
+    move_to_side(t, &is, side, &made);
   else
     is = copies;
   for (uint32_t k = 0; k < CARRIERS; k++)
@@ -201,5 +202,5 @@ bool sbri_network_vertices_part(
         bound->vertex % SBRI_BLOCK, t->island.first_slot);
     slots[i] = is.slots[heaviest_of(&is)];
   }
-  return is_parted(t, slots[0], slots[1]);
+  return is_separated(t, slots[0], slots[1]);
 }

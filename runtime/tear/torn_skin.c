@@ -91,9 +91,10 @@ static void move_weights(
   if (!(sum > 0)) return;
   for (uint32_t k = 0; k < 4; k++)
     position = sbfi_d3_add(position, sbfi_d3_scale(rest_corner(t, from, k), cells[k].weights[lane] / sum));
-  sbfi_d3 off = sbfi_d3_sub(position, rest_corner(t, to, 0));
-  weights.x = sbfi_d3_dot(element.gradients[1], off), weights.y = sbfi_d3_dot(element.gradients[2], off);
-  weights.z = sbfi_d3_dot(element.gradients[3], off);
+  sbfi_d3 offset = sbfi_d3_sub(position, rest_corner(t, to, 0));
+  weights.x = sbfi_d3_dot(element.gradients[1], offset),
+  weights.y = sbfi_d3_dot(element.gradients[2], offset);
+  weights.z = sbfi_d3_dot(element.gradients[3], offset);
   cells[0].weights[lane] = sum * (float)(1 - weights.x - weights.y - weights.z);
   cells[1].weights[lane] = sum * (float)weights.x;
   cells[2].weights[lane] = sum * (float)weights.y;
@@ -146,7 +147,7 @@ static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest
 }
 
 /* The tetrahedron of the vertex, at rest or now; SBRI_UNUSED: none of this island. */
-static uint32_t ridden(const tearing *t, const sbri_skin *skin, uint32_t vertex, bool at_rest) {
+static uint32_t tetrahedron_of(const tearing *t, const sbri_skin *skin, uint32_t vertex, bool at_rest) {
   uint32_t i = skin->binding_of[vertex];
   if (i == UINT32_MAX || skin->bindings[i].island != t->index) return SBRI_UNUSED;
   return at_rest ? skin->bindings[i].tetrahedron : sbri_bound_to(t->c)[skin->first_binding + i];
@@ -168,9 +169,9 @@ static bool is_torn(const tearing *t, const sbri_skin *skin, const uint32_t *poi
   for (uint32_t i = 0; i < size; i++) {
     uint32_t a = points[i], b = points[(i + 1) % size];
     if (spans_springs(t, skin, a, b)) return true;
-    uint32_t from = ridden(t, skin, a, false), to = ridden(t, skin, b, false);
+    uint32_t from = tetrahedron_of(t, skin, a, false), to = tetrahedron_of(t, skin, b, false);
     if (from == SBRI_UNUSED || to == SBRI_UNUSED || is_joined(t, from, to, false)) continue;
-    if (is_joined(t, ridden(t, skin, a, true), ridden(t, skin, b, true), true)) return true;
+    if (is_joined(t, tetrahedron_of(t, skin, a, true), tetrahedron_of(t, skin, b, true), true)) return true;
   }
   return false;
 }
