@@ -20,7 +20,7 @@ sbr_character_definition sbr_default_character_definition(void) {
 static bool reserve_work(sbr_world *world, size_t more) {
   size_t needed = more;
   for (uint32_t i = 0; i < world->character_capacity; i++)
-    needed += world->characters[i].model ? world->characters[i].model->base->max_islands : 0;
+    needed += world->characters[i].model ? world->characters[i].model->detail.base->detail.max_islands : 0;
   if (needed <= world->work_capacity) return true;
   sbri_work *grown = world->allocator.reallocate(
       world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
@@ -95,14 +95,14 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: the world holds its %u characters already: raise character_capacity",
         world->character_capacity);
-  uint32_t detail_level = definition->detail_level < model->detail_level_count
+  uint32_t detail_level = definition->detail_level < model->detail.level_count
                               ? definition->detail_level
-                              : model->detail_level_count - 1;
+                              : model->detail.level_count - 1;
   sbri_character_storage storage;
-  if (!sbri_character_storage_create(&world->allocator, model->levels[detail_level], &storage))
+  if (!sbri_character_storage_create(&world->allocator, model->detail.levels[detail_level], &storage))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   void **body_user_data = NULL;
-  if (!reserve_work(world, model->max_islands) || !sbri_body_contacts_reserve(world, model) ||
+  if (!reserve_work(world, model->detail.max_islands) || !sbri_body_contacts_reserve(world, model) ||
       !sbri_body_user_data_create(&world->allocator, model, &body_user_data)) {
     sbri_character_storage_free(&world->allocator, &storage);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");

@@ -96,7 +96,8 @@ void sbr_character_set_visibility(sbr_world *world, sbr_character_id character, 
 float sbr_character_get_error_px(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
   if (!c || !world->detail) return 0;
-  float error = c->model->base->detail_levels[sbri_header(c)->next_detail_level].error_m * c->scale;
+  float error =
+      c->model->detail.base->detail.definitions[sbri_header(c)->next_detail_level].error_m * c->scale;
   return sbri_pixels_of(world, c) * sbri_speed_factor(c) * error;
 }
 

@@ -4,9 +4,9 @@
 uint32_t sbr_model_get_detail_levels(
     const sbr_model *model, sbr_detail_level *detail_levels, uint32_t capacity) {
   if (!model) return 0;
-  for (uint32_t r = 0; detail_levels && r < model->detail_level_count && r < capacity; r++)
-    detail_levels[r] = model->detail_levels[r];
-  return model->detail_level_count;
+  for (uint32_t r = 0; detail_levels && r < model->detail.level_count && r < capacity; r++)
+    detail_levels[r] = model->detail.definitions[r];
+  return model->detail.level_count;
 }
 
 uint32_t sbr_character_get_detail_level(const sbr_world *world, sbr_character_id character) {
@@ -18,7 +18,7 @@ void sbr_character_set_detail_level(sbr_world *world, sbr_character_id character
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_DETAIL_LEVEL, (const double[]){character.value, detail_level});
-  uint32_t last = c->model->base->detail_level_count - 1;
+  uint32_t last = c->model->detail.base->detail.level_count - 1;
   if (detail_level != SBR_DETAIL_AUTOMATIC && detail_level > last) detail_level = last;
   sbri_header(c)->set_detail_level_plus_1 = detail_level + 1; /* 0: automatic */
   if (detail_level == SBR_DETAIL_AUTOMATIC) return;

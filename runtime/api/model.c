@@ -50,7 +50,7 @@ sbf_status sbr_model_create(
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
   *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_of(options->instructions)};
-  made->base = made;
+  made->detail.base = made;
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = sbri_model_prepare(made, options, error);
   if (status == SBF_OK) status = sbri_detail_levels_make(made, options, error);
@@ -76,7 +76,7 @@ sbr_instructions sbr_model_get_instructions(const sbr_model *model) {
 }
 
 static uint32_t substeps_at_rest(const sbri_island *island) {
-  return sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
+  return sbri_scheme_substeps(island, 1.0 / 60, island->springs.rest_stretch);
 }
 
 uint32_t sbr_model_get_substeps(const sbr_model *model) {

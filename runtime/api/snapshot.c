@@ -25,7 +25,7 @@ size_t sbr_world_get_snapshot_size(const sbr_world *world) {
   if (world) size += sbri_contact_cache_size(world);
   for (uint32_t i = 0; world && i < world->character_capacity; i++)
     if (world->characters[i].model)
-      size += sizeof(snapshot_part) + world->characters[i].model->base->max_state_size;
+      size += sizeof(snapshot_part) + world->characters[i].model->detail.base->detail.max_state_size;
   return world ? size : 0;
 }
 
@@ -61,9 +61,9 @@ static const sbr_model *model_of(
   sbri_character_state head;
   if (part->size < sizeof head || part->size > left) return NULL;
   memcpy(&head, state, sizeof head);
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   const sbr_model *model =
-      head.detail_level < base->detail_level_count ? base->levels[head.detail_level] : NULL;
+      head.detail_level < base->detail.level_count ? base->detail.levels[head.detail_level] : NULL;
   return model && part->size == model->layout.state_size ? model : NULL;
 }
 
@@ -124,7 +124,7 @@ static void hash_detail_level(sbfi_hash64 *hash, const sbri_character *c) {
       head->detail_level_ticks, head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks,
       head->fade_kept, head->swing_ticks};
   const float fractions[2] = {head->fade, head->fade_before};
-  const uint32_t *first = c->model->base->first_vertices;
+  const uint32_t *first = c->model->detail.base->detail.first_vertices;
   sbfi_hash64_add_u32(hash, words, 10);
   sbfi_hash64_add_f32(hash, fractions, 2);
   if (head->fade_before > 0 || head->fade_kept)
@@ -153,11 +153,11 @@ uint64_t sbr_world_get_state_hash(const sbr_world *world) {
     sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
         (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
     /* Positions, previous positions and velocities are adjacent. */
-    sbfi_hash64_add_f32(&hash, (const float *)(const void *)(c->state + l->positions),
-        (l->solids - l->positions) / sizeof(float));
-    sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
-        (l->used_size - l->solids) / sizeof(uint32_t));
-    if (c->model->base->detail_level_count > 1) hash_detail_level(&hash, c);
+    sbfi_hash64_add_f32(&hash, (const float *)(const void *)(c->state + l->points.positions),
+        (l->solids.blocks - l->points.positions) / sizeof(float));
+    sbfi_hash64_add_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids.blocks),
+        (l->used_size - l->solids.blocks) / sizeof(uint32_t));
+    if (c->model->detail.base->detail.level_count > 1) hash_detail_level(&hash, c);
   }
   for (uint32_t i = 0; world->body_contacts && i < world->body_contacts->cached_count; i++) {
     const sbri_cached_contact *m = &world->body_contacts->cached[i];

@@ -42,9 +42,9 @@ static bool find_body(const sbr_world *world, sbr_character_id character, uint32
 static bool find_vertex(
     soft_call *call, uint32_t vertex, bool may_be_whole, sbf_status *status, sbf_diagnostic *error) {
   if (vertex == SBR_WHOLE_BODY && may_be_whole) return true;
-  if (vertex >= call->body->surface.vertex_count)
+  if (vertex >= call->body->surface.skin.vertex_count)
     *status = sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: vertex %u: the surface has %u", call->name, vertex,
-        call->body->surface.vertex_count);
+        call->body->surface.skin.vertex_count);
   else if (sbri_vertex_carriers(call->c, call->body, vertex, &call->at))
     return true;
   else
@@ -91,7 +91,7 @@ sbf_status sbr_character_set_soft_velocity(sbr_world *world, sbr_character_id ch
   sbr_soft_motion is = sbri_body_motion(c, call.body);
   sbf_vec3 push = sbri_sub(sbri_scale(velocity, c->time_scale), is.velocity);
   sbf_vec3 turn = sbri_sub(sbri_scale(angular_velocity, 1 / c->time_scale), is.angular_velocity);
-  for (uint32_t slot = call.body->slot_begin; slot < call.body->slot_end; slot++) {
+  for (uint32_t slot = call.body->slots.begin; slot < call.body->slots.end; slot++) {
     if (!(now.masses[slot] > 0)) continue;
     sbf_vec3 arm = sbri_sub(sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z), is.center);
     add_velocity(velocity_of(c, call.body, slot), sbri_add(push, sbri_cross(turn, arm)));
@@ -111,7 +111,7 @@ static void apply_impulse(const soft_call *call, sbf_vec3 impulse) {
       add_velocity(velocity_of(c, call->body, slot), sbri_scale(part, now.inverse_masses[slot]));
       continue;
     }
-    int32_t carrier = now.rigid_body_of_pinned[slot - now.free_count];
+    int32_t carrier = now.pins.rigid_bodies[slot - now.free_count];
     const sbri_point *x = &sbri_positions(c)[now.first_slot + slot];
     if (carrier >= 0 && sbri_rigid_is_simulated(c, (uint32_t)carrier))
       sbri_rigid_apply_impulse(c, (uint32_t)carrier, sbri_vec3(x->x, x->y, x->z), part);
@@ -133,7 +133,7 @@ sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id c
   if (vertex == SBR_WHOLE_BODY) {
     const sbri_island now = sbri_island_now(call.c, &call.c->model->islands[call.body->island]);
     sbf_vec3 velocity_change = sbri_scale(own_impulse, 1 / sbri_body_mass(call.c, call.body));
-    for (uint32_t slot = call.body->slot_begin; slot < call.body->slot_end; slot++)
+    for (uint32_t slot = call.body->slots.begin; slot < call.body->slots.end; slot++)
       if (now.masses[slot] > 0) add_velocity(velocity_of(call.c, call.body, slot), velocity_change);
   } else {
     apply_impulse(&call, own_impulse);

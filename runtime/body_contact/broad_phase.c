@@ -16,16 +16,16 @@ static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const 
   const sbri_island *island = &c->model->islands[body->island];
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  uint32_t first = body->slot_begin < body->slot_real_end ? body->slot_begin : island->free_count;
+  uint32_t first = body->slots.begin < body->slots.real_end ? body->slots.begin : island->free_count;
   sbri_box box = sbri_box_of_point(sbri_vec3(points[first].x, points[first].y, points[first].z));
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
   for (uint32_t slot = island->free_count; body->is_pinned && slot < island->slot_count; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
   float margin = 2 * sbri_fastest_of(body, velocities) * (float)world->tick_s * c->time_scale +
                  MOTION_FRACTION * body->rest_size_m + body->source->collision.outer_thickness +
-                 body->margin_m + body->sample_beyond * (size.x + size.y + size.z);
+                 body->contact.margin_m + body->contact.sample_beyond * (size.x + size.y + size.z);
   return sbri_box_in_world(sbri_box_grown(box, margin), sbri_header(c)->origin, c->scale);
 }
 
@@ -51,7 +51,7 @@ static void add(sbri_body_contacts *all, sbri_contact_body body, sbri_box box) {
 static void list_character(sbr_world *world, uint32_t index) {
   const sbri_character *c = &world->characters[index];
   const sbr_model *model = c->model;
-  if (model->base->detail_levels[sbri_header(c)->detail_level].kind == SBR_DETAIL_OFFSCREEN)
+  if (model->detail.base->detail.definitions[sbri_header(c)->detail_level].kind == SBR_DETAIL_OFFSCREEN)
     return; /* no other character is near */
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &model->bodies[b];
@@ -61,7 +61,7 @@ static void list_character(sbr_world *world, uint32_t index) {
         (sbri_contact_body){.character = index,
             .body_index = b,
             .is_dynamic = true,
-            .self_contact = rule->self && !body->self_faces,
+            .self_contact = rule->self && !body->self.faces,
             .layer = rule->layer,
             .mask = rule->mask},
         soft_box(world, c, body));
@@ -101,8 +101,8 @@ static bool are_connected(const sbr_world *world, const sbri_contact_body *a, co
                                               b->body_index] == SBRI_REST_ADJACENT;
   const sbri_contact_body *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
   const sbri_island *island = &model->islands[model->bodies[soft->body_index].island];
-  for (uint32_t i = 0; i < island->carrier_count; i++)
-    if (island->carriers[i] == rigid->body_index) return true;
+  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
+    if (island->pins.carriers[i] == rigid->body_index) return true;
   return !rigid->is_dynamic && model->bodies[soft->body_index].is_pinned; /* its own bones are inside of it */
 }
 

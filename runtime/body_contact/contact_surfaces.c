@@ -9,7 +9,7 @@
 /* ---- Making ---- */
 
 static bool has_surface(const sbri_body *body) {
-  return body->level && body->surface.vertex_count > 0 && body->source->surface.polygon_sizes.count > 0;
+  return body->level && body->surface.skin.vertex_count > 0 && body->source->surface.polygon_sizes.count > 0;
 }
 
 static void add_triangles(const sbf_polygon_mesh *mesh, sbri_contact_surface *surface) {
@@ -54,8 +54,8 @@ static bool create(const sbr_model *model, const sbri_body *body, sbri_contact_s
     const sbri_contact_surface *first, sbfi_arena *arena) {
   const sbri_island *island = &model->islands[body->island];
   bool meshed = has_surface(body);
-  uint32_t bare = body->slot_real_end - body->slot_begin;
-  uint32_t vertices = meshed ? body->surface.vertex_count : bare;
+  uint32_t bare = body->slots.real_end - body->slots.begin;
+  uint32_t vertices = meshed ? body->surface.skin.vertex_count : bare;
   uint32_t triangles = meshed ? count_triangles(&body->source->surface) : 0;
   s->samples = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->samples);
   s->triangles = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->triangles);
@@ -64,15 +64,15 @@ static bool create(const sbr_model *model, const sbri_body *body, sbri_contact_s
     return false;
   s->vertex_count = vertices;
   for (uint32_t v = 0; v < vertices; v++) {
-    uint32_t slot = body->slot_begin + v;
-    s->samples[v] = meshed ? sbri_sample_of(island, &body->surface, v)
+    uint32_t slot = body->slots.begin + v;
+    s->samples[v] = meshed ? sbri_sample_of(island, &body->surface.skin, v)
                            : (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, 1, UINT32_MAX};
   }
   if (!meshed) return true;
   add_triangles(&body->source->surface, s);
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
-  s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
+  s->two_sided = measures.sheet || body->surface.rest_volume_m3 == 0;
   s->closed = !s->two_sided && sbri_contact_surface_is_closed(s);
   set_rest_positions(model, (uint32_t)(body - model->bodies), s);
   if (s->closed) sbri_contact_surface_measure(s);
@@ -85,10 +85,10 @@ static bool create(const sbr_model *model, const sbri_body *body, sbri_contact_s
 static void find_relations(sbr_world *world, uint32_t character, sbri_contact_surface *surfaces,
     sbri_contact_surface *hulls, uint8_t *relations, size_t count) {
   const sbri_body_contacts *all = world->body_contacts;
-  const sbr_model *model = world->characters[character].model->base;
+  const sbr_model *model = world->characters[character].model->detail.base;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbr_model *other = world->characters[i].model;
-    if (!other || other->base != model || !all->surfaces[i]) continue;
+    if (!other || other->detail.base != model || !all->surfaces[i]) continue;
     memcpy(relations, all->rest_relations[i], count);
     return;
   }
@@ -98,7 +98,7 @@ static void find_relations(sbr_world *world, uint32_t character, sbri_contact_su
 
 static uint32_t count_soft_levels(const sbr_model *base) {
   uint32_t count = 0;
-  while (count < base->detail_level_count && base->detail_levels[count].kind == SBR_DETAIL_SOFT) count++;
+  while (count < base->detail.level_count && base->detail.definitions[count].kind == SBR_DETAIL_SOFT) count++;
   return count;
 }
 
@@ -107,9 +107,10 @@ static bool create_all(const sbr_model *base, sbri_contact_surface *surfaces, sb
   uint32_t count = base->asset->soft_bodies.count;
   for (uint32_t r = 0; r < count_soft_levels(base); r++)
     for (uint32_t b = 0; b < count; b++) {
-      const sbri_body *body = &base->levels[r]->bodies[b];
+      const sbri_body *body = &base->detail.levels[r]->bodies[b];
       const sbri_contact_surface *first = r > 0 && base->bodies[b].level ? &surfaces[b] : NULL;
-      if (body->level && !create(base->levels[r], body, &surfaces[(size_t)r * count + b], first, arena))
+      if (body->level &&
+          !create(base->detail.levels[r], body, &surfaces[(size_t)r * count + b], first, arena))
         return false;
     }
   return true;
@@ -119,8 +120,8 @@ void sbri_contact_surfaces_select_level(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
   const sbr_model *model = world->characters[character].model;
   if (!all || !model || !all->level_surfaces[character]) return;
-  for (uint32_t r = 0; r < count_soft_levels(model->base); r++)
-    if (model->base->levels[r] == model)
+  for (uint32_t r = 0; r < count_soft_levels(model->detail.base); r++)
+    if (model->detail.base->detail.levels[r] == model)
       all->surfaces[character] = all->level_surfaces[character] + (size_t)r * model->asset->soft_bodies.count;
 }
 
@@ -128,13 +129,13 @@ bool sbri_contact_surfaces_create(sbr_world *world, uint32_t character) {
   sbri_body_contacts *all = world->body_contacts;
   const sbr_model *model = world->characters[character].model;
   if (!all || all->surfaces[character]) return true;
-  uint32_t count = model->asset->soft_bodies.count, levels = count_soft_levels(model->base),
+  uint32_t count = model->asset->soft_bodies.count, levels = count_soft_levels(model->detail.base),
            rigid = model->rigid.body_count;
   size_t pairs = (size_t)count * count + (size_t)count * rigid;
   sbfi_arena *arena = &all->arenas[character];
   sbfi_arena_init(arena, &world->allocator, 0);
   sbri_contact_surface *surfaces = sbfi_arena_allocate(arena, (size_t)levels * count + 1, sizeof *surfaces);
-  bool ok = surfaces && create_all(model->base, surfaces, arena);
+  bool ok = surfaces && create_all(model->detail.base, surfaces, arena);
   sbri_contact_surface *hulls = ok ? sbfi_arena_allocate(arena, (size_t)rigid + 1, sizeof *hulls) : NULL;
   ok = hulls && sbri_contact_hulls_create(model, hulls, arena);
   uint8_t *relations = ok ? sbfi_arena_allocate(arena, pairs + 1, 1) : NULL;
@@ -255,7 +256,7 @@ void sbri_contact_surface_update(sbr_world *world, const sbri_group_member *m, u
   const sbri_point *points = sbri_positions(c) + island->first_slot;
   if (island->splits && s->triangle_count) {
     sbri_island now = sbri_island_now(c, island);
-    sbri_skin skin = sbri_skin_now(c, &body->surface);
+    sbri_skin skin = sbri_skin_now(c, &body->surface.skin);
     for (uint32_t v = 0; v < s->vertex_count; v++) s->samples[v] = sbri_sample_of(&now, &skin, v);
   }
   for (uint32_t v = 0; v < s->vertex_count; v++) {

@@ -27,7 +27,7 @@ static sbri_pair_body pair_body_of(const sbri_narrow_phase *f, uint32_t number) 
   } else {
     p.soft = &model->bodies[body->body_index];
     p.surface = &f->world->body_contacts->surfaces[body->character][body->body_index];
-    p.friction = p.soft->friction, p.restitution = p.soft->restitution;
+    p.friction = p.soft->contact.friction, p.restitution = p.soft->contact.restitution;
   }
   return p;
 }
@@ -197,7 +197,7 @@ static void find_hull_vertex_contacts(
     const sbri_narrow_phase *f, const sbri_pair_body *soft, const sbri_pair_body *rigid) {
   sbr_transform source = sbri_pair_body_frame(rigid, false), to = sbri_pair_body_frame(rigid, true);
   const sbri_hull *hull = &rigid->rigid->hull;
-  float scale = rigid->owner->scale, margin = soft->soft->margin_m * soft->owner->scale;
+  float scale = rigid->owner->scale, margin = soft->soft->contact.margin_m * soft->owner->scale;
   const float full_weight = 1;
   for (uint32_t v = 0; v < soft->surface->vertex_count; v++) {
     if (!(soft->surface->samples[v].mass_kg > 0)) continue;

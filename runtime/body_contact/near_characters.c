@@ -8,12 +8,12 @@ static const float LOOKAHEAD_S = 0.5f, SIZE_FRACTION = 0.1f;
 
 /* Bounds of its bones, grown by its soft bodies and its predicted motion. */
 static sbri_box box_of(const sbr_world *world, const sbri_character *c) {
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   const sbr_transform *pose = sbri_pose(c), *before = sbri_previous_pose(c);
   sbf_vec3 root = pose[sbri_root_frame(base)].position;
-  float size = base->rig.bone_count ? 0 : base->rest_size_m, displacement = 0;
-  sbri_box box = sbri_box_of_point(base->rig.bone_count ? pose[0].position : root);
-  for (uint32_t f = 0; f < base->rig.bone_count; f++) {
+  float size = base->rig.bones.count ? 0 : base->rest_size_m, displacement = 0;
+  sbri_box box = sbri_box_of_point(base->rig.bones.count ? pose[0].position : root);
+  for (uint32_t f = 0; f < base->rig.bones.count; f++) {
     box = sbri_box_with(box, pose[f].position);
     displacement = fmaxf(displacement, sbri_length(sbri_sub(pose[f].position, before[f].position)));
   }
@@ -32,7 +32,7 @@ static bool has_contact_bodies(const sbri_character *c) {
 }
 
 static bool has_detail_levels(const sbri_character *c) {
-  return c->model->base->detail_level_count > 1;
+  return c->model->detail.base->detail.level_count > 1;
 }
 
 void sbri_near_characters_find(sbr_world *world) {

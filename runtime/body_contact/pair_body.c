@@ -99,7 +99,7 @@ float sbri_pair_body_thickness(const sbri_pair_body *p) {
 }
 
 float sbri_pair_margin(const sbri_pair_body *a, const sbri_pair_body *b) {
-  float own = a->soft ? a->soft->margin_m * a->owner->scale : 0;
+  float own = a->soft ? a->soft->contact.margin_m * a->owner->scale : 0;
   float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->owner->scale : 0;
   return own > other ? own : other;
 }

@@ -15,18 +15,18 @@
 static void convert_planes_to_contacts(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   uint32_t *count = &tables->contact_counts[body - t->model->bodies];
-  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
+  for (uint32_t block = body->slots.begin / SBRI_BLOCK; block < body->slots.end / SBRI_BLOCK; block++) {
     if (!tables->near_ground[block]) continue;
     tables->near_ground[block] = 0;
     const float *plane = tables->planes + (size_t)block * 4 * SBRI_BLOCK;
-    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->max_contacts; lane++) {
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->contact.max_count; lane++) {
       sbri_sample s = sbri_point_sample(t, block * SBRI_BLOCK + lane);
-      if (s.slots[0] >= body->slot_real_end || !(s.mass_kg > 0)) continue;
-      tables->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = s,
+      if (s.slots[0] >= body->slots.real_end || !(s.mass_kg > 0)) continue;
+      tables->contacts[body->contact.first + (*count)++] = (sbri_soft_contact){.sample = s,
           .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
           .offset = plane[3 * SBRI_BLOCK + lane],
           .friction_scale = 1,
-          .restitution = body->restitution,
+          .restitution = body->contact.restitution,
           .collider = SBRI_NO_COLLIDER};
     }
   }
@@ -36,9 +36,9 @@ static void convert_planes_to_contacts(
  * points. */
 static void find_single_contacts(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  sbri_soft_contact *contacts = tables->contacts + body->first_soft_contact;
+  sbri_soft_contact *contacts = tables->contacts + body->contact.first;
   uint32_t count = tables->contact_counts[body - t->model->bodies];
-  memset(tables->slot_contacts + body->slot_begin, 0, body->slot_end - body->slot_begin);
+  memset(tables->slot_contacts + body->slots.begin, 0, body->slots.end - body->slots.begin);
   for (uint32_t i = 0; i < count; i++)
     for (int k = 0; k < 4; k++) {
       uint32_t slot = contacts[i].sample.slots[k];
@@ -56,23 +56,23 @@ static void find_single_contacts(
 void sbri_contact_prepare(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   tables->contact_counts[body - t->model->bodies] = 0;
-  t->contact_block_counts[body - t->model->bodies] = 0;
-  if (body->slot_begin == body->slot_end) return;
-  if (body->samples)
+  t->contacts.block_counts[body - t->model->bodies] = 0;
+  if (body->slots.begin == body->slots.end) return;
+  if (body->contact.samples)
     sbri_ground_contacts_add(t, body, tables);
   else
     sbri_ground_planes_find(t, body, tables);
   uint32_t *count = &tables->contact_counts[body - t->model->bodies], first_shape_contact = *count;
   tables->external_bodies->count = 0;
   sbri_soft_shape_contacts_add(t, body, tables);
-  if (body->self_face_count) {
+  if (body->self.face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
     sbri_self_contacts_add(t, body, tables, &tree);
   }
-  if (*count > first_shape_contact && !body->samples) {
+  if (*count > first_shape_contact && !body->contact.samples) {
     convert_planes_to_contacts(t, body, tables);
     find_single_contacts(t, body, tables);
   }
-  SBF_ASSERT(*count <= body->max_contacts);
+  SBF_ASSERT(*count <= body->contact.max_count);
   sbri_contact_blocks_fill(t, body);
 }

@@ -22,11 +22,11 @@ float sbri_contact_friction_at(
 /* Number of blocks of the body in this tick; 0: its contacts are solved in sequence
  * (solvers/soft_contacts.h). */
 static inline uint32_t sbri_contact_block_count(const sbri_island_tick *t, const sbri_body *body) {
-  return t->contact_block_counts ? t->contact_block_counts[body - t->model->bodies] : 0;
+  return t->contacts.block_counts ? t->contacts.block_counts[body - t->model->bodies] : 0;
 }
 
 static inline sbri_contact_block *sbri_contact_blocks_of(const sbri_island_tick *t, const sbri_body *body) {
-  return t->contact_blocks + body->first_contact_block;
+  return t->contacts.blocks + body->contact.first_block;
 }
 
 #endif

@@ -22,13 +22,14 @@ float sbri_contact_friction_at(
     const sbri_island_tick *t, const sbri_body *body, const sbri_soft_contact *contact) {
   const sbri_sample *s = &contact->sample;
   if (contact->crosses) return 0;
-  if (!body->frictions) return body->friction * contact->friction_scale;
+  if (!body->contact.frictions) return body->contact.friction * contact->friction_scale;
   float sum = 0;
   if (contact->collider == SBRI_ITSELF) /* that of the point only */
-    return s->slots[0] < t->island->free_count ? body->frictions[s->slots[0]] : body->friction;
+    return s->slots[0] < t->island->free_count ? body->contact.frictions[s->slots[0]]
+                                               : body->contact.friction;
   for (int k = 0; k < 4; k++) {
     bool free = s->slots[k] < t->island->free_count;
-    sum += s->weights[k] * (free ? body->frictions[s->slots[k]] : body->friction);
+    sum += s->weights[k] * (free ? body->contact.frictions[s->slots[k]] : body->contact.friction);
   }
   return sum > 0 ? sum * contact->friction_scale : 0;
 }
@@ -50,7 +51,7 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
     bool free = slot < island->free_count;
     block->slots[k][lane] = slot, block->weights[k][lane] = s->weights[k];
     block->responses[k][lane] = free ? s->weights[k] * island->inverse_masses[slot] * s->mass_kg : 0;
-    t->contact_slots[slot / SBRI_BLOCK] = 1;
+    t->contacts.slots[slot / SBRI_BLOCK] = 1;
   }
   set3(block->normal, lane, contact->normal);
   set3(block->velocity, lane, contact->velocity);
@@ -68,11 +69,11 @@ static void fill_unused(sbri_contact_block *block, uint32_t lane) {
 
 void sbri_contact_blocks_fill(const sbri_island_tick *t, const sbri_body *body) {
   uint32_t count = sbri_soft_contact_count(t, body), filled = 0;
-  const sbri_soft_contact *contacts = t->contacts + body->first_soft_contact;
+  const sbri_soft_contact *contacts = t->contacts.at + body->contact.first;
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   float near = NEAR_FRACTION * body->rest_size_m;
-  t->contact_block_counts[body - t->model->bodies] = 0;
-  if (count > body->max_contact_blocks * SBRI_BLOCK || !have_only_plane_contacts(contacts, count)) return;
+  t->contacts.block_counts[body - t->model->bodies] = 0;
+  if (count > body->contact.max_blocks * SBRI_BLOCK || !have_only_plane_contacts(contacts, count)) return;
   /* Contacts that probably touch share blocks, so that other blocks are idle as a whole. */
   for (int pass = 0; pass < 2; pass++)
     for (uint32_t i = 0; i < count; i++) {
@@ -86,7 +87,7 @@ void sbri_contact_blocks_fill(const sbri_island_tick *t, const sbri_body *body) 
       filled++;
     }
   for (; filled % SBRI_BLOCK; filled++) fill_unused(&blocks[filled / SBRI_BLOCK], filled % SBRI_BLOCK);
-  t->contact_block_counts[body - t->model->bodies] = filled / SBRI_BLOCK;
+  t->contacts.block_counts[body - t->model->bodies] = filled / SBRI_BLOCK;
 }
 
 void sbri_contact_blocks_unpack(const sbri_island_tick *t, const sbri_body *body) {
@@ -95,7 +96,7 @@ void sbri_contact_blocks_unpack(const sbri_island_tick *t, const sbri_body *body
     sbri_contact_block *block = sbri_contact_blocks_of(t, body) + i / SBRI_BLOCK;
     uint32_t lane = i % SBRI_BLOCK;
     if (block->contacts[lane] == UINT32_MAX) continue;
-    sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + block->contacts[lane]];
+    sbri_soft_contact *contact = &t->contacts.at[body->contact.first + block->contacts[lane]];
     contact->offset = block->offset[lane];
     contact->velocity_change = block->velocity_change[lane];
     contact->friction_impulse = get3(block->friction_impulse, lane);

@@ -28,7 +28,7 @@ static void extend(extent *e, const sbri_point *p) {
 static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   extent e = {{0}, {0}, 0, false};
   float squares = 0;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     sbf_vec3 v = sbri_point_velocity(t, slot);
     float square = sbri_dot(v, v);
     squares = square > squares ? square : squares;
@@ -47,7 +47,7 @@ static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body
     extend(&e, &t->positions[slot]);
   }
   for (int k = 0; k < 3; k++) {
-    float overhang = body->sample_beyond * (e.high[k] - e.low[k]);
+    float overhang = body->contact.sample_beyond * (e.high[k] - e.low[k]);
     e.low[k] -= overhang, e.high[k] += overhang;
   }
   return e;
@@ -55,15 +55,18 @@ static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body
 
 /* Height under a point in asset metres relative to the origin, and the ground's normal there. */
 static float height_at(const sbri_island_tick *t, float x, float z, sbf_vec3 *normal) {
-  double world_x = t->origin.x + (double)t->scale * x, world_z = t->origin.z + (double)t->scale * z;
-  return (float)((sbri_ground_height(t->ground, world_x, world_z, normal) - t->origin.y) / t->scale);
+  double world_x = t->environment.origin.x + (double)t->environment.scale * x,
+         world_z = t->environment.origin.z + (double)t->environment.scale * z;
+  return (
+      float)((sbri_ground_height(t->environment.ground, world_x, world_z, normal) - t->environment.origin.y) /
+             t->environment.scale);
 }
 
 /* Height of flat ground in the same frame; false if the ground is not flat. */
 static bool is_ground_flat(const sbri_island_tick *t, float *height) {
   double flat;
-  if (!sbri_ground_is_flat(t->ground, &flat)) return false;
-  *height = (float)((flat - t->origin.y) / t->scale);
+  if (!sbri_ground_is_flat(t->environment.ground, &flat)) return false;
+  *height = (float)((flat - t->environment.origin.y) / t->environment.scale);
   return true;
 }
 
@@ -88,8 +91,8 @@ static float reach_of(const sbri_island_tick *t, const extent *e, float displace
 static void store_ground_speed(
     const sbri_island_tick *t, uint32_t slot, sbf_vec3 normal, float height, sbri_touching *touched) {
   float closing = -sbri_dot(normal, sbri_point_velocity(t, slot)), gap = height * normal.y;
-  float gravity_speed =
-      sbri_length(t->gravity) * t->tick_s; /* pinned points just above the ground may be slower than this */
+  float gravity_speed = sbri_length(t->environment.gravity) *
+                        t->tick_s; /* pinned points just above the ground may be slower than this */
   float mean = closing > gravity_speed ? closing + 0.5f * gravity_speed : closing;
   if (!(closing > touched->ground_speed) || gap > mean * t->tick_s) return;
   const sbri_point *p = &t->positions[slot];
@@ -104,7 +107,7 @@ void sbri_ground_planes_find(
   float displacement = 2 * e.speed * t->tick_s + SBRI_MOTION_FRACTION * body->rest_size_m;
   to->touched->ground_speed = 0;
   float reach = reach_of(t, &e, displacement);
-  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
+  for (uint32_t block = body->slots.begin / SBRI_BLOCK; block < body->slots.end / SBRI_BLOCK; block++) {
     const sbri_point *points = t->positions + block * SBRI_BLOCK;
     to->near_ground[block] = 0;
     for (int lane = 0; lane < SBRI_BLOCK; lane++)
@@ -118,7 +121,7 @@ void sbri_ground_planes_find(
       plane[lane] = n.x, plane[SBRI_BLOCK + lane] = n.y, plane[2 * SBRI_BLOCK + lane] = n.z;
       plane[3 * SBRI_BLOCK + lane] = n.x * points[lane].x + n.y * y + n.z * points[lane].z;
       uint32_t slot = block * SBRI_BLOCK + (uint32_t)lane;
-      if (slot < body->slot_real_end) store_ground_speed(t, slot, n, points[lane].y - y, to->touched);
+      if (slot < body->slots.real_end) store_ground_speed(t, slot, n, points[lane].y - y, to->touched);
     }
   }
 }
@@ -126,18 +129,18 @@ void sbri_ground_planes_find(
 /* Distance by which a sample may approach the ground in a tick beyond twice its present displacement, m: by
  * gravity, and by springs and bones that accelerate it to more than the maximum speed of the body. */
 static float margin_of(const sbri_island_tick *t, const sbri_body *body, float fastest) {
-  float extra_speed = 0.5f * sbri_length(t->gravity) * t->tick_s + 2 * fastest;
+  float extra_speed = 0.5f * sbri_length(t->environment.gravity) * t->tick_s + 2 * fastest;
   return t->tick_s * extra_speed + MIN_MARGIN_FRACTION * body->rest_size_m;
 }
 
 static void add_contact(const sbri_island_tick *t, const sbri_body *body, const sbri_sample *s,
     sbf_vec3 normal, float offset, const sbri_contact_tables *to) {
   uint32_t *count = &to->contact_counts[body - t->model->bodies];
-  to->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = *s,
+  to->contacts[body->contact.first + (*count)++] = (sbri_soft_contact){.sample = *s,
       .normal = normal,
       .offset = offset,
       .friction_scale = 1,
-      .restitution = body->restitution,
+      .restitution = body->contact.restitution,
       .collider = SBRI_NO_COLLIDER};
 }
 
@@ -179,7 +182,7 @@ static void find_heights(const flat_search *f, uint32_t begin, uint32_t end, sbr
 
 static void add_group(const flat_search *f, const sbri_sample_group *group) {
   for (uint32_t i = group->first; i < group->end; i++) {
-    const sbri_sample *s = &f->body->samples[i];
+    const sbri_sample *s = &f->body->contact.samples[i];
     float gap = 0, rise = 0;
     for (int k = 0; k < 4; k++) {
       const sbri_point *p = &f->heights[s->slots[k]];
@@ -192,31 +195,33 @@ static void add_group(const flat_search *f, const sbri_sample_group *group) {
 
 static void add_on_flat_ground(const flat_search *f, float reach) {
   const sbri_island *island = f->tick->island;
-  find_heights(f, f->body->slot_begin, f->body->slot_end, f->tick->velocity_points);
-  if (f->body->is_pinned) find_heights(f, island->free_count, island->slot_count, f->tick->velocity_points);
-  for (uint32_t g = 0; g < f->body->sample_group_count; g++)
-    if (min_height(f->tick, &f->body->sample_groups[g]) <= reach) add_group(f, &f->body->sample_groups[g]);
+  find_heights(f, f->body->slots.begin, f->body->slots.end, f->tick->scratch.velocity_points);
+  if (f->body->is_pinned)
+    find_heights(f, island->free_count, island->slot_count, f->tick->scratch.velocity_points);
+  for (uint32_t g = 0; g < f->body->contact.sample_group_count; g++)
+    if (min_height(f->tick, &f->body->contact.sample_groups[g]) <= reach)
+      add_group(f, &f->body->contact.sample_groups[g]);
 }
 
 void sbri_ground_contacts_add(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
-  uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->contact_counts[body - t->model->bodies];
-  memset(to->near_ground + first, 0, body->slot_end / SBRI_BLOCK - first);
+  uint32_t first = body->slots.begin / SBRI_BLOCK, *count = &to->contact_counts[body - t->model->bodies];
+  memset(to->near_ground + first, 0, body->slots.end / SBRI_BLOCK - first);
   *count = 0;
   extent e = extent_of_samples(t, body);
   float margin = margin_of(t, body, e.speed), height = 0;
   const bool is_flat = is_ground_flat(t, &height) && !t->island->splits;
-  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * 2 * t->tick_s + margin);
+  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->contact.sample_beyond) * 2 * t->tick_s + margin);
   if (e.low[1] > reach) return;
   if (is_flat) {
-    add_on_flat_ground(&(flat_search){t, body, to, height, margin, t->velocity_points}, reach);
+    add_on_flat_ground(&(flat_search){t, body, to, height, margin, t->scratch.velocity_points}, reach);
     return;
   }
-  for (uint32_t g = 0; g < body->sample_group_count; g++) {
-    const sbri_sample_group *group = &body->sample_groups[g];
+  for (uint32_t g = 0; g < body->contact.sample_group_count; g++) {
+    const sbri_sample_group *group = &body->contact.sample_groups[g];
     if (!t->island->splits && min_height(t, group) > reach) continue;
     for (uint32_t i = group->first; i < group->end; i++) {
-      sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
+      sbri_sample s = sbri_sample_now(t, &body->contact.samples[i], to->surface);
       add_sample(t, body, &s, margin, to);
     }
   }

@@ -41,8 +41,8 @@ static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
 }
 
 static void make_bounds(const sbri_self_looking *l, sbri_box *boxes, sbri_moving_ball *balls) {
-  for (uint32_t f = 0; f < l->body->self_face_count; f++) {
-    const uint32_t *c = l->body->self_faces + 3 * (size_t)f;
+  for (uint32_t f = 0; f < l->body->self.face_count; f++) {
+    const uint32_t *c = l->body->self.faces + 3 * (size_t)f;
     boxes[f] = sbri_self_swept(l->tick, c[0], l->rule.outer);
     for (int k = 1; k < 3; k++)
       boxes[f] = sbri_box_join(boxes[f], sbri_self_swept(l->tick, c[k], l->rule.outer));
@@ -70,7 +70,7 @@ static contact_point contact_point_of(const sbri_self_looking *l, uint32_t slot)
 
 /* Whether the point may approach the triangle or be behind it. */
 static bool may_intersect(const sbri_self_looking *l, const contact_point *p, uint32_t number) {
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   const sbri_moving_ball *ball = &l->balls[number];
   sbf_vec3 offset = sbri_sub(p->x, ball->middle);
   float max = ball->radius + 2 * ball->distance + p->reach;
@@ -80,7 +80,7 @@ static bool may_intersect(const sbri_self_looking *l, const contact_point *p, ui
 
 static sbri_surface_hit check(const sbri_self_looking *l, const contact_point *at, uint32_t number) {
   const sbri_island_tick *t = l->tick;
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   sbri_surface_face face;
   for (int k = 0; k < 3; k++)
     face.at[k] = sbri_self_position(t->positions, c[k]), face.directions[k] = sbri_self_displacement(t, c[k]);
@@ -129,7 +129,7 @@ static void query_point(const sbri_self_looking *l, const contact_point *p, poin
     if (!may_intersect(l, p, item)) continue;
     sbri_surface_hit one = check(l, p, item);
     if (one.urgency == INFINITY && (l->rule.two_sided || one.before == INFINITY)) continue;
-    if (is_connected(l->body, p->slot, l->body->self_faces + 3 * (size_t)item)) {
+    if (is_connected(l->body, p->slot, l->body->self.faces + 3 * (size_t)item)) {
       merge_hit(&a->connected, &one);
       continue;
     }
@@ -159,14 +159,14 @@ static bool find_opposite(
   while (sbri_bounds_walk_next(&walk, &item)) {
     if (!may_intersect(l, p, item)) continue;
     sbri_surface_hit one = check(l, p, item);
-    if (!one.behind && !is_connected(l->body, p->slot, l->body->self_faces + 3 * (size_t)item))
+    if (!one.behind && !is_connected(l->body, p->slot, l->body->self.faces + 3 * (size_t)item))
       take_opposite(&one, &a->best, best);
   }
   return sbri_surface_found(best);
 }
 
 static void add(const sbri_self_looking *l, uint32_t slot, const sbri_surface_hit *found, float thickness) {
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)found->face, slots[4] = {slot, c[0], c[1], c[2]};
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)found->face, slots[4] = {slot, c[0], c[1], c[2]};
   const float weights[4] = {1, -found->weights[0], -found->weights[1], -found->weights[2]};
   sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
   sbri_self_add(l, &s, found->normal, rest_gap(l, slot, c), thickness, false);
@@ -190,12 +190,12 @@ void sbri_self_contacts_add(const sbri_island_tick *t, const sbri_body *body,
   const sbf_collision *rule = &body->source->collision;
   sbri_self_looking l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
       {rule->outer_thickness + NEAR_FRACTION * body->rest_size_m, rule->inner_thickness,
-          body->is_sheet || body->rest_volume_m3 == 0}};
+          body->self.is_sheet || body->surface.rest_volume_m3 == 0}};
   uint32_t *count = &tables->contact_counts[body - t->model->bodies], before = *count;
   make_bounds(&l, tables->self_boxes, tables->self_balls);
-  sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
+  sbri_bounds_tree_make(tree, tables->self_boxes, body->self.face_count);
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) add_point(&l, slot);
   if (l.rule.two_sided) sbri_self_edges_add(&l);
   /* A sheet that intersects itself has some contact; a deep point of a closed surface may have none. */
-  if ((*count > before || !l.rule.two_sided) && !body->is_tangled) sbri_self_crossings_add(&l);
+  if ((*count > before || !l.rule.two_sided) && !body->self.is_tangled) sbri_self_crossings_add(&l);
 }

@@ -28,10 +28,10 @@ static sbf_vec3 position(const crossing_edge *s, uint32_t slot) {
 }
 
 static crossing_edge edge_of(const sbri_self_looking *l, uint32_t number) {
-  const uint32_t *c = l->body->self_faces + number / 3 * 3;
+  const uint32_t *c = l->body->self.faces + number / 3 * 3;
   crossing_edge s = {.looking = l,
       .ends = {c[number % 3], c[(number + 1) % 3]},
-      .beside = {c[(number + 2) % 3], l->body->self_sides[number]}};
+      .beside = {c[(number + 2) % 3], l->body->self.sides[number]}};
   s.from = position(&s, s.ends[0]);
   s.displacement = sbri_sub(position(&s, s.ends[1]), s.from);
   return s;
@@ -86,7 +86,7 @@ static sbri_sample sample_of(
 
 static void add_crossing(const crossing_edge *s, uint32_t number) {
   const sbri_self_looking *l = s->looking;
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   uint32_t *count = &l->tables->contact_counts[l->body - l->tick->model->bodies];
   sbf_vec3 p[3];
   for (int k = 0; k < 3; k++) {
@@ -94,14 +94,14 @@ static void add_crossing(const crossing_edge *s, uint32_t number) {
     p[k] = position(s, c[k]);
   }
   float fraction = sbri_triangle_cross(s->from, s->displacement, p[0], p[1], p[2]), weights[3];
-  if (fraction < 0 || *count >= l->body->max_contacts || are_together(s, c)) return;
+  if (fraction < 0 || *count >= l->body->contact.max_count || are_together(s, c)) return;
   sbri_triangle_find_nearest(sbri_add_scaled(s->from, s->displacement, fraction), p[0], p[1], p[2], weights);
   sbri_sample sample = sample_of(s, fraction, c, weights);
   sbf_vec3 direction = exit_displacement(s, p);
   float bend = sbri_length(direction);
   if (!(bend > 1e-3f) || !(sample.mass_kg > 0)) return;
   sbf_vec3 n = sbri_scale(direction, 1 / bend);
-  l->tables->contacts[l->body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = sample,
+  l->tables->contacts[l->body->contact.first + (*count)++] = (sbri_soft_contact){.sample = sample,
       .normal = n,
       .offset = sbri_dot(n, sbri_sample_position(l->tick, &sample)),
       .velocity = sbri_scale(n, EXIT_M_S * sbri_min(bend / FULL_BEND, 1)),
@@ -118,7 +118,7 @@ typedef struct plane_triangle {
 } plane_triangle;
 
 static plane_triangle plane_triangle_of(const sbri_self_looking *l, uint32_t number) {
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)number;
   const sbri_point *at = l->tick->positions;
   sbf_vec3 p[3];
   for (int k = 0; k < 3; k++) p[k] = sbri_self_position(at, c[k]);
@@ -144,21 +144,21 @@ static bool cannot_cross(const sbri_self_looking *l, const plane_triangle *f, co
  * triangle in the table. */
 static void add_crossings(const sbri_self_looking *l, uint32_t of, uint32_t number) {
   for (uint32_t i = 3 * of; i < 3 * of + 3; i++) {
-    if (l->body->self_sides[i] == SBRI_SAME_SIDE) continue;
+    if (l->body->self.sides[i] == SBRI_SAME_SIDE) continue;
     crossing_edge s = edge_of(l, i);
     add_crossing(&s, number);
   }
 }
 
 void sbri_self_crossings_add(const sbri_self_looking *l) {
-  for (uint32_t number = 0; number < l->body->self_face_count; number++) {
+  for (uint32_t number = 0; number < l->body->self.face_count; number++) {
     const plane_triangle f = plane_triangle_of(l, number);
     sbri_bounds_walk walk;
     uint32_t other;
     sbri_bounds_walk_begin(&walk, l->tree, f.box);
     while (sbri_bounds_walk_next(&walk, &other)) {
       if (other <= number || !sbri_boxes_overlap(&f.box, &l->boxes[other])) continue;
-      if (cannot_cross(l, &f, l->body->self_faces + 3 * (size_t)other)) continue;
+      if (cannot_cross(l, &f, l->body->self.faces + 3 * (size_t)other)) continue;
       add_crossings(l, number, other);
       add_crossings(l, other, number);
     }

@@ -14,7 +14,7 @@ typedef struct edge {
 } edge;
 
 static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side) {
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)triangle;
+  const uint32_t *c = l->body->self.faces + 3 * (size_t)triangle;
   edge e = {.ends = {c[side], c[(side + 1) % 3]}};
   for (int k = 0; k < 2; k++) {
     e.is.at[k] = sbri_self_position(l->tick->positions, e.ends[k]);
@@ -26,8 +26,8 @@ static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side
 /* Stores a bit for each edge of a triangle that is a rim or a ridge. */
 static void find_edges(const sbri_self_looking *l) {
   const sbri_point *at = l->tick->positions;
-  for (uint32_t f = 0; f < l->body->self_face_count; f++) {
-    const uint32_t *c = l->body->self_faces + 3 * (size_t)f, *beside = l->body->self_sides + 3 * (size_t)f;
+  for (uint32_t f = 0; f < l->body->self.face_count; f++) {
+    const uint32_t *c = l->body->self.faces + 3 * (size_t)f, *beside = l->body->self.sides + 3 * (size_t)f;
     sbf_vec3 p[3];
     for (int k = 0; k < 3; k++) p[k] = sbri_self_position(at, c[k]);
     l->tables->self_edges[f] = 0;
@@ -89,6 +89,6 @@ static void collide_with_later(const sbri_self_looking *l, uint32_t number) {
 
 void sbri_self_edges_add(const sbri_self_looking *l) {
   find_edges(l);
-  for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++)
+  for (uint32_t i = 0; i < 3 * l->body->self.face_count; i++)
     if (l->tables->self_edges[i / 3] >> i % 3 & 1) collide_with_later(l, i);
 }

@@ -39,8 +39,8 @@ static inline sbri_box sbri_self_swept(const sbri_island_tick *t, uint32_t slot,
 
 /* Whether an edge of the surface connects the points. */
 static inline bool sbri_self_are_joined(const sbri_body *body, uint32_t a, uint32_t b) {
-  for (uint32_t i = body->self_ring_begins[a]; i < body->self_ring_begins[a + 1]; i++)
-    if (body->self_ring[i] == b) return true;
+  for (uint32_t i = body->self.ring_begins[a]; i < body->self.ring_begins[a + 1]; i++)
+    if (body->self.ring[i] == b) return true;
   return false;
 }
 
@@ -64,13 +64,13 @@ static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *
   const sbri_body *body = l->body;
   uint32_t *count = &l->tables->contact_counts[body - l->tick->model->bodies];
   float thickness = max_m;
-  if (*count >= body->max_contacts || rest_m < SBRI_SELF_TOGETHER_M || !(s->mass_kg > 0)) return;
+  if (*count >= body->contact.max_count || rest_m < SBRI_SELF_TOGETHER_M || !(s->mass_kg > 0)) return;
   if (SBRI_SELF_REST_FRACTION * rest_m < thickness) thickness = SBRI_SELF_REST_FRACTION * rest_m;
-  l->tables->contacts[body->first_soft_contact + (*count)++] = (sbri_soft_contact){.sample = *s,
+  l->tables->contacts[body->contact.first + (*count)++] = (sbri_soft_contact){.sample = *s,
       .normal = normal,
       .offset = thickness,
       .friction_scale = 1,
-      .restitution = body->restitution,
+      .restitution = body->contact.restitution,
       .collider = SBRI_ITSELF,
       .edges = edges};
 }

@@ -120,7 +120,7 @@ static void check(const edge_query *l, const sbri_shape_ridge *r) {
 }
 
 static sbri_sample end_of(const sbri_shape_pair *m, uint32_t number) {
-  return m->body->samples ? m->body->samples[number] : sbri_point_sample(m->tick, number);
+  return m->body->contact.samples ? m->body->contact.samples[number] : sbri_point_sample(m->tick, number);
 }
 
 void sbri_shape_edges_add(const sbri_shape_pair *m) {
@@ -129,13 +129,13 @@ void sbri_shape_edges_add(const sbri_shape_pair *m) {
   const sbri_shape_ridges *ridges = &shape->ridges;
   if (!ridges->count || t->island->splits) return; /* torn bodies have other edges */
   edge_query l = {.is = m};
-  l.past =
-      shape->kind == SBR_SHAPE_MESH ? m->body->source->collision.inner_thickness * t->scale : ridges->past_m;
-  l.outer = sbri_reach_of(m->body, t->scale, 0, 0);
-  for (uint32_t i = 0; i < m->body->coarse_edge_count; i++) {
+  l.past = shape->kind == SBR_SHAPE_MESH ? m->body->source->collision.inner_thickness * t->environment.scale
+                                         : ridges->past_m;
+  l.outer = sbri_reach_of(m->body, t->environment.scale, 0, 0);
+  for (uint32_t i = 0; i < m->body->contact.coarse_edge_count; i++) {
     sbri_box box;
     for (int k = 0; k < 2; k++) {
-      l.ends[k] = end_of(m, m->body->coarse_edges[2 * i + (uint32_t)k]);
+      l.ends[k] = end_of(m, m->body->contact.coarse_edges[2 * i + (uint32_t)k]);
       sbf_vec3 x = sbri_sample_position(t, &l.ends[k]), v = sbri_sample_velocity(t, &l.ends[k]);
       sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
       l.edge.at[k] = sbri_into_shape(&m->frame, x, false);

@@ -35,19 +35,20 @@ static void add_sample(const shape_pair *m, const sbri_sample *s) {
   sbri_box swept_box = sbri_box_with(sbri_box_of_point(begin), end);
   if (!sbri_boxes_overlap(&m->bounds, &swept_box)) return;
   const sbf_collision *rule = &m->body->source->collision;
-  float reach = sbri_reach_of(m->body, t->scale, sbri_length(sbri_sub(end, begin)), m->fastest_m);
+  float reach = sbri_reach_of(m->body, t->environment.scale, sbri_length(sbri_sub(end, begin)), m->fastest_m);
   sbri_nearest found;
-  if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->scale, &found)) return;
+  if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->environment.scale, &found)) return;
   sbri_shape_contact_add(m, s, found.position, found.normal);
 }
 
 static void add_all(const shape_pair *m) {
   const sbri_island_tick *t = m->tick;
-  for (uint32_t i = 0; i < m->body->sample_count; i++) {
-    sbri_sample s = sbri_sample_now(t, &m->body->samples[i], m->tables->surface);
+  for (uint32_t i = 0; i < m->body->contact.sample_count; i++) {
+    sbri_sample s = sbri_sample_now(t, &m->body->contact.samples[i], m->tables->surface);
     add_sample(m, &s);
   }
-  for (uint32_t slot = m->body->slot_begin; !m->body->samples && slot < m->body->slot_real_end; slot++) {
+  for (uint32_t slot = m->body->slots.begin; !m->body->contact.samples && slot < m->body->slots.real_end;
+       slot++) {
     sbri_sample s = sbri_point_sample(t, slot);
     add_sample(m, &s);
   }
@@ -56,18 +57,18 @@ static void add_all(const shape_pair *m) {
 /* Bounds of the positions that samples may reach in the tick, and their maximum displacement. */
 static sbri_box travel_bounds(
     const sbri_island_tick *t, const sbri_body *body, float *fastest, float *longest) {
-  sbri_box box = sbri_box_of_point(sbri_vec3(
-      t->positions[body->slot_begin].x, t->positions[body->slot_begin].y, t->positions[body->slot_begin].z));
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  sbri_box box = sbri_box_of_point(sbri_vec3(t->positions[body->slots.begin].x,
+      t->positions[body->slots.begin].y, t->positions[body->slots.begin].z));
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   for (uint32_t slot = t->island->free_count;
-       body->samples && body->is_pinned && slot < t->island->slot_count; slot++)
+       body->contact.samples && body->is_pinned && slot < t->island->slot_count; slot++)
     box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
   *fastest = sbri_fastest_of(body, t->velocities) * t->tick_s;
-  *longest =
-      *fastest * (1 + 2 * body->sample_beyond) + SBRI_REACH_FRACTION * body->rest_size_m + body->margin_m;
-  return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
+  *longest = *fastest * (1 + 2 * body->contact.sample_beyond) + SBRI_REACH_FRACTION * body->rest_size_m +
+             body->contact.margin_m;
+  return sbri_box_grown(box, *longest + body->contact.sample_beyond * (size.x + size.y + size.z));
 }
 
 /* The same bounds from the samples themselves, one by one. They are far smaller if samples lie outside the
@@ -75,8 +76,8 @@ static sbri_box travel_bounds(
 static sbri_box travel_bounds_of_samples(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables, float longest) {
   sbri_box box = {{0, 0, 0}, {0, 0, 0}};
-  for (uint32_t i = 0; i < body->sample_count; i++) {
-    sbri_sample s = sbri_sample_now(t, &body->samples[i], tables->surface);
+  for (uint32_t i = 0; i < body->contact.sample_count; i++) {
+    sbri_sample s = sbri_sample_now(t, &body->contact.samples[i], tables->surface);
     sbf_vec3 x = sbri_sample_position(t, &s),
              end = sbri_add_scaled(x, sbri_sample_velocity(t, &s), t->tick_s);
     box = sbri_box_with(i ? sbri_box_with(box, x) : sbri_box_of_point(x), end);
@@ -88,28 +89,29 @@ static sbri_box travel_bounds_of_samples(
 static sbri_box from_world(const sbri_island_tick *t, const sbri_box *box, float more) {
   const float low[3] = {box->low.x, box->low.y, box->low.z},
               high[3] = {box->high.x, box->high.y, box->high.z};
-  const double origin[3] = {t->origin.x, t->origin.y, t->origin.z};
+  const double origin[3] = {t->environment.origin.x, t->environment.origin.y, t->environment.origin.z};
   float from[3], to[3];
   for (int k = 0; k < 3; k++) {
-    from[k] = (float)(((double)low[k] - origin[k]) / (double)t->scale);
-    to[k] = (float)(((double)high[k] - origin[k]) / (double)t->scale);
+    from[k] = (float)(((double)low[k] - origin[k]) / (double)t->environment.scale);
+    to[k] = (float)(((double)high[k] - origin[k]) / (double)t->environment.scale);
   }
   return sbri_box_grown((sbri_box){{from[0], from[1], from[2]}, {to[0], to[1], to[2]}}, more);
 }
 
 void sbri_soft_shape_contacts_add(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  const sbri_collider_set *set = t->colliders;
+  const sbri_collider_set *set = t->environment.colliders;
   const sbf_collision *rule = &body->source->collision;
-  if (!set || !set->tree.node_count || body->slot_begin == body->slot_real_end) return;
+  if (!set || !set->tree.node_count || body->slots.begin == body->slots.real_end) return;
   float fastest, longest;
   sbri_box swept_box = travel_bounds(t, body, &fastest, &longest),
-           world = sbri_box_in_world(swept_box, t->origin, t->scale);
+           world = sbri_box_in_world(swept_box, t->environment.origin, t->environment.scale);
   sbri_bounds_walk walk;
   uint32_t item;
   sbri_bounds_walk_begin(&walk, &set->tree, world);
-  if (body->samples && sbri_bounds_walk_next(&walk, &item)) { /* a collider may be near */
-    world = sbri_box_in_world(travel_bounds_of_samples(t, body, tables, longest), t->origin, t->scale);
+  if (body->contact.samples && sbri_bounds_walk_next(&walk, &item)) { /* a collider may be near */
+    world = sbri_box_in_world(
+        travel_bounds_of_samples(t, body, tables, longest), t->environment.origin, t->environment.scale);
     sbri_bounds_walk_begin(&walk, &set->tree, world);
   }
   while (sbri_bounds_walk_next(&walk, &item)) {
@@ -117,10 +119,10 @@ void sbri_soft_shape_contacts_add(
     if (!sbri_boxes_overlap(&set->bounds[item], &world) ||
         !sbri_layers_collide(rule->layer, rule->mask, c->layer, c->mask))
       continue;
-    shape_pair m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
-        from_world(t, &set->bounds[item], longest), sbri_box_grown(c->shape->bounds, longest * t->scale),
-        fastest * t->scale};
+    shape_pair m = {t, body, tables, sbri_collider_frame_of(c, t->environment.origin, t->environment.scale),
+        set->listed[item], from_world(t, &set->bounds[item], longest),
+        sbri_box_grown(c->shape->bounds, longest * t->environment.scale), fastest * t->environment.scale};
     add_all(&m);
-    if (body->coarse_edge_count) sbri_shape_edges_add(&m);
+    if (body->contact.coarse_edge_count) sbri_shape_edges_add(&m);
   }
 }

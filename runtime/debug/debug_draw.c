@@ -46,7 +46,7 @@ static void draw_soft_contacts(const sbri_character *c, uint32_t number, const s
   const sbri_point *positions = sbri_positions(c) + c->model->islands[body->island].first_slot;
   if (sbri_header(c)->asleep || sbri_island_states(c)[body->island].asleep) return;
   for (uint32_t i = 0; i < sbri_contact_counts(c)[number]; i++) {
-    const sbri_soft_contact *contact = &sbri_contacts(c)[body->first_soft_contact + i];
+    const sbri_soft_contact *contact = &sbri_contacts(c)[body->contact.first + i];
     sbf_vec3 at = {0, 0, 0};
     for (int k = 0; k < 4; k++)
       at = sbri_add_scaled(at, position_of(&positions[contact->sample.slots[k]]), contact->sample.weights[k]);
@@ -74,8 +74,8 @@ static void draw_body_contacts(const sbr_world *world, const sbr_debug_draw *dra
 static void draw_surface(
     const sbri_character *c, uint32_t number, uint32_t color, const sbri_debug_lines *to) {
   const sbri_body *body = &c->model->bodies[number];
-  sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_point *vertices = sbri_surface_vertices(c) + body->surface.first_vertex;
+  const sbri_skin surface = sbri_skin_now(c, &body->surface.skin);
   sbri_skin_compute_vertices(c->model, &surface, sbri_positions(c), sbri_deltas(c), vertices);
   for (uint32_t i = 0; i < surface.face_block_count * SBRI_BLOCK; i++) {
     const sbri_face_block *block = &surface.faces[i / SBRI_BLOCK];
@@ -89,7 +89,7 @@ static void draw_surface(
 static void draw_springs(const sbri_character *c, const sbri_body *body, const sbri_debug_lines *to) {
   const sbri_island *island = &c->model->islands[body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
-  for (uint32_t s = body->first_spring; s < body->spring_end; s++) {
+  for (uint32_t s = body->elements.first_spring; s < body->elements.spring_end; s++) {
     sbfi_spring spring = sbri_spring_now(c, island, s);
     sbf_vec3 a = position_of(&positions[spring.a]), b = position_of(&positions[spring.b]);
     if (spring.stiffness_n_m > 0)
@@ -101,11 +101,13 @@ static void draw_tetrahedra(
     const sbri_character *c, const sbri_body *body, uint32_t color, const sbri_debug_lines *to) {
   static const int edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const sbri_island *island = &c->model->islands[body->island];
-  const sbri_tetrahedron_block *blocks =
-      island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks;
+  const sbri_tetrahedron_block *blocks = island->tetrahedra.flow
+                                             ? sbri_solids(c) + island->tetrahedra.first_state_block
+                                             : island->tetrahedra.blocks;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
-    uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
+    uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)],
+             lane = at % SBRI_BLOCK;
     const sbri_tetrahedron_block *block = &blocks[at / SBRI_BLOCK];
     for (int e = 0; block->shear[lane] > 0 && e < 6; e++)
       sbri_draw_line(to, position_of(&positions[block->corners[edges[e][0]][lane]]),
@@ -137,7 +139,7 @@ static void draw_bounds(const sbri_character *c, const sbri_debug_lines *to) {
     for (uint32_t k = 0; k < island->body_count; k++) {
       const sbri_body *body = &c->model->bodies[island->bodies[k]];
       for (uint32_t p = 0; p < body->level->positions.count; p++) {
-        sbf_vec3 at = position_of(&positions[body->slot_from_point[p]]);
+        sbf_vec3 at = position_of(&positions[body->slots.from_point[p]]);
         box = any ? sbri_box_with(box, at) : sbri_box_of_point(at), any = true;
       }
     }
@@ -147,7 +149,7 @@ static void draw_bounds(const sbri_character *c, const sbri_debug_lines *to) {
 
 /* `to` in metres. */
 static void draw_bones(const sbri_character *c, const sbri_debug_lines *to) {
-  for (uint32_t b = 0; b < c->model->rig.bone_count; b++) {
+  for (uint32_t b = 0; b < c->model->rig.bones.count; b++) {
     const sbr_transform *pose = &sbri_pose(c)[b];
     float length = c->model->asset->bones.at[b].length * c->scale;
     sbri_draw_point(to, pose->position, 0.5f * SBRI_POINT_PIXELS, SBRI_DRAW_WHITE);

@@ -25,13 +25,13 @@ static void add_island(const sbri_character *c, uint32_t index, sbr_counters *to
   bool awake = !state->asleep && !sbri_header(c)->asleep && !sbri_header(c)->paused;
   to->island_count++;
   for (uint32_t slot = 0; slot < island->free_count; slot++) to->point_count += island->masses[slot] > 0;
-  to->spring_count += island->spring_count;
+  to->spring_count += island->springs.count;
   to->element_visit_count += state->element_visits;
   for (uint32_t b = 0; b < island->body_count; b++) {
     uint32_t body = island->bodies[b];
     to->soft_body_count++;
     to->soft_body_awake_count += awake;
-    to->tetrahedron_count += c->model->bodies[body].tetrahedron_count;
+    to->tetrahedron_count += c->model->bodies[body].elements.tetrahedron_count;
     if (awake) to->contact_count += sbri_contact_counts(c)[body];
   }
 }

@@ -64,9 +64,9 @@ static void check_contacts(checking *k, uint32_t number) {
   if (!body->level || sbri_header(k->c)->asleep || sbri_island_states(k->c)[body->island].asleep) return;
   uint32_t count = sbri_contact_counts(k->c)[number];
   enter(k, "soft body", number);
-  if (!expect(k, count <= body->max_contacts, "it has more contacts than room for them")) return;
+  if (!expect(k, count <= body->contact.max_count, "it has more contacts than room for them")) return;
   for (uint32_t i = 0; i < count; i++) {
-    const sbri_soft_contact *contact = &sbri_contacts(k->c)[body->first_soft_contact + i];
+    const sbri_soft_contact *contact = &sbri_contacts(k->c)[body->contact.first + i];
     uint32_t slots = k->c->model->islands[body->island].slot_count;
     for (int p = 0; p < 4; p++)
       expect(k, contact->sample.slots[p] < slots, "a contact lies on a point that is not its island's");
@@ -107,7 +107,8 @@ static void check_character(checking *k) {
   expect(k, sbri_usable(numbers, 3), "its origin is not finite");
   expect(k, c->scale > 0 && isfinite(c->scale), "its scale is not positive");
   expect(k,
-      head->detail_level < c->model->base->detail_level_count || c->model->base->detail_level_count == 0,
+      head->detail_level < c->model->detail.base->detail.level_count ||
+          c->model->detail.base->detail.level_count == 0,
       "its level of detail is not there");
   expect(k, head->paused <= 1 && head->asleep <= 1, "its sleep is neither on nor off");
   for (uint32_t f = 0; f < c->model->frame_count; f++) check_pose(k, &sbri_pose(c)[f], "frame", f);

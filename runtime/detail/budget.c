@@ -27,7 +27,7 @@ static sbri_saving pop(sbri_detail *detail) {
 }
 
 static const sbr_detail_level *detail_levels_of(const sbr_world *world, const sbri_choice *choice) {
-  return world->characters[choice->character].model->base->detail_levels;
+  return world->characters[choice->character].model->detail.base->detail.definitions;
 }
 
 /* Offers the next change of a choice, if there is one. */

@@ -6,27 +6,27 @@
 
 /* The coarsest level with a pose; for a character that may touch others, the coarsest with bodies. */
 static uint32_t last_posed(const sbri_character *c) {
-  const sbr_model *base = c->model->base;
-  uint32_t last = base->detail_level_count - 1;
+  const sbr_model *base = c->model->detail.base;
+  uint32_t last = base->detail.level_count - 1;
   if (c->near) return sbri_coarsest_colliding_level(base);
-  return base->detail_levels[last].kind == SBR_DETAIL_OFFSCREEN ? last - 1 : last;
+  return base->detail.definitions[last].kind == SBR_DETAIL_OFFSCREEN ? last - 1 : last;
 }
 
 static uint32_t detail_level_for(const sbr_world *world, const sbri_character *c, float pixels) {
   const sbri_detail *detail = world->detail;
   const sbri_character_state *head = sbri_header(c);
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   uint32_t last = last_posed(c), now = head->next_detail_level < last ? head->next_detail_level : last,
            found = 0;
   if (!(pixels > 0)) {
     float after = detail->is.away_after_s;
     return !c->near && after >= 0 && head->unseen_ticks >= sbri_ticks_of(world, after)
-               ? base->detail_level_count - 1
+               ? base->detail.level_count - 1
                : last;
   }
   bool may_coarsen = head->detail_level_ticks >= sbri_ticks_of(world, detail->is.stay_s);
   for (uint32_t r = 1; r <= last; r++) {
-    float error = pixels * base->detail_levels[r].error_m;
+    float error = pixels * base->detail.definitions[r].error_m;
     float max = r > now ? detail->is.coarsen_fraction * detail->is.error_px : detail->is.error_px;
     if (error <= max && (r <= now || may_coarsen)) found = r;
   }
@@ -38,13 +38,13 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   sbri_character *c = &world->characters[index];
   if (!c->model || sbri_header(c)->paused) return false;
   sbri_character_state *head = sbri_header(c);
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   float pixels = sbri_pixels_of(world, c);
   if (pixels > 0 && head->unseen_ticks > 0)
     head->detail_level_ticks = UINT32_MAX; /* as if new: it was not visible */
   head->unseen_ticks = pixels > 0 ? 0 : head->unseen_ticks < UINT32_MAX ? head->unseen_ticks + 1 : UINT32_MAX;
-  double now = head->asleep ? 0 : base->detail_levels[head->detail_level].visits;
-  if (base->detail_level_count == 1 || head->set_detail_level_plus_1) {
+  double now = head->asleep ? 0 : base->detail.definitions[head->detail_level].visits;
+  if (base->detail.level_count == 1 || head->set_detail_level_plus_1) {
     *visits += now;
     return false;
   }
@@ -53,7 +53,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   if (head->asleep && detail_level >= head->detail_level) return false; /* it costs nothing already */
   *choice = (sbri_choice){index, detail_level, last_posed(c), pixels};
   if (detail_level > choice->last) choice->last = detail_level;
-  *visits += base->detail_levels[detail_level].visits;
+  *visits += base->detail.definitions[detail_level].visits;
   return true;
 }
 
@@ -69,7 +69,7 @@ void sbri_detail_choose(sbr_world *world) {
   for (uint32_t i = 0; i < detail->choice_count; i++) {
     sbri_character *c = &world->characters[detail->choices[i].character];
     sbri_character_state *head = sbri_header(c);
-    const sbr_detail_level *detail_levels = c->model->base->detail_levels;
+    const sbr_detail_level *detail_levels = c->model->detail.base->detail.definitions;
     uint32_t detail_level = detail->choices[i].detail_level;
     /* If the budget is short, two characters would alternate. */
     if (is_short && detail_level < head->detail_level &&

@@ -27,11 +27,11 @@ static float *velocity_of(const sbri_character *c, uint32_t slot) {
  */
 static void store_body(sbri_character *c, const sbri_body *body, bool moves) {
   const sbri_island *island = &c->model->islands[body->island];
-  sbri_point *drivers = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
+  sbri_point *drivers = sbri_velocity_points(c) + island->first_slot + body->slots.begin;
   sbri_compute_driver_positions(c->model, body, sbri_deltas(c), drivers);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     uint32_t at = island->first_slot + slot;
-    const sbri_point *p = &sbri_positions(c)[at], *g = &drivers[slot - body->slot_begin];
+    const sbri_point *p = &sbri_positions(c)[at], *g = &drivers[slot - body->slots.begin];
     const float *v = velocity_of(c, at), *w = sbri_driver_velocities(c) + (v - sbri_velocities(c));
     float limited = body->is_pinned ? 1 : 0, is = moves ? 1 : 0;
     sbri_offsets(c)[at] = (sbri_point){p->x - g->x, p->y - g->y, p->z - g->z, 0};
@@ -59,7 +59,7 @@ static bool store_soft_motion(sbri_character *c, float tick_s) {
 static void copy_shared_state(sbri_character *c, const sbri_character *was) {
   const sbr_model *is = c->model;
   uint32_t frames = sbri_first_jiggle_frame(is);
-  uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
+  uint32_t vertices = is->detail.base->detail.first_vertices[is->asset->render_meshes.count];
   memcpy(sbri_header(c), sbri_header(was), sizeof(sbri_character_state));
   memcpy(sbri_loads(c), sbri_loads(was), SBR_LOAD_CAPACITY * sizeof(sbri_load));
   memcpy(sbri_faded(c), sbri_faded(was), vertices * sizeof(sbri_fading_vertex));
@@ -100,8 +100,8 @@ static void apply_shape(sbri_character *c, const sbri_character *was, const sbri
     const sbri_sources *sources, float fraction) {
   const sbri_island *island = &c->model->islands[body->island];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
-  sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slots.begin);
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     sbf_vec3 offset = mean_of(&sources[island->first_slot + slot], sbri_offsets(was));
     sbri_point *p = &positions[slot];
     *p = (sbri_point){p->x + fraction * offset.x, p->y + fraction * offset.y, p->z + fraction * offset.z, 0};
@@ -111,7 +111,7 @@ static void apply_shape(sbri_character *c, const sbri_character *was, const sbri
 static void add_speeds(
     sbri_character *c, const sbri_character *was, const sbri_body *body, const sbri_sources *sources) {
   const sbri_island *island = &c->model->islands[body->island];
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     sbf_vec3 speed = mean_of(&sources[island->first_slot + slot], sbri_speeds(was));
     float *v = velocity_of(c, island->first_slot + slot);
     v[0] += speed.x, v[SBRI_BLOCK] += speed.y, v[2 * SBRI_BLOCK] += speed.z;
@@ -143,10 +143,10 @@ static void apply_shape_within_energy(const sbr_world *world, sbri_character *c,
 static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
   const sbri_body *body = &was->model->bodies[index];
   *offset = *speed = sbri_vec3(0, 0, 0);
-  if (!body->level || body->slot_real_end == body->slot_begin) return;
-  float fraction = 1 / (float)(body->slot_real_end - body->slot_begin);
+  if (!body->level || body->slots.real_end == body->slots.begin) return;
+  float fraction = 1 / (float)(body->slots.real_end - body->slots.begin);
   uint32_t first = was->model->islands[body->island].first_slot;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     const sbri_point *o = &sbri_offsets(was)[first + slot], *v = &sbri_speeds(was)[first + slot];
     *offset = sbri_add_scaled(*offset, sbri_vec3(o->x, o->y, o->z), fraction);
     *speed = sbri_add_scaled(*speed, sbri_vec3(v->x, v->y, v->z), fraction);
@@ -175,7 +175,8 @@ static void set_followers(sbri_character *c, const sbri_character *was, float ti
 static void copy_soft_bodies(
     const sbr_world *world, sbri_character *c, const sbri_character *was, bool moves, float tick_s) {
   const sbr_model *is = c->model;
-  const sbri_sources *sources = is->sources ? is->sources[sbri_header(was)->detail_level] : NULL;
+  const sbri_sources *sources =
+      is->detail.sources ? is->detail.sources[sbri_header(was)->detail_level] : NULL;
   for (uint32_t i = 0; i < is->island_count; i++) {
     sbri_island_reset_to_rest(c, i);
     sbri_drivers_advance(c, &is->islands[i], tick_s);
@@ -219,7 +220,7 @@ static const float SWINGS_MAX_S = 1, LAGS_MAX_S = 2;
  * metres. */
 static float lags_m(const sbr_world *world, const sbri_character *c) {
   sbri_gait_input input = sbri_gait_input_of(world, c, NULL);
-  float radius_m = 0.5f * c->scale * c->model->base->rest_size_m;
+  float radius_m = 0.5f * c->scale * c->model->detail.base->rest_size_m;
   return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
 }
 
@@ -230,7 +231,7 @@ static bool has_visible_jump(
     const sbr_world *world, sbri_character *c, uint32_t detail_level, float swings_m) {
   const sbri_detail *detail = world->detail;
   sbri_character_state *head = sbri_header(c);
-  const sbr_detail_level *detail_levels = c->model->base->detail_levels;
+  const sbr_detail_level *detail_levels = c->model->detail.base->detail.definitions;
   if (!detail || detail->is_short || head->set_detail_level_plus_1 || head->fade_before > 0) return false;
   bool finer = detail_level < head->detail_level,
        swings_on = finer || detail_levels[detail_level].kind == SBR_DETAIL_SOFT;
@@ -242,15 +243,15 @@ static bool has_visible_jump(
 
 /* The requested level, or the nearest possible one. */
 static uint32_t find_next_detail_level(const sbri_character *c) {
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   uint32_t detail_level = sbri_header(c)->next_detail_level, collides = sbri_coarsest_colliding_level(base);
-  if (base->detail_levels[detail_level].kind == SBR_DETAIL_OFFSCREEN && !sbri_rigid_is_still(c))
+  if (base->detail.definitions[detail_level].kind == SBR_DETAIL_OFFSCREEN && !sbri_rigid_is_still(c))
     detail_level--; /* a character that lies or falls continues to: bones only */
   return c->near && detail_level > collides ? collides : detail_level;
 }
 
 const sbr_model *sbri_next_detail_model(const sbri_character *c) {
-  return c->model->base->levels[find_next_detail_level(c)];
+  return c->model->detail.base->detail.levels[find_next_detail_level(c)];
 }
 
 void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
@@ -260,12 +261,13 @@ void sbri_detail_level_change(const sbr_world *world, sbri_character *c) {
       is_new ? LONG_TICKS : head->detail_level_ticks + (head->detail_level_ticks < LONG_TICKS);
   uint32_t detail_level = find_next_detail_level(c);
   bool must_collide = c->near && head->next_detail_level > detail_level;
-  bool kept = head->fade_kept > 0, same = c->model == c->model->base->levels[detail_level];
+  bool kept = head->fade_kept > 0, same = c->model == c->model->detail.base->detail.levels[detail_level];
   if (detail_level == head->detail_level) {
     head->fade_kept = 0;
     return;
   }
-  if (!same && c->spare.model != c->model->base->levels[detail_level]) return; /* no memory for it */
+  if (!same && c->spare.model != c->model->detail.base->detail.levels[detail_level])
+    return; /* no memory for it */
   bool coarser = detail_level > head->detail_level, chosen = world->detail && !head->set_detail_level_plus_1;
   if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short) return; /* once per tick only */
   bool returns = sbri_is_away(c);

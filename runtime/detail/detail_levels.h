@@ -6,7 +6,7 @@
 
 /* The character's present detail level. */
 static inline const sbr_detail_level *sbri_get_detail_level(const sbri_character *c) {
-  return &c->model->base->detail_levels[sbri_header(c)->detail_level];
+  return &c->model->detail.base->detail.definitions[sbri_header(c)->detail_level];
 }
 static inline bool sbri_is_away(const sbri_character *c) {
   return sbri_get_detail_level(c)->kind == SBR_DETAIL_OFFSCREEN;
@@ -15,7 +15,8 @@ static inline bool sbri_is_away(const sbri_character *c) {
 /* The coarsest level with body contacts, for a character that needs them. */
 static inline uint32_t sbri_coarsest_colliding_level(const sbr_model *base) {
   uint32_t last = 0;
-  while (last + 1 < base->detail_level_count && base->detail_levels[last + 1].kind == SBR_DETAIL_SOFT) last++;
+  while (last + 1 < base->detail.level_count && base->detail.definitions[last + 1].kind == SBR_DETAIL_SOFT)
+    last++;
   return last;
 }
 

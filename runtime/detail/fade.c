@@ -30,12 +30,12 @@ static const float MAX_TURN_RAD = 1.5f;
 
 /* Detail level of bones; NULL: none. */
 static const sbr_model *bones_of(const sbri_character *c) {
-  const sbr_model *base = c->model->base, *last = base->levels[base->detail_level_count - 1];
-  return last->kind == SBR_DETAIL_BONES ? last : NULL;
+  const sbr_model *base = c->model->detail.base, *last = base->detail.levels[base->detail.level_count - 1];
+  return last->detail.kind == SBR_DETAIL_BONES ? last : NULL;
 }
 
 static uint32_t first_vertex(const sbri_character *c, uint32_t mesh) {
-  return c->model->base->first_vertices[mesh];
+  return c->model->detail.base->detail.first_vertices[mesh];
 }
 
 static uint32_t vertex_count(const sbri_character *c, uint32_t mesh) {
@@ -47,7 +47,7 @@ static sbf_vec3 of_point(const sbri_point *p) {
 }
 
 static float phase_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
-  float turn = c->model->base->swing_rad_s[body] * (float)world->tick_s * c->time_scale;
+  float turn = c->model->detail.base->detail.swing_rad_s[body] * (float)world->tick_s * c->time_scale;
   return turn < MAX_TURN_RAD ? turn : MAX_TURN_RAD;
 }
 
@@ -147,7 +147,7 @@ float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
   make_deltas(c);
   for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
     sbri_fading_vertex *all = sbri_faded(c) + first_vertex(c, m);
-    const uint32_t *with = c->model->base->swings_with + first_vertex(c, m);
+    const uint32_t *with = c->model->detail.base->detail.swings_with + first_vertex(c, m);
     sbri_point *was = sbri_sums(c), *is = sbri_vertices(c);
     displayed(c, m, false, was);
     displayed(c, m, true, is);
@@ -171,7 +171,8 @@ void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
   uint32_t vertices = first_vertex(c, c->model->asset->render_meshes.count);
   float *pulls = sbri_pulls(c);
   for (uint32_t b = 0; b <= bodies; b++) pulls[b] = acceleration_per_displacement(phase_of(world, c, b));
-  for (uint32_t v = 0; v < vertices; v++) advance(&sbri_faded(c)[v], pulls[c->model->base->swings_with[v]]);
+  for (uint32_t v = 0; v < vertices; v++)
+    advance(&sbri_faded(c)[v], pulls[c->model->detail.base->detail.swings_with[v]]);
 }
 
 /* ---- A change ---- */
@@ -193,7 +194,7 @@ static void subtract(sbri_character *c, uint32_t mesh) {
 
 void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_header(c);
-  const sbr_model *base = c->model->base;
+  const sbr_model *base = c->model->detail.base;
   uint32_t meshes = base->asset->render_meshes.count;
   float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->tick_s;
   for (uint32_t m = 0; m < meshes && !bones_of(c); m++) subtract(c, m);

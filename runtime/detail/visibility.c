@@ -28,7 +28,7 @@ sbri_eye sbri_eye_of(const sbr_view *view) {
 }
 
 static float radius_of(const sbri_character *c) {
-  float size = c->model->base->rest_size_m, reach = c->model->base->rig.reach;
+  float size = c->model->detail.base->rest_size_m, reach = c->model->detail.base->rig.stand.reach;
   return c->scale * (size > 0 ? 0.5f * size : reach > 0 ? reach : 0.5f);
 }
 
@@ -57,7 +57,7 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
 float sbri_speed_factor(const sbri_character *c) {
   const sbri_character_state *head = sbri_header(c);
   const sbri_rig *rig = &c->model->rig;
-  float length = rig->leg_count ? rig->reach * c->scale : radius_of(c);
+  float length = rig->leg_count ? rig->stand.reach * c->scale : radius_of(c);
   float round = head->turn * radius_of(c);
   float square = head->forward * head->forward + head->sideways * head->sideways + round * round;
   return 1 + square / (G_M_S2 * fmaxf(length, 1e-3f)); /* Froude's number */

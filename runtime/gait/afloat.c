@@ -22,11 +22,11 @@ static float gravity_of(const sbri_rig *rig) {
 }
 
 float sbri_afloat_lowest(const sbri_rig *rig, const sbri_gait_input *input, sbf_quat rotation) {
-  sbf_vec3 middle = sbri_lerp(rig->low, rig->high, 0.5f);
+  sbf_vec3 middle = sbri_lerp(rig->stand.low, rig->stand.high, 0.5f);
   float min = 1e30f;
   for (int corner = 0; corner < 8; corner++) {
-    sbf_vec3 at = {corner & 1 ? rig->high.x : rig->low.x, corner & 2 ? rig->high.y : rig->low.y,
-        corner & 4 ? rig->high.z : rig->low.z};
+    sbf_vec3 at = {corner & 1 ? rig->stand.high.x : rig->stand.low.x,
+        corner & 2 ? rig->stand.high.y : rig->stand.low.y, corner & 4 ? rig->stand.high.z : rig->stand.low.z};
     float y = middle.y + sbri_rotate(rotation, sbri_sub(at, middle)).y;
     if (y < min) min = y;
   }
@@ -58,7 +58,7 @@ static float bounded_height(const sbri_rig *rig, const sbri_gait_input *input, c
   float lowest = sbri_afloat_lowest(rig, input, tilt_rotation(m));
   if (sbri_is_kind(rig, SBF_GAIT_KIND_SWIM) && rig->asset->environment.has_water) {
     double surface = (double)rig->asset->environment.water_level - input->origin.y;
-    float max = (float)surface - rig->high.y * input->scale - ground;
+    float max = (float)surface - rig->stand.high.y * input->scale - ground;
     if (height > max) {
       height = max;
       if (*up > 0) *up = 0;
@@ -74,8 +74,8 @@ static float bounded_height(const sbri_rig *rig, const sbri_gait_input *input, c
 static void update_tilt(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbf_medium *medium, bool has_command) {
   sbri_motion_state *m = sbri_motion(rig, state);
-  float cruise = rig->gait->walk_speed * input->scale, speed = state->forward;
-  float bank = sbri_atan2(medium->bank * speed * state->turn, gravity_of(rig));
+  float cruise = rig->gait->walk_speed * input->scale, speed = state->motion.forward;
+  float bank = sbri_atan2(medium->bank * speed * state->motion.turn, gravity_of(rig));
   bank = sbri_clamp(bank, -medium->bank_limit, medium->bank_limit);
   float climb = sbri_atan2(m->up, fabsf(speed) + 0.25f * cruise);
   if (!has_command) climb = 0; /* passive sinking does not change the pitch */
@@ -102,45 +102,46 @@ float sbri_afloat_move(
   const sbf_medium *medium = medium_of(rig, &defaults);
   sbri_motion_state *m = sbri_motion(rig, state);
   float h = input->tick_s, smoothing = 1 - sbri_exp(-h / SMOOTHING_S);
-  float length = medium->drag_length > 0 ? medium->drag_length : rig->wave_length;
-  sbf_vec3 size = sbri_sub(rig->high, rig->low);
+  float length = medium->drag_length > 0 ? medium->drag_length : rig->wave.length;
+  sbf_vec3 size = sbri_sub(rig->stand.high, rig->stand.low);
   if (!(length > 0)) length = size.x > size.z ? size.x : size.z;
   if (!(length > size.y * 1e-3f)) length = size.y > 0 ? size.y : 1;
   length *= input->scale;
   bool goes = input->forward != 0 || input->sideways != 0 || input->up != 0,
        has_command = goes || input->turn != 0;
   if (goes) {
-    state->forward += (input->forward - state->forward) * smoothing;
-    state->sideways += (input->sideways - state->sideways) * smoothing;
+    state->motion.forward += (input->forward - state->motion.forward) * smoothing;
+    state->motion.sideways += (input->sideways - state->motion.sideways) * smoothing;
     m->up += (input->up - m->up) * smoothing;
   } else {
-    float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
+    float speed = sqrtf(
+        state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways);
     float left = sbri_exp(-h * (speed / length + 1 / REST_S));
-    state->forward *= left;
-    state->sideways *= left;
+    state->motion.forward *= left;
+    state->motion.sideways *= left;
     m->up = passive_velocity(m->up, medium->buoyancy, gravity_of(rig), length, h);
   }
-  state->turn += (input->turn - state->turn) * smoothing;
+  state->motion.turn += (input->turn - state->motion.turn) * smoothing;
   bool drifts = medium->buoyancy != 1;
-  if (!has_command && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->turn) < STILL) {
-    state->forward = state->sideways = state->turn = 0;
+  if (!has_command && sbri_motion_speed(rig, state) < STILL * length && fabsf(state->motion.turn) < STILL) {
+    state->motion.forward = state->motion.sideways = state->motion.turn = 0;
     if (!drifts) m->up = 0;
-    if (state->standing_s < 1) state->standing_s += h;
+    if (state->pace.standing_s < 1) state->pace.standing_s += h;
   } else {
-    state->standing_s = 0;
+    state->pace.standing_s = 0;
   }
   update_tilt(rig, state, input, medium, has_command);
   update_glide(m, input, medium);
-  float rotation = state->turn * h, ground = sbri_ground_below(input, state->position, NULL).y;
+  float rotation = state->motion.turn * h, ground = sbri_ground_below(input, state->motion.position, NULL).y;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * rotation), h);
-  float height = ground + state->position.y + m->up * h;
-  state->position.x += step.x, state->position.z += step.z;
-  float below = sbri_ground_below(input, state->position, NULL).y;
+  float height = ground + state->motion.position.y + m->up * h;
+  state->motion.position.x += step.x, state->motion.position.z += step.z;
+  float below = sbri_ground_below(input, state->motion.position, NULL).y;
   float at = bounded_height(rig, input, m, below, height - below, &m->up);
-  step.y = at + below - ground - state->position.y;
-  state->position.y = at;
-  state->heading = sbri_wrap_angle(state->heading + rotation);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  step.y = at + below - ground - state->motion.position.y;
+  state->motion.position.y = at;
+  state->motion.heading = sbri_wrap_angle(state->motion.heading + rotation);
+  sbri_sincos(state->motion.heading, &state->motion.heading_sine, &state->motion.heading_cosine);
   state->distance_m += (double)sbri_length(step);
   *direction = step;
   return rotation;
@@ -151,7 +152,7 @@ sbr_transform sbri_afloat_root(
   const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
   sbf_medium defaults;
   const sbf_medium *medium = medium_of(rig, &defaults);
-  sbf_vec3 middle = sbri_scale(sbri_lerp(rig->low, rig->high, 0.5f), input->scale);
+  sbf_vec3 middle = sbri_scale(sbri_lerp(rig->stand.low, rig->stand.high, 0.5f), input->scale);
   sbr_transform root = level;
   root.rotation = sbri_quat_normalize(sbri_quat_multiply(level.rotation, tilt_rotation(m)));
   sbf_vec3 displacement = sbri_sub(sbri_rotate(level.rotation, middle), sbri_rotate(root.rotation, middle));

@@ -35,7 +35,7 @@ static sbf_quat yaw_rotation(float yaw) {
 typedef enum feet_of { ALL, LEFT, RIGHT, FORE, AFT, HIPS_LEFT, HIPS_RIGHT, CHEST_LEFT, CHEST_RIGHT } feet_of;
 
 static bool is_of(const sbri_leg *leg, feet_of feet) {
-  bool left = leg->home.x > 0;
+  bool left = leg->home.position.x > 0;
   switch (feet) {
   case LEFT:
   case RIGHT:
@@ -73,7 +73,7 @@ static float line_yaw(
   sbf_vec3 left, right;
   if (!feet_center(rig, state, on_left, &left) || !feet_center(rig, state, on_right, &right)) return 0;
   sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
-  float min = NARROWEST * rig->reach * scale, more = line.x - min; /* smooth minimum */
+  float min = NARROWEST * rig->stand.reach * scale, more = line.x - min; /* smooth minimum */
   float width = min + 0.5f * (more + sqrtf(more * more + 0.25f * min * min));
   float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, width);
   return MAX_YAW * yaw / (MAX_YAW + fabsf(yaw)); /* feet may cross, but hips must not rotate with them */
@@ -85,7 +85,7 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
 }
 
 static float full_reach(const sbri_leg *leg, float scale) {
-  return leg->reach * (1 - leg->soft_reach) * scale;
+  return leg->length.reach * (1 - leg->length.soft_reach) * scale;
 }
 
 /* Lowering of the body for which a leg with the vector `offset` from ankle to hip has the length `reach`. */
@@ -94,7 +94,7 @@ static float lowering_into(const sbri_rig *rig, const sbri_gait_state *state, co
   float left = reach * reach - offset.x * offset.x - offset.z * offset.z;
   float min = LOWEST * LOWEST * reach * reach; /* lowering does not help legs that are too far to the side */
   /* A rise of the hip by a clip is compensated entirely, so that the foot stays on the ground. */
-  float lifted = state->feet[leg].hip.y - rig->rest[rig->legs[leg].upper].position.y * input->scale;
+  float lifted = state->feet[leg].hip.y - rig->bones.rest[rig->legs[leg].upper].position.y * input->scale;
   float drop = offset.y - sqrtf(left > min ? left : min);
   float max = DEEPEST * reach + (lifted > 0 ? lifted : 0);
   return drop < max ? drop : max;
@@ -104,43 +104,46 @@ static float lowering_into(const sbri_rig *rig, const sbri_gait_state *state, co
 static float lowering_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float fraction) {
   const sbri_leg *l = &rig->legs[leg];
-  float bent = state->bent.value; /* squared, so that legs as straight as at rest bend at a steady rate */
-  if (fraction < l->rest_stretch) fraction = l->rest_stretch + bent * bent * (fraction - l->rest_stretch);
+  float bent =
+      state->balance.bent.value; /* squared, so that legs as straight as at rest bend at a steady rate */
+  if (fraction < l->length.rest_stretch)
+    fraction = l->length.rest_stretch + bent * bent * (fraction - l->length.rest_stretch);
   return lowering_into(rig, state, input, leg, sbri_sub(hip, ankle), fraction * full_reach(l, input->scale));
 }
 
 /* Maximum lowering before the belly touches the ground, for the position of the body in a moment. */
 static float max_lowering_of_belly(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbr_transform *root) {
-  float max = rig->reach * input->scale, clear = CLEAR * max;
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CLEARANCE_S), fore, hind;
-  float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
+  float max = rig->stand.reach * input->scale, clear = CLEAR * max;
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * CLEARANCE_S), fore,
+           hind;
+  float rise = 0, run = rig->stand.fore_z - rig->stand.hind_z; /* along the line of its feet */
   if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     rise = (fore.y - hind.y) / (run * input->scale);
   ahead.y = rise * sbri_unheaded(state, ahead).z;
-  for (uint32_t k = 0; k < rig->belly_count; k++) {
-    sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->belly[k], input->scale));
+  for (uint32_t k = 0; k < rig->stand.belly_count; k++) {
+    sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->stand.belly[k], input->scale));
     at = sbri_add(sbri_add(root->position, at), ahead);
-    float clearance = at.y - sbri_ground_below(input, at, NULL).y - state->position.y - clear;
+    float clearance = at.y - sbri_ground_below(input, at, NULL).y - state->motion.position.y - clear;
     max = clearance < max ? clearance : max;
   }
-  float min = -RAISED * rig->reach * input->scale;
+  float min = -RAISED * rig->stand.reach * input->scale;
   return max > min ? max : min;
 }
 
 /* Lowering for which all legs reach their feet; `early` receives that for a reach with a reserve. */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *early) {
-  float min = state->clearance.value < 0 ? state->clearance.value : 0,
+  float min = state->balance.clearance.value < 0 ? state->balance.clearance.value : 0,
         max = min; /* the belly needs it to rise */
-  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->speed_fraction * CROUCH_S);
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * CROUCH_S);
   *early = min;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->carrier >= 0) continue;
+    if (leg->lower < 0 || leg->home.carrier >= 0) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
-    ankle.y += foot->lift + state->position.y;
+    ankle.y += foot->lift + state->motion.position.y;
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
     float drop = lowering_for(rig, state, input, i, hip, ankle, 1);
     if (foot->planted) hip = sbri_add(hip, ahead);
@@ -159,9 +162,9 @@ static float limit_for_knees(const sbri_rig *rig, const sbri_gait_state *state, 
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->carrier >= 0 || !foot->planted) continue;
+    if (leg->lower < 0 || leg->home.carrier >= 0 || !foot->planted) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
-    ankle.y += state->position.y;
+    ankle.y += state->motion.position.y;
     sbf_vec3 offset = sbri_sub(sbri_hip_of(rig, state, input, i, root), ankle);
     float full = full_reach(leg, input->scale), shortest, longest;
     if (offset.y <= UPRIGHT * sbri_length(offset)) continue;
@@ -183,13 +186,13 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
   for (uint32_t i = 0; stride->speed > 0 && i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0 || leg->carrier >= 0) continue;
+    if (leg->lower < 0 || leg->home.carrier >= 0) continue;
     const sbri_home *home_state = &stride->homes[i];
     sbri_roam roam = foot->planted ? home_state->roam : sbri_roam_of(rig, state, input, i, home_state->arm);
     float half = stride->half_m * home_state->speed / stride->speed;
     sbf_vec3 direction = sbri_normalize(home_state->velocity, sbri_vec3(0, 0, 0));
-    sbf_vec3 home = sbri_add(state->position, home_state->arm);
-    home.y = foot->ground.y + state->position.y;
+    sbf_vec3 home = sbri_add(state->motion.position, home_state->arm);
+    home.y = foot->ground.y + state->motion.position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
     float ahead = sbri_ahead(&roam, direction, half);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
@@ -206,26 +209,29 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
 /* Stance without lowering. */
 static sbri_stance stance_without_lowering(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  sbri_stance stance = {.root = {state->position, yaw_rotation(state->heading)}};
+  sbri_stance stance = {.root = {state->motion.position, yaw_rotation(state->motion.heading)}};
   sbf_vec3 center, hind, fore, left, right;
   bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &center);
-  float raised = state->position.y;
-  stance.root.position.y = raised + (on_feet ? center.y : sbri_ground_below(input, state->position, NULL).y);
+  float raised = state->motion.position.y;
+  stance.root.position.y =
+      raised + (on_feet ? center.y : sbri_ground_below(input, state->motion.position, NULL).y);
   if (!on_feet) stance.root = sbri_motion_root(rig, state, input, stance.root);
   if (!on_feet) return stance;
-  stance.root.position.x += state->sway_x.value, stance.root.position.z += state->sway_z.value;
+  stance.root.position.x += state->balance.sway_x.value,
+      stance.root.position.z += state->balance.sway_z.value;
   float pitch = 0, roll = 0, fraction = rig->gait->body_tilt;
   if (feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
-    pitch = fraction * slope(hind, fore, (rig->fore_z - rig->hind_z) * input->scale);
+    pitch = fraction * slope(hind, fore, (rig->stand.fore_z - rig->stand.hind_z) * input->scale);
   if (feet_center(rig, state, LEFT, &left) && feet_center(rig, state, RIGHT, &right))
-    roll = fraction * slope(right, left, 2 * rig->half_width * input->scale);
+    roll = fraction * slope(right, left, 2 * rig->stand.half_width * input->scale);
   float sp, cp, sr, cr;
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
   /* While the body must keep its balance, it tilts about the middle of the hips, so that its mass stays above
    * the feet; otherwise about the ground between the feet. */
-  sbf_vec3 middle = sbri_vec3(0, state->upright.value * rig->hips_y, 0.5f * (rig->hind_z + rig->fore_z));
+  sbf_vec3 middle = sbri_vec3(
+      0, state->balance.upright.value * rig->stand.hips_y, 0.5f * (rig->stand.hind_z + rig->stand.fore_z));
   middle = sbri_scale(middle, input->scale);
   sbf_quat heading = stance.root.rotation;
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
@@ -249,13 +255,14 @@ float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sb
  */
 static void lower_body(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     float needed, sbri_stance *stance) {
-  float size = rig->reach * input->scale, tick = input->tick_s;
-  float lowering = state->crouch.value > needed ? state->crouch.value : needed, eased = lowering;
-  if (state->eased || needed > state->crouch.value - CROUCH_TOLERANCE * size)
+  float size = rig->stand.reach * input->scale, tick = input->tick_s;
+  float lowering = state->balance.crouch.value > needed ? state->balance.crouch.value : needed,
+        eased = lowering;
+  if (state->eased || needed > state->balance.crouch.value - CROUCH_TOLERANCE * size)
     eased = limit_for_knees(rig, state, input, &stance->root, lowering);
   if (eased != lowering || state->eased) {
-    float steady_change =
-        stance->root.position.y - state->root.position.y - state->rise * tick; /* at constant velocity */
+    float steady_change = stance->root.position.y - state->posture.root.position.y -
+                          state->posture.rise * tick; /* at constant velocity */
     float change = ABRUPT * size * tick * tick, low = steady_change - change, high = steady_change + change;
     if (!state->eased && lowering < low) low = lowering;
     if (!state->eased && lowering > high) high = lowering;
@@ -288,10 +295,10 @@ void sbri_body_steps_keep(const sbri_rig *rig, sbri_gait_state *state, float tic
 /* Sways towards `lean`, as far as the planted feet reach. */
 static void update_sway(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 lean) {
-  sbri_lag x = state->sway_x, z = state->sway_z;
+  sbri_lag x = state->balance.sway_x, z = state->balance.sway_z;
   sbri_lag_tick(&x, lean.x, &state->steps.lean);
   sbri_lag_tick(&z, lean.z, &state->steps.lean);
-  sbf_vec3 step = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
+  sbf_vec3 step = sbri_vec3(x.value - state->balance.sway_x.value, 0, z.value - state->balance.sway_z.value);
   float size = sbri_length(step), fraction = 1;
   sbf_vec3 direction = sbri_normalize(step, sbri_vec3(0, 0, 0));
   for (uint32_t i = 0; size > 0 && i < rig->leg_count; i++) {
@@ -299,8 +306,8 @@ static void update_sway(
     float left = sbri_remaining_reach(rig, state, input, i, direction) / size;
     if (left < fraction) fraction = left > 0 ? left : 0;
   }
-  state->sway_x = (sbri_lag){state->sway_x.value + fraction * step.x, fraction * x.rate};
-  state->sway_z = (sbri_lag){state->sway_z.value + fraction * step.z, fraction * z.rate};
+  state->balance.sway_x = (sbri_lag){state->balance.sway_x.value + fraction * step.x, fraction * x.rate};
+  state->balance.sway_z = (sbri_lag){state->balance.sway_z.value + fraction * step.z, fraction * z.rate};
 }
 
 sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -308,25 +315,27 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   if (!rig->leg_count) return stance_without_lowering(rig, state, input);
   sbri_body_steps_keep(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
-  sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
-  if (!state->together || state->standing_s > 0) lean = stands;
+  sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->balance.stand, input->scale));
+  if (!state->pace.together || state->pace.standing_s > 0) lean = stands;
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, direction);
   update_sway(rig, state, input, lean);
-  if (!stride) state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
-  bool at_home = state->standing_s > 0 && !lifting; /* all feet are at home */
-  if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &steps->bend);
-  sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
-  if (!stride) state->upright = (sbri_lag){0, 0};
+  if (!stride)
+    state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
+  bool at_home = state->pace.standing_s > 0 && !lifting; /* all feet are at home */
+  if (stride) sbri_lag_tick(&state->balance.bent, at_home ? 0 : 1, &steps->bend);
+  sbri_lag_tick(
+      &state->balance.upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
+  if (!stride) state->balance.upright = (sbri_lag){0, 0};
   sbri_stance stance = stance_without_lowering(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
   float clearance = max_lowering_of_belly(rig, state, input, &stance.root);
-  sbri_lag_tick(&state->clearance, clearance, &steps->crouch);
-  if (!stride) state->clearance = (sbri_lag){clearance, 0};
-  if (wanted > state->clearance.value) wanted = state->clearance.value;
-  sbri_lag_tick(&state->crouch, wanted, &steps->crouch);
-  if (!stride) state->crouch = (sbri_lag){wanted, 0};
+  sbri_lag_tick(&state->balance.clearance, clearance, &steps->crouch);
+  if (!stride) state->balance.clearance = (sbri_lag){clearance, 0};
+  if (wanted > state->balance.clearance.value) wanted = state->balance.clearance.value;
+  sbri_lag_tick(&state->balance.crouch, wanted, &steps->crouch);
+  if (!stride) state->balance.crouch = (sbri_lag){wanted, 0};
   lower_body(rig, state, input, needed, &stance);
   return stance;
 }

@@ -23,7 +23,7 @@ void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri
     const sbf_follower *source = &rig->asset->followers.at[i];
     uint32_t b = (uint32_t)source->bone;
     if (in_world(source)) continue;
-    const sbr_transform *parent = rig->parents[b] >= 0 ? &pose[rig->parents[b]] : root;
+    const sbr_transform *parent = rig->bones.parents[b] >= 0 ? &pose[rig->bones.parents[b]] : root;
     sbf_quat back = sbri_quat_conjugate(parent->rotation);
     sbf_vec3 position = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));
     position = sbri_scale(position, 1 / input->scale);

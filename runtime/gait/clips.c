@@ -111,7 +111,7 @@ bool sbri_clips_play(const sbri_gait_state *state) {
 }
 
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
-  for (uint32_t i = 0; i < rig->bone_count; i++) locals[i] = rig->base_local[i];
+  for (uint32_t i = 0; i < rig->bones.count; i++) locals[i] = rig->bones.base_local[i];
   sbri_walk_pose(rig, state, scale, locals);
   play_gait_clips(rig, state, scale, locals);
   for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++)

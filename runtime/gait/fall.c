@@ -13,7 +13,8 @@ static const float LOW = 1e-4f; /* m; minimum height of a fall */
 static float support_height(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float sum = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) sum += state->feet[i].ground.y;
-  return rig->leg_count ? sum / (float)rig->leg_count : sbri_ground_below(input, state->position, NULL).y;
+  return rig->leg_count ? sum / (float)rig->leg_count
+                        : sbri_ground_below(input, state->motion.position, NULL).y;
 }
 
 /* Whether a planted foot has ground under its centre, or under another part, as at the edge of a stair. */
@@ -29,7 +30,8 @@ static bool is_supported(const sbri_rig *rig, const sbri_gait_state *state, cons
 /* Whether nothing supports it: no planted foot has ground, or, without legs, there is none under the body. */
 static bool has_no_ground(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float unsupported = GONE * rig->girth.step_up * input->scale;
-  if (!rig->leg_count) return sbri_ground_below(input, state->position, NULL).y < state->level - unsupported;
+  if (!rig->leg_count)
+    return sbri_ground_below(input, state->motion.position, NULL).y < state->fall.level - unsupported;
   bool stands = false;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
@@ -55,22 +57,23 @@ static void set_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sb
 
 bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (input->hold || !rig->girth.bumper_count || sbri_is_afloat(rig)) return false;
-  if (!state->falls && !(state->position.y > LOW) && !has_no_ground(rig, state, input)) return false;
-  if (!state->falls) state->fall_speed = 0;
-  float height = state->level + state->position.y;
+  if (!state->fall.falls && !(state->motion.position.y > LOW) && !has_no_ground(rig, state, input))
+    return false;
+  if (!state->fall.falls) state->fall.speed = 0;
+  float height = state->fall.level + state->motion.position.y;
   set_feet_below(rig, state, input);
-  state->fall_speed += input->gravity * input->tick_s;
-  height -= state->fall_speed * input->tick_s;
-  state->level = support_height(rig, state, input);
-  state->position.y = height - state->level;
-  state->falls = state->position.y > LOW;
-  if (state->falls) return true;
-  state->position.y = 0;
+  state->fall.speed += input->gravity * input->tick_s;
+  height -= state->fall.speed * input->tick_s;
+  state->fall.level = support_height(rig, state, input);
+  state->motion.position.y = height - state->fall.level;
+  state->fall.falls = state->motion.position.y > LOW;
+  if (state->fall.falls) return true;
+  state->motion.position.y = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
-  state->level = support_height(rig, state, input);
+  state->fall.level = support_height(rig, state, input);
   return true;
 }
 
 void sbri_fall_note_level(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  state->level = support_height(rig, state, input);
+  state->fall.level = support_height(rig, state, input);
 }

@@ -24,7 +24,7 @@ void sbri_foot_put_down(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
-  foot->ground = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  foot->ground = sbri_add(state->motion.position, sbri_home_arm(rig, state, input, leg));
   sbri_lay_sole(rig, state, input, leg, &foot->ground, &foot->normal);
   sbri_foot_update_orientation(rig, state, input, leg);
 }
@@ -38,7 +38,7 @@ static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, u
     if (state->feet[i].planted) continue;
     feet |= 1u << i;
     *groups |= 1u << (rig->legs[i].group & 15);
-    if (state->feet[i].phase > JOINS) *groups |= 1u << 31;
+    if (state->feet[i].step.phase > JOINS) *groups |= 1u << 31;
   }
   return feet;
 }
@@ -49,10 +49,10 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
     const sbri_stride *stride, uint32_t leg) {
   const sbri_foot *foot = &state->feet[leg];
   const sbri_home *home = &stride->homes[leg];
-  sbf_vec3 offset = sbri_sub(sbri_add(state->position, home->arm), foot->ground);
+  sbf_vec3 offset = sbri_sub(sbri_add(state->motion.position, home->arm), foot->ground);
   offset.y = 0;
   float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
-  if (state->standing_s > 0) return sbri_length(offset) / trigger + 0.15f * twist;
+  if (state->pace.standing_s > 0) return sbri_length(offset) / trigger + 0.15f * twist;
   sbf_vec3 direction = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
   float behind = sbri_dot(offset, direction),
         beside = sbri_length(sbri_add_scaled(offset, direction, -behind));
@@ -66,7 +66,7 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
     float strain = sbri_strain(state, home, leg) / STRAINED;
     if (strain > DUE) result = strain;
   }
-  float missed = foot->missed / (MISSED * rig->reach * input->scale);
+  float missed = foot->missed / (MISSED * rig->stand.reach * input->scale);
   if (missed > 1 && missed > result) result = missed; /* out of the leg's reach */
   if (wide > NOTED && wide > result) result = wide;
   return twist > NOTED && twist > result ? twist : result;
@@ -81,7 +81,7 @@ typedef struct choice {
 
 /* Displacement of the body in a time. */
 static sbf_vec3 displacement_in(const sbri_gait_state *state, float time_s) {
-  return sbri_scale(sbri_body_velocity(state), state->speed_fraction * time_s);
+  return sbri_scale(sbri_body_velocity(state), state->pace.speed_fraction * time_s);
 }
 
 /* Time until the swinging feet land; the duration of a step if none swings. */
@@ -89,7 +89,7 @@ static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, floa
   float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_foot *foot = &state->feet[i];
-    float left = foot->planted ? 0 : (1 - foot->phase) * foot->duration_s;
+    float left = foot->planted ? 0 : (1 - foot->step.phase) * foot->step.duration_s;
     max = left > max ? left : max;
   }
   return max > 0 ? max : step_s;
@@ -102,25 +102,26 @@ static int32_t choose(
   uint32_t groups, in_air = feet_in_air(rig, state, &groups);
   int32_t best = -1, worst = -1;
   float max = 0;
-  float wanted = state->since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
-  if (state->standing_s > 0) wanted = SETTLED;
-  if (state->standing_s > 0 && state->standing_s < REST_AFTER_S) return -1;
+  float wanted = state->pace.since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
+  if (state->pace.standing_s > 0) wanted = SETTLED;
+  if (state->pace.standing_s > 0 && state->pace.standing_s < REST_AFTER_S) return -1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    if (!state->feet[i].planted || state->pivot == i + 1) continue;
+    if (!state->feet[i].planted || state->pace.pivot == i + 1) continue;
     uint32_t own_group = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own_group;
-    float value = state->next == i + 1 ? c->displacements[i] + KEPT
-                                       : c->displacements[i]; /* the body already leans for this foot */
+    float value = state->pace.next == i + 1 ? c->displacements[i] + KEPT
+                                            : c->displacements[i]; /* the body already leans for this foot */
     if (worst < 0 || value > max) worst = (int32_t)i, max = value;
     if (in_air && !companion) continue;
     float min = companion ? COMPANION : wanted;
-    if (state->standing_s > 0) min = SETTLED;
+    if (state->pace.standing_s > 0) min = SETTLED;
     if (c->displacements[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
-    bool bears = (c->stride.together || c->stride.running) && (state->standing_s == 0 || rig->has_pegs);
+    bool bears =
+        (c->stride.together || c->stride.running) && (state->pace.standing_s == 0 || rig->stand.has_pegs);
     if (!bears) {
       bears = sbri_support_bears(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
-      if (!bears && !in_air && state->waiting_s > WAIT_S) bears = true;
+      if (!bears && !in_air && state->pace.waiting_s > WAIT_S) bears = true;
       if (!bears) {
         *unbalanced = *unbalanced || !in_air;
         continue;
@@ -129,7 +130,7 @@ static int32_t choose(
     if (best < 0 || c->displacements[i] > c->displacements[best]) best = (int32_t)i;
   }
   c->next = worst >= 0 ? 1u << worst : 0;
-  state->next = (uint32_t)(worst + 1);
+  state->pace.next = (uint32_t)(worst + 1);
   return best;
 }
 
@@ -142,10 +143,10 @@ static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacit
 /* Moves a foot that is far behind, as after a teleport, to its home. */
 static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
-  sbf_vec3 home = sbri_add(state->position, stride->homes[leg].arm);
+  sbf_vec3 home = sbri_add(state->motion.position, stride->homes[leg].arm);
   const sbri_leg *l = &rig->legs[leg];
   float max_distance =
-      (rig->gait->legs.at[leg].jump_margin + l->upper_length + l->lower_length) * input->scale;
+      (rig->gait->legs.at[leg].jump_margin + l->length.upper + l->length.lower) * input->scale;
   if (sbri_flat_distance(home, state->feet[leg].ground) <= max_distance) return false;
   sbri_foot_put_down(rig, state, input, leg);
   return true;
@@ -155,8 +156,8 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     sbri_stance *stance, sbri_gait_event *events, uint32_t capacity) {
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
-  state->together = c.stride.together;
-  state->widest_m = c.stride.speed > 0 ? c.stride.widest_m : 0;
+  state->pace.together = c.stride.together;
+  state->pace.widest_m = c.stride.speed > 0 ? c.stride.widest_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;
@@ -168,19 +169,19 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     if (placed) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
     if (foot->planted) c.displacements[i] = displacement(rig, state, input, &c.stride, i);
   }
-  state->since_lift_m += c.stride.speed * input->tick_s;
+  state->pace.since_lift_m += c.stride.speed * input->tick_s;
   bool unbalanced = false;
   for (uint32_t tries = 0; tries < rig->leg_count; tries++) {
     int32_t leg = choose(rig, state, input, &c, &unbalanced);
     if (leg < 0) break;
-    if (feet_in_air(rig, state, &groups) == 0) state->since_lift_m = 0;
+    if (feet_in_air(rig, state, &groups) == 0) state->pace.since_lift_m = 0;
     sbri_swing_begin(rig, state, input, &c.stride, (uint32_t)leg);
     count = report(events, count, capacity, SBRI_GAIT_FOOT_UP, (uint32_t)leg, state->feet[leg].ground);
     unbalanced = false;
-    state->waiting_s = 0;
+    state->pace.waiting_s = 0;
   }
-  state->waiting_s = unbalanced ? state->waiting_s + input->tick_s : 0;
-  if (state->standing_s > 0) { /* next foot to return home, if any is away */
+  state->pace.waiting_s = unbalanced ? state->pace.waiting_s + input->tick_s : 0;
+  if (state->pace.standing_s > 0) { /* next foot to return home, if any is away */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)
       if (state->feet[i].planted && c.displacements[i] >= SETTLED &&
@@ -189,9 +190,9 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     c.next = worst >= 0 ? 1u << worst : 0;
   }
   uint32_t in_air = feet_in_air(rig, state, &groups);
-  bool leans = !rig->has_pegs && (!c.stride.together || state->standing_s > 0);
+  bool leans = !rig->stand.has_pegs && (!c.stride.together || state->pace.standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
-  if (leans && !in_air && state->standing_s == 0 && !c.next) lifting = 0;
+  if (leans && !in_air && state->pace.standing_s == 0 && !c.next) lifting = 0;
   sbf_vec3 direction = displacement_in(state, time_in_air(rig, state, c.stride.duration_s));
   *stance = sbri_body_tick(rig, state, input, &c.stride, lifting, direction);
   return count;

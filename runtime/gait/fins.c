@@ -19,7 +19,7 @@ void sbri_fins_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   const sbri_motion_state *m = sbri_motion(rig, state);
   sbri_fin_state *fins = sbri_fin_states(rig, state);
   float cruise = rig->gait->walk_speed * input->scale,
-        rotated = state->turn * state->speed_fraction * input->tick_s;
+        rotated = state->motion.turn * state->pace.speed_fraction * input->tick_s;
   for (uint32_t f = 0; f < rig->gait->fins.count; f++) {
     const sbf_fin *fin = &rig->gait->fins.at[f];
     sbf_vec3 axis = sbri_normalize(fin->axis, sbri_vec3(0, 0, 1));
@@ -58,8 +58,8 @@ static sbf_quat rotation_about(sbf_vec3 axis, float angle) {
 /* Rotation of a bone relative to its parent without the fin's motion, in world axes. */
 static sbf_quat base_rotation(
     const sbri_rig *rig, uint32_t bone, const sbr_transform *root, const sbr_transform *pose) {
-  sbf_quat parent = rig->parents[bone] >= 0 ? pose[rig->parents[bone]].rotation : root->rotation;
-  return sbri_quat_multiply(parent, rig->base_local[bone].rotation);
+  sbf_quat parent = rig->bones.parents[bone] >= 0 ? pose[rig->bones.parents[bone]].rotation : root->rotation;
+  return sbri_quat_multiply(parent, rig->bones.base_local[bone].rotation);
 }
 
 void sbri_fins_pose(

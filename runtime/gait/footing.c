@@ -24,7 +24,7 @@ static float level_of(const sbri_rig *rig, const sbri_gait_state *state) {
   float sum = 0, count = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++)
     if (state->feet[i].planted) sum += state->feet[i].ground.y, count += 1;
-  return count > 0 ? sum / count : state->position.y;
+  return count > 0 ? sum / count : state->motion.position.y;
 }
 
 /* Fits a sole to the ground like a board: tilted to the slope under its corners, on the highest point below
@@ -79,8 +79,9 @@ static void find_corners(const sbri_rig *rig, const sbri_gait_state *state, floa
     sbf_vec3 corners[4], sbf_vec3 *outline) {
   const sbri_sole *sole = &rig->legs[leg].sole;
   const sbri_foot *foot = &state->feet[leg];
-  float rotation =
-      foot->planted ? 0 : state->turn * state->speed_fraction * (1 - foot->phase) * foot->duration_s;
+  float rotation = foot->planted ? 0
+                                 : state->motion.turn * state->pace.speed_fraction * (1 - foot->step.phase) *
+                                       foot->step.duration_s;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
     if (rotation != 0) corner = sbri_turned(corner, rotation); /* with the body's heading at landing */
@@ -100,7 +101,7 @@ void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   spot.position = sbri_ground_below(input, *position, &spot.normal);
   find_corners(rig, state, input->scale, leg, corners, NULL);
   if (!sbri_ground_is_flat(input->ground, &level)) {
-    float uneven = UNEVEN * rig->reach * input->scale;
+    float uneven = UNEVEN * rig->stand.reach * input->scale;
     bool even = fit_sole(input, corners, uneven, &spot) <= uneven;
     if (even) raise_to_highest(input, corners, &spot);
   }
@@ -111,7 +112,7 @@ void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 /* Quality of a foothold: 2 good, 1 uneven, 0 unusable. */
 static int quality(
     const sbri_rig *rig, const sbri_gait_input *input, const footing *f, sbf_vec3 wanted, ground_spot *spot) {
-  float reach = rig->reach * input->scale;
+  float reach = rig->stand.reach * input->scale;
   double level;
   spot->position = sbri_ground_below(input, wanted, &spot->normal);
   if (spot->normal.y < STEEPEST || fabsf(spot->position.y - f->level) > HIGHEST * reach) return 0;
@@ -137,11 +138,11 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *position, sbf_vec3 *normal) {
   footing f = {.level = level_of(rig, state)};
   find_corners(rig, state, input->scale, leg, f.corners, f.outline);
-  float step = SPACING * rig->reach * input->scale;
+  float step = SPACING * rig->stand.reach * input->scale;
   ground_spot spot, other;
   int best = quality(rig, input, &f, wanted, &spot), found;
   sbf_vec3 direction =
-      sbri_sub(wanted, state->feet[leg].planted ? state->feet[leg].ground : state->feet[leg].from);
+      sbri_sub(wanted, state->feet[leg].planted ? state->feet[leg].ground : state->feet[leg].step.from);
   direction.y = 0;
   float length = sbri_length(direction);
   direction = sbri_normalize(direction, sbri_headed(state, sbri_vec3(0, 0, 1)));

@@ -23,19 +23,19 @@ static const float BALANCE_S = 0.2f; /* further wait after which it stands, s */
 static const float HURRY_S = 0.12f;  /* time constant for regaining speed after a wait, s */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
-  size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
-                sizeof(sbri_chain_bone) * rig->chain_bone_count +
+  size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tails.bone_count +
+                sizeof(sbri_chain_bone) * rig->chains.bone_count +
                 sizeof(sbri_limb_target) * rig->asset->ik_chains.count +
                 sizeof(sbri_bone_follower) * rig->asset->followers.count + sbri_motion_size(rig);
   return (size + 15) & ~(size_t)15;
 }
 
 static void store_stance(sbri_gait_state *state, const sbri_stance *stance) {
-  state->root = stance->root;
-  state->hips_yaw = stance->hips_yaw;
-  state->hips_pitch = stance->hips_pitch;
-  state->chest_yaw = stance->chest_yaw;
-  state->lowered = stance->lowered;
+  state->posture.root = stance->root;
+  state->posture.hips_yaw = stance->hips_yaw;
+  state->posture.hips_pitch = stance->hips_pitch;
+  state->posture.chest_yaw = stance->chest_yaw;
+  state->posture.lowered = stance->lowered;
   state->eased = stance->eased;
 }
 
@@ -43,43 +43,43 @@ void sbri_gait_reset(
     const sbri_rig *rig, void *memory, const sbri_gait_input *input, sbf_vec3 position, float heading) {
   sbri_gait_state *state = memory;
   memset(memory, 0, sbri_gait_state_size(rig));
-  state->position = position;
-  state->heading = sbri_wrap_angle(heading);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  state->standing_s = 1;
+  state->motion.position = position;
+  state->motion.heading = sbri_wrap_angle(heading);
+  sbri_sincos(state->motion.heading, &state->motion.heading_sine, &state->motion.heading_cosine);
+  state->pace.standing_s = 1;
   SBF_ASSERT(rig->leg_count <= SBRI_MAX_LEGS);
   state->foot_count = rig->leg_count;
-  state->tail_bone_count = rig->tail_bone_count;
-  state->speed_fraction = state->limit = 1;
-  state->since_lift_m = 1e6f; /* the first step does not wait */
+  state->tail_bone_count = rig->tails.bone_count;
+  state->pace.speed_fraction = state->pace.limit = 1;
+  state->pace.since_lift_m = 1e6f; /* the first step does not wait */
   sbri_motion_reset(rig, state, input);
   sbri_body_stand(rig, state, input);
 }
 
 void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  sbf_vec3 position = state->position;
-  float heading = state->heading;
+  sbf_vec3 position = state->motion.position;
+  float heading = state->motion.heading;
   if (sbri_is_kind(rig, SBF_GAIT_KIND_SLITHER)) sbri_slither_reset(rig, state, input);
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
-  for (uint32_t c = 0; c < rig->chain_count; c++)
-    for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++) {
-      const sbr_transform *rest = &rig->rest[rig->chains[c].source->bones.at[k]];
-      sbr_transform *frame = &chain_bones[rig->chains[c].first_state + k].frame;
+  for (uint32_t c = 0; c < rig->chains.count; c++)
+    for (uint32_t k = 0; k < rig->chains.at[c].source->bones.count; k++) {
+      const sbr_transform *rest = &rig->bones.rest[rig->chains.at[c].source->bones.at[k]];
+      sbr_transform *frame = &chain_bones[rig->chains.at[c].first_state + k].frame;
       sbf_quat rotation = {0, 0, 0, 1};
       sbri_sincos(0.5f * heading, &rotation.y, &rotation.w);
       frame->position = sbri_add(position, sbri_rotate(rotation, sbri_scale(rest->position, input->scale)));
       frame->rotation = sbri_quat_multiply(rotation, rest->rotation);
     }
   for (uint32_t i = 0; i < rig->leg_count; i++)
-    state->feet[i].hip = sbri_scale(rig->rest[rig->legs[i].upper].position, input->scale);
-  state->stands = sbri_support_stand(rig);
-  sbf_vec3 stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
-  state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
-  state->root = sbri_body_stance(rig, state, input).root;
+    state->feet[i].hip = sbri_scale(rig->bones.rest[rig->legs[i].upper].position, input->scale);
+  state->balance.stand = sbri_support_stand(rig);
+  sbf_vec3 stands = sbri_headed(state, sbri_scale(state->balance.stand, input->scale));
+  state->balance.sway_x = (sbri_lag){stands.x, 0}, state->balance.sway_z = (sbri_lag){stands.z, 0};
+  state->posture.root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   store_stance(state, &stance);
-  state->rise = 0;
+  state->posture.rise = 0;
   sbri_fall_note_level(rig, state, input);
   sbri_tails_reset(rig, state, input, &stance);
 }
@@ -92,13 +92,13 @@ typedef struct velocity_gain {
 static velocity_gain limited_gain(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
-  float ahead = (state->limit * input->forward - state->forward) * inverse_mass;
-  float aside = (state->limit * input->sideways - state->sideways) * inverse_mass;
-  float turn = (state->limit * input->turn - state->turn) * inverse_mass;
+  float ahead = (state->pace.limit * input->forward - state->motion.forward) * inverse_mass;
+  float aside = (state->pace.limit * input->sideways - state->motion.sideways) * inverse_mass;
+  float turn = (state->pace.limit * input->turn - state->motion.turn) * inverse_mass;
   if (rig->leg_count) { /* limited by the fastest home */
-    float step_s = rig->gait->step_duration, round = turn * rig->spread * input->scale;
+    float step_s = rig->gait->step_duration, round = turn * rig->stand.spread * input->scale;
     float brisk_s = step_s > BRISK_S && sbri_stands_level(rig, state, input->scale) ? BRISK_S : step_s;
-    float max = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * brisk_s);
+    float max = ACCELERATES * rig->stand.reach * input->scale * input->tick_s / (step_s * brisk_s);
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
     fraction = change > max ? max / change : 1;
   }
@@ -118,11 +118,11 @@ static bool is_displaced(const sbri_gait_input *input) {
 /* Moves and rotates the body as far as walls allow. */
 static void move_body(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 step, float turned) {
-  sbf_vec3 from = state->position;
-  state->position = sbri_add(from, step);
-  state->heading = sbri_wrap_angle(state->heading + turned);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
-  if (sbri_walls_keep_out(rig, state, input, from, turned)) step = sbri_sub(state->position, from);
+  sbf_vec3 from = state->motion.position;
+  state->motion.position = sbri_add(from, step);
+  state->motion.heading = sbri_wrap_angle(state->motion.heading + turned);
+  sbri_sincos(state->motion.heading, &state->motion.heading_sine, &state->motion.heading_cosine);
+  if (sbri_walls_keep_out(rig, state, input, from, turned)) step = sbri_sub(state->motion.position, from);
   state->distance_m += (double)sbri_length(step);
   sbri_walk_tick(rig, state, sbri_length(step), input->scale);
   sbri_motion_tick(rig, state, input, step);
@@ -134,11 +134,11 @@ static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
   sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->moved), h), shift = input->moved;
   if (!sbri_is_afloat(rig)) shift.y = 0;
-  state->forward += (speed.z - state->forward) * blend;
-  state->sideways += (speed.x - state->sideways) * blend;
-  state->turn += (h * input->turned - state->turn) * blend;
-  state->standing_s = 0;
-  state->speed_fraction = 1;
+  state->motion.forward += (speed.z - state->motion.forward) * blend;
+  state->motion.sideways += (speed.x - state->motion.sideways) * blend;
+  state->motion.turn += (h * input->turned - state->motion.turn) * blend;
+  state->pace.standing_s = 0;
+  state->pace.speed_fraction = 1;
   state->displaced = 1;
   move_body(rig, state, input, shift, input->turned);
   return input->turned;
@@ -149,36 +149,39 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   const sbri_gait_input *input = &command;
   if (is_displaced(input)) return displace(rig, state, input);
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
-  if (state->displaced && !wanted) state->forward = state->sideways = state->turn = 0;
+  if (state->displaced && !wanted) state->motion.forward = state->motion.sideways = state->motion.turn = 0;
   state->displaced = 0;
   if (sbri_is_afloat(rig)) {
-    sbf_vec3 direction, from = state->position;
+    sbf_vec3 direction, from = state->motion.position;
     float round = sbri_afloat_move(rig, state, input, &direction);
     sbri_walls_keep_out(rig, state, input, from, round);
     sbri_motion_tick(rig, state, input, direction);
     return round;
   }
   velocity_gain gain = limited_gain(rig, state, input);
-  state->forward += gain.ahead;
-  state->sideways += gain.aside;
-  state->turn += gain.turn;
-  float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
-  if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
-    state->forward = state->sideways = state->turn = 0;
-    if (state->standing_s < LONG_S) state->standing_s += input->tick_s; /* everything is at rest then */
+  state->motion.forward += gain.ahead;
+  state->motion.sideways += gain.aside;
+  state->motion.turn += gain.turn;
+  float speed =
+      sqrtf(state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways);
+  if (!wanted && speed < STILL * input->scale && fabsf(state->motion.turn) < STILL) {
+    state->motion.forward = state->motion.sideways = state->motion.turn = 0;
+    if (state->pace.standing_s < LONG_S)
+      state->pace.standing_s += input->tick_s; /* everything is at rest then */
   } else {
-    state->standing_s = 0;
+    state->pace.standing_s = 0;
   }
   float lasting = 1, max = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
   float balanced =
-      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* leaves the next foot time for the body to lean */
+      1 - (state->pace.waiting_s - WAITS_S) / BALANCE_S; /* leaves the next foot time for the body to lean */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
   float speed_fraction = lasting < max ? lasting : max,
-        in_s = speed_fraction < state->speed_fraction ? SLOWS_S : HURRY_S;
-  state->speed_fraction += (speed_fraction - state->speed_fraction) * (1 - sbri_exp(-input->tick_s / in_s));
-  if (state->speed_fraction > max) state->speed_fraction = max;
-  float h = input->tick_s * state->speed_fraction * sbri_hop_speed_fraction(rig, state, input),
-        turned = state->turn * h;
+        in_s = speed_fraction < state->pace.speed_fraction ? SLOWS_S : HURRY_S;
+  state->pace.speed_fraction +=
+      (speed_fraction - state->pace.speed_fraction) * (1 - sbri_exp(-input->tick_s / in_s));
+  if (state->pace.speed_fraction > max) state->pace.speed_fraction = max;
+  float h = input->tick_s * state->pace.speed_fraction * sbri_hop_speed_fraction(rig, state, input),
+        turned = state->motion.turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   move_body(rig, state, input, step, turned);
   return turned;
@@ -198,13 +201,13 @@ static void find_center(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbr_transform *pose) {
   sbf_vec3 center = {0, 0, 0};
   if (sbri_rig_center(rig, pose, input->scale, &center)) {
-    center = sbri_sub(center, state->position);
-    center.x -= state->sway_x.value, center.z -= state->sway_z.value;
+    center = sbri_sub(center, state->motion.position);
+    center.x -= state->balance.sway_x.value, center.z -= state->balance.sway_z.value;
   } else {
     for (uint32_t i = 0; i < rig->leg_count; i++)
       center = sbri_add_scaled(center, sbri_home_arm(rig, state, input, i), 1 / (float)rig->leg_count);
   }
-  state->center = center;
+  state->balance.center = center;
 }
 
 uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input *input, sbr_transform *pose,
@@ -220,9 +223,9 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_foot_update_heading(rig, state, input, i);
   }
   sbri_stance stance;
-  bool fell = state->falls, in_air = sbri_fall_tick(rig, state, input);
-  if (fell && !state->falls && count < capacity)
-    events[count++] = (sbri_gait_event){.kind = SBRI_GAIT_LANDED, .position = state->position};
+  bool fell = state->fall.falls, in_air = sbri_fall_tick(rig, state, input);
+  if (fell && !state->fall.falls && count < capacity)
+    events[count++] = (sbri_gait_event){.kind = SBRI_GAIT_LANDED, .position = state->motion.position};
   if (in_air && rig->leg_count)
     stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   else if (!input->hold && rig->leg_count)
@@ -232,7 +235,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   if (!in_air) sbri_fall_note_level(rig, state, input);
   update_head(rig, state, input);
   sbri_tails_tick(rig, state, input, &stance, turned);
-  state->rise = (stance.root.position.y - state->root.position.y) / input->tick_s;
+  state->posture.rise = (stance.root.position.y - state->posture.root.position.y) / input->tick_s;
   store_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);
@@ -246,21 +249,21 @@ void sbri_gait_pose(
 
 void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   sbri_gait_state *state = memory;
-  state->position.x -= shift.x;
-  state->position.z -= shift.z; /* y is relative to the ground */
-  state->root.position = sbri_sub(state->root.position, shift);
-  state->level -= shift.y;
+  state->motion.position.x -= shift.x;
+  state->motion.position.z -= shift.z; /* y is relative to the ground */
+  state->posture.root.position = sbri_sub(state->posture.root.position, shift);
+  state->fall.level -= shift.y;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->ground = sbri_sub(foot->ground, shift);
-    foot->from = sbri_sub(foot->from, shift);
-    foot->to = sbri_sub(foot->to, shift), foot->planned = sbri_sub(foot->planned, shift);
-    foot->x.at -= shift.x, foot->z.at -= shift.z;
-    foot->base.at -= shift.y;
+    foot->step.from = sbri_sub(foot->step.from, shift);
+    foot->step.to = sbri_sub(foot->step.to, shift), foot->step.planned = sbri_sub(foot->step.planned, shift);
+    foot->glides.x.at -= shift.x, foot->glides.z.at -= shift.z;
+    foot->glides.base.at -= shift.y;
     foot->pole = sbri_sub(foot->pole, shift);
   }
   sbri_chain_bone *bones = sbri_chain_bones(rig, state);
-  for (uint32_t i = 0; i < rig->chain_bone_count; i++) {
+  for (uint32_t i = 0; i < rig->chains.bone_count; i++) {
     bones[i].frame.position = sbri_sub(bones[i].frame.position, shift);
     bones[i].tip = sbri_sub(bones[i].tip, shift);
   }
@@ -279,9 +282,9 @@ uint32_t sbri_gait_legs(
     legs[i] = (sbr_leg_state){.planted = fraction > 0.999f ? foot->planted : foot->was_planted,
         .steps_taken = foot->steps_taken,
         .foot = sbri_add(foot->ground, sbri_vec3(0, foot->lift, 0)),
-        .target = foot->planted ? foot->ground : foot->to,
+        .target = foot->planted ? foot->ground : foot->step.to,
         .pole = foot->pole,
-        .phase = foot->phase};
+        .phase = foot->step.phase};
   }
   return rig->leg_count;
 }
@@ -291,11 +294,11 @@ double sbri_gait_distance(const void *state) {
 }
 
 float sbri_gait_level(const void *state) {
-  return ((const sbri_gait_state *)state)->level;
+  return ((const sbri_gait_state *)state)->fall.level;
 }
 
 void sbri_gait_get_placement(const void *memory, sbf_vec3 *position, float *heading) {
   const sbri_gait_state *state = memory;
-  *position = state->position;
-  *heading = state->heading;
+  *position = state->motion.position;
+  *heading = state->motion.heading;
 }

@@ -7,33 +7,52 @@
 #include "gait/glide.h"
 #include "math/follower.h"
 
-typedef struct sbri_foot {
-  sbf_vec3
-      ground; /* position of a planted sole; of a swinging one the point below it on the line of its step */
-  sbf_vec3 normal; /* ground normal there, smoothed during swing */
-  float heading;   /* heading relative to the body, rad; constant in the world while the body turns */
-  /* Derived from `normal` and `heading` by sbri_foot_faces: sine and cosine of the world heading, and the
-   * ankle's offset from the middle of the sole, as turned and with the body's heading. */
-  float sine, cosine;
-  sbf_vec3 beside, beside_at_home;
-  sbf_quat tilt, turned;                     /* rotation to the ground's slope; rotation from the rest pose */
-  float lift;                                /* height of the sole above `ground`, m */
-  sbf_vec3 from, from_normal, to, to_normal; /* ends of the present step and the ground normals there */
+/* What follows from a foot's normal and heading (sbri_foot_update_orientation). */
+typedef struct sbri_foot_frame {
+  float sine, cosine;      /* of the world heading */
+  sbf_vec3 beside;         /* the ankle's offset from the middle of the sole, as rotated */
+  sbf_vec3 beside_at_home; /* the same with the body's heading */
+  sbf_quat tilt, rotation; /* rotation to the ground's slope; rotation from the rest pose */
+} sbri_foot_frame;
+
+/* The present step, or the last. */
+typedef struct sbri_foot_step {
+  sbf_vec3 from, from_normal, to, to_normal; /* its ends and the ground normals there */
   sbf_vec3 planned;                          /* `to` at the time of the last plan */
-  float phase;                               /* phase of the step, 0 to 1 */
+  float phase;                               /* 0 to 1 */
   float duration_s;
   float lasting;         /* speed fraction that the stance feet allowed at lift-off */
   float clearance;       /* maximum lift, m */
   float leaves, arrives; /* phases at which horizontal motion begins and ends */
   float climbs, climbed; /* phases at which the change of height begins and ends */
-  sbri_glide x, z, base, rise, tilt_x, tilt_z, twist; /* of `ground`, `lift`, `normal`, `heading` */
-  sbf_vec3 hip;                                       /* hip position in the last pose, in root axes, m */
-  sbf_vec3 pole;                                      /* pole vector of the knee in the last pose */
-  float missed; /* distance of the sole from its target because of leg limits, m */
-  /* Knee angle of the last pose, rad (straight: pi); its rate, rad/s; the angle that the foot's path asked
-   * for; the angle at which it is locked, 0: not locked. */
-  float knee, knee_rate, knee_wanted, knee_locked;
-  uint32_t knee_known;           /* number of ticks with a known knee angle, at most 2 */
+} sbri_foot_step;
+
+/* Paths of a foot's `ground`, `lift`, `normal` and `heading`. */
+typedef struct sbri_foot_glides {
+  sbri_glide x, z, base, rise, tilt_x, tilt_z, twist;
+} sbri_foot_glides;
+
+/* Knee angle of the last pose, rad; straight: pi. */
+typedef struct sbri_knee_state {
+  float angle, rate;    /* rad, rad/s */
+  float wanted;         /* angle that the foot's path asked for */
+  float locked;         /* angle at which it is locked; 0: not locked */
+  uint32_t known_ticks; /* number of ticks with a known angle, at most 2 */
+} sbri_knee_state;
+
+typedef struct sbri_foot {
+  sbf_vec3
+      ground; /* position of a planted sole; of a swinging one the point below it on the line of its step */
+  sbf_vec3 normal; /* ground normal there, smoothed during swing */
+  float heading;   /* heading relative to the body, rad; constant in the world while the body turns */
+  sbri_foot_frame frame;
+  float lift; /* height of the sole above `ground`, m */
+  sbri_foot_step step;
+  sbri_foot_glides glides;
+  sbf_vec3 hip;  /* hip position in the last pose, in root axes, m */
+  sbf_vec3 pole; /* pole vector of the knee in the last pose */
+  float missed;  /* distance of the sole from its target because of leg limits, m */
+  sbri_knee_state knee;
   uint32_t planted, was_planted; /* 1: planted; now and in the previous tick */
   uint32_t steps_taken;
 } sbri_foot;
@@ -51,45 +70,72 @@ typedef struct sbri_body_steps {
   sbri_follower_step lean, bend, upright, crouch, head;
 } sbri_body_steps;
 
-typedef struct sbri_gait_state {
+typedef struct sbri_gait_motion {
   sbf_vec3 position; /* position of the asset's origin; y: height above the ground */
   float heading;     /* rad, in (-pi, pi] */
   float heading_sine, heading_cosine;
   float forward, sideways, turn; /* smoothed, m/s and rad/s */
-  float speed_fraction;          /* speed fraction that the feet allow, 0 to 1 */
-  float standing_s;              /* time since it stopped moving, s; 0 while moving */
-  float limit;                   /* speed fraction for which its steps have time, 0 to 1 */
-  float needed_s;                /* recent duration of a step */
-  float half_m;                  /* half of the stride length */
-  float widest_m;                /* upper bound of half_m, mean over a stride; 0: unknown */
-  float since_lift_m;            /* distance since the last lift-off */
-  float waiting_s;               /* time for which a due foot has had to wait */
-  uint32_t together;             /* 1: feet of a group step together; 0: as many as balance allows */
-  uint32_t pivot;                /* 1-based leg that the body turns about; 0: none */
-  uint32_t next;   /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
-  sbf_vec3 stands; /* level offset from the rest pose that puts it over its feet, m */
+} sbri_gait_motion;
+
+/* How fast the feet let the body go, and which of them steps next. */
+typedef struct sbri_gait_pace {
+  float speed_fraction; /* speed fraction that the feet allow, 0 to 1 */
+  float standing_s;     /* time since it stopped moving, s; 0 while moving */
+  float limit;          /* speed fraction for which its steps have time, 0 to 1 */
+  float needed_s;       /* recent duration of a step */
+  float half_m;         /* half of the stride length */
+  float widest_m;       /* upper bound of half_m, mean over a stride; 0: unknown */
+  float since_lift_m;   /* distance since the last lift-off */
+  float waiting_s;      /* time for which a due foot has had to wait */
+  uint32_t together;    /* 1: feet of a group step together; 0: as many as balance allows */
+  uint32_t pivot;       /* 1-based leg that the body turns about; 0: none */
+  uint32_t next;        /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
+} sbri_gait_pace;
+
+/* The body over its feet. */
+typedef struct sbri_gait_balance {
+  sbf_vec3 stand;          /* level offset from the rest pose that puts it over its feet, m */
   sbri_lag sway_x, sway_z; /* sway of the body over its feet, world axes, m */
   sbri_lag crouch;         /* lowering of the body so that its legs reach their feet, m */
   sbri_lag upright;        /* 1: tilts about its hips; 0: about the ground */
-  sbri_lag clearance; /* how far the body may be lowered with its belly above the ground, m; below 0: it has
-                         to rise */
-  sbri_lag bent;      /* 0: legs may be as straight as in the rest pose; 1: bent for walking */
-  sbf_vec3 center;    /* centre of mass relative to `position`, without sway, of the last tick */
-  sbr_transform root; /* root frame of the last stance; its yaw and pitch */
+  sbri_lag clearance;      /* how far the body may be lowered with its belly above the ground, m; below 0: it
+                              has to rise */
+  sbri_lag bent;           /* 0: legs may be as straight as in the rest pose; 1: bent for walking */
+  sbf_vec3 center;         /* centre of mass relative to the position, without sway, of the last tick */
+} sbri_gait_balance;
+
+/* Root and spine of the last stance. */
+typedef struct sbri_gait_posture {
+  sbr_transform root; /* with yaw and pitch */
   float hips_yaw, hips_pitch, chest_yaw;
-  float lowered;      /* lowering of the root from upright legs, m */
-  float rise;         /* vertical speed of the root in the last tick, m/s */
-  float level;        /* height of the ground below, relative to the origin, m */
-  float fall_speed;   /* downward speed, m/s */
-  uint32_t falls;     /* 1: in free fall */
+  float lowered; /* lowering of the root from upright legs, m */
+  float rise;    /* vertical speed of the root in the last tick, m/s */
+} sbri_gait_posture;
+
+typedef struct sbri_gait_fall {
+  float level;    /* height of the ground below, relative to the origin, m */
+  float speed;    /* downward speed, m/s */
+  uint32_t falls; /* 1: in free fall */
+} sbri_gait_fall;
+
+/* The walk cycle of keyed poses. */
+typedef struct sbri_gait_walk {
+  float phase;           /* 0 to below 1 */
+  float ahead;           /* lead of that cycle over the feet that is still to be corrected, cycles */
+  float half_m, since_m; /* asset metres between the last two landings (0: unknown); since the last */
+  uint32_t landed;       /* leg that landed last, 1 or 2; 0: none */
+} sbri_gait_walk;
+
+typedef struct sbri_gait_state {
+  sbri_gait_motion motion;
+  sbri_gait_pace pace;
+  sbri_gait_balance balance;
+  sbri_gait_posture posture;
+  sbri_gait_fall fall;
   uint32_t displaced; /* 1: moved by its host in this tick; stops when the host stops */
   uint32_t eased;     /* 1: lowered less than the feet ask for, to spare the knees */
   double distance_m;
-  float walk_phase; /* phase of the walk cycle of keyed poses, 0 to below 1 */
-  float walk_ahead; /* lead of that cycle over the feet that is still to be corrected, cycles */
-  float walk_half_m,
-      walk_since_m;     /* asset metres between the last two landings (0: unknown); since the last */
-  uint32_t walk_landed; /* leg that landed last, 1 or 2; 0: none */
+  sbri_gait_walk walk;
   sbri_lag head_yaw;
   sbri_body_steps steps;
   uint32_t foot_count, tail_bone_count;
@@ -126,10 +172,10 @@ static inline sbri_lag *sbri_tail_lags(sbri_gait_state *state) {
   return (sbri_lag *)(void *)(state + 1);
 }
 static inline sbri_chain_bone *sbri_chain_bones(const sbri_rig *rig, sbri_gait_state *state) {
-  return (sbri_chain_bone *)(void *)(sbri_tail_lags(state) + 2 * rig->tail_bone_count);
+  return (sbri_chain_bone *)(void *)(sbri_tail_lags(state) + 2 * rig->tails.bone_count);
 }
 static inline sbri_limb_target *sbri_limb_targets(const sbri_rig *rig, sbri_gait_state *state) {
-  return (sbri_limb_target *)(void *)(sbri_chain_bones(rig, state) + rig->chain_bone_count);
+  return (sbri_limb_target *)(void *)(sbri_chain_bones(rig, state) + rig->chains.bone_count);
 }
 static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_gait_state *state) {
   return (sbri_bone_follower *)(void *)(sbri_limb_targets(rig, state) + rig->asset->ik_chains.count);
@@ -137,11 +183,11 @@ static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_
 
 /* Rotates v from body to world heading; and back. */
 static inline sbf_vec3 sbri_headed(const sbri_gait_state *state, sbf_vec3 v) {
-  float s = state->heading_sine, c = state->heading_cosine;
+  float s = state->motion.heading_sine, c = state->motion.heading_cosine;
   return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
 }
 static inline sbf_vec3 sbri_unheaded(const sbri_gait_state *state, sbf_vec3 v) {
-  float s = state->heading_sine, c = state->heading_cosine;
+  float s = state->motion.heading_sine, c = state->motion.heading_cosine;
   return sbri_vec3(c * v.x - s * v.z, v.y, c * v.z + s * v.x);
 }
 
@@ -230,11 +276,11 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
 /* Ankle position for a sole position, m; and the same with the body's heading. */
 static inline sbf_vec3 sbri_ankle_over(
     const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
-  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside);
+  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.beside);
 }
 static inline sbf_vec3 sbri_ankle_at_home(
     const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
-  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside_at_home);
+  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.beside_at_home);
 }
 /* Circle within which a foot can stand at its present height. */
 sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,

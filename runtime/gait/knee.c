@@ -14,12 +14,12 @@ static const float STRAIGHT = 2.7f; /* rad; unless they are straighter than this
 static const float EXACT = 1e-5f;   /* rad; tolerance below which a knee is at its target */
 
 float sbri_knee_angle(const sbri_leg *leg, float scale, float distance) {
-  float upper = leg->upper_length * scale, lower = leg->lower_length * scale;
+  float upper = leg->length.upper * scale, lower = leg->length.lower * scale;
   return sbri_acos((upper * upper + lower * lower - distance * distance) / (2 * upper * lower));
 }
 
 float sbri_knee_distance(const sbri_leg *leg, float scale, float angle) {
-  float upper = leg->upper_length * scale, lower = leg->lower_length * scale, s, c;
+  float upper = leg->length.upper * scale, lower = leg->length.lower * scale, s, c;
   sbri_sincos(angle, &s, &c);
   float square = upper * upper + lower * lower - 2 * upper * lower * c;
   return square > 0 ? sqrtf(square) : 0;
@@ -35,33 +35,34 @@ static float approach(float distance, float tick_s) {
 }
 
 float sbri_knee_follow(const sbri_foot *foot, float target, float tick_s) {
-  if (foot->knee_known < 2) return target;
-  float change = MAX_ACCELERATION * tick_s, rate_of_target = (target - foot->knee_wanted) / tick_s;
-  float rate = rate_of_target + approach(foot->knee_wanted - foot->knee, tick_s);
-  float stopping_rate = approach(PI - foot->knee, tick_s); /* must stop when the leg is straight */
+  if (foot->knee.known_ticks < 2) return target;
+  float change = MAX_ACCELERATION * tick_s, rate_of_target = (target - foot->knee.wanted) / tick_s;
+  float rate = rate_of_target + approach(foot->knee.wanted - foot->knee.angle, tick_s);
+  float stopping_rate = approach(PI - foot->knee.angle, tick_s); /* must stop when the leg is straight */
   if (rate > stopping_rate) rate = stopping_rate;
-  rate = sbri_clamp(rate, foot->knee_rate - change, foot->knee_rate + change);
-  float angle = sbri_clamp(foot->knee + rate * tick_s, 0, PI);
+  rate = sbri_clamp(rate, foot->knee.rate - change, foot->knee.rate + change);
+  float angle = sbri_clamp(foot->knee.angle + rate * tick_s, 0, PI);
   return fabsf(angle - target) > EXACT ? angle : target;
 }
 
 void sbri_knee_keep(sbri_foot *foot, float angle, float target, float tick_s) {
-  foot->knee_rate = foot->knee_known ? (angle - foot->knee) / tick_s : 0;
-  foot->knee = angle;
-  foot->knee_wanted = target;
-  if (foot->knee_known < 2) foot->knee_known++;
+  foot->knee.rate = foot->knee.known_ticks ? (angle - foot->knee.angle) / tick_s : 0;
+  foot->knee.angle = angle;
+  foot->knee.wanted = target;
+  if (foot->knee.known_ticks < 2) foot->knee.known_ticks++;
 }
 
 bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait_input *input, float full,
     float *shortest, float *longest) {
-  if (foot->knee_known < 2 || (foot->knee < STRAIGHT && fabsf(foot->knee_rate) < QUICK)) return false;
+  if (foot->knee.known_ticks < 2 || (foot->knee.angle < STRAIGHT && fabsf(foot->knee.rate) < QUICK))
+    return false;
   float tick = input->tick_s, change = MAX_ACCELERATION * tick;
   float straightest = sbri_knee_angle(leg, input->scale, sbri_leg_span(leg, input->scale, full)),
-        remaining = straightest - foot->knee;
-  float max = foot->knee_rate + change, stopping_rate = remaining > 0 ? approach(remaining, tick) : 0;
+        remaining = straightest - foot->knee.angle;
+  float max = foot->knee.rate + change, stopping_rate = remaining > 0 ? approach(remaining, tick) : 0;
   if (stopping_rate < max)
-    max = stopping_rate > foot->knee_rate - change ? stopping_rate : foot->knee_rate - change;
-  float straight = foot->knee + max * tick, bent = foot->knee + (foot->knee_rate - change) * tick;
+    max = stopping_rate > foot->knee.rate - change ? stopping_rate : foot->knee.rate - change;
+  float straight = foot->knee.angle + max * tick, bent = foot->knee.angle + (foot->knee.rate - change) * tick;
   *longest = *shortest = 0;
   if (straight < straightest)
     *longest = sbri_leg_upright(leg, input->scale, sbri_knee_distance(leg, input->scale, straight));

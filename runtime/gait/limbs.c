@@ -8,7 +8,7 @@ static const uint32_t LEG_PASSES = 24;
 static uint32_t read_joints(const sbri_rig *rig, int32_t root_bone, int32_t end, const sbr_transform *root,
     const sbr_transform *pose, sbri_ik_joint *joints, uint32_t *bones, sbr_transform *base) {
   uint32_t count = 0;
-  for (int32_t b = end; b >= 0 && count < SBRI_IK_MAX_JOINTS; b = rig->parents[b]) {
+  for (int32_t b = end; b >= 0 && count < SBRI_IK_MAX_JOINTS; b = rig->bones.parents[b]) {
     bones[count++] = (uint32_t)b;
     if (b == root_bone) break;
   }
@@ -17,14 +17,14 @@ static uint32_t read_joints(const sbri_rig *rig, int32_t root_bone, int32_t end,
     uint32_t other = bones[i];
     bones[i] = bones[count - 1 - i], bones[count - 1 - i] = other;
   }
-  *base = rig->parents[root_bone] >= 0 ? pose[rig->parents[root_bone]] : *root;
+  *base = rig->bones.parents[root_bone] >= 0 ? pose[rig->bones.parents[root_bone]] : *root;
   const sbr_transform *before = base;
   for (uint32_t i = 0; i < count; i++) {
     const sbr_transform *frame = &pose[bones[i]];
     sbf_quat to_parent = sbri_quat_conjugate(before->rotation);
     joints[i] = (sbri_ik_joint){.offset = sbri_rotate(to_parent, sbri_sub(frame->position, before->position)),
         .rotation = sbri_quat_normalize(sbri_quat_multiply(to_parent, frame->rotation)),
-        .limit = &rig->limits[bones[i]]};
+        .limit = &rig->bones.limits[bones[i]]};
     before = frame;
   }
   return count;
@@ -44,9 +44,10 @@ static void write_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const 
 }
 
 static bool breaks_limit(const sbri_rig *rig, int32_t bone, const sbr_transform *pose) {
-  if (!rig->limits[bone].active || rig->parents[bone] < 0) return false;
-  sbf_quat parent = sbri_quat_conjugate(pose[rig->parents[bone]].rotation);
-  return !sbri_joint_limit_holds(&rig->limits[bone], sbri_quat_multiply(parent, pose[bone].rotation), 1e-4f);
+  if (!rig->bones.limits[bone].active || rig->bones.parents[bone] < 0) return false;
+  sbf_quat parent = sbri_quat_conjugate(pose[rig->bones.parents[bone]].rotation);
+  return !sbri_joint_limit_holds(
+      &rig->bones.limits[bone], sbri_quat_multiply(parent, pose[bone].rotation), 1e-4f);
 }
 
 void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sbf_vec3 pole, float scale,
@@ -63,7 +64,7 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
       .copy_rotation = 1,
       .has_pole = true,
       .pole = pole,
-      .tolerance = 2e-4f * (leg->upper_length + leg->lower_length) * scale,
+      .tolerance = 2e-4f * (leg->length.upper + leg->length.lower) * scale,
       .iterations = LEG_PASSES};
   const sbr_transform none = {{0, 0, 0}, {0, 0, 0, 1}};
   chain.count = read_joints(rig, leg->upper, leg->foot, &none, pose, joints, bones, &chain.base);
@@ -85,8 +86,8 @@ static void read_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_
     for (uint32_t i = 0; i < count; i++) {
       const sbf_comfort *comfort = &source->comforts.at[c];
       if (bones[i] != (uint32_t)comfort->bone) continue;
-      joints[i].comfort =
-          sbri_quat_multiply(sbri_quat_normalize(comfort->rotation), rig->rest_local[bones[i]].rotation);
+      joints[i].comfort = sbri_quat_multiply(
+          sbri_quat_normalize(comfort->rotation), rig->bones.rest_local[bones[i]].rotation);
       joints[i].comfort_weight = comfort->weight;
       joints[i].comfort_slack = sbri_sub(sbri_vec3(1, 1, 1), comfort->axes);
     }
@@ -95,9 +96,9 @@ static void read_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_
 /* Pole of the chain, moved with its bone. */
 static sbf_vec3 pole_position(const sbri_rig *rig, const sbf_ik_chain *source, const sbr_transform *root,
     float scale, const sbr_transform *pose) {
-  int32_t bone = source->pole_bone >= 0 ? source->pole_bone : rig->parents[source->root];
+  int32_t bone = source->pole_bone >= 0 ? source->pole_bone : rig->bones.parents[source->root];
   sbr_transform rest = {{0, 0, 0}, {0, 0, 0, 1}};
-  if (bone >= 0) rest = rig->rest[bone];
+  if (bone >= 0) rest = rig->bones.rest[bone];
   const sbr_transform *now = bone >= 0 ? &pose[bone] : root;
   sbf_vec3 local = sbri_rotate(sbri_quat_conjugate(rest.rotation), sbri_sub(source->pole, rest.position));
   return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(local, scale)));

@@ -16,7 +16,7 @@ void sbri_motion_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   if (!sbri_is_afloat(rig)) return;
   float altitude = rig->gait->medium ? rig->gait->medium->altitude * input->scale : 0;
   float lowest = sbri_afloat_lowest(rig, input, sbri_quat_identity()) + altitude;
-  if (state->position.y < lowest) state->position.y = lowest;
+  if (state->motion.position.y < lowest) state->motion.position.y = lowest;
 }
 
 sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *input) {
@@ -29,7 +29,7 @@ sbri_gait_input sbri_motion_input(const sbri_rig *rig, const sbri_gait_input *in
     /* It follows its nose: it moves forward only, and turns only while moving. */
     if (allowed.forward < 0) allowed.forward = 0;
     allowed.sideways = 0;
-    float length = rig->wave_length * input->scale, max = length > 0 ? 4 * allowed.forward / length : 0;
+    float length = rig->wave.length * input->scale, max = length > 0 ? 4 * allowed.forward / length : 0;
     allowed.turn = sbri_clamp(allowed.turn, -max, max);
     break;
   }
@@ -75,7 +75,7 @@ static void clips_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   sbri_motion_state *m = sbri_motion(rig, state);
   const sbf_gait *gait = rig->gait;
   float rate = sbri_motion_speed(rig, state) / (gait->walk_speed * input->scale);
-  if (state->forward < 0) rate = -rate;
+  if (state->motion.forward < 0) rate = -rate;
   if (gait->idle_clip != SBF_NONE)
     m->idle_time = wrapped(m->idle_time + input->tick_s, rig->asset->clips.at[gait->idle_clip].duration);
   if (gait->move_clip != SBF_NONE)

@@ -12,23 +12,25 @@ bool sbri_is_afloat(const sbri_rig *rig) {
 
 float sbri_motion_speed(const sbri_rig *rig, const sbri_gait_state *state) {
   float up = sbri_is_afloat(rig) ? sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state)->up : 0;
-  float level = state->forward * state->forward + state->sideways * state->sideways;
-  return sqrtf(level + up * up) * state->speed_fraction;
+  float level =
+      state->motion.forward * state->motion.forward + state->motion.sideways * state->motion.sideways;
+  return sqrtf(level + up * up) * state->pace.speed_fraction;
 }
 
 sbf_quat sbri_motion_parent_turn(
     const sbri_rig *rig, uint32_t bone, const sbr_transform *root, const sbr_transform *pose) {
-  int32_t parent = rig->parents[bone];
+  int32_t parent = rig->bones.parents[bone];
   if (parent < 0) return root->rotation;
-  return sbri_quat_multiply(pose[parent].rotation, sbri_quat_conjugate(rig->rest[parent].rotation));
+  return sbri_quat_multiply(pose[parent].rotation, sbri_quat_conjugate(rig->bones.rest[parent].rotation));
 }
 
 void sbri_motion_turn_bone(
     const sbri_rig *rig, uint32_t bone, sbf_quat to, const sbr_transform *root, sbr_transform *pose) {
-  if (rig->limits[bone].active) {
-    sbf_quat parent = rig->parents[bone] >= 0 ? pose[rig->parents[bone]].rotation : root->rotation;
+  if (rig->bones.limits[bone].active) {
+    sbf_quat parent =
+        rig->bones.parents[bone] >= 0 ? pose[rig->bones.parents[bone]].rotation : root->rotation;
     sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(parent), to);
-    to = sbri_quat_multiply(parent, sbri_joint_limit_clamp(&rig->limits[bone], local));
+    to = sbri_quat_multiply(parent, sbri_joint_limit_clamp(&rig->bones.limits[bone], local));
   }
   to = sbri_quat_normalize(to);
   sbri_rig_turn(rig, bone, sbri_quat_multiply(to, sbri_quat_conjugate(pose[bone].rotation)), pose);

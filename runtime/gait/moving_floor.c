@@ -37,16 +37,18 @@ static void find_floor_motion(const sbri_rig *rig, const sbri_gait_input *input,
 
 static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
   foot->ground = sbri_add(foot->ground, displacement);
-  foot->from = sbri_add(foot->from, displacement);
-  foot->to = sbri_add(foot->to, displacement), foot->planned = sbri_add(foot->planned, displacement);
-  foot->x.at += displacement.x, foot->z.at += displacement.z, foot->base.at += displacement.y;
+  foot->step.from = sbri_add(foot->step.from, displacement);
+  foot->step.to = sbri_add(foot->step.to, displacement),
+  foot->step.planned = sbri_add(foot->step.planned, displacement);
+  foot->glides.x.at += displacement.x, foot->glides.z.at += displacement.z,
+      foot->glides.base.at += displacement.y;
   foot->pole = sbri_add(foot->pole, displacement);
 }
 
 void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   if (!input->around || !input->around->colliders || !input->around->colliders->moving) return;
-  if (state->falls || sbri_is_afloat(rig)) return;
-  sbf_vec3 body = {state->position.x, state->level, state->position.z};
+  if (state->fall.falls || sbri_is_afloat(rig)) return;
+  sbf_vec3 body = {state->motion.position.x, state->fall.level, state->motion.position.z};
   floor_motion motions[SBRI_MAX_LEGS], of_body, mean = {{0, 0, 0}, 0};
   float count = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -60,12 +62,12 @@ void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   if (mean.rotation == 0 && !(sbri_dot(mean.displacement, mean.displacement) > 0)) return;
   for (uint32_t i = 0; i < rig->leg_count; i++)
     shift_step(&state->feet[i], state->feet[i].planted ? motions[i].displacement : mean.displacement);
-  state->position.x += mean.displacement.x,
-      state->position.z += mean.displacement.z; /* its y is relative to the ground */
-  state->root.position = sbri_add(state->root.position, mean.displacement);
-  state->level += mean.displacement.y;
-  state->heading = sbri_wrap_angle(state->heading + mean.rotation);
-  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
+  state->motion.position.x += mean.displacement.x,
+      state->motion.position.z += mean.displacement.z; /* its y is relative to the ground */
+  state->posture.root.position = sbri_add(state->posture.root.position, mean.displacement);
+  state->fall.level += mean.displacement.y;
+  state->motion.heading = sbri_wrap_angle(state->motion.heading + mean.rotation);
+  sbri_sincos(state->motion.heading, &state->motion.heading_sine, &state->motion.heading_cosine);
   sbri_motion_rebase(rig, state, sbri_scale(mean.displacement, -1));
   for (uint32_t i = 0; mean.rotation != 0 && i < rig->leg_count; i++)
     sbri_foot_update_orientation(rig, state, input, i);

@@ -19,22 +19,24 @@ static sbf_quat yaw_rotation(float yaw) {
 
 /* Yaw relative to the heading that a bone of the spine has or inherits. */
 static float spine_yaw(const sbri_rig *rig, const sbri_stance *stance, int32_t bone) {
-  if (bone < 0 || rig->spine_fraction[bone] < 0) return 0;
-  return stance->hips_yaw + rig->spine_fraction[bone] * (stance->chest_yaw - stance->hips_yaw);
+  if (bone < 0 || rig->bones.spine_fraction[bone] < 0) return 0;
+  return stance->hips_yaw + rig->bones.spine_fraction[bone] * (stance->chest_yaw - stance->hips_yaw);
 }
 
 /* Rotation of a tail's bone in world axes, relative to the bones before it. */
 static sbf_quat tail_rotation(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     uint32_t bone, sbf_vec3 up) {
   const sbri_lag *lags = (const sbri_lag *)(const void *)(state + 1);
-  for (uint32_t t = 0; t < rig->tail_count; t++) {
-    const sbri_tail *tail = &rig->tails[t];
+  for (uint32_t t = 0; t < rig->tails.count; t++) {
+    const sbri_tail *tail = &rig->tails.at[t];
     for (uint32_t k = 0; k < tail->bone_count; k++) {
       if (tail->bone_indices[k] != bone) continue;
       const sbri_lag *lag = &lags[2 * (tail->first_state + k)];
       /* The parent of a first bone may be the root instead of the hips; the rotation that it inherits is
        * subtracted. */
-      float inherited_yaw = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
+      float inherited_yaw = k                                             ? lag[-2].value
+                            : rig->bones.parents[bone] == rig->gait->hips ? stance->hips_yaw
+                                                                          : 0;
       float inherited_pitch = k ? lag[-1].value : stance->hips_pitch; /* already in the root */
       sbf_quat aside = sbri_quat_about(up, lag[0].value - inherited_yaw);
       if (lag[1].value == inherited_pitch) return aside;
@@ -47,16 +49,17 @@ static sbf_quat tail_rotation(const sbri_rig *rig, const sbri_gait_state *state,
 
 /* Clamps a bone's rotation relative to its parent. */
 static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *parent, sbr_transform *pose) {
-  if (!rig->limits[bone].active) return;
+  if (!rig->bones.limits[bone].active) return;
   sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(parent->rotation), pose[bone].rotation);
-  sbf_quat limited = sbri_joint_limit_clamp(&rig->limits[bone], local);
+  sbf_quat limited = sbri_joint_limit_clamp(&rig->bones.limits[bone], local);
   if (limited.x == local.x && limited.y == local.y && limited.z == local.z && limited.w == local.w) return;
   pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, limited));
 }
 
 /* By clips or poses. The gait alone respects limits. */
 static bool is_animated(const sbri_rig *rig, const sbri_gait_state *state) {
-  bool animated = rig->walks.walk_count > 0 || rig->base_local != rig->rest_local || sbri_has_motion(rig);
+  bool animated =
+      rig->walks.walk_count > 0 || rig->bones.base_local != rig->bones.rest_local || sbri_has_motion(rig);
   for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
   return animated;
 }
@@ -67,16 +70,16 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
     float scale, sbr_transform *pose) {
   sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
   bool animated = is_animated(rig, state);
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
-    if (rig->roles[i] == SBRI_ROLE_LEG) continue; /* relative to its parent until its leg is solved */
-    const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
+  for (uint32_t i = 0; i < rig->bones.count; i++) {
+    if (rig->bones.roles[i] == SBRI_ROLE_LEG) continue; /* relative to its parent until its leg is solved */
+    const sbr_transform *parent = rig->bones.parents[i] >= 0 ? &pose[rig->bones.parents[i]] : &stance->root;
     sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* still relative to its parent */
     sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), rotation;
     pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
-    switch (rig->roles[i]) {
+    switch (rig->bones.roles[i]) {
     case SBRI_ROLE_SPINE:
-      rotation =
-          sbri_quat_about(up, spine_yaw(rig, stance, (int32_t)i) - spine_yaw(rig, stance, rig->parents[i]));
+      rotation = sbri_quat_about(
+          up, spine_yaw(rig, stance, (int32_t)i) - spine_yaw(rig, stance, rig->bones.parents[i]));
       break;
     case SBRI_ROLE_HEAD:
       rotation = sbri_quat_about(up, state->head_yaw.value - stance->chest_yaw);
@@ -97,8 +100,8 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
 /* Pole of the leg, moved with its bone in the present pose. */
 static sbf_vec3 pole_of(
     const sbri_leg *leg, const sbr_transform *root, float scale, const sbr_transform *pose) {
-  const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
-  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole_position, scale)));
+  const sbr_transform *now = leg->pole.bone >= 0 ? &pose[leg->pole.bone] : root;
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole.position, scale)));
 }
 
 /* Sets the transform of a leg's bone. Other children follow, or are posed later. */
@@ -115,7 +118,7 @@ static void set_bone_transform(
 /* Places the foot and rotates it towards the ground's slope by the chain's copy_rotation. */
 static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
     sbf_quat own, sbr_transform *pose) {
-  sbf_quat flat = sbri_quat_multiply(foot->turned, rig->rest[leg->foot].rotation);
+  sbf_quat flat = sbri_quat_multiply(foot->frame.rotation, rig->bones.rest[leg->foot].rotation);
   sbf_quat turned = sbri_quat_blend(own, flat, leg->copy_rotation);
   set_bone_transform(rig, leg, leg->foot, (sbr_transform){ankle, turned}, pose);
 }
@@ -135,7 +138,7 @@ static void pose_peg(
 static sbf_vec3 soft_ankle(const sbri_leg *leg, sbf_vec3 hip, sbf_vec3 ankle, float scale) {
   sbf_vec3 offset = sbri_sub(ankle, hip);
   float distance = sbri_length(offset),
-        eased = sbri_soften_reach(distance, leg->reach * scale, leg->soft_reach);
+        eased = sbri_soften_reach(distance, leg->length.reach * scale, leg->length.soft_reach);
   return eased < distance ? sbri_add_scaled(hip, offset, eased / distance) : ankle;
 }
 
@@ -144,18 +147,18 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
     sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position;
   sbri_two_bone_result solved =
-      sbri_two_bone(hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, 0);
+      sbri_two_bone(hip, ankle, pole, fallback, leg->length.upper * scale, leg->length.lower * scale, 0);
 
   sbf_vec3 side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(solved.knee, hip));
   if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
   sbf_quat upper = sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.knee, hip), side1), leg->upper_back);
   sbf_quat lower =
       sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_back);
-  sbf_quat thigh = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
-  sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation));
+  sbf_quat thigh = sbri_quat_normalize(sbri_quat_multiply(upper, rig->bones.rest[leg->upper].rotation));
+  sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->bones.rest[leg->lower].rotation));
   set_bone_transform(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
   set_bone_transform(rig, leg, leg->lower, (sbr_transform){solved.knee, shin}, pose);
-  sbf_quat own = sbri_quat_multiply(lower, rig->rest[leg->foot].rotation);
+  sbf_quat own = sbri_quat_multiply(lower, rig->bones.rest[leg->foot].rotation);
   pose_foot(rig, leg, foot, solved.ankle, own, pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
@@ -164,17 +167,17 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
 static sbf_vec3 ankle_over_sole(
     const sbri_rig *rig, const sbri_leg *leg, float scale, const sbr_transform *pose) {
   sbf_quat turned =
-      sbri_quat_multiply(pose[leg->foot].rotation, sbri_quat_conjugate(rig->rest[leg->foot].rotation));
-  return sbri_scale(sbri_rotate(turned, leg->ankle), scale);
+      sbri_quat_multiply(pose[leg->foot].rotation, sbri_quat_conjugate(rig->bones.rest[leg->foot].rotation));
+  return sbri_scale(sbri_rotate(turned, leg->home.ankle), scale);
 }
 
 /* Poses the other bones below a solved leg. */
 static void pose_children_of_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_leg *leg,
     float scale, sbr_transform *pose) {
   bool animated = is_animated(rig, state);
-  for (uint32_t k = rig->subtree_begin[leg->upper] + 1; k < rig->subtree_end[leg->upper]; k++) {
-    uint32_t b = rig->subtree[k];
-    const sbr_transform *parent = &pose[rig->parents[b]];
+  for (uint32_t k = rig->bones.subtree_begin[leg->upper] + 1; k < rig->bones.subtree_end[leg->upper]; k++) {
+    uint32_t b = rig->bones.subtree[k];
+    const sbr_transform *parent = &pose[rig->bones.parents[b]];
     if ((int32_t)b == leg->lower || (int32_t)b == leg->foot || (int32_t)b == leg->toe) continue;
     sbf_vec3 offset = sbri_scale(pose[b].position, scale);
     pose[b].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
@@ -194,19 +197,19 @@ static void limit_knee(const sbri_rig *rig, const sbri_gait_input *input, const 
   float target = 0, span = span_of(leg, pose);
   if (advance == SBRI_ADVANCE_TICK) {
     target = sbri_knee_angle(leg, input->scale, span);
-    bool is_swinging = !foot->planted && leg->carrier < 0; /* chains drag the legs on them */
+    bool is_swinging = !foot->planted && leg->home.carrier < 0; /* chains drag the legs on them */
     float angle = is_swinging ? sbri_knee_follow(foot, target, input->tick_s) : target;
-    foot->knee_locked = angle != target ? angle : 0;
+    foot->knee.locked = angle != target ? angle : 0;
   }
-  if (foot->knee_locked > 0 && span > 0) {
-    float fraction = sbri_knee_distance(leg, input->scale, foot->knee_locked) / span;
+  if (foot->knee.locked > 0 && span > 0) {
+    float fraction = sbri_knee_distance(leg, input->scale, foot->knee.locked) / span;
     sbf_vec3 hip = pose[leg->upper].position;
     sbf_vec3 ankle = sbri_add_scaled(hip, sbri_sub(pose[leg->foot].position, hip), fraction);
     solve_leg(rig, leg, foot, ankle, pole, fallback, input->scale, pose);
     span = span_of(leg, pose);
   }
   if (advance == SBRI_ADVANCE_TICK)
-    sbri_knee_keep(foot, foot->knee_locked > 0 ? sbri_knee_angle(leg, input->scale, span) : target, target,
+    sbri_knee_keep(foot, foot->knee.locked > 0 ? sbri_knee_angle(leg, input->scale, span) : target, target,
         input->tick_s);
 }
 
@@ -214,14 +217,14 @@ static void limit_knee(const sbri_rig *rig, const sbri_gait_input *input, const 
 static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *foot,
     const sbri_gait_input *input, sbf_vec3 sole, sbf_vec3 fallback, sbri_advance advance,
     sbr_transform *pose) {
-  float scale = input->scale, limited = SOLE_TOLERANCE * (leg->upper_length + leg->lower_length) * scale;
+  float scale = input->scale, limited = SOLE_TOLERANCE * (leg->length.upper + leg->length.lower) * scale;
   sbri_foot leaning = *foot;
   sbf_vec3 upright = sbri_ankle_over(leg, foot, sole, scale);
   sbf_vec3 ankle = sbri_long_foot_lean(
-      leg, foot, pose[leg->upper].position, sole, upright, input, advance, &leaning.turned);
+      leg, foot, pose[leg->upper].position, sole, upright, input, advance, &leaning.frame.rotation);
   for (int iteration = 0; iteration < SOLE_ITERATIONS; iteration++) {
     solve_leg(rig, leg, &leaning, ankle, foot->pole, fallback, scale, pose);
-    if (!rig->limits[leg->foot].active) break;
+    if (!rig->bones.limits[leg->foot].active) break;
     ankle = sbri_add(sole, sbri_long_foot_over(rig, leg, foot, scale, pose));
     foot->missed = sbri_length(sbri_sub(ankle, pose[leg->foot].position));
     if (foot->missed <= limited) break;
@@ -241,7 +244,8 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   sbri_foot *foot = &state->feet[index];
   float scale = input->scale;
   sbf_vec3 hip = pose[leg->upper].position;
-  sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
+  sbf_vec3 sole =
+      sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->motion.position.y, foot->ground.z);
   sbf_vec3 flat = sbri_ankle_over(leg, foot, sole, scale), ankle = flat;
   sbf_vec3 pole = foot->pole = pole_of(leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
@@ -249,10 +253,11 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
-  float phase_to_ground =
-      foot->phase < 0.5f ? foot->phase : 1 - foot->phase; /* phase since lift-off, or until landing */
+  float phase_to_ground = foot->step.phase < 0.5f
+                              ? foot->step.phase
+                              : 1 - foot->step.phase; /* phase since lift-off, or until landing */
   float planted_weight = foot->planted ? 1 : 1 - sbri_smooth(phase_to_ground / HANGING_PHASE);
-  float limited = SOLE_TOLERANCE * (leg->upper_length + leg->lower_length) * scale;
+  float limited = SOLE_TOLERANCE * (leg->length.upper + leg->length.lower) * scale;
   foot->missed = 0;
   if (leg->has_toe) {
     pose_long_foot(rig, leg, foot, input, sole, fallback, advance, pose);
@@ -261,7 +266,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   }
   for (int iteration = 0; iteration < SOLE_ITERATIONS; iteration++) {
     solve_leg(rig, leg, foot, soft_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
-    if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
+    if (!rig->bones.limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot at its ankle's limit keeps its position on the ground; in the air it follows the ankle. */
     sbf_vec3 offset = ankle_over_sole(rig, leg, scale, pose);
     foot->missed = sbri_length(sbri_sub(sbri_add(sole, offset), pose[leg->foot].position));
@@ -287,8 +292,8 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
   float drop = sbri_body_drop(rig, state, input, root);
   if (!(drop > 0)) return;
   root->position.y -= drop;
-  for (uint32_t i = 0; i < rig->bone_count; i++)
-    if (rig->roles[i] != SBRI_ROLE_LEG) pose[i].position.y -= drop;
+  for (uint32_t i = 0; i < rig->bones.count; i++)
+    if (rig->bones.roles[i] != SBRI_ROLE_LEG) pose[i].position.y -= drop;
 }
 
 /* The gait plans without weight followers, because otherwise both would react to each other. */
@@ -305,19 +310,19 @@ static void apply_weights(const sbri_rig *rig, sbri_gait_state *state, const sbr
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose) {
-  sbri_stance stance = {.root = state->root,
-      .hips_yaw = state->hips_yaw,
-      .chest_yaw = state->chest_yaw,
-      .hips_pitch = state->hips_pitch,
-      .lowered = state->lowered};
+  sbri_stance stance = {.root = state->posture.root,
+      .hips_yaw = state->posture.hips_yaw,
+      .chest_yaw = state->posture.chest_yaw,
+      .hips_pitch = state->posture.hips_pitch,
+      .lowered = state->posture.lowered};
   if (input->hold) {
     stance.hips_yaw = stance.chest_yaw = 0;
-    stance.root.rotation = yaw_rotation(state->heading);
+    stance.root.rotation = yaw_rotation(state->motion.heading);
   }
-  for (uint32_t i = 0; input->hold && i < rig->bone_count; i++) {
-    sbf_vec3 position = sbri_scale(rig->rest[i].position, input->scale);
+  for (uint32_t i = 0; input->hold && i < rig->bones.count; i++) {
+    sbf_vec3 position = sbri_scale(rig->bones.rest[i].position, input->scale);
     pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, position));
-    pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->rest[i].rotation);
+    pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->bones.rest[i].rotation);
   }
   if (input->hold) {
     sbri_squashes_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);

@@ -43,25 +43,25 @@ sbf_vec3 sbri_serpenoid(float amplitude, float phase, float *mean) {
 static sbf_vec3 nose_position(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     float phase, float along) {
   const sbf_undulation *wave = rig->gait->undulation;
-  float mean, wavelength = wave->wavelength * rig->wave_length * input->scale;
+  float mean, wavelength = wave->wavelength * rig->wave.length * input->scale;
   sbf_vec3 offset = sbri_scale(sbri_serpenoid(wave->heading_amplitude, phase, &mean), wavelength);
-  sbf_vec3 nose = sbri_scale(rig->wave_joints[0], input->scale);
+  sbf_vec3 nose = sbri_scale(rig->wave.joints[0], input->scale);
   sbf_vec3 at = sbri_vec3(nose.x + offset.x, 0, nose.z + offset.z + along);
   sbf_vec3 headed = sbri_headed(state, at);
-  return sbri_vec3(state->position.x + headed.x, 0, state->position.z + headed.z);
+  return sbri_vec3(state->motion.position.x + headed.x, 0, state->motion.position.z + headed.z);
 }
 
 static float spacing_of(const sbri_rig *rig, const sbri_gait_input *input) {
-  return rig->wave_length * input->scale / (float)SBRI_PATH_PER_BODY;
+  return rig->wave.length * input->scale / (float)SBRI_PATH_PER_BODY;
 }
 
 void sbri_slither_reset(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   const sbf_undulation *wave = rig->gait->undulation;
   sbri_motion_state *m = sbri_motion(rig, state);
   m->path_count = 0;
-  if (!wave || !(rig->wave_length > 0)) return;
+  if (!wave || !(rig->wave.length > 0)) return;
   float mean, spacing = spacing_of(rig, input),
-              phase = spacing / (wave->wavelength * rig->wave_length * input->scale);
+              phase = spacing / (wave->wavelength * rig->wave.length * input->scale);
   (void)sbri_serpenoid(wave->heading_amplitude, 0, &mean);
   m->nose = nose_position(rig, state, input, m->path_phase, 0);
   /* An initial path along its curve. */
@@ -79,7 +79,7 @@ void sbri_slither_tick(
   if (!m->path_count) return;
   float mean, went = sqrtf(step.x * step.x + step.z * step.z);
   (void)sbri_serpenoid(wave->heading_amplitude, 0, &mean);
-  m->path_phase += went / (mean * wave->wavelength * rig->wave_length * input->scale);
+  m->path_phase += went / (mean * wave->wavelength * rig->wave.length * input->scale);
   m->path_phase -= (float)(int32_t)m->path_phase;
   m->nose = nose_position(rig, state, input, m->path_phase, 0);
   float spacing = spacing_of(rig, input);
@@ -119,7 +119,7 @@ static sbf_vec3 behind(const sbri_motion_state *m, sbf_vec3 from, float distance
 static sbf_vec3 grounded(
     const sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 at, float rest_height) {
   float ground = sbri_ground_below(input, at, NULL).y;
-  return sbri_vec3(at.x, ground + state->position.y + rest_height * input->scale, at.z);
+  return sbri_vec3(at.x, ground + state->motion.position.y + rest_height * input->scale, at.z);
 }
 
 /* A bone on the path: its ends and its rotation from rest relative to the root frame. */
@@ -162,14 +162,14 @@ static sbf_vec3 next_joint(const sbri_motion_state *m, sbf_vec3 from, sbf_vec3 r
 static placed_bone set_bone(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t last) {
   const sbri_motion_state *m = sbri_motion(rig, (sbri_gait_state *)(uintptr_t)state);
-  const sbf_vec3 *joints = rig->wave_joints;
+  const sbf_vec3 *joints = rig->wave.joints;
   sbf_vec3 front = m->nose;
   float scale = input->scale;
   uint32_t segment = 0;
   for (uint32_t k = 0;; k++) {
     sbf_vec3 rest = sbri_sub(joints[2 * k + 1], joints[2 * k]);
     uint32_t ahead = segment;
-    sbf_vec3 direction = sbri_sub(front, behind(m, front, 0.02f * rig->wave_length * scale, &ahead));
+    sbf_vec3 direction = sbri_sub(front, behind(m, front, 0.02f * rig->wave.length * scale, &ahead));
     direction = sbri_normalize(direction, sbri_vec3(0, 0, 1));
     sbf_vec3 backward = next_joint(m, front, rest, direction, scale, &segment);
     if (k == last) {
@@ -192,16 +192,16 @@ void sbri_slither_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   (void)root;
   if (!wave || sbri_motion(rig, state)->path_count < 2) return;
   /* Parents before children, independent of the order along the chain. */
-  for (uint32_t bone = 0; bone < rig->bone_count; bone++) {
+  for (uint32_t bone = 0; bone < rig->bones.count; bone++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != bone) continue;
       placed_bone at = set_bone(rig, state, input, k);
-      sbf_quat to = sbri_quat_normalize(sbri_quat_multiply(at.rotation, rig->rest[bone].rotation));
+      sbf_quat to = sbri_quat_normalize(sbri_quat_multiply(at.rotation, rig->bones.rest[bone].rotation));
       sbri_rig_turn(rig, bone, sbri_quat_multiply(to, sbri_quat_conjugate(pose[bone].rotation)), pose);
       pose[bone].rotation = to;
-      sbf_vec3 head = rig->rest[bone].position;
-      bool is_head_first = sbri_length(sbri_sub(head, rig->wave_joints[2 * k])) <=
-                           sbri_length(sbri_sub(head, rig->wave_joints[2 * k + 1]));
+      sbf_vec3 head = rig->bones.rest[bone].position;
+      bool is_head_first = sbri_length(sbri_sub(head, rig->wave.joints[2 * k])) <=
+                           sbri_length(sbri_sub(head, rig->wave.joints[2 * k + 1]));
       sbri_rig_shift(rig, bone, sbri_sub(is_head_first ? at.front : at.backward, pose[bone].position), pose);
       break;
     }

@@ -30,10 +30,10 @@ static sbf_vec3 squashed_point(const sbr_transform *bone, sbf_vec3 axis, float s
 static void shift_children(
     const sbri_rig *rig, uint32_t bone, sbf_vec3 axis, float stretch, sbr_transform *pose) {
   sbf_vec3 shift = {0, 0, 0};
-  for (uint32_t k = rig->subtree_begin[bone] + 1; k < rig->subtree_end[bone]; k++) {
-    uint32_t b = rig->subtree[k];
-    if (rig->roles[b] == SBRI_ROLE_LEG) continue;
-    if (rig->parents[b] == (int32_t)bone)
+  for (uint32_t k = rig->bones.subtree_begin[bone] + 1; k < rig->bones.subtree_end[bone]; k++) {
+    uint32_t b = rig->bones.subtree[k];
+    if (rig->bones.roles[b] == SBRI_ROLE_LEG) continue;
+    if (rig->bones.parents[b] == (int32_t)bone)
       shift = sbri_sub(squashed_point(&pose[bone], axis, stretch, pose[b].position), pose[b].position);
     pose[b].position = sbri_add(pose[b].position, shift);
   }

@@ -23,13 +23,14 @@ enum { PROFILE_SAMPLES = 12, TRIES = 6, SAMPLES = 16 };
 
 /* Fractions of horizontal and vertical travel at phase t of a step. */
 static float travel(const sbri_foot *foot, float t) {
-  return sbri_smooth((t - foot->leaves) / (foot->arrives - foot->leaves));
+  return sbri_smooth((t - foot->step.leaves) / (foot->step.arrives - foot->step.leaves));
 }
 
 static float height_at(const sbri_foot *foot, float t) {
-  float climb = sbri_smooth((t - foot->climbs) / (foot->climbed - foot->climbs));
+  float climb = sbri_smooth((t - foot->step.climbs) / (foot->step.climbed - foot->step.climbs));
   float up = t < 0.5f ? 2 * t : 2 - 2 * t;
-  return foot->from.y + (foot->to.y - foot->from.y) * climb + foot->clearance * sbri_smooth(up);
+  return foot->step.from.y + (foot->step.to.y - foot->step.from.y) * climb +
+         foot->step.clearance * sbri_smooth(up);
 }
 
 /* Slope of the ground along a horizontal direction, from its normal. */
@@ -47,18 +48,19 @@ typedef struct profile {
 static profile check(const sbri_gait_state *state, const sbri_gait_input *input, const sbri_foot *foot,
     const sbri_sole *sole) {
   profile p = {.highest = 0};
-  sbf_vec3 direction = sbri_sub(foot->to, foot->from);
+  sbf_vec3 direction = sbri_sub(foot->step.to, foot->step.from);
   direction.y = 0;
   direction = sbri_normalize(direction, sbri_vec3(0, 0, 0));
   float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
-  float from_slope = slope_along(foot->from_normal, direction),
-        to_slope = slope_along(foot->to_normal, direction);
-  float turned = state->turn * state->speed_fraction * (1 - foot->phase) * foot->duration_s;
-  float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y;
+  float from_slope = slope_along(foot->step.from_normal, direction),
+        to_slope = slope_along(foot->step.to_normal, direction);
+  float turned =
+      state->motion.turn * state->pace.speed_fraction * (1 - foot->step.phase) * foot->step.duration_s;
+  float higher = foot->step.from.y > foot->step.to.y ? foot->step.from.y : foot->step.to.y;
   for (int k = 0; k <= PROFILE_SAMPLES; k++) {
     float fraction = (float)k / PROFILE_SAMPLES,
           tilt = half * (from_slope + fraction * (to_slope - from_slope));
-    sbf_vec3 at = sbri_lerp(foot->from, foot->to, fraction);
+    sbf_vec3 at = sbri_lerp(foot->step.from, foot->step.to, fraction);
     float fore = sbri_ground_below(input, sbri_add_scaled(at, direction, half), NULL).y - tilt;
     float hind = sbri_ground_below(input, sbri_add_scaled(at, direction, -half), NULL).y + tilt;
     float max = sbri_ground_below(input, at, NULL).y;
@@ -69,7 +71,8 @@ static profile check(const sbri_gait_state *state, const sbri_gait_input *input,
       corner =
           sbri_turned(sbri_scale(corner, input->scale), foot->heading + fraction * (turned - foot->heading));
       corner = sbri_headed(state, corner);
-      float from = slope_along(foot->from_normal, corner), to = slope_along(foot->to_normal, corner);
+      float from = slope_along(foot->step.from_normal, corner),
+            to = slope_along(foot->step.to_normal, corner);
       float under = sbri_ground_below(input, sbri_add(at, corner), NULL).y - from - fraction * (to - from);
       max = under > max ? under : max;
     }
@@ -87,7 +90,8 @@ static float lack(const sbri_foot *foot, const profile *p, float margin, float *
           coordinate = fraction * PROFILE_SAMPLES;
     int i = (int)coordinate < PROFILE_SAMPLES ? (int)coordinate : PROFILE_SAMPLES - 1;
     float near = p->over[i] > p->over[i + 1] ? p->over[i] : p->over[i + 1]; /* an edge may lie between */
-    float rises = 4 * t * (1 - t), line = foot->from.y + fraction * (foot->to.y - foot->from.y);
+    float rises = 4 * t * (1 - t),
+          line = foot->step.from.y + fraction * (foot->step.to.y - foot->step.from.y);
     float low = line + near + margin * rises * rises - height_at(foot, t);
     bool leaves = coordinate < 1 && p->over[1] <= margin,
          comes = coordinate > PROFILE_SAMPLES - 1 && p->over[PROFILE_SAMPLES - 1] <= margin;
@@ -99,16 +103,16 @@ static float lack(const sbri_foot *foot, const profile *p, float margin, float *
 /* Changes the step's timing to increase clearance, except for motion that has begun. Returns false if the
  * timing is at its limits. */
 static bool add_clearance(sbri_foot *foot, float when) {
-  float rise = foot->to.y - foot->from.y;
-  bool fresh = foot->phase <= 0;
-  if (rise > 0 && foot->climbed > SOONEST) {
-    foot->climbed -= 0.5f * (1 - SOONEST);
-  } else if (fresh && rise < 0 && foot->climbs < 1 - SOONEST) {
-    foot->climbs += 0.5f * (1 - SOONEST);
-  } else if (fresh && when < 0.5f && foot->leaves < LATEST) {
-    foot->leaves += 0.5f * LATEST;
-  } else if (when >= 0.5f && foot->arrives > 1 - LATEST) {
-    foot->arrives -= 0.5f * LATEST;
+  float rise = foot->step.to.y - foot->step.from.y;
+  bool fresh = foot->step.phase <= 0;
+  if (rise > 0 && foot->step.climbed > SOONEST) {
+    foot->step.climbed -= 0.5f * (1 - SOONEST);
+  } else if (fresh && rise < 0 && foot->step.climbs < 1 - SOONEST) {
+    foot->step.climbs += 0.5f * (1 - SOONEST);
+  } else if (fresh && when < 0.5f && foot->step.leaves < LATEST) {
+    foot->step.leaves += 0.5f * LATEST;
+  } else if (when >= 0.5f && foot->step.arrives > 1 - LATEST) {
+    foot->step.arrives -= 0.5f * LATEST;
   } else {
     return false;
   }
@@ -118,9 +122,9 @@ static bool add_clearance(sbri_foot *foot, float when) {
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   float usual = rig->gait->step_height * input->scale, when = 0;
-  if (foot->phase <= 0) foot->leaves = foot->climbs = 0;
-  foot->arrives = foot->climbed = 1;
-  foot->clearance = usual;
+  if (foot->step.phase <= 0) foot->step.leaves = foot->step.climbs = 0;
+  foot->step.arrives = foot->step.climbed = 1;
+  foot->step.clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
   profile p = check(state, input, foot, &rig->legs[leg].sole);
@@ -130,8 +134,8 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
     if (missing <= 0) return;
     if (add_clearance(foot, when)) continue;
     float up = sbri_smooth(when < 0.5f ? 2 * when : 2 - 2 * when);
-    foot->clearance += missing / (up > 0.5f ? up : 0.5f);
-    if (foot->clearance > max) foot->clearance = max;
+    foot->step.clearance += missing / (up > 0.5f ? up : 0.5f);
+    if (foot->step.clearance > max) foot->step.clearance = max;
   }
 }
 
@@ -141,17 +145,18 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, float duration_s) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
-  float upper = l->upper_length * input->scale, lower = l->lower_length * input->scale, max = 0;
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  float upper = l->length.upper * input->scale, lower = l->length.lower * input->scale, max = 0;
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 drift = sbri_scale(sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)),
-      state->speed_fraction * duration_s);
-  sbf_vec3 over = sbri_sub(sbri_ankle_over(l, foot, foot->from, input->scale), foot->from);
+      state->pace.speed_fraction * duration_s);
+  sbf_vec3 over = sbri_sub(sbri_ankle_over(l, foot, foot->step.from, input->scale), foot->step.from);
   float h = duration_s / SAMPLES, unit = DEGREES * FRAME_S * FRAME_S / (h * h), knee[3] = {0, 0, 0};
-  float rise = foot->to.y - foot->from.y, limit = (1 - 0.5f * l->soft_reach) * l->reach * input->scale;
+  float rise = foot->step.to.y - foot->step.from.y,
+        limit = (1 - 0.5f * l->length.soft_reach) * l->length.reach * input->scale;
   for (int k = -2; k <= SAMPLES; k++) {
     float t = (float)k / SAMPLES, in_air = t > 0 ? t : 0;
-    sbf_vec3 sole = sbri_lerp(foot->from, foot->to, travel(foot, in_air));
-    sole.y = height_at(foot, in_air) + state->position.y;
+    sbf_vec3 sole = sbri_lerp(foot->step.from, foot->step.to, travel(foot, in_air));
+    sole.y = height_at(foot, in_air) + state->motion.position.y;
     sbf_vec3 at = sbri_add_scaled(hip, drift, t);
     at.y += 0.5f * rise * sbri_smooth(in_air); /* the body follows its feet */
     float s = sbri_length(sbri_sub(sbri_add(sole, over), at));

@@ -31,10 +31,10 @@ static const uint32_t MANY_LEGS = 6; /* number of legs from which on half of the
 static const float LEVEL = 0.05f;    /* fraction of the reach: maximum height difference of level ground */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
-  sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
-  if (state->pivot) { /* rotation about a foot moves the body */
-    sbf_vec3 arm = sbri_sub(state->position, state->feet[state->pivot - 1].ground);
-    v.x += state->turn * arm.z, v.z -= state->turn * arm.x;
+  sbf_vec3 v = sbri_headed(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
+  if (state->pace.pivot) { /* rotation about a foot moves the body */
+    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->pace.pivot - 1].ground);
+    v.x += state->motion.turn * arm.z, v.z -= state->motion.turn * arm.x;
   }
   return v;
 }
@@ -42,9 +42,10 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
 /* Bipeds place each foot close to the middle, so that the body need not lean far to be above it. This applies
  * to forward motion only, because sideways the feet would collide. */
 static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
-  if (rig->leg_count != 2 || rig->has_pegs || state->together) return x;
-  float forward_square = state->forward * state->forward, sideways_square = state->sideways * state->sideways;
-  float rotation_speed = state->turn * rig->spread,
+  if (rig->leg_count != 2 || rig->stand.has_pegs || state->pace.together) return x;
+  float forward_square = state->motion.forward * state->motion.forward,
+        sideways_square = state->motion.sideways * state->motion.sideways;
+  float rotation_speed = state->motion.turn * rig->stand.spread,
         sum = forward_square + sideways_square + rotation_speed * rotation_speed;
   float min = BESIDE * rig->legs[leg].sole.left;
   if (sum <= 0 || fabsf(x) <= min) return x;
@@ -54,38 +55,38 @@ static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_
 
 sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  sbf_vec3 home = rig->legs[leg].home;
-  if (rig->legs[leg].carrier >= 0) {
+  sbf_vec3 home = rig->legs[leg].home.position;
+  if (rig->legs[leg].home.carrier >= 0) {
     const sbr_transform *bone =
-        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].carrier].frame;
-    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].home_in_bone, input->scale));
-    home = sbri_sub(sbri_add(bone->position, home), state->position);
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].home.carrier].frame;
+    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].home.in_bone, input->scale));
+    home = sbri_sub(sbri_add(bone->position, home), state->motion.position);
     return sbri_vec3(home.x, 0, home.z);
   }
   float width = rig->gait->step_width;
-  if (state->standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
-  if (state->standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
+  if (state->pace.standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
+  if (state->pace.standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
   home.y = 0;
   return sbri_headed(state, sbri_scale(home, input->scale));
 }
 
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm) {
-  int32_t carrier = rig->legs[leg].carrier;
+  int32_t carrier = rig->legs[leg].home.carrier;
   if (carrier >= 0) {
     sbf_vec3 v = sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[carrier].velocity;
     return sbri_vec3(v.x, 0, v.z);
   }
   sbf_vec3 v = sbri_body_velocity(state);
-  return sbri_vec3(v.x + state->turn * arm.z, 0, v.z - state->turn * arm.x);
+  return sbri_vec3(v.x + state->motion.turn * arm.z, 0, v.z - state->motion.turn * arm.x);
 }
 
 float sbri_wanted_speed(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, const sbri_home *homes) {
-  sbri_gait_state wanted = {.heading_sine = state->heading_sine,
-      .heading_cosine = state->heading_cosine,
-      .forward = input->forward,
-      .sideways = input->sideways,
-      .turn = input->turn};
+  sbri_gait_state wanted = {.motion = {.heading_sine = state->motion.heading_sine,
+                                .heading_cosine = state->motion.heading_cosine,
+                                .forward = input->forward,
+                                .sideways = input->sideways,
+                                .turn = input->turn}};
   sbf_vec3 v = sbri_body_velocity(&wanted);
   float max = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -99,9 +100,10 @@ float sbri_wanted_speed(
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root) {
   const sbri_leg *l = &rig->legs[leg];
-  if (l->carrier >= 0) {
-    const sbr_transform *bone = &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->carrier].frame;
-    sbf_vec3 own = sbri_scale(rig->rest_local[l->upper].position, input->scale);
+  if (l->home.carrier >= 0) {
+    const sbr_transform *bone =
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->home.carrier].frame;
+    sbf_vec3 own = sbri_scale(rig->bones.rest_local[l->upper].position, input->scale);
     return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
   }
   return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
@@ -112,7 +114,7 @@ static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, floa
     sbf_vec3 hip, sbf_vec3 sole, bool at_home) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
-  sole.y = foot->ground.y + state->position.y;
+  sole.y = foot->ground.y + state->motion.position.y;
   return sbri_sub(
       at_home ? sbri_ankle_at_home(l, foot, sole, scale) : sbri_ankle_over(l, foot, sole, scale), hip);
 }
@@ -122,14 +124,14 @@ static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, floa
 static float reachable_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *offset) {
   const sbri_leg *l = &rig->legs[leg];
-  float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
-  float upright = state->lowered - from.y, level = reach * reach - upright * upright;
+  float reach = STRETCH * (1 - l->length.soft_reach) * l->length.reach * input->scale;
+  float upright = state->posture.lowered - from.y, level = reach * reach - upright * upright;
   float height = -lowered * from.y; /* the body is lowered for its feet */
   float min = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
   if (min > lowered * upright) min = lowered * upright;
   if (height < min) height = min;
-  if (height < upright - state->clearance.value)
-    height = upright - state->clearance.value; /* and at most to the belly's clearance */
+  if (height < upright - state->balance.clearance.value)
+    height = upright - state->balance.clearance.value; /* and at most to the belly's clearance */
   if (from.y > 0) height = from.y;
   *offset = sbri_vec3(from.x, 0, from.z);
   float square = reach * reach - height * height;
@@ -147,10 +149,10 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam roam;
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
-  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->position, arm), true);
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->motion.position, arm), true);
   float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
-  float length = (l->upper_length + l->lower_length) * input->scale, offset = sbri_length(roam.off);
+  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(roam.off);
   if (l->lower < 0) radius = offset + PEG * length;
   roam.radius = radius < offset + MIN * length ? offset + MIN * length : radius;
   return roam;
@@ -197,34 +199,36 @@ static float check_homes(
 bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float scale) {
   float low = 1e30f, high = -1e30f;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].to.y;
+    float y = state->feet[i].planted ? state->feet[i].ground.y : state->feet[i].step.to.y;
     low = y < low ? y : low, high = y > high ? y : high;
   }
-  return high - low < LEVEL * rig->reach * scale;
+  return high - low < LEVEL * rig->stand.reach * scale;
 }
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
   float max = check_homes(rig, state, input, &s);
-  if (state->widest_m > 0) max = state->widest_m + (max - state->widest_m) * input->tick_s / STRIDE_S;
+  if (state->pace.widest_m > 0)
+    max = state->pace.widest_m + (max - state->pace.widest_m) * input->tick_s / STRIDE_S;
   s.widest_m = max;
   max *= SURE;
-  float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
-  float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
+  float usual = rig->gait->step_duration,
+        needed_s = state->pace.needed_s > usual ? state->pace.needed_s : usual;
+  float groups = (float)(rig->stand.group_count > 1 ? rig->stand.group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
-  bool quick = fastest > SLOW * rig->reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
+  bool quick = fastest > SLOW * rig->stand.reach * input->scale, slow = !quick && rig->leg_count < MANY_LEGS;
   float lean_two_s = slow ? LEAN_SLOW_S : LEAN_TWO_S;
   float lean_s = rig->leg_count == 2 ? lean_two_s : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float turn_time_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean_s),
         sequential_half = turn_time_s * s.speed;
   s.together = (turns > groups || rig->leg_count == 2) &&
-               turn_time_s * fastest > (state->together ? 0.62f : 0.74f) * max;
+               turn_time_s * fastest > (state->pace.together ? 0.62f : 0.74f) * max;
   s.balanced = slow;
-  s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chain_count &&
+  s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chains.count &&
               sbri_stands_level(rig, state, input->scale);
   if (slow) s.together = false;
-  if (rig->has_pegs) s.together = true; /* rigid legs cannot follow a leaning body */
+  if (rig->stand.has_pegs) s.together = true; /* rigid legs cannot follow a leaning body */
   float half_per_second =
       0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
   s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
@@ -247,7 +251,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
 }
 
 float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
-  sbf_vec3 offset = sbri_sub(state->feet[leg].ground, sbri_add(state->position, home->arm));
+  sbf_vec3 offset = sbri_sub(state->feet[leg].ground, sbri_add(state->motion.position, home->arm));
   offset.y = 0;
   float distance = sbri_length(offset);
   if (distance <= 0) return 0;
@@ -260,13 +264,13 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
     const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam stance;
-  sbf_vec3 home = sbri_add(state->position, arm);
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  sbf_vec3 home = sbri_add(state->motion.position, arm);
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
   float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.off);
   sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
   offset.y = 0;
-  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(offset);
+  float length = (l->length.upper + l->length.lower) * input->scale, rest = sbri_length(offset);
   if (l->lower < 0) radius = rest + PEG * length;
   stance.radius = radius < rest + MIN * length ? rest + MIN * length : radius;
   return stance;
@@ -288,7 +292,8 @@ static float remaining_travel(const sbri_rig *rig, const sbri_gait_state *state,
   sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
   float left = to_edge(stance.off, stance.radius, sbri_scale(displacement, -1));
-  float rotation = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* rotation until then */
+  float rotation =
+      left > 0 ? sbri_clamp(state->motion.turn * left / *speed, -2, 2) : 0; /* rotation until then */
   if (rotation != 0)
     left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * rotation), -1));
   return left > 0 ? left : 0;
@@ -299,10 +304,10 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (state->together &&
+    if (state->pace.together &&
         rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
       sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
-      sbf_vec3 behind = sbri_sub(sbri_add(state->position, arm), state->feet[i].ground);
+      sbf_vec3 behind = sbri_sub(sbri_add(state->motion.position, arm), state->feet[i].ground);
       if (sbri_dot(behind, sbri_home_velocity(rig, state, i, arm)) > 0) continue;
     }
     float left = remaining_travel(rig, state, input, i, &speed);
@@ -314,9 +319,10 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 float sbri_pace_of(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
   float min = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
-  float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
+  float brakes = BRAKES * rig->stand.reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    float left_s = state->feet[i].planted ? 0 : (1 - state->feet[i].phase) * state->feet[i].duration_s;
+    float left_s =
+        state->feet[i].planted ? 0 : (1 - state->feet[i].step.phase) * state->feet[i].step.duration_s;
     in_air_s = left_s > in_air_s ? left_s : in_air_s;
   }
   *lasting = 1;
@@ -324,7 +330,7 @@ float sbri_pace_of(
     if (!state->feet[i].planted) continue;
     float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].missed;
     if (speed <= 0) continue;
-    missed /= rig->reach * input->scale;
+    missed /= rig->stand.reach * input->scale;
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;
     float max = sqrtf(2 * brakes * left);
     if (max < min * speed) min = max / speed;

@@ -23,7 +23,7 @@ static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float 
     const sbri_foot *foot = &state->feet[i / 4];
     if (!foot->planted || lifted & 1u << (i / 4)) continue;
     sbf_vec3 corner = sbri_scale(rig->legs[i / 4].sole.corners[i % 4], scale);
-    float s = foot->sine, c = foot->cosine;
+    float s = foot->frame.sine, c = foot->frame.cosine;
     corner = sbri_vec3(c * corner.x + s * corner.z, corner.y, c * corner.z - s * corner.x);
     sbf_vec3 p = sbri_add(foot->ground, corner);
     uint32_t k = n++;
@@ -79,13 +79,14 @@ static float distance_from_range(float coordinate, float low, float high, float 
 }
 
 sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
-  float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f}, margin = NEEDED * rig->reach;
+  float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f}, margin = NEEDED * rig->stand.reach;
   sbf_vec3 center;
-  bool can_lean = rig->leg_count && !rig->has_pegs && sbri_rig_center(rig, rig->rest, 1, &center);
+  bool can_lean = rig->leg_count && !rig->stand.has_pegs && sbri_rig_center(rig, rig->bones.rest, 1, &center);
   if (!can_lean) return sbri_vec3(0, 0, 0);
   for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i / 4];
-    float at[2] = {leg->home.x + leg->sole.corners[i % 4].x, leg->home.z + leg->sole.corners[i % 4].z};
+    float at[2] = {
+        leg->home.position.x + leg->sole.corners[i % 4].x, leg->home.position.z + leg->sole.corners[i % 4].z};
     for (int k = 0; k < 2; k++) {
       low[k] = at[k] < low[k] ? at[k] : low[k];
       high[k] = at[k] > high[k] ? at[k] : high[k];
@@ -96,7 +97,7 @@ sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
 }
 
 static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway_z) {
-  sbf_vec3 c = sbri_add(state->position, state->center);
+  sbf_vec3 c = sbri_add(state->motion.position, state->balance.center);
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
 }
 
@@ -113,8 +114,8 @@ static float min_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 direction, sb
 bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 direction) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
-  sbf_vec3 unused, at = center_at(state, state->sway_x.value, state->sway_z.value);
-  return margin_of(&hull, at, &unused) >= NEEDED * rig->reach * input->scale &&
+  sbf_vec3 unused, at = center_at(state, state->balance.sway_x.value, state->balance.sway_z.value);
+  return margin_of(&hull, at, &unused) >= NEEDED * rig->stand.reach * input->scale &&
          margin_of(&hull, sbri_add(at, direction), &unused) >= 0;
 }
 
@@ -126,7 +127,7 @@ sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, co
   for (uint32_t i = 0; i < hull.count; i++)
     middle = sbri_add_scaled(middle, hull.at[i], 1 / (float)hull.count);
   middle = sbri_add_scaled(middle, direction, -0.5f);
-  float size = rig->reach * input->scale, sought = SOUGHT * size;
+  float size = rig->stand.reach * input->scale, sought = SOUGHT * size;
   for (int pass = 0; pass < 6; pass++) {
     sbf_vec3 inwards, at = center_at(state, sway.x, sway.z);
     float missing = sought - min_margin(&hull, at, direction, &inwards);

@@ -45,9 +45,10 @@ typedef struct cleared_tail {
 
 static void find_ground(const sbri_rig *rig, const sbri_tail *tail, const sbri_lag *lags,
     const sbri_gait_state *state, const sbri_gait_input *input, const sbri_stance *stance, cleared_tail *to) {
-  sbf_vec3 root = stance->root.position, velocity = sbri_vec3(state->sideways, 0, state->forward);
-  velocity = sbri_turned(velocity, state->heading);
-  sbf_vec3 head = sbri_scale(rig->rest[tail->bone_indices[0]].position, input->scale);
+  sbf_vec3 root = stance->root.position,
+           velocity = sbri_vec3(state->motion.sideways, 0, state->motion.forward);
+  velocity = sbri_turned(velocity, state->motion.heading);
+  sbf_vec3 head = sbri_scale(rig->bones.rest[tail->bone_indices[0]].position, input->scale);
   to->ends[0] = sbri_add(root, sbri_rotate(stance->root.rotation, sbri_turned(head, stance->hips_yaw)));
   to->count = tail->bone_count < MAX_CLEARED ? tail->bone_count : MAX_CLEARED;
   for (uint32_t k = 0; k < to->count; k++) {
@@ -80,8 +81,8 @@ static float raise_of(const sbri_tail *tail, const cleared_tail *cleared, const 
 void sbri_tails_reset(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbri_stance *stance) {
   sbri_lag *all = sbri_tail_lags(state);
-  for (uint32_t t = 0; t < rig->tail_count; t++) {
-    const sbri_tail *tail = &rig->tails[t];
+  for (uint32_t t = 0; t < rig->tails.count; t++) {
+    const sbri_tail *tail = &rig->tails.at[t];
     sbri_lag *lags = &all[2 * tail->first_state];
     for (uint32_t k = 0; k < tail->bone_count; k++)
       lags[2 * k] = (sbri_lag){0, 0}, lags[2 * k + 1] = (sbri_lag){stance->hips_pitch, 0};
@@ -99,8 +100,8 @@ void sbri_tails_reset(
 void sbri_tails_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stance *stance, float turned_by) {
   sbri_lag *all = sbri_tail_lags(state);
-  for (uint32_t t = 0; t < rig->tail_count; t++) {
-    const sbri_tail *tail = &rig->tails[t];
+  for (uint32_t t = 0; t < rig->tails.count; t++) {
+    const sbri_tail *tail = &rig->tails.at[t];
     sbri_lag *lags = &all[2 * tail->first_state];
     sbri_follower_step step = sbri_follower_step_of(tail->frequency, tail->damping_ratio, 0, input->tick_s);
     cleared_tail cleared = {.count = 0};

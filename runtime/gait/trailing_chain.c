@@ -16,11 +16,11 @@ static sbf_quat bend_of(sbf_quat rotation, const sbf_chain *chain, float decay) 
 
 /* Vector from a bone's head to the next one at rest, in the bone's frame, with the chain's spacing. */
 static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t k, float scale) {
-  const sbr_transform *rest = &rig->rest[chain->bones.at[k]];
+  const sbr_transform *rest = &rig->bones.rest[chain->bones.at[k]];
   float length = rig->asset->bones.at[chain->bones.at[k]].length;
   sbf_vec3 step = {0, length, 0};
   if (k + 1 < chain->bones.count) {
-    sbf_vec3 next = sbri_sub(rig->rest[chain->bones.at[k + 1]].position, rest->position);
+    sbf_vec3 next = sbri_sub(rig->bones.rest[chain->bones.at[k + 1]].position, rest->position);
     step = sbri_rotate(sbri_quat_conjugate(rest->rotation), next);
   }
   float size = sbri_length(step);
@@ -32,9 +32,9 @@ static sbf_vec3 rest_step(const sbri_rig *rig, const sbf_chain *chain, uint32_t 
 static float height_at(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbf_chain *chain, uint32_t k, sbf_vec3 position) {
   uint32_t bone = chain->bones.at[k];
-  sbf_vec3 step = sbri_rotate(rig->rest[bone].rotation, rest_step(rig, chain, k, 1));
-  float rest = rig->rest[bone].position.y + step.y;
-  return sbri_ground_below(input, position, NULL).y + rest * input->scale + state->position.y;
+  sbf_vec3 step = sbri_rotate(rig->bones.rest[bone].rotation, rest_step(rig, chain, k, 1));
+  float rest = rig->bones.rest[bone].position.y + step.y;
+  return sbri_ground_below(input, position, NULL).y + rest * input->scale + state->motion.position.y;
 }
 
 /* Rotation of the bone in this tick, world axes, relative to `straight`, the continuation of the one before
@@ -67,7 +67,7 @@ static void pose_chain(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     if (k > 0) {
       uint32_t a = chain->bones.at[k - 1];
       sbf_quat rest_rotation =
-          sbri_quat_multiply(sbri_quat_conjugate(rig->rest[a].rotation), rig->rest[b].rotation);
+          sbri_quat_multiply(sbri_quat_conjugate(rig->bones.rest[a].rotation), rig->bones.rest[b].rotation);
       now = sbri_quat_multiply(pose[a].rotation, rest_rotation);
       if (chain->kind == SBF_CHAIN_KIND_DISTANCE) head = bones[k - 1].tip;
       if (advance == SBRI_ADVANCE_TICK)
@@ -89,6 +89,6 @@ static void pose_chain(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
 void sbri_chains_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose) {
   (void)root;
-  for (uint32_t c = 0; c < rig->chain_count; c++)
-    pose_chain(rig, state, input, &rig->chains[c], advance, pose);
+  for (uint32_t c = 0; c < rig->chains.count; c++)
+    pose_chain(rig, state, input, &rig->chains.at[c], advance, pose);
 }

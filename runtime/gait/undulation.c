@@ -35,7 +35,7 @@ void sbri_undulation_tick(const sbri_rig *rig, sbri_gait_state *state, const sbr
   const sbf_undulation *wave = rig->gait->undulation;
   sbri_motion_state *m = sbri_motion(rig, state);
   if (!wave) return;
-  float speed = sbri_motion_speed(rig, state), length = rig->wave_length * input->scale;
+  float speed = sbri_motion_speed(rig, state), length = rig->wave.length * input->scale;
   float cruise = rig->gait->walk_speed * input->scale;
   bool crawls = rig->gait->kind == SBF_GAIT_KIND_CRAWL;
   float rests = crawls ? 0 : RESTS, goal = rests + (1 - rests) * sbri_clamp(2 * speed / cruise, 0, 1);
@@ -43,10 +43,10 @@ void sbri_undulation_tick(const sbri_rig *rig, sbri_gait_state *state, const sbr
   if (goal == 0 && m->strength < 1e-4f) m->strength = 0;
   float f = sbri_wave_frequency(wave, speed, length);
   if (crawls && m->strength == 0) f = 0; /* no wave at rest */
-  m->wave += (state->forward < 0 ? -f : f) * input->tick_s;
+  m->wave += (state->motion.forward < 0 ? -f : f) * input->tick_s;
   m->wave -= (float)(int32_t)m->wave;
   if (m->wave < 0) m->wave += 1;
-  float slowest = 0.5f * cruise, bend = state->turn * length / (speed > slowest ? speed : slowest);
+  float slowest = 0.5f * cruise, bend = state->motion.turn * length / (speed > slowest ? speed : slowest);
   if (wave->plane != SBF_WAVE_PLANE_LATERAL) bend = 0;
   sbri_follower_step step = sbri_follower_step_of(BEND_HZ, 1, 0, input->tick_s);
   sbri_lag_tick(&m->bend, sbri_clamp(bend, -MAX_BEND, MAX_BEND), &step);
@@ -54,7 +54,7 @@ void sbri_undulation_tick(const sbri_rig *rig, sbri_gait_state *state, const sbr
 }
 
 static bool in_chain(const sbri_rig *rig, int32_t bone) {
-  for (int32_t b = bone; b >= 0; b = rig->parents[b])
+  for (int32_t b = bone; b >= 0; b = rig->bones.parents[b])
     for (uint32_t k = 0; k < rig->gait->undulation->bones.count; k++)
       if ((int32_t)rig->gait->undulation->bones.at[k] == b) return true;
   return false;
@@ -80,14 +80,14 @@ void sbri_undulation_pose(const sbri_rig *rig, sbri_gait_state *state, const sbr
   const sbri_motion_state *m = sbri_motion(rig, state);
   if (!wave) return;
   bool vertical = wave->plane == SBF_WAVE_PLANE_VERTICAL || rig->gait->kind == SBF_GAIT_KIND_CRAWL;
-  float length = rig->wave_length * input->scale;
+  float length = rig->wave.length * input->scale;
   /* Parents first, in the order of the asset. */
-  for (uint32_t b = 0; b < rig->bone_count; b++) {
+  for (uint32_t b = 0; b < rig->bones.count; b++) {
     for (uint32_t k = 0; k < wave->bones.count; k++) {
       if (wave->bones.at[k] != b) continue;
-      float shift, unused, s = rig->wave_middles[k], angle = slope_at(rig, m, s, &unused);
-      slope_at(rig, m, rig->wave_heads[k], &shift);
-      if (!in_chain(rig, rig->parents[b])) {
+      float shift, unused, s = rig->wave.middles[k], angle = slope_at(rig, m, s, &unused);
+      slope_at(rig, m, rig->wave.heads[k], &shift);
+      if (!in_chain(rig, rig->bones.parents[b])) {
         sbf_vec3 aside = vertical ? sbri_vec3(0, shift * length, 0) : sbri_vec3(shift * length, 0, 0);
         sbri_rig_shift(rig, b, sbri_rotate(root->rotation, aside), pose);
       }
@@ -97,7 +97,8 @@ void sbri_undulation_pose(const sbri_rig *rig, sbri_gait_state *state, const sbr
         sbri_sincos(0.5f * angle, &rotation.x, &rotation.w);
       else
         sbri_sincos(0.5f * (m->bend.value * (0.5f - s) - angle), &rotation.y, &rotation.w);
-      rotation = sbri_quat_multiply(sbri_quat_multiply(root->rotation, rotation), rig->rest[b].rotation);
+      rotation =
+          sbri_quat_multiply(sbri_quat_multiply(root->rotation, rotation), rig->bones.rest[b].rotation);
       sbri_motion_turn_bone(rig, b, rotation, root, pose);
       break;
     }

@@ -23,8 +23,9 @@ static float find_walks(const sbri_walks *walks, float speed, const sbri_walk **
 
 /* In asset metres per second. */
 static float speed_of(const sbri_gait_state *state, float scale) {
-  return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->speed_fraction /
-         scale;
+  return sqrtf(state->motion.forward * state->motion.forward +
+               state->motion.sideways * state->motion.sideways) *
+         state->pace.speed_fraction / scale;
 }
 
 /* At a landing: updates the phase error of the walk, and the length of half a cycle. */
@@ -33,13 +34,13 @@ static void synchronise(const sbri_walks *walks, sbri_gait_state *state, float h
   for (int half = 0; half < 2 && legs[half] >= 0; half++) {
     const sbri_foot *foot = &state->feet[legs[half]];
     if (!foot->planted || foot->was_planted) continue;
-    state->walk_ahead = sbri_wrap(state->walk_phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
-    float walked = state->walk_since_m;
-    bool other = state->walk_landed == (uint32_t)(2 - half); /* steps alternate */
-    state->walk_half_m =
+    state->walk.ahead = sbri_wrap(state->walk.phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
+    float walked = state->walk.since_m;
+    bool other = state->walk.landed == (uint32_t)(2 - half); /* steps alternate */
+    state->walk.half_m =
         other && walked > MIN_STEP * half_cycle_m && walked < MAX_STEP * half_cycle_m ? walked : 0;
-    state->walk_landed = (uint32_t)half + 1;
-    state->walk_since_m = 0;
+    state->walk.landed = (uint32_t)half + 1;
+    state->walk.since_m = 0;
   }
 }
 
@@ -49,19 +50,19 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   const sbri_walk *low, *high;
   float t = find_walks(walks, speed_of(state, scale), &low, &high);
   float cycle = low->cycle_m + t * (high->cycle_m - low->cycle_m);
-  bool backwards = state->forward < 0 && -state->forward > fabsf(state->sideways);
+  bool backwards = state->motion.forward < 0 && -state->motion.forward > fabsf(state->motion.sideways);
   walked_m /= scale;
-  state->walk_since_m += walked_m;
+  state->walk.since_m += walked_m;
   if (low->mirrored) synchronise(walks, state, 0.5f * cycle);
-  if (state->standing_s > 0) state->walk_half_m = 0, state->walk_landed = 0;
-  float fraction = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
+  if (state->pace.standing_s > 0) state->walk.half_m = 0, state->walk.landed = 0;
+  float fraction = walked_m / (low->mirrored && state->walk.half_m > 0 ? 2 * state->walk.half_m : cycle);
   if (low->mirrored && !backwards) {
     float max = MAX_CATCH * fraction,
-          correction = sbri_clamp(CATCH_UP * state->walk_ahead * fraction, -max, max);
+          correction = sbri_clamp(CATCH_UP * state->walk.ahead * fraction, -max, max);
     fraction -= correction;
-    state->walk_ahead -= correction;
+    state->walk.ahead -= correction;
   }
-  state->walk_phase = sbri_wrap(state->walk_phase + (backwards ? -fraction : fraction), 1);
+  state->walk.phase = sbri_wrap(state->walk.phase + (backwards ? -fraction : fraction), 1);
 }
 
 /* Four frames about a phase with their weights. */
@@ -117,14 +118,14 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
   const sbri_walk *pair[2];
   sbri_between frames[2];
   float upper = find_walks(walks, speed, &pair[0], &pair[1]);
-  for (int i = 0; i < 2; i++) frames[i] = frames_at(pair[i], state->walk_phase);
+  for (int i = 0; i < 2; i++) frames[i] = frames_at(pair[i], state->walk.phase);
   for (uint32_t j = 0; j < walks->bone_count; j++) {
     sbri_posed_bone at[2];
     for (int i = 0; i < 2; i++) at[i] = posed_at(&frames[i], j);
     uint32_t bone = walks->bones[j];
     sbf_quat rotation = sbri_quat_blend(at[0].rotation, at[1].rotation, upper);
     sbf_vec3 direction = sbri_lerp(at[0].translation, at[1].translation, upper);
-    const sbr_transform *rest = &rig->base_local[bone];
+    const sbr_transform *rest = &rig->bones.base_local[bone];
     sbr_transform *local = &locals[bone];
     local->position = sbri_lerp(local->position, sbri_add(rest->position, direction), weight);
     local->rotation = sbri_quat_blend(local->rotation, sbri_quat_multiply(rest->rotation, rotation), weight);

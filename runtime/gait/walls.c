@@ -28,7 +28,7 @@ static void remove_inward_velocity(body_move *m, sbf_vec3 normal) {
   float into = sbri_dot(v, normal);
   if (into >= 0) return;
   v = sbri_unheaded(state, sbri_add_scaled(v, normal, -into));
-  state->forward = v.z, state->sideways = v.x;
+  state->motion.forward = v.z, state->motion.sideways = v.x;
 }
 
 /* Resolves the penetration of a sphere and one collider. */
@@ -49,14 +49,15 @@ static bool resolve_collider(body_move *m, sbf_vec3 position, float radius, cons
   }
   if (!(deep > 0)) return false;
   if (deep > radius) deep = radius; /* the rest in the next iteration */
-  state->position = sbri_add_scaled(state->position, n, deep);
+  state->motion.position = sbri_add_scaled(state->motion.position, n, deep);
   remove_inward_velocity(m, n);
   return true;
 }
 
 /* Position of the asset's origin. */
 static sbf_vec3 middle_of(const sbri_gait_state *state) {
-  return sbri_vec3(state->position.x, state->level + state->position.y, state->position.z);
+  return sbri_vec3(
+      state->motion.position.x, state->fall.level + state->motion.position.y, state->motion.position.z);
 }
 
 static void resolve_colliders(body_move *m) {
@@ -97,15 +98,15 @@ bool sbri_walls_keep_out(
   if (!input->around || !input->around->colliders) return false;
   float s, c;
   sbri_sincos(0.5f * turned, &s, &c);
-  body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->root.rotation),
+  body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->posture.root.rotation),
       sbri_is_afloat(rig), false};
   /* Substeps of at most a sphere's size, so that no sphere passes through a wall. */
-  sbf_vec3 displacement = sbri_sub(state->position, from);
+  sbf_vec3 displacement = sbri_sub(state->motion.position, from);
   float parts = sbri_length(displacement) / (smallest(&rig->girth) * input->scale) + 1;
   int count = parts < MAX_PARTS ? (int)parts : MAX_PARTS;
-  state->position = from;
+  state->motion.position = from;
   for (int k = 0; k < count; k++) {
-    state->position = sbri_add_scaled(state->position, displacement, 1 / (float)count);
+    state->motion.position = sbri_add_scaled(state->motion.position, displacement, 1 / (float)count);
     resolve_colliders(&m);
   }
   return m.any;

@@ -4,7 +4,7 @@
 #include "math/quat.h"
 
 static bool is_weight(const sbri_rig *rig, const sbf_follower *source) {
-  return source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT && rig->roles[source->bone] != SBRI_ROLE_LEG;
+  return source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT && rig->bones.roles[source->bone] != SBRI_ROLE_LEG;
 }
 
 /* The lag in lengths of the bone, smoothly limited in any direction. */
@@ -16,7 +16,7 @@ static sbf_vec3 limited_lag(
 
 /* Vertical displacement: downwards at most by the belly's clearance. */
 static float vertical_shift(const sbri_rig *rig, const sbri_gait_state *state, float lag) {
-  float clearance = rig->leg_count ? state->clearance.value - state->lowered : -lag;
+  float clearance = rig->leg_count ? state->balance.clearance.value - state->posture.lowered : -lag;
   return lag < -clearance ? -(clearance > 0 ? clearance : 0) : lag;
 }
 
@@ -28,9 +28,9 @@ static sbf_quat lean_towards(sbf_vec3 aside) {
 /* Moves a bone and its children. Bones below a thigh are posed later. */
 static void move_bone(const sbri_rig *rig, uint32_t bone, sbf_quat lean, float up, sbr_transform *pose) {
   sbf_vec3 head = pose[bone].position;
-  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
-    uint32_t b = rig->subtree[k];
-    if (rig->roles[b] == SBRI_ROLE_LEG) continue;
+  for (uint32_t k = rig->bones.subtree_begin[bone]; k < rig->bones.subtree_end[bone]; k++) {
+    uint32_t b = rig->bones.subtree[k];
+    if (rig->bones.roles[b] == SBRI_ROLE_LEG) continue;
     pose[b].position = sbri_add(head, sbri_rotate(lean, sbri_sub(pose[b].position, head)));
     pose[b].position.y += up;
     pose[b].rotation = sbri_quat_normalize(sbri_quat_multiply(lean, pose[b].rotation));

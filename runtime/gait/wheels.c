@@ -12,7 +12,7 @@ static bool mean_z(const sbri_rig *rig, bool steers, float *z, float *limit) {
   for (uint32_t i = 0; i < rig->gait->wheels.count; i++) {
     const sbf_wheel *wheel = &rig->gait->wheels.at[i];
     if ((wheel->steer_limit > 0) != steers) continue;
-    *z += rig->rest[wheel->bone].position.z;
+    *z += rig->bones.rest[wheel->bone].position.z;
     if (wheel->steer_limit < *limit) *limit = wheel->steer_limit;
     count++;
   }
@@ -34,8 +34,8 @@ void sbri_wheels_allow(const sbri_rig *rig, sbri_gait_input *input) {
 
 /* Velocity of a wheel's head over the ground, in body axes. */
 static sbf_vec3 velocity_at(const sbri_gait_state *state, sbf_vec3 position, float scale) {
-  return sbri_vec3(state->sideways + state->turn * position.z * scale, 0,
-      state->forward - state->turn * position.x * scale);
+  return sbri_vec3(state->motion.sideways + state->motion.turn * position.z * scale, 0,
+      state->motion.forward - state->motion.turn * position.x * scale);
 }
 
 static float steer_of(const sbf_wheel *wheel, sbf_vec3 velocity) {
@@ -48,14 +48,14 @@ static float steer_of(const sbf_wheel *wheel, sbf_vec3 velocity) {
 static sbf_vec3 tread_middle(const sbri_rig *rig, const sbf_tread *tread) {
   sbf_vec3 sum = {0, 0, 0};
   for (uint32_t k = 0; k < tread->bones.count; k++)
-    sum = sbri_add(sum, rig->rest[tread->bones.at[k]].position);
+    sum = sbri_add(sum, rig->bones.rest[tread->bones.at[k]].position);
   return sbri_scale(sum, tread->bones.count ? 1 / (float)tread->bones.count : 0);
 }
 
 static float link_length(const sbri_rig *rig, const sbf_tread *tread, uint32_t k) {
   uint32_t next = k + 1 < tread->bones.count ? k + 1 : 0;
-  return sbri_length(
-      sbri_sub(rig->rest[tread->bones.at[next]].position, rig->rest[tread->bones.at[k]].position));
+  return sbri_length(sbri_sub(
+      rig->bones.rest[tread->bones.at[next]].position, rig->bones.rest[tread->bones.at[k]].position));
 }
 
 static float tread_length(const sbri_rig *rig, const sbf_tread *tread) {
@@ -66,10 +66,10 @@ static float tread_length(const sbri_rig *rig, const sbf_tread *tread) {
 
 void sbri_wheels_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float *angles = sbri_wheel_angles(rig, state), *distances = sbri_tread_distances(rig, state);
-  float h = input->tick_s * state->speed_fraction;
+  float h = input->tick_s * state->pace.speed_fraction;
   for (uint32_t i = 0; i < rig->gait->wheels.count; i++) {
     const sbf_wheel *wheel = &rig->gait->wheels.at[i];
-    sbf_vec3 v = velocity_at(state, rig->rest[wheel->bone].position, input->scale);
+    sbf_vec3 v = velocity_at(state, rig->bones.rest[wheel->bone].position, input->scale);
     float s = 0, c = 1;
     if (wheel->steer_limit > 0) sbri_sincos(steer_of(wheel, v), &s, &c);
     angles[i] = sbri_wrap(angles[i] + (v.z * c + v.x * s) * h / (wheel->radius * input->scale), TURN);
@@ -102,8 +102,9 @@ static void pose_tread(const sbri_rig *rig, const sbf_tread *tread, float distan
      * length. */
     uint32_t from = (at + k) % count, to = (from + 1) % count, bone = tread->bones.at[k];
     float length = link_length(rig, tread, from), t = length > 0 ? sbri_clamp(distance / length, 0, 1) : 0;
-    const sbr_transform *a = &rig->rest[tread->bones.at[from]], *b = &rig->rest[tread->bones.at[to]];
-    const sbr_transform *rest = &rig->rest[bone];
+    const sbr_transform *a = &rig->bones.rest[tread->bones.at[from]],
+                        *b = &rig->bones.rest[tread->bones.at[to]];
+    const sbr_transform *rest = &rig->bones.rest[bone];
     sbf_vec3 shift = sbri_sub(sbri_lerp(a->position, b->position, t), rest->position);
     sbf_quat rotation =
         sbri_quat_multiply(sbri_quat_blend(a->rotation, b->rotation, t), sbri_quat_conjugate(rest->rotation));
@@ -124,7 +125,7 @@ void sbri_wheels_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     sbf_vec3 axis = sbri_normalize(wheel->axis, sbri_vec3(1, 0, 0));
     sbf_quat rotation = rotation_about(axis, angles[i]);
     if (wheel->steer_limit > 0) {
-      sbf_vec3 v = velocity_at(state, rig->rest[bone].position, input->scale);
+      sbf_vec3 v = velocity_at(state, rig->bones.rest[bone].position, input->scale);
       rotation = sbri_quat_multiply(rotation_about(sbri_vec3(0, 1, 0), steer_of(wheel, v)), rotation);
     }
     sbri_rig_turn(rig, bone,

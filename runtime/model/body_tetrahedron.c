@@ -6,8 +6,8 @@ bool sbri_body_tetrahedron(const sbri_body *body, uint32_t tetrahedron, sbfi_tet
   sbfi_d3 rest[4];
   const uint32_t *points = body->level->lattice.tetrahedra.at[tetrahedron].at;
   for (int k = 0; k < 4; k++) rest[k] = sbfi_d3_of(body->level->positions.at[points[k]]);
-  return sbfi_tetrahedron_make(
-      made, rest, sbfi_lame_of(body->moduli[tetrahedron], body->poisson_ratios[tetrahedron]));
+  return sbfi_tetrahedron_make(made, rest,
+      sbfi_lame_of(body->elements.moduli[tetrahedron], body->elements.poisson_ratios[tetrahedron]));
 }
 
 void sbri_tetrahedron_fill(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_tetrahedron *t) {

@@ -49,66 +49,92 @@ typedef struct sbri_recovery {
   float acceleration_m_s2; /* bound of how its drivers accelerate, forgotten slowly */
 } sbri_recovery;
 
+/* What acts on an island from outside. */
+typedef struct sbri_environment {
+  sbf_vec3 gravity; /* m/s^2 */
+  sbf_vec3 wind;    /* m/s */
+  sbr_double3 origin;
+  float scale;
+  sbr_transform anchor; /* motion of the anchor frame since the rest pose, asset metres: fields stand in it */
+  const sbr_ground *ground;
+  const sbri_load_now *loads; /* (load_count) of all bodies of the character */
+  uint32_t load_count;
+  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
+} sbri_environment;
+
+/* Contacts of all bodies of the character; see sbri_body_contact. */
+typedef struct sbri_tick_contacts {
+  const float *planes;        /* (free_count x 4) of the ground */
+  const uint8_t *near_ground; /* (free_count / 8) */
+  float *pressing; /* (free_count x 2) scratch: sbri_pressing of each point, blocks of two by eight */
+  sbri_soft_contact *at;
+  const uint32_t *counts; /* (bodies of the model) NULL: none */
+  sbri_contact_block *blocks;
+  uint32_t *block_counts; /* (bodies of the model) */
+  uint8_t *slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
+  float *weights;         /* (slot_count) scratch: sums of weights of the contacts that move each point */
+  struct sbri_external_bodies
+      *external_bodies; /* (bodies of the model) collide/external_body.h; NULL: none */
+} sbri_tick_contacts;
+
+/* Surfaces of all bodies of the character, scratch; see sbri_body_surface. */
+typedef struct sbri_tick_surfaces {
+  sbri_point *vertices, *faces, *forces, *velocities;
+  double *external_rad_s; /* highest angular frequency of external forces, 1/s, updated by
+                             sbri_update_gas_stiffness */
+} sbri_tick_surfaces;
+
+typedef struct sbri_tick_springs {
+  float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
+  float *edges;             /* (links x 8 x 3) scratch */
+  float *
+      stretch; /* maximum stretch of a spring: of the previous tick on entry, of the last substep on return */
+} sbri_tick_springs;
+
+/* Tetrahedra and regions. */
+typedef struct sbri_tick_solids {
+  const sbri_tetrahedron_block *blocks; /* the island's blocks as they are now */
+  sbri_tetrahedron_block *flowing;      /* the same where they yield or tear, else NULL */
+  uint32_t *torn;                       /* (tetrahedra) sbri_torn_state, likewise */
+  float *edges;                         /* (tetrahedra's lanes x 9) scratch */
+  float *rotations; /* (region blocks x 4 x 8) of the regions: of the last substep on entry and return */
+  float *max_flow_stretch; /* see sbri_island_state */
+  float *stiffening;       /* see sbri_island_state: of the last tick on entry, of this one on return */
+  float *min_ratio;        /* on return the minimum J = det F at the last check; 1 without tetrahedra */
+} sbri_tick_solids;
+
+/* Arrays that an integrator may overwrite. */
+typedef struct sbri_tick_scratch {
+  sbri_point *begins;          /* (slot_count) positions of pinned points at the beginning of the tick */
+  sbri_point *velocity_points; /* (slot_count) */
+  sbri_point *element_forces;  /* (slot_count) of tetrahedra and regions */
+  sbri_point *external_forces; /* (slot_count) N, neither of springs nor weight; NULL: there are none */
+  float *accelerations, *older_velocities; /* (free_count x 3) blocks as sbri_island_tick.velocities */
+  sbri_point *moves;                       /* (slot_count) */
+} sbri_tick_scratch;
+
 typedef struct sbri_island_tick {
   const sbr_model *model;
   const sbri_island *island;
   float
       tick_s; /* length of the tick, s; a fraction of a control tick if the island steps with rigid bodies: */
-  float fraction;   /* that fraction; 1: a whole tick */
-  bool collides;    /* has contacts with bodies of other characters */
-  sbf_vec3 gravity; /* m/s^2 */
-  sbf_vec3 wind;    /* m/s */
-  sbr_double3 origin;
-  float scale;
-  const sbr_ground *ground;
-  const sbri_load_now *loads; /* (load_count) of all bodies of the character */
-  uint32_t load_count;
-  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
-
+  float fraction; /* that fraction; 1: a whole tick */
+  bool collides;  /* has contacts with bodies of other characters */
+  bool undamped;  /* the caller applies damping relative to the drivers */
+  sbri_environment environment;
   sbri_point *positions;          /* (slot_count) */
   float *velocities;              /* (free_count x 3) blocks of three by eight; of the relaxation scheme the
                                      positions of the tick before */
-  const sbri_point *targets;      /* (slot_count) where held points shall be at the end of the tick */
+  const sbri_point *targets;      /* (slot_count) positions of pinned points at the end of the tick */
   const float *driver_velocities; /* (free_count x 3) velocities of the drivers, for pinned bodies */
-  bool undamped;                  /* the caller applies damping relative to the drivers */
   sbri_reaction *reactions;       /* (rigid bodies) accumulated; NULL: not needed */
-  sbri_point *begins; /* (slot_count) scratch: positions of pinned points at the beginning of the tick */
-  sbri_point *velocity_points; /* (slot_count) scratch */
-  sbri_point *element_forces;  /* (slot_count) scratch: of tetrahedra and regions */
-  double *external_rad_s;      /* highest angular frequency of external forces, 1/s, updated by
-                                  sbri_update_gas_stiffness */
-  sbr_transform anchor; /* motion of the anchor frame since the rest pose, asset metres: fields stand in it */
-  sbri_point *surface_forces, *surface_velocities; /* scratch likewise */
-  sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
-  const float *planes;                             /* (free_count x 4) of the ground */
-  const uint8_t *near_ground;                      /* (free_count / 8) */
-  float *pressing; /* (free_count x 2) scratch: sbri_pressing of each point, blocks of two by eight */
-  sbri_soft_contact *contacts; /* of the character; see sbri_body.first_soft_contact */
-  struct sbri_external_bodies
-      *external_bodies;               /* (bodies of the model) collide/external_body.h; NULL: none */
-  sbri_contact_block *contact_blocks; /* of the character; see sbri_body.first_contact_block */
-  uint32_t *contact_block_counts;     /* (bodies of the model) */
-  uint8_t *contact_slots;         /* (slot_count / 8) 1: contact blocks read or move some of these slots */
-  float *contact_weights;         /* (slot_count) scratch: the sums of weights of what pushes each point */
-  const uint32_t *contact_counts; /* (bodies of the model) NULL: none */
-  float *rests, *strengths;       /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
-  float *rotations; /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
-  sbri_point
-      *external_forces; /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
-  float *accelerations, *older_velocities;  /* (free_count x 3) scratch, blocks as `velocities` */
-  sbri_point *moves;                        /* (slot_count) scratch */
-  float *edges;                             /* (links x 8 x 3) scratch */
-  float *solid_edges;                       /* (tetrahedra's lanes x 9) scratch */
-  sbri_tears *tears;                        /* scratch: what tore in this tick */
-  float step_error_m;                       /* of schemes that control their error, asset metres */
-  const sbri_tetrahedron_block *tetrahedra; /* the island's blocks as they are now */
-  sbri_tetrahedron_block *flowing;          /* the same where they yield or tear, else NULL */
-  uint32_t *torn;                           /* (tetrahedron_count) sbri_torn_state, likewise */
-  float *max_flow_stretch;                  /* see sbri_island_state */
-  float *stiffening; /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
-  float *min_ratio;  /* out: minimum J = det F of the tetrahedra at the last check; 1 without tetrahedra */
-  float *
-      stretch; /* maximum stretch of a spring: of the previous tick on entry, of the last substep on return */
+  sbri_tick_contacts contacts;
+  sbri_tick_surfaces surfaces;
+  sbri_tick_springs springs;
+  sbri_tick_solids solids;
+  sbri_tick_scratch scratch;
+  sbri_tears *tears;        /* scratch: what tore in this tick */
+  float step_error_m;       /* of schemes that control their error, asset metres */
   uint32_t *element_visits; /* element visits, accumulated; NULL: not counted */
 } sbri_island_tick;
 
@@ -122,7 +148,7 @@ static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     return (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
   }
-  const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+  const sbri_point *from = &t->scratch.begins[slot], *to = &t->targets[slot];
   float rate = 1 / t->tick_s;
   return (sbf_vec3){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate};
 }
@@ -139,14 +165,14 @@ static inline sbf_vec3 sbri_sample_position(const sbri_island_tick *t, const sbr
 
 /* Number of contacts of the body in this tick. */
 static inline uint32_t sbri_soft_contact_count(const sbri_island_tick *t, const sbri_body *body) {
-  return t->contact_counts ? t->contact_counts[body - t->model->bodies] : 0;
+  return t->contacts.counts ? t->contacts.counts[body - t->model->bodies] : 0;
 }
 
 /* Whether the body may touch anything in this tick. */
 static inline bool sbri_may_collide(const sbri_island_tick *t, const sbri_body *body) {
   bool any = sbri_soft_contact_count(t, body) > 0;
-  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
-    any = any || t->near_ground[block];
+  for (uint32_t block = body->slots.begin / SBRI_BLOCK; block < body->slots.end / SBRI_BLOCK; block++)
+    any = any || t->contacts.near_ground[block];
   return any;
 }
 

@@ -18,13 +18,13 @@ static const double MARGIN = 1.1;
 enum { MAX_COUNTED = 1 << 20 };
 
 uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch) {
-  if (island->substeps) return island->substeps;
-  double rest = MARGIN * island->fastest_rad_s, max = 1.02 * island->bound_rad_s;
+  if (island->stepping.substeps) return island->stepping.substeps;
+  double rest = MARGIN * island->stability.fastest_rad_s, max = 1.02 * island->stability.bound_rad_s;
   double across = stretch > 0 ? stretch : 0;
   double w = sqrt(rest * rest + across * max * max);
   if (w > max) w = max;
-  w = sqrt(w * w + MARGIN * MARGIN * island->external_rad_s * island->external_rad_s);
-  double z = 0.5 * island->stiffness_damping_s * w;
+  w = sqrt(w * w + MARGIN * MARGIN * island->stability.external_rad_s * island->stability.external_rad_s);
+  double z = 0.5 * island->springs.stiffness_damping_s * w;
   double needed = tick_s * w / (2 * (sqrt(1 + z * z) - z));
   if (!(needed < MAX_COUNTED)) return MAX_COUNTED;
   return needed < 1 ? 1 : (uint32_t)needed + ((double)(uint32_t)needed < needed);

@@ -32,8 +32,8 @@ static sbri_point guided(const sbri_driver *driver, const sbri_delta *deltas, co
 
 void sbri_compute_driver_positions(
     const sbr_model *model, const sbri_body *body, const sbri_delta *deltas, sbri_point *positions) {
-  const sbri_point *rest = model->islands[body->island].rest + body->slot_begin;
-  uint32_t count = body->slot_end - body->slot_begin;
+  const sbri_point *rest = model->islands[body->island].rest + body->slots.begin;
+  uint32_t count = body->slots.end - body->slots.begin;
   if (body->drivers) {
     for (uint32_t i = 0; i < count; i++) positions[i] = guided(&body->drivers[i], deltas, &rest[i]);
     return;
@@ -67,7 +67,7 @@ static sbri_wide3 placed(const sbri_delta *d, sbri_wide3 v) {
 void sbri_compute_pin_targets(const sbri_island *island, const sbri_delta *deltas, sbri_point *positions) {
   const sbri_point *rest = island->rest;
   for (uint32_t first = island->free_count; first < island->slot_count; first += SBRI_LANES) {
-    const uint32_t *frames = island->frame_of_pinned + (first - island->free_count);
+    const uint32_t *frames = island->pins.frames + (first - island->free_count);
     bool one = !deltas[frames[0]].squash;
     for (uint32_t i = 1; i < SBRI_LANES; i++) one = one && frames[i] == frames[0];
     if (one) {

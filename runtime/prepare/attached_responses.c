@@ -38,9 +38,9 @@ static int32_t single_rigid_body(const sbri_island_maker *m) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
-      uint32_t slot = body->slot_from_point[i];
+      uint32_t slot = body->slots.from_point[i];
       if (slot < island->free_count) continue;
-      int32_t carrier = carriers[island->frame_of_pinned[slot - island->free_count]];
+      int32_t carrier = carriers[island->pins.frames[slot - island->free_count]];
       if (carrier < 0 || (found >= 0 && carrier != found)) return -1;
       found = carrier;
     }
@@ -57,9 +57,9 @@ static int32_t single_rigid_body(const sbri_island_maker *m) {
 static bool is_damped(const sbri_island_maker *m) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    float w = body->stretching_rad_s, min = body->alpha_1_s;
-    for (uint32_t slot = body->slot_begin; body->alphas && slot < body->slot_real_end; slot++)
-      min = body->alphas[slot] < min ? body->alphas[slot] : min;
+    float w = body->damping.stretching_rad_s, min = body->damping.alpha_1_s;
+    for (uint32_t slot = body->slots.begin; body->damping.alphas && slot < body->slots.real_end; slot++)
+      min = body->damping.alphas[slot] < min ? body->damping.alphas[slot] : min;
     float springs = body->source->attributes.stiffness_damping * w * w;
     if (!(min + springs >= 2 * MIN_DAMPING * w)) return false;
   }
@@ -154,9 +154,9 @@ static void filter(
 bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network *found) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count;
-  island->lightly_damped = !is_damped(m);
-  if (island->scheme != &sbri_symplectic || island->region_block_count || single_rigid_body(m) < 0 ||
-      island->lightly_damped)
+  island->stepping.lightly_damped = !is_damped(m);
+  if (island->scheme != &sbri_symplectic || island->regions.block_count || single_rigid_body(m) < 0 ||
+      island->stepping.lightly_damped)
     return true;
   sbf_spring_network network = *found;
   size_t size = 3 * (size_t)points;
@@ -166,7 +166,7 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
   float *fractions = sbri_keep(m, (size_t)SBRI_ANSWER * island->free_count, sizeof *fractions);
   if (!masses || !lags || !answers || !fractions) return false;
   double h = (double)m->model->asset->environment.control_tick / SBRI_ATTACHED_STEPS,
-         fastest = FASTEST_MARGIN * h * h * island->fastest_rad_s * island->fastest_rad_s;
+         fastest = FASTEST_MARGIN * h * h * island->stability.fastest_rad_s * island->stability.fastest_rad_s;
   if (island->free_count) memcpy(masses, island->masses, island->free_count * sizeof *masses);
   network.masses = masses;
   answers->about = middle_of(island), answers->fractions = fractions;
@@ -180,7 +180,7 @@ bool sbri_attached_responses_make(sbri_island_maker *m, const sbf_spring_network
     fill(island, answers, fractions, lags, column);
   }
   symmetrise(answers->mass);
-  island->answers = answers;
+  island->pins.responses = answers;
   return true;
 }
 
@@ -203,8 +203,8 @@ static void add_mass(const sbri_attached_responses *answers, sbf_vec3 from, doub
 }
 
 static bool is_attached_to(const sbri_island *island, uint32_t carrier) {
-  for (uint32_t i = 0; i < island->carrier_count; i++)
-    if (island->carriers[i] == carrier) return true;
+  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
+    if (island->pins.carriers[i] == carrier) return true;
   return false;
 }
 
@@ -216,9 +216,9 @@ void sbri_attached_mass_join(sbr_model *model) {
       const sbri_island *island = &model->islands[i];
       if (!is_attached_to(island, c)) continue;
       any = true;
-      all = all && island->answers && island->scheme == &sbri_symplectic && !island->splits &&
-            !(island->external_rad_s > 0);
-      if (all) add_mass(island->answers, model->rigid.bodies[c].center, attached->mass);
+      all = all && island->pins.responses && island->scheme == &sbri_symplectic && !island->splits &&
+            !(island->stability.external_rad_s > 0);
+      if (all) add_mass(island->pins.responses, model->rigid.bodies[c].center, attached->mass);
     }
     attached->bearable =
         any && all && model->rigid.attached_masses[c] <= MAX_ATTACHED_TRAVEL * model->rigid.bodies[c].mass;

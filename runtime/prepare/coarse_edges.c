@@ -17,11 +17,11 @@ static float thickness_of(const sbri_body *body) {
 
 /* Sample or slot of each vertex; false if it has neither. */
 static bool find_ends(const sbri_island *island, const sbri_body *body, uint32_t *ends) {
-  for (uint32_t v = 0; v < body->surface.vertex_count; v++) ends[v] = NOT_THERE;
-  for (uint32_t i = 0; i < body->sample_count; i++)
-    if (body->samples[i].vertex != UINT32_MAX) ends[body->samples[i].vertex] = i;
-  for (uint32_t v = 0; !body->samples && v < body->surface.vertex_count; v++) {
-    sbri_sample s = sbri_sample_of(island, &body->surface, v);
+  for (uint32_t v = 0; v < body->surface.skin.vertex_count; v++) ends[v] = NOT_THERE;
+  for (uint32_t i = 0; i < body->contact.sample_count; i++)
+    if (body->contact.samples[i].vertex != UINT32_MAX) ends[body->contact.samples[i].vertex] = i;
+  for (uint32_t v = 0; !body->contact.samples && v < body->surface.skin.vertex_count; v++) {
+    sbri_sample s = sbri_sample_of(island, &body->surface.skin, v);
     if (s.weights[0] != 1) return false;
     ends[v] = s.slots[0];
   }
@@ -50,8 +50,8 @@ static uint32_t list_edges(const sbf_polygon_mesh *mesh, float min, uint32_t *be
 static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   const sbf_polygon_mesh *mesh = &body->source->surface;
   uint32_t vertices = mesh->positions.count;
-  float min = fmaxf(OF_MARGIN * body->margin_m, OF_THICKNESS * thickness_of(body));
-  uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)body->surface.vertex_count + 1, sizeof *ends);
+  float min = fmaxf(OF_MARGIN * body->contact.margin_m, OF_THICKNESS * thickness_of(body));
+  uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)body->surface.skin.vertex_count + 1, sizeof *ends);
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)vertices + 3, sizeof *begins);
   uint32_t *other_ends =
       sbfi_arena_allocate(scratch, (size_t)mesh->polygon_points.count + 1, sizeof *other_ends);
@@ -69,13 +69,13 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
       if (k < i || ends[v] == NOT_THERE || ends[other_ends[i]] == NOT_THERE) continue;
       edges[2 * count] = ends[v], edges[2 * count + 1] = ends[other_ends[i]], count++;
     }
-  body->coarse_edges = edges, body->coarse_edge_count = count;
+  body->contact.coarse_edges = edges, body->contact.coarse_edge_count = count;
   return true;
 }
 
 bool sbri_coarse_edges_make(sbr_model *model, sbri_body *body) {
-  if (!body->level || body->surface.frame_vertex_count || !body->surface.vertex_count ||
-      body->surface.vertex_count != body->source->surface.positions.count)
+  if (!body->level || body->surface.skin.frame_vertex_count || !body->surface.skin.vertex_count ||
+      body->surface.skin.vertex_count != body->source->surface.positions.count)
     return true;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);

@@ -33,8 +33,8 @@ static float weight_below_0(const sbri_sample *s) {
 static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
   if (!(s.mass_kg > 0)) return; /* it follows bones only */
   float beyond = weight_below_0(&s);
-  body->sample_beyond = beyond > body->sample_beyond ? beyond : body->sample_beyond;
-  samples[body->sample_count++] = s;
+  body->contact.sample_beyond = beyond > body->contact.sample_beyond ? beyond : body->contact.sample_beyond;
+  samples[body->contact.sample_count++] = s;
 }
 
 /* ---- Points of the level on the surface ---- */
@@ -98,12 +98,13 @@ static void find_from(const surface_points *p, const sbf_vec3 corners[3]) {
 static float mean_edge(const sbri_body *body) {
   double volume = 0;
   const sbf_vec3 *at = body->level->positions.at;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
     const uint32_t *c = body->level->lattice.tetrahedra.at[t].at;
     sbf_vec3 a = sbri_sub(at[c[1]], at[c[0]]), b = sbri_sub(at[c[2]], at[c[0]]);
     volume += (double)fabsf(sbri_dot(sbri_cross(a, b), sbri_sub(at[c[3]], at[c[0]]))) / 6;
   }
-  double cube = body->tetrahedron_count ? 8.485 * volume / body->tetrahedron_count : 0, edge = 1;
+  double cube = body->elements.tetrahedron_count ? 8.485 * volume / body->elements.tetrahedron_count : 0,
+         edge = 1;
   for (int i = 0; i < 60 && cube > 0; i++) edge -= (edge - cube / (edge * edge)) / 3;
   return cube > 0 ? (float)edge : 0;
 }
@@ -133,7 +134,7 @@ static void add_surface_points(
     const sbri_island *island, sbri_body *body, const surface_points *p, float edge, sbri_sample *samples) {
   for (uint32_t i = 0; i < body->level->positions.count; i++) {
     float fraction = p->nearest[i].behind ? INSIDE_FRACTION : OUTSIDE_FRACTION, max = fraction * edge;
-    uint32_t slot = body->slot_from_point[i];
+    uint32_t slot = body->slots.from_point[i];
     if (p->nearest[i].square < 0 || p->nearest[i].square > max * max || slot >= island->free_count) continue;
     add_sample(body, samples,
         (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, island->masses[slot], UINT32_MAX});
@@ -171,7 +172,7 @@ static keyed_sample keyed(const sbri_sample *s, uint32_t number) {
 
 /* Sorts samples so that those with the same points are adjacent. */
 static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_arena *scratch) {
-  uint32_t count = body->sample_count, groups = 0;
+  uint32_t count = body->contact.sample_count, groups = 0;
   keyed_sample *sorted = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *sorted);
   if (!sorted) return false;
   for (uint32_t i = 0; i < count; i++) sorted[i] = keyed(&samples[i], i);
@@ -179,7 +180,7 @@ static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_
   for (uint32_t i = 0; i < count; i++) groups += i == 0 || compare_keys(&sorted[i - 1], &sorted[i]) != 0;
   sbri_sample_group *at = sbfi_arena_allocate(&model->arena, (size_t)groups + 1, sizeof *at);
   if (!at) return false;
-  body->sample_groups = at, body->sample_group_count = groups;
+  body->contact.sample_groups = at, body->contact.sample_group_count = groups;
   at--;
   for (uint32_t i = 0; i < count; i++) {
     samples[i] = sorted[i].sample;
@@ -207,11 +208,11 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
   const sbf_polygon_mesh *mesh = &body->source->surface;
   float edge = mean_edge(body);
   bool sparse = edge > 0 && mean_edge_of(mesh) > edge;
-  size_t count = (size_t)body->surface.vertex_count + (sparse ? body->level->positions.count : 0);
+  size_t count = (size_t)body->surface.skin.vertex_count + (sparse ? body->level->positions.count : 0);
   sbri_sample *samples = sbfi_arena_allocate(&model->arena, count, sizeof *samples);
   uint8_t *used;
   if (!samples || !mark_used(mesh, scratch, &used)) return false;
-  body->samples = samples;
+  body->contact.samples = samples;
   if (sparse) {
     surface_points p = {.body = body, .reach = INSIDE_FRACTION * edge};
     p.nearest = sbfi_arena_allocate(scratch, body->level->positions.count, sizeof *p.nearest);
@@ -219,14 +220,14 @@ static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
     find_surface_points(&p);
     add_surface_points(island, body, &p, edge, samples);
   }
-  for (uint32_t v = 0; v < body->surface.vertex_count; v++) {
-    if (used[v]) add_sample(body, samples, sbri_sample_of(island, &body->surface, v));
+  for (uint32_t v = 0; v < body->surface.skin.vertex_count; v++) {
+    if (used[v]) add_sample(body, samples, sbri_sample_of(island, &body->surface.skin, v));
   }
   return group(model, body, samples, scratch);
 }
 
 bool sbri_samples_make(sbr_model *model, sbri_body *body) {
-  if (!body->level || !is_embedded(&body->surface)) return true;
+  if (!body->level || !is_embedded(&body->surface.skin)) return true;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   bool good = make(model, body, &scratch);

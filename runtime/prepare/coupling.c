@@ -17,9 +17,9 @@ bool sbri_carriers_list(sbr_model *model) {
   int32_t *carriers = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *carriers);
   if (!carriers) return false;
   for (uint32_t f = 0; f < model->frame_count; f++) carriers[f] = -1;
-  for (uint32_t i = 0; i < model->rig.bone_count; i++) {
-    uint32_t bone = model->rig.subtree[i];
-    int32_t parent = model->rig.parents[bone];
+  for (uint32_t i = 0; i < model->rig.bones.count; i++) {
+    uint32_t bone = model->rig.bones.subtree[i];
+    int32_t parent = model->rig.bones.parents[bone];
     carriers[bone] = rigid->body_of_bone[bone] >= 0 ? rigid->body_of_bone[bone]
                      : parent >= 0                  ? carriers[parent]
                                                     : -1;
@@ -33,21 +33,20 @@ bool sbri_carriers_list(sbr_model *model) {
 static bool list_pinned(sbr_model *model, sbri_island *island) {
   uint32_t pinned_count = island->slot_count - island->free_count, body_count = model->rigid.body_count;
   int32_t *of_pinned = sbfi_arena_allocate(&model->arena, (size_t)pinned_count + 1, sizeof *of_pinned);
-  uint32_t *springs = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof *springs);
+  uint32_t *springs = sbfi_arena_allocate(&model->arena, (size_t)island->springs.count + 1, sizeof *springs);
   uint32_t *carriers = sbfi_arena_allocate(&model->arena, (size_t)body_count + 1, sizeof *carriers);
   if (!of_pinned || !springs || !carriers) return false;
-  for (uint32_t i = 0; i < pinned_count; i++)
-    of_pinned[i] = model->carrier_of_frame[island->frame_of_pinned[i]];
-  island->rigid_body_of_pinned = of_pinned, island->carriers = carriers, island->pinned_springs = springs;
+  for (uint32_t i = 0; i < pinned_count; i++) of_pinned[i] = model->carrier_of_frame[island->pins.frames[i]];
+  island->pins.rigid_bodies = of_pinned, island->pins.carriers = carriers, island->springs.pinned = springs;
   for (uint32_t b = 0; b < body_count; b++) {
     bool carries = false;
     for (uint32_t i = 0; i < pinned_count && !carries; i++) carries = of_pinned[i] == (int32_t)b;
-    if (carries) carriers[island->carrier_count++] = b;
+    if (carries) carriers[island->pins.carrier_count++] = b;
   }
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    const sbfi_spring *s = &island->springs[i];
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    const sbfi_spring *s = &island->springs.at[i];
     if ((s->a >= island->free_count) != (s->b >= island->free_count))
-      springs[island->pinned_spring_count++] = i;
+      springs[island->springs.pinned_count++] = i;
   }
   return true;
 }
@@ -60,7 +59,7 @@ typedef struct stiffness {
 } stiffness;
 
 static int32_t carrier_of(const sbri_island *island, uint32_t slot) {
-  return slot >= island->free_count ? island->rigid_body_of_pinned[slot - island->free_count] : -1;
+  return slot >= island->free_count ? island->pins.rigid_bodies[slot - island->free_count] : -1;
 }
 
 static sbf_vec3 local_arm(const sbri_rigid_body *body, const sbri_point *at) {
@@ -108,11 +107,11 @@ static void add_tetrahedra(
     const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
       const uint32_t *points = body->level->lattice.tetrahedra.at[t].at;
       uint32_t slots[4], count = 0;
       for (int k = 0; k < 4; k++) {
-        slots[k] = body->slot_from_point[points[k]];
+        slots[k] = body->slots.from_point[points[k]];
         count += carrier_of(island, slots[k]) == (int32_t)carrier;
       }
       sbfi_tetrahedron made;
@@ -124,10 +123,10 @@ static void add_tetrahedra(
 
 static void add_regions(
     const sbri_island *island, const sbri_rigid_body *body, uint32_t carrier, stiffness *sum) {
-  for (uint32_t b = 0; b < island->region_block_count; b++) {
-    const sbri_region_block *block = &island->region_blocks[b];
+  for (uint32_t b = 0; b < island->regions.block_count; b++) {
+    const sbri_region_block *block = &island->regions.blocks[b];
     for (uint32_t i = 0; i < block->member_count * SBRI_BLOCK; i++) {
-      const sbri_region_member *m = &island->region_members[block->first_member + i / SBRI_BLOCK];
+      const sbri_region_member *m = &island->regions.members[block->first_member + i / SBRI_BLOCK];
       uint32_t slot = m->slots[i % SBRI_BLOCK];
       if (carrier_of(island, slot) == (int32_t)carrier)
         add_point(island, body, slot, (double)m->stiffness[i % SBRI_BLOCK], sum);
@@ -137,8 +136,8 @@ static void add_regions(
 
 static void add_island(const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
   const sbri_rigid_body *body = &model->rigid.bodies[carrier];
-  for (uint32_t i = 0; i < island->pinned_spring_count; i++) {
-    const sbfi_spring *s = &island->springs[island->pinned_springs[i]];
+  for (uint32_t i = 0; i < island->springs.pinned_count; i++) {
+    const sbfi_spring *s = &island->springs.at[island->springs.pinned[i]];
     uint32_t pinned = s->a >= island->free_count ? s->a : s->b;
     if (carrier_of(island, pinned) == (int32_t)carrier)
       add_point(island, body, pinned, (double)s->stiffness_n_m, sum);
@@ -171,11 +170,11 @@ static void add_attached_mass(const sbr_model *model, uint32_t frame, const sbri
 }
 
 static void add_attached_masses(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
-  for (uint32_t slot = body->slot_begin; body->is_pinned && slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; body->is_pinned && slot < body->slots.real_end; slot++) {
     if (!body->drivers)
       add_attached_mass(model, body->driver_frame, &island->rest[slot], island->masses[slot]);
     for (int k = 0; body->drivers && k < SBRI_DRIVERS; k++) {
-      const sbri_driver *driver = &body->drivers[slot - body->slot_begin];
+      const sbri_driver *driver = &body->drivers[slot - body->slots.begin];
       add_attached_mass(
           model, driver->frames[k], &island->rest[slot], driver->weights[k] * island->masses[slot]);
     }
@@ -199,8 +198,8 @@ bool sbri_coupling_make(sbr_model *model) {
   for (uint32_t b = 0; b < model->rigid.body_count; b++) {
     stiffness sum = {0, {0, 0, 0}};
     for (uint32_t i = 0; i < model->island_count; i++)
-      for (uint32_t k = 0; k < model->islands[i].carrier_count; k++)
-        if (model->islands[i].carriers[k] == b) add_island(model, &model->islands[i], b, &sum);
+      for (uint32_t k = 0; k < model->islands[i].pins.carrier_count; k++)
+        if (model->islands[i].pins.carriers[k] == b) add_island(model, &model->islands[i], b, &sum);
     model->rigid.pinned_squares[b] = square_of(&model->rigid.bodies[b], &sum);
   }
   return true;

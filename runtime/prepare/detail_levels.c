@@ -48,7 +48,8 @@ static uint32_t max_levels(const sbf_asset *asset) {
 static bool has_single_level(const sbr_model *model) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
-    if (island->link_flows || island->solid_flows || island->splits || island->scheme->forceless) return true;
+    if (island->links.flows || island->tetrahedra.flow || island->splits || island->scheme->forceless)
+      return true;
   }
   return false;
 }
@@ -82,7 +83,7 @@ static float error_of(const sbri_body *body, const sbf_level *level, bool is_fin
 }
 
 static void rate(const sbr_model *model, sbr_detail_level *detail_level) {
-  const sbr_model *base = model->base;
+  const sbr_model *base = model->detail.base;
   detail_level->error_m = 0;
   detail_level->visits = detail_level->kind == SBR_DETAIL_OFFSCREEN ? AWAY_VISITS : GAIT_VISITS;
   if (detail_level->kind == SBR_DETAIL_JIGGLE)
@@ -98,13 +99,14 @@ static void rate(const sbr_model *model, sbr_detail_level *detail_level) {
   for (uint32_t i = 0; detail_level->kind == SBR_DETAIL_SOFT && i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
     uint32_t members = 0;
-    for (uint32_t k = 0; k < island->region_block_count; k++)
-      members += SBRI_BLOCK * island->region_blocks[k].member_count;
+    for (uint32_t k = 0; k < island->regions.block_count; k++)
+      members += SBRI_BLOCK * island->regions.blocks[k].member_count;
     float visits =
-        visits_per_substep(island, true) * (float)island->tetrahedron_count +
-        visits_per_substep(island, false) * SPRING_VISITS * (float)(island->spring_count + members) +
+        visits_per_substep(island, true) * (float)island->tetrahedra.count +
+        visits_per_substep(island, false) * SPRING_VISITS * (float)(island->springs.count + members) +
         SUBSTEP_VISITS;
-    detail_level->visits += visits * (float)sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
+    detail_level->visits +=
+        visits * (float)sbri_scheme_substeps(island, 1.0 / 60, island->springs.rest_stretch);
   }
 }
 
@@ -115,11 +117,11 @@ static sbf_status make_detail_level(
   sbf_allocator allocator = base->arena.allocator;
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
-  *made =
-      (sbr_model){.asset = base->asset, .kernels = base->kernels, .kind = detail_level.kind, .base = base};
+  *made = (sbr_model){
+      .asset = base->asset, .kernels = base->kernels, .detail.kind = detail_level.kind, .detail.base = base};
   sbfi_arena_init(&made->arena, &allocator, 0);
-  base->levels[base->detail_level_count] = made;
-  base->detail_levels[base->detail_level_count++] = detail_level;
+  base->detail.levels[base->detail.level_count] = made;
+  base->detail.definitions[base->detail.level_count++] = detail_level;
   sbr_model_options own = *options;
   own.level = detail_level.level;
   return sbri_model_prepare(made, &own, error);
@@ -127,7 +129,7 @@ static sbf_status make_detail_level(
 
 /* Drops soft levels that cost as much as the one before. */
 static void drop_last(sbr_model *base) {
-  sbr_model *last = base->levels[--base->detail_level_count];
+  sbr_model *last = base->detail.levels[--base->detail.level_count];
   sbf_allocator allocator = last->arena.allocator;
   sbfi_arena_free(&last->arena);
   sbfi_free(&allocator, last, sizeof *last);
@@ -136,20 +138,20 @@ static void drop_last(sbr_model *base) {
 static sbf_status make_coarser(sbr_model *base, const sbr_model_options *options, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   for (uint32_t level = options->level + 1; status == SBF_OK && level < max_levels(base->asset) &&
-                                            base->detail_level_count < MAX_DETAIL_LEVELS - 3;
+                                            base->detail.level_count < MAX_DETAIL_LEVELS - 3;
        level++) {
     if (!any_stepped(base->asset, level)) continue;
     status =
         make_detail_level(base, options, (sbr_detail_level){.kind = SBR_DETAIL_SOFT, .level = level}, error);
     if (status != SBF_OK) return status;
-    uint32_t last = base->detail_level_count - 1;
-    if (has_single_level(base->levels[last]) ||
-        is_point_pinned(base->levels[last]) != is_point_pinned(base)) {
+    uint32_t last = base->detail.level_count - 1;
+    if (has_single_level(base->detail.levels[last]) ||
+        is_point_pinned(base->detail.levels[last]) != is_point_pinned(base)) {
       drop_last(base);
       continue;
     }
-    rate(base->levels[last], &base->detail_levels[last]);
-    if (base->detail_levels[last].visits >= base->detail_levels[last - 1].visits) drop_last(base);
+    rate(base->detail.levels[last], &base->detail.definitions[last]);
+    if (base->detail.definitions[last].visits >= base->detail.definitions[last - 1].visits) drop_last(base);
   }
   return status;
 }
@@ -163,10 +165,11 @@ static sbf_status make_levels_without_soft(
   if (status == SBF_OK)
     status = make_detail_level(base, options, (sbr_detail_level){.kind = SBR_DETAIL_BONES}, error);
   if (status != SBF_OK) return status;
-  base->levels[base->detail_level_count] = base->levels[base->detail_level_count - 1];
-  base->detail_levels[base->detail_level_count++] = (sbr_detail_level){.kind = SBR_DETAIL_OFFSCREEN};
-  for (uint32_t r = 1; r < base->detail_level_count; r++)
-    if (base->detail_levels[r].kind != SBR_DETAIL_SOFT) rate(base->levels[r], &base->detail_levels[r]);
+  base->detail.levels[base->detail.level_count] = base->detail.levels[base->detail.level_count - 1];
+  base->detail.definitions[base->detail.level_count++] = (sbr_detail_level){.kind = SBR_DETAIL_OFFSCREEN};
+  for (uint32_t r = 1; r < base->detail.level_count; r++)
+    if (base->detail.definitions[r].kind != SBR_DETAIL_SOFT)
+      rate(base->detail.levels[r], &base->detail.definitions[r]);
   return SBF_OK;
 }
 
@@ -175,7 +178,7 @@ static bool number_vertices(sbr_model *base) {
   uint32_t *first = sbfi_arena_allocate(&base->arena, (size_t)meshes + 1, sizeof *first);
   for (uint32_t i = 0; first && i < meshes; i++)
     first[i + 1] = first[i] + base->asset->render_meshes.at[i].mesh.positions.count;
-  base->first_vertices = first;
+  base->detail.first_vertices = first;
   return first != NULL;
 }
 
@@ -191,7 +194,7 @@ static void note_embedding(const sbr_model *base, uint32_t body, uint32_t *with,
     const sbf_embedding *one = &all->at[e];
     uint32_t mesh = (uint32_t)one->render_mesh;
     if (one->render_mesh < 0) continue;
-    uint32_t first = base->first_vertices[mesh], count = base->first_vertices[mesh + 1] - first;
+    uint32_t first = base->detail.first_vertices[mesh], count = base->detail.first_vertices[mesh + 1] - first;
     for (uint32_t i = 0; i < one->points.count; i++) {
       uint32_t vertex = one->vertices.count ? one->vertices.at[i] : i;
       float blend = one->blends.count ? one->blends.at[i] : 1;
@@ -204,7 +207,7 @@ static void note_embedding(const sbr_model *base, uint32_t body, uint32_t *with,
 /* The body with the largest weight in each vertex, and its frequency. */
 static bool store_swings(sbr_model *base) {
   uint32_t bodies = base->asset->soft_bodies.count;
-  size_t vertices = base->first_vertices[base->asset->render_meshes.count];
+  size_t vertices = base->detail.first_vertices[base->asset->render_meshes.count];
   uint32_t *with = sbfi_arena_allocate(&base->arena, vertices + 1, sizeof *with);
   float *rad_s = sbfi_arena_allocate(&base->arena, (size_t)bodies + 1, sizeof *rad_s);
   float *fractions = sbfi_allocate(&base->arena.allocator, (vertices + 1) * sizeof *fractions);
@@ -219,21 +222,22 @@ static bool store_swings(sbr_model *base) {
     if (b < bodies && base->bodies[b].level) note_embedding(base, b, with, fractions);
   }
   sbfi_free(&base->arena.allocator, fractions, (vertices + 1) * sizeof *fractions);
-  base->swings_with = with, base->swing_rad_s = rad_s;
+  base->detail.swings_with = with, base->detail.swing_rad_s = rad_s;
   return true;
 }
 
 /* ---- Sources of changes ---- */
 
 static bool make_sources(sbr_model *base) {
-  for (uint32_t to = 0; to < base->detail_level_count; to++) {
-    sbr_model *model = base->levels[to];
-    if (base->detail_levels[to].kind != SBR_DETAIL_SOFT) continue;
-    model->sources = sbfi_arena_allocate(&model->arena, base->detail_level_count, sizeof *model->sources);
-    if (!model->sources) return false;
-    for (uint32_t from = 0; from < base->detail_level_count; from++)
-      if (from != to && base->detail_levels[from].kind == SBR_DETAIL_SOFT &&
-          !sbri_sources_make(model, base->levels[from], &model->sources[from]))
+  for (uint32_t to = 0; to < base->detail.level_count; to++) {
+    sbr_model *model = base->detail.levels[to];
+    if (base->detail.definitions[to].kind != SBR_DETAIL_SOFT) continue;
+    model->detail.sources =
+        sbfi_arena_allocate(&model->arena, base->detail.level_count, sizeof *model->detail.sources);
+    if (!model->detail.sources) return false;
+    for (uint32_t from = 0; from < base->detail.level_count; from++)
+      if (from != to && base->detail.definitions[from].kind == SBR_DETAIL_SOFT &&
+          !sbri_sources_make(model, base->detail.levels[from], &model->detail.sources[from]))
         return false;
   }
   return true;
@@ -241,32 +245,33 @@ static bool make_sources(sbr_model *base) {
 
 sbf_status sbri_detail_levels_make(
     sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
-  model->levels = sbfi_arena_allocate(&model->arena, MAX_DETAIL_LEVELS, sizeof(sbr_model *));
-  model->detail_levels = sbfi_arena_allocate(&model->arena, MAX_DETAIL_LEVELS, sizeof *model->detail_levels);
-  if (!model->levels || !model->detail_levels) return no_memory(error);
-  model->levels[0] = model;
-  model->detail_levels[0] = (sbr_detail_level){.kind = SBR_DETAIL_SOFT, .level = options->level};
-  model->detail_level_count = 1;
-  rate(model, &model->detail_levels[0]);
+  model->detail.levels = sbfi_arena_allocate(&model->arena, MAX_DETAIL_LEVELS, sizeof(sbr_model *));
+  model->detail.definitions =
+      sbfi_arena_allocate(&model->arena, MAX_DETAIL_LEVELS, sizeof *model->detail.definitions);
+  if (!model->detail.levels || !model->detail.definitions) return no_memory(error);
+  model->detail.levels[0] = model;
+  model->detail.definitions[0] = (sbr_detail_level){.kind = SBR_DETAIL_SOFT, .level = options->level};
+  model->detail.level_count = 1;
+  rate(model, &model->detail.definitions[0]);
   if (options->detail_levels && !has_single_level(model)) {
     sbf_status status = make_coarser(model, options, error);
     if (status == SBF_OK) status = make_levels_without_soft(model, options, error);
     if (status != SBF_OK) return status;
     if (!number_vertices(model) || !store_swings(model) || !make_sources(model)) return no_memory(error);
   }
-  for (uint32_t r = 0; r < model->detail_level_count; r++) {
-    uint32_t islands = model->levels[r]->island_count;
-    model->max_islands = islands > model->max_islands ? islands : model->max_islands;
-    if (r > 0 && model->detail_levels[r].error_m < model->detail_levels[r - 1].error_m)
-      model->detail_levels[r].error_m = model->detail_levels[r - 1].error_m;
+  for (uint32_t r = 0; r < model->detail.level_count; r++) {
+    uint32_t islands = model->detail.levels[r]->island_count;
+    model->detail.max_islands = islands > model->detail.max_islands ? islands : model->detail.max_islands;
+    if (r > 0 && model->detail.definitions[r].error_m < model->detail.definitions[r - 1].error_m)
+      model->detail.definitions[r].error_m = model->detail.definitions[r - 1].error_m;
   }
   return SBF_OK;
 }
 
 void sbri_detail_levels_free(sbr_model *model) {
-  for (uint32_t r = model->detail_level_count; r-- > 1;) {
-    sbr_model *one = model->levels[r];
-    if (one == model->levels[r - 1]) continue; /* offscreen */
+  for (uint32_t r = model->detail.level_count; r-- > 1;) {
+    sbr_model *one = model->detail.levels[r];
+    if (one == model->detail.levels[r - 1]) continue; /* offscreen */
     sbf_allocator allocator = one->arena.allocator;
     sbfi_arena_free(&one->arena);
     sbfi_free(&allocator, one, sizeof *one);

@@ -21,8 +21,8 @@ static bool make_hinges(sbr_model *model, sbri_body *body) {
   if (has_flexion(body->level)) return true;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
-  bool good = sbri_hinges_find(
-      &model->islands[body->island], body, &model->arena, &scratch, &body->hinges, &body->hinge_count);
+  bool good = sbri_hinges_find(&model->islands[body->island], body, &model->arena, &scratch,
+      &body->elements.hinges, &body->elements.hinge_count);
   sbfi_arena_free(&scratch);
   return good;
 }
@@ -36,8 +36,8 @@ static float mass_inverse(const sbri_island *island, uint32_t slot) {
 /* Gershgorin's bound for the hinges alone, rad^2/s^2; `rows` has (slot_count) zeros. */
 static double hinges_bound(const sbri_island *island, const sbri_body *body, double *rows) {
   double max = 0;
-  for (uint32_t i = 0; i < body->hinge_count; i++) {
-    const sbri_hinge *hinge = &body->hinges[i];
+  for (uint32_t i = 0; i < body->elements.hinge_count; i++) {
+    const sbri_hinge *hinge = &body->elements.hinges[i];
     sbf_vec3 x[4], gradients[4];
     double sum = 0;
     for (int k = 0; k < 4; k++) {
@@ -50,9 +50,9 @@ static double hinges_bound(const sbri_island *island, const sbri_body *body, dou
     for (int k = 0; k < 4; k++)
       rows[hinge->slots[k]] += (double)hinge->stiffness * (double)sbri_length(gradients[k]) * sum;
   }
-  for (uint32_t i = 0; i < body->hinge_count; i++)
+  for (uint32_t i = 0; i < body->elements.hinge_count; i++)
     for (int k = 0; k < 4; k++) {
-      uint32_t slot = body->hinges[i].slots[k];
+      uint32_t slot = body->elements.hinges[i].slots[k];
       double square = rows[slot] * (double)mass_inverse(island, slot);
       max = square > max ? square : max;
     }
@@ -73,10 +73,12 @@ static float vertex_mass_inverse(const sbri_island *island, const sbri_skin *ski
 /* Bound for the gas: p V0 / V^2 times the sum of w |grad V|^2, plus the rotation of the faces, p times a
  * third of the edges around a point. */
 static double gas_bound(const sbri_island *island, sbri_body *body) {
-  const sbri_skin *skin = &body->surface;
+  const sbri_skin *skin = &body->surface.skin;
   const sbf_polygon_mesh *mesh = &body->source->surface;
   const uint32_t *corners = mesh->polygon_points.at;
-  double pressure = body->gas_pa > 0 ? (double)body->gas_pa : -(double)body->gas_pa, sum = 0, turning = 0;
+  double pressure =
+             body->gas.pressure_pa > 0 ? (double)body->gas.pressure_pa : -(double)body->gas.pressure_pa,
+         sum = 0, turning = 0;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
     uint32_t size = mesh->polygon_sizes.at[p];
     double around = 0;
@@ -93,29 +95,29 @@ static double gas_bound(const sbri_island *island, sbri_body *body) {
       turning = turn > turning ? turn : turning;
     }
   }
-  double volume = MIN_GAS_FRACTION * body->gas_volume_m3;
-  body->gas_turning = turning;
-  pressure *= (double)body->max_gas_factor;
-  return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / MIN_GAS_FRACTION;
+  double volume = MIN_GAS_FRACTION * body->gas.volume_m3;
+  body->gas.stiffening = turning;
+  pressure *= (double)body->gas.max_factor;
+  return pressure * body->gas.volume_m3 / (volume * volume) * sum + pressure * turning / MIN_GAS_FRACTION;
 }
 
 /* Pressure factors at the surface's vertices, where maps scale it. */
 static bool find_gas_factors(sbr_model *model, sbri_body *body) {
   const sbf_soft_body *is = body->source;
   float *factors = NULL;
-  body->max_gas_factor = 1;
+  body->gas.max_factor = 1;
   for (uint32_t m = 0; m < is->weight_maps.count; m++) {
     const sbf_weight_map *map = &is->weight_maps.at[m];
     if (map->property != SBF_WEIGHT_PROPERTY_PRESSURE) continue;
     if (!factors && !(factors = sbfi_arena_allocate(
-                          &model->arena, (size_t)body->surface.vertex_count + 1, sizeof *factors)))
+                          &model->arena, (size_t)body->surface.skin.vertex_count + 1, sizeof *factors)))
       return false;
-    for (uint32_t v = 0; v < body->surface.vertex_count; v++)
-      factors[v] = (body->gas_factors ? factors[v] : 1) * (v < map->values.count ? map->values.at[v] : 1);
-    body->gas_factors = factors;
+    for (uint32_t v = 0; v < body->surface.skin.vertex_count; v++)
+      factors[v] = (body->gas.factors ? factors[v] : 1) * (v < map->values.count ? map->values.at[v] : 1);
+    body->gas.factors = factors;
   }
-  for (uint32_t v = 0; factors && v < body->surface.vertex_count; v++)
-    if (v == 0 || factors[v] > body->max_gas_factor) body->max_gas_factor = factors[v];
+  for (uint32_t v = 0; factors && v < body->surface.skin.vertex_count; v++)
+    if (v == 0 || factors[v] > body->gas.max_factor) body->gas.max_factor = factors[v];
   return true;
 }
 
@@ -123,24 +125,25 @@ static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scrat
   const sbf_environment *environment = &model->asset->environment;
   double *rows = sbfi_arena_allocate(scratch, (size_t)island->slot_count + 1, sizeof *rows), square = 0;
   if (!rows) return false;
-  island->has_external_forces = environment->fields.count > 0;
+  island->stability.has_external_forces = environment->fields.count > 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = &model->bodies[island->bodies[b]];
     const sbf_attributes *is = &body->source->attributes;
-    bool carried = body->surface.vertex_count && body->surface.frame_vertex_count == 0;
+    bool carried = body->surface.skin.vertex_count && body->surface.skin.frame_vertex_count == 0;
     if (!make_hinges(model, body)) return false;
-    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->rest_volume_m3 > 0) {
-      body->gas_pa = is->pressure;
-      body->gas_volume_m3 = sbri_surface_rest_volume(body);
+    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->surface.rest_volume_m3 > 0) {
+      body->gas.pressure_pa = is->pressure;
+      body->gas.volume_m3 = sbri_surface_rest_volume(body);
       if (!find_gas_factors(model, body)) return false;
       square += gas_bound(island, body);
     }
     if (carried) body->medium_kg_m3 = environment->media_density;
     square += hinges_bound(island, body, rows);
-    island->has_external_forces =
-        island->has_external_forces || body->hinge_count || body->gas_pa != 0 || body->medium_kg_m3 > 0;
+    island->stability.has_external_forces = island->stability.has_external_forces ||
+                                            body->elements.hinge_count || body->gas.pressure_pa != 0 ||
+                                            body->medium_kg_m3 > 0;
   }
-  island->external_rad_s = sqrt(square);
+  island->stability.external_rad_s = sqrt(square);
   return true;
 }
 

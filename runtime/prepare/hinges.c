@@ -67,7 +67,7 @@ static bool make_hinge(const sbri_island *island, const sbri_body *body, const f
   for (int k = 0; k < 4; k++) {
     uint32_t point = sbfi_level_point(body->level, points[k]);
     if (point == UINT32_MAX) return false;
-    hinge->slots[k] = body->slot_from_point[point];
+    hinge->slots[k] = body->slots.from_point[point];
     const sbri_point *at = &island->rest[hinge->slots[k]];
     x[k] = sbri_vec3(at->x, at->y, at->z);
     factor += factors ? 0.25f * factors[point] : 0.25f;

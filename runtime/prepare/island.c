@@ -127,10 +127,10 @@ static bool append_free(sbri_island_maker *m, uint32_t index, uint32_t next, uin
   for (uint32_t v = 0; v <= max; v++) begins[v + 1] += begins[v];
   for (uint32_t i = 0; i < count; i++)
     if (m->frames[index][i] == SBRI_FREE) slot_from_point[i] = next + begins[max - valences[i]]++;
-  body->slot_begin = next;
-  body->first_spare = next + begins[max];
-  body->slot_real_end = body->first_spare + reserve_of(m, body);
-  body->slot_end = padded(body->slot_real_end);
+  body->slots.begin = next;
+  body->slots.first_spare = next + begins[max];
+  body->slots.real_end = body->slots.first_spare + reserve_of(m, body);
+  body->slots.end = padded(body->slots.real_end);
   return true;
 }
 
@@ -141,14 +141,14 @@ static bool make_slots(sbri_island_maker *m) {
     sbri_body *body = sbri_maker_body(m, b);
     uint32_t *slots = sbri_keep(m, body->level->positions.count, sizeof *slots);
     if (!slots || !append_free(m, b, next, slots)) return false;
-    body->slot_from_point = slots;
-    next = body->slot_end;
+    body->slots.from_point = slots;
+    next = body->slots.end;
   }
   island->free_count = next;
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t i = 0; i < body->level->positions.count; i++)
-      if (m->frames[b][i] != SBRI_FREE) body->slot_from_point[i] = next++;
+      if (m->frames[b][i] != SBRI_FREE) body->slots.from_point[i] = next++;
   }
   m->first_goal = next;
   island->slot_count = padded(next + (uint32_t)m->goals.count);
@@ -168,7 +168,7 @@ static bool fill_slots(sbri_island_maker *m) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
-      uint32_t slot = body->slot_from_point[i];
+      uint32_t slot = body->slots.from_point[i];
       sbf_vec3 p = m->positions[b][i];
       rest[slot] = (sbri_point){p.x, p.y, p.z, 0};
       if (slot >= island->free_count) {
@@ -179,8 +179,8 @@ static bool fill_slots(sbri_island_maker *m) {
       inverse_masses[slot] = masses[slot] > 0 ? 1 / masses[slot] : 0;
       gravity_scales[slot] = body->source->attributes.gravity_scale;
     }
-    for (uint32_t slot = body->first_spare; slot < body->slot_end; slot++)
-      rest[slot] = rest[body->slot_begin];
+    for (uint32_t slot = body->slots.first_spare; slot < body->slots.end; slot++)
+      rest[slot] = rest[body->slots.begin];
   }
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++) {
@@ -189,7 +189,7 @@ static bool fill_slots(sbri_island_maker *m) {
     frames[slot - island->free_count] = goals[g].frame;
   }
   island->rest = m->rest = rest, island->masses = masses, island->inverse_masses = inverse_masses;
-  island->gravity_scales = gravity_scales, island->frame_of_pinned = frames;
+  island->gravity_scales = gravity_scales, island->pins.frames = frames;
   return true;
 }
 
@@ -205,7 +205,7 @@ static bool list_pins(sbri_island_maker *m) {
     for (uint32_t s = 0; s < body->level->pins.count; s++) {
       const sbf_pin_set *set = &body->level->pins.at[s];
       for (uint32_t i = 0; i < set->points.count; i++) {
-        uint32_t slot = body->slot_from_point[set->points.at[i]];
+        uint32_t slot = body->slots.from_point[set->points.at[i]];
         if (slot < island->free_count || sbri_pin_weight(set, i) < 1) continue;
         sbri_pin_of *pin = &pins[slot - island->free_count];
         if (pin->body == UINT32_MAX) *pin = (sbri_pin_of){island->bodies[b], s};
@@ -215,7 +215,7 @@ static bool list_pins(sbri_island_maker *m) {
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++)
     pins[m->first_goal + g - island->free_count] = (sbri_pin_of){island->bodies[goals[g].body], goals[g].set};
-  island->pin_of_pinned = pins;
+  island->pins.sets = pins;
   return true;
 }
 

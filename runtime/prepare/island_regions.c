@@ -20,7 +20,7 @@ typedef struct region_weights {
 } region_weights;
 
 static float mass_of(const region_weights *r, uint32_t point) {
-  uint32_t slot = r->body->slot_from_point[point];
+  uint32_t slot = r->body->slots.from_point[point];
   return slot < r->island->free_count ? r->island->masses[slot] : 0;
 }
 
@@ -87,7 +87,7 @@ static void fill_lane(const region_weights *r, uint32_t number, sbri_region_bloc
   sbfi_d3 center = sbfi_region_center(r->weights, r->rest, count);
   for (uint32_t i = 0; i < block->member_count; i++) {
     sbri_region_member *to = &members[i];
-    to->slots[lane] = r->body->slot_from_point[points[i < count ? i : 0]];
+    to->slots[lane] = r->body->slots.from_point[points[i < count ? i : 0]];
     if (i >= count) continue;
     sbfi_d3 offset = sbfi_d3_sub(r->rest[i], center);
     to->stiffness[lane] = (float)(r->weights[i] * square);
@@ -129,10 +129,11 @@ static bool add_body(sbri_island_maker *m, sbri_body *body, tables *to) {
     uint32_t here = count - first < SBRI_BLOCK ? count - first : SBRI_BLOCK;
     fill_block(&r, order + first, here, block, members);
   }
-  if (count && m->island->region_rad_s < regions->stiffness) m->island->region_rad_s = regions->stiffness;
+  if (count && m->island->regions.max_rad_s < regions->stiffness)
+    m->island->regions.max_rad_s = regions->stiffness;
   double beta = count ? body->source->attributes.stiffness_damping : 0;
-  if (beta > m->island->stiffness_damping_s) m->island->stiffness_damping_s = beta;
-  m->island->region_damping = m->island->region_damping || beta > 0;
+  if (beta > m->island->springs.stiffness_damping_s) m->island->springs.stiffness_damping_s = beta;
+  m->island->regions.have_damping = m->island->regions.have_damping || beta > 0;
   return true;
 }
 
@@ -149,15 +150,15 @@ bool sbri_regions_make(sbri_island_maker *m) {
   bool good = true;
   for (uint32_t b = 0; good && b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
-    body->first_region_block = (uint32_t)made.blocks.count;
+    body->elements.first_region_block = (uint32_t)made.blocks.count;
     if (acts(body)) good = add_body(m, body, &made);
-    body->region_block_end = (uint32_t)made.blocks.count;
+    body->elements.region_block_end = (uint32_t)made.blocks.count;
   }
-  island->region_block_count = (uint32_t)made.blocks.count;
-  if (good && island->region_block_count > 0) {
-    island->region_blocks = keep(m, &made.blocks, sizeof(sbri_region_block));
-    island->region_members = keep(m, &made.members, sizeof(sbri_region_member));
-    good = island->region_blocks && island->region_members;
+  island->regions.block_count = (uint32_t)made.blocks.count;
+  if (good && island->regions.block_count > 0) {
+    island->regions.blocks = keep(m, &made.blocks, sizeof(sbri_region_block));
+    island->regions.members = keep(m, &made.members, sizeof(sbri_region_member));
+    good = island->regions.blocks && island->regions.members;
   }
   sbfi_array_free(&made.blocks);
   sbfi_array_free(&made.members);

@@ -36,7 +36,7 @@ static void fill_lane(sbri_solid_limits *limits, uint32_t lane, const sbri_body 
 static bool find_factors(sbri_island_maker *m, solid_factors *factors) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    if (body->tetrahedron_count == 0) continue;
+    if (body->elements.tetrahedron_count == 0) continue;
     if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_YIELD_STRAIN, &factors[b].yield) ||
         !sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_TEAR_STRAIN, &factors[b].tear))
       return false;
@@ -49,29 +49,31 @@ bool sbri_solid_limits_make(sbri_island_maker *m) {
   bool bounded = false;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    bounded = bounded || (body->tetrahedron_count && is_bounded(&body->source->attributes));
+    bounded = bounded || (body->elements.tetrahedron_count && is_bounded(&body->source->attributes));
   }
   if (!bounded) return true;
-  sbri_solid_limits *limits = sbri_keep(m, island->tetrahedron_dense_count, sizeof *limits);
-  uint32_t *elements = sbri_keep(m, (size_t)island->tetrahedron_dense_count * SBRI_BLOCK, sizeof *elements);
+  sbri_solid_limits *limits = sbri_keep(m, island->tetrahedra.dense_count, sizeof *limits);
+  uint32_t *elements = sbri_keep(m, (size_t)island->tetrahedra.dense_count * SBRI_BLOCK, sizeof *elements);
   solid_factors *factors = sbri_scratch(m, island->body_count, sizeof *factors);
   if (!limits || !elements || !factors || !find_factors(m, factors)) return false;
-  for (uint32_t i = 0; i < island->tetrahedron_dense_count * SBRI_BLOCK; i++) {
+  for (uint32_t i = 0; i < island->tetrahedra.dense_count * SBRI_BLOCK; i++) {
     limits[i / SBRI_BLOCK].min[i % SBRI_BLOCK] = -1;
     limits[i / SBRI_BLOCK].square[i % SBRI_BLOCK] = INFINITY;
   }
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
-      uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
+      uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)],
+               lane = at % SBRI_BLOCK;
       sbri_solid_limits *to = &limits[at / SBRI_BLOCK];
-      elements[at] = body->first_tetrahedron + t;
+      elements[at] = body->elements.first_tetrahedron + t;
       if (!is_bounded(&body->source->attributes)) continue;
       fill_lane(to, lane, body, &factors[b], body->level->lattice.tetrahedra.at[t].at);
-      island->solids_limited = island->solids_limited || to->min[lane] > -1 || to->max[lane] > 0;
-      island->solid_flows = island->solid_flows || to->rate[lane] > 0 || to->tear[lane] > 0;
+      island->tetrahedra.are_limited =
+          island->tetrahedra.are_limited || to->min[lane] > -1 || to->max[lane] > 0;
+      island->tetrahedra.flow = island->tetrahedra.flow || to->rate[lane] > 0 || to->tear[lane] > 0;
     }
   }
-  island->solid_limits = limits, island->tetrahedron_of_lane = elements;
+  island->tetrahedra.limits = limits, island->tetrahedra.of_lane = elements;
   return true;
 }

@@ -80,7 +80,7 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
     }
     for (uint32_t i = 0; i < set->ends.count; i++) {
       const uint32_t *ends = set->ends.at[i].at;
-      uint32_t a = body->slot_from_point[ends[0]], b = body->slot_from_point[ends[1]];
+      uint32_t a = body->slots.from_point[ends[0]], b = body->slots.from_point[ends[1]];
       float k = *stiffness++;
       float rest =
           set->rest_lengths.count ? set->rest_lengths.at[i] : authored_distance(body, ends[0], body, ends[1]);
@@ -99,7 +99,7 @@ static bool add_goals(sbri_island_maker *m, uint32_t index) {
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++) {
     if (goals[g].body != index) continue;
-    uint32_t slot = sbri_maker_body(m, index)->slot_from_point[goals[g].point];
+    uint32_t slot = sbri_maker_body(m, index)->slots.from_point[goals[g].point];
     if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping, 0},
             &unbounded))
       return false;
@@ -111,8 +111,8 @@ static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cro
   const sbri_body *a = &m->model->bodies[cross->body_a], *b = &m->model->bodies[cross->body_b];
   const sbri_body *softer = b->source->attributes.young_modulus < a->source->attributes.young_modulus ? b : a;
   for (uint32_t i = 0; i < cross->ends.count; i++) {
-    uint32_t at_a = a->slot_from_point[cross->ends.at[i].at[0]],
-             at_b = b->slot_from_point[cross->ends.at[i].at[1]];
+    uint32_t at_a = a->slots.from_point[cross->ends.at[i].at[0]],
+             at_b = b->slots.from_point[cross->ends.at[i].at[1]];
     uint32_t free_count = m->island->free_count;
     float mass_a = at_a < free_count ? m->island->masses[at_a] : 0;
     float mass_b = at_b < free_count ? m->island->masses[at_b] : 0;
@@ -133,9 +133,9 @@ static bool list_springs(sbri_island_maker *m) {
   sbri_island *island = m->island;
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
-    body->first_spring = (uint32_t)m->springs.count;
+    body->elements.first_spring = (uint32_t)m->springs.count;
     if (!add_sets(m, body) || !add_goals(m, b)) return false;
-    body->spring_end = (uint32_t)m->springs.count;
+    body->elements.spring_end = (uint32_t)m->springs.count;
   }
   const sbf_asset *asset = m->model->asset;
   for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
@@ -144,27 +144,28 @@ static bool list_springs(sbri_island_maker *m) {
     bool here = &m->model->islands[m->model->bodies[cross->body_a].island] == island;
     if (here && sbri_cross_springs_act(m->model, cross) && !add_cross_springs(m, cross)) return false;
   }
-  island->spring_count = (uint32_t)m->springs.count;
-  sbfi_spring *springs = sbri_keep(m, island->spring_count, sizeof *springs);
+  island->springs.count = (uint32_t)m->springs.count;
+  sbfi_spring *springs = sbri_keep(m, island->springs.count, sizeof *springs);
   if (!springs) return false;
-  if (island->spring_count) memcpy(springs, m->springs.at, island->spring_count * sizeof *springs);
-  island->springs = m->listed = springs;
+  if (island->springs.count) memcpy(springs, m->springs.at, island->springs.count * sizeof *springs);
+  island->springs.at = m->listed = springs;
   return true;
 }
 
 /* Finds properties of the springs at rest. */
 static void measure_springs(sbri_island *island) {
   double lengths = 0;
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    const sbfi_spring *s = &island->springs[i];
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    const sbfi_spring *s = &island->springs.at[i];
     double beta = s->stiffness_n_m > 0 ? (double)s->damping_ns_m / s->stiffness_n_m : 0;
-    if (beta > island->stiffness_damping_s) island->stiffness_damping_s = beta;
+    if (beta > island->springs.stiffness_damping_s) island->springs.stiffness_damping_s = beta;
     float length = rest_distance(island, s->a, s->b);
     float stretch = length > 0 ? 1 - s->rest_length_m / length : 0;
-    if (s->rest_length_m > 0 && stretch > island->rest_stretch) island->rest_stretch = stretch;
+    if (s->rest_length_m > 0 && stretch > island->springs.rest_stretch)
+      island->springs.rest_stretch = stretch;
     lengths += (double)length;
   }
-  if (island->spring_count) island->cell_m = (float)(lengths / island->spring_count);
+  if (island->springs.count) island->stability.cell_m = (float)(lengths / island->springs.count);
 }
 
 /* ---- Cells ---- */
@@ -177,15 +178,15 @@ typedef struct cell_tables {
 
 static void put(const sbri_island *island, const cell_tables *t, uint32_t *used, uint32_t spring,
     uint32_t slot, uint32_t other) {
-  const sbfi_spring *s = &island->springs[spring];
-  if (slot >= island->cell_slot_count) return;
-  uint32_t lane = slot % SBRI_BLOCK, index = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
+  const sbfi_spring *s = &island->springs.at[spring];
+  if (slot >= island->cells.slot_count) return;
+  uint32_t lane = slot % SBRI_BLOCK, index = island->cells.begins[slot / SBRI_BLOCK] + used[slot]++;
   t->cells[index].others[lane] = other;
   t->cells[index].stiffness[lane] = s->stiffness_n_m;
   t->cells[index].pull[lane] = s->stiffness_n_m * s->rest_length_m;
   if (t->damping) t->damping[index * SBRI_BLOCK + lane] = s->damping_ns_m;
   if (t->slack) t->slack[index * SBRI_BLOCK + lane] = s->slack;
-  if (t->links) t->links[index * SBRI_BLOCK + lane] = island->link_of_spring[spring];
+  if (t->links) t->links[index * SBRI_BLOCK + lane] = island->links.of_spring[spring];
 }
 
 /* Maximum number of springs that move with a split point: half of those of any point, since the larger part
@@ -198,29 +199,29 @@ static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
     const sbri_body *body = sbri_maker_body(m, b);
     uint32_t max = 0;
     if (!sbri_body_frays(body)) continue;
-    for (uint32_t slot = body->slot_begin; slot < body->first_spare; slot++)
+    for (uint32_t slot = body->slots.begin; slot < body->slots.first_spare; slot++)
       max = used[slot] > max ? used[slot] : max;
     max = max / 2 < MAX_PARTING ? max / 2 : MAX_PARTING;
-    for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) used[slot] = max;
+    for (uint32_t slot = body->slots.first_spare; slot < body->slots.real_end; slot++) used[slot] = max;
   }
 }
 
 static bool make_cells(sbri_island_maker *m) {
   sbri_island *island = m->island;
   /* Reactions on pinned points are needed only with rigid bodies. */
-  island->cell_slot_count = m->model->rigid.body_count ? island->slot_count : island->free_count;
-  uint32_t block_count = island->cell_slot_count / SBRI_BLOCK;
+  island->cells.slot_count = m->model->rigid.body_count ? island->slot_count : island->free_count;
+  uint32_t block_count = island->cells.slot_count / SBRI_BLOCK;
   uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
   uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
   if (!begins || !ends || !used) return false;
   bool damped = false, slack = false; /* kernels check for slack only if there is damping */
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    used[island->springs[i].a]++, used[island->springs[i].b]++;
-    slack = slack || island->springs[i].slack != 0;
-    damped = damped || slack || island->springs[i].damping_ns_m > 0;
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    used[island->springs.at[i].a]++, used[island->springs.at[i].b]++;
+    slack = slack || island->springs.at[i].slack != 0;
+    damped = damped || slack || island->springs.at[i].damping_ns_m > 0;
   }
-  if (island->frays) reserve_rows(m, used);
+  if (island->springs.tear) reserve_rows(m, used);
   for (uint32_t block = 0; block < block_count; block++) {
     uint32_t max = 0;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
@@ -229,7 +230,7 @@ static bool make_cells(sbri_island_maker *m) {
   }
   uint32_t cell_count = begins[block_count];
   size_t lanes = (size_t)cell_count * SBRI_BLOCK;
-  bool flows = island->link_flows != NULL;
+  bool flows = island->links.flows != NULL;
   const cell_tables t = {.cells = sbri_keep(m, cell_count, sizeof *t.cells),
       .damping = damped ? sbri_keep(m, lanes, sizeof *t.damping) : NULL,
       .slack = slack ? sbri_keep(m, lanes, sizeof *t.slack) : NULL,
@@ -238,16 +239,16 @@ static bool make_cells(sbri_island_maker *m) {
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) t.cells[c].others[lane] = block * SBRI_BLOCK + lane;
-  island->cell_begins = begins, island->cell_ends = ends;
-  island->cells = t.cells, island->cell_damping = t.damping;
-  island->cell_slack = t.slack, island->cell_links = t.links;
+  island->cells.begins = begins, island->cells.ends = ends;
+  island->cells.at = t.cells, island->cells.damping = t.damping;
+  island->cells.slack = t.slack, island->cells.links = t.links;
   memset(used, 0, island->slot_count * sizeof *used);
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    const sbfi_spring *s = &island->springs[i];
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    const sbfi_spring *s = &island->springs.at[i];
     put(island, &t, used, i, s->a, s->b);
     put(island, &t, used, i, s->b, s->a);
   }
-  for (uint32_t slot = 0; slot < island->cell_slot_count; slot++) {
+  for (uint32_t slot = 0; slot < island->cells.slot_count; slot++) {
     uint32_t block = slot / SBRI_BLOCK, end = begins[block] + used[slot];
     if (slot % SBRI_BLOCK == 0 || end > ends[block]) ends[block] = end;
   }
@@ -276,12 +277,12 @@ static float reach_of(const sbri_body *body, uint32_t free_count) {
   float reach2 = 0;
   for (uint32_t i = 0; i < count; i += step) {
     float nearest2 = body->rest_size_m * body->rest_size_m;
-    for (uint32_t k = 0; body->slot_from_point[i] < free_count && k < count; k++) {
-      if (body->slot_from_point[k] < free_count) continue;
+    for (uint32_t k = 0; body->slots.from_point[i] < free_count && k < count; k++) {
+      if (body->slots.from_point[k] < free_count) continue;
       sbf_vec3 d = {at[i].x - at[k].x, at[i].y - at[k].y, at[i].z - at[k].z};
       nearest2 = fminf(nearest2, d.x * d.x + d.y * d.y + d.z * d.z);
     }
-    if (body->slot_from_point[i] < free_count) reach2 = fmaxf(reach2, nearest2);
+    if (body->slots.from_point[i] < free_count) reach2 = fmaxf(reach2, nearest2);
   }
   return sqrtf(reach2);
 }
@@ -290,15 +291,17 @@ static float reach_of(const sbri_body *body, uint32_t free_count) {
 static void bound_start(sbri_island *island, float sway, float w) {
   float acceleration = sway * w * w, push = sway * w;
   if (!(acceleration > 0)) return;
-  bool first = island->max_acceleration_m_s2 == 0;
-  if (first || acceleration < island->max_acceleration_m_s2) island->max_acceleration_m_s2 = acceleration;
-  if (first || push < island->max_push_m_s) island->max_push_m_s = push;
+  bool first = island->stability.max_acceleration_m_s2 == 0;
+  if (first || acceleration < island->stability.max_acceleration_m_s2)
+    island->stability.max_acceleration_m_s2 = acceleration;
+  if (first || push < island->stability.max_velocity_change_m_s)
+    island->stability.max_velocity_change_m_s = push;
 }
 
 /* Frequency of the body's lowest mode in the network, and by its regions, rad/s. */
 static double lowest_of(
     const sbri_island *island, const sbri_body *body, const sbf_spring_network *own, double *scratch) {
-  double elastic = sbf_network_lowest(own, body->tetrahedron_count < MAX_REFINED, scratch);
+  double elastic = sbf_network_lowest(own, body->elements.tetrahedron_count < MAX_REFINED, scratch);
   double regions = sbri_regions_lowest(island, body, scratch);
   return sqrt(elastic * elastic + regions * regions);
 }
@@ -309,34 +312,37 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
     sbri_body *body = sbri_maker_body(m, b);
     const sbf_attributes *is = &body->source->attributes;
     memset(masses, 0, network.point_count * sizeof *masses);
-    memcpy(masses + body->slot_begin, m->island->masses + body->slot_begin,
-        (body->slot_end - body->slot_begin) * sizeof *masses);
+    memcpy(masses + body->slots.begin, m->island->masses + body->slots.begin,
+        (body->slots.end - body->slots.begin) * sizeof *masses);
     sbf_spring_network own = network;
-    own.ends += body->first_spring;
-    own.stiffness += body->first_spring;
-    own.spring_count = body->spring_end - body->first_spring;
-    own.tetrahedra += body->first_tetrahedron;
-    own.young_modulus += body->first_tetrahedron;
-    own.poisson_ratios += body->first_tetrahedron;
-    own.tetrahedron_count = body->tetrahedron_count;
+    own.ends += body->elements.first_spring;
+    own.stiffness += body->elements.first_spring;
+    own.spring_count = body->elements.spring_end - body->elements.first_spring;
+    own.tetrahedra += body->elements.first_tetrahedron;
+    own.young_modulus += body->elements.first_tetrahedron;
+    own.poisson_ratios += body->elements.first_tetrahedron;
+    own.tetrahedron_count = body->elements.tetrahedron_count;
     double stretching = lowest_of(m->island, body, &own, scratch);
     if (!sbri_hinges_add(m->island, body, &m->scratch, &own)) return false;
     double lowest = own.hinge_count ? lowest_of(m->island, body, &own, scratch) : stretching;
     bound_start(m->island, MAX_SWAY * reach_of(body, m->island->free_count), (float)stretching);
-    body->lowest_rad_s = (float)lowest;
-    body->stretching_rad_s = (float)stretching;
-    body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
-    body->rolling_fraction = lowest > 0 ? sbri_rolling_fraction(0.5f * body->alpha_1_s / (float)lowest) : 0;
-    body->media_friction_1_s = is->media_friction + environment->media_friction;
-    body->friction = is->friction;
-    body->restitution = is->restitution;
+    body->damping.lowest_rad_s = (float)lowest;
+    body->damping.stretching_rad_s = (float)stretching;
+    body->damping.alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
+    body->contact.rolling_fraction =
+        lowest > 0 ? sbri_rolling_fraction(0.5f * body->damping.alpha_1_s / (float)lowest) : 0;
+    body->damping.media_friction_1_s = is->media_friction + environment->media_friction;
+    body->contact.friction = is->friction;
+    body->contact.restitution = is->restitution;
     sbf_body_measures measures;
     sbf_body_measure(body->source, &measures);
     bool bare = body->source->surface.polygon_sizes.count == 0;
-    bool solid = bare ? body->tetrahedron_count > 0 : !measures.sheet;
-    body->sliding_rad_s = solid && !body->is_pinned ? body->lowest_rad_s : 0;
+    bool solid = bare ? body->elements.tetrahedron_count > 0 : !measures.sheet;
+    body->damping.sliding_rad_s = solid && !body->is_pinned ? body->damping.lowest_rad_s : 0;
     const sbf_collision *collision = &body->source->collision;
-    body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
+    body->contact.margin_m = bare             ? collision->particle_radius
+                             : measures.sheet ? collision->outer_thickness
+                                              : 0;
   }
   return true;
 }
@@ -346,20 +352,20 @@ static bool find_alphas(sbri_island_maker *m) {
   uint32_t free_count = m->island->free_count;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
-    float stated = body->source->attributes.mass_damping, rest = body->alpha_1_s - stated;
+    float stated = body->source->attributes.mass_damping, rest = body->damping.alpha_1_s - stated;
     const float *factors = NULL;
     if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_MASS_DAMPING, &factors)) return false;
     if (!factors || !(stated > 0)) continue;
     float *alphas = sbri_keep(m, free_count, sizeof *alphas), max = 0;
     if (!alphas) return false;
-    for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->alpha_1_s;
+    for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->damping.alpha_1_s;
     for (uint32_t i = 0; i < body->level->positions.count; i++) {
       float alpha = rest + stated * factors[i];
-      if (body->slot_from_point[i] >= free_count) continue;
-      alphas[body->slot_from_point[i]] = alpha;
+      if (body->slots.from_point[i] >= free_count) continue;
+      alphas[body->slots.from_point[i]] = alpha;
       max = alpha > max ? alpha : max;
     }
-    body->alphas = alphas, body->alpha_1_s = max;
+    body->damping.alphas = alphas, body->damping.alpha_1_s = max;
   }
   return true;
 }
@@ -374,18 +380,18 @@ static bool find_frictions(sbri_island_maker *m) {
     if (!factors) continue;
     float *frictions = sbri_keep(m, free_count, sizeof *frictions);
     if (!frictions) return false;
-    for (uint32_t slot = 0; slot < free_count; slot++) frictions[slot] = body->friction;
+    for (uint32_t slot = 0; slot < free_count; slot++) frictions[slot] = body->contact.friction;
     for (uint32_t i = 0; i < body->level->positions.count; i++)
-      if (body->slot_from_point[i] < free_count)
-        frictions[body->slot_from_point[i]] = body->friction * factors[i];
-    body->frictions = frictions;
+      if (body->slots.from_point[i] < free_count)
+        frictions[body->slots.from_point[i]] = body->contact.friction * factors[i];
+    body->contact.frictions = frictions;
   }
   return true;
 }
 
 static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   sbri_island *island = m->island;
-  uint32_t points = island->slot_count, count = island->spring_count;
+  uint32_t points = island->slot_count, count = island->springs.count;
   sbf_vec3 *positions = sbri_scratch(m, points, sizeof *positions);
   float *masses = sbri_scratch(m, points, sizeof *masses),
         *anchors = sbri_scratch(m, points, sizeof *anchors);
@@ -397,7 +403,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
     positions[i] = (sbf_vec3){island->rest[i].x, island->rest[i].y, island->rest[i].z};
   if (island->free_count) memcpy(masses, island->masses, island->free_count * sizeof *masses);
   for (uint32_t i = 0; i < count; i++) {
-    const sbfi_spring *s = &island->springs[i];
+    const sbfi_spring *s = &island->springs.at[i];
     ends[i] = (sbf_uint2){{s->a, s->b}};
     stiffness[i] = s->slack < 0 ? s->stiffness_n_m * (1 - s->slack) : s->stiffness_n_m;
     if (s->rest_length_m > 0) continue;
@@ -417,12 +423,16 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
       .ends = ends,
       .stiffness = stiffness};
   if (!sbri_tetrahedra_network(m, &network) || !sbri_soften(m, &network, scratch)) return false;
-  island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
-  island->fastest_rad_s = sbri_fastest(&network, scratch);
-  if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
-  double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster than by their sum */
-  island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);
-  island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
+  island->stability.bound_rad_s = sbf_network_highest_bound(&network, scratch);
+  island->stability.fastest_rad_s = sbri_fastest(&network, scratch);
+  if (island->stability.fastest_rad_s > island->stability.bound_rad_s)
+    island->stability.fastest_rad_s = island->stability.bound_rad_s;
+  double regions =
+      island->regions.max_rad_s * island->regions.max_rad_s; /* no mode is faster than by their sum */
+  island->stability.bound_rad_s =
+      sqrt(island->stability.bound_rad_s * island->stability.bound_rad_s + regions);
+  island->stability.fastest_rad_s =
+      sqrt(island->stability.fastest_rad_s * island->stability.fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   if (!find_damping(m, network, masses, scratch) || !find_alphas(m) || !find_frictions(m) ||
       !sbri_attached_responses_make(m, &network))
@@ -441,12 +451,13 @@ bool sbri_island_springs(sbri_island_maker *m) {
   for (size_t i = 0; i < m->bounds.count; i++)
     bounded = bounded || bounds[i].strain_min > -1 || bounds[i].strain_max > 0 || bounds[i].tear_strain > 0 ||
               bounds[i].yield_strain > 0;
-  bool linked = m->island->scheme->sweeps || m->island->routed || (bounded && !m->island->scheme->forceless);
+  bool linked = m->island->scheme->sweeps || m->island->stepping.is_routed ||
+                (bounded && !m->island->scheme->forceless);
   if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    m->island->frays = m->island->frays || (m->island->link_flows && sbri_body_frays(body) &&
-                                               body->slot_real_end > body->first_spare);
+    m->island->springs.tear = m->island->springs.tear || (m->island->links.flows && sbri_body_frays(body) &&
+                                                             body->slots.real_end > body->slots.first_spare);
   }
   return make_cells(m) && sbri_tetrahedra_make(m, &network) && sbri_solid_limits_make(m);
 }

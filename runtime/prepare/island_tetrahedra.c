@@ -11,7 +11,7 @@ static bool acts(const sbri_body *body) {
 bool sbri_tetrahedra_list(sbri_island_maker *m) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
-    body->first_tetrahedron = m->island->tetrahedron_count;
+    body->elements.first_tetrahedron = m->island->tetrahedra.count;
     if (!acts(body)) continue;
     uint32_t count = body->level->lattice.tetrahedra.count;
     float *moduli = sbri_keep(m, count, sizeof *moduli), *ratios = sbri_keep(m, count, sizeof *ratios);
@@ -19,15 +19,15 @@ bool sbri_tetrahedra_list(sbri_island_maker *m) {
     if (!moduli || !ratios || !factors) return false;
     sbf_level_moduli(body->source, body->level, factors, moduli);
     for (uint32_t t = 0; t < count; t++) ratios[t] = body->source->attributes.poisson_ratio;
-    body->moduli = moduli, body->poisson_ratios = ratios;
-    body->tetrahedron_count = count;
-    m->island->tetrahedron_count += count;
+    body->elements.moduli = moduli, body->elements.poisson_ratios = ratios;
+    body->elements.tetrahedron_count = count;
+    m->island->tetrahedra.count += count;
   }
   return true;
 }
 
 bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) {
-  uint32_t count = m->island->tetrahedron_count;
+  uint32_t count = m->island->tetrahedra.count;
   sbf_uint4 *corners = sbri_scratch(m, count, sizeof *corners);
   float *moduli = sbri_scratch(m, count, sizeof *moduli), *ratios = sbri_scratch(m, count, sizeof *ratios);
   if (!corners || !moduli || !ratios) return false;
@@ -35,12 +35,12 @@ bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) 
   network->tetrahedra = corners, network->young_modulus = moduli, network->poisson_ratios = ratios;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
       for (int k = 0; k < 4; k++)
-        corners->at[k] = body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]];
+        corners->at[k] = body->slots.from_point[body->level->lattice.tetrahedra.at[t].at[k]];
       corners++;
-      *moduli++ = body->moduli[t];
-      *ratios++ = body->poisson_ratios[t];
+      *moduli++ = body->elements.moduli[t];
+      *ratios++ = body->elements.poisson_ratios[t];
     }
   }
   return true;
@@ -158,25 +158,25 @@ static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
     else
       loose += count;
   }
-  island->tetrahedron_full_count = full;
-  island->tetrahedron_dense_count = full + (loose + SBRI_BLOCK - 1) / SBRI_BLOCK;
-  island->tetrahedron_block_count = island->tetrahedron_dense_count;
+  island->tetrahedra.full_count = full;
+  island->tetrahedra.dense_count = full + (loose + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  island->tetrahedra.block_count = island->tetrahedra.dense_count;
   next = full * SBRI_BLOCK;
   for (uint32_t block = 0; block < p->block_count; block++) {
     const uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK;
     uint32_t count = lanes_filled(p, block);
     if (count == SBRI_BLOCK) continue;
     memcpy(ordered + next, lanes, count * sizeof *ordered);
-    memcpy(ordered + (size_t)SBRI_BLOCK * island->tetrahedron_block_count++, lanes,
-        SBRI_BLOCK * sizeof *ordered);
+    memcpy(
+        ordered + (size_t)SBRI_BLOCK * island->tetrahedra.block_count++, lanes, SBRI_BLOCK * sizeof *ordered);
     next += count;
   }
-  for (; next < island->tetrahedron_dense_count * SBRI_BLOCK; next++) ordered[next] = NO_ELEMENT;
+  for (; next < island->tetrahedra.dense_count * SBRI_BLOCK; next++) ordered[next] = NO_ELEMENT;
 }
 
 static bool pack(sbri_island_maker *m, packing *p) {
   sbri_island *island = m->island;
-  size_t count = island->tetrahedron_count;
+  size_t count = island->tetrahedra.count;
   p->elements = sbri_scratch(m, count * SBRI_BLOCK, sizeof *p->elements);
   p->users = sbri_scratch(m, island->free_count, sizeof *p->users);
   uint32_t *ordered = sbri_scratch(m, 2 * count * SBRI_BLOCK, sizeof *ordered);
@@ -198,21 +198,24 @@ static float beta_of(const sbri_body *body, const float *factors, uint32_t t) {
 
 static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping,
     const float *const *factors, uint32_t *lanes_of) {
-  for (uint32_t n = 0; n < m->island->tetrahedron_block_count; n++) {
+  for (uint32_t n = 0; n < m->island->tetrahedra.block_count; n++) {
     const uint32_t *lanes = p->elements + (size_t)n * SBRI_BLOCK;
     uint32_t spare = lanes[SBRI_BLOCK - 1] == NO_ELEMENT ? find_spare(p, lanes) : 0;
-    bool again = n >= m->island->tetrahedron_dense_count;
+    bool again = n >= m->island->tetrahedra.dense_count;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
       uint32_t t = lanes[lane], b = 0;
       for (int k = 0; k < 4; k++) blocks[n].corners[k][lane] = t == NO_ELEMENT ? spare : p->corners[t].at[k];
       if (t == NO_ELEMENT) continue;
-      while (t >= sbri_maker_body(m, b)->first_tetrahedron + sbri_maker_body(m, b)->tetrahedron_count) b++;
+      while (t >= sbri_maker_body(m, b)->elements.first_tetrahedron +
+                      sbri_maker_body(m, b)->elements.tetrahedron_count)
+        b++;
       const sbri_body *body = sbri_maker_body(m, b);
       sbfi_tetrahedron element;
-      if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
+      if (sbri_body_tetrahedron(body, t - body->elements.first_tetrahedron, &element))
         sbri_tetrahedron_fill(&blocks[n], lane, &element);
       if (damping)
-        damping[(size_t)n * SBRI_BLOCK + lane] = beta_of(body, factors[b], t - body->first_tetrahedron);
+        damping[(size_t)n * SBRI_BLOCK + lane] =
+            beta_of(body, factors[b], t - body->elements.first_tetrahedron);
       lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;
       if (!again) lanes_of[2 * t + 1] = n * SBRI_BLOCK + lane;
     }
@@ -224,36 +227,37 @@ static bool find_damping(sbri_island_maker *m, const float *const *factors) {
   float max = 0;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
       float beta = beta_of(body, factors[b], t);
       max = beta > max ? beta : max;
     }
   }
-  if ((double)max > m->island->stiffness_damping_s) m->island->stiffness_damping_s = (double)max;
+  if ((double)max > m->island->springs.stiffness_damping_s)
+    m->island->springs.stiffness_damping_s = (double)max;
   return max > 0;
 }
 
 /* Mean length of their edges at rest, m. */
 static float mean_edge(const sbri_island *island, const sbf_uint4 *corners) {
   double sum = 0;
-  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+  for (uint32_t t = 0; t < island->tetrahedra.count; t++)
     for (int i = 0; i < 4; i++)
       for (int k = 0; k < i; k++) {
         const sbri_point *p = &island->rest[corners[t].at[i]], *q = &island->rest[corners[t].at[k]];
         float x = p->x - q->x, y = p->y - q->y, z = p->z - q->z;
         sum += (double)sqrtf(x * x + y * y + z * z);
       }
-  return (float)(sum / (6.0 * island->tetrahedron_count));
+  return (float)(sum / (6.0 * island->tetrahedra.count));
 }
 
 bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network) {
   sbri_island *island = m->island;
-  if (island->tetrahedron_count == 0) return true;
+  if (island->tetrahedra.count == 0) return true;
   packing p = {.island = island, .corners = network->tetrahedra};
   if (!pack(m, &p)) return false;
-  size_t count = island->tetrahedron_block_count;
+  size_t count = island->tetrahedra.block_count;
   sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
-  uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedron_count, sizeof *lanes);
+  uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedra.count, sizeof *lanes);
   const float **factors = sbri_scratch(m, island->body_count, sizeof *factors);
   if (!blocks || !lanes || !factors) return false;
   for (uint32_t b = 0; b < island->body_count; b++)
@@ -264,9 +268,9 @@ bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *networ
   if (damped && !damping) return false;
   fill(m, &p, blocks, damping, factors, lanes);
   float side = mean_edge(island, network->tetrahedra);
-  if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;
-  island->tetrahedron_blocks = blocks;
-  island->tetrahedron_damping = damping;
-  island->lanes_of_tetrahedra = lanes;
+  if (!(island->stability.cell_m > 0) || side < island->stability.cell_m) island->stability.cell_m = side;
+  island->tetrahedra.blocks = blocks;
+  island->tetrahedra.damping = damping;
+  island->tetrahedra.lanes = lanes;
   return true;
 }

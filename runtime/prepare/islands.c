@@ -26,7 +26,7 @@ static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level,
 /* Level of a coarser detail level: the wanted number or the next finer one with an acceptable error, else
  * that of the first detail level. */
 static const sbf_level *coarser_of(const sbr_model *model, uint32_t body, uint32_t wanted) {
-  const sbri_body *first = &model->base->bodies[body];
+  const sbri_body *first = &model->detail.base->bodies[body];
   const sbf_level_list *levels = &first->source->levels;
   if (!first->level) return NULL;
   for (uint32_t i = wanted < levels->count ? wanted + 1 : levels->count; i-- > 0;) {
@@ -98,9 +98,9 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
   for (uint32_t i = 0; i < count; i++) {
     const sbf_soft_body *source = &asset->soft_bodies.at[i];
-    const sbf_level *level = model->kind != SBR_DETAIL_SOFT ? NULL
-                             : model->base == model         ? level_of(source, options->level)
-                                                            : coarser_of(model, i, options->level);
+    const sbf_level *level = model->detail.kind != SBR_DETAIL_SOFT ? NULL
+                             : model->detail.base == model         ? level_of(source, options->level)
+                                                                   : coarser_of(model, i, options->level);
     if (level) {
       sbf_status status = check_level(source, level, error);
       if (status != SBF_OK) return status;

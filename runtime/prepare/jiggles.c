@@ -4,13 +4,13 @@
 /* The frame that moves the body rigidly. */
 static uint32_t carrier_frame(const sbr_model *model, uint32_t soft_body) {
   int32_t bone = model->asset->soft_bodies.at[soft_body].bone;
-  const sbri_body *body = &model->base->bodies[soft_body];
+  const sbri_body *body = &model->detail.base->bodies[soft_body];
   if (body->level && body->is_pinned && !body->drivers) return body->driver_frame;
   return bone >= 0 ? (uint32_t)bone : sbri_root_frame(model);
 }
 
 const sbf_level *sbri_jiggle_of(const sbr_model *model, uint32_t soft_body) {
-  const sbri_body *body = &model->base->bodies[soft_body];
+  const sbri_body *body = &model->detail.base->bodies[soft_body];
   const sbf_level_list *levels = &body->source->levels;
   if (!body->level || !body->is_pinned || body->drivers) return NULL;
   for (uint32_t l = 0; l < levels->count; l++)
@@ -22,7 +22,7 @@ const sbf_level *sbri_jiggle_of(const sbr_model *model, uint32_t soft_body) {
 
 bool sbri_jiggles_make(sbr_model *model) {
   uint32_t count = model->asset->soft_bodies.count;
-  if (model->kind != SBR_DETAIL_JIGGLE) return true;
+  if (model->detail.kind != SBR_DETAIL_JIGGLE) return true;
   model->jiggles = sbfi_arena_allocate(&model->arena, (size_t)count + 1, sizeof *model->jiggles);
   if (!model->jiggles) return false;
   for (uint32_t b = 0; b < count; b++) {

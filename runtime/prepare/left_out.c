@@ -39,11 +39,11 @@ static body_counts count_bodies(const sbr_model *model) {
     sbf_body_measures measures;
     sbf_body_measure(body, &measures);
     bool bends = measures.sheet && !has_flexion(level) && body->surface.polygon_sizes.count > 1;
-    n.gas += is->pressure_mode == SBF_PRESSURE_MODE_GAS && is->pressure != 0 && made->gas_pa == 0;
-    n.bending += bends && made->hinge_count == 0;
+    n.gas += is->pressure_mode == SBF_PRESSURE_MODE_GAS && is->pressure != 0 && made->gas.pressure_pa == 0;
+    n.bending += bends && made->elements.hinge_count == 0;
     n.media += model->asset->environment.media_density > 0 && body->surface.polygon_sizes.count &&
                !(made->medium_kg_m3 > 0);
-    n.self += body->collision.self && made->self_face_count == 0;
+    n.self += body->collision.self && made->self.face_count == 0;
     for (uint32_t i = 0; i < body->levels.count; i++)
       n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
                   body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA &&

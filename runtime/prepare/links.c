@@ -31,8 +31,8 @@ static uint32_t min_colour(const uint64_t *a, const uint64_t *b) {
 }
 
 static void colour(colouring *c) {
-  for (uint32_t i = 0; i < c->island->spring_count; i++) {
-    const sbfi_spring *s = &c->island->springs[i];
+  for (uint32_t i = 0; i < c->island->springs.count; i++) {
+    const sbfi_spring *s = &c->island->springs.at[i];
     uint64_t *a = s->a < c->island->free_count ? c->used[s->a] : NULL;
     uint64_t *b = s->b < c->island->free_count ? c->used[s->b] : NULL;
     uint32_t chosen = c->colours[i] = min_colour(a, b);
@@ -46,14 +46,14 @@ static void colour(colouring *c) {
     begins[k] = next;
     next += c->counts[k];
   }
-  for (uint32_t i = 0; i < c->island->spring_count; i++) c->ordered[begins[c->colours[i]]++] = i;
+  for (uint32_t i = 0; i < c->island->springs.count; i++) c->ordered[begins[c->colours[i]]++] = i;
 }
 
 /* Whether it is a spare slot: a split point may become an end of any spring. */
 static bool is_reserved(const colouring *c, uint32_t slot) {
   for (uint32_t b = 0; b < c->island->body_count; b++) {
     const sbri_body *body = &c->bodies[c->island->bodies[b]];
-    if (slot >= body->first_spare && slot < body->slot_real_end) return true;
+    if (slot >= body->slots.first_spare && slot < body->slots.real_end) return true;
   }
   return false;
 }
@@ -64,7 +64,7 @@ static uint32_t spare_slot(const colouring *c, const uint32_t *springs, uint32_t
   for (uint32_t slot = island->slot_count; slot-- > 0;) {
     bool free = !is_reserved(c, slot);
     for (uint32_t i = 0; i < count; i++)
-      free = free && island->springs[springs[i]].a != slot && island->springs[springs[i]].b != slot;
+      free = free && island->springs.at[springs[i]].a != slot && island->springs.at[springs[i]].b != slot;
     if (free) return slot;
   }
   return island->slot_count;
@@ -95,7 +95,7 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
     link->a[lane] = link->b[lane] = spare;
     if (t->limits) t->limits[block].min[lane] = -1;
     if (lane >= count) continue;
-    const sbfi_spring *s = &island->springs[springs[lane]];
+    const sbfi_spring *s = &island->springs.at[springs[lane]];
     const sbfi_spring_bounds *is = &bounds[springs[lane]];
     link->a[lane] = s->a, link->b[lane] = s->b;
     link->stiffness[lane] = s->stiffness_n_m, link->rest[lane] = s->rest_length_m;
@@ -114,7 +114,7 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
 static bool is_disjoint(const sbri_island *island, const uint32_t *springs, uint32_t count) {
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t k = 0; k < i; k++) {
-      const sbfi_spring *a = &island->springs[springs[i]], *b = &island->springs[springs[k]];
+      const sbfi_spring *a = &island->springs.at[springs[i]], *b = &island->springs.at[springs[k]];
       if (a->a < island->free_count && (a->a == b->a || a->a == b->b)) return false;
       if (a->b < island->free_count && (a->b == b->a || a->b == b->b)) return false;
     }
@@ -138,16 +138,16 @@ static uint32_t visit_colours(const colouring *c, const link_tables *t, const sb
 static bool allocate(
     sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds, link_tables *t) {
   bool damped = false, slack = false, limited = false, flowing = false;
-  for (uint32_t i = 0; i < island->spring_count; i++) {
+  for (uint32_t i = 0; i < island->springs.count; i++) {
     const sbfi_spring_bounds *is = &bounds[i];
-    slack = slack || island->springs[i].slack != 0;
-    damped = damped || slack || island->springs[i].damping_ns_m > 0;
+    slack = slack || island->springs.at[i].slack != 0;
+    damped = damped || slack || island->springs.at[i].damping_ns_m > 0;
     limited = limited || is->strain_min > -1 || is->strain_max > 0;
     flowing = flowing || (is->yield_strain > 0 && is->yield_1_s > 0) || is->tear_strain > 0;
   }
-  size_t blocks = island->link_block_count ? island->link_block_count : 1;
+  size_t blocks = island->links.block_count ? island->links.block_count : 1;
   t->links = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->links);
-  t->link_of_spring = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof(uint32_t));
+  t->link_of_spring = sbfi_arena_allocate(&model->arena, (size_t)island->springs.count + 1, sizeof(uint32_t));
   if (damped) t->damping = sbfi_arena_allocate(&model->arena, blocks * SBRI_BLOCK, sizeof *t->damping);
   if (slack) t->slack = sbfi_arena_allocate(&model->arena, blocks * SBRI_BLOCK, sizeof *t->slack);
   if (limited) t->limits = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->limits);
@@ -160,7 +160,7 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   colouring *c = sbfi_arena_allocate(&scratch, 1, sizeof *c);
-  size_t springs = (size_t)island->spring_count + 1;
+  size_t springs = (size_t)island->springs.count + 1;
   bool good = c != NULL;
   if (good) {
     c->island = island, c->bodies = model->bodies;
@@ -172,13 +172,13 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
   link_tables t = {0};
   if (good) {
     colour(c);
-    island->link_block_count = visit_colours(c, NULL, bounds);
+    island->links.block_count = visit_colours(c, NULL, bounds);
     good = allocate(model, island, bounds, &t);
   }
   if (good) visit_colours(c, &t, bounds);
   sbfi_arena_free(&scratch);
-  island->links = t.links, island->link_damping = t.damping, island->link_slack = t.slack,
-  island->link_limits = t.limits;
-  island->link_flows = t.flows, island->link_of_spring = t.link_of_spring;
+  island->links.blocks = t.links, island->links.damping = t.damping, island->links.slack = t.slack,
+  island->links.limits = t.limits;
+  island->links.flows = t.flows, island->links.of_spring = t.link_of_spring;
   return good;
 }

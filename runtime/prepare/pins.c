@@ -21,7 +21,7 @@ sbf_vec3 sbri_pin_position(
   if (set->offsets.count == 0) return level->positions.at[set->points.at[i]];
   sbf_vec3 offset = set->offsets.at[i];
   if (set->bone >= 0) {
-    const sbr_transform *rest = &model->rig.rest[set->bone];
+    const sbr_transform *rest = &model->rig.bones.rest[set->bone];
     return sbri_add(rest->position, sbri_rotate(rest->rotation, offset));
   }
   if (set->rigid_body >= 0) return sbri_add(model->asset->rigid_bodies.at[set->rigid_body].center, offset);
@@ -66,7 +66,7 @@ static uint32_t frame_position(const spread *s, uint32_t frame) {
 /* Adds the weights of the other end of a spring to those of a point. */
 static void add_contributions(const spread *s, float *to, uint32_t other, float weight) {
   if (other >= s->island->free_count) {
-    to[frame_position(s, s->island->frame_of_pinned[other - s->island->free_count])] += weight;
+    to[frame_position(s, s->island->pins.frames[other - s->island->free_count])] += weight;
   } else if (other >= s->first && other < s->first + s->count) {
     const float *from = s->fractions + (size_t)(other - s->first) * s->frame_count;
     for (uint32_t k = 0; k < s->frame_count; k++) to[k] += weight * from[k];
@@ -83,10 +83,10 @@ static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scra
     for (uint32_t r = 0; r < regions->sizes.count; points += regions->sizes.at[r++]) {
       uint32_t size = regions->sizes.at[r];
       for (uint32_t i = 0; i < size; i++)
-        for (uint32_t far = 1, index = body->slot_from_point[points[i]] - s->first;
+        for (uint32_t far = 1, index = body->slots.from_point[points[i]] - s->first;
              far < size && index < s->count; far *= 2) {
           if (pass)
-            links[begins[index + 1]++] = body->slot_from_point[points[(i + far) % size]];
+            links[begins[index + 1]++] = body->slots.from_point[points[(i + far) % size]];
           else
             begins[index + 2]++;
         }
@@ -101,23 +101,25 @@ static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scra
 
 /* Links of tetrahedra or regions. */
 static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
-  if (body->first_region_block < body->region_block_end) return list_region_links(s, body, scratch);
-  if (body->tetrahedron_count == 0) return true;
+  if (body->elements.first_region_block < body->elements.region_block_end)
+    return list_region_links(s, body, scratch);
+  if (body->elements.tetrahedron_count == 0) return true;
   const sbf_uint4 *tetrahedra = body->level->lattice.tetrahedra.at;
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins);
-  uint32_t *links = sbfi_arena_allocate(scratch, 12 * (size_t)body->tetrahedron_count, sizeof *links);
+  uint32_t *links =
+      sbfi_arena_allocate(scratch, 12 * (size_t)body->elements.tetrahedron_count, sizeof *links);
   if (!begins || !links) return false;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) {
-      uint32_t index = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      uint32_t index = body->slots.from_point[tetrahedra[t].at[k]] - s->first;
       if (index < s->count) begins[index + 2] += 3;
     }
   for (uint32_t i = 0; i < s->count; i++) begins[i + 2] += begins[i + 1];
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) {
-      uint32_t index = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      uint32_t index = body->slots.from_point[tetrahedra[t].at[k]] - s->first;
       for (int j = 1; j < 4 && index < s->count; j++)
-        links[begins[index + 1]++] = body->slot_from_point[tetrahedra[t].at[(k + j) % 4]];
+        links[begins[index + 1]++] = body->slots.from_point[tetrahedra[t].at[(k + j) % 4]];
     }
   s->link_begins = begins, s->links = links;
   return true;
@@ -129,8 +131,8 @@ static void sweep(const spread *s, float *scratch) {
     uint32_t slot = s->first + i, block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     for (uint32_t k = 0; k < s->frame_count; k++) scratch[k] = 0;
     float sum = 0;
-    for (uint32_t c = s->island->cell_begins[block]; c < s->island->cell_begins[block + 1]; c++) {
-      const sbri_spring_cell *cell = &s->island->cells[c];
+    for (uint32_t c = s->island->cells.begins[block]; c < s->island->cells.begins[block + 1]; c++) {
+      const sbri_spring_cell *cell = &s->island->cells.at[c];
       float k = cell->stiffness[lane];
       uint32_t other = cell->others[lane];
       bool within = other >= s->island->free_count || (other >= s->first && other < s->first + s->count);
@@ -168,27 +170,28 @@ static sbri_driver driver_of(const spread *s, const float *fractions, uint32_t o
 }
 
 bool sbri_drivers_make(sbr_model *model, const sbri_island *island, sbri_body *body) {
-  uint32_t count = body->slot_end - body->slot_begin, otherwise = sbri_root_frame(model);
+  uint32_t count = body->slots.end - body->slots.begin, otherwise = sbri_root_frame(model);
   if (body->source->bone >= 0) otherwise = (uint32_t)body->source->bone;
   body->driver_frame = otherwise;
   body->is_pinned = false;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
-  spread s = {.island = island, .first = body->slot_begin, .count = body->slot_real_end - body->slot_begin};
+  spread s = {
+      .island = island, .first = body->slots.begin, .count = body->slots.real_end - body->slots.begin};
   s.frames = sbfi_arena_allocate(&scratch, model->frame_count, sizeof *s.frames);
   bool good = s.frames != NULL;
-  for (uint32_t c = island->cell_begins[body->slot_begin / SBRI_BLOCK];
-       good && c < island->cell_begins[body->slot_end / SBRI_BLOCK]; c++)
+  for (uint32_t c = island->cells.begins[body->slots.begin / SBRI_BLOCK];
+       good && c < island->cells.begins[body->slots.end / SBRI_BLOCK]; c++)
     for (int lane = 0; lane < SBRI_BLOCK; lane++) {
-      uint32_t other = island->cells[c].others[lane];
-      if (other < island->free_count || !(island->cells[c].stiffness[lane] > 0)) continue;
-      uint32_t frame = island->frame_of_pinned[other - island->free_count];
+      uint32_t other = island->cells.at[c].others[lane];
+      if (other < island->free_count || !(island->cells.at[c].stiffness[lane] > 0)) continue;
+      uint32_t frame = island->pins.frames[other - island->free_count];
       if (frame_position(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
     }
   good = good && list_links(&s, body, &scratch);
   for (uint32_t l = 0; good && s.links && l < s.link_begins[s.count]; l++) {
     if (s.links[l] < island->free_count) continue;
-    uint32_t frame = island->frame_of_pinned[s.links[l] - island->free_count];
+    uint32_t frame = island->pins.frames[s.links[l] - island->free_count];
     if (frame_position(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
   }
   body->is_pinned = good && s.frame_count > 0;

@@ -31,7 +31,7 @@ bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network
     forces[3 * (size_t)i + 2] = weight * (double)g.z;
   }
   if (sbf_network_static(network, forces, TOLERANCE, 10 * points + 100, u, scratch) > ENOUGH) return true;
-  for (uint32_t i = 0; i < island->spring_count; i++) {
+  for (uint32_t i = 0; i < island->springs.count; i++) {
     sbfi_spring *s = &m->listed[i];
     sbri_point *p = &m->rest[s->a], *q = &m->rest[s->b];
     const double *ua = u + 3 * (size_t)s->a, *ub = u + 3 * (size_t)s->b;

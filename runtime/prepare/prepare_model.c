@@ -47,11 +47,13 @@ static sbf_status choose_scheme(
   island->scheme = scheme;
   bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
   bool stated_for_this = stated->scheme == scheme->kind || stated->scheme == SBF_SCHEME_AUTOMATIC;
-  island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
-  island->substeps_least = stated->substeps_least, island->substeps_most = stated->substeps_most;
-  island->step_error_m = options->step_error_m > 0 ? options->step_error_m : min_step_error(model, island);
-  island->routed =
-      left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
+  island->stepping.substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  island->stepping.min_substeps = stated->substeps_least,
+  island->stepping.max_substeps = stated->substeps_most;
+  island->stepping.step_error_m =
+      options->step_error_m > 0 ? options->step_error_m : min_step_error(model, island);
+  island->stepping.is_routed =
+      left_open && !island->stepping.substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
   return SBF_OK;
 }
 
@@ -88,7 +90,7 @@ static void measure(sbr_model *model) {
 static void return_spare_slots(const sbr_model *model, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     sbri_body *body = &model->bodies[island->bodies[b]];
-    body->slot_real_end = body->first_spare;
+    body->slots.real_end = body->slots.first_spare;
   }
 }
 
@@ -101,33 +103,33 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     if (status == SBF_OK) status = sbri_island_make(model, island, options, error);
     if (status != SBF_OK) break;
     if (!sbri_tear_table_make(model, island)) return no_memory(error);
-    island->splits = island->tears || island->frays;
+    island->splits = island->tetrahedra.tears || island->springs.tear;
     model->splits = model->splits || island->splits;
     if (!island->splits) return_spare_slots(model, island);
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
-    island->first_link_block = model->link_block_count;
-    model->link_block_count += island->link_block_count;
-    island->first_tetrahedron_block = model->tetrahedron_block_count;
-    model->tetrahedron_block_count += island->tetrahedron_block_count;
-    island->first_solid_block = model->solid_block_count;
-    island->first_solid = model->solid_count;
-    if (island->solid_flows) {
-      model->solid_block_count += island->tetrahedron_block_count;
-      model->solid_count += island->tetrahedron_count;
+    island->links.first_block = model->counts.link_blocks;
+    model->counts.link_blocks += island->links.block_count;
+    island->tetrahedra.first_block = model->counts.tetrahedron_blocks;
+    model->counts.tetrahedron_blocks += island->tetrahedra.block_count;
+    island->tetrahedra.first_state_block = model->counts.state_tetrahedron_blocks;
+    island->tetrahedra.first_state = model->counts.state_tetrahedra;
+    if (island->tetrahedra.flow) {
+      model->counts.state_tetrahedron_blocks += island->tetrahedra.block_count;
+      model->counts.state_tetrahedra += island->tetrahedra.count;
     }
-    island->first_flow = model->flow_count;
-    if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
-    island->first_thread_cell = model->thread_cell_count;
-    island->first_thread_block = model->thread_block_count;
-    island->first_thread_link = model->thread_link_count;
-    if (island->frays) {
-      model->thread_cell_count += island->cell_begins[island->free_count / SBRI_BLOCK];
-      model->thread_block_count += island->free_count / SBRI_BLOCK;
-      model->thread_link_count += island->link_block_count;
+    island->links.first_flow = model->counts.flows;
+    if (island->links.flows) model->counts.flows += island->links.block_count * SBRI_BLOCK;
+    island->cells.first_state_cell = model->counts.torn_cells;
+    island->cells.first_state_block = model->counts.torn_blocks;
+    island->links.first_state_block = model->counts.torn_link_blocks;
+    if (island->springs.tear) {
+      model->counts.torn_cells += island->cells.begins[island->free_count / SBRI_BLOCK];
+      model->counts.torn_blocks += island->free_count / SBRI_BLOCK;
+      model->counts.torn_link_blocks += island->links.block_count;
     }
-    island->first_rotation = model->region_block_count;
-    model->region_block_count += island->region_block_count;
+    island->regions.first_rotation = model->counts.region_blocks;
+    model->counts.region_blocks += island->regions.block_count;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
   }
   return status;
@@ -137,10 +139,10 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
 static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
-    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MAX_SUBSTEPS) continue;
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->springs.rest_stretch) <= SBRI_MAX_SUBSTEPS) continue;
     const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
-    double w =
-        sqrt(island->fastest_rad_s * island->fastest_rad_s + island->external_rad_s * island->external_rad_s);
+    double w = sqrt(island->stability.fastest_rad_s * island->stability.fastest_rad_s +
+                    island->stability.external_rad_s * island->stability.external_rad_s);
     return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
         "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
         "mass, less stiffness or fewer points, or step it by position_based",
@@ -155,12 +157,13 @@ static bool make_skins(sbr_model *model) {
   uint32_t *first_skins = sbfi_arena_allocate(&model->arena, (size_t)mesh_count + 1, sizeof *first_skins);
   if (!first_skins) return false;
   for (uint32_t i = 0; i < mesh_count; i++) {
-    first_skins[i] = model->skin_count;
-    model->skin_count += 1 + asset->render_meshes.at[i].levels.count;
+    first_skins[i] = model->skins.count;
+    model->skins.count += 1 + asset->render_meshes.at[i].levels.count;
   }
-  model->first_skins = first_skins;
-  model->skins = sbfi_arena_allocate(&model->arena, (size_t)model->skin_count + 1, sizeof *model->skins);
-  if (!model->skins) return false;
+  model->skins.first = first_skins;
+  model->skins.at =
+      sbfi_arena_allocate(&model->arena, (size_t)model->skins.count + 1, sizeof *model->skins.at);
+  if (!model->skins.at) return false;
   for (uint32_t i = 0; i < mesh_count; i++)
     for (uint32_t l = 0; l <= asset->render_meshes.at[i].levels.count; l++)
       if (!sbri_skin_make(model, i, l)) return false;
@@ -173,9 +176,9 @@ static bool make_skins(sbr_model *model) {
 
 /* Bones and rigid parts; detail levels share those of the first one. */
 static bool make_bones(sbr_model *model) {
-  if (model->base != model) {
-    model->rig = model->base->rig;
-    model->rigid = model->base->rigid;
+  if (model->detail.base != model) {
+    model->rig = model->detail.base->rig;
+    model->rigid = model->detail.base->rigid;
     return true;
   }
   void *rig = sbfi_arena_allocate(&model->arena, 1, sbri_rig_size(model->asset));
@@ -190,7 +193,7 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
                           : options->rigid_coarse ? 1
                                                   : RIGID_SUBSTEPS;
   if (!make_bones(model) || !sbri_jiggles_make(model)) return no_memory(error);
-  model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count + model->jiggle_count;
+  model->frame_count = model->rig.bones.count + 2 + model->rigid.own_frame_count + model->jiggle_count;
   if (!sbri_carriers_list(model)) return no_memory(error);
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
@@ -198,9 +201,9 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
   if (!sbri_rest_volumes_find(model) || !sbri_external_forces_make(model)) return no_memory(error);
   for (uint32_t i = 0; i < model->island_count; i++) {
     sbri_island *island = &model->islands[i];
-    if (!island->routed || sbri_router_begins_explicit(island)) continue;
+    if (!island->stepping.is_routed || sbri_router_begins_explicit(island)) continue;
     island->scheme = &sbri_position_based;
-    island->routed = false;
+    island->stepping.is_routed = false;
   }
   sbri_attached_mass_join(model);
   return check_substeps(model, error);

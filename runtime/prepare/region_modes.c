@@ -40,7 +40,7 @@ static sbfi_d3 rigid_part(const rigid_fit *fit, sbfi_d3 r) {
 /* Adds the forces of one region on its slots to `forces`. */
 static void add_region(const sbri_island *island, const sbri_region_block *block, uint32_t lane,
     const sbfi_d3 *moves, sbfi_d3 *forces) {
-  const sbri_region_member *members = island->region_members + block->first_member;
+  const sbri_region_member *members = island->regions.members + block->first_member;
   rigid_fit fit = {0};
   for (uint32_t i = 0; i < block->member_count; i++) {
     double k = members[i].stiffness[lane];
@@ -70,7 +70,7 @@ static sbfi_d3 rest_of(const sbri_island *island, uint32_t slot) {
 /* Removes the body's rigid motion from its points' displacements. */
 static void remove_rigid_motion(const sbri_island *island, const sbri_body *body, sbfi_d3 *moves) {
   rigid_fit fit = {0};
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     double m = island->masses[slot];
     fit.weight += m;
     fit.center = sbfi_d3_add(fit.center, sbfi_d3_scale(rest_of(island, slot), m));
@@ -79,10 +79,10 @@ static void remove_rigid_motion(const sbri_island *island, const sbri_body *body
   if (!(fit.weight > 0)) return;
   fit.center = sbfi_d3_scale(fit.center, 1 / fit.weight);
   fit.drift = sbfi_d3_scale(fit.drift, 1 / fit.weight);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     add_rotation(&fit, island->masses[slot], sbfi_d3_sub(rest_of(island, slot), fit.center), moves[slot]);
   fit.rotation = solve(fit.g, fit.rotation);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     moves[slot] = sbfi_d3_sub(moves[slot], rigid_part(&fit, sbfi_d3_sub(rest_of(island, slot), fit.center)));
 }
 
@@ -93,38 +93,38 @@ static sbfi_d3 first_guess(sbfi_d3 r, uint32_t slot) {
 }
 
 static bool is_point_pinned(const sbri_island *island, const sbri_body *body) {
-  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
-    const sbri_region_block *block = &island->region_blocks[b];
+  for (uint32_t b = body->elements.first_region_block; b < body->elements.region_block_end; b++) {
+    const sbri_region_block *block = &island->regions.blocks[b];
     for (uint32_t i = 0; i < block->member_count; i++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-        if (island->region_members[block->first_member + i].slots[lane] >= island->free_count) return true;
+        if (island->regions.members[block->first_member + i].slots[lane] >= island->free_count) return true;
   }
   return false;
 }
 
 double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, double *scratch) {
-  if (body->first_region_block == body->region_block_end) return 0;
+  if (body->elements.first_region_block == body->elements.region_block_end) return 0;
   sbfi_d3 *moves = (sbfi_d3 *)(void *)scratch, *forces = moves + island->slot_count;
-  double top = island->region_rad_s * island->region_rad_s, low = top;
+  double top = island->regions.max_rad_s * island->regions.max_rad_s, low = top;
   bool pinned = is_point_pinned(island, body);
   memset(moves, 0, island->slot_count * sizeof *moves);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     moves[slot] = first_guess(rest_of(island, slot), slot);
   for (int step = 0; step < STEPS; step++) {
     if (!pinned) remove_rigid_motion(island, body, moves);
     memset(forces, 0, island->slot_count * sizeof *forces);
-    for (uint32_t b = body->first_region_block; b < body->region_block_end; b++)
+    for (uint32_t b = body->elements.first_region_block; b < body->elements.region_block_end; b++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
-        add_region(island, &island->region_blocks[b], lane, moves, forces);
+        add_region(island, &island->regions.blocks[b], lane, moves, forces);
     double stiff = 0, heavy = 0;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       stiff -= sbfi_d3_dot(moves[slot], forces[slot]);
       heavy += (double)island->masses[slot] * sbfi_d3_dot(moves[slot], moves[slot]);
     }
     if (!(heavy > 0)) return 0;
     low = stiff / heavy;
     double scale = 1 / (top * sqrt(heavy));
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       sbfi_d3 a = sbfi_d3_scale(forces[slot], island->inverse_masses[slot]);
       moves[slot] = sbfi_d3_scale(sbfi_d3_add(sbfi_d3_scale(moves[slot], top), a), scale);
     }

@@ -12,7 +12,7 @@ bool sbri_rest_volumes_find(sbr_model *model) {
   bool good = true;
   for (uint32_t b = 0; good && b < model->asset->soft_bodies.count; b++) {
     sbri_body *body = &model->bodies[b];
-    uint32_t count = body->surface.vertex_count;
+    uint32_t count = body->surface.skin.vertex_count;
     sbf_surface_measures measures;
     sbf_surface_measure(&body->source->surface, NULL, &measures);
     if (count == 0 || measures.opening > MAX_OPENING || !(measures.volume > 0)) continue;
@@ -23,10 +23,10 @@ bool sbri_rest_volumes_find(sbr_model *model) {
       vertices[i] = (sbri_point){p.x, p.y, p.z, 0};
     }
     if (!good) break;
-    body->rest_volume_m3 = sbri_skin_volume(&body->surface, vertices);
-    body->keeps_volume = body->source->attributes.pressure_mode == SBF_PRESSURE_MODE_VOLUME &&
-                         body->rest_volume_m3 > 0 && body->level;
-    if (body->keeps_volume) good = sbri_volume_table_make(model, body);
+    body->surface.rest_volume_m3 = sbri_skin_volume(&body->surface.skin, vertices);
+    body->volume.is_kept = body->source->attributes.pressure_mode == SBF_PRESSURE_MODE_VOLUME &&
+                           body->surface.rest_volume_m3 > 0 && body->level;
+    if (body->volume.is_kept) good = sbri_volume_table_make(model, body);
   }
   sbfi_arena_free(&scratch);
   return good;

@@ -18,18 +18,20 @@ static double network_softness(uint32_t stable, uint32_t taken) {
 static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnostic *found) {
   double tick_s = (double)model->asset->environment.control_tick;
   sbri_island open = *island;
-  open.substeps = 0; /* the automatic number */
-  uint32_t stable = sbri_stable_substeps(&open, tick_s, island->rest_stretch),
-           taken = sbri_scheme_substeps(island, tick_s, island->rest_stretch);
+  open.stepping.substeps = 0; /* the automatic number */
+  uint32_t stable = sbri_stable_substeps(&open, tick_s, island->springs.rest_stretch),
+           taken = sbri_scheme_substeps(island, tick_s, island->springs.rest_stretch);
   const char *id = model->bodies[island->bodies[0]].source->id;
-  bool solid = island->tetrahedron_count > 0;
+  bool solid = island->tetrahedra.count > 0;
   double softness = network_softness(stable, taken);
-  if ((double)island->softened_shear < 1 - WARNED_BIAS || (double)island->softened_bulk < 1 - WARNED_BIAS)
+  if ((double)island->stability.softened_shear < 1 - WARNED_BIAS ||
+      (double)island->stability.softened_bulk < 1 - WARNED_BIAS)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
         "body \"%s\" is too stiff for %d substeps a tick and is stepped as a softer one: where that is most, "
         "with "
         "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
-        id, (int)SBRI_MAX_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
+        id, (int)SBRI_MAX_SUBSTEPS, (double)island->stability.softened_bulk,
+        (double)island->stability.softened_shear);
   /* The required number includes a margin of a tenth. */
   else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
@@ -44,7 +46,8 @@ static bool warn(const sbr_model *model, const sbri_island *island, sbf_diagnost
         "within 2 %%",
         id, (unsigned)taken, 2 * taken < stable ? "several times" : "by a tenth or more",
         (unsigned)(2 * stable));
-  else if (island->scheme == &sbri_position_based && !solid && island->spring_count && softness > WARNED_BIAS)
+  else if (island->scheme == &sbri_position_based && !solid && island->springs.count &&
+           softness > WARNED_BIAS)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
         "body \"%s\" is stepped by position_based with %u substeps a tick: it bends about %.2g times as far "
         "as its "

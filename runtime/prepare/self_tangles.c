@@ -32,37 +32,37 @@ static bool has_crossing(const surface *s, const uint32_t ends[2], const uint32_
 }
 
 static bool edge_crosses(const surface *s, uint32_t number) {
-  const uint32_t *c = s->body->self_faces + number / 3 * 3, ends[2] = {c[number % 3], c[(number + 1) % 3]};
+  const uint32_t *c = s->body->self.faces + number / 3 * 3, ends[2] = {c[number % 3], c[(number + 1) % 3]};
   sbri_bounds_walk walk;
   uint32_t triangle;
   sbri_bounds_walk_begin(
       &walk, &s->tree, sbri_box_with(sbri_box_of_point(position(s, ends[0])), position(s, ends[1])));
   while (sbri_bounds_walk_next(&walk, &triangle))
-    if (has_crossing(s, ends, s->body->self_faces + 3 * (size_t)triangle)) return true;
+    if (has_crossing(s, ends, s->body->self.faces + 3 * (size_t)triangle)) return true;
   return false;
 }
 
 static bool find(surface *s, sbri_body *body, sbfi_arena *scratch) {
-  uint32_t count = body->self_face_count;
+  uint32_t count = body->self.face_count;
   s->boxes = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *s->boxes);
   s->tree.nodes = sbfi_arena_allocate(scratch, sbri_bounds_tree_nodes(count), sizeof *s->tree.nodes);
   s->tree.items = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *s->tree.items);
   if (!s->boxes || !s->tree.nodes || !s->tree.items) return false;
   for (uint32_t f = 0; f < count; f++) {
-    const uint32_t *c = body->self_faces + 3 * (size_t)f;
+    const uint32_t *c = body->self.faces + 3 * (size_t)f;
     s->boxes[f] = sbri_box_of_point(position(s, c[0]));
     for (int k = 1; k < 3; k++) s->boxes[f] = sbri_box_with(s->boxes[f], position(s, c[k]));
   }
   sbri_bounds_tree_make(&s->tree, s->boxes, count);
-  for (uint32_t i = 0; i < 3 * count && !body->is_tangled; i++)
-    body->is_tangled = body->self_sides[i] != SBRI_SAME_SIDE && edge_crosses(s, i);
+  for (uint32_t i = 0; i < 3 * count && !body->self.is_tangled; i++)
+    body->self.is_tangled = body->self.sides[i] != SBRI_SAME_SIDE && edge_crosses(s, i);
   return true;
 }
 
 bool sbri_self_tangles_find(sbr_model *model, sbri_body *body) {
   surface s = {.body = body, .rest = model->islands[body->island].rest};
   sbfi_arena scratch;
-  if (!body->self_face_count) return true;
+  if (!body->self.face_count) return true;
   sbfi_arena_init(&scratch, &model->arena.allocator, 0);
   bool good = find(&s, body, &scratch);
   sbfi_arena_free(&scratch);

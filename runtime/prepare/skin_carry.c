@@ -27,7 +27,7 @@ static uint32_t position_of(const carry *c, uint32_t vertex) {
 
 static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   if (weight == 0) return true;
-  uint32_t slot = c->model->islands[body->island].first_slot + body->slot_from_point[point];
+  uint32_t slot = c->model->islands[body->island].first_slot + body->slots.from_point[point];
   return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
 }
 
@@ -40,15 +40,17 @@ static bool is_among(uint32_t point, const uint32_t points[4]) {
 static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, const uint32_t points[4]) {
   const sbri_island *island = &model->islands[body->island];
   for (uint32_t i = 0; i < 4; i++) {
-    uint32_t slot = body->slot_from_point[points[i]];
+    uint32_t slot = body->slots.from_point[points[i]];
     if (slot >= island->free_count) continue;
-    for (uint32_t at = island->tears->around_begins[slot]; at < island->tears->around_begins[slot + 1];
-         at++) {
+    for (uint32_t at = island->tetrahedra.tears->around_begins[slot];
+         at < island->tetrahedra.tears->around_begins[slot + 1]; at++) {
       const uint32_t *corners =
-          body->level->lattice.tetrahedra.at[island->tears->around[at] - body->first_tetrahedron].at;
+          body->level->lattice.tetrahedra
+              .at[island->tetrahedra.tears->around[at] - body->elements.first_tetrahedron]
+              .at;
       uint32_t found = 0;
       for (int k = 0; k < 4; k++) found += is_among(points[k], corners);
-      if (found == 4) return island->tears->around[at];
+      if (found == 4) return island->tetrahedra.tears->around[at];
     }
   }
   return UINT32_MAX;
@@ -62,7 +64,7 @@ static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, co
   sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, UINT32_MAX};
   if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
   for (int k = 0; k < 4; k++) {
-    carrier one = {vertex, island->first_slot + body->slot_from_point[points[k]], weights[k]};
+    carrier one = {vertex, island->first_slot + body->slots.from_point[points[k]], weights[k]};
     if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
   }
   *bound = true;
@@ -73,17 +75,17 @@ static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, co
 static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   *bound = false;
-  if (c->model->islands[body->island].frays && sbri_body_frays(body))
+  if (c->model->islands[body->island].springs.tear && sbri_body_frays(body))
     return bind_to_network(c, body, vertex, points, weights, bound);
   if (!sbri_body_tears(body)) return true;
   uint32_t found = find_tetrahedron(c->model, body, points);
   if (found == UINT32_MAX) return true;
   const sbri_island *island = &c->model->islands[body->island];
-  const uint32_t *corners = body->level->lattice.tetrahedra.at[found - body->first_tetrahedron].at;
+  const uint32_t *corners = body->level->lattice.tetrahedra.at[found - body->elements.first_tetrahedron].at;
   sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, found};
   if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
   for (int k = 0; k < 4; k++) {
-    carrier one = {vertex, island->first_slot + body->slot_from_point[corners[k]], 0};
+    carrier one = {vertex, island->first_slot + body->slots.from_point[corners[k]], 0};
     for (int i = 0; i < 4; i++) one.weight += points[i] == corners[k] ? weights[i] : 0;
     if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
   }
@@ -129,8 +131,8 @@ static bool store_bindings(carry *c, const uint32_t *indices) {
     binding_of[bindings[i].vertex] = i;
   }
   skin->bindings = bindings, skin->binding_of = binding_of, skin->binding_count = count;
-  skin->first_binding = c->model->binding_count, c->model->binding_count += count;
-  skin->first_cell = c->model->torn_cell_count, c->model->torn_cell_count += skin->cell_count;
+  skin->first_binding = c->model->counts.bindings, c->model->counts.bindings += count;
+  skin->first_cell = c->model->counts.skin_cells, c->model->counts.skin_cells += skin->cell_count;
   return true;
 }
 
@@ -184,12 +186,12 @@ static bool add_piece(carry *c, uint32_t vertex, uint32_t frame, float weight) {
 
 /* Adds the drivers of a point of the first detail level. */
 static bool add_drivers(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
-  const sbri_island *island = &c->model->base->islands[body->island];
-  uint32_t slot = body->slot_from_point[point];
+  const sbri_island *island = &c->model->detail.base->islands[body->island];
+  uint32_t slot = body->slots.from_point[point];
   if (slot >= island->free_count)
-    return add_piece(c, vertex, island->frame_of_pinned[slot - island->free_count], weight);
+    return add_piece(c, vertex, island->pins.frames[slot - island->free_count], weight);
   if (!body->drivers) return add_piece(c, vertex, body->driver_frame, weight);
-  const sbri_driver *driver = &body->drivers[slot - body->slot_begin];
+  const sbri_driver *driver = &body->drivers[slot - body->slots.begin];
   for (int k = 0; k < SBRI_DRIVERS; k++)
     if (!add_piece(c, vertex, driver->frames[k], weight * driver->weights[k])) return false;
   return true;
@@ -212,8 +214,8 @@ static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sb
 
 static bool add_all_pieces(carry *c, uint32_t render_mesh) {
   const sbr_model *model = c->model;
-  for (uint32_t b = 0; model->kind != SBR_DETAIL_SOFT && b < model->asset->soft_bodies.count; b++) {
-    const sbri_body *body = &model->base->bodies[b];
+  for (uint32_t b = 0; model->detail.kind != SBR_DETAIL_SOFT && b < model->asset->soft_bodies.count; b++) {
+    const sbri_body *body = &model->detail.base->bodies[b];
     uint32_t frame = UINT32_MAX;
     for (uint32_t j = 0; j < model->jiggle_count; j++)
       if (model->jiggles[j].body == b) frame = sbri_first_jiggle_frame(model) + j;
@@ -334,8 +336,8 @@ static bool add_embeddings(carry *c, uint32_t render_mesh) {
 /* Faces and normals, which all detail levels share. */
 static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *shown, uint32_t render_mesh,
     uint32_t render_level) {
-  if (model->base == model) return sbri_shading_make(skin, &shown->mesh, shown, &model->arena);
-  const sbri_skin *made = sbri_skin_of(model->base, render_mesh, render_level);
+  if (model->detail.base == model) return sbri_shading_make(skin, &shown->mesh, shown, &model->arena);
+  const sbri_skin *made = sbri_skin_of(model->detail.base, render_mesh, render_level);
   skin->face_block_count = made->face_block_count, skin->faces = made->faces;
   skin->smooth = made->smooth, skin->smooth_of = made->smooth_of;
   skin->split = made->split, skin->split_of = made->split_of, skin->corner_count = made->corner_count;
@@ -346,7 +348,7 @@ static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *show
 
 bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
   const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
-  sbri_skin *skin = &model->skins[model->first_skins[render_mesh] + render_level];
+  sbri_skin *skin = &model->skins.at[model->skins.first[render_mesh] + render_level];
   carry c = begin(model, skin, mesh->mesh.positions.count);
   sbf_render_mesh shown = *mesh;
   bool good = true;
@@ -361,10 +363,10 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
     skin->vertex_count = level.vertex_count;
     c.position_of = level.position_of;
   }
-  skin->first_polygon = model->torn_polygon_count;
+  skin->first_polygon = model->counts.polygons;
   good = good && add_embeddings(&c, render_mesh) && add_all_pieces(&c, render_mesh) &&
          shade(model, skin, &shown, render_mesh, render_level);
-  if (c.bindings.count) model->torn_polygon_count += shown.mesh.polygon_sizes.count;
+  if (c.bindings.count) model->counts.polygons += shown.mesh.polygon_sizes.count;
   const sbf_render_level *level = render_level ? &mesh->levels.at[render_level - 1] : NULL;
   return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&
          sbri_torn_sides_make(model, skin, sbri_skin_of(model, render_mesh, 0),
@@ -385,7 +387,7 @@ static bool add_surface_points(carry *c, const sbri_body *body) {
 bool sbri_surface_make(sbr_model *model, uint32_t soft_body) {
   sbri_body *body = &model->bodies[soft_body];
   const sbf_polygon_mesh *mesh = &body->source->surface;
-  carry c = begin(model, &body->surface, mesh->positions.count);
+  carry c = begin(model, &body->surface.skin, mesh->positions.count);
   bool good = true, embedded = false;
   for (uint32_t e = 0; good && body->level && e < body->level->embeddings.count; e++)
     if (body->level->embeddings.at[e].render_mesh < 0) {
@@ -394,5 +396,5 @@ bool sbri_surface_make(sbr_model *model, uint32_t soft_body) {
     }
   if (good && body->level && !embedded) good = add_surface_points(&c, body);
   return finish(&c, mesh->positions.at, NULL, body->source->bone, good) &&
-         sbri_faces_make(&body->surface, mesh, &model->arena);
+         sbri_faces_make(&body->surface.skin, mesh, &model->arena);
 }

@@ -23,12 +23,13 @@ double sbri_fastest(const sbf_spring_network *network, double *scratch) {
 
 /* The maximum w for which a tick is within the budget. */
 static double find_limit(void) {
-  sbri_island of = {.tetrahedron_count = 1};
+  sbri_island of = {.tetrahedra = {.count = 1}};
   double low = 0, high = 1e6;
   for (int i = 0; i < 60; i++) {
-    of.fastest_rad_s = 0.5 * (low + high), of.bound_rad_s = 2 * of.fastest_rad_s;
+    of.stability.fastest_rad_s = 0.5 * (low + high),
+    of.stability.bound_rad_s = 2 * of.stability.fastest_rad_s;
     bool fits = sbri_stable_substeps(&of, 1.0 / 60, 0) <= SBRI_MAX_SUBSTEPS;
-    *(fits ? &low : &high) = of.fastest_rad_s;
+    *(fits ? &low : &high) = of.stability.fastest_rad_s;
   }
   return low;
 }
@@ -72,8 +73,9 @@ static void soften_element(sbri_island *island, float *young, float *poisson, do
   }
   double ratio = 0.5 * wanted / (wanted + mu), bulk_fraction = fraction * (wanted + 2 * mu / 3) / bulk;
   *poisson = (float)ratio, *young = (float)(2 * fraction * mu * (1 + ratio));
-  if ((float)fraction < island->softened_shear) island->softened_shear = (float)fraction;
-  if ((float)bulk_fraction < island->softened_bulk) island->softened_bulk = (float)bulk_fraction;
+  if ((float)fraction < island->stability.softened_shear) island->stability.softened_shear = (float)fraction;
+  if ((float)bulk_fraction < island->stability.softened_bulk)
+    island->stability.softened_bulk = (float)bulk_fraction;
 }
 
 /* Stated material of an element, and the bound of 3 lambda + 2 mu. */
@@ -84,7 +86,7 @@ typedef struct stated_element {
 
 static void soften_all(sbri_island *island, const stated_element *stated, uint32_t count, double cap,
     float *young, float *poisson) {
-  island->softened_shear = island->softened_bulk = 1;
+  island->stability.softened_shear = island->stability.softened_bulk = 1;
   for (uint32_t t = 0; t < count; t++) {
     young[t] = stated[t].young, poisson[t] = stated[t].poisson;
     if (stated[t].square_per_pa > 0)
@@ -95,9 +97,9 @@ static void soften_all(sbri_island *island, const stated_element *stated, uint32
 static void copy_to_bodies(sbri_island_maker *m, const sbf_spring_network *network) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
-      body->moduli[t] = network->young_modulus[body->first_tetrahedron + t];
-      body->poisson_ratios[t] = network->poisson_ratios[body->first_tetrahedron + t];
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
+      body->elements.moduli[t] = network->young_modulus[body->elements.first_tetrahedron + t];
+      body->elements.poisson_ratios[t] = network->poisson_ratios[body->elements.first_tetrahedron + t];
     }
   }
 }
@@ -105,9 +107,10 @@ static void copy_to_bodies(sbri_island_maker *m, const sbf_spring_network *netwo
 bool sbri_soften(sbri_island_maker *m, sbf_spring_network *network, double *scratch) {
   uint32_t count = network->tetrahedron_count;
   double limit = find_limit(), fastest;
-  m->island->softened_shear = m->island->softened_bulk = 1;
-  bool swept = m->island->scheme == &sbri_position_based && !m->island->substeps;
-  if (!(m->island->routed || swept) || count == 0 || sbri_fastest(network, scratch) <= limit) return true;
+  m->island->stability.softened_shear = m->island->stability.softened_bulk = 1;
+  bool swept = m->island->scheme == &sbri_position_based && !m->island->stepping.substeps;
+  if (!(m->island->stepping.is_routed || swept) || count == 0 || sbri_fastest(network, scratch) <= limit)
+    return true;
   double *volumes = sbri_scratch(m, network->point_count, sizeof *volumes);
   stated_element *stated = sbri_scratch(m, count, sizeof *stated);
   float *young = sbri_scratch(m, count, sizeof *young), *poisson = sbri_scratch(m, count, sizeof *poisson);

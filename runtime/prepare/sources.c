@@ -84,10 +84,10 @@ bool sbri_sources_make(sbr_model *to, const sbr_model *from, const sbri_sources 
     const sbri_body *body = &to->bodies[b], *other = &from->bodies[b];
     if (!body->level || !other->level) continue;
     const sbri_island *island = &to->islands[body->island], *others = &from->islands[other->island];
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       nearest n = {.beyond = INFINITY};
       for (uint32_t i = 0; i < other->level->positions.count; i++) {
-        uint32_t at = other->slot_from_point[i];
+        uint32_t at = other->slots.from_point[i];
         add(&n, at, square_between(&island->rest[slot], &others->rest[at]));
       }
       if (n.count)

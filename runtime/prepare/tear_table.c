@@ -20,8 +20,8 @@ static int compare_sides(const void *a, const void *b) {
 }
 
 static uint32_t corner_of(const sbri_island *island, uint32_t t, uint32_t k) {
-  uint32_t at = island->lanes_of_tetrahedra[2 * t];
-  return island->tetrahedron_blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
+  uint32_t at = island->tetrahedra.lanes[2 * t];
+  return island->tetrahedra.blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
 }
 
 static side side_of(const sbri_island *island, uint32_t t, uint32_t corner) {
@@ -36,10 +36,10 @@ static side side_of(const sbri_island *island, uint32_t t, uint32_t corner) {
 }
 
 static void find_neighbours(const sbri_island *island, side *sides, uint32_t (*neighbours)[4]) {
-  size_t count = 4 * (size_t)island->tetrahedron_count;
+  size_t count = 4 * (size_t)island->tetrahedra.count;
   for (uint32_t i = 0; i < count; i++) sides[i] = side_of(island, i / 4, i % 4);
   qsort(sides, count, sizeof *sides, compare_sides);
-  memset(neighbours, 0xff, island->tetrahedron_count * sizeof *neighbours);
+  memset(neighbours, 0xff, island->tetrahedra.count * sizeof *neighbours);
   for (size_t i = 1; i < count; i++) {
     const side *a = &sides[i - 1], *b = &sides[i];
     if (memcmp(a->points, b->points, sizeof a->points) != 0) continue;
@@ -49,7 +49,7 @@ static void find_neighbours(const sbri_island *island, side *sides, uint32_t (*n
 }
 
 static void find_around(const sbri_island *island, uint32_t *begins, uint32_t *around) {
-  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+  for (uint32_t t = 0; t < island->tetrahedra.count; t++)
     for (uint32_t k = 0; k < 4; k++) {
       uint32_t slot = corner_of(island, t, k);
       if (slot < island->free_count) begins[slot]++;
@@ -60,7 +60,7 @@ static void find_around(const sbri_island *island, uint32_t *begins, uint32_t *a
     end += count;
     begins[slot] = end;
   }
-  for (uint32_t t = island->tetrahedron_count; t-- > 0;)
+  for (uint32_t t = island->tetrahedra.count; t-- > 0;)
     for (uint32_t k = 0; k < 4; k++) {
       uint32_t slot = corner_of(island, t, k);
       if (slot < island->free_count) around[--begins[slot]] = t;
@@ -71,7 +71,7 @@ bool sbri_tear_table_make(sbr_model *model, sbri_island *island) {
   bool tears = false;
   for (uint32_t b = 0; b < island->body_count; b++)
     tears = tears || sbri_body_tears(&model->bodies[island->bodies[b]]);
-  size_t count = island->tetrahedron_count;
+  size_t count = island->tetrahedra.count;
   if (!tears || count == 0) return true;
   sbfi_arena *arena = &model->arena, scratch;
   sbfi_arena_init(&scratch, &arena->allocator, 0);
@@ -86,12 +86,12 @@ bool sbri_tear_table_make(sbr_model *model, sbri_island *island) {
     find_neighbours(island, sides, neighbours);
     find_around(island, begins, around);
     for (uint32_t t = 0; t < count; t++) {
-      uint32_t at = island->lanes_of_tetrahedra[2 * t];
-      float inverse = island->tetrahedron_blocks[at / SBRI_BLOCK].inverse_volume[at % SBRI_BLOCK];
+      uint32_t at = island->tetrahedra.lanes[2 * t];
+      float inverse = island->tetrahedra.blocks[at / SBRI_BLOCK].inverse_volume[at % SBRI_BLOCK];
       volumes[t] = inverse > 0 ? 1 / (6 * inverse) : 0;
     }
     *table = (sbri_tear_table){(const uint32_t(*)[4])neighbours, begins, around, volumes};
-    island->tears = table;
+    island->tetrahedra.tears = table;
   }
   sbfi_arena_free(&scratch);
   return good;

@@ -39,10 +39,10 @@ static uint32_t link_between(const sbri_island *island, uint32_t a, uint32_t b) 
   }
   if (a >= island->free_count) return UINT32_MAX;
   uint32_t block = a / SBRI_BLOCK, lane = a % SBRI_BLOCK;
-  for (uint32_t c = island->cell_begins[block]; c < island->cell_begins[block + 1]; c++) {
-    if (island->cells[c].others[lane] != b || b == a) continue;
-    uint32_t link = island->cell_links[c * SBRI_BLOCK + lane];
-    if (island->link_flows[link / SBRI_BLOCK].tear[link % SBRI_BLOCK] > 0) return link;
+  for (uint32_t c = island->cells.begins[block]; c < island->cells.begins[block + 1]; c++) {
+    if (island->cells.at[c].others[lane] != b || b == a) continue;
+    uint32_t link = island->cells.links[c * SBRI_BLOCK + lane];
+    if (island->links.flows[link / SBRI_BLOCK].tear[link % SBRI_BLOCK] > 0) return link;
   }
   return UINT32_MAX;
 }
@@ -53,9 +53,9 @@ static uint32_t strength_between(const sbr_model *model, uint32_t a, uint32_t b)
     const sbri_island *island = &model->islands[i];
     if (a - island->first_slot >= island->slot_count || b - island->first_slot >= island->slot_count)
       continue;
-    if (!island->link_flows || !island->cell_links) return UINT32_MAX;
+    if (!island->links.flows || !island->cells.links) return UINT32_MAX;
     uint32_t link = link_between(island, a - island->first_slot, b - island->first_slot);
-    return link == UINT32_MAX ? link : island->first_flow + link;
+    return link == UINT32_MAX ? link : island->links.first_flow + link;
   }
   return UINT32_MAX;
 }
@@ -71,7 +71,7 @@ static uint32_t add(const sbr_model *model, uint32_t *strengths, uint32_t count,
  * polygon spans. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points) {
-  if (model->flow_count == 0 || sizes->count == 0) return true;
+  if (model->counts.flows == 0 || sizes->count == 0) return true;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)sizes->count + 1, sizeof *begins);
   uint32_t *strengths = sbfi_arena_allocate(&model->arena, 7 * (size_t)points->count + 1, sizeof *strengths);
   if (!begins || !strengths) return false;

@@ -31,11 +31,11 @@ static bool list_fractions(const sbri_skin *skin, uint32_t first_slot, sbfi_arra
 
 static bool fill_table(
     sbr_model *model, sbri_body *body, const sbri_face_weight *face_weights, size_t count, uint32_t *used) {
-  uint32_t block_count = (body->slot_end - body->slot_begin) / SBRI_BLOCK, begin = body->slot_begin;
+  uint32_t block_count = (body->slots.end - body->slots.begin) / SBRI_BLOCK, begin = body->slots.begin;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)block_count + 1, sizeof *begins);
   if (!begins) return false;
   for (size_t i = 0; i < count; i++)
-    if (face_weights[i].slot >= begin && face_weights[i].slot < body->slot_end)
+    if (face_weights[i].slot >= begin && face_weights[i].slot < body->slots.end)
       used[face_weights[i].slot - begin]++;
   for (uint32_t block = 0; block < block_count; block++) {
     uint32_t max = 0;
@@ -48,22 +48,22 @@ static bool fill_table(
   if (!cells) return false;
   memset(used, 0, (size_t)block_count * SBRI_BLOCK * sizeof *used);
   for (size_t i = 0; i < count; i++) {
-    if (face_weights[i].slot < begin || face_weights[i].slot >= body->slot_end) continue;
+    if (face_weights[i].slot < begin || face_weights[i].slot >= body->slots.end) continue;
     uint32_t slot = face_weights[i].slot - begin, lane = slot % SBRI_BLOCK;
     sbri_carry_cell *cell = &cells[begins[slot / SBRI_BLOCK] + used[slot]++];
     cell->slots[lane] = face_weights[i].face;
     cell->weights[lane] = face_weights[i].weight;
   }
-  body->volume_begins = begins;
-  body->volume_cells = cells;
+  body->volume.begins = begins;
+  body->volume.cells = cells;
   return true;
 }
 
 /* The rigid body of all pinned points, or of the whole surface; -1: several, or something else. */
 static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
-  int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
-  for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
-    int32_t by = island->rigid_body_of_pinned[body->pinned_face_weights[i].slot - island->free_count];
+  int32_t carrier = island->pins.carrier_count == 1 ? (int32_t)island->pins.carriers[0] : -1;
+  for (uint32_t i = 0; i < body->volume.pinned_weight_count; i++) {
+    int32_t by = island->pins.rigid_bodies[body->volume.pinned_weights[i].slot - island->free_count];
     if (by < 0 || (i > 0 && by != carrier)) return -1;
     carrier = by;
   }
@@ -79,15 +79,15 @@ static bool list_pinned(
   sbri_face_weight *to = sbfi_arena_allocate(&model->arena, (size_t)pinned + 1, sizeof *to);
   if (!to) return false;
   for (size_t i = 0; i < count; i++)
-    if (face_weights[i].slot >= free_count) to[body->pinned_face_weight_count++] = face_weights[i];
-  body->pinned_face_weights = to;
-  body->volume_carrier = find_carrier(island, body);
+    if (face_weights[i].slot >= free_count) to[body->volume.pinned_weight_count++] = face_weights[i];
+  body->volume.pinned_weights = to;
+  body->volume.carrier = find_carrier(island, body);
   return true;
 }
 
 /* If each vertex is one point, faces may index points: `volume_faces`. */
 static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena) {
-  const sbri_skin *skin = &body->surface;
+  const sbri_skin *skin = &body->surface.skin;
   for (uint32_t v = 0; v < skin->vertex_count; v++) {
     uint32_t block = v / SBRI_BLOCK, begin = skin->cell_begins[block], end = skin->cell_begins[block + 1];
     for (uint32_t c = begin; c < end; c++)
@@ -103,17 +103,18 @@ static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena)
         faces[block].corners[k][lane] =
             skin->cells[skin->cell_begins[v / SBRI_BLOCK]].slots[v % SBRI_BLOCK] - first_slot;
       }
-  body->volume_faces = faces;
+  body->volume.faces = faces;
   return true;
 }
 
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
-  uint32_t count = body->slot_end - body->slot_begin;
+  uint32_t count = body->slots.end - body->slots.begin;
   if (count == 0) return true;
   sbfi_array contributions;
   sbfi_array_init(&contributions, &model->arena.allocator, sizeof(sbri_face_weight));
   uint32_t *used = sbfi_allocate(&model->arena.allocator, count * sizeof *used);
-  bool good = used && list_fractions(&body->surface, model->islands[body->island].first_slot, &contributions);
+  bool good =
+      used && list_fractions(&body->surface.skin, model->islands[body->island].first_slot, &contributions);
   if (good) {
     memset(used, 0, count * sizeof *used);
     good = fill_table(model, body, contributions.at, contributions.count, used) &&

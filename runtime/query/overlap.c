@@ -74,10 +74,10 @@ static void report_character(const box_query *q, const sbri_character *c) {
   object.rigid_body = -1;
   for (uint32_t b = 0; b < c->model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &c->model->bodies[b];
-    if (!body->level || body->slot_begin == body->slot_real_end) continue;
+    if (!body->level || body->slots.begin == body->slots.real_end) continue;
     const sbri_point *points = sbri_positions(c) + c->model->islands[body->island].first_slot;
-    sbri_box box = sbri_box_of_point(position_of(&points[body->slot_begin]));
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    sbri_box box = sbri_box_of_point(position_of(&points[body->slots.begin]));
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       box = sbri_box_with(box, position_of(&points[slot]));
     box = placed(q, c, box);
     object.soft_body = (int32_t)b;

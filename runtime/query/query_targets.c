@@ -38,8 +38,8 @@ sbr_transform sbri_query_rigid_pose(const sbri_character *c, uint32_t rigid_body
 
 const sbri_point *sbri_query_surface(const sbri_character *c, uint32_t soft_body, sbri_skin *surface) {
   const sbri_body *body = &c->model->bodies[soft_body];
-  sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  *surface = sbri_skin_now(c, &body->surface);
+  sbri_point *vertices = sbri_surface_vertices(c) + body->surface.first_vertex;
+  *surface = sbri_skin_now(c, &body->surface.skin);
   sbri_skin_compute_vertices(c->model, surface, sbri_positions(c), sbri_deltas(c), vertices);
   return vertices;
 }

@@ -44,7 +44,7 @@ void sbr_character_get_bones(
     return;
   }
   float t = tick_fraction(world);
-  for (uint32_t f = 0; f < c->model->rig.bone_count && f < capacity; f++) {
+  for (uint32_t f = 0; f < c->model->rig.bones.count && f < capacity; f++) {
     const sbr_transform *p = &sbri_previous_pose(c)[f], *q = &sbri_pose(c)[f];
     bones[f].position = t >= 1 ? q->position : sbri_lerp(p->position, q->position, t);
     bones[f].rotation = t >= 1 ? q->rotation : sbri_quat_blend(p->rotation, q->rotation, t);
@@ -54,7 +54,7 @@ void sbr_character_get_bones(
 uint32_t sbr_character_get_bone_scales(
     const sbr_world *world, sbr_character_id character, sbf_vec3 *scales, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
-  uint32_t count = c ? c->model->rig.bone_count : 0;
+  uint32_t count = c ? c->model->rig.bones.count : 0;
   for (uint32_t b = 0; scales && b < count && b < capacity; b++) scales[b] = (sbf_vec3){1, 1, 1};
   for (uint32_t i = 0; c && scales && i < c->model->asset->followers.count; i++) {
     const sbf_follower *source = &c->model->asset->followers.at[i];
@@ -164,11 +164,11 @@ uint32_t sbr_character_get_surface(const sbr_world *world, sbr_character_id char
   if (!c || soft_body >= c->model->asset->soft_bodies.count) return 0;
   const sbri_body *body = &c->model->bodies[soft_body];
   sample(world, c);
-  sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_point *vertices = sbri_surface_vertices(c) + body->surface.first_vertex;
+  const sbri_skin surface = sbri_skin_now(c, &body->surface.skin);
   sbri_skin_compute_vertices(c->model, &surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
-  if (positions) write_points(c, vertices, min(capacity, body->surface.vertex_count), positions);
-  return body->surface.vertex_count;
+  if (positions) write_points(c, vertices, min(capacity, body->surface.skin.vertex_count), positions);
+  return body->surface.skin.vertex_count;
 }
 
 uint32_t sbr_character_get_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
@@ -181,7 +181,7 @@ uint32_t sbr_character_get_points(const sbr_world *world, sbr_character_id chara
   const sbri_point *points = sbri_sampled(c) + c->model->islands[body->island].first_slot;
   uint32_t count = body->level->positions.count;
   for (uint32_t i = 0; positions && i < count && i < capacity; i++) {
-    const sbri_point *p = &points[body->slot_from_point[i]];
+    const sbri_point *p = &points[body->slots.from_point[i]];
     positions[i] = (sbf_vec3){p->x * c->scale, p->y * c->scale, p->z * c->scale};
   }
   return count;

@@ -58,11 +58,12 @@ uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id c
   const sbri_body *body = body_of(c, soft_body);
   if (!body) return 0;
   const sbri_island *island = &c->model->islands[body->island];
-  const sbri_tetrahedron_block *blocks =
-      island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks;
+  const sbri_tetrahedron_block *blocks = island->tetrahedra.flow
+                                             ? sbri_solids(c) + island->tetrahedra.first_state_block
+                                             : island->tetrahedra.blocks;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
-  for (uint32_t t = 0; tetrahedra && t < body->tetrahedron_count && t < capacity; t++) {
-    uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)];
+  for (uint32_t t = 0; tetrahedra && t < body->elements.tetrahedron_count && t < capacity; t++) {
+    uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)];
     tetrahedra[t] = state_of(&blocks[at / SBRI_BLOCK], at % SBRI_BLOCK, positions);
     /* Moduli scale so that bodies of all sizes move alike: forces with the cube, areas with the square. */
     float s = c->scale;
@@ -70,7 +71,7 @@ uint32_t sbr_character_get_tetrahedra(const sbr_world *world, sbr_character_id c
     tetrahedra[t].energy_density *= s, tetrahedra[t].rest_volume *= s * s * s;
     for (int k = 0; k < 4; k++) tetrahedra[t].corners[k] = body->level->lattice.tetrahedra.at[t].at[k];
   }
-  return body->tetrahedron_count;
+  return body->elements.tetrahedron_count;
 }
 
 /* ---- Springs ---- */
@@ -82,7 +83,7 @@ static sbr_spring_state spring_state_of(
   sbfi_d3 d = sbfi_d3_sub(position_of(&positions[s.b]), position_of(&positions[s.a]));
   double length = sqrt(sbfi_d3_dot(d, d)), scale = c->scale;
   sbr_spring_state is = {.ends = {ends[0], ends[1]}};
-  is.torn = s.stiffness_n_m < island->springs[number].stiffness_n_m;
+  is.torn = s.stiffness_n_m < island->springs.at[number].stiffness_n_m;
   if (is.torn) return is;
   is.tension = (float)(scale * scale * scale * (double)sbfi_spring_pull(&s, (float)length) * length);
   is.energy = (float)(scale * scale * scale * scale * sbfi_spring_energy(&s, length));
@@ -97,13 +98,13 @@ uint32_t sbr_character_get_springs(const sbr_world *world, sbr_character_id char
   if (!body) return 0;
   const sbri_island *island = &c->model->islands[body->island];
   const sbf_level *level = body->level;
-  uint32_t next = body->first_spring, count = 0;
+  uint32_t next = body->elements.first_spring, count = 0;
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
-    for (uint32_t i = 0; i < set->ends.count && next < body->spring_end; i++) {
+    for (uint32_t i = 0; i < set->ends.count && next < body->elements.spring_end; i++) {
       const uint32_t *ends = set->ends.at[i].at;
-      const sbfi_spring *is = &island->springs[next];
-      if (is->a != body->slot_from_point[ends[0]] || is->b != body->slot_from_point[ends[1]]) continue;
+      const sbfi_spring *is = &island->springs.at[next];
+      if (is->a != body->slots.from_point[ends[0]] || is->b != body->slots.from_point[ends[1]]) continue;
       if (springs && count < capacity) springs[count] = spring_state_of(c, island, next, ends);
       next++, count++;
     }

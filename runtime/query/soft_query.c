@@ -38,7 +38,7 @@ uint32_t sbr_character_find_nearest_vertex(
   uint32_t nearest = SBR_WHOLE_BODY, count = sbr_character_get_surface(world, character, soft_body, NULL, 0);
   if (!c || count == 0 || soft_body >= c->model->asset->soft_bodies.count) return nearest;
   /* computed by that call, in the character's own units */
-  const sbri_point *vertices = sbri_surface_vertices(c) + c->model->bodies[soft_body].first_vertex;
+  const sbri_point *vertices = sbri_surface_vertices(c) + c->model->bodies[soft_body].surface.first_vertex;
   sbr_double3 o = sbri_header(c)->origin;
   double min = 0, s = (double)c->scale;
   for (uint32_t i = 0; i < count; i++) {
@@ -64,7 +64,7 @@ static sbr_pin_reaction begin_set(const sbri_character *c, uint32_t soft_body, u
   const sbf_pin_set *set = &body->level->pins.at[number];
   sbr_pin_reaction r = {.pin_set = number, .bone = set->bone, .rigid_body = set->rigid_body};
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_pin_of *pin = &island->pin_of_pinned[slot - island->free_count];
+    const sbri_pin_of *pin = &island->pins.sets[slot - island->free_count];
     if (pin->body != soft_body || pin->set != number) continue;
     r.about = sbri_add(r.about, position_of(c, island, slot));
     r.points++;
@@ -78,7 +78,7 @@ static void add_forces(const sbri_character *c, uint32_t soft_body, uint32_t num
   const sbri_island *island = &c->model->islands[c->model->bodies[soft_body].island];
   const sbri_point *forces = sbri_element_forces(c) + island->first_slot;
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_pin_of *pin = &island->pin_of_pinned[slot - island->free_count];
+    const sbri_pin_of *pin = &island->pins.sets[slot - island->free_count];
     if (pin->body != soft_body || pin->set != number) continue;
     sbf_vec3 f = {-forces[slot].x, -forces[slot].y, -forces[slot].z};
     r->force = sbri_add(r->force, f);

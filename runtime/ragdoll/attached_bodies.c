@@ -37,7 +37,7 @@ bool sbri_can_attach(const sbri_character *c, uint32_t body) {
 /* Whether the island is attached to that body only. */
 static bool is_attached_to(const sbri_character *c, uint32_t island, uint32_t body) {
   const sbri_island *is = &c->model->islands[island];
-  return is->carrier_count == 1 && is->carriers[0] == body;
+  return is->pins.carrier_count == 1 && is->pins.carriers[0] == body;
 }
 
 /* Root mean square speed of the island's points relative to the body, m/s. */
@@ -61,9 +61,9 @@ float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s) {
   float max = tick_s / (LONGEST * longest_step_s(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
-    if (!is_attached_to(c, i, body) || !(island->cell_m > 0)) continue;
+    if (!is_attached_to(c, i, body) || !(island->stability.cell_m > 0)) continue;
     float speed = relative_speed(c, island, &c->model->rigid.bodies[body], &sbri_rigid_bodies(c)[body]);
-    float steps = tick_s * speed / (MAX_TRAVEL * island->cell_m);
+    float steps = tick_s * speed / (MAX_TRAVEL * island->stability.cell_m);
     max = steps > max ? steps : max;
   }
   return max;
@@ -157,7 +157,7 @@ typedef struct change {
 /* Applies the changes to the points. */
 static void move_points(const sbri_character *c, const sbri_island *island, const change *changes,
     const sbri_rigid_body *is, sbri_lane_sums *sums) {
-  const sbri_attached_responses *answers = island->answers;
+  const sbri_attached_responses *answers = island->pins.responses;
   sbf_quat to_body = sbri_quat_conjugate(changes->rotation);
   sbf_vec3 angular_velocity = sbri_rotate(to_body, changes->angular_velocity),
            arm = sbri_sub(answers->about, is->center),

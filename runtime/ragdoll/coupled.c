@@ -33,9 +33,9 @@ static const float DAMPING_OF_TICK = 0.35667494f;
 static bool may_collide(const sbri_island_tick *t) {
   bool any = false;
   for (uint32_t b = 0; b < t->island->body_count; b++)
-    any = any || t->contact_counts[t->island->bodies[b]] > 0;
+    any = any || t->contacts.counts[t->island->bodies[b]] > 0;
   for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
-    any = any || t->near_ground[block];
+    any = any || t->contacts.near_ground[block];
   return any;
 }
 
@@ -52,7 +52,7 @@ void sbri_coupled_begin(sbri_coupled *group) {
     sbri_drivers_stop(c, &now);
     sbri_island_fill_unused_slots(c, &now);
     sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
-    tick.external_rad_s = &now.external_rad_s;
+    tick.surfaces.external_rad_s = &now.stability.external_rad_s;
     sbri_update_gas_stiffness(&tick);
     sbri_island_prepare_contacts(&tick, c);
     (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovery); /* for the whole tick */
@@ -115,7 +115,7 @@ static void damp_uniform(
   int32_t carrier = c->model->carrier_of_frame[body->driver_frame];
   sbf_vec3 about = carrier >= 0 ? sbri_reactions(c)[carrier].about : sbri_vec3(0, 0, 0);
   sbri_lane_sums removed_sums = {{{0}}, {{0}}};
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     float *at = sbri_triple(velocities, slot);
     sbri_wide3 v = sbri_load3(at), u = sbri_load3(sbri_const_triple(along, slot));
     sbri_wide m = sbri_wide_load(island->masses + slot);
@@ -137,10 +137,10 @@ static void damp_uniform(
 /* Damps the points relative to their drivers over h, with an additional rate `extra_damping`, 1/s. */
 static void damp(
     sbri_character *c, const sbri_island *island, const sbri_body *body, float extra_damping, float h) {
-  if (!body->is_pinned || !(body->alpha_1_s + extra_damping > 0)) return;
-  float removed = 1 - sbri_exp(-(body->alpha_1_s + extra_damping) * h); /* upper bound */
+  if (!body->is_pinned || !(body->damping.alpha_1_s + extra_damping > 0)) return;
+  float removed = 1 - sbri_exp(-(body->damping.alpha_1_s + extra_damping) * h); /* upper bound */
   float fraction = body->drivers ? 0 : removed * inverse_mass_along(c, body->driver_frame, removed);
-  if (!body->drivers && !body->alphas) {
+  if (!body->drivers && !body->damping.alphas) {
     damp_uniform(c, island, body, fraction);
     return;
   }
@@ -148,20 +148,20 @@ static void damp(
   const sbri_point *positions = sbri_positions(c) + first;
   float *velocities = sbri_velocities(c) + 3 * first;
   const float *along = sbri_driver_velocities(c) + 3 * first;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     float *v = velocities + at, m = island->masses[slot];
     const float *u = along + at;
     if (!(m > 0)) continue;
-    if (body->alphas) removed = 1 - sbri_exp(-(body->alphas[slot] + extra_damping) * h);
-    if (body->alphas || body->drivers)
-      fraction = removed * inverse_mass_of_drivers(c, body, slot - body->slot_begin, removed);
+    if (body->damping.alphas) removed = 1 - sbri_exp(-(body->damping.alphas[slot] + extra_damping) * h);
+    if (body->damping.alphas || body->drivers)
+      fraction = removed * inverse_mass_of_drivers(c, body, slot - body->slots.begin, removed);
     sbf_vec3 change = {(u[0] - v[0]) * fraction, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * fraction,
         (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * fraction};
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
     const sbri_point *x = &positions[slot];
     apply_driver_reaction(
-        c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
+        c, body, slot - body->slots.begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
   }
 }
 
@@ -182,7 +182,7 @@ static void step_island(
   sbri_character *c = group->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   size_t first = now.first_slot;
-  if (now.substeps) now.substeps = (uint32_t)ceilf(fraction * (float)now.substeps);
+  if (now.stepping.substeps) now.stepping.substeps = (uint32_t)ceilf(fraction * (float)now.stepping.substeps);
   sbri_compute_pin_targets(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
   sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + first);
   (void)sbri_driver_velocities_find(c, &now, step_s);
@@ -193,9 +193,9 @@ static void step_island(
     damp(c, &now, &c->model->bodies[now.bodies[b]], extra_damping, step_s);
   sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
   tick.tick_s = step_s, tick.fraction = fraction;
-  tick.external_rad_s = &now.external_rad_s;
+  tick.surfaces.external_rad_s = &now.stability.external_rad_s;
   sbri_update_gas_stiffness(&tick);
-  if (group->falls) tick.gravity = sbri_vec3(0, 0, 0);
+  if (group->falls) tick.environment.gravity = sbri_vec3(0, 0, 0);
   tick.undamped = true;
   tick.reactions = sbri_reactions(c);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);

@@ -39,9 +39,10 @@ static uint32_t rounded_steps(uint32_t steps) {
  * with other steps. Sweeping schemes damp these modes and do not need it. */
 static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
   const sbri_island *island = t->island;
-  if (island->scheme->sweeps || island->substeps) return island->substeps;
-  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
-  float finer = island->lightly_damped ? FINER_UNDAMPED : 1;
+  if (island->scheme->sweeps || island->stepping.substeps) return island->stepping.substeps;
+  float stretch =
+      *t->springs.stretch > island->springs.rest_stretch ? *t->springs.stretch : island->springs.rest_stretch;
+  float finer = island->stepping.lightly_damped ? FINER_UNDAMPED : 1;
   return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, finer * tick_s), stretch));
 }
 
@@ -59,7 +60,7 @@ static void take_steps(sbri_coupled *group, float steps) {
 }
 
 static bool may_be_attached(const sbri_character *c, const sbri_island *island) {
-  return island->carrier_count == 1 && sbri_can_attach(c, island->carriers[0]);
+  return island->pins.carrier_count == 1 && sbri_can_attach(c, island->pins.carriers[0]);
 }
 
 /* The number of steps that the tick needs. Bones with implicitly coupled bodies are checked last, when those
@@ -82,7 +83,7 @@ static float speed_against_drivers(const sbri_character *c, const sbri_island *i
   float max = 0;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    for (uint32_t slot = body->slot_begin; body->is_pinned && slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; body->is_pinned && slot < body->slots.real_end; slot++) {
       size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       const float *v = velocities + at, *u = drivers + at;
       float x = v[0] - u[0], y = v[SBRI_BLOCK] - u[SBRI_BLOCK], z = v[2 * SBRI_BLOCK] - u[2 * SBRI_BLOCK];
@@ -101,7 +102,7 @@ static void check_directions(sbri_coupled *group) {
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
     if (!sbri_island_is_coupled(c, i) || may_be_attached(c, island) || island->scheme->sweeps ||
-        !(island->cell_m > 0))
+        !(island->stability.cell_m > 0))
       continue;
     if (!any) {
       sbri_rigid_pose(c, group->animated, 0, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
@@ -111,7 +112,8 @@ static void check_directions(sbri_coupled *group) {
       any = true;
     }
     (void)sbri_driver_velocities_find(c, island, step_s);
-    take_steps(group, tick_of(group) * speed_against_drivers(c, island) / (MAX_TRAVEL * island->cell_m));
+    take_steps(
+        group, tick_of(group) * speed_against_drivers(c, island) / (MAX_TRAVEL * island->stability.cell_m));
   }
   if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
 }
@@ -130,7 +132,7 @@ static void request_steps_of_impact(sbri_coupled *group, const sbri_island_tick 
 
 void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tick) {
   const sbri_island *island = tick->island;
-  int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
+  int32_t carrier = island->pins.carrier_count == 1 ? (int32_t)island->pins.carriers[0] : -1;
   need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
   request_steps_of_impact(group, tick);
 }
@@ -139,7 +141,7 @@ void sbri_coupled_request_steps(sbri_coupled *group, const sbri_island_tick *tic
 static bool is_lightly_damped(const sbri_character *c) {
   bool any = false;
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    any = any || (c->model->islands[i].lightly_damped && sbri_island_is_coupled(c, i));
+    any = any || (c->model->islands[i].stepping.lightly_damped && sbri_island_is_coupled(c, i));
   return any;
 }
 
@@ -168,8 +170,8 @@ void sbri_coupled_request_steps_now(sbri_coupled *group, const sbri_island_tick 
   if (island->scheme->sweeps || may_be_attached(c, island)) return;
   take_steps(group, (float)steps_of(tick, tick_of(group)));
   double stiffened_s = sbri_stiffened_time(tick, tick_of(group));
-  for (uint32_t i = 0; i < island->carrier_count; i++) {
-    uint32_t b = island->carriers[i];
+  for (uint32_t i = 0; i < island->pins.carrier_count; i++) {
+    uint32_t b = island->pins.carriers[i];
     if (sbri_rigid_is_simulated(c, b))
       take_steps(group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MAX_STIFFENED_SWING);
   }

@@ -41,10 +41,10 @@ static bool set_bone_velocities(sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (!body->is_pinned) return false;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       sbf_vec3 at = {points[slot].x, points[slot].y, points[slot].z}, with;
-      if (!find_velocity(c, body, slot - body->slot_begin, at, &with)) return false;
+      if (!find_velocity(c, body, slot - body->slots.begin, at, &with)) return false;
       v[0] = with.x, v[SBRI_BLOCK] = with.y, v[2 * SBRI_BLOCK] = with.z;
     }
   }
@@ -52,8 +52,8 @@ static bool set_bone_velocities(sbri_character *c, const sbri_island *island) {
 }
 
 static void add_bones(const sbri_character *c, const sbri_island *island, sbri_whole_momentum *to) {
-  for (uint32_t k = 0; k < island->carrier_count; k++) {
-    uint32_t b = island->carriers[k];
+  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
+    uint32_t b = island->pins.carriers[k];
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
     const float angular_velocity[3] = {
@@ -85,8 +85,8 @@ static void find_mass_matrix(
   for (uint32_t slot = 0; slot < island->free_count; slot++)
     add_moments(
         d, (double)island->masses[slot], center, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
-  for (uint32_t k = 0; k < island->carrier_count; k++) {
-    uint32_t b = island->carriers[k];
+  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
+    uint32_t b = island->pins.carriers[k];
     const sbr_transform *pose = &sbri_rigid_bodies(c)[b].pose;
     float moments[3][3];
     if (!sbri_rigid_is_simulated(c, b)) continue;
@@ -108,8 +108,8 @@ static void apply_change(
     if (!(island->masses[slot] > 0)) continue;
     v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
   }
-  for (uint32_t k = 0; k < island->carrier_count; k++) {
-    uint32_t b = island->carriers[k];
+  for (uint32_t k = 0; k < island->pins.carrier_count; k++) {
+    uint32_t b = island->pins.carriers[k];
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbf_vec3 more = sbri_add(change, sbri_cross(turn, sbri_sub(body->pose.position, center)));

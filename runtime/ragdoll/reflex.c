@@ -60,9 +60,9 @@ void sbri_reflex_end(sbri_character *c) {
 /* The body nearest to the root of the bones; -1: there is none. */
 static int32_t hips_of(const sbri_character *c) {
   const sbri_rig *rig = &c->model->rig;
-  for (uint32_t i = 0; i < rig->bone_count; i++)
-    if (c->model->rigid.body_of_bone[rig->subtree[i]] >= 0)
-      return c->model->rigid.body_of_bone[rig->subtree[i]];
+  for (uint32_t i = 0; i < rig->bones.count; i++)
+    if (c->model->rigid.body_of_bone[rig->bones.subtree[i]] >= 0)
+      return c->model->rigid.body_of_bone[rig->bones.subtree[i]];
   return -1;
 }
 

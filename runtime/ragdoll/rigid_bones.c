@@ -10,8 +10,8 @@ bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body) {
 bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any) return false;
-  for (uint32_t i = 0; i < island->carrier_count; i++)
-    if (sbri_rigid_is_simulated(c, island->carriers[i])) return true;
+  for (uint32_t i = 0; i < island->pins.carrier_count; i++)
+    if (sbri_rigid_is_simulated(c, island->pins.carriers[i])) return true;
   return false;
 }
 
@@ -110,7 +110,7 @@ void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, flo
   const sbr_model *model = c->model;
   const sbr_transform *before = sbri_previous_pose(c);
   for (uint32_t i = 0; i < model->frame_count; i++) {
-    uint32_t frame = i < model->rig.bone_count ? model->rig.subtree[i] : i;
+    uint32_t frame = i < model->rig.bones.count ? model->rig.bones.subtree[i] : i;
     int32_t body = model->carrier_of_frame[frame];
     if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
       pose[frame] = fraction < 1 ? blend(&before[frame], &animated[frame], fraction) : animated[frame];
@@ -122,7 +122,7 @@ void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, flo
       pose[frame] = move_with_body(c, (uint32_t)body, &now, &rest);
       continue;
     }
-    uint32_t parent = (uint32_t)model->rig.parents[frame];
+    uint32_t parent = (uint32_t)model->rig.bones.parents[frame];
     pose[frame] = compose_bone(animated, frame, parent, &pose[parent]);
     if (fraction >= 1) continue;
     sbr_transform was = compose_bone(before, frame, parent, &pose[parent]);

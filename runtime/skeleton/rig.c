@@ -10,16 +10,16 @@ sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side) {
 
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat rotation, sbr_transform *pose) {
   sbf_vec3 pivot = pose[bone].position;
-  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
-    sbr_transform *b = &pose[rig->subtree[k]];
+  for (uint32_t k = rig->bones.subtree_begin[bone]; k < rig->bones.subtree_end[bone]; k++) {
+    sbr_transform *b = &pose[rig->bones.subtree[k]];
     b->position = sbri_add(pivot, sbri_rotate(rotation, sbri_sub(b->position, pivot)));
     b->rotation = sbri_quat_normalize(sbri_quat_multiply(rotation, b->rotation));
   }
 }
 
 void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose) {
-  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
-    sbr_transform *b = &pose[rig->subtree[k]];
+  for (uint32_t k = rig->bones.subtree_begin[bone]; k < rig->bones.subtree_end[bone]; k++) {
+    sbr_transform *b = &pose[rig->bones.subtree[k]];
     b->position = sbri_add(b->position, by);
   }
 }

@@ -20,29 +20,43 @@ typedef struct sbri_sole {
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
  * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. Or
  * four: the third is a long foot that leans over the toe it stands on. */
+typedef struct sbri_leg_pole {
+  sbf_vec3 direction; /* asset space, rest pose */
+  int32_t bone;       /* the pole moves with it; -1: with the root */
+  sbf_vec3 position;  /* in that bone's frame, m */
+} sbri_leg_pole;
+
+/* Where the sole stands at rest. */
+typedef struct sbri_leg_home {
+  sbf_vec3 position; /* middle of the sole, asset space, y that of the ankle above the ground */
+  int32_t carrier;   /* index among the chains' bones of the one that the leg hangs on; -1: none */
+  sbf_vec3 in_bone;  /* the position in that bone's frame, m */
+  sbf_vec3 ankle;    /* from the middle of the sole, m; `position` is above that middle */
+  sbf_vec3 toe;      /* the same of the toe's head */
+} sbri_leg_home;
+
+/* m. */
+typedef struct sbri_leg_length {
+  float upper, lower;
+  float reach;        /* maximum distance of ankle and hip, as far as the knee's limits let it stretch; of a
+                         long foot, were that upright: sbri_leg_span */
+  float soft_reach;   /* fraction of the reach from which on the leg stretches softly */
+  float rest_span;    /* distance of hip and ankle at rest */
+  float rest_stretch; /* the same as a fraction of what soft_reach leaves of the reach */
+} sbri_leg_length;
+
 typedef struct sbri_leg {
   int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
   int32_t toe;                /* the one that stands, where that is not the foot itself; else 0 */
-  sbf_vec3 pole;              /* asset space, rest pose */
-  int32_t pole_bone;          /* the pole moves with it; -1: with the root */
-  sbf_vec3 pole_position;     /* in that bone's frame, m */
-  sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
-  float upper_length, lower_length;
-  float reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m;
-                  of a long foot, were that upright: sbri_leg_span */
-  float rest_span;    /* distance of hip and ankle at rest, m */
-  float toe_copies;   /* share of how the ground lies that the toe takes; the foot leans, and takes none */
-  float rest_stretch; /* distance of hip and ankle at rest, in shares of what `soft_reach` leaves of the reach
-                       */
+  sbri_leg_pole pole;
+  sbri_leg_home home;
+  sbri_leg_length length;
+  float toe_copies; /* fraction of the ground's slope that the toe takes; the foot leans, and takes none */
+  float copy_rotation;
   uint32_t group;
-  bool hind; /* hangs on the hips; else on the chest */
-  bool fore; /* one of those in front, by which the body pitches */
-  float copy_rotation, soft_reach;
-  sbf_quat upper_back, lower_back; /* undo how thigh and shin face at rest */
-  int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
-  sbf_vec3 home_in_bone;           /* in that bone's frame, m */
-  sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
-  sbf_vec3 toe_position;           /* the same of the toe's head */
+  bool hind;                       /* hangs on the hips; else on the chest */
+  bool fore;                       /* one of those in front, by which the body pitches */
+  sbf_quat upper_back, lower_back; /* undo the rotations of thigh and shin at rest */
   sbri_sole sole;
   bool has_toe;    /* its foot is long */
   bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
@@ -101,53 +115,72 @@ typedef struct sbri_bone_mass {
   sbf_vec3 position;
 } sbri_bone_mass;
 
-typedef struct sbri_rig {
-  const sbf_asset *asset;
-  uint32_t bone_count;
-  const int32_t *parents;          /* bone_count; -1: root */
-  const sbr_transform *rest;       /* bone_count, asset space */
-  const sbr_transform *rest_local; /* bone_count, in the parent's rest frame; a root's as it is */
+typedef struct sbri_rig_bones {
+  uint32_t count;
+  const int32_t *parents;          /* (count) -1: root */
+  const sbr_transform *rest;       /* (count) asset space */
+  const sbr_transform *rest_local; /* (count) in the parent's rest frame; a root's as it is */
   const sbr_transform *base_local; /* the same in the gait's rest pose */
-  const float *spine_fraction; /* bone_count: 0 turns with the hips, 1 with the chest, -1 with its parent */
-  const uint8_t *roles;        /* bone_count, of sbri_bone_role */
-  const sbri_joint_limit *limits; /* bone_count, against the parent */
-  const uint32_t *subtree;        /* bone_count: the bones so ordered that what hangs on one follows it */
-  const uint32_t *subtree_begin, *subtree_end; /* bone_count: a bone's own stretch of them */
-  const sbri_bone_mass *masses;                /* bone_count, shares summing to 1, or all 0 */
+  const float *spine_fraction;     /* (count) 0 rotates with the hips, 1 with the chest, -1 with its parent */
+  const uint8_t *roles;            /* (count) of sbri_bone_role */
+  const sbri_joint_limit *limits;  /* (count) against the parent */
+  const uint32_t *subtree;         /* (count) the bones in an order in which children follow their parent */
+  const uint32_t *subtree_begin, *subtree_end; /* (count) range of `subtree` below each bone */
+  const sbri_bone_mass *masses;                /* (count) fractions with sum 1, or all 0 */
+} sbri_rig_bones;
 
-  const sbf_gait *gait; /* the asset's first; NULL: the character is moved as a whole */
-  sbri_leg legs[SBRI_MAX_LEGS];
-  uint32_t leg_count;
-  const sbri_tail *tails;
-  uint32_t tail_count, tail_bone_count;
-  const sbri_bone_chain *chains;
-  uint32_t chain_count, chain_bone_count;
-  sbri_walks walks;
-  float hind_z, fore_z;       /* mean z of the homes of fore legs and of the others, asset space */
+typedef struct sbri_rig_tails {
+  const sbri_tail *at;
+  uint32_t count, bone_count;
+} sbri_rig_tails;
+
+typedef struct sbri_rig_chains {
+  const sbri_bone_chain *at;
+  uint32_t count, bone_count;
+} sbri_rig_chains;
+
+/* The standing body: what its legs and its belly measure, asset space. */
+typedef struct sbri_rig_stand {
+  float hind_z, fore_z;       /* mean z of the homes of fore legs and of the others */
   float hips_y;               /* mean height at which legs begin */
   float half_width;           /* mean |x| of the homes */
-  float spread;               /* greatest distance of a home from the middle, level, m */
+  float spread;               /* maximum distance of a home from the middle, horizontal, m */
   float reach;                /* mean of the legs' lengths, m */
   uint32_t group_count;       /* of the legs */
   bool has_pegs;              /* some leg has no knee */
-  sbf_vec3 belly[SBRI_BELLY]; /* the lowest of the body fore and hind, left and right; asset space */
+  sbf_vec3 belly[SBRI_BELLY]; /* lowest points of the body: fore and hind, left and right */
   uint32_t belly_count;
+  sbf_vec3 low, high; /* bounds at rest, of kinds of gait other than walking */
+} sbri_rig_stand;
+
+/* The chain of the gait's undulation. */
+typedef struct sbri_rig_wave {
+  const sbf_vec3 *joints;       /* front and back end of each bone at rest, asset space */
+  const float *middles, *heads; /* middle and head of each from the nose, relative to the length */
+  float length;                 /* m */
+} sbri_rig_wave;
+
+typedef struct sbri_rig {
+  const sbf_asset *asset;
+  sbri_rig_bones bones;
+  const sbf_gait *gait; /* the asset's first; NULL: the character is moved as a whole */
+  sbri_leg legs[SBRI_MAX_LEGS];
+  uint32_t leg_count;
+  sbri_rig_tails tails;
+  sbri_rig_chains chains;
+  sbri_walks walks;
+  sbri_rig_stand stand;
   sbri_girth girth;
-  sbf_vec3 low, high; /* bounds at rest, asset space, of kinds of gait other than walking */
-  /* The chain of the gait's undulation: front and back end of each bone at rest, asset space; where the
-   * middle and the head of each are, from the nose, relative to the length; that, m. */
-  const sbf_vec3 *wave_joints;
-  const float *wave_middles, *wave_heads;
-  float wave_length;
+  sbri_rig_wave wave;
 } sbri_rig;
 
 /* A long foot leans by half of what the leg would have to stretch or to bend, were it upright: how far the
  * ankle is from the hip then, `upright` being how far it would be, m; and back. */
 static inline float sbri_leg_span(const sbri_leg *leg, float scale, float upright) {
-  return !leg->has_toe ? upright : 0.5f * (upright + leg->rest_span * scale);
+  return !leg->has_toe ? upright : 0.5f * (upright + leg->length.rest_span * scale);
 }
 static inline float sbri_leg_upright(const sbri_leg *leg, float scale, float span) {
-  return !leg->has_toe ? span : 2 * span - leg->rest_span * scale;
+  return !leg->has_toe ? span : 2 * span - leg->length.rest_span * scale;
 }
 
 /* Rotation whose +Y runs along a bone and whose +X is square to it, towards `side`. */
@@ -155,7 +188,7 @@ sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side);
 
 /* Whether a bone is another or hangs on it. */
 static inline bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
-  for (; bone >= 0; bone = rig->parents[bone])
+  for (; bone >= 0; bone = rig->bones.parents[bone])
     if (bone == ancestor) return true;
   return false;
 }

@@ -13,8 +13,8 @@ typedef struct belly_points {
 
 /* Whether the bone moves with the body: no legs and no chains. */
 static bool is_trunk(const sbri_rig *rig, int32_t bone) {
-  for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
-    if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
+  for (int32_t b = bone; b >= 0; b = rig->bones.parents[b]) {
+    if (rig->bones.roles[b] == SBRI_ROLE_TAIL) return false;
     for (uint32_t i = 0; i < rig->leg_count; i++)
       if (rig->legs[i].upper == b) return false;
   }
@@ -54,9 +54,10 @@ static void visit_skins(const sbri_rig *rig, belly_points *f) {
 }
 
 void sbri_rig_find_belly(sbri_rig *rig) {
-  belly_points f = {.middle = 0.5f * (rig->hind_z + rig->fore_z)};
-  if (rig->leg_count == 0 || rig->chain_count) return; /* chains follow the ground by themselves */
+  belly_points f = {.middle = 0.5f * (rig->stand.hind_z + rig->stand.fore_z)};
+  if (rig->leg_count == 0 || rig->chains.count) return; /* chains follow the ground by themselves */
   if (!visit_bodies(rig, &f)) visit_skins(rig, &f);
   for (uint32_t k = 0; k < SBRI_BELLY; k++)
-    if (f.any[k] && f.at[k].y > DRAGS * rig->reach) rig->belly[rig->belly_count++] = f.at[k];
+    if (f.any[k] && f.at[k].y > DRAGS * rig->stand.reach)
+      rig->stand.belly[rig->stand.belly_count++] = f.at[k];
 }

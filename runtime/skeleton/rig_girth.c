@@ -18,17 +18,18 @@ static const float DENSITY = 1000; /* kg/m^3 */
 
 /* Whether walls keep it out; a tail follows the body's path. */
 static bool is_stiff(const sbri_rig *rig, int32_t bone) {
-  for (int32_t b = bone; rig->leg_count && b >= 0; b = rig->parents[b])
-    if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
+  for (int32_t b = bone; rig->leg_count && b >= 0; b = rig->bones.parents[b])
+    if (rig->bones.roles[b] == SBRI_ROLE_TAIL) return false;
   return bone >= 0;
 }
 
 /* From the rest pose to that of the gait, by the bone's ancestors. */
 static sbf_vec3 posed(const sbri_rig *rig, int32_t bone, sbf_vec3 position) {
-  const sbr_transform *rest = &rig->rest[bone];
+  const sbr_transform *rest = &rig->bones.rest[bone];
   sbf_vec3 x = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(position, rest->position));
-  for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
-    const sbr_transform *local = rig->base_local ? &rig->base_local[b] : &rig->rest_local[b];
+  for (int32_t b = bone; b >= 0; b = rig->bones.parents[b]) {
+    const sbr_transform *local =
+        rig->bones.base_local ? &rig->bones.base_local[b] : &rig->bones.rest_local[b];
     x = sbri_add(local->position, sbri_rotate(local->rotation, x));
   }
   return x;
@@ -118,7 +119,7 @@ void sbri_rig_find_girth(sbri_rig *rig) {
   sbf_vec3 size = sbri_sub(all.body.high, all.body.low);
   girth->mass = DENSITY * FILLED * size.x * size.y * size.z;
   girth->step_up = STEP_UP_LEGLESS * size.y;
-  if (rig->leg_count) girth->step_up = STEP_UP * fminf(rig->reach, size.y);
+  if (rig->leg_count) girth->step_up = STEP_UP * fminf(rig->stand.reach, size.y);
   if (!afloat) all.lowest = girth->step_up;
   if (kind == SBF_GAIT_KIND_SLITHER) all.body.low.z = all.body.high.z - NOSE * size.z;
   size.z = all.body.high.z - all.body.low.z;
@@ -130,5 +131,5 @@ void sbri_rig_find_girth(sbri_rig *rig) {
   if (all.edge > 0) set_balls(&all, girth);
   for (uint32_t i = 0; i < girth->bumper_count; i++)
     girth->radius = fmaxf(girth->radius, sbri_length(girth->bumpers[i].position) + girth->bumpers[i].radius);
-  girth->radius = fmaxf(girth->radius, rig->spread + rig->reach);
+  girth->radius = fmaxf(girth->radius, rig->stand.spread + rig->stand.reach);
 }

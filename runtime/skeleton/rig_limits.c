@@ -36,34 +36,35 @@ static bool rotates(sbf_joint_kind kind) {
 
 void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits) {
   const sbf_asset *asset = rig->asset;
-  for (uint32_t i = 0; i < rig->bone_count; i++) limits[i] = (sbri_joint_limit){.active = false};
+  for (uint32_t i = 0; i < rig->bones.count; i++) limits[i] = (sbri_joint_limit){.active = false};
   for (uint32_t j = 0; j < asset->joints.count; j++) {
     const sbf_joint *joint = &asset->joints.at[j];
     int32_t bone = bone_of(asset, joint->body_b), parent = bone_of(asset, joint->body_a);
-    if (!rotates(joint->kind) || bone < 0 || rig->parents[bone] != parent || limits[bone].active) continue;
+    if (!rotates(joint->kind) || bone < 0 || rig->bones.parents[bone] != parent || limits[bone].active)
+      continue;
     sbri_joint_limit *limit = &limits[bone];
     sbf_quat frame_a = sbri_quat_normalize(joint->frame_a.rotation);
     sbf_quat frame_b = sbri_quat_normalize(joint->frame_b.rotation);
-    sbf_quat above = parent >= 0 ? rig->rest[parent].rotation : sbri_quat_identity();
+    sbf_quat above = parent >= 0 ? rig->bones.rest[parent].rotation : sbri_quat_identity();
     /* Q = frame_a^-1 (parent's rotation since rest)^-1 (bone's rotation since rest) frame_b */
     limit->before = sbri_quat_multiply(sbri_quat_conjugate(frame_a), above);
-    limit->after = sbri_quat_multiply(sbri_quat_conjugate(rig->rest[bone].rotation), frame_b);
+    limit->after = sbri_quat_multiply(sbri_quat_conjugate(rig->bones.rest[bone].rotation), frame_b);
     open_kind(joint->kind, limit);
     for (uint32_t k = 0; k < joint->limits.count; k++) take_limit(&joint->limits.at[k], limit);
     limit->active = true;
     sbri_joint_limit_ready(limit);
     /* A limit that the rest pose violates is ignored. */
-    if (sbri_joint_limit_excess(limit, rig->rest_local[bone].rotation) > 1e-3f) limit->active = false;
+    if (sbri_joint_limit_excess(limit, rig->bones.rest_local[bone].rotation) > 1e-3f) limit->active = false;
   }
 }
 
 float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose) {
   float worst = 0;
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
-    int32_t parent = rig->parents[i];
-    if (!rig->limits[i].active || parent < 0) continue;
+  for (uint32_t i = 0; i < rig->bones.count; i++) {
+    int32_t parent = rig->bones.parents[i];
+    if (!rig->bones.limits[i].active || parent < 0) continue;
     sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(pose[parent].rotation), pose[i].rotation);
-    float excess = sbri_joint_limit_excess(&rig->limits[i], local);
+    float excess = sbri_joint_limit_excess(&rig->bones.limits[i], local);
     worst = excess > worst ? excess : worst;
   }
   return worst;
@@ -71,30 +72,32 @@ float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose) {
 
 /* Distance of hip and ankle for a bend of the knee: 0 is straight. */
 static float span_at(const sbri_leg *leg, float bend) {
-  float a = leg->upper_length, b = leg->lower_length, sine, cosine;
+  float a = leg->length.upper, b = leg->length.lower, sine, cosine;
   sbri_sincos(bend, &sine, &cosine);
   return sqrtf(a * a + b * b + 2 * a * b * cosine);
 }
 
 float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg) {
-  float length = leg->upper_length + leg->lower_length;
-  if (leg->lower < 0 || !rig->limits[leg->lower].active) return length;
-  sbf_vec3 hip = rig->rest[leg->upper].position, knee = rig->rest[leg->lower].position;
-  sbf_vec3 ankle = rig->rest[leg->foot].position, thigh = sbri_sub(knee, hip), shin = sbri_sub(ankle, knee);
-  float cosine = sbri_dot(thigh, shin) / (leg->upper_length * leg->lower_length), bend = sbri_acos(cosine);
+  float length = leg->length.upper + leg->length.lower;
+  if (leg->lower < 0 || !rig->bones.limits[leg->lower].active) return length;
+  sbf_vec3 hip = rig->bones.rest[leg->upper].position, knee = rig->bones.rest[leg->lower].position;
+  sbf_vec3 ankle = rig->bones.rest[leg->foot].position, thigh = sbri_sub(knee, hip),
+           shin = sbri_sub(ankle, knee);
+  float cosine = sbri_dot(thigh, shin) / (leg->length.upper * leg->length.lower), bend = sbri_acos(cosine);
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(knee, hip)); /* as in the leg solver */
   if (sbri_length(side) < 1e-6f * length * length)
-    side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
+    side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole.direction, hip));
   side = sbri_normalize(side, sbri_vec3(1, 0, 0));
   if (sbri_dot(sbri_rotate(sbri_quat_about(side, 0.1f), shin), thigh) > sbri_dot(shin, thigh))
     side = sbri_scale(side, -1); /* rotation about it bends the knee more */
-  sbf_quat back = sbri_quat_conjugate(rig->rest[leg->upper].rotation);
+  sbf_quat back = sbri_quat_conjugate(rig->bones.rest[leg->upper].rotation);
   float low = 0, high = bend; /* stretched, and at rest */
   for (int pass = 0; pass < 16; pass++) {
     float middle = pass == 0 ? 0 : 0.5f * (low + high);
     sbf_quat turned =
-        sbri_quat_multiply(sbri_quat_about(side, middle - bend), rig->rest[leg->lower].rotation);
-    bool free = sbri_joint_limit_excess(&rig->limits[leg->lower], sbri_quat_multiply(back, turned)) <= 1e-4f;
+        sbri_quat_multiply(sbri_quat_about(side, middle - bend), rig->bones.rest[leg->lower].rotation);
+    bool free =
+        sbri_joint_limit_excess(&rig->bones.limits[leg->lower], sbri_quat_multiply(back, turned)) <= 1e-4f;
     if (free && pass == 0) return length;
     *(free ? &high : &low) = middle;
   }

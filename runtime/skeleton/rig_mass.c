@@ -12,7 +12,7 @@ static sbf_vec3 third_of(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
 /* Sums are about asset space until all is added. */
 static void add_triangle(
     const sbri_rig *rig, int32_t bone, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbri_bone_mass *masses) {
-  sbf_vec3 from = rig->rest[bone].position;
+  sbf_vec3 from = rig->bones.rest[bone].position;
   sbf_vec3 p = sbri_sub(a, from), q = sbri_sub(b, from), r = sbri_sub(c, from);
   float volume = sbri_dot(p, sbri_cross(q, r)) / 6;
   masses[bone].fraction += volume;
@@ -54,7 +54,7 @@ static bool has_section(const sbf_asset *asset, int32_t bone) {
 
 void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
   const sbf_asset *asset = rig->asset;
-  memset(masses, 0, rig->bone_count * sizeof *masses);
+  memset(masses, 0, rig->bones.count * sizeof *masses);
   bool bodies = false;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     if (asset->soft_bodies.at[i].bone < 0) continue;
@@ -74,12 +74,12 @@ void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
   for (uint32_t i = 0; !bodies && i < asset->render_meshes.count; i++)
     add_points(&asset->render_meshes.at[i], masses);
   float total = 0;
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
+  for (uint32_t i = 0; i < rig->bones.count; i++) {
     if (!(masses[i].fraction > 0)) masses[i] = (sbri_bone_mass){0};
     total += masses[i].fraction;
   }
-  for (uint32_t i = 0; total > 0 && i < rig->bone_count; i++) {
-    const sbr_transform *rest = &rig->rest[i];
+  for (uint32_t i = 0; total > 0 && i < rig->bones.count; i++) {
+    const sbr_transform *rest = &rig->bones.rest[i];
     if (masses[i].fraction > 0) masses[i].position = sbri_scale(masses[i].position, 1 / masses[i].fraction);
     masses[i].position =
         sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(masses[i].position, rest->position));
@@ -90,8 +90,8 @@ void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
 bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale, sbf_vec3 *center) {
   sbf_vec3 sum = {0, 0, 0};
   float total = 0;
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
-    const sbri_bone_mass *mass = &rig->masses[i];
+  for (uint32_t i = 0; i < rig->bones.count; i++) {
+    const sbri_bone_mass *mass = &rig->bones.masses[i];
     if (mass->fraction <= 0) continue;
     sbf_vec3 at =
         sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(mass->position, scale)));

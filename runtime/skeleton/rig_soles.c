@@ -107,13 +107,13 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
     for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
       bodies = bodies || sbri_rig_is_below(rig, rig->asset->soft_bodies.at[b].bone, foot);
     if (bodies)
-      visit_bodies(rig, foot, pass, leg->home, &f);
+      visit_bodies(rig, foot, pass, leg->home.position, &f);
     else
-      visit_skins(rig, foot, pass, leg->home, &f);
+      visit_skins(rig, foot, pass, leg->home.position, &f);
   }
   /* Its middle stands on the ground. If the foot has no points, or has some that are far away: a small sole
    * below the ankle. */
-  float length = leg->upper_length + leg->lower_length, min = 0.02f * length;
+  float length = leg->length.upper + leg->length.lower, min = 0.02f * length;
   float x = 0.5f * (f.sole.left + f.sole.right), z = 0.5f * (f.sole.toe + f.sole.heel);
   if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0};
   float max = LARGEST * length;
@@ -126,9 +126,9 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
     leg->sole.corners[k] =
         sbri_vec3(sbri_clamp(corner.x, -wide, wide), 0, sbri_clamp(corner.z, -along, along));
   }
-  leg->home.x += x, leg->home.z += z;
-  leg->toe_position = leg->ankle = sbri_vec3(-x, leg->home.y, -z);
+  leg->home.position.x += x, leg->home.position.z += z;
+  leg->home.toe = leg->home.ankle = sbri_vec3(-x, leg->home.position.y, -z);
   if (!leg->has_toe) return;
-  sbf_vec3 over = sbri_sub(rig->rest[leg->foot].position, rig->rest[leg->toe].position);
-  leg->ankle = sbri_add(leg->toe_position, over);
+  sbf_vec3 over = sbri_sub(rig->bones.rest[leg->foot].position, rig->bones.rest[leg->toe].position);
+  leg->home.ankle = sbri_add(leg->home.toe, over);
 }

@@ -21,17 +21,17 @@ size_t sbri_rig_spine_size(const sbf_asset *asset) {
 }
 
 static void take(sbri_rig *rig, sbf_vec3 p, bool *any) {
-  if (!*any) rig->low = rig->high = p;
+  if (!*any) rig->stand.low = rig->stand.high = p;
   *any = true;
-  rig->low = sbri_vec3(p.x < rig->low.x ? p.x : rig->low.x, p.y < rig->low.y ? p.y : rig->low.y,
-      p.z < rig->low.z ? p.z : rig->low.z);
-  rig->high = sbri_vec3(p.x > rig->high.x ? p.x : rig->high.x, p.y > rig->high.y ? p.y : rig->high.y,
-      p.z > rig->high.z ? p.z : rig->high.z);
+  rig->stand.low = sbri_vec3(p.x < rig->stand.low.x ? p.x : rig->stand.low.x,
+      p.y < rig->stand.low.y ? p.y : rig->stand.low.y, p.z < rig->stand.low.z ? p.z : rig->stand.low.z);
+  rig->stand.high = sbri_vec3(p.x > rig->stand.high.x ? p.x : rig->stand.high.x,
+      p.y > rig->stand.high.y ? p.y : rig->stand.high.y, p.z > rig->stand.high.z ? p.z : rig->stand.high.z);
 }
 
 static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
   sbf_vec3 along = {0, rig->asset->bones.at[bone].length, 0};
-  return sbri_add(rig->rest[bone].position, sbri_rotate(rig->rest[bone].rotation, along));
+  return sbri_add(rig->bones.rest[bone].position, sbri_rotate(rig->bones.rest[bone].rotation, along));
 }
 
 /* Bounds of the visible parts; else of the bodies; else of the bones. */
@@ -46,14 +46,14 @@ static void find_bounds(sbri_rig *rig) {
     for (uint32_t i = 0; i < asset->soft_bodies.at[b].surface.positions.count; i++)
       take(rig, asset->soft_bodies.at[b].surface.positions.at[i], &any);
   bool bodies = any;
-  for (uint32_t i = 0; !bodies && i < rig->bone_count; i++) {
-    take(rig, rig->rest[i].position, &any);
+  for (uint32_t i = 0; !bodies && i < rig->bones.count; i++) {
+    take(rig, rig->bones.rest[i].position, &any);
     take(rig, tail_of(rig, i), &any);
   }
 }
 
 static sbf_vec3 middle_of(const sbri_rig *rig, uint32_t bone) {
-  return sbri_lerp(rig->rest[bone].position, tail_of(rig, bone), 0.5f);
+  return sbri_lerp(rig->bones.rest[bone].position, tail_of(rig, bone), 0.5f);
 }
 
 static float distance(sbf_vec3 a, sbf_vec3 b) {
@@ -67,7 +67,7 @@ static void find_chain(
   float along = 0;
   for (uint32_t k = 0; k < n; k++) {
     uint32_t bone = wave->bones.at[k];
-    sbf_vec3 head = rig->rest[bone].position, tail = tail_of(rig, bone);
+    sbf_vec3 head = rig->bones.rest[bone].position, tail = tail_of(rig, bone);
     bool leads = true; /* its head is the end towards the nose */
     if (k + 1 < n) {
       sbf_vec3 next = middle_of(rig, wave->bones.at[k + 1]);
@@ -83,8 +83,8 @@ static void find_chain(
     heads[k] = leads ? along : along + length;
     along += length;
   }
-  rig->wave_length = wave->length > 0 ? wave->length : along;
-  float beyond = 0.5f * (rig->wave_length - along), scale = rig->wave_length > 0 ? 1 / rig->wave_length : 0;
+  rig->wave.length = wave->length > 0 ? wave->length : along;
+  float beyond = 0.5f * (rig->wave.length - along), scale = rig->wave.length > 0 ? 1 / rig->wave.length : 0;
   for (uint32_t k = 0; k < n; k++) {
     middles[k] = sbri_clamp((middles[k] + beyond) * scale, 0, 1);
     heads[k] = sbri_clamp((heads[k] + beyond) * scale, 0, 1);
@@ -92,10 +92,10 @@ static void find_chain(
 }
 
 static void find_base(const sbri_rig *rig, const sbf_pose *pose, sbr_transform *base) {
-  for (uint32_t i = 0; i < rig->bone_count; i++) base[i] = rig->rest_local[i];
+  for (uint32_t i = 0; i < rig->bones.count; i++) base[i] = rig->bones.rest_local[i];
   for (uint32_t k = 0; k < pose->keys.count; k++) {
     const sbf_pose_key *key = &pose->keys.at[k];
-    const sbr_transform *rest = &rig->rest_local[key->bone];
+    const sbr_transform *rest = &rig->bones.rest_local[key->bone];
     base[key->bone].position = sbri_add(rest->position, key->translation);
     base[key->bone].rotation =
         sbri_quat_normalize(sbri_quat_multiply(rest->rotation, sbri_quat_normalize(key->rotation)));
@@ -105,15 +105,15 @@ static void find_base(const sbri_rig *rig, const sbf_pose *pose, sbr_transform *
 void sbri_rig_find_spine(sbri_rig *rig, void *memory) {
   uint32_t n = chain_length(rig->asset);
   sbr_transform *base = memory;
-  rig->base_local = rig->rest_local;
+  rig->bones.base_local = rig->bones.rest_local;
   if (has_rest_pose(rig->asset)) {
     find_base(rig, &rig->asset->poses.at[rig->gait->rest_pose], base);
-    rig->base_local = base;
-    base += rig->bone_count;
+    rig->bones.base_local = base;
+    base += rig->bones.count;
   }
   sbf_vec3 *joints = (sbf_vec3 *)(void *)base;
   float *middles = (float *)(void *)(joints + 2 * n), *heads = middles + n;
-  rig->wave_joints = joints, rig->wave_middles = middles, rig->wave_heads = heads;
+  rig->wave.joints = joints, rig->wave.middles = middles, rig->wave.heads = heads;
   if (n) find_chain(rig, rig->gait->undulation, joints, middles, heads);
   if (rig->gait && rig->gait->kind != SBF_GAIT_KIND_WALK) find_bounds(rig);
 }

@@ -37,16 +37,17 @@ static sbf_vec3 mirrored_position(sbf_vec3 p) {
 /* Position of the bone's end, asset space. */
 static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
   sbf_vec3 along = {0, rig->asset->bones.at[bone].length, 0};
-  return sbri_add(rig->rest[bone].position, sbri_rotate(rig->rest[bone].rotation, along));
+  return sbri_add(rig->bones.rest[bone].position, sbri_rotate(rig->bones.rest[bone].rotation, along));
 }
 
 uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
-  sbf_vec3 head = mirrored_position(rig->rest[bone].position), tail = mirrored_position(tail_of(rig, bone));
+  sbf_vec3 head = mirrored_position(rig->bones.rest[bone].position),
+           tail = mirrored_position(tail_of(rig, bone));
   float near = SAME_POSITION * (fabsf(head.x) + fabsf(tail.x) + rig->asset->bones.at[bone].length);
   uint32_t best = bone;
-  for (uint32_t k = 0; k <= rig->bone_count; k++) {
+  for (uint32_t k = 0; k <= rig->bones.count; k++) {
     uint32_t i = k ? k - 1 : bone; /* itself first: in the middle another one may match as well */
-    float off = sbri_length(sbri_sub(rig->rest[i].position, head));
+    float off = sbri_length(sbri_sub(rig->bones.rest[i].position, head));
     if (off >= near) continue; /* its head is too far away */
     off += sbri_length(sbri_sub(tail_of(rig, i), tail));
     if (off < near) near = off, best = i;
@@ -57,15 +58,16 @@ uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
 /* The mirrored key of a bone: rotation and translation reflected in asset axes, then expressed in the other
  * bone's axes. */
 static sbri_posed_bone mirrored_key(const sbri_rig *rig, uint32_t from, uint32_t to, sbri_posed_bone key) {
-  sbf_quat own = rig->rest[from].rotation, other = rig->rest[to].rotation;
+  sbf_quat own = rig->bones.rest[from].rotation, other = rig->bones.rest[to].rotation;
   sbf_quat rotation = sbri_quat_multiply(sbri_quat_multiply(own, key.rotation), sbri_quat_conjugate(own));
   rotation = (sbf_quat){rotation.x, -rotation.y, -rotation.z, rotation.w};
   rotation = sbri_quat_multiply(sbri_quat_multiply(sbri_quat_conjugate(other), rotation), other);
   sbf_vec3 direction = key.translation;
-  if (rig->parents[from] >= 0) direction = sbri_rotate(rig->rest[rig->parents[from]].rotation, direction);
+  if (rig->bones.parents[from] >= 0)
+    direction = sbri_rotate(rig->bones.rest[rig->bones.parents[from]].rotation, direction);
   direction = mirrored_position(direction);
-  if (rig->parents[to] >= 0)
-    direction = sbri_rotate(sbri_quat_conjugate(rig->rest[rig->parents[to]].rotation), direction);
+  if (rig->bones.parents[to] >= 0)
+    direction = sbri_rotate(sbri_quat_conjugate(rig->bones.rest[rig->bones.parents[to]].rotation), direction);
   return (sbri_posed_bone){direction, sbri_quat_normalize(rotation)};
 }
 
@@ -84,14 +86,14 @@ static void fill_frame(const sbri_rig *rig, const sbf_pose *pose, bool mirrored,
 static uint32_t list_bones(const sbri_rig *rig, uint32_t *position_of, uint32_t *bones) {
   const sbf_pose_list *poses = &rig->asset->poses;
   uint32_t count = 0;
-  for (uint32_t b = 0; b < rig->bone_count; b++) position_of[b] = 0;
+  for (uint32_t b = 0; b < rig->bones.count; b++) position_of[b] = 0;
   for (uint32_t i = 0; i < poses->count; i++)
     for (uint32_t k = 0; is_of_walk(&poses->at[i]) && k < poses->at[i].keys.count; k++) {
       uint32_t bone = (uint32_t)poses->at[i].keys.at[k].bone;
       position_of[bone] = 1;
       if (is_mirrored(rig->asset, poses->at[i].speed)) position_of[sbri_mirror_bone(rig, bone)] = 1;
     }
-  for (uint32_t b = 0; b < rig->bone_count; b++)
+  for (uint32_t b = 0; b < rig->bones.count; b++)
     if (position_of[b]) bones[count] = b, position_of[b] = ++count;
   return count;
 }
@@ -124,8 +126,8 @@ void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
   sbri_walk *walk = memory; /* strictest alignment first */
   sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + max);
   sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + max);
-  uint32_t *position_of = (uint32_t *)(void *)(posed + max * rig->bone_count),
-           *bones = position_of + rig->bone_count;
+  uint32_t *position_of = (uint32_t *)(void *)(posed + max * rig->bones.count),
+           *bones = position_of + rig->bones.count;
   walks->walks = walk;
   walks->bones = bones;
   walks->bone_count = list_bones(rig, position_of, bones);

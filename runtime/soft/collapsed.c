@@ -38,10 +38,10 @@ static const float STIFFENED = 2;
 /* For a body of tetrahedra, uses their volume: a bent surface with few vertices encloses less than its
  * lattice. That volume is computed only if the minimum J allows a collapse. */
 static bool is_empty(const sbri_character *c, const sbri_island *island, const sbri_body *body, float min) {
-  if (body->tetrahedron_count && !island->solid_flows)
+  if (body->elements.tetrahedron_count && !island->tetrahedra.flow)
     return (double)min < COLLAPSED_FRACTION && sbri_lattice_fraction(c, body) < COLLAPSED_FRACTION;
-  return body->rest_volume_m3 > 0 &&
-         sbri_surface_volume(c, body, sbri_positions(c)) < COLLAPSED_FRACTION * body->rest_volume_m3;
+  return body->surface.rest_volume_m3 > 0 &&
+         sbri_surface_volume(c, body, sbri_positions(c)) < COLLAPSED_FRACTION * body->surface.rest_volume_m3;
 }
 
 static bool is_any_empty(const sbri_character *c, const sbri_island *island, float min) {
@@ -62,7 +62,7 @@ static double kinetic_of(const sbri_character *c, const sbri_island *island) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbri_rigid_motion rigid = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0}};
     if (!body->is_pinned) rigid = sbri_rigid_motion_find(island, body, positions, velocities);
-    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
       uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       const sbri_point *p = &positions[slot];
       sbf_vec3 v = {velocities[at], velocities[at + SBRI_BLOCK], velocities[at + 2 * SBRI_BLOCK]};
@@ -83,12 +83,12 @@ typedef struct elastic {
 } elastic;
 
 static void add_tetrahedra(const sbri_body *body, const sbri_point *positions, elastic *sum) {
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
     sbfi_tetrahedron element;
     sbfi_d3 x[4];
     if (!sbri_body_tetrahedron(body, t, &element)) continue;
     for (int k = 0; k < 4; k++) {
-      const sbri_point *p = &positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]];
+      const sbri_point *p = &positions[body->slots.from_point[body->level->lattice.tetrahedra.at[t].at[k]]];
       x[k] = (sbfi_d3){p->x, p->y, p->z};
     }
     sum->now_j += sbfi_tetrahedron_energy(&element, x);
@@ -99,9 +99,9 @@ static void add_tetrahedra(const sbri_body *body, const sbri_point *positions, e
 
 static void add_regions(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, elastic *sum) {
-  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
-    const sbri_region_block *block = &island->region_blocks[b];
-    const sbri_region_member *members = island->region_members + block->first_member;
+  for (uint32_t b = body->elements.first_region_block; b < body->elements.region_block_end; b++) {
+    const sbri_region_block *block = &island->regions.blocks[b];
+    const sbri_region_member *members = island->regions.members + block->first_member;
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
       sbri_region_measure(block, members, lane, positions, &sum->now_j);
       for (uint32_t i = 0; i < block->member_count; i++) {
@@ -114,10 +114,10 @@ static void add_regions(
 }
 
 static elastic elastic_of(const sbri_character *c, const sbri_island *island, const sbri_point *positions) {
-  elastic sum = {sbfi_springs_energy(island->springs, island->spring_count, &positions->x, 4), 0, 0};
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    double tenth = 0.1 * island->springs[i].rest_length_m;
-    sum.tenth_j += 0.5 * island->springs[i].stiffness_n_m * tenth * tenth;
+  elastic sum = {sbfi_springs_energy(island->springs.at, island->springs.count, &positions->x, 4), 0, 0};
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    double tenth = 0.1 * island->springs.at[i].rest_length_m;
+    sum.tenth_j += 0.5 * island->springs.at[i].stiffness_n_m * tenth * tenth;
   }
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
@@ -141,7 +141,8 @@ static double weight_of(const sbri_island *island, const sbri_point *positions, 
 
 static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
-    if (c->model->bodies[island->bodies[b]].samples && sbri_contact_counts(c)[island->bodies[b]]) return true;
+    if (c->model->bodies[island->bodies[b]].contact.samples && sbri_contact_counts(c)[island->bodies[b]])
+      return true;
   const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     if (near_ground[block]) return true;
@@ -152,8 +153,7 @@ static bool is_on_ground(const sbri_character *c, const sbri_island *island) {
  * the strain, and the rest shape would penetrate the walls. */
 static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_soft_contact *contacts =
-        sbri_contacts(c) + c->model->bodies[island->bodies[b]].first_soft_contact;
+    const sbri_soft_contact *contacts = sbri_contacts(c) + c->model->bodies[island->bodies[b]].contact.first;
     uint32_t count = sbri_contact_counts(c)[island->bodies[b]];
     sbf_vec3 low = {0, 0, 0}, high = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
@@ -176,9 +176,9 @@ static bool is_pressed_by_pins(const sbri_character *c, const sbri_island *islan
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (!body->is_pinned) continue;
     float max = PRESSED_FRACTION * body->rest_size_m;
-    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slots.begin);
     sbri_compute_pin_targets(island, sbri_deltas(c), rest);
-    const sbri_soft_contact *contacts = sbri_contacts(c) + body->first_soft_contact;
+    const sbri_soft_contact *contacts = sbri_contacts(c) + body->contact.first;
     for (uint32_t i = 0; i < sbri_contact_counts(c)[island->bodies[b]]; i++) {
       sbf_vec3 at = {0, 0, 0};
       for (int k = 0; k < 4; k++) {
@@ -190,7 +190,7 @@ static bool is_pressed_by_pins(const sbri_character *c, const sbri_island *islan
     }
     const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
     const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       if (!near_ground[slot / SBRI_BLOCK]) continue;
       const float *plane = planes + 4 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
@@ -213,7 +213,7 @@ static double rest_energy(const sbri_character *c, const sbri_island *island, sb
   sbri_point *rest = sbri_begins(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), rest + body->slots.begin);
   }
   sbri_compute_pin_targets(island, sbri_deltas(c), rest);
   return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
@@ -246,8 +246,8 @@ static bool is_crushed(const sbri_island_state *state, double load_j, double bul
  * while they are unstable or their steps indicate it. A body may be crushed with little energy, for example
  * after a pin has jumped over its neighbours. */
 static bool is_checked(const sbri_island *island, const sbri_island_state *state) {
-  if (island->scheme->forceless || island->link_flows || island->solid_flows) return false;
-  return state->unstable || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED ||
+  if (island->scheme->forceless || island->links.flows || island->tetrahedra.flow) return false;
+  return state->unstable || island->tetrahedra.block_count == 0 || state->stiffening > STIFFENED ||
          state->min_ratio < SBRI_CRUSHED_RATIO;
 }
 
@@ -263,7 +263,8 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   if (!is_checked(island, state)) return (sbri_shape){.collapsed = false};
   elastic elements = elastic_of(c, island, positions);
   double excess = elements.now_j, min = KNOT_FRACTION * elements.tenth_j;
-  bool is_reported = !island->has_external_forces && is_fully_pinned(c, island) && !is_on_ground(c, island);
+  bool is_reported =
+      !island->stability.has_external_forces && is_fully_pinned(c, island) && !is_on_ground(c, island);
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   if (is_reported)
     excess += weight_of(island, positions, g) - rest_energy(c, island, g);
@@ -281,7 +282,8 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
       .heaped = excess > UNSTABLE_FRACTION * elements.tenth_j};
   shape.crushed = is_reported && state->min_ratio < SBRI_CRUSHED_RATIO;
   shape.unstable = shape.heaped || (unstable && strained);
-  shape.collapsed = is_knotted && stuck && (is_reported || (unstable && !island->has_external_forces)) &&
+  shape.collapsed = is_knotted && stuck &&
+                    (is_reported || (unstable && !island->stability.has_external_forces)) &&
                     kinetic_of(c, island) < MOVING_FRACTION * excess;
   return shape;
 }

@@ -14,14 +14,14 @@
 static bool find_velocities(
     sbri_character *c, const sbri_island *island, const sbri_body *body, float tick_s) {
   float rate = 1 / tick_s, max_square = 0;
-  sbri_point *from = sbri_begins(c) + island->first_slot + body->slot_begin;
-  sbri_point *to = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
+  sbri_point *from = sbri_begins(c) + island->first_slot + body->slots.begin;
+  sbri_point *to = sbri_velocity_points(c) + island->first_slot + body->slots.begin;
   sbri_compute_driver_positions(c->model, body, sbri_previous_deltas(c), from);
   sbri_compute_driver_positions(c->model, body, sbri_deltas(c), to);
   sbri_follow_origins(c, body, from);
   sbri_follow_origins(c, body, to);
-  float *velocities = sbri_driver_velocities(c) + 3 * (size_t)(island->first_slot + body->slot_begin);
-  for (uint32_t i = 0; i < body->slot_end - body->slot_begin; i++) {
+  float *velocities = sbri_driver_velocities(c) + 3 * (size_t)(island->first_slot + body->slots.begin);
+  for (uint32_t i = 0; i < body->slots.end - body->slots.begin; i++) {
     float x = to[i].x - from[i].x, y = to[i].y - from[i].y, z = to[i].z - from[i].z;
     float *v = velocities + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK,
           square = x * x + y * y + z * z;
@@ -46,13 +46,14 @@ static float velocity_change_of(
 static void limit_acceleration(sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_rigid_motion *now, const sbri_driver_motion *before, float tick_s) {
   const sbri_point *from = sbri_begins(c) + island->first_slot;
-  float max = fminf(island->max_acceleration_m_s2 * tick_s, island->max_push_m_s);
+  float max =
+      fminf(island->stability.max_acceleration_m_s2 * tick_s, island->stability.max_velocity_change_m_s);
   sbf_vec3 linear_change = sbri_sub(now->velocity, before->velocity),
            angular_change = sbri_sub(now->angular_velocity, before->angular_velocity);
   if (island->scheme->forceless || !(max > 0)) return;
   if (!(velocity_change_of(body, now, before, tick_s) > max)) return;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     sbf_vec3 arm = sbri_sub(sbri_vec3(from[slot].x, from[slot].y, from[slot].z), now->center);
     sbf_vec3 change = sbri_add(linear_change, sbri_cross(angular_change, arm)),
@@ -81,7 +82,7 @@ static void set_driver_velocities(sbri_character *c, const sbri_island *island, 
     if (!body->is_pinned) continue;
     sbri_rigid_motion now = motion_of(c, island, body);
     sbri_driver_motions(c)[island->bodies[b]] = (sbri_driver_motion){now.velocity, now.angular_velocity};
-    for (uint32_t i = 3 * body->slot_begin; i < 3 * body->slot_end; i++)
+    for (uint32_t i = 3 * body->slots.begin; i < 3 * body->slots.end; i++)
       velocities[i] = island->scheme->forceless ? velocities[i] - drivers[i] * tick_s : drivers[i];
   }
 }
@@ -109,8 +110,8 @@ static void update_acceleration(sbri_recovery *recovery, float change, float tic
 static bool have_pins_separated(const sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_rigid_motion *now, float tick_s) {
   const float *drivers = sbri_driver_velocities(c) + 3 * (size_t)island->first_slot;
-  float max = 0.5f * island->cell_m / tick_s;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  float max = 0.5f * island->stability.cell_m / tick_s;
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     const sbri_point *p = &sbri_begins(c)[island->first_slot + slot];
     const float *v = drivers + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), now->center);
@@ -147,7 +148,7 @@ bool sbri_island_update_drivers(sbri_character *c, const sbri_island *island, ui
     limit_acceleration(c, island, body, &now, motion, tick_s);
     update_acceleration(
         &sbri_island_states(c)[index].recovery, velocity_change_of(body, &now, motion, tick_s), tick_s);
-    if (body->drivers && island->cell_m > 0 && have_pins_separated(c, island, body, &now, tick_s))
+    if (body->drivers && island->stability.cell_m > 0 && have_pins_separated(c, island, body, &now, tick_s))
       sbri_island_states(c)[index].recovery.jumped_ticks = JUMPED_TICKS;
     *motion = (sbri_driver_motion){now.velocity, now.angular_velocity};
   }

@@ -8,11 +8,11 @@
 #include "solvers/scheme.h"
 
 sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
-  sbfi_spring s = island->springs[spring];
-  if (!island->link_flows) return s;
-  uint32_t at = island->first_flow + island->link_of_spring[spring];
-  const sbri_link_block *link = &island->links[island->link_of_spring[spring] / SBRI_BLOCK];
-  uint32_t lane = island->link_of_spring[spring] % SBRI_BLOCK;
+  sbfi_spring s = island->springs.at[spring];
+  if (!island->links.flows) return s;
+  uint32_t at = island->links.first_flow + island->links.of_spring[spring];
+  const sbri_link_block *link = &island->links.blocks[island->links.of_spring[spring] / SBRI_BLOCK];
+  uint32_t lane = island->links.of_spring[spring] % SBRI_BLOCK;
   s.a = link->a[lane], s.b = link->b[lane]; /* a split spring has other end points */
   s.rest_length_m = sbri_rests(c)[at];
   s.stiffness_n_m *= sbri_strengths(c)[at];
@@ -21,9 +21,9 @@ sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, 
 
 static void check_springs(const sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_point *positions, sbr_body_health *health) {
-  for (uint32_t i = body->first_spring; i < body->spring_end; i++) {
+  for (uint32_t i = body->elements.first_spring; i < body->elements.spring_end; i++) {
     sbfi_spring s = sbri_spring_now(c, island, i);
-    bool torn = s.stiffness_n_m < island->springs[i].stiffness_n_m;
+    bool torn = s.stiffness_n_m < island->springs.at[i].stiffness_n_m;
     health->torn += torn;
     health->elastic_j += sbfi_springs_energy(&s, 1, &positions->x, 4);
     if (torn || !(s.rest_length_m > 0)) continue; /* goal spring */
@@ -60,7 +60,7 @@ static void check_tetrahedron(
   sbfi_d3 x[4];
   if (!sbri_body_tetrahedron(body, t, &element)) return;
   for (int k = 0; k < 4; k++)
-    x[k] = position_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
+    x[k] = position_of(&positions[body->slots.from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
   sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
   found->energy_j += sbfi_tetrahedron_energy(&element, x);
   add_ratio(found, sbfi_determinant(&f));
@@ -79,8 +79,9 @@ static void check_tetrahedron(
 static void check_flowing(const sbri_character *c, const sbri_body *body, const sbri_point *positions,
     uint32_t t, solid_health *found) {
   const sbri_island *island = &c->model->islands[body->island];
-  uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
-  const sbri_tetrahedron_block *block = &sbri_solids(c)[island->first_solid_block + at / SBRI_BLOCK];
+  uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)], lane = at % SBRI_BLOCK;
+  const sbri_tetrahedron_block *block =
+      &sbri_solids(c)[island->tetrahedra.first_state_block + at / SBRI_BLOCK];
   if (!(block->shear[lane] > 0)) {
     found->torn++;
     return;
@@ -109,8 +110,8 @@ static void check_flowing(const sbri_character *c, const sbri_body *body, const 
 static solid_health check_tetrahedra(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions) {
   solid_health found = {.min_ratio = 1};
-  bool flows = c->model->islands[body->island].solid_flows;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+  bool flows = c->model->islands[body->island].tetrahedra.flow;
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++)
     if (flows)
       check_flowing(c, body, positions, t, &found);
     else
@@ -146,11 +147,11 @@ double sbri_region_measure(const sbri_region_block *block, const sbri_region_mem
 static solid_health check_regions(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
   solid_health found = {.min_ratio = 1};
-  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
-    const sbri_region_block *block = &island->region_blocks[b];
+  for (uint32_t b = body->elements.first_region_block; b < body->elements.region_block_end; b++) {
+    const sbri_region_block *block = &island->regions.blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
       float strain = (float)sbri_region_measure(
-          block, island->region_members + block->first_member, lane, positions, &found.energy_j);
+          block, island->regions.members + block->first_member, lane, positions, &found.energy_j);
       found.max_strain = strain > found.max_strain ? strain : found.max_strain;
     }
   }
@@ -158,7 +159,7 @@ static solid_health check_regions(
 }
 
 static bool is_finite(const sbri_body *body, const sbri_point *positions, const float *velocities) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     float sum =
         positions[slot].x + positions[slot].y + positions[slot].z + v[0] + v[SBRI_BLOCK] + v[2 * SBRI_BLOCK];
@@ -176,7 +177,7 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
          joules =
              s * s * s *
              s; /* masses scale by s^3, squared speeds by s; stiffnesses by s^2, squared lengths by s^2 */
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     double x = v[0], y = v[SBRI_BLOCK], z = v[2 * SBRI_BLOCK], m = island->masses[slot];
     const sbri_point *p = &positions[slot];
@@ -186,25 +187,26 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   }
   health->kinetic_j = island->scheme->forceless ? 0 : kinetic * joules;
   health->potential_j = potential * joules;
-  health->elastic_j +=
-      solid_j + sbri_external_energy(island, body, positions, sbri_surface_vertices(c) + body->first_vertex);
+  health->elastic_j += solid_j + sbri_external_energy(island, body, positions,
+                                     sbri_surface_vertices(c) + body->surface.first_vertex);
   health->elastic_j *= joules;
 }
 
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points) {
-  sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_point *vertices = sbri_surface_vertices(c) + body->surface.first_vertex;
+  const sbri_skin surface = sbri_skin_now(c, &body->surface.skin);
   sbri_skin_compute_vertices(c->model, &surface, points, sbri_deltas(c), vertices);
-  return sbri_skin_volume(&body->surface, vertices);
+  return sbri_skin_volume(&body->surface.skin, vertices);
 }
 
 double sbri_lattice_fraction(const sbri_character *c, const sbri_body *body) {
   const sbri_island *island = &c->model->islands[body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   double now = 0, rest = 0;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
-    uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
-    const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[at / SBRI_BLOCK];
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
+    uint32_t at = island->tetrahedra.lanes[2 * (body->elements.first_tetrahedron + t)],
+             lane = at % SBRI_BLOCK;
+    const sbri_tetrahedron_block *block = &island->tetrahedra.blocks[at / SBRI_BLOCK];
     sbfi_d3 x0 = position_of(&positions[block->corners[0][lane]]), edges[3];
     for (int k = 0; k < 3; k++)
       edges[k] = sbfi_d3_sub(position_of(&positions[block->corners[k + 1][lane]]), x0);
@@ -235,10 +237,10 @@ sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c
   solid_health regions = check_regions(island, body, positions);
   if (regions.max_strain > health.max_strain) health.max_strain = regions.max_strain;
   solid.energy_j += regions.energy_j;
-  if (body->rest_volume_m3 > 0) {
+  if (body->surface.rest_volume_m3 > 0) {
     double volume = sbri_surface_volume(c, body, sbri_positions(c));
-    health.volume_ratio = (float)(volume / body->rest_volume_m3);
-    health.inverted = health.inverted || (!body->tetrahedron_count && !(volume > 0));
+    health.volume_ratio = (float)(volume / body->surface.rest_volume_m3);
+    health.inverted = health.inverted || (!body->elements.tetrahedron_count && !(volume > 0));
   }
   find_energies(world, c, body, positions, velocities, solid.energy_j, &health);
   return health;

@@ -9,7 +9,7 @@ static const float LIFTS = 20;
 
 bool sbri_vertex_carriers(
     const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to) {
-  const sbri_skin skin = sbri_skin_now(c, &body->surface);
+  const sbri_skin skin = sbri_skin_now(c, &body->surface.skin);
   uint32_t block = vertex / SBRI_BLOCK, lane = vertex % SBRI_BLOCK;
   uint32_t first = c->model->islands[body->island].first_slot;
   float sum = 0;
@@ -33,7 +33,7 @@ bool sbri_body_accepts_forces(const sbri_character *c, const sbri_body *body) {
 float sbri_body_mass(const sbri_character *c, const sbri_body *body) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]);
   double sum = 0;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) sum += (double)now.masses[slot];
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) sum += (double)now.masses[slot];
   return (float)sum;
 }
 

@@ -24,7 +24,7 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   sbri_island_fill_unused_slots(c, island);
   sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);
-  tick.external_rad_s = &now.external_rad_s;
+  tick.surfaces.external_rad_s = &now.stability.external_rad_s;
   if (!island->scheme->forceless) sbri_update_gas_stiffness(&tick), sbri_island_prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovery)->tick(&tick);
   sbri_island_report_contacts(&tick, c);

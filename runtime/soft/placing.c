@@ -34,8 +34,8 @@ static uint32_t rotation_frame(const sbri_character *c, const sbri_body *body) {
 static void rotate_regions(
     sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat rotation) {
   const sbri_island *island = &c->model->islands[body->island];
-  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
-    float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->first_rotation + b);
+  for (uint32_t b = body->elements.first_region_block; b < body->elements.region_block_end; b++) {
+    float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->regions.first_rotation + b);
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
       sbf_quat previous = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
       sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(rotation, previous));
@@ -50,13 +50,13 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+    sbri_compute_driver_positions(c->model, body, sbri_deltas(c), positions + body->slots.begin);
     rotate_regions(c, body, &sbri_deltas(c)[rotation_frame(c, body)].rotation, sbri_quat_identity());
-    sbri_follow_origins(c, body, positions + body->slot_begin);
+    sbri_follow_origins(c, body, positions + body->slots.begin);
   }
   sbri_compute_pin_targets(island, sbri_deltas(c), positions);
   stop(c, island_index);
-  sbri_island_states(c)[island_index].stretch = island->rest_stretch;
+  sbri_island_states(c)[island_index].stretch = island->springs.rest_stretch;
   sbri_island_states(c)[island_index].stiffening = 1;
   sbri_island_states(c)[island_index].min_ratio = 1;
   sbri_island_states(c)[island_index].collapsed_ticks = 0;
@@ -66,22 +66,22 @@ void sbri_island_reset_to_rest(sbri_character *c, uint32_t island_index) {
 }
 
 static void reset_yielded_solids(sbri_character *c, const sbri_island *island) {
-  const uint32_t *torn = sbri_torn(c) + island->first_solid;
-  sbri_tetrahedron_block *blocks = sbri_solids(c) + island->first_solid_block;
-  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+  const uint32_t *torn = sbri_torn(c) + island->tetrahedra.first_state;
+  sbri_tetrahedron_block *blocks = sbri_solids(c) + island->tetrahedra.first_state_block;
+  for (uint32_t t = 0; t < island->tetrahedra.count; t++)
     for (int n = 0; n < 2 && !torn[t]; n++) {
-      uint32_t at = island->lanes_of_tetrahedra[2 * t + (uint32_t)n], lane = at % SBRI_BLOCK;
+      uint32_t at = island->tetrahedra.lanes[2 * t + (uint32_t)n], lane = at % SBRI_BLOCK;
       for (int i = 0; i < 6; i++)
         blocks[at / SBRI_BLOCK].stiffness[i][lane] =
-            island->tetrahedron_blocks[at / SBRI_BLOCK].stiffness[i][lane];
+            island->tetrahedra.blocks[at / SBRI_BLOCK].stiffness[i][lane];
     }
 }
 
 /* Mean position of the body's points; returns false if it is not usable. */
 static bool center_of(const sbri_body *body, const sbri_point *positions, sbf_vec3 *center) {
   sbf_vec3 sum = {0, 0, 0};
-  uint32_t count = body->slot_real_end - body->slot_begin;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  uint32_t count = body->slots.real_end - body->slots.begin;
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     sum = sbri_add(sum, sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z));
   *center = sbri_scale(sum, count ? 1 / (float)count : 0);
   return count > 0 && sbri_dot(*center, *center) < 1e12f;
@@ -93,7 +93,7 @@ static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, co
   sbfi_d3 moment = {0, 0, 0};
   double weight = 0;
   for (int pass = 0; pass < 2; pass++)
-    for (uint32_t slot = body->slot_begin; slot < body->first_spare; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.first_spare; slot++) {
       const sbri_point *r = &island->rest[slot], *x = &positions[slot];
       sbfi_d3 rest = {r->x, r->y, r->z}, at = {x->x, x->y, x->z};
       double m = (double)island->masses[slot];
@@ -110,7 +110,7 @@ static sbf_quat rotation_of(const sbri_island *island, const sbri_body *body, co
 
 static void rotate_body(
     sbri_character *c, const sbri_body *body, sbri_point *positions, sbf_vec3 about, sbf_quat rotation) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     sbri_point *p = &positions[slot];
     sbf_vec3 at = sbri_add(about, sbri_rotate(rotation, sbri_sub(sbri_vec3(p->x, p->y, p->z), about)));
     *p = (sbri_point){at.x, at.y, at.z, 0};
@@ -119,7 +119,7 @@ static void rotate_body(
 }
 
 static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 offset) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     sbri_point *p = &positions[slot];
     *p = (sbri_point){p->x + offset.x, p->y + offset.y, p->z + offset.z, 0};
   }
@@ -130,7 +130,7 @@ static float depth_of(
     const sbri_character *c, const sbri_body *body, const sbri_point *positions, const sbr_ground *ground) {
   sbr_double3 origin = sbri_header(c)->origin;
   double deepest = 0, scale = c->scale;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     const sbri_point *p = &positions[slot];
     double height = sbri_ground_height(ground, origin.x + scale * p->x, origin.z + scale * p->z, NULL);
     double depth = (height - origin.y) / scale - (double)p->y;
@@ -149,19 +149,19 @@ void sbri_island_reset_in_place(sbri_character *c, uint32_t island_index, const 
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 center = {0, 0, 0};
     bool is_valid = !body->is_pinned && center_of(body, previous, &center);
-    if (body->slot_end == body->slot_begin) continue;
-    centers[body->slot_begin] = (sbri_point){center.x, center.y, center.z, is_valid ? 1 : 0};
+    if (body->slots.end == body->slots.begin) continue;
+    centers[body->slots.begin] = (sbri_point){center.x, center.y, center.z, is_valid ? 1 : 0};
     if (!is_valid) continue;
     sbf_quat old_rotation = rotation_of(island, body, previous);
-    centers[body->slot_begin + 1] =
+    centers[body->slots.begin + 1] =
         (sbri_point){old_rotation.x, old_rotation.y, old_rotation.z, old_rotation.w};
   }
   sbri_island_reset_to_rest(c, island_index);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbf_vec3 now;
-    if (body->slot_end == body->slot_begin || !(centers[body->slot_begin].w > 0)) continue;
-    const sbri_point *old_center = &centers[body->slot_begin];
+    if (body->slots.end == body->slots.begin || !(centers[body->slots.begin].w > 0)) continue;
+    const sbri_point *old_center = &centers[body->slots.begin];
     if (!center_of(body, positions, &now)) continue;
     const sbri_point *old_rotation = old_center + 1;
     sbf_quat frame = sbri_deltas(c)[rotation_frame(c, body)].rotation;
@@ -177,25 +177,26 @@ void sbri_island_reset_in_place(sbri_character *c, uint32_t island_index, const 
 void sbri_island_reset_flow(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_island_states(c)[island_index].max_flow_stretch = 1;
-  if (island->solid_flows) reset_yielded_solids(c, island);
-  if (!island->link_flows) return;
-  float *rests = sbri_rests(c) + island->first_flow;
-  for (uint32_t block = 0; block < island->link_block_count; block++)
-    memcpy(rests + (size_t)block * SBRI_BLOCK, island->links[block].rest, sizeof island->links[block].rest);
+  if (island->tetrahedra.flow) reset_yielded_solids(c, island);
+  if (!island->links.flows) return;
+  float *rests = sbri_rests(c) + island->links.first_flow;
+  for (uint32_t block = 0; block < island->links.block_count; block++)
+    memcpy(rests + (size_t)block * SBRI_BLOCK, island->links.blocks[block].rest,
+        sizeof island->links.blocks[block].rest);
 }
 
 void sbri_restore_elements(sbri_character *c) {
-  memset(sbri_torn(c), 0, c->model->solid_count * sizeof *sbri_torn(c));
+  memset(sbri_torn(c), 0, c->model->counts.state_tetrahedra * sizeof *sbri_torn(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     const sbri_island *island = &c->model->islands[i];
-    if (island->solid_flows)
-      memcpy(sbri_solids(c) + island->first_solid_block, island->tetrahedron_blocks,
-          island->tetrahedron_block_count * sizeof *island->tetrahedron_blocks);
+    if (island->tetrahedra.flow)
+      memcpy(sbri_solids(c) + island->tetrahedra.first_state_block, island->tetrahedra.blocks,
+          island->tetrahedra.block_count * sizeof *island->tetrahedra.blocks);
     sbri_island_reset_flow(c, i);
   }
   sbri_reset_splits(c);
   sbri_restore_skins(c);
-  for (uint32_t i = 0; i < c->model->flow_count; i++) sbri_strengths(c)[i] = 1;
+  for (uint32_t i = 0; i < c->model->counts.flows; i++) sbri_strengths(c)[i] = 1;
 }
 
 void sbri_character_stop(sbri_character *c) {
@@ -219,7 +220,7 @@ static void move_body_with_frames(sbri_character *c, const sbri_body *body, sbri
   rotate_regions(c, body, NULL, rotation);
   size_t first = c->model->islands[body->island].first_slot;
   sbri_point *old_drivers = sbri_begins(c) + first, *new_drivers = sbri_velocity_points(c) + first;
-  uint32_t count = body->slot_end - body->slot_begin;
+  uint32_t count = body->slots.end - body->slots.begin;
   if (body->is_pinned) {
     sbri_compute_driver_positions(c->model, body, from, old_drivers);
     sbri_compute_driver_positions(c->model, body, to, new_drivers);
@@ -227,7 +228,7 @@ static void move_body_with_frames(sbri_character *c, const sbri_body *body, sbri
     sbri_follow_origins(c, body, new_drivers);
   }
   for (uint32_t i = 0; i < count; i++) {
-    sbri_point *p = &positions[body->slot_begin + i];
+    sbri_point *p = &positions[body->slots.begin + i];
     sbf_vec3 old_position = from[frame].position, new_position = to[frame].position;
     if (body->is_pinned) {
       old_position = sbri_vec3(old_drivers[i].x, old_drivers[i].y, old_drivers[i].z);

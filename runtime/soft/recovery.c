@@ -45,7 +45,7 @@ static void damp_out(sbri_character *c, uint32_t index, bool coupled) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (!body->is_pinned) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_DAMPING_KEPT, 0);
-    for (uint32_t i = 3 * body->slot_begin; body->is_pinned && !coupled && i < 3 * body->slot_end; i++)
+    for (uint32_t i = 3 * body->slots.begin; body->is_pinned && !coupled && i < 3 * body->slots.end; i++)
       velocities[i] = drivers[i] + (velocities[i] - drivers[i]) * SBRI_DAMPING_KEPT;
   }
 }
@@ -98,7 +98,7 @@ static sbri_driver_motion expected_motion(
   const sbri_body *body = &c->model->bodies[body_index];
   sbri_driver_motion m = sbri_driver_motions(c)[body_index];
   if (sbri_contact_counts(c)[body_index] > 0) return m;
-  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
+  for (uint32_t block = body->slots.begin / SBRI_BLOCK; block < body->slots.end / SBRI_BLOCK; block++)
     if (sbri_near_ground(c)[island->first_slot / SBRI_BLOCK + block]) return m;
   m.velocity = sbri_add(m.velocity, fall_velocity);
   return m;
@@ -127,7 +127,7 @@ static sbri_driver_motion motion_to_keep(const sbr_world *world, const sbri_char
 static void set_motion(
     sbri_character *c, const sbri_island *island, const sbri_body *body, const sbri_driver_motion *motion) {
   sbri_rigid_motion current = motion_of(c, island, body);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     const sbri_point *p = &sbri_positions(c)[island->first_slot + slot];
     sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), current.center);
     sbf_vec3 velocity = sbri_add(motion->velocity, sbri_cross(motion->angular_velocity, arm));
@@ -178,10 +178,10 @@ static void reset(
       sbri_velocity_points(c) + island->first_slot; /* a loose body has at least one block of slots */
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (body->slot_begin == body->slot_end) continue;
+    if (body->slots.begin == body->slots.end) continue;
     sbri_driver_motion m = motion_to_keep(world, c, island, island->bodies[b], are_numbers_valid);
-    motions[body->slot_begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
-    motions[body->slot_begin + 1] =
+    motions[body->slots.begin] = (sbri_point){m.velocity.x, m.velocity.y, m.velocity.z, 0};
+    motions[body->slots.begin + 1] =
         (sbri_point){m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z, 0};
   }
   sbri_island_reset_flow(c, index);
@@ -190,8 +190,8 @@ static void reset(
       island->slot_count * sizeof(sbri_point));
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (body->is_pinned || body->slot_begin == body->slot_end || island->scheme->forceless) continue;
-    const sbri_point *v = &motions[body->slot_begin], *w = v + 1;
+    if (body->is_pinned || body->slots.begin == body->slots.end || island->scheme->forceless) continue;
+    const sbri_point *v = &motions[body->slots.begin], *w = v + 1;
     sbri_driver_motion m = {{v->x, v->y, v->z}, {w->x, w->y, w->z}};
     set_motion(c, island, body, &m);
     sbri_driver_motions(c)[island->bodies[b]] = m;

@@ -25,7 +25,7 @@ static bool is_idle(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     float max = IDLE_1_S * body->rest_size_m;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
       if (!(square <= max * max)) return false;
@@ -62,7 +62,7 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     uint32_t count = sbri_contact_counts(c)[island->bodies[b]];
     for (uint32_t i = 0; i < count; i++) {
-      const sbri_soft_contact *contact = &sbri_contacts(c)[body->first_soft_contact + i];
+      const sbri_soft_contact *contact = &sbri_contacts(c)[body->contact.first + i];
       sbfi_hash64_add_f32(&hash, &contact->normal.x, 3);
       sbfi_hash64_add_f32(&hash, &contact->offset, 1);
       sbfi_hash64_add_f32(&hash, &contact->velocity.x, 3);

@@ -19,7 +19,7 @@ void sbri_body_copy_momentum(sbri_character *c, const sbri_character *from, uint
   sbri_rigid_motion motion = sbri_rigid_motion_find(island, body, positions, velocities);
   sbf_vec3 linear_change = sbri_sub(old_motion.velocity, motion.velocity),
            angular_change = sbri_sub(old_motion.angular_velocity, motion.angular_velocity);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     const sbri_point *p = &positions[slot];
     sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), motion.center);
     sbf_vec3 change = sbri_add(linear_change, sbri_cross(angular_change, arm));

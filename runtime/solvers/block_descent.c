@@ -9,7 +9,7 @@ enum { SUBSTEPS = 5 };
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   (void)tick_s;
   (void)stretch;
-  return island->substeps ? island->substeps : SUBSTEPS;
+  return island->stepping.substeps ? island->stepping.substeps : SUBSTEPS;
 }
 
 /* The tables of this scheme hold constant rest lengths and strengths. */

@@ -139,10 +139,11 @@ static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_desce
 
 /* Writes the rigid motion of the body to t->accelerations: of its drivers, or its own without pins. */
 static inline void sbri_descent_begin(const sbri_island_tick *t, const sbri_body *body) {
-  size_t first = 3 * (size_t)body->slot_begin,
-         size = 3 * (size_t)(body->slot_end - body->slot_begin) * sizeof(float);
-  memcpy(t->accelerations + first, (body->is_pinned ? t->driver_velocities : t->velocities) + first, size);
-  if (!body->is_pinned) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0, 0);
+  size_t first = 3 * (size_t)body->slots.begin,
+         size = 3 * (size_t)(body->slots.end - body->slots.begin) * sizeof(float);
+  memcpy(t->scratch.accelerations + first, (body->is_pinned ? t->driver_velocities : t->velocities) + first,
+      size);
+  if (!body->is_pinned) sbri_rigid_motion_damp(t->island, body, t->positions, t->scratch.accelerations, 0, 0);
 }
 
 /* v += h (gravity and external forces); `predicted` = h v. Points begin at the rigid motion of the body. */
@@ -154,23 +155,23 @@ static inline void sbri_descent_predict(
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 v = sbri_load3(velocity), f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)};
-    if (t->external_forces) f = sbri_wide_load_points(t->external_forces + slot);
+    if (t->scratch.external_forces) f = sbri_wide_load_points(t->scratch.external_forces + slot);
     sbri_wide w = sbri_wide_load(island->inverse_masses + slot),
               g = sbri_wide_load(island->gravity_scales + slot);
-    v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->gravity.x));
-    v.y = v.y + step * (f.y * w + g * sbri_wide_all(t->gravity.y));
-    v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->gravity.z));
+    v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->environment.gravity.x));
+    v.y = v.y + step * (f.y * w + g * sbri_wide_all(t->environment.gravity.y));
+    v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->environment.gravity.z));
     sbri_store3(velocity, v);
   }
   for (uint32_t b = 0; b < island->body_count; b++)
     sbri_descent_begin(t, &t->model->bodies[island->bodies[b]]);
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
-    sbri_wide3 v = sbri_wide3_scale(sbri_load3(sbri_triple(t->accelerations, slot)), step);
+    sbri_wide3 v = sbri_wide3_scale(sbri_load3(sbri_triple(t->scratch.accelerations, slot)), step);
     sbri_wide_store_points(
         predicted + slot, sbri_wide3_scale(sbri_load3(sbri_triple(t->velocities, slot)), step));
     sbri_wide_store_points(moved + slot, v);
-    sbri_wide_store_points(t->begins + slot, x);
+    sbri_wide_store_points(t->scratch.begins + slot, x);
     sbri_wide_store_points(t->positions + slot, sbri_wide3_add(x, v));
   }
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
@@ -184,7 +185,7 @@ static inline void sbri_descent_predict(
 static inline void sbri_descent_end(const sbri_island_tick *t, float h, const sbri_point *moved) {
   sbri_wide rate = sbri_wide_all(1 / h);
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
-    sbri_wide_store_points(t->positions + slot, sbri_wide_load_points(t->begins + slot));
+    sbri_wide_store_points(t->positions + slot, sbri_wide_load_points(t->scratch.begins + slot));
     sbri_store3(
         sbri_triple(t->velocities, slot), sbri_wide3_scale(sbri_wide_load_points(moved + slot), rate));
   }
@@ -193,13 +194,14 @@ static inline void sbri_descent_end(const sbri_island_tick *t, float h, const sb
 static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   const sbri_descent *table = island->descent;
-  uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
+  uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->springs.stretch);
   float h = t->tick_s / (float)substeps, per_square = 1 / (h * h);
-  sbri_point *predicted = t->element_forces, *moved = t->moves;   /* scratch that is unused here */
-  uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* number of points per element */
+  sbri_point *predicted = t->scratch.element_forces,
+             *moved = t->scratch.moves;                          /* scratch that is unused here */
+  uint32_t corners = island->tetrahedra.block_count > 0 ? 4 : 2; /* number of points per element */
   sbri_store_pinned_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
-    if (t->external_forces) sbri_compute_external_forces(t, h);
+    if (t->scratch.external_forces) sbri_compute_external_forces(t, h);
     sbri_move_pinned(t, s + 1 == substeps ? 1 : (float)(s + 1) / (float)substeps);
     sbri_descent_predict(t, h, predicted, moved);
     for (int sweep = 0; sweep < SBRI_DESCENT_SWEEPS; sweep++)
@@ -207,12 +209,12 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
         sbri_descent_move(t, &table->blocks[b], per_square, predicted, moved);
     sbri_descent_end(t, h, moved);
     sbri_drift(t, h);
-    if (island->tetrahedron_block_count > 0) sbri_update_compression(t);
+    if (island->tetrahedra.block_count > 0) sbri_update_compression(t);
     sbri_count_element_visits(t, SBRI_DESCENT_SWEEPS * corners);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
   }
-  if (island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, true); /* updates J */
+  if (island->tetrahedra.block_count > 0) sbri_tetrahedron_pass(t, true); /* updates J */
 }
 
 #endif

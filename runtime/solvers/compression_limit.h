@@ -60,7 +60,7 @@ static inline void sbri_limit_compression(
     rate += sbri_dot(gradients[k], sbri_pinned_velocity_change(t, slots[k]));
   }
   if (!(sum > 0)) return;
-  float fraction = missing / sum, max = SBRI_COMPRESSION_STEP * t->island->cell_m,
+  float fraction = missing / sum, max = SBRI_COMPRESSION_STEP * t->island->stability.cell_m,
         travel = fraction * sqrtf(steepest);
   if (max > 0 && travel > max) fraction *= max / travel;
   float rate_change = rate < 0 ? -rate / (sum + pinned_sum) : 0;
@@ -89,19 +89,19 @@ SBRI_INLINE sbri_wide sbri_ratio_of(
 
 /* Whether an element is compressed enough for the limit to be checked. */
 static inline bool sbri_is_compressed(const sbri_island_tick *t) {
-  return t->island->tetrahedron_dense_count > 0 && *t->min_ratio < SBRI_COMPRESSION_NEAR;
+  return t->island->tetrahedra.dense_count > 0 && *t->solids.min_ratio < SBRI_COMPRESSION_NEAR;
 }
 
 /* Updates J for integrators that do not compute it. */
 static inline void sbri_update_compression(const sbri_island_tick *t) {
   sbri_tetrahedron_watch watch;
   sbri_watch_begin(&watch);
-  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++)
+  for (uint32_t b = 0; b < t->island->tetrahedra.dense_count; b++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       float *min = watch.min_ratio + lane;
-      sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(min)));
+      sbri_wide_store(min, sbri_wide_min(sbri_ratio_of(t, &t->solids.blocks[b], lane), sbri_wide_load(min)));
     }
-  *t->min_ratio = sbri_watch_min_ratio(&watch);
+  *t->solids.min_ratio = sbri_watch_min_ratio(&watch);
 }
 
 /* One iteration; returns whether any element was below the limit. Reads all lanes of a block before it moves
@@ -109,8 +109,8 @@ static inline void sbri_update_compression(const sbri_island_tick *t) {
  * `*contacts_stored`; most substeps need none. */
 static inline bool sbri_limit_compression_sweep(const sbri_island_tick *t, bool *contacts_stored) {
   bool any_compressed = false;
-  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
-    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
+  for (uint32_t b = 0; b < t->island->tetrahedra.dense_count; b++) {
+    const sbri_tetrahedron_block *block = &t->solids.blocks[b];
     float marks[SBRI_BLOCK];
     bool any = false;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {

@@ -74,18 +74,18 @@ SBRI_INLINE void sbri_contact_scatter(
 static inline float sbri_contact_load_velocities(
     const sbri_island_tick *t, const sbri_body *body, const float *velocities) {
   sbri_wide square = sbri_wide_all(0);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     sbri_wide3 v = sbri_load3(sbri_const_triple(velocities, slot));
     square = sbri_wide_max(square, sbri_wide3_along(v, v));
-    if (t->contact_slots[slot / SBRI_BLOCK]) sbri_wide_store_points(t->velocity_points + slot, v);
+    if (t->contacts.slots[slot / SBRI_BLOCK]) sbri_wide_store_points(t->scratch.velocity_points + slot, v);
   }
   float squares[SBRI_LANES], max = 0;
   sbri_wide_store(squares, square);
   for (uint32_t lane = 0; lane < SBRI_LANES; lane++) max = squares[lane] > max ? squares[lane] : max;
   for (uint32_t slot = t->island->free_count; body->is_pinned && slot < t->island->slot_count; slot++) {
-    if (!t->contact_slots[slot / SBRI_BLOCK]) continue;
+    if (!t->contacts.slots[slot / SBRI_BLOCK]) continue;
     sbf_vec3 v = sbri_slot_velocity(t, velocities, slot);
-    t->velocity_points[slot] = (sbri_point){v.x, v.y, v.z, 0};
+    t->scratch.velocity_points[slot] = (sbri_point){v.x, v.y, v.z, 0};
     float pinned_square = v.x * v.x + v.y * v.y + v.z * v.z;
     max = pinned_square > max ? pinned_square : max;
   }
@@ -94,9 +94,9 @@ static inline float sbri_contact_load_velocities(
 
 static inline void sbri_contact_store_velocities(
     const sbri_island_tick *t, const sbri_body *body, float *velocities) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES)
-    if (t->contact_slots[slot / SBRI_BLOCK])
-      sbri_store3(sbri_triple(velocities, slot), sbri_wide_load_points(t->velocity_points + slot));
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES)
+    if (t->contacts.slots[slot / SBRI_BLOCK])
+      sbri_store3(sbri_triple(velocities, slot), sbri_wide_load_points(t->scratch.velocity_points + slot));
 }
 
 /* The bound of friction in this substep is `bound + bound_slope * normal velocity change`, the linear form of
@@ -122,7 +122,7 @@ SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contac
     const sbri_contact_rule *rule, float clear[SBRI_BLOCK], float near[SBRI_BLOCK]) {
   sbri_wide zero = sbri_wide_all(0), one = sbri_wide_all(1), h = sbri_wide_all(rule->step_s);
   sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
-  sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
+  sbri_wide3 v = sbri_contact_blend(t->scratch.velocity_points, block, lane);
   v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
   sbri_wide speed = sbri_wide3_along(n, v), closing = sbri_wide_load(block->closing_speed + lane);
   sbri_wide gap = sbri_wide3_along(n, sbri_contact_blend(t->positions, block, lane)) -
@@ -168,8 +168,8 @@ static inline bool sbri_contact_begin(
 /* Step lengths by row sums. */
 static inline void sbri_contact_sum_rows(
     const sbri_island_tick *t, const sbri_body *body, sbri_contact_block *blocks, uint32_t count) {
-  float *sums = t->contact_weights;
-  memset(sums + body->slot_begin, 0, (body->slot_end - body->slot_begin) * sizeof *sums);
+  float *sums = t->contacts.weights;
+  memset(sums + body->slots.begin, 0, (body->slots.end - body->slots.begin) * sizeof *sums);
   if (body->is_pinned)
     memset(sums + t->island->free_count, 0, (t->island->slot_count - t->island->free_count) * sizeof *sums);
   for (uint32_t b = 0; b < count; b++)
@@ -206,7 +206,7 @@ static inline void sbri_contact_warm_start(
       has_impulses = has_impulses || sbri_mask_any(velocity_change > sbri_wide_all(0));
     }
     block->pushes = has_impulses;
-    if (has_impulses) sbri_contact_scatter(t->velocity_points, block, changes);
+    if (has_impulses) sbri_contact_scatter(t->scratch.velocity_points, block, changes);
   }
 }
 
@@ -215,7 +215,7 @@ SBRI_INLINE sbri_wide3 sbri_contact_correct(
     const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane) {
   sbri_wide zero = sbri_wide_all(0), fraction = sbri_wide_load(block->fraction + lane);
   sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
-  sbri_wide3 v = sbri_contact_blend(t->velocity_points, block, lane);
+  sbri_wide3 v = sbri_contact_blend(t->scratch.velocity_points, block, lane);
   sbri_wide3 f = sbri_load_rows(block->friction_impulse, lane), now;
   v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
   sbri_wide speed = sbri_wide3_along(n, v), velocity_change = sbri_wide_load(block->velocity_change + lane);
@@ -251,7 +251,7 @@ static inline float sbri_contact_iterate(
       sbri_wide_store(squares + lane, sbri_wide_max(square, sbri_wide_load(squares + lane)));
     }
     block->pushes = block->pushes || any;
-    if (any) sbri_contact_scatter(t->velocity_points, block, changes);
+    if (any) sbri_contact_scatter(t->scratch.velocity_points, block, changes);
   }
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) max = squares[lane] > max ? squares[lane] : max;
   return max;
@@ -306,7 +306,7 @@ static inline void sbri_contact_solve(
   uint32_t count = sbri_contact_block_count(t, body);
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   bool changed = false, any = false;
-  float fastest = sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->sample_beyond);
+  float fastest = sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->contact.sample_beyond);
   float displacement = 2 * rule->step_s * fastest + rule->push_m, near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
   for (uint32_t b = 0; b < count; b++) {
     blocks[b].is_near = false;

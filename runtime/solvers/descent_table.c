@@ -22,13 +22,13 @@ typedef struct descent_maker {
 } descent_maker;
 
 static uint32_t slot_of(const descent_maker *m, bool solid, uint32_t element, uint32_t end) {
-  const sbfi_spring *s = &m->island->springs[element];
+  const sbfi_spring *s = &m->island->springs.at[element];
   return solid ? m->corners[element].at[end] : end ? s->b : s->a;
 }
 
 static bool list_ends(descent_maker *m, bool solid, ends *to) {
   uint32_t width = solid ? 4 : 2, free_count = m->island->free_count;
-  uint32_t count = solid ? m->island->tetrahedron_count : m->island->spring_count;
+  uint32_t count = solid ? m->island->tetrahedra.count : m->island->springs.count;
   to->begins = sbfi_arena_allocate(&m->scratch, (size_t)free_count + 2, sizeof *to->begins);
   to->elements = sbfi_arena_allocate(&m->scratch, (size_t)count * width + 1, sizeof *to->elements);
   if (!to->begins || !to->elements) return false;
@@ -77,7 +77,7 @@ static void colour_points(descent_maker *m, uint32_t *count) {
 /* ---- Blocks ---- */
 
 static void fill_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_t element) {
-  const sbfi_spring *s = &m->island->springs[element / 4];
+  const sbfi_spring *s = &m->island->springs.at[element / 4];
   sbri_spring_cell *cell = (sbri_spring_cell *)m->cells.at + number;
   ((float *)m->damping.at)[(size_t)number * SBRI_BLOCK + lane] = s->damping_ns_m;
   ((float *)m->slack.at)[(size_t)number * SBRI_BLOCK + lane] = s->slack;
@@ -95,8 +95,8 @@ static void fill_corner(
   sbfi_tetrahedron made, reordered;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = &m->model->bodies[m->island->bodies[b]];
-    if (number - body->first_tetrahedron >= body->tetrahedron_count) continue;
-    if (!sbri_body_tetrahedron(body, number - body->first_tetrahedron, &made)) return;
+    if (number - body->elements.first_tetrahedron >= body->elements.tetrahedron_count) continue;
+    if (!sbri_body_tetrahedron(body, number - body->elements.first_tetrahedron, &made)) return;
     reordered = made;
     for (int k = 0; k < 4; k++) {
       reordered.gradients[k] = made.gradients[order[k]];
@@ -164,16 +164,16 @@ static const void *copy_table(descent_maker *m, const sbfi_array *from, size_t s
 static bool make(descent_maker *m, sbri_descent *made) {
   sbri_island *island = m->island;
   sbf_uint4 *corners =
-      sbfi_arena_allocate(&m->scratch, (size_t)island->tetrahedron_count + 1, sizeof *corners);
+      sbfi_arena_allocate(&m->scratch, (size_t)island->tetrahedra.count + 1, sizeof *corners);
   m->colours = sbfi_arena_allocate(&m->scratch, (size_t)island->free_count + 1, 1);
   if (!corners || !m->colours) return false;
   m->corners = corners;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &m->model->bodies[island->bodies[b]];
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++)
       for (int k = 0; k < 4; k++)
-        corners[body->first_tetrahedron + t].at[k] =
-            body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]];
+        corners[body->elements.first_tetrahedron + t].at[k] =
+            body->slots.from_point[body->level->lattice.tetrahedra.at[t].at[k]];
   }
   if (!list_ends(m, false, &m->springs) || !list_ends(m, true, &m->solids)) return false;
   colour_points(m, &made->colour_count);
@@ -183,11 +183,11 @@ static bool make(descent_maker *m, sbri_descent *made) {
   made->blocks = copy_table(m, &m->blocks, sizeof(sbri_descent_block));
   made->springs = copy_table(m, &m->cells, sizeof(sbri_spring_cell));
   made->corners = copy_table(m, &m->solid_blocks, sizeof(sbri_tetrahedron_block));
-  if (island->cell_damping) {
+  if (island->cells.damping) {
     made->damping = copy_table(m, &m->damping, sizeof(float));
     if (!made->damping) return false;
   }
-  if (island->cell_slack) {
+  if (island->cells.slack) {
     made->slack = copy_table(m, &m->slack, sizeof(float));
     if (!made->slack) return false;
   }

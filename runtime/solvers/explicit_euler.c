@@ -6,8 +6,8 @@
  * that of symplectic Euler. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
-  double w = island->fastest_rad_s, z = 0.5 * island->stiffness_damping_s * w;
-  if (island->substeps || !(z > 0) || z >= 1) return stable;
+  double w = island->stability.fastest_rad_s, z = 0.5 * island->springs.stiffness_damping_s * w;
+  if (island->stepping.substeps || !(z > 0) || z >= 1) return stable;
   double needed = 1.1 * tick_s * w / (2 * z);
   if (!(needed < SBRI_MAX_SUBSTEPS)) return stable > SBRI_MAX_SUBSTEPS ? stable : SBRI_MAX_SUBSTEPS;
   return needed > stable ? (uint32_t)needed + 1 : stable;

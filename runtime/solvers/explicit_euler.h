@@ -13,8 +13,8 @@
 static inline void sbri_add_accelerations(const sbri_island_tick *t, float h) {
   sbri_wide step = sbri_wide_all(h);
   for (uint32_t i = 0; i < 3 * t->island->free_count; i += SBRI_LANES)
-    sbri_wide_store(
-        t->velocities + i, sbri_wide_load(t->velocities + i) + step * sbri_wide_load(t->accelerations + i));
+    sbri_wide_store(t->velocities + i,
+        sbri_wide_load(t->velocities + i) + step * sbri_wide_load(t->scratch.accelerations + i));
 }
 
 static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {

@@ -61,7 +61,7 @@ static void distribute_forces(const sbri_island_tick *t, const sbri_skin *skin, 
     for (uint32_t c = skin->cell_begins[block]; c < skin->cell_begins[block + 1]; c++) {
       const sbri_carry_cell *cell = &skin->cells[c];
       uint32_t slot = cell->slots[lane] - t->island->first_slot;
-      add_to(&t->external_forces[slot], sbri_scale(vec_of(&forces[v]), cell->weights[lane]));
+      add_to(&t->scratch.external_forces[slot], sbri_scale(vec_of(&forces[v]), cell->weights[lane]));
     }
   }
 }
@@ -86,7 +86,7 @@ static double volume_of(const sbri_skin *skin, const sbri_point *vertices) {
 
 double sbri_surface_rest_volume(const sbri_body *body) {
   const sbf_vec3 *at = body->source->surface.positions.at;
-  const sbri_skin *skin = &body->surface;
+  const sbri_skin *skin = &body->surface.skin;
   double six_fold = 0;
   uint32_t corners[4];
   for (uint32_t face = 0; face < skin->face_block_count * SBRI_BLOCK; face++) {
@@ -102,21 +102,21 @@ double sbri_surface_rest_volume(const sbri_body *body) {
 static void add_medium(const sbri_island_tick *t, const sbri_body *body, const sbri_point *vertices,
     const sbri_point *velocities, sbri_point *forces) {
   uint32_t corners[4], count;
-  for (uint32_t face = 0; face < body->surface.face_block_count * SBRI_BLOCK; face++) {
-    if (!(count = lane_corners(&body->surface, face, corners))) continue;
+  for (uint32_t face = 0; face < body->surface.skin.face_block_count * SBRI_BLOCK; face++) {
+    if (!(count = lane_corners(&body->surface.skin, face, corners))) continue;
     sbf_vec3 area = shape_of(vertices, corners).area, v = {0, 0, 0};
     float size = sbri_length(area);
     if (!(size > 0)) continue;
     for (uint32_t k = 0; k < count; k++)
       v = sbri_add_scaled(v, vec_of(&velocities[corners[k]]), 1 / (float)count);
-    float speed = sbri_dot(sbri_sub(v, t->wind), area) / size;
+    float speed = sbri_dot(sbri_sub(v, t->environment.wind), area) / size;
     float force = -0.5f * body->medium_kg_m3 * fabsf(speed) * speed / (float)count;
     for (uint32_t k = 0; k < count; k++) add_to(&forces[corners[k]], sbri_scale(area, force));
   }
 }
 
 static double gas_volume_now(const sbri_body *body, const sbri_point *vertices) {
-  double volume = volume_of(&body->surface, vertices), min = MIN_GAS_FRACTION * body->gas_volume_m3;
+  double volume = volume_of(&body->surface.skin, vertices), min = MIN_GAS_FRACTION * body->gas.volume_m3;
   return volume > min ? volume : min;
 }
 
@@ -124,8 +124,8 @@ static double gas_volume_now(const sbri_body *body, const sbri_point *vertices) 
 static void add_pressure(const sbri_body *body, const sbri_point *vertices, float pressure,
     const float *factors, sbri_point *forces) {
   uint32_t corners[4];
-  for (uint32_t face = 0; face < body->surface.face_block_count * SBRI_BLOCK; face++) {
-    uint32_t count = lane_corners(&body->surface, face, corners);
+  for (uint32_t face = 0; face < body->surface.skin.face_block_count * SBRI_BLOCK; face++) {
+    uint32_t count = lane_corners(&body->surface.skin, face, corners);
     if (!count) continue;
     float factor = factors ? 0 : 1;
     for (uint32_t k = 0; factors && k < count; k++) factor += factors[corners[k]] / (float)count;
@@ -136,49 +136,51 @@ static void add_pressure(const sbri_body *body, const sbri_point *vertices, floa
 }
 
 static void add_gas(const sbri_body *body, const sbri_point *vertices, sbri_point *forces) {
-  double pressure = (double)body->gas_pa * body->gas_volume_m3 / gas_volume_now(body, vertices);
-  add_pressure(body, vertices, (float)pressure, body->gas_factors, forces);
+  double pressure = (double)body->gas.pressure_pa * body->gas.volume_m3 / gas_volume_now(body, vertices);
+  add_pressure(body, vertices, (float)pressure, body->gas.factors, forces);
 }
 
 /* Limits the medium: in one substep it removes at most a point's whole velocity relative to it. */
 static void bound_medium(const sbri_island_tick *t, const sbri_body *body, float h) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    float change = sbri_length(vec_of(&t->external_forces[slot])) * h * t->island->inverse_masses[slot];
-    float speed = sbri_length(sbri_sub(velocity_of(t, slot), t->wind));
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
+    float change =
+        sbri_length(vec_of(&t->scratch.external_forces[slot])) * h * t->island->inverse_masses[slot];
+    float speed = sbri_length(sbri_sub(velocity_of(t, slot), t->environment.wind));
     if (change > speed)
-      t->external_forces[slot] = (sbri_point){t->external_forces[slot].x * (speed / change),
-          t->external_forces[slot].y * (speed / change), t->external_forces[slot].z * (speed / change), 0};
+      t->scratch.external_forces[slot] = (sbri_point){t->scratch.external_forces[slot].x * (speed / change),
+          t->scratch.external_forces[slot].y * (speed / change),
+          t->scratch.external_forces[slot].z * (speed / change), 0};
   }
 }
 
 static void add_surface(const sbri_island_tick *t, const sbri_body *body, float h) {
-  sbri_point *vertices = t->surface_vertices + body->first_vertex;
-  sbri_point *forces = t->surface_forces + body->first_vertex;
-  sbri_point *velocities = t->surface_velocities + body->first_vertex;
-  compute_vertices(t, &body->surface, false, vertices);
-  clear(forces, body->surface.vertex_count);
+  sbri_point *vertices = t->surfaces.vertices + body->surface.first_vertex;
+  sbri_point *forces = t->surfaces.forces + body->surface.first_vertex;
+  sbri_point *velocities = t->surfaces.velocities + body->surface.first_vertex;
+  compute_vertices(t, &body->surface.skin, false, vertices);
+  clear(forces, body->surface.skin.vertex_count);
   if (body->medium_kg_m3 > 0) {
-    compute_vertices(t, &body->surface, true, velocities);
+    compute_vertices(t, &body->surface.skin, true, velocities);
     add_medium(t, body, vertices, velocities, forces);
-    distribute_forces(t, &body->surface, forces);
+    distribute_forces(t, &body->surface.skin, forces);
     bound_medium(t, body, h);
-    clear(forces, body->surface.vertex_count);
+    clear(forces, body->surface.skin.vertex_count);
   }
-  if (body->gas_pa == 0) return;
+  if (body->gas.pressure_pa == 0) return;
   add_gas(body, vertices, forces);
-  distribute_forces(t, &body->surface, forces);
+  distribute_forces(t, &body->surface.skin, forces);
 }
 
 static void add_bending(const sbri_island_tick *t, const sbri_body *body) {
-  for (uint32_t i = 0; i < body->hinge_count; i++) {
-    const sbri_hinge *hinge = &body->hinges[i];
+  for (uint32_t i = 0; i < body->elements.hinge_count; i++) {
+    const sbri_hinge *hinge = &body->elements.hinges[i];
     sbf_vec3 x[4], gradients[4];
     for (int k = 0; k < 4; k++) x[k] = vec_of(&t->positions[hinge->slots[k]]);
     sbri_hinge_shape shape = sbri_hinge_shape_of(x);
     sbri_compute_hinge_gradients(&shape, x, gradients);
     float torque = hinge->stiffness * sbri_angle_between(shape.angle, hinge->rest_angle);
     for (int k = 0; k < 4; k++)
-      add_to(&t->external_forces[hinge->slots[k]], sbri_scale(gradients[k], -torque));
+      add_to(&t->scratch.external_forces[hinge->slots[k]], sbri_scale(gradients[k], -torque));
   }
 }
 
@@ -206,11 +208,11 @@ sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v) {
 /* Evaluated in the space of the anchor. A drag field removes at most the whole velocity in a substep. */
 static void add_fields(const sbri_island_tick *t, float h) {
   const sbf_force_field_list *fields = &t->model->asset->environment.fields;
-  sbf_quat there = sbri_quat_conjugate(t->anchor.rotation);
+  sbf_quat there = sbri_quat_conjugate(t->environment.anchor.rotation);
   for (uint32_t slot = 0; slot < t->island->free_count; slot++) {
     float m = t->island->masses[slot];
     if (!(m > 0)) continue;
-    sbf_vec3 x = sbri_rotate(there, sbri_sub(vec_of(&t->positions[slot]), t->anchor.position));
+    sbf_vec3 x = sbri_rotate(there, sbri_sub(vec_of(&t->positions[slot]), t->environment.anchor.position));
     sbf_vec3 v = sbri_rotate(there, velocity_of(t, slot)), a = {0, 0, 0};
     for (uint32_t i = 0; i < fields->count; i++) {
       sbf_vec3 one = sbri_field_at(&fields->at[i], x, v);
@@ -218,15 +220,15 @@ static void add_fields(const sbri_island_tick *t, float h) {
       bool drags = fields->at[i].kind == SBF_FIELD_KIND_DRAG && size > speed;
       a = sbri_add_scaled(a, one, drags ? speed / size : 1);
     }
-    add_to(&t->external_forces[slot], sbri_scale(sbri_rotate(t->anchor.rotation, a), m));
+    add_to(&t->scratch.external_forces[slot], sbri_scale(sbri_rotate(t->environment.anchor.rotation, a), m));
   }
 }
 
 void sbri_compute_external_forces(const sbri_island_tick *t, float h) {
-  clear(t->external_forces, t->island->slot_count);
+  clear(t->scratch.external_forces, t->island->slot_count);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    if (body->medium_kg_m3 > 0 || body->gas_pa != 0) add_surface(t, body, h);
+    if (body->medium_kg_m3 > 0 || body->gas.pressure_pa != 0) add_surface(t, body, h);
     add_bending(t, body);
   }
   if (t->model->asset->environment.fields.count) add_fields(t, h);
@@ -237,32 +239,34 @@ void sbri_compute_external_forces(const sbri_island_tick *t, float h) {
 /* Squared frequency of one gas, rad^2/s^2: p / V times the sum of w |grad V|^2, plus the rotation of its
  * faces. */
 static double gas_square(const sbri_island_tick *t, const sbri_body *body) {
-  sbri_point *vertices = t->surface_vertices + body->first_vertex;
-  sbri_point *gradients = t->surface_forces + body->first_vertex;
+  sbri_point *vertices = t->surfaces.vertices + body->surface.first_vertex;
+  sbri_point *gradients = t->surfaces.forces + body->surface.first_vertex;
   double sum = 0;
-  compute_vertices(t, &body->surface, false, vertices);
-  clear(gradients, body->surface.vertex_count);
-  clear(t->external_forces + body->slot_begin, body->slot_end - body->slot_begin);
+  compute_vertices(t, &body->surface.skin, false, vertices);
+  clear(gradients, body->surface.skin.vertex_count);
+  clear(t->scratch.external_forces + body->slots.begin, body->slots.end - body->slots.begin);
   add_pressure(body, vertices, 1, NULL, gradients);
-  distribute_forces(t, &body->surface, gradients);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 g = vec_of(&t->external_forces[slot]);
+  distribute_forces(t, &body->surface.skin, gradients);
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
+    sbf_vec3 g = vec_of(&t->scratch.external_forces[slot]);
     sum += (double)t->island->inverse_masses[slot] * (double)sbri_dot(g, g);
   }
   double volume = gas_volume_now(body, vertices),
-         pressure = fabs((double)(body->gas_pa * body->max_gas_factor)) * body->gas_volume_m3 / volume;
-  return pressure / volume * sum + pressure * body->gas_turning;
+         pressure =
+             fabs((double)(body->gas.pressure_pa * body->gas.max_factor)) * body->gas.volume_m3 / volume;
+  return pressure / volume * sum + pressure * body->gas.stiffening;
 }
 
 void sbri_update_gas_stiffness(const sbri_island_tick *t) {
-  double rest = t->model->islands[t->model->bodies[t->island->bodies[0]].island].external_rad_s, square = 0;
+  double rest = t->model->islands[t->model->bodies[t->island->bodies[0]].island].stability.external_rad_s,
+         square = 0;
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    if (body->gas_pa != 0) square += gas_square(t, body);
+    if (body->gas.pressure_pa != 0) square += gas_square(t, body);
   }
   if (square == 0) return;
-  *t->external_rad_s = rest;
-  if (GAS_MARGIN * GAS_MARGIN * square > rest * rest) *t->external_rad_s = GAS_MARGIN * sqrt(square);
+  *t->surfaces.external_rad_s = rest;
+  if (GAS_MARGIN * GAS_MARGIN * square > rest * rest) *t->surfaces.external_rad_s = GAS_MARGIN * sqrt(square);
 }
 
 /* ---- Energies ---- */
@@ -270,17 +274,18 @@ void sbri_update_gas_stiffness(const sbri_island_tick *t) {
 double sbri_external_energy(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, sbri_point *vertices) {
   double energy = 0;
-  for (uint32_t i = 0; i < body->hinge_count; i++) {
+  for (uint32_t i = 0; i < body->elements.hinge_count; i++) {
     sbf_vec3 x[4];
-    for (int k = 0; k < 4; k++) x[k] = vec_of(&positions[body->hinges[i].slots[k]]);
-    double angle = (double)sbri_angle_between(sbri_hinge_shape_of(x).angle, body->hinges[i].rest_angle);
-    energy += 0.5 * (double)body->hinges[i].stiffness * angle * angle;
+    for (int k = 0; k < 4; k++) x[k] = vec_of(&positions[body->elements.hinges[i].slots[k]]);
+    double angle =
+        (double)sbri_angle_between(sbri_hinge_shape_of(x).angle, body->elements.hinges[i].rest_angle);
+    energy += 0.5 * (double)body->elements.hinges[i].stiffness * angle * angle;
   }
-  if (body->gas_pa == 0) return energy;
+  if (body->gas.pressure_pa == 0) return energy;
   sbri_island_tick t = {.island = island, .positions = (sbri_point *)(uintptr_t)positions};
-  compute_vertices(&t, &body->surface, false, vertices);
-  double fraction = volume_of(&body->surface, vertices) / body->gas_volume_m3;
+  compute_vertices(&t, &body->surface.skin, false, vertices);
+  double fraction = volume_of(&body->surface.skin, vertices) / body->gas.volume_m3;
   double reckoned = fraction > MIN_GAS_FRACTION ? fraction : MIN_GAS_FRACTION;
   double grown = (double)sbri_log((float)reckoned) + (fraction - reckoned) / reckoned;
-  return energy - (double)body->gas_pa * body->gas_volume_m3 * grown;
+  return energy - (double)body->gas.pressure_pa * body->gas.volume_m3 * grown;
 }

@@ -27,11 +27,11 @@ static inline void sbri_limit_compression_above_ground(const sbri_island_tick *t
 
 static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++)
-    if (t->model->bodies[t->island->bodies[b]].keeps_volume)
+    if (t->model->bodies[t->island->bodies[b]].volume.is_kept)
       sbri_volume_keep(t, &t->model->bodies[t->island->bodies[b]], h);
-  if (t->island->link_limits) sbri_limit_strains(t);
-  if (t->rests) sbri_yield_and_tear(t, h);
-  if (t->island->solid_limits) sbri_limit_solids(t, h);
+  if (t->island->links.limits) sbri_limit_strains(t);
+  if (t->springs.rests) sbri_yield_and_tear(t, h);
+  if (t->island->tetrahedra.limits) sbri_limit_solids(t, h);
   if (sbri_is_compressed(t)) sbri_limit_compression_above_ground(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];

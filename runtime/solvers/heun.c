@@ -7,7 +7,7 @@
  * raised to the next power of two. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
   uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
-  return island->substeps ? stable : stable < SBRI_MAX_SUBSTEPS / 4 ? 4 * stable : SBRI_MAX_SUBSTEPS;
+  return island->stepping.substeps ? stable : stable < SBRI_MAX_SUBSTEPS / 4 ? 4 * stable : SBRI_MAX_SUBSTEPS;
 }
 
 static void tick_heun(const sbri_island_tick *tick) {

@@ -27,7 +27,7 @@ static void apply_impulse(
 /* All points get the same velocity change. */
 static void change_body_velocity(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, sbf_vec3 velocity_change) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++)
     if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), velocity_change);
 }
 
@@ -47,8 +47,8 @@ static sbf_vec3 hold_impulse(
 }
 
 void sbri_loads_apply(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h) {
-  for (uint32_t i = 0; i < t->load_count; i++) {
-    const sbri_load_now *load = &t->loads[i];
+  for (uint32_t i = 0; i < t->environment.load_count; i++) {
+    const sbri_load_now *load = &t->environment.loads[i];
     if (&t->model->bodies[load->body] != body) continue;
     sbf_vec3 impulse = load->holds ? hold_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
     if (load->at.count > 0)

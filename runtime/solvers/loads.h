@@ -11,8 +11,8 @@
 #include "model/island_tick.h"
 
 static inline bool sbri_is_loaded(const sbri_island_tick *t, const sbri_body *body) {
-  for (uint32_t i = 0; i < t->load_count; i++)
-    if (&t->model->bodies[t->loads[i].body] == body) return true;
+  for (uint32_t i = 0; i < t->environment.load_count; i++)
+    if (&t->model->bodies[t->environment.loads[i].body] == body) return true;
   return false;
 }
 

@@ -39,8 +39,9 @@ typedef struct sbri_decay {
 } sbri_decay;
 
 static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
-  return (sbri_decay){body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
-      body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1, body->alphas, h};
+  return (sbri_decay){body->damping.alpha_1_s > 0 ? sbri_exp(-body->damping.alpha_1_s * h) : 1,
+      body->damping.media_friction_1_s > 0 ? sbri_exp(-body->damping.media_friction_1_s * h) : 1,
+      body->damping.alphas, h};
 }
 
 /* Fraction of the velocity relative to the frame that each lane keeps. */
@@ -57,10 +58,11 @@ static inline sbri_wide sbri_kept_fractions(sbri_decay decay, uint32_t slot) {
 static inline void sbri_self_damp(
     const sbri_island_tick *t, const sbri_body *body, float time_s, float ahead_s) {
   float *v = t->velocities;
-  if (body->alphas)
-    sbri_rigid_motion_damp_each(t->island, body, t->positions, v, body->alphas, time_s, ahead_s);
+  if (body->damping.alphas)
+    sbri_rigid_motion_damp_each(t->island, body, t->positions, v, body->damping.alphas, time_s, ahead_s);
   else
-    sbri_rigid_motion_damp(t->island, body, t->positions, v, sbri_exp(-body->alpha_1_s * time_s), ahead_s);
+    sbri_rigid_motion_damp(
+        t->island, body, t->positions, v, sbri_exp(-body->damping.alpha_1_s * time_s), ahead_s);
 }
 
 /* Whether damping pulls the body's velocities towards those of its pin frames. */
@@ -82,7 +84,8 @@ static inline sbri_wide3 sbri_decayed(
     v.z = u.z + (v.z - u.z) * fraction;
   }
   if (decay.media < 1) {
-    sbri_wide3 u = {sbri_wide_all(t->wind.x), sbri_wide_all(t->wind.y), sbri_wide_all(t->wind.z)};
+    sbri_wide3 u = {sbri_wide_all(t->environment.wind.x), sbri_wide_all(t->environment.wind.y),
+        sbri_wide_all(t->environment.wind.z)};
     sbri_mask real = sbri_wide_load(t->island->inverse_masses + slot) > sbri_wide_all(0);
     v.x = sbri_wide_select(real, u.x + (v.x - u.x) * drifting, v.x);
     v.y = sbri_wide_select(real, u.y + (v.y - u.y) * drifting, v.y);
@@ -96,7 +99,7 @@ SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body
     int kind, float *stretches, sbri_spring_sums *spring_sums) {
   sbri_wide step = sbri_wide_all(h);
   bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     sbri_wide3 a = sbri_acceleration(t, slot, x, kind, stretches);
@@ -120,8 +123,8 @@ static inline void sbri_kick(
     const sbri_island_tick *t, float h, float self_s, bool is_deferred, bool last, float *stretches) {
   float ahead_s = is_deferred ? 0.5f * h : 0;
   int kind = sbri_force_kind(t, last);
-  if (t->external_forces) sbri_compute_external_forces(t, h);
-  if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
+  if (t->scratch.external_forces) sbri_compute_external_forces(t, h);
+  if (t->island->regions.block_count > 0) sbri_compute_region_forces(t);
   sbri_spring_sums sums = {{{0}}, {{0}}},
                    *spring_sums = t->reactions && sbri_are_spring_sums_complete(t) ? &sums : NULL;
   if (t->reactions && !spring_sums) sbri_react(t, h);
@@ -131,7 +134,8 @@ static inline void sbri_kick(
 #define SBRI_CALL(force_kind) sbri_kick_body(t, body, h, decay, force_kind, stretches, spring_sums)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
-    if (!body->is_pinned && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s, ahead_s);
+    if (!body->is_pinned && self_s > 0 && body->damping.alpha_1_s > 0)
+      sbri_self_damp(t, body, self_s, ahead_s);
   }
   if (spring_sums) sbri_apply_spring_reactions(t, spring_sums, h);
 }
@@ -142,7 +146,7 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay decay = sbri_decay_of(body, h);
     bool is_to_driver = sbri_is_damped_to_driver(t, body, decay);
-    for (uint32_t slot = body->slot_begin; (is_to_driver || decay.media < 1) && slot < body->slot_end;
+    for (uint32_t slot = body->slots.begin; (is_to_driver || decay.media < 1) && slot < body->slots.end;
          slot += SBRI_LANES) {
       float *velocity = sbri_triple(t->velocities, slot);
       sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), decay, is_to_driver));
@@ -153,18 +157,18 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
 
 SBRI_INLINE void sbri_accelerate_body(
     const sbri_island_tick *t, const sbri_body *body, int kind, float *stretches) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
-    sbri_store3(sbri_triple(t->accelerations, slot), sbri_acceleration(t, slot, x, kind, stretches));
+    sbri_store3(sbri_triple(t->scratch.accelerations, slot), sbri_acceleration(t, slot, x, kind, stretches));
   }
 }
 
 /* Writes a(x) of all free points to t->accelerations, for a substep of h seconds. */
 static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *stretches) {
   int kind = sbri_force_kind(t, stretches != NULL);
-  if (t->external_forces) sbri_compute_external_forces(t, h);
-  if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
-  if (t->island->region_block_count > 0) sbri_compute_region_forces(t);
+  if (t->scratch.external_forces) sbri_compute_external_forces(t, h);
+  if (t->island->tetrahedra.block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
+  if (t->island->regions.block_count > 0) sbri_compute_region_forces(t);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
 #define SBRI_CALL(force_kind) sbri_accelerate_body(t, body, force_kind, stretches)
@@ -175,14 +179,14 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
 
 static inline sbri_contact_rule sbri_contact_rule_of(
     const sbri_island_tick *t, const sbri_body *body, float h) {
-  float slack = body->samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
-  return (sbri_contact_rule){body->friction, body->restitution, body->frictions, h, SBRI_PUSH_M_S * h, slack,
-      SBRI_BOUNCE_FROM_M_S, t->pressing};
+  float slack = body->contact.samples ? SBRI_SLACK_FRACTION * body->rest_size_m : 0;
+  return (sbri_contact_rule){body->contact.friction, body->contact.restitution, body->contact.frictions, h,
+      SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S, t->contacts.pressing};
 }
 
 /* Ground planes of a group of lanes. */
 static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint32_t slot) {
-  return sbri_planes_load(t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
+  return sbri_planes_load(t->contacts.planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
 }
 
 /* Whether loads or contacts act on the body, which need all its velocities at once. */
@@ -193,7 +197,7 @@ static inline bool sbri_has_impulses(const sbri_island_tick *t, const sbri_body 
 /* Applies loads of the host and contact impulses to the velocities of the coming substep. */
 static inline void sbri_apply_impulses(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
-  if (t->load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
+  if (t->environment.load_count > 0) sbri_loads_apply(t, body, velocities, rule->step_s);
   if (sbri_contact_block_count(t, body))
     sbri_contact_solve(t, body, velocities, rule);
   else
@@ -204,12 +208,12 @@ static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *b
   sbri_wide step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(t, body, h);
   sbri_apply_impulses(t, body, t->velocities, &rule);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
-    if (t->near_ground[block]) {
-      sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
+    if (t->contacts.near_ground[block]) {
+      sbri_contact_move(&x, &v, t->contacts.planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
       sbri_store3(velocity, v);
     } else {
       x.x = x.x + step * v.x;
@@ -229,7 +233,8 @@ static inline void sbri_drift(const sbri_island_tick *t, float h) {
 /* Stores the positions of pinned points at the beginning of the tick. */
 static inline void sbri_store_pinned_begin(const sbri_island_tick *t) {
   size_t pinned = t->island->slot_count - t->island->free_count;
-  memcpy(t->begins + t->island->free_count, t->positions + t->island->free_count, pinned * sizeof *t->begins);
+  memcpy(t->scratch.begins + t->island->free_count, t->positions + t->island->free_count,
+      pinned * sizeof *t->scratch.begins);
 }
 
 /* Moves pinned points to the given fraction of the straight line from their old to their target positions. */
@@ -240,7 +245,7 @@ static inline void sbri_move_pinned(const sbri_island_tick *t, float fraction) {
         pinned * sizeof *t->positions);
     return;
   }
-  const float *from = &t->begins[t->island->free_count].x, *to = &t->targets[t->island->free_count].x;
+  const float *from = &t->scratch.begins[t->island->free_count].x, *to = &t->targets[t->island->free_count].x;
   float *at = &t->positions[t->island->free_count].x;
   for (size_t i = 0; i < 4 * pinned; i++) at[i] = from[i] + (to[i] - from[i]) * fraction;
 }
@@ -250,7 +255,7 @@ static inline bool sbri_soft_contacts_any(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < t->island->body_count; b++)
     any = any || sbri_soft_contact_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
   for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
-    any = any || t->near_ground[block];
+    any = any || t->contacts.near_ground[block];
   return any;
 }
 
@@ -267,11 +272,11 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbf_vec3 sum = {0, 0, 0};
     float square = 0;
-    if (body->slot_real_end == body->slot_begin) continue;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    if (body->slots.real_end == body->slots.begin) continue;
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       sum = sbri_add(sum, sbri_slot_velocity(t, t->velocities, slot));
-    sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slot_real_end - body->slot_begin));
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slots.real_end - body->slots.begin));
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       sbf_vec3 relative = sbri_sub(sbri_slot_velocity(t, t->velocities, slot), mean);
       square = fmaxf(square, sbri_dot(relative, relative));
     }
@@ -284,20 +289,21 @@ static inline float sbri_impact_speed(const sbri_island_tick *t) {
  * strikes the ground; 1 if nothing is near the ground. */
 static inline float sbri_impact_substeps(const sbri_island_tick *t, float time_s) {
   const sbri_island *island = t->island;
-  if (island->tetrahedron_block_count == 0 || !(island->cell_m > 0) || !sbri_soft_contacts_any(t)) return 1;
-  return time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->cell_m);
+  if (island->tetrahedra.block_count == 0 || !(island->stability.cell_m > 0) || !sbri_soft_contacts_any(t))
+    return 1;
+  return time_s * sbri_impact_speed(t) / (sbri_impact_fraction * island->stability.cell_m);
 }
 
 /* Whether rigid bodies or the asset set the substeps. Those already count impacts, and more substeps of the
  * island alone would keep a pair from coming to rest. */
 static inline bool sbri_has_fixed_substeps(const sbri_island_tick *t) {
-  return t->island->substeps || t->fraction < 1;
+  return t->island->stepping.substeps || t->fraction < 1;
 }
 
 /* Number of substeps in the coming `time_s` seconds, for the present stiffness of springs, tetrahedra and
  * gases. Bounded, because a flat gas would need a million; recovery repairs the result. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
-  uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
+  uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->springs.stretch);
   if (!sbri_has_fixed_substeps(t)) {
     float crossing = ceilf(fminf(sbri_impact_substeps(t, time_s), SBRI_MAX_STRAINED_SUBSTEPS));
     needed = (float)needed < crossing ? (uint32_t)crossing : needed;
@@ -310,7 +316,7 @@ static inline void sbri_store_stretch(const sbri_island_tick *t, const float str
   float greatest = 0;
   for (int lane = 0; lane < SBRI_BLOCK; lane++)
     greatest = stretches[lane] > greatest ? stretches[lane] : greatest;
-  *t->stretch = greatest;
+  *t->springs.stretch = greatest;
 }
 
 #endif

@@ -13,7 +13,7 @@
  * simulated. */
 static inline sbri_reaction *sbri_reaction_at(const sbri_island_tick *t, uint32_t slot) {
   if (!t->reactions || slot < t->island->free_count) return NULL;
-  int32_t rigid_body = t->island->rigid_body_of_pinned[slot - t->island->free_count];
+  int32_t rigid_body = t->island->pins.rigid_bodies[slot - t->island->free_count];
   return rigid_body >= 0 ? &t->reactions[rigid_body] : NULL;
 }
 

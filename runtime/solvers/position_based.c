@@ -20,10 +20,11 @@ enum { FEW_SUBSTEPS = 32, HOPELESS_SUBSTEPS = 512 };
 static const double MARGIN = 1.1;
 
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
-  if (island->substeps) return island->substeps;
-  uint32_t stable = sbri_stable_substeps(island, tick_s, island->rest_stretch);
-  double outer = MARGIN * tick_s * island->external_rad_s / 2; /* sweeps do not cover gas and bending */
-  bool solid = island->tetrahedron_count > 0;
+  if (island->stepping.substeps) return island->stepping.substeps;
+  uint32_t stable = sbri_stable_substeps(island, tick_s, island->springs.rest_stretch);
+  double outer =
+      MARGIN * tick_s * island->stability.external_rad_s / 2; /* sweeps do not cover gas and bending */
+  bool solid = island->tetrahedra.count > 0;
   bool few = island->scheme != &sbri_position_based || stable > HOPELESS_SUBSTEPS;
   uint32_t factor = SPRING_FACTOR, max = MAX_SPRING_SUBSTEPS;
   if (solid) factor = SOLID_FACTOR, max = stable > MAX_DOUBLED_SUBSTEPS ? stable : MAX_DOUBLED_SUBSTEPS;

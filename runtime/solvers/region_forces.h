@@ -99,7 +99,7 @@ SBRI_INLINE sbri_wide_rigid_motion sbri_region_rigid_motion(const sbri_island_ti
   for (uint32_t i = 0; i < block->member_count; i++) {
     sbri_wide k = sbri_wide_load(members[i].stiffness + lane);
     sbri_wide3 r = sbri_wide3_sub(sbri_wide_gather(t->positions, members[i].slots + lane), center);
-    sbri_wide3 v = sbri_wide_gather(t->velocity_points, members[i].slots + lane);
+    sbri_wide3 v = sbri_wide_gather(t->scratch.velocity_points, members[i].slots + lane);
     s.drift = sbri_wide3_add(s.drift, sbri_wide3_scale(v, k));
     s.angular_velocity = sbri_wide3_add(s.angular_velocity, sbri_wide3_scale(sbri_wide3_cross(r, v), k));
     g[0] = g[0] + k * (r.y * r.y + r.z * r.z), g[1] = g[1] + k * (r.z * r.z + r.x * r.x);
@@ -150,8 +150,8 @@ SBRI_INLINE sbri_wide3 sbri_region_force(const sbri_island_tick *t, const sbri_r
   sbri_wide3 from_center = sbri_wide3_sub(sbri_wide_gather(t->positions, m->slots + lane), pose->center);
   sbri_wide3 f = sbri_wide3_sub(sbri_wide_rotated(&pose->rotation, offset), from_center);
   if (damping_s > 0) {
-    sbri_wide3 v =
-        sbri_wide3_sub(sbri_wide_gather(t->velocity_points, m->slots + lane), pose->rigid_motion.drift);
+    sbri_wide3 v = sbri_wide3_sub(
+        sbri_wide_gather(t->scratch.velocity_points, m->slots + lane), pose->rigid_motion.drift);
     v = sbri_wide3_sub(v, sbri_wide3_cross(pose->rigid_motion.angular_velocity, from_center));
     f = sbri_wide3_sub(f, sbri_wide3_scale(v, sbri_wide_all(damping_s)));
   }
@@ -162,14 +162,14 @@ SBRI_INLINE sbri_wide3 sbri_region_force(const sbri_island_tick *t, const sbri_r
  * must not depend on the SIMD width. */
 static inline void sbri_compute_region_block_forces(
     const sbri_island_tick *t, const sbri_region_block *block, float *rotations) {
-  const sbri_region_member *members = t->island->region_members + block->first_member;
+  const sbri_region_member *members = t->island->regions.members + block->first_member;
   sbri_region_pose poses[SBRI_BLOCK / SBRI_LANES];
   for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
     poses[group] = sbri_region_pose_of(t, block, members, group * SBRI_LANES, rotations);
   for (uint32_t i = 0; i < block->member_count; i++)
     for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++) {
       uint32_t lane = group * SBRI_LANES;
-      sbri_wide_scatter_add(t->element_forces, members[i].slots + lane,
+      sbri_wide_scatter_add(t->scratch.element_forces, members[i].slots + lane,
           sbri_region_force(t, &members[i], lane, &poses[group], block->damping_s));
     }
 }
@@ -178,10 +178,11 @@ static inline void sbri_compute_region_block_forces(
  * tetrahedra. */
 static inline void sbri_compute_region_forces(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  if (island->tetrahedron_block_count == 0)
-    memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
-  for (uint32_t b = 0; b < island->region_block_count; b++)
-    sbri_compute_region_block_forces(t, &island->region_blocks[b], t->rotations + 4 * SBRI_BLOCK * (size_t)b);
+  if (island->tetrahedra.block_count == 0)
+    memset(t->scratch.element_forces, 0, island->slot_count * sizeof *t->scratch.element_forces);
+  for (uint32_t b = 0; b < island->regions.block_count; b++)
+    sbri_compute_region_block_forces(
+        t, &island->regions.blocks[b], t->solids.rotations + 4 * SBRI_BLOCK * (size_t)b);
 }
 
 #endif

@@ -18,8 +18,10 @@ typedef struct relaxation_tick {
 static float ground_height(const relaxation_tick *r, const sbri_point *p) {
   if (r->flat) return r->flat_height;
   const sbri_island_tick *t = r->tick;
-  double x = t->origin.x + (double)t->scale * p->x, z = t->origin.z + (double)t->scale * p->z;
-  return (float)((sbri_ground_height(t->ground, x, z, NULL) - t->origin.y) / t->scale);
+  double x = t->environment.origin.x + (double)t->environment.scale * p->x,
+         z = t->environment.origin.z + (double)t->environment.scale * p->z;
+  return (float)((sbri_ground_height(t->environment.ground, x, z, NULL) - t->environment.origin.y) /
+                 t->environment.scale);
 }
 
 static void stop_at_ground(const relaxation_tick *r, sbri_point *p) {
@@ -75,20 +77,21 @@ static void tick_relaxation(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   const sbf_relaxation *settings = &t->model->asset->relaxation;
   double height;
-  relaxation_tick r = {t, sbri_ground_is_flat(t->ground, &height), 0};
-  r.flat_height = (float)((height - t->origin.y) / t->scale);
-  float gravity_step = settings->gravity / t->scale;
+  relaxation_tick r = {t, sbri_ground_is_flat(t->environment.ground, &height), 0};
+  r.flat_height = (float)((height - t->environment.origin.y) / t->environment.scale);
+  float gravity_step = settings->gravity / t->environment.scale;
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++)
     t->positions[slot] = t->targets[slot];
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       integrate(&r, slot, gravity_step);
   }
-  for (uint32_t i = 0; i < island->visit_count; i++) visit(&r, &island->visits[i], settings->stiffness);
+  for (uint32_t i = 0; i < island->springs.visit_count; i++)
+    visit(&r, &island->springs.visits[i], settings->stiffness);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       damp(&r, slot, settings->damping);
   }
   sbri_count_element_visits(t, 1);

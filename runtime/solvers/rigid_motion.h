@@ -47,13 +47,13 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, const float *velocities) {
   float lanes[SBRI_RIGID_SUMS][SBRI_BLOCK] = {{0}}, sums[SBRI_RIGID_SUMS];
   sbri_rigid_motion motion = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0}};
-  if (body->slot_begin == body->slot_end) return motion;
-  const sbri_point *near = &positions[body->slot_begin]; /* sums relative to it lose fewer bits */
+  if (body->slots.begin == body->slots.end) return motion;
+  const sbri_point *near = &positions[body->slots.begin]; /* sums relative to it lose fewer bits */
   sbri_wide nx = sbri_wide_all(near->x), ny = sbri_wide_all(near->y), nz = sbri_wide_all(near->z);
   for (uint32_t lane = 0; lane < SBRI_BLOCK;
        lane += SBRI_LANES) { /* lane by lane, so that sums stay in registers */
     sbri_wide a = sbri_wide_all(0), b = a, c = a, d = a, e = a, f = a, g = a;
-    for (uint32_t slot = body->slot_begin + lane; slot < body->slot_end; slot += SBRI_BLOCK) {
+    for (uint32_t slot = body->slots.begin + lane; slot < body->slots.end; slot += SBRI_BLOCK) {
       sbri_wide m = sbri_wide_load(island->masses + slot);
       sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
       a = a + m;
@@ -76,7 +76,7 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
   sbri_wide uz = sbri_wide_all(motion.velocity.z);
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
     sbri_wide a = sbri_wide_all(0), b = a, c = a, d = a, e = a, f = a, g = a, h = a, i = a;
-    for (uint32_t slot = body->slot_begin + lane; slot < body->slot_end; slot += SBRI_BLOCK) {
+    for (uint32_t slot = body->slots.begin + lane; slot < body->slots.end; slot += SBRI_BLOCK) {
       sbri_wide m = sbri_wide_load(island->masses + slot);
       sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
       sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz, wx = v.x - ux, wy = v.y - uy, wz = v.z - uz;
@@ -105,7 +105,7 @@ static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_
   sbri_wide cx = sbri_wide_all(m.center.x), cy = sbri_wide_all(m.center.y), cz = sbri_wide_all(m.center.z);
   sbri_wide vx = sbri_wide_all(m.velocity.x), vy = sbri_wide_all(m.velocity.y),
             vz = sbri_wide_all(m.velocity.z);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
     sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz;
     sbri_wide ux = vx + (sy * rz - sz * ry), uy = vy + (sz * rx - sx * rz), uz = vz + (sx * ry - sy * rx);
@@ -129,7 +129,7 @@ static inline void sbri_rigid_motion_damp_each(const sbri_island *island, const 
   sbri_rigid_motion was = sbri_rigid_motion_find(island, body, positions, velocities), now;
   sbf_vec3 move = was.velocity, angular_velocity = was.angular_velocity;
   for (int pass = 0; pass < 2; pass++) {
-    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
       sbri_point *x = &positions[slot];
       float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       if (!(island->masses[slot] > 0)) continue;

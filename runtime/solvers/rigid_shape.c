@@ -23,7 +23,7 @@ static void set_position(const sbri_island_tick *t, uint32_t slot, sbf_vec3 x) {
 }
 
 static void follow_drivers(const sbri_island_tick *t, const sbri_body *body) {
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     const float *drivers = t->driver_velocities + (velocity_at(t, slot) - t->velocities);
     float *v = velocity_at(t, slot);
     for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK) v[k] = drivers[k];
@@ -48,19 +48,20 @@ static void resolve_penetration(
 
 static void resolve_planes(
     const sbri_island_tick *t, const sbri_body *body, sbri_rigid_motion *motion, sbf_vec3 *correction) {
-  for (uint32_t slot = body->slot_begin; !body->samples && slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; !body->contact.samples && slot < body->slots.real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    if (!t->near_ground[block]) continue;
-    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    if (!t->contacts.near_ground[block]) continue;
+    const float *plane = t->contacts.planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
-    resolve_penetration(
-        motion, correction, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, position_of(t, slot)), body->friction);
+    resolve_penetration(motion, correction, n, plane[3 * SBRI_BLOCK] - sbri_dot(n, position_of(t, slot)),
+        body->contact.friction);
   }
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
-    const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
+    const sbri_soft_contact *contact = &t->contacts.at[body->contact.first + i];
     if (contact->collider == SBRI_ITSELF) continue;
     float depth = contact->offset - sbri_dot(contact->normal, sbri_sample_position(t, &contact->sample));
-    resolve_penetration(motion, correction, contact->normal, depth, body->friction * contact->friction_scale);
+    resolve_penetration(
+        motion, correction, contact->normal, depth, body->contact.friction * contact->friction_scale);
   }
 }
 
@@ -70,7 +71,7 @@ static void integrate(const sbri_island_tick *t, const sbri_body *body, sbri_rig
   sbf_vec3 axis = sbri_scale(motion->angular_velocity, rate > 0 ? sine / rate : 0);
   sbf_quat rotation = {axis.x, axis.y, axis.z, cosine};
   sbf_vec3 to = sbri_add_scaled(motion->center, motion->velocity, h);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++)
     set_position(
         t, slot, sbri_add(to, sbri_rotate(rotation, sbri_sub(position_of(t, slot), motion->center))));
   motion->center = to;
@@ -82,14 +83,14 @@ static void move_loose(const sbri_island_tick *t, const sbri_body *body) {
   for (int s = 0; s < STEPS; s++) {
     sbf_vec3 correction = {0, 0, 0};
     motion.velocity =
-        sbri_add_scaled(motion.velocity, t->gravity, h * body->source->attributes.gravity_scale);
+        sbri_add_scaled(motion.velocity, t->environment.gravity, h * body->source->attributes.gravity_scale);
     integrate(t, body, &motion, h);
     resolve_planes(t, body, &motion, &correction);
     motion.center = sbri_add(motion.center, correction);
-    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+    for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++)
       set_position(t, slot, sbri_add(position_of(t, slot), correction));
   }
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     sbf_vec3 arm = sbri_sub(position_of(t, slot), motion.center);
     sbf_vec3 velocity = sbri_add(motion.velocity, sbri_cross(motion.angular_velocity, arm));
     float *v = velocity_at(t, slot);
@@ -101,7 +102,7 @@ static void tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    if (body->slot_begin == body->slot_end) continue;
+    if (body->slots.begin == body->slots.end) continue;
     if (body->is_pinned)
       follow_drivers(t, body);
     else
@@ -109,7 +110,7 @@ static void tick(const sbri_island_tick *t) {
   }
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++)
     t->positions[slot] = t->targets[slot];
-  *t->stretch = island->rest_stretch, *t->stiffening = 1, *t->min_ratio = 1;
+  *t->springs.stretch = island->springs.rest_stretch, *t->solids.stiffening = 1, *t->solids.min_ratio = 1;
 }
 
 const sbri_scheme sbri_rigid_shape = {.kind = SBF_SCHEME_AUTOMATIC, .tick = tick};

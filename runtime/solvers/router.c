@@ -5,14 +5,15 @@
 #include "solvers/tetrahedron_forces.h"
 
 static uint32_t max_strained(const sbri_island *island, double tick_s) {
-  uint32_t min = island->tetrahedron_count ? SBRI_TROUBLED_SOLID_SUBSTEPS : SBRI_TROUBLED_SUBSTEPS;
-  uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->rest_stretch), max = at_rest + at_rest / 2;
+  uint32_t min = island->tetrahedra.count ? SBRI_TROUBLED_SOLID_SUBSTEPS : SBRI_TROUBLED_SUBSTEPS;
+  uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->springs.rest_stretch),
+           max = at_rest + at_rest / 2;
   if (max < min) return min;
   return max < SBRI_MAX_STRAINED_SUBSTEPS ? max : SBRI_MAX_STRAINED_SUBSTEPS;
 }
 
 bool sbri_router_begins_explicit(const sbri_island *island) {
-  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MAX_SUBSTEPS;
+  return sbri_stable_substeps(island, 1.0 / 60, island->springs.rest_stretch) <= SBRI_MAX_SUBSTEPS;
 }
 
 static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
@@ -26,11 +27,11 @@ static float greatest_square(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbf_vec3 sum = {0, 0, 0};
-    if (body->slot_real_end == body->slot_begin) continue;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    if (body->slots.real_end == body->slots.begin) continue;
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       sum = sbri_add(sum, velocity_at(t, slot));
-    sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slot_real_end - body->slot_begin));
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 mean = sbri_scale(sum, 1 / (float)(body->slots.real_end - body->slots.begin));
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
       sbf_vec3 relative = sbri_sub(velocity_at(t, slot), mean);
       float square = sbri_dot(relative, relative);
       greatest = square > greatest ? square : greatest;
@@ -41,15 +42,15 @@ static float greatest_square(const sbri_island_tick *t) {
 
 const sbri_scheme *sbri_router_scheme(const sbri_island *island, const sbri_recovery *recovery) {
   if (recovery->rigid_ticks > 0) return &sbri_rigid_shape;
-  return island->routed && recovery->ticks > 0 ? &sbri_position_based : island->scheme;
+  return island->stepping.is_routed && recovery->ticks > 0 ? &sbri_position_based : island->scheme;
 }
 
 static bool is_in_trouble(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  uint32_t substeps = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
-  float reach = island->cell_m * (float)substeps / t->tick_s;
-  bool strained = island->routed && substeps > max_strained(island, t->tick_s);
-  return strained || !(*t->min_ratio > 0) || (reach > 0 && greatest_square(t) > reach * reach);
+  uint32_t substeps = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->springs.stretch);
+  float reach = island->stability.cell_m * (float)substeps / t->tick_s;
+  bool strained = island->stepping.is_routed && substeps > max_strained(island, t->tick_s);
+  return strained || !(*t->solids.min_ratio > 0) || (reach > 0 && greatest_square(t) > reach * reach);
 }
 
 const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, sbri_recovery *recovery) {

@@ -37,12 +37,12 @@ typedef struct contact_set {
 static contact_set contact_set_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
   uint32_t count = sbri_soft_contact_count(t, body);
   sbri_external_bodies *external_bodies =
-      count && t->external_bodies ? &t->external_bodies[body - t->model->bodies] : NULL;
+      count && t->contacts.external_bodies ? &t->contacts.external_bodies[body - t->model->bodies] : NULL;
   if (external_bodies && !external_bodies->count) external_bodies = NULL;
   return (contact_set){.tick = t,
       .body = body,
       .velocities = velocities,
-      .contacts = t->contacts + body->first_soft_contact,
+      .contacts = t->contacts.at + body->contact.first,
       .count = count,
       .external_bodies = external_bodies};
 }
@@ -384,10 +384,10 @@ static void report_planes(const sbri_island_tick *t, const sbri_body *body, sbri
     sbri_touching_add(to, SBRI_NO_COLLIDER, to->ground_position, to->ground_normal, 0, to->ground_speed);
     to->ground_speed = 0;
   }
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    if (!t->near_ground[block]) continue;
-    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    if (!t->contacts.near_ground[block]) continue;
+    const float *plane = t->contacts.planes + 4 * SBRI_BLOCK * (size_t)block + lane;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
     sbf_vec3 x = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
     if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] <= CONTACT_DISTANCE_M)
@@ -399,7 +399,7 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
   sbri_touching_begin(to);
   sbri_contact_blocks_unpack(t, body);
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
-    const sbri_soft_contact *contact = &t->contacts[body->first_soft_contact + i];
+    const sbri_soft_contact *contact = &t->contacts.at[body->contact.first + i];
     if (contact->collider == SBRI_ITSELF ||
         !(contact->pushed > 0 || sbri_dot(contact->normal, contact->given) > 0))
       continue;

@@ -78,9 +78,9 @@ static inline void sbri_limit_stretch(
 /* Copy `n` of an element: one is for forces, one for sweeps. */
 static inline sbri_tetrahedron_block *sbri_solid_copy(
     const sbri_island_tick *t, uint32_t element, int n, uint32_t *lane) {
-  uint32_t at = t->island->lanes_of_tetrahedra[2 * element + (uint32_t)n];
+  uint32_t at = t->island->tetrahedra.lanes[2 * element + (uint32_t)n];
   *lane = at % SBRI_BLOCK;
-  return &t->flowing[at / SBRI_BLOCK];
+  return &t->solids.flowing[at / SBRI_BLOCK];
 }
 
 static inline void sbri_tear_solid(const sbri_island_tick *t, const sbri_solid_lane *e, uint32_t element) {
@@ -92,7 +92,7 @@ static inline void sbri_tear_solid(const sbri_island_tick *t, const sbri_solid_l
   }
   if (tears->count < SBRI_TEARS) tears->at[tears->count] = (sbri_tear){element, true, middle};
   tears->count++;
-  t->torn[element] = SBRI_TORN_NOW;
+  t->solids.torn[element] = SBRI_TORN_NOW;
   for (int n = 0; n < 2; n++) {
     uint32_t lane;
     sbri_tetrahedron_block *block = sbri_solid_copy(t, element, n, &lane);
@@ -106,11 +106,11 @@ static inline void sbri_yield_solid(
   for (int n = 0; n < 2; n++) {
     uint32_t lane;
     sbri_tetrahedron_block *block = sbri_solid_copy(t, element, n, &lane);
-    const sbri_tetrahedron_block *made = &t->island->tetrahedron_blocks[block - t->flowing];
+    const sbri_tetrahedron_block *made = &t->island->tetrahedra.blocks[block - t->solids.flowing];
     for (int i = 0; i < 3; i++) {
       float flow_stretch = (float)(metric->at[i] * per_metric) / made->stiffness[i][lane];
       if (flow_stretch > (float)SBRI_MAX_FLOW_STRETCH) return;
-      if (flow_stretch > *t->max_flow_stretch) *t->max_flow_stretch = flow_stretch;
+      if (flow_stretch > *t->solids.max_flow_stretch) *t->solids.max_flow_stretch = flow_stretch;
     }
     for (int i = 0; i < 6; i++) block->stiffness[i][lane] = (float)(metric->at[i] * per_metric);
   }
@@ -119,7 +119,7 @@ static inline void sbri_yield_solid(
 /* Principal stretches of the element; returns false if it is torn. */
 static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3],
     sbfi_solid_metric *metric, sbfi_stretches *stretches) {
-  const sbri_tetrahedron_block *block = &t->tetrahedra[e->block];
+  const sbri_tetrahedron_block *block = &t->solids.blocks[e->block];
   uint32_t lane = e->lane;
   if (!(block->shear[lane] > 0)) return false;
   double per_metric = (double)block->shear[lane] / block->inverse_volume[lane]; /* V mu */
@@ -130,7 +130,7 @@ static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_so
 
 /* Returns whether a strain exceeded its limit by more than the tolerance. */
 static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_lane *e) {
-  const sbri_solid_limits *is = &t->island->solid_limits[e->block];
+  const sbri_solid_limits *is = &t->island->tetrahedra.limits[e->block];
   double max = 1 + (double)is->max[e->lane], min = 1 + (double)is->min[e->lane];
   sbfi_solid_metric metric;
   sbfi_stretches stretches;
@@ -150,9 +150,9 @@ static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_
 }
 
 static inline void sbri_flow_solid(const sbri_island_tick *t, const sbri_solid_lane *e, float h) {
-  const sbri_solid_limits *is = &t->island->solid_limits[e->block];
-  const sbri_tetrahedron_block *block = &t->tetrahedra[e->block];
-  uint32_t lane = e->lane, element = t->island->tetrahedron_of_lane[e->block * SBRI_BLOCK + lane];
+  const sbri_solid_limits *is = &t->island->tetrahedra.limits[e->block];
+  const sbri_tetrahedron_block *block = &t->solids.blocks[e->block];
+  uint32_t lane = e->lane, element = t->island->tetrahedra.of_lane[e->block * SBRI_BLOCK + lane];
   sbfi_solid_metric metric;
   sbfi_stretches stretches;
   sbfi_d3 d[3];
@@ -200,12 +200,12 @@ SBRI_INLINE sbri_mask sbri_solids_beyond(
  * moved: lanes of some blocks share points, and the result must not depend on the SIMD width. */
 static inline bool sbri_pass_solids(const sbri_island_tick *t, float h) {
   bool moved = false;
-  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
-    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
+  for (uint32_t b = 0; b < t->island->tetrahedra.dense_count; b++) {
+    const sbri_tetrahedron_block *block = &t->solids.blocks[b];
     float marks[SBRI_BLOCK];
     bool any = false;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_mask is_beyond = sbri_solids_beyond(t, block, t->island->solid_limits[b].square, lane);
+      sbri_mask is_beyond = sbri_solids_beyond(t, block, t->island->tetrahedra.limits[b].square, lane);
       sbri_wide_store(marks + lane, sbri_wide_select(is_beyond, sbri_wide_all(1), sbri_wide_all(0)));
       any = any || sbri_mask_any(is_beyond);
     }
@@ -223,10 +223,10 @@ static inline bool sbri_pass_solids(const sbri_island_tick *t, float h) {
 }
 
 static inline void sbri_limit_solids(const sbri_island_tick *t, float h) {
-  for (int sweep = 0; t->island->solids_limited && sweep < SBRI_LIMIT_SWEEPS && sbri_pass_solids(t, 0);
-       sweep++)
+  for (int sweep = 0;
+       t->island->tetrahedra.are_limited && sweep < SBRI_LIMIT_SWEEPS && sbri_pass_solids(t, 0); sweep++)
     ;
-  if (t->flowing) sbri_pass_solids(t, h);
+  if (t->solids.flowing) sbri_pass_solids(t, h);
 }
 
 #endif

@@ -86,10 +86,10 @@ static inline void sbri_limit_link(
 
 static inline void sbri_limit_strains(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  for (uint32_t block = 0; block < island->link_block_count; block++) {
-    const sbri_link_block *link = &island->links[block];
-    const sbri_link_limits *limits = &island->link_limits[block];
-    const float *rests = t->rests ? t->rests + block * SBRI_BLOCK : link->rest;
+  for (uint32_t block = 0; block < island->links.block_count; block++) {
+    const sbri_link_block *link = &island->links.blocks[block];
+    const sbri_link_limits *limits = &island->links.limits[block];
+    const float *rests = t->springs.rests ? t->springs.rests + block * SBRI_BLOCK : link->rest;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       sbri_wide3 p = sbri_wide_gather(t->positions, link->a + lane);
       sbri_wide3 q = sbri_wide_gather(t->positions, link->b + lane);
@@ -107,7 +107,8 @@ static inline void sbri_limit_strains(const sbri_island_tick *t) {
           bounds, sbri_wide_select(long_one, longest, sbri_wide_select(short_one, shortest, length)));
       for (uint32_t i = 0; i < SBRI_LANES; i++) {
         uint32_t at = lane + i;
-        if (lengths[i] == bounds[i] || (t->strengths && !(t->strengths[block * SBRI_BLOCK + at] > 0)))
+        if (lengths[i] == bounds[i] ||
+            (t->springs.strengths && !(t->springs.strengths[block * SBRI_BLOCK + at] > 0)))
           continue;
         sbri_limit_link(t, link->a[at], link->b[at], lengths[i], bounds[i]);
       }

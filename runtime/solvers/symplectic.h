@@ -13,8 +13,8 @@
 static inline bool sbri_may_stiffen(const sbri_island_tick *t) {
   bool gas = false;
   for (uint32_t b = 0; b < t->island->body_count; b++)
-    gas = gas || t->model->bodies[t->island->bodies[b]].gas_pa != 0;
-  return !t->island->substeps && (gas || t->island->tetrahedron_block_count > 0);
+    gas = gas || t->model->bodies[t->island->bodies[b]].gas.pressure_pa != 0;
+  return !t->island->stepping.substeps && (gas || t->island->tetrahedra.block_count > 0);
 }
 
 /* Minimum number of substeps of a body in contact. With fewer, its weight presses it into the ground far
@@ -31,10 +31,10 @@ static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
  * divides the rest of the tick again. The total is at most SBRI_MAX_STRAINED_SUBSTEPS. */
 static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  bool solid = island->tetrahedron_block_count > 0, may_stiffen = sbri_may_stiffen(t);
+  bool solid = island->tetrahedra.block_count > 0, may_stiffen = sbri_may_stiffen(t);
   uint32_t left = sbri_substeps_now(t, t->tick_s);
   float min = t->fraction * SBRI_MIN_TOUCHING_SUBSTEPS;
-  if (solid && (float)left < min && !island->substeps && sbri_soft_contacts_any(t))
+  if (solid && (float)left < min && !island->stepping.substeps && sbri_soft_contacts_any(t))
     left = (uint32_t)ceilf(min);
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);

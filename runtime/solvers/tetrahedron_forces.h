@@ -104,9 +104,9 @@ SBRI_INLINE void sbri_compute_viscous_forces(const sbri_tetrahedron_block *block
 SBRI_INLINE void sbri_compute_tetrahedron_damping(const sbri_island_tick *t,
     const sbri_tetrahedron_block *block, uint32_t lane, const float *betas, const sbri_wide3 d[3],
     sbri_wide3 f[3]) {
-  sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
+  sbri_wide3 v = sbri_wide_gather(t->scratch.velocity_points, block->corners[0] + lane), w[3];
   for (int i = 0; i < 3; i++)
-    w[i] = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, block->corners[i + 1] + lane), v);
+    w[i] = sbri_wide3_sub(sbri_wide_gather(t->scratch.velocity_points, block->corners[i + 1] + lane), v);
   sbri_compute_viscous_forces(block, lane, betas, d, w, f);
 }
 
@@ -157,8 +157,8 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
 SBRI_INLINE void sbri_tetrahedron_blocks(
     const sbri_island_tick *t, const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
   enum { GROUPS = SBRI_BLOCK / SBRI_LANES };
-  uint32_t count = t->island->tetrahedron_dense_count;
-  const sbri_tetrahedron_block *blocks = t->tetrahedra;
+  uint32_t count = t->island->tetrahedra.dense_count;
+  const sbri_tetrahedron_block *blocks = t->solids.blocks;
   const sbri_point *x = t->positions;
   sbri_tetrahedron_edges next = {0};
   if (GROUPS == 1 && count > 0) next = sbri_tetrahedron_edges_of(x, blocks, 0);
@@ -186,11 +186,11 @@ SBRI_INLINE void sbri_tetrahedron_blocks(
 /* Writes the forces of the island's tetrahedra to t->element_forces, N. `watch`: NULL, or initialised by
  * sbri_watch_begin; receives the stiffening and the minimum J. */
 static inline void sbri_compute_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
-  sbri_point *sums = t->element_forces;
+  sbri_point *sums = t->scratch.element_forces;
   memset(sums, 0, t->island->slot_count * sizeof *sums);
   /* Specialised loops, so that the common one does no extra work. */
-  if (t->island->tetrahedron_damping)
-    sbri_tetrahedron_blocks(t, t->island->tetrahedron_damping, watch, sums);
+  if (t->island->tetrahedra.damping)
+    sbri_tetrahedron_blocks(t, t->island->tetrahedra.damping, watch, sums);
   else if (watch)
     sbri_tetrahedron_blocks(t, NULL, watch, sums);
   else
@@ -219,17 +219,17 @@ static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool checks)
   sbri_watch_begin(&watch);
   sbri_compute_tetrahedron_forces(t, checks ? &watch : NULL);
   if (!checks) return;
-  *t->stiffening = sbri_watch_stiffening(&watch);
-  *t->min_ratio = sbri_watch_min_ratio(&watch);
+  *t->solids.stiffening = sbri_watch_stiffening(&watch);
+  *t->solids.min_ratio = sbri_watch_min_ratio(&watch);
 }
 
 /* Time whose substeps at rest are stable for `time_s` at the last measured stiffening: frequencies grow with
  * its root, damping with stiffening itself. */
 static inline double sbri_stiffened_time(const sbri_island_tick *t, float time_s) {
   const float max = 1e4f; /* larger values would not help */
-  float fraction = *t->stiffening * *t->max_flow_stretch;
+  float fraction = *t->solids.stiffening * *t->solids.max_flow_stretch;
   if (!(fraction < max)) fraction = max;
-  return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? fraction : sqrtf(fraction));
+  return (double)time_s * (double)(t->island->springs.stiffness_damping_s > 0 ? fraction : sqrtf(fraction));
 }
 
 #endif

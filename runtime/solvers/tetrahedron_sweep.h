@@ -35,14 +35,14 @@
 
 /* Stores the edges of each tetrahedron from its first corner at the beginning of the tick. */
 static inline void sbri_solid_edges_begin(const sbri_island_tick *t) {
-  for (uint32_t b = 0; b < t->island->tetrahedron_block_count; b++) {
-    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
+  for (uint32_t b = 0; b < t->island->tetrahedra.block_count; b++) {
+    const sbri_tetrahedron_block *block = &t->solids.blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      float *edges = t->solid_edges + 9 * SBRI_BLOCK * (size_t)b + lane;
-      sbri_wide3 x0 = sbri_wide_gather(t->begins, block->corners[0] + lane);
+      float *edges = t->solids.edges + 9 * SBRI_BLOCK * (size_t)b + lane;
+      sbri_wide3 x0 = sbri_wide_gather(t->scratch.begins, block->corners[0] + lane);
       for (int k = 0; k < 3; k++)
         sbri_store3(edges + 3 * SBRI_BLOCK * k,
-            sbri_wide3_sub(sbri_wide_gather(t->begins, block->corners[k + 1] + lane), x0));
+            sbri_wide3_sub(sbri_wide_gather(t->scratch.begins, block->corners[k + 1] + lane), x0));
     }
   }
 }
@@ -84,10 +84,10 @@ SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrah
  * looped over in memory. */
 SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     const float *edges, uint32_t lane, const float *betas, const sbri_sweep_step *step) {
-  sbri_wide4 u0 = sbri_wide_gather4(t->moves, block->corners[0] + lane);
-  sbri_wide4 u1 = sbri_wide_gather4(t->moves, block->corners[1] + lane);
-  sbri_wide4 u2 = sbri_wide_gather4(t->moves, block->corners[2] + lane);
-  sbri_wide4 u3 = sbri_wide_gather4(t->moves, block->corners[3] + lane);
+  sbri_wide4 u0 = sbri_wide_gather4(t->scratch.moves, block->corners[0] + lane);
+  sbri_wide4 u1 = sbri_wide_gather4(t->scratch.moves, block->corners[1] + lane);
+  sbri_wide4 u2 = sbri_wide_gather4(t->scratch.moves, block->corners[2] + lane);
+  sbri_wide4 u3 = sbri_wide_gather4(t->scratch.moves, block->corners[3] + lane);
 #define SBRI_EDGE(k, u)                                                                                      \
   sbri_wide3_add(                                                                                            \
       sbri_load3(edges + 3 * SBRI_BLOCK * k + lane), (sbri_wide3){u.x - u0.x, u.y - u0.y, u.z - u0.z})
@@ -159,21 +159,21 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
   sbri_wide4_move(&u1, f1, square * u1.w);
   sbri_wide4_move(&u2, f2, square * u2.w);
   sbri_wide4_move(&u3, f3, square * u3.w);
-  sbri_wide_scatter4(t->moves, block->corners[0] + lane, u0);
-  sbri_wide_scatter4(t->moves, block->corners[1] + lane, u1);
-  sbri_wide_scatter4(t->moves, block->corners[2] + lane, u2);
-  sbri_wide_scatter4(t->moves, block->corners[3] + lane, u3);
+  sbri_wide_scatter4(t->scratch.moves, block->corners[0] + lane, u0);
+  sbri_wide_scatter4(t->scratch.moves, block->corners[1] + lane, u1);
+  sbri_wide_scatter4(t->scratch.moves, block->corners[2] + lane, u2);
+  sbri_wide_scatter4(t->scratch.moves, block->corners[3] + lane, u3);
 }
 
 SBRI_INLINE void sbri_sweep_blocks(
     const sbri_island_tick *t, const sbri_sweep_step *step, bool backwards, const float *betas) {
-  const sbri_tetrahedron_block *blocks = t->tetrahedra;
-  uint32_t full = t->island->tetrahedron_full_count, left_out = t->island->tetrahedron_dense_count - full;
-  uint32_t count = t->island->tetrahedron_block_count - left_out;
+  const sbri_tetrahedron_block *blocks = t->solids.blocks;
+  uint32_t full = t->island->tetrahedra.full_count, left_out = t->island->tetrahedra.dense_count - full;
+  uint32_t count = t->island->tetrahedra.block_count - left_out;
   for (uint32_t n = 0; n < count; n++) {
     uint32_t b = backwards ? count - 1 - n : n;
     if (b >= full) b += left_out;
-    const float *edges = t->solid_edges + 9 * SBRI_BLOCK * (size_t)b;
+    const float *edges = t->solids.edges + 9 * SBRI_BLOCK * (size_t)b;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
       sbri_sweep_lanes(t, &blocks[b], edges, lane, betas ? betas + b * SBRI_BLOCK : NULL, step);
   }
@@ -181,8 +181,8 @@ SBRI_INLINE void sbri_sweep_blocks(
 
 static inline void sbri_sweep_tetrahedra(const sbri_island_tick *t, float h, bool backwards) {
   const sbri_sweep_step step = {h, h * h};
-  if (t->island->tetrahedron_damping)
-    sbri_sweep_blocks(t, &step, backwards, t->island->tetrahedron_damping);
+  if (t->island->tetrahedra.damping)
+    sbri_sweep_blocks(t, &step, backwards, t->island->tetrahedra.damping);
   else
     sbri_sweep_blocks(t, &step, backwards, NULL);
 }

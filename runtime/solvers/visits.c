@@ -21,8 +21,8 @@ static float rest_length(const sbri_body *body, const sbf_spring_set *set, uint3
 }
 
 static void add(visit_list *list, const sbf_spring_set *set, uint32_t i, int from) {
-  uint32_t a = list->body->slot_from_point[set->ends.at[i].at[from]];
-  uint32_t b = list->body->slot_from_point[set->ends.at[i].at[!from]];
+  uint32_t a = list->body->slots.from_point[set->ends.at[i].at[from]];
+  uint32_t b = list->body->slots.from_point[set->ends.at[i].at[!from]];
   if (a >= list->island->free_count && b >= list->island->free_count) return;
   list->at[list->count++] = (sbri_visit){a, b, rest_length(list->body, set, i)};
 }
@@ -92,7 +92,7 @@ bool sbri_visits_make(sbr_model *model, sbri_island *island) {
     good = walk(&list, SBF_SPRING_KIND_STRUCTURAL, &scratch) && walk(&list, SBF_SPRING_KIND_SHEAR, &scratch);
   }
   sbfi_arena_free(&scratch);
-  island->visits = list.at;
-  island->visit_count = list.count;
+  island->springs.visits = list.at;
+  island->springs.visit_count = list.count;
   return good;
 }

@@ -73,25 +73,25 @@ typedef struct sbri_volume_reaction {
 static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_body *body,
     const sbri_point *faces, float sign, sbri_volume_reaction *reaction) {
   float lanes[SBRI_BLOCK] = {0};
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    uint32_t lane = slot % SBRI_BLOCK, block = (slot - body->slot_begin) / SBRI_BLOCK;
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
+    uint32_t lane = slot % SBRI_BLOCK, block = (slot - body->slots.begin) / SBRI_BLOCK;
     sbri_wide3 g = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)};
-    for (uint32_t c = body->volume_begins[block]; c < body->volume_begins[block + 1]; c++) {
-      const sbri_carry_cell *cell = &body->volume_cells[c];
+    for (uint32_t c = body->volume.begins[block]; c < body->volume.begins[block + 1]; c++) {
+      const sbri_carry_cell *cell = &body->volume.cells[c];
       sbri_wide3 n = sbri_wide_gather(faces, cell->slots + lane);
       sbri_wide w = sbri_wide_load(cell->weights + lane);
       g.x = g.x + w * n.x;
       g.y = g.y + w * n.y;
       g.z = g.z + w * n.z;
     }
-    sbri_wide_store_points(t->velocity_points + slot, g);
+    sbri_wide_store_points(t->scratch.velocity_points + slot, g);
     if (reaction->rigid_body) {
       const sbf_vec3 *o = &reaction->rigid_body->about;
       sbri_wide3 r = sbri_positions_before(t, slot, reaction->h);
       r.x = r.x - sbri_wide_all(o->x), r.y = r.y - sbri_wide_all(o->y), r.z = r.z - sbri_wide_all(o->z);
       sbri_lane_sums_add(&reaction->sums, lane, r, g);
     }
-    if (t->near_ground[slot / SBRI_BLOCK]) g = sbri_volume_project_gradient(t, slot, g, sign);
+    if (t->contacts.near_ground[slot / SBRI_BLOCK]) g = sbri_volume_project_gradient(t, slot, g, sign);
     sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
     sbri_wide_store(lanes + lane, sbri_wide_load(lanes + lane) + w * (g.x * g.x + g.y * g.y + g.z * g.z));
   }
@@ -105,9 +105,9 @@ static inline sbf_vec3 sbri_pinned_gradient(const sbri_point *faces, const sbri_
 
 /* Whether the body is pinned to several rigid bodies, at least one of them simulated. */
 static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
-  if (!t->reactions || body->volume_carrier >= 0) return false;
-  for (uint32_t k = 0; k < t->island->carrier_count; k++)
-    if (t->reactions[t->island->carriers[k]].inverse_mass > 0) return true;
+  if (!t->reactions || body->volume.carrier >= 0) return false;
+  for (uint32_t k = 0; k < t->island->pins.carrier_count; k++)
+    if (t->reactions[t->island->pins.carriers[k]].inverse_mass > 0) return true;
   return false;
 }
 
@@ -119,11 +119,11 @@ static inline float sbri_reaction_inverse_mass(const sbri_reaction *r, sbf_vec3 
 static inline float sbri_volume_pinned_inverse_mass(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
   float sum = 0;
-  for (uint32_t k = 0; k < t->island->carrier_count; k++) {
-    const sbri_reaction *r = &t->reactions[t->island->carriers[k]];
+  for (uint32_t k = 0; k < t->island->pins.carrier_count; k++) {
+    const sbri_reaction *r = &t->reactions[t->island->pins.carriers[k]];
     sbf_vec3 linear = {0, 0, 0}, angular = {0, 0, 0};
-    for (uint32_t i = 0; r->inverse_mass > 0 && i < body->pinned_face_weight_count; i++) {
-      const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
+    for (uint32_t i = 0; r->inverse_mass > 0 && i < body->volume.pinned_weight_count; i++) {
+      const sbri_face_weight *face_weight = &body->volume.pinned_weights[i];
       if (sbri_reaction_at(t, face_weight->slot) != r) continue;
       sbf_vec3 g = sbri_pinned_gradient(faces, face_weight);
       linear = sbri_add(linear, g);
@@ -137,8 +137,8 @@ static inline float sbri_volume_pinned_inverse_mass(
 /* Applies the impulses to pinned points, at their positions at the beginning of the substep. */
 static inline void sbri_volume_apply_to_pinned(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float impulse, float h) {
-  for (uint32_t i = 0; i < body->pinned_face_weight_count; i++) {
-    const sbri_face_weight *face_weight = &body->pinned_face_weights[i];
+  for (uint32_t i = 0; i < body->volume.pinned_weight_count; i++) {
+    const sbri_face_weight *face_weight = &body->volume.pinned_weights[i];
     sbri_reaction *r = sbri_reaction_at(t, face_weight->slot);
     sbf_vec3 point_impulse = sbri_scale(sbri_pinned_gradient(faces, face_weight), impulse);
     if (!r) continue;
@@ -151,14 +151,14 @@ static inline void sbri_volume_apply_to_pinned(
 /* Volume within the surface of the points. Also writes twice the area vectors of its faces. */
 static inline float sbri_volume_enclosed(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *points, sbri_point *faces) {
-  const sbri_skin *skin = &body->surface;
+  const sbri_skin *skin = &body->surface.skin;
   const sbri_point *vertices = points;
-  const sbri_face_block *face_blocks = body->volume_faces;
+  const sbri_face_block *face_blocks = body->volume.faces;
   if (!face_blocks) {
-    vertices = t->surface_vertices + body->first_vertex;
+    vertices = t->surfaces.vertices + body->surface.first_vertex;
     face_blocks = skin->faces;
     sbri_lanes_compute_vertices(
-        skin, points - t->island->first_slot, t->surface_vertices + body->first_vertex);
+        skin, points - t->island->first_slot, t->surfaces.vertices + body->surface.first_vertex);
   }
   return sbri_lanes_volume(face_blocks, skin->face_block_count, vertices, faces);
 }
@@ -167,7 +167,7 @@ static inline float sbri_volume_enclosed(
  * both consistently does not change them. */
 static inline void sbri_compute_volume_faces_before(
     const sbri_island_tick *t, const sbri_body *body, sbri_point *faces, float h) {
-  sbri_point *before = t->element_forces; /* scratch that is unused here */
+  sbri_point *before = t->scratch.element_forces; /* scratch that is unused here */
   for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(before + slot, sbri_positions_before(t, slot, h));
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
@@ -182,13 +182,13 @@ static inline void sbri_compute_volume_faces_before(
  * volume that simulated bodies will restore, by the impulses of earlier steps. */
 static inline float sbri_volume_step(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
-  sbri_point *faces = t->surface_faces + body->first_face;
-  float rest = (float)body->rest_volume_m3, max = SBRI_MAX_VOLUME_FRACTION * rest;
+  sbri_point *faces = t->surfaces.faces + body->surface.first_face;
+  float rest = (float)body->surface.rest_volume_m3, max = SBRI_MAX_VOLUME_FRACTION * rest;
   float missing = rest - sbri_volume_enclosed(t, body, t->positions, faces) - *owed;
   const bool shared = sbri_volume_is_shared(t, body);
   if (shared) sbri_compute_volume_faces_before(t, body, faces, rule->step_s);
   sbri_reaction *rigid_body =
-      t->reactions && body->volume_carrier >= 0 ? &t->reactions[body->volume_carrier] : NULL;
+      t->reactions && body->volume.carrier >= 0 ? &t->reactions[body->volume.carrier] : NULL;
   sbri_volume_reaction reaction;
   reaction.rigid_body = rigid_body && rigid_body->inverse_mass > 0 ? rigid_body : NULL,
   reaction.h = rule->step_s;
@@ -197,7 +197,7 @@ static inline float sbri_volume_step(
   sbf_vec3 linear = {0, 0, 0}, angular = {0, 0, 0};
   if (reaction.rigid_body)
     linear = sbri_lanes_force(&reaction.sums), angular = sbri_lanes_moment(&reaction.sums);
-  if (reaction.rigid_body && body->pinned_face_weight_count > 0)
+  if (reaction.rigid_body && body->volume.pinned_weight_count > 0)
     pinned_sum = sbri_reaction_inverse_mass(reaction.rigid_body, linear, angular);
   if (shared) pinned_sum = sbri_volume_pinned_inverse_mass(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
@@ -209,15 +209,15 @@ static inline float sbri_volume_step(
   }
   if (shared) sbri_volume_apply_to_pinned(t, body, faces, s / rule->step_s, rule->step_s);
   sbri_wide rate = sbri_wide_all(1 / rule->step_s);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
-    sbri_wide3 g = sbri_wide_load_points(t->velocity_points + slot), v = sbri_load3(velocity);
+    sbri_wide3 g = sbri_wide_load_points(t->scratch.velocity_points + slot), v = sbri_load3(velocity);
     sbri_wide3 from = sbri_wide_load_points(t->positions + slot);
     sbri_wide k = sbri_wide_all(s) * sbri_wide_load(t->island->inverse_masses + slot);
     g.x = k * g.x, g.y = k * g.y, g.z = k * g.z;
     sbri_wide3 to = {from.x + g.x, from.y + g.y, from.z + g.z};
     v.x = v.x + rate * g.x, v.y = v.y + rate * g.y, v.z = v.z + rate * g.z;
-    if (t->near_ground[slot / SBRI_BLOCK]) {
+    if (t->contacts.near_ground[slot / SBRI_BLOCK]) {
       sbri_contact_planes p = sbri_planes_of(t, slot);
       sbri_contact_bound(&p, from, &to, &v, rule, slot);
     }

@@ -50,8 +50,9 @@ static bool is_in_contact(const sbri_group_member *m, uint32_t island) {
 
 static uint32_t steps_of(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  if (island->scheme->sweeps || island->substeps) return island->substeps;
-  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
+  if (island->scheme->sweeps || island->stepping.substeps) return island->stepping.substeps;
+  float stretch =
+      *t->springs.stretch > island->springs.rest_stretch ? *t->springs.stretch : island->springs.rest_stretch;
   return STEPS_OF_SOFT * sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch);
 }
 
@@ -70,7 +71,7 @@ static void begin_island(const sbr_world *world, sbri_group_member *m, uint32_t 
   sbri_island_fill_unused_slots(c, &now);
   sbri_island_store_motions(c, index);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  tick.external_rad_s = &now.external_rad_s;
+  tick.surfaces.external_rad_s = &now.stability.external_rad_s;
   sbri_update_gas_stiffness(&tick);
   prepare_pins(c, &now);
   sbri_island_prepare_contacts(&tick, c);
@@ -98,7 +99,7 @@ static uint32_t count_steps(const sbr_world *world, const sbri_group_member *m) 
     if (!is_in_contact(m, i)) continue;
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
     sbri_island_tick tick = sbri_island_tick_of(world, c, i, &now);
-    tick.external_rad_s = &now.external_rad_s;
+    tick.surfaces.external_rad_s = &now.stability.external_rad_s;
     sbri_update_gas_stiffness(&tick);
     uint32_t steps = steps_of(&tick);
     max = steps > max ? steps : max;
@@ -116,7 +117,7 @@ static uint32_t advance_island(
   sbri_point *targets = sbri_targets(c) + now.first_slot;
   const sbri_point *positions = sbri_positions(c) + now.first_slot;
   float fraction = to - from, rest_fraction = fraction / (1 - from);
-  if (now.substeps) now.substeps = (uint32_t)ceilf(fraction * (float)now.substeps);
+  if (now.stepping.substeps) now.stepping.substeps = (uint32_t)ceilf(fraction * (float)now.stepping.substeps);
   sbri_compute_pin_targets(&now, sbri_deltas(c), targets);
   for (uint32_t s = now.free_count; s < now.slot_count; s++) {
     const sbri_point *x = &positions[s];
@@ -125,10 +126,10 @@ static uint32_t advance_island(
   }
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
   tick.tick_s *= fraction, tick.fraction = fraction;
-  tick.external_rad_s = &now.external_rad_s;
+  tick.surfaces.external_rad_s = &now.stability.external_rad_s;
   sbri_update_gas_stiffness(&tick);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
-  if (now.scheme->sweeps || now.substeps) return 0;
+  if (now.scheme->sweeps || now.stepping.substeps) return 0;
   tick.tick_s = m->tick_s, tick.fraction = 1;
   return steps_of(&tick);
 }
@@ -160,7 +161,7 @@ static void run_without_contacts(const sbr_world *world, const sbri_group_member
   if (m->parts.steps) /* rigid parts have moved the pins */
     sbri_compute_pin_targets(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
-  tick.external_rad_s = &now.external_rad_s;
+  tick.surfaces.external_rad_s = &now.stability.external_rad_s;
   sbri_update_gas_stiffness(&tick);
   sbri_router_scheme(&now, &sbri_island_states(c)[index].recovery)->tick(&tick);
 }

@@ -39,7 +39,7 @@ static void update_storage(sbr_world *world, sbri_character *c) {
 
 /* Without solver memory, rigid parts do not move (ragdoll/rigid_parts.c). */
 static void update_rigid_storage(sbr_world *world, sbri_character *c) {
-  size_t size = c->model->layout.rigid_work_size;
+  size_t size = c->model->layout.rigid.work_size;
   if (sbri_rigid_drive(c)->any) {
     c->rigid_ticks = 0;
     if (c->rigid_work || c->refused_ticks > 0) return;
@@ -56,6 +56,6 @@ void sbri_character_storage_update(sbr_world *world) {
     if (!c->model || sbri_header(c)->paused) continue;
     if (c->refused_ticks > 0) c->refused_ticks--;
     if (c->model->rigid.body_count) update_rigid_storage(world, c);
-    if (c->model->base->detail_level_count > 1) update_storage(world, c);
+    if (c->model->detail.base->detail.level_count > 1) update_storage(world, c);
   }
 }

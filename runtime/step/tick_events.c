@@ -23,12 +23,12 @@ static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, 
   uint32_t spring = 0, link = tear->link;
   for (uint32_t b = 0; tear->solid && b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];
-    if (link - body->first_tetrahedron < body->tetrahedron_count) return island->bodies[b];
+    if (link - body->elements.first_tetrahedron < body->elements.tetrahedron_count) return island->bodies[b];
   }
-  while (spring < island->spring_count && island->link_of_spring[spring] != link) spring++;
+  while (spring < island->springs.count && island->links.of_spring[spring] != link) spring++;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];
-    if (spring >= body->first_spring && spring < body->spring_end) return island->bodies[b];
+    if (spring >= body->elements.first_spring && spring < body->elements.spring_end) return island->bodies[b];
   }
   return island->bodies[0];
 }

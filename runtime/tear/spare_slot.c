@@ -4,9 +4,9 @@
 uint32_t sbri_find_spare_slot(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   const sbr_model *model = c->model;
   uint32_t b = 0;
-  while (slot >= model->bodies[island->bodies[b]].slot_end) b++;
+  while (slot >= model->bodies[island->bodies[b]].slots.end) b++;
   const sbri_body *body = &model->bodies[island->bodies[b]];
-  for (uint32_t spare = body->first_spare; spare < body->slot_real_end; spare++)
+  for (uint32_t spare = body->slots.first_spare; spare < body->slots.real_end; spare++)
     if (sbri_origins(c)[island->first_slot + spare] == SBRI_UNUSED) return spare;
   return SBRI_UNUSED;
 }

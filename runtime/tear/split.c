@@ -14,17 +14,18 @@
 enum { MAX_AROUND = 192 };
 
 static void unsplit_springs(sbri_character *c, const sbri_island *island) {
-  uint32_t blocks = island->free_count / SBRI_BLOCK, cells = island->cell_begins[blocks];
-  size_t first = island->first_thread_cell, lanes = (size_t)cells * SBRI_BLOCK;
-  memcpy(sbri_thread_ends(c) + island->first_thread_block, island->cell_ends, blocks * sizeof(uint32_t));
-  memcpy(sbri_thread_cells(c) + first, island->cells, cells * sizeof *island->cells);
-  memcpy(sbri_thread_links(c) + first * SBRI_BLOCK, island->cell_links, lanes * sizeof(uint32_t));
-  if (island->cell_damping)
-    memcpy(sbri_thread_damping(c) + first * SBRI_BLOCK, island->cell_damping, lanes * sizeof(float));
-  if (island->cell_slack)
-    memcpy(sbri_thread_slack(c) + first * SBRI_BLOCK, island->cell_slack, lanes * sizeof(float));
-  memcpy(sbri_thread_blocks(c) + island->first_thread_link, island->links,
-      island->link_block_count * sizeof *island->links);
+  uint32_t blocks = island->free_count / SBRI_BLOCK, cells = island->cells.begins[blocks];
+  size_t first = island->cells.first_state_cell, lanes = (size_t)cells * SBRI_BLOCK;
+  memcpy(
+      sbri_thread_ends(c) + island->cells.first_state_block, island->cells.ends, blocks * sizeof(uint32_t));
+  memcpy(sbri_thread_cells(c) + first, island->cells.at, cells * sizeof *island->cells.at);
+  memcpy(sbri_thread_links(c) + first * SBRI_BLOCK, island->cells.links, lanes * sizeof(uint32_t));
+  if (island->cells.damping)
+    memcpy(sbri_thread_damping(c) + first * SBRI_BLOCK, island->cells.damping, lanes * sizeof(float));
+  if (island->cells.slack)
+    memcpy(sbri_thread_slack(c) + first * SBRI_BLOCK, island->cells.slack, lanes * sizeof(float));
+  memcpy(sbri_thread_blocks(c) + island->links.first_state_block, island->links.blocks,
+      island->links.block_count * sizeof *island->links.blocks);
 }
 
 void sbri_reset_splits(sbri_character *c) {
@@ -32,7 +33,7 @@ void sbri_reset_splits(sbri_character *c) {
   for (uint32_t i = 0; model->splits && i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
     sbri_island_states(c)[i].unsplit = 0;
-    if (island->frays) unsplit_springs(c, island);
+    if (island->springs.tear) unsplit_springs(c, island);
     for (uint32_t slot = 0; slot < island->slot_count; slot++) {
       uint32_t at = island->first_slot + slot;
       bool free = slot < island->free_count;
@@ -43,7 +44,7 @@ void sbri_reset_splits(sbri_character *c) {
     }
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &model->bodies[island->bodies[b]];
-      for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++)
+      for (uint32_t slot = body->slots.first_spare; slot < body->slots.real_end; slot++)
         sbri_origins(c)[island->first_slot + slot] = SBRI_UNUSED;
     }
   }
@@ -60,13 +61,13 @@ typedef struct splitting {
 } splitting;
 
 static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int copy) {
-  uint32_t at = s->island->lanes_of_tetrahedra[2 * element + (uint32_t)copy];
+  uint32_t at = s->island->tetrahedra.lanes[2 * element + (uint32_t)copy];
   return &s->blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
 }
 
 /* Lists the intact tetrahedra with the slot as a corner. */
 static void find_tetrahedra_around(splitting *s, uint32_t slot) {
-  const sbri_tear_table *table = s->island->tears;
+  const sbri_tear_table *table = s->island->tetrahedra.tears;
   uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
   s->count = 0;
   for (uint32_t i = table->around_begins[origin]; i < table->around_begins[origin + 1]; i++)
@@ -83,7 +84,7 @@ static void flood(splitting *s, uint32_t from) {
   for (uint32_t next = 0; next < end; next++)
     for (uint32_t k = 0; k < 4; k++) { /* faces with the point */
       if (k == s->corners[queue[next]]) continue;
-      uint32_t other = s->island->tears->neighbours[s->elements[queue[next]]][k], i = 0;
+      uint32_t other = s->island->tetrahedra.tears->neighbours[s->elements[queue[next]]][k], i = 0;
       while (i < s->count && s->elements[i] != other) i++;
       if (i == s->count || s->parts[i] != SBRI_UNUSED) continue;
       s->parts[i] = s->part_count;
@@ -97,7 +98,7 @@ static void flood(splitting *s, uint32_t from) {
 static float volume_of(const splitting *s, uint32_t part) {
   float sum = 0;
   for (uint32_t i = 0; i < s->count; i++)
-    if (s->parts[i] == part) sum += s->island->tears->volumes_m3[s->elements[i]];
+    if (s->parts[i] == part) sum += s->island->tetrahedra.tears->volumes_m3[s->elements[i]];
   return sum;
 }
 
@@ -133,11 +134,13 @@ static uint32_t split(splitting *s, uint32_t slot) {
 
 uint32_t sbri_island_split(sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
-  const uint32_t *torn = sbri_torn(c) + island->first_solid;
-  splitting s = {
-      .c = c, .island = island, .torn = torn, .blocks = sbri_solids(c) + island->first_solid_block};
-  uint32_t unsplit = island->frays ? sbri_island_split_springs(c, index) : 0;
-  for (uint32_t t = 0; island->tears && t < island->tetrahedron_count; t++)
+  const uint32_t *torn = sbri_torn(c) + island->tetrahedra.first_state;
+  splitting s = {.c = c,
+      .island = island,
+      .torn = torn,
+      .blocks = sbri_solids(c) + island->tetrahedra.first_state_block};
+  uint32_t unsplit = island->springs.tear ? sbri_island_split_springs(c, index) : 0;
+  for (uint32_t t = 0; island->tetrahedra.tears && t < island->tetrahedra.count; t++)
     for (uint32_t k = 0; k < 4 && torn[t] == SBRI_TORN_NOW; k++) {
       uint32_t slot = *corner(&s, t, k, 0);
       if (slot < island->free_count) unsplit += split(&s, slot);

@@ -102,26 +102,27 @@ static bool separates(const fraying *f, uint32_t part) {
 
 /* Cell and lane of a slot's spring. */
 static uint32_t cell_of(const fraying *f, uint32_t slot, uint32_t link) {
-  uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK, cell = f->island.cell_begins[block];
-  while (f->island.cell_links[cell * SBRI_BLOCK + lane] != link || f->island.cells[cell].others[lane] == slot)
+  uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK, cell = f->island.cells.begins[block];
+  while (f->island.cells.links[cell * SBRI_BLOCK + lane] != link ||
+         f->island.cells.at[cell].others[lane] == slot)
     cell++;
   return cell;
 }
 
 static float stiffness_of(const fraying *f, uint32_t slot, uint32_t spring) {
-  return f->island.cells[cell_of(f, slot, f->now.links[spring])].stiffness[slot % SBRI_BLOCK];
+  return f->island.cells.at[cell_of(f, slot, f->now.links[spring])].stiffness[slot % SBRI_BLOCK];
 }
 
 /* Moves the spring's row of one slot to the end of another's, whose next row is `at`. */
 static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to, uint32_t at) {
   const sbri_island *island = &f->island;
-  sbri_spring_cell *cells = sbri_thread_cells(f->c) + island->first_thread_cell;
-  float *damping = sbri_thread_damping(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
-  float *slack = sbri_thread_slack(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
-  uint32_t *links = sbri_thread_links(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
-  uint32_t *ends = sbri_thread_ends(f->c) + island->first_thread_block;
+  sbri_spring_cell *cells = sbri_thread_cells(f->c) + island->cells.first_state_cell;
+  float *damping = sbri_thread_damping(f->c) + (size_t)island->cells.first_state_cell * SBRI_BLOCK;
+  float *slack = sbri_thread_slack(f->c) + (size_t)island->cells.first_state_cell * SBRI_BLOCK;
+  uint32_t *links = sbri_thread_links(f->c) + (size_t)island->cells.first_state_cell * SBRI_BLOCK;
+  uint32_t *ends = sbri_thread_ends(f->c) + island->cells.first_state_block;
   uint32_t old_cell = cell_of(f, from, link), old_lane = from % SBRI_BLOCK;
-  uint32_t block = to / SBRI_BLOCK, lane = to % SBRI_BLOCK, cell = island->cell_begins[block] + at;
+  uint32_t block = to / SBRI_BLOCK, lane = to % SBRI_BLOCK, cell = island->cells.begins[block] + at;
   sbri_spring_cell *old = &cells[old_cell];
   cells[cell].others[lane] = old->others[old_lane];
   cells[cell].stiffness[lane] = old->stiffness[old_lane], cells[cell].pull[lane] = old->pull[old_lane];
@@ -137,13 +138,13 @@ static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to
 static void move_spring(const fraying *f, uint32_t spring, uint32_t from, uint32_t to, uint32_t at) {
   const sbri_island *island = &f->island;
   uint32_t link = f->now.links[spring], other = f->now.others[spring];
-  sbri_link_block *block = &sbri_thread_blocks(f->c)[island->first_thread_link + link / SBRI_BLOCK];
+  sbri_link_block *block = &sbri_thread_blocks(f->c)[island->links.first_state_block + link / SBRI_BLOCK];
   uint32_t lane = link % SBRI_BLOCK;
   *(block->a[lane] == from ? &block->a[lane] : &block->b[lane]) = to;
   move_row(f, link, from, to, at);
   if (other < island->free_count)
-    sbri_thread_cells(f->c)[island->first_thread_cell + cell_of(f, other, link)].others[other % SBRI_BLOCK] =
-        to;
+    sbri_thread_cells(f->c)[island->cells.first_state_cell + cell_of(f, other, link)]
+        .others[other % SBRI_BLOCK] = to;
 }
 
 /* Returns the number of groups that could not be split off. */
@@ -162,7 +163,7 @@ static uint32_t split(fraying *f, uint32_t slot) {
     if (!leaving[part]) continue;
     uint32_t capacity = sbri_find_spare_slot(f->c, island, slot), block = capacity / SBRI_BLOCK, at = 0;
     if (capacity == SBRI_UNUSED ||
-        size_of(&f->now, part) > island->cell_begins[block + 1] - island->cell_begins[block]) {
+        size_of(&f->now, part) > island->cells.begins[block + 1] - island->cells.begins[block]) {
       unsplit++;
       continue;
     }
@@ -187,9 +188,9 @@ static void mark(const fraying *f, uint8_t *frayed) {
   const sbri_island *island = &f->island;
   enum { TORN = 1, NEAR = 2 };
   memset(frayed, 0, island->slot_count);
-  for (uint32_t i = 0; i < island->link_block_count * SBRI_BLOCK; i++)
+  for (uint32_t i = 0; i < island->links.block_count * SBRI_BLOCK; i++)
     if (!(f->whole.strengths[i] > 0)) {
-      const sbri_link_block *link = &island->links[i / SBRI_BLOCK];
+      const sbri_link_block *link = &island->links.blocks[i / SBRI_BLOCK];
       frayed[link->a[i % SBRI_BLOCK]] = frayed[link->b[i % SBRI_BLOCK]] = TORN;
     }
   for (uint32_t slot = 0; slot < island->free_count; slot++)
@@ -199,7 +200,7 @@ static void mark(const fraying *f, uint8_t *frayed) {
 
 uint32_t sbri_island_split_springs(sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
-  const float *strengths = sbri_strengths(c) + made->first_flow;
+  const float *strengths = sbri_strengths(c) + made->links.first_flow;
   uint8_t *frayed = sbri_frayed(c) + made->first_slot;
   fraying f = {.c = c,
       .island = sbri_island_now(c, made),
@@ -212,7 +213,7 @@ uint32_t sbri_island_split_springs(sbri_character *c, uint32_t index) {
   uint32_t unsplit = 0;
   for (uint32_t b = 0; b < made->body_count; b++) {
     const sbri_body *body = &c->model->bodies[made->bodies[b]];
-    for (uint32_t slot = body->slot_begin; sbri_body_frays(body) && slot < body->slot_real_end; slot++)
+    for (uint32_t slot = body->slots.begin; sbri_body_frays(body) && slot < body->slots.real_end; slot++)
       if (f.origins[slot] != SBRI_UNUSED && frayed[slot]) unsplit += split(&f, slot);
   }
   return unsplit;

@@ -19,10 +19,10 @@ static inline bool sbri_network_next(const sbri_network *n, uint32_t slot, sbri_
   const sbri_island *island = n->island;
   if (slot >= island->free_count) return false;
   uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-  for (uint32_t row = end->row; row < island->cell_ends[block] - island->cell_begins[block]; row++) {
-    uint32_t cell = island->cell_begins[block] + row;
+  for (uint32_t row = end->row; row < island->cells.ends[block] - island->cells.begins[block]; row++) {
+    uint32_t cell = island->cells.begins[block] + row;
     *end = (sbri_network_end){
-        row + 1, island->cells[cell].others[lane], island->cell_links[cell * SBRI_BLOCK + lane]};
+        row + 1, island->cells.at[cell].others[lane], island->cells.links[cell * SBRI_BLOCK + lane]};
     if (end->other != slot && (!n->strengths || n->strengths[end->link] > 0)) return true;
   }
   return false;

@@ -14,7 +14,7 @@ enum { MAX_SPRING_DISTANCE = 3, CARRIERS = 4 };
 void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t index) {
   const sbri_island *made = &c->model->islands[index];
   t->c = c, t->island = sbri_island_now(c, made);
-  t->whole = (sbri_network){&t->island, sbri_strengths(c) + made->first_flow};
+  t->whole = (sbri_network){&t->island, sbri_strengths(c) + made->links.first_flow};
   t->rest = (sbri_network){made, NULL};
   t->origins = sbri_origins(c) + made->first_slot;
   t->seen = sbri_owners(c) + made->first_slot; /* all SBRI_UNUSED between queries */
@@ -73,10 +73,10 @@ static uint32_t connected_copy(const sbri_torn_network *t, uint32_t from, uint32
   if (!is_separated(t, from, slot)) return slot;
   for (uint32_t b = 0; b < t->island.body_count; b++) {
     const sbri_body *body = &t->c->model->bodies[t->island.bodies[b]];
-    if (t->origins[slot] < body->slot_begin || t->origins[slot] >= body->slot_real_end) continue;
+    if (t->origins[slot] < body->slots.begin || t->origins[slot] >= body->slots.real_end) continue;
     if (is_joined(t, &t->whole, from, t->origins[slot])) return t->origins[slot];
-    for (uint32_t spare = body->first_spare; spare < body->slot_real_end && t->origins[spare] != SBRI_UNUSED;
-         spare++)
+    for (uint32_t spare = body->slots.first_spare;
+         spare < body->slots.real_end && t->origins[spare] != SBRI_UNUSED; spare++)
       if (t->origins[spare] == t->origins[slot] && is_joined(t, &t->whole, from, spare)) return spare;
   }
   return SBRI_UNUSED;

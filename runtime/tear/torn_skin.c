@@ -23,9 +23,9 @@ static void repair(sbri_character *c, const sbri_skin *skin) {
 
 void sbri_restore_skins(sbri_character *c) {
   const sbr_model *model = c->model;
-  for (uint32_t i = 0; i < model->skin_count; i++) repair(c, &model->skins[i]);
-  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) repair(c, &model->bodies[i].surface);
-  memset(sbri_torn_polygons(c), 0, model->torn_polygon_count * sizeof(uint32_t));
+  for (uint32_t i = 0; i < model->skins.count; i++) repair(c, &model->skins.at[i]);
+  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) repair(c, &model->bodies[i].surface.skin);
+  memset(sbri_torn_polygons(c), 0, model->counts.polygons * sizeof(uint32_t));
 }
 
 /* ---- Vertices ---- */
@@ -40,7 +40,7 @@ typedef struct tearing {
 } tearing;
 
 static uint32_t corner(const tearing *t, uint32_t element, uint32_t k) {
-  uint32_t at = t->island->lanes_of_tetrahedra[2 * element];
+  uint32_t at = t->island->tetrahedra.lanes[2 * element];
   return t->blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
 }
 
@@ -52,7 +52,7 @@ static bool has_corner(const tearing *t, uint32_t element, uint32_t slot) {
 
 /* An intact tetrahedron with that slot as a corner, preferably a neighbour; SBRI_UNUSED: none. */
 static uint32_t find_whole(const tearing *t, uint32_t element, uint32_t slot) {
-  const sbri_tear_table *table = t->island->tears;
+  const sbri_tear_table *table = t->island->tetrahedra.tears;
   for (uint32_t k = 0; k < 4; k++) {
     uint32_t other = table->neighbours[element][k];
     if (other != UINT32_MAX && !t->torn[other] && has_corner(t, other, slot)) return other;
@@ -67,15 +67,15 @@ static uint32_t find_whole(const tearing *t, uint32_t element, uint32_t slot) {
 static const sbri_body *body_of(const tearing *t, uint32_t element) {
   uint32_t b = 0;
   const sbri_body *bodies = t->c->model->bodies;
-  while (element - bodies[t->island->bodies[b]].first_tetrahedron >=
-         bodies[t->island->bodies[b]].tetrahedron_count)
+  while (element - bodies[t->island->bodies[b]].elements.first_tetrahedron >=
+         bodies[t->island->bodies[b]].elements.tetrahedron_count)
     b++;
   return &bodies[t->island->bodies[b]];
 }
 
 static sbfi_d3 rest_corner(const tearing *t, uint32_t element, uint32_t k) {
   const sbri_body *body = body_of(t, element);
-  uint32_t point = body->level->lattice.tetrahedra.at[element - body->first_tetrahedron].at[k];
+  uint32_t point = body->level->lattice.tetrahedra.at[element - body->elements.first_tetrahedron].at[k];
   return sbfi_d3_of(body->level->positions.at[point]);
 }
 
@@ -86,7 +86,7 @@ static void move_weights(
   sbfi_tetrahedron element;
   sbfi_d3 position = {0, 0, 0}, weights = {0, 0, 0};
   float sum = 0;
-  if (!sbri_body_tetrahedron(body, to - body->first_tetrahedron, &element)) return;
+  if (!sbri_body_tetrahedron(body, to - body->elements.first_tetrahedron, &element)) return;
   for (uint32_t k = 0; k < 4; k++) sum += cells[k].weights[lane];
   if (!(sum > 0)) return;
   for (uint32_t k = 0; k < 4; k++)
@@ -128,15 +128,15 @@ static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
 
 /* Whether few faces connect one to the other: through intact tetrahedra, or at rest through all. */
 static bool is_joined(const tearing *t, uint32_t from, uint32_t to, bool at_rest) {
-  uint32_t *stamps = sbri_visits(t->c) + t->island->first_solid,
-           *queue = sbri_queue(t->c) + t->island->first_solid;
-  uint32_t *steps = stamps + t->c->model->solid_count, end = 1;
+  uint32_t *stamps = sbri_visits(t->c) + t->island->tetrahedra.first_state,
+           *queue = sbri_queue(t->c) + t->island->tetrahedra.first_state;
+  uint32_t *steps = stamps + t->c->model->counts.state_tetrahedra, end = 1;
   if (from == to) return true;
   bool found = false;
   queue[0] = from, stamps[from] = 1, steps[from] = 0;
   for (uint32_t next = 0; next < end && !found; next++)
     for (uint32_t k = 0; k < 4 && steps[queue[next]] < MAX_SIDES; k++) {
-      uint32_t other = t->island->tears->neighbours[queue[next]][k];
+      uint32_t other = t->island->tetrahedra.tears->neighbours[queue[next]][k];
       if (other == UINT32_MAX || stamps[other] || (!at_rest && t->torn[other])) continue;
       stamps[other] = 1, steps[other] = steps[queue[next]] + 1;
       queue[end++] = other;
@@ -222,15 +222,15 @@ void sbri_skins_follow(sbri_character *c, uint32_t index) {
   const sbr_model *model = c->model;
   const sbri_island *island = &model->islands[index];
   sbri_torn_network network;
-  if (island->frays) sbri_torn_network_begin(&network, c, index);
-  tearing t = {c, island, sbri_torn(c) + island->first_solid, sbri_solids(c) + island->first_solid_block,
-      index, island->frays ? &network : NULL};
+  if (island->springs.tear) sbri_torn_network_begin(&network, c, index);
+  tearing t = {c, island, sbri_torn(c) + island->tetrahedra.first_state,
+      sbri_solids(c) + island->tetrahedra.first_state_block, index, island->springs.tear ? &network : NULL};
   for (uint32_t i = 0; i < model->asset->render_meshes.count; i++) follow_mesh(&t, i);
   for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_skin *surface = &model->bodies[island->bodies[b]].surface;
+    const sbri_skin *surface = &model->bodies[island->bodies[b]].surface.skin;
     if (surface->binding_count) follow_vertices(&t, surface);
   }
-  uint32_t *torn = sbri_torn(c) + island->first_solid;
-  for (uint32_t e = 0; island->tears && e < island->tetrahedron_count; e++)
+  uint32_t *torn = sbri_torn(c) + island->tetrahedra.first_state;
+  for (uint32_t e = 0; island->tetrahedra.tears && e < island->tetrahedra.count; e++)
     if (torn[e]) torn[e] = SBRI_TORN_BEFORE;
 }

@@ -22,7 +22,7 @@ void sbri_character_storage_free(const sbf_allocator *allocator, sbri_character_
 }
 
 void sbri_rigid_work_free(const sbf_allocator *allocator, sbri_character *c) {
-  sbfi_free(allocator, c->rigid_work, c->model->layout.rigid_work_size);
+  sbfi_free(allocator, c->rigid_work, c->model->layout.rigid.work_size);
   c->rigid_work = NULL;
 }
 

@@ -120,121 +120,118 @@ void sbri_layouts_make(sbr_model *model);
 /* Size of the deltas of all frames (pose/frames.h), bytes. */
 size_t sbri_deltas_size(const sbr_model *model);
 
+static inline sbri_character_state *sbri_header(const sbri_character *c) {
+  return (sbri_character_state *)(void *)c->state;
+}
+
 #define SBRI_STATE_PART(name, type, offset)                                                                  \
   static inline type *sbri_##name(const sbri_character *c) {                                                 \
-    return (type *)(void *)(c->state + (offset));                                                            \
+    return (type *)(void *)(c->state + c->model->layout.offset);                                             \
   }
-SBRI_STATE_PART(header, sbri_character_state, 0)
-SBRI_STATE_PART(loads, sbri_load, c->model->layout.loads) /* (SBR_LOAD_CAPACITY) */
-SBRI_STATE_PART(gait, void, c->model->layout.gait)
-SBRI_STATE_PART(pose, sbr_transform, c->model->layout.pose)                          /* (frame_count) */
-SBRI_STATE_PART(previous_pose, sbr_transform, c->model->layout.previous_pose)        /* (frame_count) */
-SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)          /* (island_count) */
-SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
-SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
-SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
-SBRI_STATE_PART(driver_motions, sbri_driver_motion, c->model->layout.driver_motions) /* (bodies) */
-SBRI_STATE_PART(rests, float, c->model->layout.rests)                    /* (flow_count) m, rest lengths */
-SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flow_count) 1, or 0 where torn */
-SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
-SBRI_STATE_PART(solids, sbri_tetrahedron_block, c->model->layout.solids) /* (solid_block_count) */
-SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (solid_count) sbri_torn_state */
+SBRI_STATE_PART(loads, sbri_load, loads) /* (SBR_LOAD_CAPACITY) */
+SBRI_STATE_PART(gait, void, pose.gait)
+SBRI_STATE_PART(pose, sbr_transform, pose.current)                         /* (frame_count) */
+SBRI_STATE_PART(previous_pose, sbr_transform, pose.previous)               /* (frame_count) */
+SBRI_STATE_PART(island_states, sbri_island_state, islands)                 /* (island_count) */
+SBRI_STATE_PART(positions, sbri_point, points.positions)                   /* (slot_count) */
+SBRI_STATE_PART(previous_positions, sbri_point, points.previous_positions) /* (slot_count) */
+SBRI_STATE_PART(velocities, float, points.velocities)                      /* (slot_count x 3) */
+SBRI_STATE_PART(driver_motions, sbri_driver_motion, pose.driver_motions)   /* (bodies) */
+SBRI_STATE_PART(rests, float, springs.rests)                   /* (counts.flows) m, rest lengths */
+SBRI_STATE_PART(strengths, float, springs.strengths)           /* (counts.flows) 1, or 0 where torn */
+SBRI_STATE_PART(rotations, float, solids.rotations)            /* (counts.region_blocks x 4 x 8) */
+SBRI_STATE_PART(solids, sbri_tetrahedron_block, solids.blocks) /* (counts.state_tetrahedron_blocks) */
+SBRI_STATE_PART(torn, uint32_t, solids.torn)                   /* (counts.state_tetrahedra) sbri_torn_state */
 /* Only in models whose elements may tear: the origin of each slot (SBRI_UNUSED for a spare slot), its mass;
  * cells of skins, the tetrahedron that each binding is embedded in, and the state of each polygon. */
-SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)            /* (slot_count) */
-SBRI_STATE_PART(masses, float, c->model->layout.masses)                 /* (slot_count) kg */
-SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses) /* (slot_count) 1/kg */
-SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales) /* (slot_count) */
+SBRI_STATE_PART(origins, uint32_t, split.origins)            /* (slot_count) */
+SBRI_STATE_PART(masses, float, split.masses)                 /* (slot_count) kg */
+SBRI_STATE_PART(inverse_masses, float, split.inverse_masses) /* (slot_count) 1/kg */
+SBRI_STATE_PART(gravity_scales, float, split.gravity_scales) /* (slot_count) */
 /* Only in islands whose springs may tear, in the model's layout plus split points: number of used cells per
  * block, cells, their damping and links, and the links. */
-SBRI_STATE_PART(thread_ends, uint32_t, c->model->layout.thread_ends)            /* (thread_block_count) */
-SBRI_STATE_PART(thread_cells, sbri_spring_cell, c->model->layout.thread_cells)  /* (thread_cell_count) */
-SBRI_STATE_PART(thread_damping, float, c->model->layout.thread_damping)         /* (thread_cell_count x 8) */
-SBRI_STATE_PART(thread_slack, float, c->model->layout.thread_slack)             /* (thread_cell_count x 8) */
-SBRI_STATE_PART(thread_links, uint32_t, c->model->layout.thread_links)          /* (thread_cell_count x 8) */
-SBRI_STATE_PART(thread_blocks, sbri_link_block, c->model->layout.thread_blocks) /* (thread_link_count) */
-SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells)       /* (torn_cell_count) */
-SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)                  /* (binding_count) */
-SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)        /* (torn_polygon_count) */
-SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies)  /* (rigid bodies) */
-SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
-SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
-SBRI_STATE_PART(
-    rigid_kept, sbri_stored_contact, c->model->layout.rigid_kept)  /* (sbri_rigid_contact_capacity) */
-SBRI_STATE_PART(faded, sbri_fading_vertex, c->model->layout.faded) /* (vertices of all render meshes) */
-SBRI_STATE_PART(jiggles, sbri_position_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */
+SBRI_STATE_PART(thread_ends, uint32_t, springs.ends)                /* (counts.torn_blocks) */
+SBRI_STATE_PART(thread_cells, sbri_spring_cell, springs.cells)      /* (counts.torn_cells) */
+SBRI_STATE_PART(thread_damping, float, springs.damping)             /* (counts.torn_cells x 8) */
+SBRI_STATE_PART(thread_slack, float, springs.slack)                 /* (counts.torn_cells x 8) */
+SBRI_STATE_PART(thread_links, uint32_t, springs.links)              /* (counts.torn_cells x 8) */
+SBRI_STATE_PART(thread_blocks, sbri_link_block, springs.blocks)     /* (counts.torn_link_blocks) */
+SBRI_STATE_PART(skin_cells, sbri_carry_cell, split.skin_cells)      /* (counts.skin_cells) */
+SBRI_STATE_PART(bound_to, uint32_t, split.bound_to)                 /* (counts.bindings) */
+SBRI_STATE_PART(torn_polygons, uint32_t, split.polygons)            /* (counts.polygons) */
+SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, rigid.bodies)  /* (rigid bodies) */
+SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, rigid.joints) /* (joints) */
+SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, rigid.drive)
+SBRI_STATE_PART(rigid_kept, sbri_stored_contact, rigid.stored_contacts) /* (sbri_rigid_contact_capacity) */
+SBRI_STATE_PART(faded, sbri_fading_vertex, detail.faded)                /* (vertices of all render meshes) */
+SBRI_STATE_PART(jiggles, sbri_position_follower, pose.jiggles)          /* (jiggle_count) asset metres */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
   static inline type *sbri_##name(const sbri_character *c) {                                                 \
-    return (type *)(void *)(c->scratch + (offset));                                                          \
+    return (type *)(void *)(c->scratch + c->model->layout.offset);                                           \
   }
-SBRI_SCRATCH_PART(deltas, sbri_delta, c->model->layout.deltas)                   /* (frame_count) */
-SBRI_SCRATCH_PART(previous_deltas, sbri_delta, c->model->layout.previous_deltas) /* (frame_count) */
-SBRI_SCRATCH_PART(
-    animated, sbr_transform, c->model->layout.animated) /* (frame_count) pose before rigid parts */
-SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) /* (rigid bodies) */
-SBRI_SCRATCH_PART(reactions, sbri_reaction, c->model->layout.reactions)         /* (rigid bodies) */
-SBRI_SCRATCH_PART(burdens, sbri_rigid_burden, c->model->layout.burdens)         /* (rigid bodies) */
-SBRI_SCRATCH_PART(stepped_pose, sbr_transform, c->model->layout.stepped_pose)   /* (frame_count) in a tick */
-SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
-SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
-SBRI_SCRATCH_PART(driver_velocities, float, c->model->layout.driver_velocities)  /* (slot_count x 3) */
-SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                   /* (slot_count) */
-SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points) /* (slot_count) */
-SBRI_SCRATCH_PART(external_forces, sbri_point, c->model->layout.external_forces) /* (slot_count) */
-SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)          /* (slot_count x 3) */
-SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)    /* (slot_count x 3) */
-SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                     /* (slot_count) */
-SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)                          /* (link_block_count x 24) */
-SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
-SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
-SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
-SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, c->model->layout.loads_now)  /* of this tick */
-SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                   /* (solid_count x 2) */
-SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                     /* (solid_count) */
-SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /* (binding_count) */
-SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
-SBRI_SCRATCH_PART(
-    frayed, uint8_t, c->model->layout.frayed) /* (slot_count) where springs may tear: near a torn spring */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                    /* (slot_count x 4) */
-SBRI_SCRATCH_PART(ground_pressing, float, c->model->layout.pressing)         /* (slot_count x 2) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)        /* (slot_count / 8) */
-SBRI_SCRATCH_PART(contacts, sbri_soft_contact, c->model->layout.contacts)    /* (samples of all bodies) */
-SBRI_SCRATCH_PART(contact_counts, uint32_t, c->model->layout.contact_counts) /* (bodies) */
-SBRI_SCRATCH_PART(contact_blocks, sbri_contact_block, c->model->layout.contact_blocks)   /* (contacts / 8) */
-SBRI_SCRATCH_PART(contact_block_counts, uint32_t, c->model->layout.contact_block_counts) /* (bodies) */
-SBRI_SCRATCH_PART(contact_slots, uint8_t, c->model->layout.contact_slots) /* (slot_count / 8) */
+SBRI_SCRATCH_PART(deltas, sbri_delta, pose.deltas)                   /* (frame_count) */
+SBRI_SCRATCH_PART(previous_deltas, sbri_delta, pose.previous_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(animated, sbr_transform, pose.animated)      /* (frame_count) pose before rigid parts */
+SBRI_SCRATCH_PART(rigid_targets, sbr_transform, rigid.targets) /* (rigid bodies) */
+SBRI_SCRATCH_PART(reactions, sbri_reaction, rigid.reactions)   /* (rigid bodies) */
+SBRI_SCRATCH_PART(burdens, sbri_rigid_burden, rigid.burdens)   /* (rigid bodies) */
+SBRI_SCRATCH_PART(stepped_pose, sbr_transform, pose.stepped)   /* (frame_count) in a tick */
+SBRI_SCRATCH_PART(gait_before, void, pose.gait_before)
+SBRI_SCRATCH_PART(targets, sbri_point, points.targets)                 /* (slot_count) */
+SBRI_SCRATCH_PART(driver_velocities, float, points.driver_velocities)  /* (slot_count x 3) */
+SBRI_SCRATCH_PART(begins, sbri_point, points.begins)                   /* (slot_count) */
+SBRI_SCRATCH_PART(velocity_points, sbri_point, points.velocity_points) /* (slot_count) */
+SBRI_SCRATCH_PART(external_forces, sbri_point, points.external_forces) /* (slot_count) */
+SBRI_SCRATCH_PART(accelerations, float, points.accelerations)          /* (slot_count x 3) */
+SBRI_SCRATCH_PART(older_velocities, float, points.older_velocities)    /* (slot_count x 3) */
+SBRI_SCRATCH_PART(moves, sbri_point, points.moves)                     /* (slot_count) */
+SBRI_SCRATCH_PART(edges, float, springs.edges)                         /* (counts.link_blocks x 24) */
+SBRI_SCRATCH_PART(solid_edges, float, solids.edges)                    /* (counts.tetrahedron_blocks x 72) */
+SBRI_SCRATCH_PART(tears_of, sbri_tears, solids.tears)                  /* (island_count) */
+SBRI_SCRATCH_PART(element_forces, sbri_point, points.element_forces)   /* (slot_count) */
+SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, loads_now)           /* of this tick */
+SBRI_SCRATCH_PART(visits, uint32_t, solids.visits)                     /* (counts.state_tetrahedra x 2) */
+SBRI_SCRATCH_PART(queue, uint32_t, solids.queue)                       /* (counts.state_tetrahedra) */
+SBRI_SCRATCH_PART(touched, uint8_t, split.touched)                     /* (counts.bindings) */
+SBRI_SCRATCH_PART(owners, uint32_t, springs.owners) /* (slot_count x 2) where springs may tear */
+SBRI_SCRATCH_PART(frayed, uint8_t, springs.torn) /* (slot_count) where springs may tear: near a torn spring */
+SBRI_SCRATCH_PART(planes, float, contacts.planes)                        /* (slot_count x 4) */
+SBRI_SCRATCH_PART(ground_pressing, float, contacts.pressing)             /* (slot_count x 2) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, contacts.near_ground)            /* (slot_count / 8) */
+SBRI_SCRATCH_PART(contacts, sbri_soft_contact, contacts.at)              /* (samples of all bodies) */
+SBRI_SCRATCH_PART(contact_counts, uint32_t, contacts.counts)             /* (bodies) */
+SBRI_SCRATCH_PART(contact_blocks, sbri_contact_block, contacts.blocks)   /* (contacts / 8) */
+SBRI_SCRATCH_PART(contact_block_counts, uint32_t, contacts.block_counts) /* (bodies) */
+SBRI_SCRATCH_PART(contact_slots, uint8_t, contacts.slots)                /* (slot_count / 8) */
 /* (island_count) 1: in contact with bodies of characters in this tick; unset without such contacts */
-SBRI_SCRATCH_PART(contact_islands, uint8_t, c->model->layout.contact_islands)
-SBRI_SCRATCH_PART(
-    external_bodies_of, struct sbri_external_bodies, c->model->layout.external_bodies) /* (bodies) */
-SBRI_SCRATCH_PART(contact_weights, float, c->model->layout.contact_weights)            /* (slot_count) */
-SBRI_SCRATCH_PART(slot_contacts, uint8_t, c->model->layout.slot_contacts)              /* (slot_count) */
-SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)             /* (bodies) */
-SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching)      /* (rigid bodies) */
-SBRI_SCRATCH_PART(
-    self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies with self-contact) */
-SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, c->model->layout.self_balls)
-SBRI_SCRATCH_PART(
-    self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one per body) */
-SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
-SBRI_SCRATCH_PART(self_edges, uint8_t, c->model->layout.self_edges)
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
-SBRI_SCRATCH_PART(sampled_deltas, sbri_delta, c->model->layout.sampled_deltas) /* (frame_count) */
-SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (maximum vertices of a mesh, padded) */
-SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (maximum faces of a mesh, padded) */
-SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (maximum groups of a mesh, padded) */
-SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertices) /* of all bodies */
-SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
-SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
-SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
+SBRI_SCRATCH_PART(contact_islands, uint8_t, contacts.islands)
+SBRI_SCRATCH_PART(external_bodies_of, struct sbri_external_bodies, contacts.external_bodies) /* (bodies) */
+SBRI_SCRATCH_PART(contact_weights, float, contacts.weights)        /* (slot_count) */
+SBRI_SCRATCH_PART(slot_contacts, uint8_t, contacts.slot_contacts)  /* (slot_count) */
+SBRI_SCRATCH_PART(soft_touching, sbri_touching, contacts.touching) /* (bodies) */
+SBRI_SCRATCH_PART(rigid_touching, sbri_touching, rigid.touching)   /* (rigid bodies) */
+SBRI_SCRATCH_PART(self_boxes, sbri_box, self.boxes) /* (triangles of bodies with self-contact) */
+SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, self.balls)
+SBRI_SCRATCH_PART(self_nodes, sbri_bounds_node, self.nodes) /* (twice that, and one per body) */
+SBRI_SCRATCH_PART(self_items, uint32_t, self.items)
+SBRI_SCRATCH_PART(self_edges, uint8_t, self.edges)
+SBRI_SCRATCH_PART(sampled, sbri_point, points.sampled)             /* (slot_count) */
+SBRI_SCRATCH_PART(sampled_deltas, sbri_delta, pose.sampled_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(vertices, sbri_point, skin.vertices)             /* (maximum vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(faces, sbri_point, skin.faces)                   /* (maximum faces of a mesh, padded) */
+SBRI_SCRATCH_PART(sums, sbri_point, skin.sums)                     /* (maximum groups of a mesh, padded) */
+SBRI_SCRATCH_PART(surface_vertices, sbri_point, surfaces.vertices) /* of all bodies */
+SBRI_SCRATCH_PART(surface_forces, sbri_point, surfaces.forces)
+SBRI_SCRATCH_PART(surface_velocities, sbri_point, surfaces.velocities)
+SBRI_SCRATCH_PART(surface_faces, sbri_point, surfaces.faces) /* of all bodies */
 /* Of the previous detail level during a transition: offset and speed of each point relative to its driver. */
-SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets) /* (slot_count) */
-SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)   /* (slot_count) */
-SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (maximum vertices of a mesh, padded) */
-SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)          /* (bodies + 1) */
-SBRI_SCRATCH_PART(energies, double, c->model->layout.energies)   /* (bodies) J */
+SBRI_SCRATCH_PART(offsets, sbri_point, detail.offsets) /* (slot_count) */
+SBRI_SCRATCH_PART(speeds, sbri_point, detail.speeds)   /* (slot_count) */
+SBRI_SCRATCH_PART(fading, sbri_point, detail.fading)   /* (maximum vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(pulls, float, detail.pulls)          /* (bodies + 1) */
+SBRI_SCRATCH_PART(energies, double, detail.energies)   /* (bodies) J */
 #undef SBRI_SCRATCH_PART
 
 /* Factor from a host's impulse to the character's own units. Masses scale with scale^3, times and speeds with

@@ -10,7 +10,7 @@ static void make(gait_stage *s) {
   s->memory = malloc(sbri_rig_size(s->asset));
   sbri_rig_init(&s->rig, s->asset, s->memory);
   s->state = malloc(sbri_gait_state_size(&s->rig));
-  s->pose = calloc(s->rig.bone_count, sizeof *s->pose);
+  s->pose = calloc(s->rig.bones.count, sizeof *s->pose);
   sbri_gait_reset(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
   sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
 }

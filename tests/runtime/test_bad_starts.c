@@ -67,7 +67,7 @@ static void spoil(scene *s, start how) {
   sbri_point *at = sbri_positions(&s->world->characters[0]);
   const sbri_body *body = &s->model->bodies[0];
   uint32_t state = 3;
-  for (uint32_t i = body->slot_begin; i < body->slot_real_end; i++) {
+  for (uint32_t i = body->slots.begin; i < body->slots.real_end; i++) {
     float numbers[3];
     for (int k = 0; k < 3; k++) numbers[k] = random_between(&state, -0.5f, 0.5f);
     if (how == SCRAMBLED)

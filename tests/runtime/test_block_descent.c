@@ -73,7 +73,7 @@ START_TEST(it_damps_as_implicit_euler_does)
   s.model_options.scheme = SBF_SCHEME_BLOCK_DESCENT;
   s.model_options.substeps = 4;
   scene_start(&s);
-  sbri_positions(sbri_character_of(s.world, s.character))[s.model->bodies[0].slot_from_point[1]].x = 1.1f;
+  sbri_positions(sbri_character_of(s.world, s.character))[s.model->bodies[0].slots.from_point[1]].x = 1.1f;
   double peak[4] = {0}, before = 0.1, older = 0.1;
   int peaks = 0;
   for (int i = 0; i < 200 && peaks < 4; i++) {
@@ -140,7 +140,7 @@ START_TEST(points_of_a_block_share_no_element)
   uint32_t heavy = 0;
   for (uint32_t i = 0; i < island->free_count; i++) heavy += island->masses[i] > 0;
   ck_assert_uint_eq(seen, heavy);
-  ck_assert_uint_gt(corners, 3 * island->tetrahedron_count); /* all but those of held points */
+  ck_assert_uint_gt(corners, 3 * island->tetrahedra.count); /* all but those of held points */
   scene_free(&s);
 }
 END_TEST

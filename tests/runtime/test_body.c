@@ -80,9 +80,9 @@ END_TEST
 /* Rad, about +Y, of a bone as posed, from how it lies at rest and from where the body faces. */
 static float posed_yaw(const gait_stage *s, uint32_t bone) {
   sbf_quat turned =
-      sbri_quat_multiply(s->pose[bone].rotation, sbri_quat_conjugate(s->rig.rest[bone].rotation));
+      sbri_quat_multiply(s->pose[bone].rotation, sbri_quat_conjugate(s->rig.bones.rest[bone].rotation));
   sbf_vec3 faces = sbri_rotate(turned, sbri_vec3(0, 0, 1));
-  return remainderf(atan2f(faces.x, faces.z) - s->state->heading, 6.2831853f);
+  return remainderf(atan2f(faces.x, faces.z) - s->state->motion.heading, 6.2831853f);
 }
 
 START_TEST(bones_turn_so_as_it_walks)

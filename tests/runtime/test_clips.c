@@ -40,7 +40,7 @@ START_TEST(a_clip_turns_its_bone_and_no_other)
   gait_stage_play(&s);
   gait_stage_ticks(&s, 30);
   ck_assert_float_eq_tol(head_angle(&s), 0.5f, 1e-3f);
-  ck_assert_float_le(sbri_length(sbri_sub(s.pose[FOOT].position, s.rig.rest[FOOT].position)), 1e-4f);
+  ck_assert_float_le(sbri_length(sbri_sub(s.pose[FOOT].position, s.rig.bones.rest[FOOT].position)), 1e-4f);
   gait_stage_ticks(&s, 45);
   ck_assert_float_eq_tol(head_angle(&s), 0.25f, 2e-2f); /* it began again at its end */
   gait_stage_end(&s);

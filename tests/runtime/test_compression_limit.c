@@ -56,7 +56,7 @@ START_TEST(the_wall_keeps_momentum)
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
   sbri_point *x = sbri_positions(&s.world->characters[0]);
-  const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[0];
+  const sbri_tetrahedron_block *block = &island->tetrahedra.blocks[0];
   for (uint32_t i = 0; i < island->free_count; i++) {
     x[i].y *= _i ? -0.3f : 0.02f;
     scene_velocity(&s, i)[SBRI_BLOCK] = _i ? 0 : -x[i].y;
@@ -64,7 +64,7 @@ START_TEST(the_wall_keeps_momentum)
   double before[4] = {0}, after[4] = {0};
   sbri_island_tick t = {.model = s.model,
       .island = island,
-      .tetrahedra = island->tetrahedron_blocks,
+      .solids = {.blocks = island->tetrahedra.blocks},
       .positions = x,
       .velocities = sbri_velocities(&s.world->characters[0])};
   for (int n = 0; n < 2; n++) {

@@ -39,11 +39,11 @@ START_TEST(all_that_polygons_use_is_sampled)
   body->surface.polygon_sizes.count--; /* a face less: all its corners have others */
   body->surface.polygon_points.count -= 4;
   scene_start(&s);
-  ck_assert_uint_eq(body_of(&s)->sample_count, count);
-  ck_assert_float_gt(body_of(&s)->sample_beyond, 0.2f);
+  ck_assert_uint_eq(body_of(&s)->contact.sample_count, count);
+  ck_assert_float_gt(body_of(&s)->contact.sample_beyond, 0.2f);
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < count; i++) {
-    const sbri_sample *sample = &body_of(&s)->samples[i];
+    const sbri_sample *sample = &body_of(&s)->contact.samples[i];
     float sum = 0, inverse = 0;
     sbf_vec3 position = {0, 0, 0}, rest = body->surface.positions.at[sample->vertex];
     for (int k = 0; k < 4; k++) {
@@ -65,7 +65,8 @@ START_TEST(faces_larger_than_the_elements_are_borne_by_points_of_the_level)
 {
   scene s = carried_box(1, SBF_PRESSURE_MODE_NONE);
   scene_start(&s);
-  ck_assert_uint_eq(body_of(&s)->sample_count, 8 + 3 * 3 * 3 - 1); /* all but the middle: 40 mm within */
+  ck_assert_uint_eq(
+      body_of(&s)->contact.sample_count, 8 + 3 * 3 * 3 - 1); /* all but the middle: 40 mm within */
   scene_free(&s);
   s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 0, 0});
@@ -75,7 +76,7 @@ START_TEST(faces_larger_than_the_elements_are_borne_by_points_of_the_level)
   scene_embed(&s, scene_lattice(&s, 0, &box), &box);
   lattice_box_free(&box);
   scene_start(&s);
-  ck_assert_uint_eq(body_of(&s)->sample_count, 8 + 5 * 5 * 5 - 3 * 3 * 3);
+  ck_assert_uint_eq(body_of(&s)->contact.sample_count, 8 + 5 * 5 * 5 - 3 * 3 * 3);
   scene_free(&s);
 }
 END_TEST
@@ -86,7 +87,7 @@ START_TEST(points_of_a_spring_level_need_no_samples)
   scene_bone(&s, (sbf_vec3){0, 0, 0});
   scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, 2);
   scene_start(&s);
-  ck_assert_ptr_null(body_of(&s)->samples);
+  ck_assert_ptr_null(body_of(&s)->contact.samples);
   scene_free(&s);
 }
 END_TEST
@@ -135,21 +136,20 @@ START_TEST(a_push_is_a_force_at_that_place)
   sbri_character *c = sbri_character_of(s.world, s.character);
   uint32_t counts[1] = {1};
   sbri_soft_contact contact = {
-      .sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}, .friction_scale = 1};
+      .sample = body_of(&s)->contact.samples[3], .normal = {0.6f, 0.8f, 0}, .friction_scale = 1};
   sbri_island_tick tick = {.model = s.model,
       .island = &s.model->islands[0],
       .tick_s = 1.0f / 60,
       .positions = sbri_positions(c),
       .velocities = sbri_velocities(c),
       .targets = sbri_positions(c),
-      .begins = sbri_positions(c),
-      .contacts = &contact,
-      .contact_weights = sbri_contact_weights(c),
-      .contact_counts = counts,
-      .contact_blocks = sbri_contact_blocks(c),
-      .contact_block_counts = sbri_contact_block_counts(c),
-      .contact_slots = sbri_contact_slots(c),
-      .velocity_points = sbri_velocity_points(c)};
+      .contacts = {.at = &contact,
+          .weights = sbri_contact_weights(c),
+          .counts = counts,
+          .blocks = sbri_contact_blocks(c),
+          .block_counts = sbri_contact_block_counts(c),
+          .slots = sbri_contact_slots(c)},
+      .scratch = {.begins = sbri_positions(c), .velocity_points = sbri_velocity_points(c)}};
   for (uint32_t slot = 0; slot < tick.island->free_count; slot++) {
     float *v = sbri_triple(tick.velocities, slot);
     v[0] = -2 + 0.1f * (float)(slot % 5), v[SBRI_BLOCK] = -3 + 0.2f * (float)(slot % 3);
@@ -160,7 +160,7 @@ START_TEST(a_push_is_a_force_at_that_place)
   contact.offset = sbri_dot(contact.normal, position);
   sbf_vec3 before_v = velocity_of(&tick, sample);
   momenta before = momenta_of(&tick, position);
-  const float friction = body_of(&s)->friction;
+  const float friction = body_of(&s)->contact.friction;
   sbri_contact_block_counts(c)[0] = 0;
   if (_i == 0) sbri_contact_blocks_fill(&tick, body_of(&s));
   ck_assert_uint_eq(sbri_contact_block_count(&tick, body_of(&s)), _i == 0);
@@ -278,7 +278,7 @@ START_TEST(position_based_steps_know_samples)
   s.character_definition.position.y = 0.5;
   s.model_options.scheme = SBF_SCHEME_POSITION_BASED;
   scene_start(&s);
-  ck_assert_uint_eq(body_of(&s)->sample_count, vertices->count);
+  ck_assert_uint_eq(body_of(&s)->contact.sample_count, vertices->count);
   fall f = fall_of(&s);
   ck_assert_double_gt(f.lowest_m, -2e-3);
   ck_assert_double_lt(f.end_m, 1e-3);

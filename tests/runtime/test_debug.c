@@ -148,7 +148,7 @@ START_TEST(broken_states_are_noticed)
   ck_assert_str_eq(fault_of(&s), "character 0, frame 0: its rotation is no unit quaternion");
   sbri_pose(c)[0].rotation.w -= 1;
   ck_assert_uint_gt(sbri_contact_counts(c)[0], 0);
-  sbri_contacts(c)[c->model->bodies[0].first_soft_contact].sample.slots[2] = 100000;
+  sbri_contacts(c)[c->model->bodies[0].contact.first].sample.slots[2] = 100000;
   ck_assert_str_eq(
       fault_of(&s), "character 0, soft body 0: a contact lies on a point that is not its island's");
   sbri_contact_counts(c)[0] = UINT32_MAX;

@@ -244,7 +244,7 @@ START_TEST(a_sheet_bends_under_its_weight)
   s.world_definition.has_gravity = true;
   s.world_definition.gravity = (sbf_vec3){0, -4, 0};
   scene_start(&s);
-  ck_assert_uint_eq(s.model->bodies[0].hinge_count, 1);
+  ck_assert_uint_eq(s.model->bodies[0].elements.hinge_count, 1);
   ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 0);
   scene_ticks(&s, 600);
   sbf_vec3 p = scene_point(&s, 0, 3);

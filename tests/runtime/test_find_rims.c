@@ -80,7 +80,7 @@ START_TEST(crossing_strips_do_not_pass)
     sbri_character *c = sbri_character_of(s.world, s.character);
     const sbri_body *body = &c->model->bodies[1];
     const sbri_island *island = &c->model->islands[body->island];
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
       (sbri_velocities(c) + 3 * (size_t)island->first_slot)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) +
                                                             SBRI_BLOCK + slot % SBRI_BLOCK] = -speeds[_i];
     collision_check_over(&s, over, contacts);
@@ -102,7 +102,7 @@ START_TEST(momentum_is_kept)
   sbri_character *c = sbri_character_of(s.world, s.character);
   const sbri_body *body = &c->model->bodies[1];
   const sbri_island *island = &c->model->islands[body->island];
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++)
     (sbri_velocities(c) + 3 * (size_t)island->first_slot)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK +
                                                           slot % SBRI_BLOCK] = -3;
   sbf_vec3 before = scene_point(&s, 0, 5);

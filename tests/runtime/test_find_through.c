@@ -153,7 +153,7 @@ static void shift(const scene *s, uint32_t body, sbf_vec3 by) {
   sbri_character *c = sbri_character_of(s->world, s->character);
   const sbri_body *b = &c->model->bodies[body];
   sbri_point *points = sbri_positions(c) + c->model->islands[b->island].first_slot;
-  for (uint32_t slot = b->slot_begin; slot < b->slot_real_end; slot++)
+  for (uint32_t slot = b->slots.begin; slot < b->slots.real_end; slot++)
     points[slot].x += by.x, points[slot].y += by.y, points[slot].z += by.z;
 }
 

@@ -9,7 +9,7 @@ static const float TURNED = 0.7f, FOOT_TURNED = -0.3f, SCALE = 1.5f;
 /* A quadruped that has turned, its first foot by another angle, with its ankle beside its sole. */
 static sbri_foot *begin(gait_stage *stage) {
   gait_stage_begin_scaled(stage, quadruped_asset(), 1.0f / 60, SCALE);
-  stage->rig.legs[0].ankle = sbri_vec3(0.02f, 0.03f, -0.05f);
+  stage->rig.legs[0].home.ankle = sbri_vec3(0.02f, 0.03f, -0.05f);
   sbri_gait_reset(&stage->rig, stage->state, &stage->input, sbri_vec3(0, 0, 0), TURNED);
   sbri_foot *foot = &stage->state->feet[0];
   foot->heading = FOOT_TURNED;
@@ -29,11 +29,11 @@ START_TEST(on_level_ground_it_turns_alone)
   gait_stage stage;
   sbri_foot *foot = begin(&stage);
   sbri_foot_update_orientation(&stage.rig, stage.state, &stage.input, 0);
-  sbf_vec3 ahead = sbri_rotate(foot->turned, sbri_vec3(0, 0, 1));
-  expect_near(ahead, sbri_vec3(foot->sine, 0, foot->cosine));
+  sbf_vec3 ahead = sbri_rotate(foot->frame.rotation, sbri_vec3(0, 0, 1));
+  expect_near(ahead, sbri_vec3(foot->frame.sine, 0, foot->frame.cosine));
   expect_near(ahead, sbri_rotate(sbri_quat_about(UP, TURNED + FOOT_TURNED), sbri_vec3(0, 0, 1)));
-  expect_near(foot->beside, beside_at(TURNED + FOOT_TURNED));
-  expect_near(foot->beside_at_home, beside_at(TURNED));
+  expect_near(foot->frame.beside, beside_at(TURNED + FOOT_TURNED));
+  expect_near(foot->frame.beside_at_home, beside_at(TURNED));
   gait_stage_end(&stage);
 }
 END_TEST
@@ -44,11 +44,11 @@ START_TEST(on_a_slope_it_tilts_with_it)
   sbri_foot *foot = begin(&stage);
   foot->normal = sbri_normalize(sbri_vec3(-0.3f, 1, 0.2f), UP);
   sbri_foot_update_orientation(&stage.rig, stage.state, &stage.input, 0);
-  expect_near(sbri_rotate(foot->turned, UP), foot->normal);
-  ck_assert_float_eq_tol(sbri_dot(foot->beside, foot->normal), 0, 1e-6f); /* along the ground */
-  ck_assert_float_eq_tol(sbri_dot(foot->beside_at_home, foot->normal), 0, 1e-6f);
-  ck_assert_float_eq_tol(sbri_length(foot->beside), sbri_length(beside_at(0)), 1e-6f);
-  ck_assert_float_gt(sbri_length(sbri_sub(foot->beside, foot->beside_at_home)), 0.01f);
+  expect_near(sbri_rotate(foot->frame.rotation, UP), foot->normal);
+  ck_assert_float_eq_tol(sbri_dot(foot->frame.beside, foot->normal), 0, 1e-6f); /* along the ground */
+  ck_assert_float_eq_tol(sbri_dot(foot->frame.beside_at_home, foot->normal), 0, 1e-6f);
+  ck_assert_float_eq_tol(sbri_length(foot->frame.beside), sbri_length(beside_at(0)), 1e-6f);
+  ck_assert_float_gt(sbri_length(sbri_sub(foot->frame.beside, foot->frame.beside_at_home)), 0.01f);
   gait_stage_end(&stage);
 }
 END_TEST
@@ -59,11 +59,11 @@ START_TEST(a_body_that_turns_on_moves_what_goes_by_its_heading_alone)
   sbri_foot *foot = begin(&stage);
   sbri_foot_update_orientation(&stage.rig, stage.state, &stage.input, 0);
   sbri_foot before = *foot;
-  stage.state->heading_sine = 1, stage.state->heading_cosine = 0;
+  stage.state->motion.heading_sine = 1, stage.state->motion.heading_cosine = 0;
   sbri_foot_update_heading(&stage.rig, stage.state, &stage.input, 0);
-  expect_near(foot->beside_at_home, beside_at(1.57079633f));
-  expect_near(foot->beside, before.beside);
-  ck_assert(foot->sine == before.sine && foot->turned.y == before.turned.y);
+  expect_near(foot->frame.beside_at_home, beside_at(1.57079633f));
+  expect_near(foot->frame.beside, before.frame.beside);
+  ck_assert(foot->frame.sine == before.frame.sine && foot->frame.rotation.y == before.frame.rotation.y);
   gait_stage_end(&stage);
 }
 END_TEST

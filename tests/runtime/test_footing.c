@@ -15,7 +15,7 @@ static double plain(const sbr_ground *ground, double x, double z, sbf_vec3 *norm
   asked *a = (asked *)(uintptr_t)ground->user;
   *normal = (sbf_vec3){0, 1, 0};
   if (a) {
-    const sbf_vec3 *at = &a->walk->state->position;
+    const sbf_vec3 *at = &a->walk->state->motion.position;
     a->farthest = fmax(a->farthest, hypot(x - (double)at->x, z - (double)at->z));
   }
   return 0;
@@ -54,12 +54,12 @@ START_TEST(no_foot_goes_over_an_edge)
     for (int l = 0; l < 4; l++)
       if (w.state->feet[l].planted) ck_assert_float_le(w.state->feet[l].ground.z, 1);
   }
-  ck_assert_float_gt(w.state->position.z, 0.4f); /* it comes near */
-  ck_assert_float_lt(w.state->position.z, 1.2f); /* and stops */
-  float stopped = w.state->position.z;
+  ck_assert_float_gt(w.state->motion.position.z, 0.4f); /* it comes near */
+  ck_assert_float_lt(w.state->motion.position.z, 1.2f); /* and stops */
+  float stopped = w.state->motion.position.z;
   w.input.forward = -0.3f;
   gait_stage_ticks(&w, 300);
-  ck_assert_float_lt(w.state->position.z, stopped - 0.8f); /* back it can go */
+  ck_assert_float_lt(w.state->motion.position.z, stopped - 0.8f); /* back it can go */
   gait_stage_end(&w);
 }
 END_TEST
@@ -73,7 +73,7 @@ START_TEST(slopes_are_walked_unless_they_are_too_steep)
   gait_stage_ticks(&steep, 900);
   gait_stage_ticks(&mild, 900);
   for (int l = 0; l < 4; l++) ck_assert_float_le(steep.state->feet[l].ground.z, 1.01f);
-  ck_assert_float_gt(mild.state->position.z, 3);
+  ck_assert_float_gt(mild.state->motion.position.z, 3);
   gait_stage_end(&steep);
   gait_stage_end(&mild);
 }
@@ -88,11 +88,11 @@ START_TEST(feet_and_body_tilt_with_the_ground)
   sbf_vec3 up = {0, 1, 0}, wanted = sbri_normalize(sbri_vec3(-0.3f, 1, 0), up);
   for (int l = 0; l < 4; l++) {
     ck_assert_float_ge(sbri_dot(w.state->feet[l].normal, wanted), 0.9999f);
-    sbf_quat back = sbri_quat_conjugate(w.rig.rest[w.rig.legs[l].foot].rotation);
+    sbf_quat back = sbri_quat_conjugate(w.rig.bones.rest[w.rig.legs[l].foot].rotation);
     sbf_quat turned = sbri_quat_multiply(w.pose[w.rig.legs[l].foot].rotation, back);
     ck_assert_float_ge(sbri_dot(sbri_rotate(turned, up), wanted), 0.999f);
   }
-  sbf_vec3 body = sbri_rotate(w.state->root.rotation, up);
+  sbf_vec3 body = sbri_rotate(w.state->posture.root.rotation, up);
   ck_assert_float_lt(body.x, -0.05f); /* it rolls to the same side, by its share */
   gait_stage_end(&w);
 }
@@ -126,7 +126,7 @@ START_TEST(it_looks_no_farther_than_it_may_go)
     asked a = {&w, 0};
     gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
     w.ground.user = &a;
-    w.rig.tail_count = 0; /* which asks for the ground below it */
+    w.rig.tails.count = 0; /* which asks for the ground below it */
     w.input.forward = speeds[k];
     gait_stage_ticks(&w, 600);
     farthest[k] = a.farthest;
@@ -171,7 +171,7 @@ START_TEST(feet_go_over_what_lies_between)
   }
   ck_assert_float_le(max, 1e-3f);
   ck_assert_float_gt(lift, 0.055f);
-  ck_assert_float_gt(w.state->position.z, 2.5f); /* it has come by all of them */
+  ck_assert_float_gt(w.state->motion.position.z, 2.5f); /* it has come by all of them */
   gait_stage_end(&w);
 }
 END_TEST
@@ -189,8 +189,8 @@ START_TEST(a_wall_is_not_climbed)
     gait_stage_ticks(&w, 1);
     for (int l = 0; l < 4; l++) ck_assert_float_le(w.state->feet[l].ground.y, 0.01f);
   }
-  ck_assert_float_gt(w.state->position.z, 0.4f);
-  ck_assert_float_lt(w.state->position.z, 1.1f);
+  ck_assert_float_gt(w.state->motion.position.z, 0.4f);
+  ck_assert_float_lt(w.state->motion.position.z, 1.1f);
   gait_stage_end(&w);
 }
 END_TEST
@@ -245,7 +245,7 @@ START_TEST(without_a_chest_it_pitches_as_its_feet_lie)
   sbri_gait_reset(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
   gait_stage_ticks(&w, 2);
   float fraction = w.rig.gait->body_tilt;
-  ck_assert_float_eq_tol(-w.state->hips_pitch, fraction * atanf(0.3f), 0.02f);
+  ck_assert_float_eq_tol(-w.state->posture.hips_pitch, fraction * atanf(0.3f), 0.02f);
   gait_stage_end(&w);
 }
 END_TEST
@@ -264,14 +264,14 @@ START_TEST(the_belly_keeps_off_the_ground)
   for (uint32_t bellies = 0; bellies < 2; bellies++) {
     gait_stage w;
     gait_stage_begin_on(&w, quadruped_asset(), ridge, (double)high);
-    w.rig.belly[0] = (sbf_vec3){0, low, 0};
-    w.rig.belly_count = bellies;
+    w.rig.stand.belly[0] = (sbf_vec3){0, low, 0};
+    w.rig.stand.belly_count = bellies;
     w.input.forward = 0.15f;
     lowest[bellies] = 1;
     for (int i = 0; i < 240; i++) {
       gait_stage_ticks(&w, 1);
-      sbf_vec3 at = sbri_rotate(w.state->root.rotation, (sbf_vec3){0, low, 0});
-      float over = w.state->root.position.y + at.y - high;
+      sbf_vec3 at = sbri_rotate(w.state->posture.root.rotation, (sbf_vec3){0, low, 0});
+      float over = w.state->posture.root.position.y + at.y - high;
       if (i > 60 && over < lowest[bellies]) lowest[bellies] = over;
     }
     gait_stage_end(&w);

@@ -63,12 +63,12 @@ static void tick(walk *w) {
       groups |= 1u << leg->group;
       if (legs[l].foot.y > w->max_lift) w->max_lift = legs[l].foot.y;
     }
-    float upper = length_between(w, (uint32_t)leg->upper, (uint32_t)leg->lower) - leg->upper_length;
-    float lower = length_between(w, (uint32_t)leg->lower, (uint32_t)leg->foot) - leg->lower_length;
+    float upper = length_between(w, (uint32_t)leg->upper, (uint32_t)leg->lower) - leg->length.upper;
+    float lower = length_between(w, (uint32_t)leg->lower, (uint32_t)leg->foot) - leg->length.lower;
     w->worst_stretch = fmaxf(w->worst_stretch, fmaxf(fabsf(upper), fabsf(lower)));
   }
   w->opposite_in_air += groups == 3;
-  for (uint32_t i = 0; i < w->on.rig.bone_count; i++) {
+  for (uint32_t i = 0; i < w->on.rig.bones.count; i++) {
     ck_assert(isfinite(w->on.pose[i].position.x) && isfinite(w->on.pose[i].rotation.w));
     ck_assert_float_eq_tol(w->on.pose[i].rotation.x * w->on.pose[i].rotation.x +
                                w->on.pose[i].rotation.y * w->on.pose[i].rotation.y +
@@ -99,9 +99,9 @@ START_TEST(standing_is_the_rest_pose)
   walk w;
   begin(&w, flat, 0);
   run(&w, 1, 0, 0, 0);
-  for (uint32_t i = 0; i < w.on.rig.bone_count; i++) {
-    ck_assert_float_le(sbri_length(sbri_sub(w.on.pose[i].position, w.on.rig.rest[i].position)), 2e-5f);
-    sbf_quat a = w.on.pose[i].rotation, b = w.on.rig.rest[i].rotation;
+  for (uint32_t i = 0; i < w.on.rig.bones.count; i++) {
+    ck_assert_float_le(sbri_length(sbri_sub(w.on.pose[i].position, w.on.rig.bones.rest[i].position)), 2e-5f);
+    sbf_quat a = w.on.pose[i].rotation, b = w.on.rig.bones.rest[i].rotation;
     ck_assert_float_ge(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 0.99999f);
   }
   ck_assert_uint_eq(w.events, 0);
@@ -152,7 +152,7 @@ START_TEST(feet_come_home_when_it_stops)
   sbri_gait_legs(&w.on.rig, w.on.state, 1, legs, 4);
   for (int l = 0; l < 4; l++) {
     sbf_quat rotation = {0, sinf(heading / 2), 0, cosf(heading / 2)};
-    sbf_vec3 home = w.on.rig.legs[l].home;
+    sbf_vec3 home = w.on.rig.legs[l].home.position;
     home.y = 0;
     home = sbri_add(position, sbri_rotate(rotation, home));
     ck_assert(legs[l].planted);
@@ -235,10 +235,10 @@ START_TEST(a_knee_turns_with_the_bone_of_its_pole)
   walk with_hips, with_head;
   begin(&with_hips, flat, 0);
   begin(&with_head, flat, 0);
-  ck_assert_int_eq(with_hips.on.rig.legs[QUADRUPED_HIND_L].pole_bone, 1); /* the thigh hangs on it */
+  ck_assert_int_eq(with_hips.on.rig.legs[QUADRUPED_HIND_L].pole.bone, 1); /* the thigh hangs on it */
   sbri_leg *leg = &with_head.on.rig.legs[QUADRUPED_HIND_L];
-  leg->pole_bone = 4;
-  leg->pole_position = sbri_sub(leg->pole, with_head.on.rig.rest[4].position);
+  leg->pole.bone = 4;
+  leg->pole.position = sbri_sub(leg->pole.direction, with_head.on.rig.bones.rest[4].position);
   run(&with_hips, 0.1, 0, 0, 0);
   run(&with_head, 0.1, 0, 0, 0);
   ck_assert_float_le(
@@ -337,7 +337,7 @@ START_TEST(moving_the_origin_changes_nothing)
   for (int l = 0; l < 4; l++) b.stance[l] = sbri_sub(b.stance[l], shift);
   run(&a, 2, 0.3f, 0, 0.2f);
   run(&b, 2, 0.3f, 0, 0.2f);
-  for (uint32_t i = 0; i < a.on.rig.bone_count; i++)
+  for (uint32_t i = 0; i < a.on.rig.bones.count; i++)
     ck_assert_float_le(
         sbri_length(sbri_sub(a.on.pose[i].position, sbri_add(b.on.pose[i].position, shift))), 2e-4f);
   gait_stage_end(&a.on);
@@ -370,7 +370,7 @@ START_TEST(nothing_jumps_where_headings_begin_again)
   run(&w, 2, 0, 0, 1.4f);
   sbr_transform before[MAX_BONES];
   for (int i = 0; i < 10 * TICKS_A_SECOND; i++) {
-    memcpy(before, w.on.pose, w.on.rig.bone_count * sizeof *before);
+    memcpy(before, w.on.pose, w.on.rig.bones.count * sizeof *before);
     tick(&w);
     for (uint32_t b = 0; b < 8; b++) { /* body, head and tail */
       sbf_quat moved = sbri_quat_multiply(w.on.pose[b].rotation, sbri_quat_conjugate(before[b].rotation));
@@ -392,11 +392,11 @@ START_TEST(a_foot_beyond_its_margin_is_put_down_anew)
     const sbri_leg *leg = &w.on.rig.legs[QUADRUPED_FORE_L];
     float margin = w.on.asset->gaits.at[0].legs.at[QUADRUPED_FORE_L].jump_margin;
     ck_assert_float_gt(margin, 0);
-    float lost = leg->upper_length + leg->lower_length + margin;
+    float lost = leg->length.upper + leg->length.lower + margin;
     sbri_foot *foot = &w.on.state->feet[QUADRUPED_FORE_L];
     foot->ground.z += far ? lost + 0.02f : lost - 0.02f;
     uint32_t steps = foot->steps_taken;
-    sbf_vec3 home = {leg->home.x, 0, leg->home.z};
+    sbf_vec3 home = {leg->home.position.x, 0, leg->home.position.z};
     sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, NULL, 0);
     ck_assert_int_eq(sbri_length(sbri_sub(foot->ground, home)) < 1e-4f, far);
     for (int i = 0; i < 180; i++) sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, NULL, 0);
@@ -416,7 +416,7 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
   sbri_gait_state *state = w.on.state;
   float last = 1, last_half = 0;
   for (float speed = 0.6f; speed < 2; speed += 0.2f) {
-    state->forward = speed;
+    state->motion.forward = speed;
     sbri_stride stride = sbri_stride_of(&w.on.rig, state, &w.on.input);
     ck_assert(stride.together);
     ck_assert_float_le(stride.duration_s, last);
@@ -424,7 +424,7 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
     last = stride.duration_s, last_half = stride.half_m;
   }
   ck_assert_float_lt(last, 0.8f * w.on.asset->gaits.at[0].step_duration);
-  state->forward = 0.1f;
+  state->motion.forward = 0.1f;
   ck_assert(!sbri_stride_of(&w.on.rig, state, &w.on.input).together);
   gait_stage_end(&w.on);
 }
@@ -453,7 +453,7 @@ START_TEST(what_hangs_on_a_leg_goes_along)
     tick(&plain), tick(&w);
     for (int k = 0; k < 2; k++) {
       const sbr_transform *on = &w.on.pose[parents[k]], *is = &w.on.pose[PLAIN + k];
-      const sbr_transform *rest = &w.on.rig.rest_local[PLAIN + k];
+      const sbr_transform *rest = &w.on.rig.bones.rest_local[PLAIN + k];
       sbf_vec3 there = sbri_add(on->position, sbri_rotate(on->rotation, rest->position));
       ck_assert_float_le(sbri_length(sbri_sub(is->position, there)), 1e-5f);
       sbf_quat turned = sbri_quat_multiply(on->rotation, rest->rotation);

@@ -75,7 +75,7 @@ static scene cotton(bool pinned, float damping_ratio) {
 START_TEST(the_lowest_mode_bends)
 {
   scene s = cotton(false, 0.1f);
-  double plate = 13.5 * sqrt(7e-6 / 0.15), found = (double)s.model->bodies[0].lowest_rad_s;
+  double plate = 13.5 * sqrt(7e-6 / 0.15), found = (double)s.model->bodies[0].damping.lowest_rad_s;
   ck_assert_double_gt(found, 0.5 * plate);
   ck_assert_double_lt(found, 2 * plate);
   scene_free(&s);

@@ -28,7 +28,7 @@ typedef struct found {
 static found check(const sbri_island *island, uint32_t begin, uint32_t end, uint32_t *marks) {
   found f = {0};
   for (uint32_t b = begin; b < end; b++) {
-    const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[b];
+    const sbri_tetrahedron_block *block = &island->tetrahedra.blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
       if (is_inert(block, lane)) {
         ck_assert_float_eq(block->bulk[lane], 0);
@@ -61,15 +61,15 @@ START_TEST(blocks_hold_each_once)
   scene_lattice(&s, 0, &box);
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  uint32_t full = island->tetrahedron_full_count, dense = island->tetrahedron_dense_count,
+  uint32_t full = island->tetrahedra.full_count, dense = island->tetrahedra.dense_count,
            *marks = calloc(island->slot_count, sizeof *marks);
   ck_assert_ptr_nonnull(marks);
-  ck_assert_uint_eq(island->tetrahedron_count, box.tetrahedron_count);
+  ck_assert_uint_eq(island->tetrahedra.count, box.tetrahedron_count);
   ck_assert_uint_eq(dense, (box.tetrahedron_count + 7) / SBRI_BLOCK);
   ck_assert_uint_le(full, dense);
   found firsts = check(island, 0, full, marks);
   found loose = check(island, full, dense, marks);
-  found again = check(island, dense, island->tetrahedron_block_count, marks);
+  found again = check(island, dense, island->tetrahedra.block_count, marks);
   free(marks);
   ck_assert_uint_eq(firsts.inert, 0);
   ck_assert_uint_eq(firsts.shared + again.shared, 0);
@@ -80,10 +80,10 @@ START_TEST(blocks_hold_each_once)
   ck_assert_double_eq_tol(again.volume, loose.volume, 1e-6);
   for (uint32_t t = 0; t < box.tetrahedron_count; t++)
     for (int k = 0; k < 4; k++) {
-      uint32_t slot = s.model->bodies[0].slot_from_point[box.tetrahedra[t].at[k]];
+      uint32_t slot = s.model->bodies[0].slots.from_point[box.tetrahedra[t].at[k]];
       for (int n = 0; n < 2; n++) {
-        uint32_t at = island->lanes_of_tetrahedra[2 * t + (uint32_t)n];
-        ck_assert_uint_eq(island->tetrahedron_blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK], slot);
+        uint32_t at = island->tetrahedra.lanes[2 * t + (uint32_t)n];
+        ck_assert_uint_eq(island->tetrahedra.blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK], slot);
         ck_assert(at / SBRI_BLOCK < full || (at / SBRI_BLOCK < dense) == (n == 0));
       }
     }
@@ -105,8 +105,8 @@ START_TEST(numbers_of_a_lane)
   scene_body(&s, 0)->attributes.density = 24;
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[0];
-  ck_assert_uint_eq(island->tetrahedron_dense_count, 1);
+  const sbri_tetrahedron_block *block = &island->tetrahedra.blocks[0];
+  ck_assert_uint_eq(island->tetrahedra.dense_count, 1);
   const float expected[6] = {400.0f / 6, 400.0f / 6, 400.0f / 6, 0, 0, 0}; /* mu = 400 Pa */
   for (int i = 0; i < 6; i++) ck_assert_float_eq_tol(block->stiffness[i][0], expected[i], 1e-4f);
   ck_assert_float_eq_tol(block->inverse_volume[0], 1, 1e-6f);
@@ -130,9 +130,9 @@ START_TEST(elements_are_damped_as_stated)
   scene_body(&s, 0)->attributes.stiffness_damping = 1;
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  ck_assert_double_eq_tol(island->stiffness_damping_s, 6e-3, 1e-8);
+  ck_assert_double_eq_tol(island->springs.stiffness_damping_s, 6e-3, 1e-8);
   for (uint32_t t = 0; t < box.tetrahedron_count; t++)
-    ck_assert_float_eq(island->tetrahedron_damping[island->lanes_of_tetrahedra[2 * t]], stated[t]);
+    ck_assert_float_eq(island->tetrahedra.damping[island->tetrahedra.lanes[2 * t]], stated[t]);
   scene_free(&s);
   free(stated);
 }
@@ -145,13 +145,13 @@ START_TEST(beside_tetrahedra_only_extra_springs_act)
   const float stiffness = 10;
   scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
   scene_start(&s);
-  ck_assert_uint_eq(s.model->islands[0].spring_count, 0);
+  ck_assert_uint_eq(s.model->islands[0].springs.count, 0);
   sbr_world_destroy(s.world);
   sbr_model_destroy(s.model);
   ((sbf_spring_set *)(uintptr_t)level->springs.at)->extra = true;
   scene_start(&s);
-  ck_assert_uint_eq(s.model->islands[0].spring_count, 1);
-  ck_assert_uint_eq(s.model->islands[0].tetrahedron_count, box.tetrahedron_count);
+  ck_assert_uint_eq(s.model->islands[0].springs.count, 1);
+  ck_assert_uint_eq(s.model->islands[0].tetrahedra.count, box.tetrahedron_count);
   scene_free(&s);
 }
 END_TEST
@@ -161,7 +161,7 @@ START_TEST(tetrahedra_of_a_level_of_springs_do_not_act)
   scene s = scene_begin();
   scene_lattice(&s, 0, &box)->model = SBF_ELASTIC_MODEL_SPRINGS;
   scene_start(&s);
-  ck_assert_uint_eq(s.model->islands[0].tetrahedron_count, 0);
+  ck_assert_uint_eq(s.model->islands[0].tetrahedra.count, 0);
   ck_assert_uint_eq(sbr_model_report_unsupported(s.model, NULL, NULL), 1);
   scene_free(&s);
 }

@@ -11,18 +11,18 @@ static const float MAX = 4.6f; /* degrees that a knee's turn in a tick changes b
 /* Greatest change of a knee's turn from tick to tick as it goes after `wanted` for so many ticks; the knee is
  * left where it came to. */
 static float follow(sbri_foot *foot, float (*wanted)(int), int count) {
-  float max = 0, before = foot->knee_rate;
+  float max = 0, before = foot->knee.rate;
   for (int i = 0; i < count; i++) {
     float to = wanted(i);
     sbri_knee_keep(foot, sbri_knee_follow(foot, to, TICK_S), to, TICK_S);
-    max = fmaxf(max, fabsf(foot->knee_rate - before) * TICK_S * DEGREES);
-    before = foot->knee_rate;
+    max = fmaxf(max, fabsf(foot->knee.rate - before) * TICK_S * DEGREES);
+    before = foot->knee.rate;
   }
   return max;
 }
 
 static sbri_foot at_rest(float angle) {
-  return (sbri_foot){.knee = angle, .knee_wanted = angle, .knee_known = 2};
+  return (sbri_foot){.knee.angle = angle, .knee.wanted = angle, .knee.known_ticks = 2};
 }
 
 static float jumps(int tick) {
@@ -42,8 +42,8 @@ START_TEST(a_knee_catches_up_without_a_jerk_and_stays)
 {
   sbri_foot foot = at_rest(1);
   ck_assert_float_le(follow(&foot, jumps, 60), MAX);
-  ck_assert_float_eq(foot.knee, 1.6f);
-  ck_assert_float_le(fabsf(foot.knee_rate), 1e-3f);
+  ck_assert_float_eq(foot.knee.angle, 1.6f);
+  ck_assert_float_le(fabsf(foot.knee.rate), 1e-3f);
 }
 END_TEST
 
@@ -63,13 +63,13 @@ START_TEST(a_knee_comes_to_rest_where_the_leg_is_straight)
 {
   sbri_foot foot = at_rest(2);
   ck_assert_float_le(follow(&foot, snaps_straight, 60), MAX + 0.5f); /* its own start is as abrupt */
-  ck_assert_float_eq_tol(foot.knee, 3.14159265f, 1e-4f);
+  ck_assert_float_eq_tol(foot.knee.angle, 3.14159265f, 1e-4f);
 }
 END_TEST
 
 START_TEST(angle_and_distance_are_of_one_triangle)
 {
-  const sbri_leg leg = {.upper_length = 0.3f, .lower_length = 0.2f};
+  const sbri_leg leg = {.length.upper = 0.3f, .length.lower = 0.2f};
   for (float angle = 0.2f; angle < 3; angle += 0.1f) {
     float distance = sbri_knee_distance(&leg, 2, angle);
     ck_assert_float_eq_tol(sbri_knee_angle(&leg, 2, distance), angle, 1e-4f);
@@ -81,25 +81,25 @@ END_TEST
 
 START_TEST(a_leg_that_stands_stops_before_it_is_straight)
 {
-  const sbri_leg leg = {.upper_length = 0.3f, .lower_length = 0.2f};
+  const sbri_leg leg = {.length.upper = 0.3f, .length.lower = 0.2f};
   const sbri_gait_input input = {.tick_s = TICK_S, .scale = 1};
   sbri_foot foot = at_rest(2.5f);
   float shortest, longest;
   ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)); /* it does not turn */
-  foot.knee = foot.knee_wanted = 2.9f;
-  foot.knee_rate = 0.12f / TICK_S; /* it would be straight in two ticks more */
-  float before = foot.knee_rate, max = 0;
+  foot.knee.angle = foot.knee.wanted = 2.9f;
+  foot.knee.rate = 0.12f / TICK_S; /* it would be straight in two ticks more */
+  float before = foot.knee.rate, max = 0;
   for (int i = 0; i < 30; i++) {
     if (!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)) break;
     ck_assert_float_le(shortest, longest);
     float angle = sbri_knee_angle(&leg, 1, longest);
     sbri_knee_keep(&foot, angle, angle, TICK_S);
-    max = fmaxf(max, fabsf(foot.knee_rate - before) * TICK_S * DEGREES);
-    before = foot.knee_rate;
+    max = fmaxf(max, fabsf(foot.knee.rate - before) * TICK_S * DEGREES);
+    before = foot.knee.rate;
   }
   ck_assert_float_le(max, MAX + 0.2f); /* single precision says little of a leg that is nearly straight */
-  ck_assert_float_eq_tol(foot.knee, 3.14159265f, 0.02f);
-  foot.knee_rate = 10, foot.knee_known = 1;
+  ck_assert_float_eq_tol(foot.knee.angle, 3.14159265f, 0.02f);
+  foot.knee.rate = 10, foot.knee.known_ticks = 1;
   ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest));
 }
 END_TEST
@@ -132,13 +132,13 @@ START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
       gait_stage_ticks(&stage, 1);
       for (int l = 0; l < 4; l++) {
         const sbri_foot *foot = &stage.state->feet[l];
-        float change = fabsf(foot->knee_rate - rates[l]) * TICK_S * DEGREES;
+        float change = fabsf(foot->knee.rate - rates[l]) * TICK_S * DEGREES;
         if (!foot->planted && known[l] == 2) max = fmaxf(max, change);
-        rates[l] = foot->knee_rate, known[l] = foot->knee_known;
-        pinned += foot->knee_locked > 0;
+        rates[l] = foot->knee.rate, known[l] = foot->knee.known_ticks;
+        pinned += foot->knee.locked > 0;
       }
     }
-    ck_assert_float_gt(stage.state->position.z, 1.5f);
+    ck_assert_float_gt(stage.state->motion.position.z, 1.5f);
     ck_assert_float_le(max, MAX);
     gait_stage_end(&stage);
   }
@@ -156,8 +156,8 @@ START_TEST(the_same_pose_comes_of_a_state_that_is_not_moved_on)
     for (int i = 0; i < 600; i++) {
       gait_stage_ticks(&stage, 1);
       sbri_gait_pose(&stage.rig, stage.state, &stage.input, false, again);
-      for (int l = 0; l < 4; l++) pinned += stage.state->feet[l].knee_locked > 0;
-      for (uint32_t b = 0; b < stage.rig.bone_count; b++)
+      for (int l = 0; l < 4; l++) pinned += stage.state->feet[l].knee.locked > 0;
+      for (uint32_t b = 0; b < stage.rig.bones.count; b++)
         ck_assert_float_le(sbri_length(sbri_sub(again[b].position, stage.pose[b].position)), 1e-5f);
     }
     gait_stage_end(&stage);

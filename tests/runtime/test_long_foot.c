@@ -9,14 +9,14 @@ static const float TICK_S = 1.0f / 60, MAX = 4.6f * 3.14159265f / 180; /* rad a 
 /* A leg of two bones of 1 m, its hip 1 m up, and a foot 0.8 m high that stands upright before it on its toe.
  */
 static sbri_leg long_legged(void) {
-  sbri_leg leg = {.upper_length = 1, .lower_length = 1, .has_toe = true, .rest_span = 1.4f, .reach = 1.7f};
-  leg.ankle = sbri_vec3(0, 0.9f, 0);
-  leg.toe_position = sbri_vec3(0, 0.1f, 0);
+  sbri_leg leg = {.length = {.upper = 1, .lower = 1, .rest_span = 1.4f, .reach = 1.7f}, .has_toe = true};
+  leg.home.ankle = sbri_vec3(0, 0.9f, 0);
+  leg.home.toe = sbri_vec3(0, 0.1f, 0);
   return leg;
 }
 
 static sbri_foot standing(void) {
-  return (sbri_foot){.planted = 1, .turned = {0, 0, 0, 1}, .normal = {0, 1, 0}};
+  return (sbri_foot){.planted = 1, .frame = {.rotation = {0, 0, 0, 1}}, .normal = {0, 1, 0}};
 }
 
 /* The ankle of a foot that stands `ahead` of the hip; its `tilt` becomes how it leans. */
@@ -24,8 +24,8 @@ static sbf_vec3 lean_ahead(
     const sbri_leg *leg, sbri_foot *foot, float ahead, float scale, sbri_advance advance) {
   const sbri_gait_input input = {.tick_s = TICK_S, .scale = scale};
   sbf_vec3 sole = sbri_scale(sbri_vec3(0, 0, ahead), scale);
-  sbf_vec3 ankle = sbri_add(sole, sbri_scale(leg->ankle, scale)), hip = sbri_vec3(0, scale, 0);
-  return sbri_long_foot_lean(leg, foot, hip, sole, ankle, &input, advance, &foot->tilt);
+  sbf_vec3 ankle = sbri_add(sole, sbri_scale(leg->home.ankle, scale)), hip = sbri_vec3(0, scale, 0);
+  return sbri_long_foot_lean(leg, foot, hip, sole, ankle, &input, advance, &foot->frame.tilt);
 }
 
 static float from_hip(sbf_vec3 ankle, float scale) {
@@ -39,7 +39,7 @@ START_TEST(it_stands_upright_as_at_rest)
   float ahead = sqrtf(1.4f * 1.4f - 0.01f); /* the ankle 0.1 m below the hip */
   sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_RESET);
   ck_assert_float_le(sbri_length(sbri_sub(ankle, sbri_vec3(0, 0.9f, ahead))), 1e-5f);
-  ck_assert_float_eq_tol(foot.tilt.w, 1, 1e-6f);
+  ck_assert_float_eq_tol(foot.frame.tilt.w, 1, 1e-6f);
 }
 END_TEST
 
@@ -55,7 +55,7 @@ START_TEST(it_takes_half_of_what_the_leg_would_stretch_or_bend)
       /* On its toe, as long as it is, turned as its ankle has gone. */
       sbf_vec3 toe = sbri_scale(sbri_vec3(0, 0.1f, ahead), scale), is = sbri_sub(ankle, toe);
       ck_assert_float_eq_tol(sbri_length(is), 0.8f * scale, 1e-4f);
-      sbf_vec3 turned = sbri_rotate(foot.tilt, sbri_vec3(0, 0.8f * scale, 0));
+      sbf_vec3 turned = sbri_rotate(foot.frame.tilt, sbri_vec3(0, 0.8f * scale, 0));
       ck_assert_float_le(sbri_length(sbri_sub(turned, is)), 1e-4f);
     }
 }
@@ -83,15 +83,15 @@ START_TEST(a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it)
     float ahead = i < 20 ? 1.2f : 1.6f; /* the body is thrown back in one tick */
     sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_TICK);
     ck_assert_float_eq_tol(sbri_length(sbri_sub(ankle, sbri_vec3(0, 0.1f, ahead))), 0.8f, 1e-4f);
-    ck_assert_float_eq_tol(sbri_knee_angle(&leg, 1, from_hip(ankle, 1)), foot.knee, 2e-3f);
-    if (i > 2) max = fmaxf(max, fabsf(foot.knee_rate - before) * TICK_S);
-    before = foot.knee_rate;
+    ck_assert_float_eq_tol(sbri_knee_angle(&leg, 1, from_hip(ankle, 1)), foot.knee.angle, 2e-3f);
+    if (i > 2) max = fmaxf(max, fabsf(foot.knee.rate - before) * TICK_S);
+    before = foot.knee.rate;
     sbf_vec3 again = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_NOT); /* the same pose once more */
     ck_assert_float_le(sbri_length(sbri_sub(again, ankle)), 1e-5f);
   }
   ck_assert_float_le(max, MAX);
   ck_assert_float_gt(max, 0.5f * MAX);
-  ck_assert_float_eq(foot.knee, foot.knee_wanted); /* caught up */
+  ck_assert_float_eq(foot.knee.angle, foot.knee.wanted); /* caught up */
 }
 END_TEST
 

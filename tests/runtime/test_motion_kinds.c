@@ -108,11 +108,11 @@ START_TEST(it_banks_by_speed_times_turn_over_gravity)
   gait_stage_begin(&s, a);
   s.input.forward = 4, s.input.turn = 1;
   gait_stage_ticks(&s, 600);
-  sbf_vec3 left = sbri_rotate(s.state->root.rotation, sbri_vec3(1, 0, 0));
+  sbf_vec3 left = sbri_rotate(s.state->posture.root.rotation, sbri_vec3(1, 0, 0));
   ck_assert_double_eq_tol(asin(-(double)left.y), atan2(4.0, 9.81), 1e-3);
   s.input.turn = -1;
   gait_stage_ticks(&s, 600);
-  left = sbri_rotate(s.state->root.rotation, sbri_vec3(1, 0, 0));
+  left = sbri_rotate(s.state->posture.root.rotation, sbri_vec3(1, 0, 0));
   ck_assert_double_eq_tol(asin((double)left.y), atan2(4.0, 9.81), 1e-3);
   gait_stage_end(&s);
 }
@@ -127,13 +127,13 @@ START_TEST(what_is_heavier_than_its_medium_sinks_and_stops_at_the_ground)
     float_at(a, gait, 30, buoyancy);
     gait_stage s;
     gait_stage_begin(&s, a);
-    ck_assert_double_eq_tol((double)s.state->position.y, 30, 1e-4);
+    ck_assert_double_eq_tol((double)s.state->motion.position.y, 30, 1e-4);
     gait_stage_ticks(&s, 300);
     double max = sqrt(0.2 * 9.81 * (double)LENGTH), up = (double)sbri_motion(&s.rig, s.state)->up;
     ck_assert_double_eq_tol(up, k == 0 ? -max : k == 1 ? 0 : max, 0.02 * max);
-    if (k == 1) ck_assert_double_eq_tol((double)s.state->position.y, 30, 1e-4);
+    if (k == 1) ck_assert_double_eq_tol((double)s.state->motion.position.y, 30, 1e-4);
     gait_stage_ticks(&s, 1500);
-    if (k == 0) ck_assert_double_eq_tol((double)s.state->position.y, 0, 1e-4);
+    if (k == 0) ck_assert_double_eq_tol((double)s.state->motion.position.y, 0, 1e-4);
     gait_stage_end(&s);
   }
 }
@@ -150,7 +150,7 @@ START_TEST(a_swimmer_stays_between_ground_and_surface)
   gait_stage_begin(&s, a);
   s.input.up = 1;
   gait_stage_ticks(&s, 300);
-  ck_assert_double_eq_tol((double)(s.state->position.y + s.rig.high.y), 2, 1e-4);
+  ck_assert_double_eq_tol((double)(s.state->motion.position.y + s.rig.stand.high.y), 2, 1e-4);
   s.input.up = -1, s.input.forward = 0.5f;
   for (int t = 0; t < 600; t++) {
     gait_stage_ticks(&s, 1);
@@ -276,7 +276,8 @@ START_TEST(wheels_turn_by_the_distance_over_their_radius)
   double round = 0, last = 0;
   for (int t = 0; t < 200; t++) {
     gait_stage_ticks(&s, 1);
-    round += remainder((double)s.state->heading - last, 2 * PI), last = (double)s.state->heading;
+    round += remainder((double)s.state->motion.heading - last, 2 * PI),
+        last = (double)s.state->motion.heading;
   }
   ck_assert_double_lt(separation(rolled(&s, 1), -round * 0.5 / 0.3), 2e-3);
   ck_assert_double_lt(separation(rolled(&s, 2), round * 0.5 / 0.3), 2e-3);
@@ -292,7 +293,7 @@ START_TEST(links_run_to_the_place_of_the_next)
   s.input.forward = 1;
   while (sbri_gait_distance(s.state) < 2 * 2.39) gait_stage_ticks(&s, 1); /* nearly all of the loop of 2.4 */
   double left = 2 * 2.4 - sbri_gait_distance(s.state);
-  sbf_vec3 root = s.state->position, at = sbri_sub(s.pose[5].position, root);
+  sbf_vec3 root = s.state->motion.position, at = sbri_sub(s.pose[5].position, root);
   /* Link 0 comes back to its place along the floor, from the front. */
   ck_assert_double_eq_tol((double)at.x, 1, 1e-4);
   ck_assert_double_eq_tol((double)at.y, 0, 1e-3);
@@ -308,10 +309,10 @@ START_TEST(a_car_turns_about_its_fixed_axle_no_tighter_than_it_steers)
   gait_stage_begin(&s, cart(&gait, true, false));
   s.input.turn = 1;
   gait_stage_ticks(&s, 120);
-  ck_assert_double_eq_tol((double)s.state->heading, 0, 1e-6); /* not on the spot */
+  ck_assert_double_eq_tol((double)s.state->motion.heading, 0, 1e-6); /* not on the spot */
   s.input.forward = 1;
   gait_stage_ticks(&s, 240);
-  ck_assert_double_eq_tol((double)s.state->turn, tan(0.6) / 2, 1e-3);
+  ck_assert_double_eq_tol((double)s.state->motion.turn, tan(0.6) / 2, 1e-3);
   sbf_vec3 rear = sbri_lerp(s.pose[1].position, s.pose[2].position, 0.5f);
   gait_stage_ticks(&s, 1);
   sbf_vec3 direction =

@@ -44,7 +44,7 @@ START_TEST(a_goal_pulls_as_a_spring_of_no_length)
   scene_start(&s);
   scene_ticks(&s, 600);
   ck_assert_float_eq_tol(scene_point(&s, 0, 0).y, 2 - 9.81f * 2 / 50, 1e-4f);
-  ck_assert_double_eq_tol(s.model->islands[0].fastest_rad_s, 5, 0.2);
+  ck_assert_double_eq_tol(s.model->islands[0].stability.fastest_rad_s, 5, 0.2);
   scene_free(&s);
 }
 END_TEST
@@ -62,8 +62,8 @@ START_TEST(a_goal_without_stiffness_takes_the_bodys)
   set->points = (sbf_u32_list){&point, 1};
   set->weights = (sbf_f32_list){&weight, 1};
   scene_start(&s);
-  ck_assert_uint_eq(s.model->islands[0].spring_count, 1);
-  ck_assert_float_eq_tol(s.model->islands[0].springs[0].stiffness_n_m, 50, 0.01f);
+  ck_assert_uint_eq(s.model->islands[0].springs.count, 1);
+  ck_assert_float_eq_tol(s.model->islands[0].springs.at[0].stiffness_n_m, 50, 0.01f);
   scene_free(&s);
 }
 END_TEST
@@ -155,7 +155,7 @@ START_TEST(guides_blend_between_the_bones_that_hold)
   ck_assert(body->is_pinned);
   ck_assert_ptr_nonnull(body->drivers);
   for (uint32_t i = 1; i + 1 < POINTS; i++) {
-    const sbri_driver *driver = &body->drivers[body->slot_from_point[i] - body->slot_begin];
+    const sbri_driver *driver = &body->drivers[body->slots.from_point[i] - body->slots.begin];
     float of_second = 0, sum = 0;
     for (int k = 0; k < SBRI_DRIVERS; k++) {
       sum += driver->weights[k];

@@ -88,8 +88,8 @@ START_TEST(stated_rest_lengths_are_left_alone)
   set->rest_lengths = (sbf_f32_list){rest, set->ends.count};
   scene_start(&s);
   uint32_t stated = 0;
-  for (uint32_t i = 0; i < s.model->islands[0].spring_count; i++)
-    stated += s.model->islands[0].springs[i].rest_length_m == 0.123f;
+  for (uint32_t i = 0; i < s.model->islands[0].springs.count; i++)
+    stated += s.model->islands[0].springs.at[i].rest_length_m == 0.123f;
   ck_assert_uint_eq(stated, set->ends.count);
   scene_free(&s);
 }
@@ -101,11 +101,11 @@ START_TEST(what_cannot_bear_it_stays_as_it_is)
   s.model_options.free = true; /* nothing holds it */
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  for (uint32_t i = 0; i < island->spring_count; i++) {
-    const sbri_point *a = &island->rest[island->springs[i].a], *b = &island->rest[island->springs[i].b];
+  for (uint32_t i = 0; i < island->springs.count; i++) {
+    const sbri_point *a = &island->rest[island->springs.at[i].a], *b = &island->rest[island->springs.at[i].b];
     float length =
         sqrtf((a->x - b->x) * (a->x - b->x) + (a->y - b->y) * (a->y - b->y) + (a->z - b->z) * (a->z - b->z));
-    ck_assert_float_eq_tol(island->springs[i].rest_length_m, length, 1e-6f);
+    ck_assert_float_eq_tol(island->springs.at[i].rest_length_m, length, 1e-6f);
   }
   scene_free(&s);
 }

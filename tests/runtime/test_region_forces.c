@@ -85,7 +85,7 @@ START_TEST(one_region_swings_with_its_own_frequency)
   s.model_options.substeps = 50;
   s.world_definition.control_tick_s = 1.0 / 1000;
   scene_start(&s);
-  ck_assert_double_eq_tol(s.model->islands[0].fastest_rad_s, w, 1e-6);
+  ck_assert_double_eq_tol(s.model->islands[0].stability.fastest_rad_s, w, 1e-6);
   sbri_point *x = sbri_positions(character_of(&s));
   const sbri_point *rest = s.model->islands[0].rest;
   sbf_vec3 center = {0.1f, 0.1f, 0.1f};
@@ -164,7 +164,7 @@ START_TEST(the_lowest_mode_is_damped_by_the_ratio)
   scene s = make_block(60);
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
   scene_start(&s);
-  double lowest = (double)s.model->bodies[0].alpha_1_s / 0.2;
+  double lowest = (double)s.model->bodies[0].damping.alpha_1_s / 0.2;
   ck_assert_double_gt(lowest, 3);
   ck_assert_double_lt(lowest, 60);
   /* Kinetic and elastic energy fall with exp(-2 z w t) once the lowest mode is left. */

@@ -60,7 +60,7 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
   gait_stage_begin(&s, make());
   ck_assert_uint_eq(s.rig.leg_count, 2); /* what is neither is left out */
   ck_assert(s.rig.legs[0].upper == 1 && s.rig.legs[0].lower == -1 && s.rig.legs[0].foot == 2);
-  ck_assert_float_eq_tol(s.rig.legs[0].upper_length, sqrtf(0.09f + 0.0025f), 1e-6f);
+  ck_assert_float_eq_tol(s.rig.legs[0].length.upper, sqrtf(0.09f + 0.0025f), 1e-6f);
   gait_stage_end(&s);
   sbf_asset *toed = make();
   chains[2].end = 3;
@@ -68,8 +68,8 @@ START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
   ck_assert_uint_eq(s.rig.leg_count, 3);
   const sbri_leg *leg = &s.rig.legs[2];
   ck_assert(leg->has_toe && leg->toe == 3 && leg->foot == 2 && leg->lower == 1 && leg->upper == 0);
-  ck_assert_float_eq_tol(leg->ankle.y - leg->toe_position.y, 0.2f, 1e-6f);
-  ck_assert_float_gt(leg->reach, leg->upper_length + leg->lower_length); /* its foot leans */
+  ck_assert_float_eq_tol(leg->home.ankle.y - leg->home.toe.y, 0.2f, 1e-6f);
+  ck_assert_float_gt(leg->length.reach, leg->length.upper + leg->length.lower); /* its foot leans */
   gait_stage_end(&s);
   gait_stage_begin(&s, quadruped_asset());
   ck_assert_uint_eq(s.rig.leg_count, 4);
@@ -96,7 +96,7 @@ START_TEST(a_character_walks_on_pegs)
     ck_assert(now[0].planted || now[1].planted);
     for (int l = 0; l < 2; l++) {
       sbf_vec3 foot = s.pose[s.rig.legs[l].foot].position, hip = s.pose[s.rig.legs[l].upper].position;
-      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), s.rig.legs[l].upper_length, 0.15f);
+      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), s.rig.legs[l].length.upper, 0.15f);
       if (now[l].planted && !was_planted[l]) stance[l] = foot;
       if (now[l].planted) slip = fmaxf(slip, sbri_length(sbri_sub(foot, stance[l])));
       was_planted[l] = now[l].planted;
@@ -141,13 +141,13 @@ START_TEST(limits_of_a_joint_narrow_each_other)
   asset->joints = (sbf_joint_list){joint, 1};
   gait_stage s;
   gait_stage_begin(&s, asset);
-  const sbri_joint_limit *limit = &s.rig.limits[2];
+  const sbri_joint_limit *limit = &s.rig.bones.limits[2];
   ck_assert(limit->active);
   ck_assert_float_eq(limit->twist[0], -0.4f);
   ck_assert_float_eq(limit->twist[1], 0.9f);
   ck_assert_float_eq(limit->swing_y[0], 0);
   ck_assert_float_eq(limit->swing_z[1], 0);
-  ck_assert(!s.rig.limits[1].active);
+  ck_assert(!s.rig.bones.limits[1].active);
   gait_stage_end(&s);
 }
 END_TEST

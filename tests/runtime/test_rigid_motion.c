@@ -27,7 +27,7 @@ static void make(sbf_vec3 v, sbf_vec3 w, float noise) {
     *velocity_of(i, 2) = v.z + turn.z + noise * n[5];
   }
   island = (sbri_island){.masses = masses, .free_count = POINTS};
-  body = (sbri_body){.slot_begin = 0, .slot_real_end = REAL, .slot_end = POINTS};
+  body = (sbri_body){.slots = {.begin = 0, .real_end = REAL, .end = POINTS}};
 }
 
 static void momenta(double linear[3], double angular[3]) {
@@ -80,7 +80,7 @@ START_TEST(points_on_a_line_have_no_spin_about_it)
   for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){1, 2, 3, 0};
   m = sbri_rigid_motion_find(&island, &body, positions, velocities);
   ck_assert(m.angular_velocity.x == 0 && m.angular_velocity.y == 0 && m.angular_velocity.z == 0);
-  body.slot_end = body.slot_real_end = 0;
+  body.slots.end = body.slots.real_end = 0;
   ck_assert_float_eq(sbri_rigid_motion_find(&island, &body, positions, velocities).mass_kg, 0);
 }
 END_TEST

@@ -31,17 +31,15 @@ static sbri_island_tick box(float fraction, float lifted) {
   near_ground = 1;
   island = (sbri_island){.masses = masses, .free_count = POINTS, .slot_count = POINTS};
   body = (sbri_body){.source = &source,
-      .slot_real_end = POINTS,
-      .slot_end = POINTS,
-      .rolling_fraction = fraction,
+      .slots = {.real_end = POINTS, .end = POINTS},
+      .contact = {.rolling_fraction = fraction},
       .rest_size_m = 1};
   return (sbri_island_tick){.island = &island,
       .tick_s = tick_s,
-      .gravity = {0, -gravity, 0},
+      .environment = {.gravity = {0, -gravity, 0}},
       .positions = positions,
       .velocities = velocities,
-      .planes = planes,
-      .near_ground = &near_ground};
+      .contacts = {.planes = planes, .near_ground = &near_ground}};
 }
 
 static sbri_rigid_motion motion_after(sbri_island_tick tick) {

@@ -30,7 +30,7 @@ START_TEST(what_is_soft_is_stepped_explicitly)
     s.model_options.scheme = k ? SBF_SCHEME_SYMPLECTIC : SBF_SCHEME_AUTOMATIC;
     scene_start(&s);
     ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_symplectic);
-    ck_assert(s.model->islands[0].routed == (k == 0));
+    ck_assert(s.model->islands[0].stepping.is_routed == (k == 0));
     sbr_character_set_drive(s.world, s.character, 0.5f, 0, 1);
     scene_ticks(&s, 120);
     ck_assert_uint_eq(recovering(&s), 0);
@@ -62,7 +62,7 @@ START_TEST(what_is_asked_for_is_done)
   scene s = section(8e4f);
   s.model_options.substeps = 9;
   scene_start(&s);
-  ck_assert(!s.model->islands[0].routed);
+  ck_assert(!s.model->islands[0].stepping.is_routed);
   ck_assert_uint_eq(sbr_model_get_substeps(s.model), 9);
   scene_free(&s);
 }
@@ -100,10 +100,10 @@ START_TEST(one_inverted_element_is_trouble)
   scene_lattice(&s, 0, &box);
   uint32_t middle = lattice_box_point(&box, 1, 1, 1);
   scene_start(&s);
-  ck_assert(s.model->islands[0].routed);
+  ck_assert(s.model->islands[0].stepping.is_routed);
   scene_ticks(&s, 2);
   ck_assert_uint_eq(recovering(&s), 0);
-  sbri_positions(&s.world->characters[0])[s.model->bodies[0].slot_from_point[middle]].x += 0.13f;
+  sbri_positions(&s.world->characters[0])[s.model->bodies[0].slots.from_point[middle]].x += 0.13f;
   uint32_t max = 0;
   for (int i = 0; i < 2; i++) {
     scene_ticks(&s, 1);

@@ -76,7 +76,7 @@ START_TEST(scheme_and_substeps_come_from_the_call_or_the_level)
     s.model_options.substeps = cases[i].substeps_asked;
     scene_start(&s);
     ck_assert_int_eq(s.model->islands[0].scheme->kind, cases[i].scheme);
-    ck_assert_uint_eq(s.model->islands[0].substeps, cases[i].substeps);
+    ck_assert_uint_eq(s.model->islands[0].stepping.substeps, cases[i].substeps);
     sbr_world_destroy(s.world);
     sbr_model_destroy(s.model);
   }
@@ -115,9 +115,9 @@ START_TEST(points_of_a_block_have_about_as_many_springs)
   ck_assert_uint_eq(island->free_count, 32); /* 26 and padding */
   ck_assert_uint_eq(island->slot_count % SBRI_BLOCK, 0);
   uint32_t visits = 0;
-  for (uint32_t i = 0; i < island->spring_count; i++)
-    visits += (island->springs[i].a < island->free_count) + (island->springs[i].b < island->free_count);
-  uint32_t cells = island->cell_begins[island->free_count / SBRI_BLOCK];
+  for (uint32_t i = 0; i < island->springs.count; i++)
+    visits += (island->springs.at[i].a < island->free_count) + (island->springs.at[i].b < island->free_count);
+  uint32_t cells = island->cells.begins[island->free_count / SBRI_BLOCK];
   ck_assert_uint_le(SBRI_BLOCK * cells, visits + visits / 3); /* little of it padding */
   for (uint32_t slot = 26; slot < 32; slot++) ck_assert_float_eq(island->masses[slot], 0);
   scene_free(&s);
@@ -150,20 +150,20 @@ START_TEST(freed_points_inside_share_their_matter_by_stiffness)
   scene_start(&s);
   const sbri_body *body = &s.model->bodies[0];
   const sbri_island *island = &s.model->islands[0];
-  uint32_t surface = body->surface.vertex_count, points = body->level->positions.count;
+  uint32_t surface = body->surface.skin.vertex_count, points = body->level->positions.count;
   double proportion = 0;
   ck_assert_uint_gt(points, surface + 1);
   for (uint32_t point = surface; point < points; point++) {
-    uint32_t slot = body->slot_from_point[point];
+    uint32_t slot = body->slots.from_point[point];
     double stiffness = 0;
-    for (uint32_t i = 0; i < island->spring_count; i++)
-      if (island->springs[i].a == slot || island->springs[i].b == slot)
-        stiffness += (double)island->springs[i].stiffness_n_m;
+    for (uint32_t i = 0; i < island->springs.count; i++)
+      if (island->springs.at[i].a == slot || island->springs.at[i].b == slot)
+        stiffness += (double)island->springs.at[i].stiffness_n_m;
     if (point == surface) proportion = stiffness / (double)island->masses[slot];
     ck_assert_double_eq_tol(stiffness / (double)island->masses[slot], proportion, 1e-3 * proportion);
   }
-  ck_assert_float_gt(
-      island->masses[body->slot_from_point[surface]], 2 * island->masses[body->slot_from_point[surface + 1]]);
+  ck_assert_float_gt(island->masses[body->slots.from_point[surface]],
+      2 * island->masses[body->slots.from_point[surface + 1]]);
   scene_free(&s);
 }
 END_TEST

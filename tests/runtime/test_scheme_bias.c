@@ -217,7 +217,7 @@ static double swing_period(elastic model, const row *r, double *damping) {
     double x = b.box.positions[i].x, bend = 0.02 * x * x * (6 - 4 * x + x * x) / 3;
     double slope = 0.02 * (12 * x - 12 * x * x + 4 * x * x * x) / 3;
     shape[i] = (sbf_vec3){(float)(-slope * b.box.positions[i].y), (float)bend, 0};
-    uint32_t slot = s.model->bodies[0].slot_from_point[i];
+    uint32_t slot = s.model->bodies[0].slots.from_point[i];
     if (!(b.box.masses[i] > 0)) continue;
     sbri_positions(c)[slot].x += shape[i].x, sbri_positions(c)[slot].y += shape[i].y;
     sum += b.box.masses[i] * sbfi_d3_dot(sbfi_d3_of(shape[i]), sbfi_d3_of(shape[i]));

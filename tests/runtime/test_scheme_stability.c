@@ -277,7 +277,7 @@ START_TEST(loose_bodies_are_mended_where_they_lie)
   scene_ticks(&s, 150);
   sbri_character *c = &s.world->characters[0];
   const sbri_body *body = &s.model->bodies[0];
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.end; slot++) {
     sbri_positions(c)[slot].x += 5;
     sbri_positions(c)[slot].y *= 0.01f;
   }
@@ -287,9 +287,9 @@ START_TEST(loose_bodies_are_mended_where_they_lie)
   ck_assert_uint_eq(h.recoveries, 1);
   ck_assert_float_eq_tol(h.volume_ratio, 1, 0.1f);
   float low = 1e9f, sum = 0;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+  for (uint32_t slot = body->slots.begin; slot < body->slots.real_end; slot++) {
     low = fminf(low, sbri_positions(c)[slot].y);
-    sum += sbri_positions(c)[slot].x / (float)(body->slot_real_end - body->slot_begin);
+    sum += sbri_positions(c)[slot].x / (float)(body->slots.real_end - body->slots.begin);
   }
   ck_assert_float_eq_tol(sum, 5, 0.3f);
   ck_assert_float_eq_tol(low, 0, 0.01f);

@@ -449,7 +449,7 @@ START_TEST(weight_maps_damp_point_by_point)
   scene_start(&s);
   sbri_character *c = &s.world->characters[0];
   sbri_point *x = sbri_positions(c);
-  const uint32_t *slots = s.model->bodies[0].slot_from_point;
+  const uint32_t *slots = s.model->bodies[0].slots.from_point;
   x[slots[1]].x *= 1.02f, x[slots[2]].x *= 1.02f, x[slots[2]].z *= 1.02f;
   double high[2] = {0, 0}, periods[2], rates[2] = {0.8 * 0.5, 0.8 * 3};
   for (int i = 0; i < 95; i++) {

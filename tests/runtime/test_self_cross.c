@@ -146,7 +146,7 @@ START_TEST(what_is_deep_in_itself_comes_out)
   scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
   for (uint32_t i = 8; i < 16; i++)
-    sbri_positions(c)[c->model->bodies[0].slot_from_point[i]].y -= 0.1f + deep_m[_i];
+    sbri_positions(c)[c->model->bodies[0].slots.from_point[i]].y -= 0.1f + deep_m[_i];
   scene_read(&s, 0, before, 16);
   ck_assert_uint_gt(count_cubes(before), 0);
   scene_ticks(&s, 60);

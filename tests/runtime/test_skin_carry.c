@@ -163,7 +163,7 @@ START_TEST(points_named_several_times_carry_once)
   s.asset->render_meshes = (sbf_render_mesh_list){mesh, 1};
   s.character_definition.position.y = 0;
   scene_start(&s);
-  const sbri_skin *skin = &s.model->skins[0];
+  const sbri_skin *skin = &s.model->skins.at[0];
   ck_assert_uint_eq(skin->binding_count, 3);
   sbf_vec3 p[3];
   sbr_character_get_skin(s.world, s.character, 0, p, NULL, NULL, 3);

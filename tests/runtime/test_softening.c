@@ -65,13 +65,13 @@ START_TEST(no_more_than_the_budget_asks_for)
   ck_assert_ptr_eq(island->scheme, &sbri_symplectic);
   ck_assert_uint_le(substeps, SBRI_MAX_SUBSTEPS);
   if (_i == 0) {
-    ck_assert_float_eq(island->softened_bulk, 1);
-    ck_assert_float_eq(island->softened_shear, 1);
+    ck_assert_float_eq(island->stability.softened_bulk, 1);
+    ck_assert_float_eq(island->stability.softened_shear, 1);
   } else {
     ck_assert_uint_ge(substeps, 96 * SBRI_MAX_SUBSTEPS / 100);
-    ck_assert_float_lt(island->softened_bulk, 1);
+    ck_assert_float_lt(island->stability.softened_bulk, 1);
   }
-  if (_i == 1) ck_assert_float_gt(island->softened_shear, 0.2f); /* the bulk modulus goes first */
+  if (_i == 1) ck_assert_float_gt(island->stability.softened_shear, 0.2f); /* the bulk modulus goes first */
   scene_free(&s);
 }
 END_TEST
@@ -88,14 +88,14 @@ START_TEST(a_sliver_does_not_soften_its_neighbours)
   scene_start(&s);
   const sbri_body *body = &s.model->bodies[0];
   uint32_t softened = 0;
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
     const uint32_t *at = box.tetrahedra[t].at;
     bool sliver = at[0] == corner || at[1] == corner || at[2] == corner || at[3] == corner;
-    softened += body->moduli[t] < 0.99f * box.young_modulus[t];
-    if (!sliver) ck_assert_float_eq(body->moduli[t], box.young_modulus[t]);
+    softened += body->elements.moduli[t] < 0.99f * box.young_modulus[t];
+    if (!sliver) ck_assert_float_eq(body->elements.moduli[t], box.young_modulus[t]);
   }
   ck_assert_uint_gt(softened, 0);
-  ck_assert_float_lt(s.model->islands[0].softened_shear, 1);
+  ck_assert_float_lt(s.model->islands[0].stability.softened_shear, 1);
   scene_free(&s);
   lattice_box_free(&box);
 }
@@ -112,7 +112,7 @@ START_TEST(asked_for_schemes_keep_the_moduli)
   s = make(1e12f, 0.3f, SBF_SCHEME_POSITION_BASED);
   s.model_options.substeps = 20;
   scene_start(&s);
-  ck_assert_float_eq(s.model->bodies[0].moduli[0], 1e12f);
+  ck_assert_float_eq(s.model->bodies[0].elements.moduli[0], 1e12f);
   scene_free(&s);
 }
 END_TEST

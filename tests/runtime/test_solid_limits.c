@@ -176,9 +176,9 @@ START_TEST(weight_maps_say_where)
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
   float weak = 1, strong = 0;
-  for (uint32_t t = 0; t < island->tetrahedron_count; t++) {
-    uint32_t at = island->lanes_of_tetrahedra[2 * t];
-    float yield = island->solid_limits[at / SBRI_BLOCK].yield[at % SBRI_BLOCK];
+  for (uint32_t t = 0; t < island->tetrahedra.count; t++) {
+    uint32_t at = island->tetrahedra.lanes[2 * t];
+    float yield = island->tetrahedra.limits[at / SBRI_BLOCK].yield[at % SBRI_BLOCK];
     weak = yield < weak ? yield : weak, strong = yield > strong ? yield : strong;
   }
   ck_assert_float_eq_tol(weak, 0.02f, 1e-6f);

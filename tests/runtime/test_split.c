@@ -106,7 +106,7 @@ static void end(void) {
 
 static uint32_t corner(uint32_t t, uint32_t k) {
   const sbri_island *island = &s.model->islands[0];
-  uint32_t at = island->lanes_of_tetrahedra[2 * t], twin = island->lanes_of_tetrahedra[2 * t + 1];
+  uint32_t at = island->tetrahedra.lanes[2 * t], twin = island->tetrahedra.lanes[2 * t + 1];
   const sbri_tetrahedron_block *blocks = sbri_solids(&s.world->characters[0]);
   uint32_t slot = blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
   ck_assert_uint_eq(blocks[twin / SBRI_BLOCK].corners[k][twin % SBRI_BLOCK], slot);
@@ -163,7 +163,7 @@ START_TEST(a_bar_tears_in_two_where_it_is_weakest)
   }
   ck_assert_uint_eq(count_parts(), 2);
   uint32_t splits = 0;
-  for (uint32_t i = s.model->bodies[0].first_spare; i < s.model->bodies[0].slot_real_end; i++)
+  for (uint32_t i = s.model->bodies[0].slots.first_spare; i < s.model->bodies[0].slots.real_end; i++)
     splits += sbri_origins(&s.world->characters[0])[i] != SBRI_UNUSED;
   ck_assert_uint_ge(splits, 3);
   scene_momentum after = scene_momentum_of(&s);

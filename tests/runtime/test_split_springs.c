@@ -92,8 +92,8 @@ static uint32_t count_parts(void) {
   for (uint32_t i = 0; i < island.slot_count; i++) group[i] = i;
   for (bool changed = true; changed;) {
     changed = false, whole = 0;
-    for (uint32_t i = 0; i < island.link_block_count * SBRI_BLOCK; i++) {
-      const sbri_link_block *link = &island.links[i / SBRI_BLOCK];
+    for (uint32_t i = 0; i < island.links.block_count * SBRI_BLOCK; i++) {
+      const sbri_link_block *link = &island.links.blocks[i / SBRI_BLOCK];
       uint32_t a = link->a[i % SBRI_BLOCK], b = link->b[i % SBRI_BLOCK];
       if (a == b || !(strengths[i] > 0)) continue;
       uint32_t min = group[a] < group[b] ? group[a] : group[b];
@@ -103,13 +103,13 @@ static uint32_t count_parts(void) {
   }
   for (uint32_t slot = 0; slot < island.free_count; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    for (uint32_t cell = island.cell_begins[block]; cell < island.cell_ends[block]; cell++) {
-      uint32_t at = island.cell_links[cell * SBRI_BLOCK + lane], other = island.cells[cell].others[lane];
-      const sbri_link_block *link = &island.links[at / SBRI_BLOCK];
+    for (uint32_t cell = island.cells.begins[block]; cell < island.cells.ends[block]; cell++) {
+      uint32_t at = island.cells.links[cell * SBRI_BLOCK + lane], other = island.cells.at[cell].others[lane];
+      const sbri_link_block *link = &island.links.blocks[at / SBRI_BLOCK];
       if (other == slot || !(strengths[at] > 0)) continue;
       uint32_t a = link->a[at % SBRI_BLOCK], b = link->b[at % SBRI_BLOCK];
       ck_assert((a == slot && b == other) || (a == other && b == slot));
-      if (island.cell_slack) ck_assert_float_eq(island.cell_slack[cell * SBRI_BLOCK + lane], 0.5f);
+      if (island.cells.slack) ck_assert_float_eq(island.cells.slack[cell * SBRI_BLOCK + lane], 0.5f);
       rows++;
     }
     parts += group[slot] == slot && island.masses[slot] > 0;
@@ -119,7 +119,7 @@ static uint32_t count_parts(void) {
 }
 static uint32_t count_copies(void) {
   uint32_t copies = 0;
-  for (uint32_t i = s.model->bodies[0].first_spare; i < s.model->bodies[0].slot_real_end; i++)
+  for (uint32_t i = s.model->bodies[0].slots.first_spare; i < s.model->bodies[0].slots.real_end; i++)
     copies += sbri_origins(&s.world->characters[0])[i] != SBRI_UNUSED;
   return copies;
 }
@@ -221,7 +221,7 @@ START_TEST(want_of_room_is_told)
   sbri_character *c = &s.world->characters[0];
   sbri_tears_of(c)[0].count = 0;
   sbr_character_reset(s.world, s.character);
-  sbri_origins(c)[s.model->bodies[0].first_spare] = 0; /* taken */
+  sbri_origins(c)[s.model->bodies[0].slots.first_spare] = 0; /* taken */
   pull_apart();
   event_log log = {.unsplit_count = 0};
   scene_ticks_logged(&s, 60, &log);
@@ -251,7 +251,8 @@ START_TEST(where_nothing_can_tear_no_room_is_kept)
   scene_start(&s);
   const sbri_body *body = &s.model->bodies[0];
   ck_assert(!s.model->splits);
-  ck_assert_uint_eq(body->first_spare, body->slot_real_end); /* whose origins would lie beyond the state */
+  ck_assert_uint_eq(
+      body->slots.first_spare, body->slots.real_end); /* whose origins would lie beyond the state */
   scene_ticks(&s, 5);
   ck_assert(sbr_character_get_body_health(s.world, s.character, 0).finite);
   scene_free(&s);

@@ -121,13 +121,13 @@ START_TEST(a_yielding_spring_flows)
   scene_start(&s);
   scene_ticks(&s, 600);
   /* The force of 12 N strains by 0.3 m, so that l = l0 + 0.3: it flows until 0.3 = 0.1 l0. */
-  float l0 = sbri_rests(&s.world->characters[0])[s.model->islands[0].link_of_spring[0]];
+  float l0 = sbri_rests(&s.world->characters[0])[s.model->islands[0].links.of_spring[0]];
   float length = -scene_point(&s, 0, 2).y;
   ck_assert_float_eq_tol(length - l0, 0.3f, 0.01f);
   /* l0' = r ((l0 + 0.3) / 1.1 - l0) = r (0.3 - 0.1 l0) / 1.1: towards 3 m at the rate r / 11 */
   ck_assert_float_eq_tol(l0, (float)(3 - 2 * exp(-0.5 * 10 / 11)), 0.02f);
   sbr_character_reset(s.world, s.character);
-  ck_assert_float_eq(sbri_rests(&s.world->characters[0])[s.model->islands[0].link_of_spring[0]], 1);
+  ck_assert_float_eq(sbri_rests(&s.world->characters[0])[s.model->islands[0].links.of_spring[0]], 1);
   scene_free(&s);
 }
 END_TEST
@@ -137,7 +137,7 @@ START_TEST(without_a_rate_nothing_flows)
   scene s = hanging(0, 0);
   set_of(&s)->yield_strain = 0.01f;
   scene_start(&s);
-  ck_assert_ptr_null(s.model->islands[0].link_flows);
+  ck_assert_ptr_null(s.model->islands[0].links.flows);
   scene_ticks(&s, 10);
   scene_free(&s);
 }
@@ -223,8 +223,8 @@ START_TEST(weight_maps_move_the_bounds)
   scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
   set_of(&s)->tear_strain = 0.15f; /* 0.3 with the map */
   scene_start(&s);
-  uint32_t link = s.model->islands[0].link_of_spring[0];
-  ck_assert_float_eq_tol(s.model->islands[0].link_flows[link / 8].tear[link % 8], 0.3f, 1e-6f);
+  uint32_t link = s.model->islands[0].links.of_spring[0];
+  ck_assert_float_eq_tol(s.model->islands[0].links.flows[link / 8].tear[link % 8], 0.3f, 1e-6f);
   scene_free(&s);
 }
 END_TEST

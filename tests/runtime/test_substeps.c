@@ -73,7 +73,7 @@ START_TEST(stretched_springs_need_more_up_to_a_bound)
   uint32_t much = sbri_stable_substeps(island, 1.0 / 60, 0.95f);
   ck_assert_uint_gt(some, rest);
   ck_assert_uint_gt(much, some);
-  ck_assert_double_le(much, ceil(1.02 * island->bound_rad_s / 120));
+  ck_assert_double_le(much, ceil(1.02 * island->stability.bound_rad_s / 120));
   ck_assert_uint_eq(sbri_stable_substeps(island, 1.0 / 60, -3), rest);
   scene_free(&s);
 }
@@ -85,7 +85,7 @@ START_TEST(what_is_stiff_beyond_measure_has_a_bound)
   const double frequencies[] = {1e9, 1e30, INFINITY, (double)NAN};
   uint32_t bound = 0;
   for (int i = 0; i < 4; i++) {
-    sbri_island island = {.external_rad_s = frequencies[i]};
+    sbri_island island = {.stability.external_rad_s = frequencies[i]};
     uint32_t substeps = sbri_stable_substeps(&island, 1.0 / 60, 0);
     ck_assert_uint_gt(substeps, SBRI_MAX_SUBSTEPS);
     ck_assert_uint_le(4 * (uint64_t)substeps, UINT32_MAX); /* what schemes multiply it by */

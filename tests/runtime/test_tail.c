@@ -41,7 +41,7 @@ static float climbs(const gait_stage *t) {
   return rises(t, HIPS, CHEST, sbri_quat_identity());
 }
 static float raised(const gait_stage *t) {
-  return rises(t, FIRST, LAST, t->state->root.rotation);
+  return rises(t, FIRST, LAST, t->state->posture.root.rotation);
 }
 
 /* y + (2z/w) y' + y''/w^2 = 1 from rest at 0. */
@@ -65,7 +65,7 @@ START_TEST(first_bone_follows_the_hips_at_any_frame_time)
     for (int i = 0; i < 4; i++) {
       gait_stage t;
       begin(&t, 0, 0);
-      tail = &t.rig.tails[0];
+      tail = &t.rig.tails.at[0];
       sbri_stance stance = {.hips_yaw = 0};
       aim(&stance, about, 0.3f);
       for (int k = 0; k < frames[i] / 2; k++) tick(&t, &stance, 1.0f / (float)frames[i]);
@@ -108,7 +108,7 @@ START_TEST(no_bone_bends_beyond_its_limit)
   for (int about = 0; about < 2; about++) {
     gait_stage t;
     begin(&t, 0, 0);
-    float limit = t.rig.tails[0].limit;
+    float limit = t.rig.tails.at[0].limit;
     bool cut = false;
     for (int k = 0; k < 600; k++) {
       sbri_stance stance = {.hips_yaw = 0};
@@ -172,7 +172,7 @@ START_TEST(tail_stays_over_the_ground_where_it_bends)
     gait_stage t;
     begin(&t, 0.9, starts[i]);
     for (int b = 0; b < TAIL_BONES; b++)
-      ((sbri_tail_bone *)(uintptr_t)t.rig.tails[0].bones)[b].clearance = 0.25f;
+      ((sbri_tail_bone *)(uintptr_t)t.rig.tails.at[0].bones)[b].clearance = 0.25f;
     sbri_gait_reset(&t.rig, t.state, &t.input, (sbf_vec3){0, 0, starts[i]}, 0);
     t.input.forward = 0.5f;
     float lowest = INFINITY;

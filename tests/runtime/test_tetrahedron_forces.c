@@ -32,10 +32,9 @@ static void begin(float damping_s) {
   memcpy(positions, island->rest, island->slot_count * sizeof *positions);
   tick = (sbri_island_tick){.model = s.model,
       .island = island,
-      .tetrahedra = island->tetrahedron_blocks,
+      .solids = {.blocks = island->tetrahedra.blocks},
       .positions = positions,
-      .velocity_points = velocities,
-      .element_forces = forces};
+      .scratch = {.velocity_points = velocities, .element_forces = forces}};
 }
 static void end(void) {
   free(positions);
@@ -52,14 +51,14 @@ static sbfi_d3 position(const sbri_point *points, uint32_t slot) {
 /* What double precision says, by slots. */
 static void expected_forces(sbfi_d3 *sums) {
   const sbri_body *body = &s.model->bodies[0];
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
     sbfi_tetrahedron element;
     sbfi_d3 x[4], f[4];
     ck_assert(sbri_body_tetrahedron(body, t, &element));
-    for (int k = 0; k < 4; k++) x[k] = position(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
+    for (int k = 0; k < 4; k++) x[k] = position(positions, body->slots.from_point[box.tetrahedra[t].at[k]]);
     sbfi_tetrahedron_compute_forces(&element, x, f);
     for (int k = 0; k < 4; k++) {
-      sbfi_d3 *to = &sums[body->slot_from_point[box.tetrahedra[t].at[k]]];
+      sbfi_d3 *to = &sums[body->slots.from_point[box.tetrahedra[t].at[k]]];
       *to = sbfi_d3_add(*to, f[k]);
     }
   }
@@ -102,17 +101,17 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
   for (uint32_t i = 0; i < tick.island->slot_count; i++)
     velocities[i] =
         (sbri_point){random_scattered(7 * i), random_scattered(7 * i + 1), random_scattered(7 * i + 2), 0};
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+  for (uint32_t t = 0; t < body->elements.tetrahedron_count; t++) {
     sbfi_tetrahedron element;
     sbfi_d3 x[4], v[4], f[4];
     ck_assert(sbri_body_tetrahedron(body, t, &element));
     for (int k = 0; k < 4; k++) {
-      x[k] = position(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
-      v[k] = position(velocities, body->slot_from_point[box.tetrahedra[t].at[k]]);
+      x[k] = position(positions, body->slots.from_point[box.tetrahedra[t].at[k]]);
+      v[k] = position(velocities, body->slots.from_point[box.tetrahedra[t].at[k]]);
     }
     sbfi_tetrahedron_product(&element, x, v, f);
     for (int k = 0; k < 4; k++) {
-      sbfi_d3 *to = &sums[body->slot_from_point[box.tetrahedra[t].at[k]]];
+      sbfi_d3 *to = &sums[body->slots.from_point[box.tetrahedra[t].at[k]]];
       *to = sbfi_d3_sub(*to, sbfi_d3_scale(f[k], (double)beta));
     }
   }

@@ -57,7 +57,7 @@ START_TEST(a_short_step_follows_the_energy)
   float edges[2 * 9 * SBRI_BLOCK];
   sbfi_d3 x[4], f[4];
   for (uint32_t i = 0; i < 4; i++) {
-    uint32_t slot = s.model->bodies[0].slot_from_point[i];
+    uint32_t slot = s.model->bodies[0].slots.from_point[i];
     begins[slot] = island->rest[slot];
     float shake = _i == 0 ? 0.02f : 0.3f;
     begins[slot].x += shake * random_scattered(3 * i), begins[slot].y += shake * random_scattered(3 * i + 1);
@@ -71,14 +71,12 @@ START_TEST(a_short_step_follows_the_energy)
   sbfi_tetrahedron_compute_forces(&element, x, f);
   sbri_island_tick t = {.model = s.model,
       .island = island,
-      .tetrahedra = island->tetrahedron_blocks,
-      .begins = begins,
-      .moves = moves,
-      .solid_edges = edges};
+      .solids = {.blocks = island->tetrahedra.blocks, .edges = edges},
+      .scratch = {.begins = begins, .moves = moves}};
   sbri_solid_edges_begin(&t);
   sbri_sweep_tetrahedra(&t, h, false);
   for (uint32_t i = 0; i < 4; i++) {
-    const sbri_point *u = &moves[s.model->bodies[0].slot_from_point[i]];
+    const sbri_point *u = &moves[s.model->bodies[0].slots.from_point[i]];
     double scale = (double)h * h / masses[i], max = 2e-3 * (sbfi_d3_length(f[i]) + 1) * scale;
     ck_assert_double_eq_tol(u->x, scale * f[i].x, max);
     ck_assert_double_eq_tol(u->y, scale * f[i].y, max);
@@ -280,10 +278,10 @@ START_TEST(the_router_recovers_by_it)
   scene_start(&s);
   sbri_character *c = &s.world->characters[0];
   const sbri_island *island = &s.model->islands[0];
-  ck_assert(island->routed);
+  ck_assert(island->stepping.is_routed);
   scene_ticks(&s, 2);
   ck_assert_uint_eq(sbri_island_states(c)->recovery.ticks, 0);
-  uint32_t corner = s.model->bodies[0].slot_from_point[lattice_box_point(&box, 0, 0, 0)];
+  uint32_t corner = s.model->bodies[0].slots.from_point[lattice_box_point(&box, 0, 0, 0)];
   sbri_positions(c)[corner].x = _i ? 0.5f : 0.3f;
   scene_ticks(&s, 2);
   ck_assert_uint_gt(sbri_island_states(c)->recovery.ticks, 0);

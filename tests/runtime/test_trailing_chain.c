@@ -59,7 +59,7 @@ START_TEST(at_rest_it_is_as_modelled)
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 1, 0, 0);
   for (int k = 0; k < BONES; k++)
-    ck_assert_float_le(sbri_length(sbri_sub(s.pose[k].position, s.rig.rest[k].position)), 1e-4f);
+    ck_assert_float_le(sbri_length(sbri_sub(s.pose[k].position, s.rig.bones.rest[k].position)), 1e-4f);
   gait_stage_end(&s);
 }
 END_TEST

@@ -139,8 +139,8 @@ START_TEST(embedded_surfaces_keep_theirs)
   embedding->weights = (sbf_vec4_list){weights, vertex_count};
   level->embeddings = (sbf_embedding_list){embedding, 1};
   scene_start(&s);
-  ck_assert(s.model->bodies[0].keeps_volume);
-  ck_assert_ptr_null(s.model->bodies[0].volume_faces);
+  ck_assert(s.model->bodies[0].volume.is_kept);
+  ck_assert_ptr_null(s.model->bodies[0].volume.faces);
   double low, high;
   shake(&s, &low, &high);
   ck_assert_double_gt(low, 0.99);

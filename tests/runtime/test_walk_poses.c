@@ -100,9 +100,9 @@ START_TEST(what_goes_back_goes_back_in_its_walk)
   s.input.forward = -0.2f;
   gait_stage_ticks(&s, 60);
   for (int i = 0; i < 100; i++) {
-    float before = s.state->walk_phase;
+    float before = s.state->walk.phase;
     gait_stage_ticks(&s, 1);
-    float gone = s.state->walk_phase - before;
+    float gone = s.state->walk.phase - before;
     ck_assert(gone < 0 || gone > 0.9f);
   }
   gait_stage_end(&s);
@@ -113,13 +113,13 @@ END_TEST
 static void show(gait_stage *s, float phase, sbf_vec3 *heads) {
   sbr_transform frames[BONES];
   const sbri_rig *rig = &s->rig;
-  for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->rest_local[b];
-  s->state->forward = 1, s->state->speed_fraction = 1, s->state->walk_phase = phase;
+  for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->bones.rest_local[b];
+  s->state->motion.forward = 1, s->state->pace.speed_fraction = 1, s->state->walk.phase = phase;
   sbri_walk_pose(rig, s->state, 1, s->pose);
   for (uint32_t b = 0; b < BONES; b++) {
     frames[b] = s->pose[b];
-    if (rig->parents[b] >= 0) {
-      const sbr_transform *above = &frames[rig->parents[b]];
+    if (rig->bones.parents[b] >= 0) {
+      const sbr_transform *above = &frames[rig->bones.parents[b]];
       frames[b].position = sbri_add(above->position, sbri_rotate(above->rotation, frames[b].position));
       frames[b].rotation = sbri_quat_multiply(above->rotation, frames[b].rotation);
     }
@@ -147,7 +147,7 @@ START_TEST(the_second_half_is_the_mirror_image_of_the_first)
       sbf_vec3 there = second[across[b]];
       there.x = -there.x;
       ck_assert_float_le(sbri_length(sbri_sub(first[b], there)), 1e-5f);
-      moved = fmaxf(moved, sbri_length(sbri_sub(first[b], s.rig.rest[b].position)));
+      moved = fmaxf(moved, sbri_length(sbri_sub(first[b], s.rig.bones.rest[b].position)));
     }
   }
   ck_assert_float_gt(moved, 0.05f);
@@ -167,16 +167,18 @@ START_TEST(a_walk_becomes_a_run)
   begin(&s, keys, 4, 0);
   ck_assert_uint_eq(s.rig.walks.walk_count, 2);
   for (int i = 0; i < 3; i++) {
-    sbri_gait_state state = {.forward = speeds[i], .speed_fraction = 1, .walk_phase = 0.5f};
-    for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.rig.rest_local[b];
+    sbri_gait_state state = {
+        .motion = {.forward = speeds[i]}, .pace = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
+    for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.rig.bones.rest_local[b];
     float weight = fminf(1, speeds[i] / 0.25f); /* half of the gait's walking speed */
     sbri_walk_pose(&s.rig, &state, 1, s.pose);
     ck_assert_float_eq_tol(sbri_quat_log(s.pose[HEAD].rotation).x, weight * tops[i], 0.01f);
     sbri_walk_tick(&s.rig, &state, 0.05f, 1);
-    ck_assert_float_eq_tol(state.walk_phase, 0.5f + 0.05f / cycles[i], 1e-5f);
-    sbri_gait_state tall = {.forward = 2 * speeds[i], .speed_fraction = 1, .walk_phase = 0.5f};
+    ck_assert_float_eq_tol(state.walk.phase, 0.5f + 0.05f / cycles[i], 1e-5f);
+    sbri_gait_state tall = {
+        .motion = {.forward = 2 * speeds[i]}, .pace = {.speed_fraction = 1}, .walk = {.phase = 0.5f}};
     sbri_walk_tick(&s.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
-    ck_assert_float_eq_tol(tall.walk_phase, state.walk_phase, 1e-5f);
+    ck_assert_float_eq_tol(tall.walk.phase, state.walk.phase, 1e-5f);
   }
   gait_stage_end(&s);
 }
@@ -213,7 +215,7 @@ START_TEST(a_mirrored_walk_keeps_step_with_the_feet)
         ck_assert_float_le(sbri_length(sbri_sub(ankle, stance[l])), 2e-3f);
       stance[l] = ankle;
       if (!foot->planted || foot->was_planted) continue;
-      float off = fabsf(s.state->walk_phase - 0.5f * (float)l);
+      float off = fabsf(s.state->walk.phase - 0.5f * (float)l);
       ck_assert_float_le(fminf(off, 1 - off), 0.25f);
       landings++;
     }

@@ -167,7 +167,7 @@ static void begin_walk(gait_stage *s, bool weighs) {
 /* How far the body's up leans ahead, as it faces. */
 static float leans_ahead(const gait_stage *s, uint32_t body) {
   sbf_quat rotation =
-      sbri_quat_multiply(s->pose[body].rotation, sbri_quat_conjugate(s->rig.rest[body].rotation));
+      sbri_quat_multiply(s->pose[body].rotation, sbri_quat_conjugate(s->rig.bones.rest[body].rotation));
   return sbri_unheaded(s->state, sbri_rotate(rotation, sbri_vec3(0, 1, 0))).z;
 }
 
