@@ -33,7 +33,7 @@ static void type_of(void *self, const gd_variant *const *arguments, gd_variant *
   gd_assign(result, gd_string(ends_with(path, ".sbfz") ? "SoftAsset" : ""));
 }
 
-/* The file's bytes through Godot's own access, which knows packs and folders. */
+/* Reads the file through Godot's own access, which supports packs and folders. */
 static void load(void *self, const gd_variant *const *arguments, gd_variant *result) {
   char path[1024];
   gd_variant classes = gd_singleton("ClassDB");

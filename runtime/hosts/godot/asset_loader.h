@@ -1,4 +1,4 @@
-/* SoftAssetLoader: ResourceLoader reads .sbfz by it, from the project's folder or from an exported game. */
+/* SoftAssetLoader: lets ResourceLoader read .sbfz, from the project's folder or from an exported game. */
 #ifndef SBFMT_GODOT_ASSET_LOADER_H
 #define SBFMT_GODOT_ASSET_LOADER_H
 
@@ -6,7 +6,7 @@
 
 extern const gd_class asset_loader_class;
 
-/* Makes Godot ask it, until the other is called. */
+/* Registers the loader with Godot, until the other function is called. */
 void asset_loader_begin(void);
 void asset_loader_end(void);
 

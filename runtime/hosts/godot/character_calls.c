@@ -1,4 +1,4 @@
-/* What scripts ask of a SoftCharacter3D, beyond its properties. */
+/* Methods of SoftCharacter3D for scripts, without its properties. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,7 +161,7 @@ CALL(get_mesh_instance) {
   gd_assign(result, character_mesh_instance(one->mesh, gd_as_int(arguments[0])));
 }
 
-/* Low and high corner of what it fills at rest, in the node's own space: what the editor draws. */
+/* Low and high corner of its bounds at rest, in the node's space, as drawn by the editor. */
 CALL(get_rest_bounds) {
   soft_character *one = self;
   sbf_vec3 a = one->low, b = one->high;
@@ -169,7 +169,7 @@ CALL(get_rest_bounds) {
   gd_assign(result, gd_aabb_value((gd_aabb){a, {b.x - a.x, b.y - a.y, b.z - a.z}}));
 }
 
-/* Lines of the bones as they stand, in world space, two points each. */
+/* Lines of the bones in the present pose, in world space, two points each. */
 CALL(get_bone_lines) {
   soft_character *one = self;
   uint32_t count = one->world ? one->model->asset->bones.count : 0;
@@ -185,7 +185,7 @@ CALL(get_bone_lines) {
     float length = one->model->asset->bones.at[i].length * one->scale;
     sbf_vec3 p = bones[i].position;
     p = (sbf_vec3){(float)o.x + p.x, (float)o.y + p.y, (float)o.z + p.z};
-    line[2 * i] = p; /* and its tail: where the bone's own +Y leads */
+    line[2 * i] = p; /* its tail, along the bone's +Y */
     line[2 * i + 1] = (sbf_vec3){p.x + length * 2 * (q.x * q.y - q.w * q.z),
         p.y + length * (1 - 2 * (q.x * q.x + q.z * q.z)), p.z + length * 2 * (q.y * q.z + q.w * q.x)};
   }

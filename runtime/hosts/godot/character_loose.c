@@ -1,6 +1,6 @@
-/* A character that nothing holds, such as a block of jelly, is where its matter is: its node goes with the
- * middle of its points, and where the node is put, the middle comes to lie as it did at rest. Its own frame
- * in the runtime stays where it was put last. */
+/* A character without pins, such as a block of jelly, is at the position of its points. Its node follows the
+ * centre of its points, and when the node is moved, the centre moves to its rest position relative to it. Its
+ * frame in the runtime stays at its last placement. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 
 enum { TRIES = 4 };
 
-/* Pins hold a body where it was put, as a flag's do. */
+/* Pins fix a body at its placement, as those of a flag do. */
 bool soft_asset_is_loose(const sbf_asset *asset) {
   bool any = false;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
@@ -22,7 +22,7 @@ bool soft_asset_is_loose(const sbf_asset *asset) {
   return any && !asset->bones.count;
 }
 
-/* Of all points, in the world; false where there are none, or no memory to look at them. */
+/* Centre of all points in the world; false if there are none, or memory runs out. */
 static bool middle_of(const soft_character *one, double middle[3]) {
   double sum[3] = {0, 0, 0};
   uint64_t all = 0;
@@ -70,7 +70,7 @@ bool soft_character_loose_follow(soft_character *one) {
   return true;
 }
 
-/* The frame is moved until the middle is where it should be: its height counts from the ground below it. */
+/* Iterates, because the height of the frame is relative to the ground below it. */
 bool soft_character_set_loose_position(soft_character *one) {
   double middle[3], wanted[3];
   if (!one->loose) return false;

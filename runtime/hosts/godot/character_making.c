@@ -1,4 +1,4 @@
-/* What a node has while it has an asset and is in a tree: made, kept over a change, and given back. */
+/* Resources of a node that has an asset and is in a tree: creation, transfer and release. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -70,7 +70,7 @@ static bool make_world(soft_character *one) {
   return false;
 }
 
-/* The state of a world, to be restored in the next one. */
+/* State of a world, to be restored in the next one. */
 typedef struct kept_state {
   void *bytes;
   size_t size;

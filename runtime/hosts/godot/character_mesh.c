@@ -1,7 +1,7 @@
-/* A character's render meshes, an ArrayMesh each. Its vertices are updated every frame.
+/* Render meshes of a character, one ArrayMesh each. Their vertices are updated every frame.
  *
- * Godot has one normal and one texture coordinate a vertex: a point of the file becomes one vertex for each
- * different corner. A surface has the triangles of one material. */
+ * Godot has one normal and one texture coordinate per vertex: a point of the file becomes one vertex per
+ * distinct corner. A surface has the triangles of one material. */
 #include "soft_character.h"
 
 #include <math.h>
@@ -19,23 +19,23 @@ enum {
   ARRAY_TEX_UV = 4,
   ARRAY_INDEX = 12,
   ARRAY_MAX = 13,
-  TEXTURE_ALBEDO = 0, /* BaseMaterial3D's */
+  TEXTURE_ALBEDO = 0, /* of BaseMaterial3D */
   TEXTURE_METALLIC = 1,
   TEXTURE_ROUGHNESS = 2,
   CHANNEL_GREEN = 1,
   CHANNEL_BLUE = 2,
-  INTERPOLATION_OFF = 2 /* its vertices move, not its place */
+  INTERPOLATION_OFF = 2 /* its vertices move, not the node */
 };
 
 typedef struct shown_surface {
   surface_vertices vertices;
-  gd_variant bytes;                 /* PackedByteArray of positions, then normals, as the renderer has them */
-  uint32_t normals_at, normal_step; /* into it */
+  gd_variant bytes;                 /* PackedByteArray of positions, then normals, in the renderer's format */
+  uint32_t normals_at, normal_step; /* offset of normals, and their stride */
 } shown_surface;
 
 typedef struct shown_mesh {
   uint32_t render_mesh;
-  bool corners; /* it has normals a corner, not a point */
+  bool corners; /* it has normals per corner, not per point */
   gd_variant mesh, instance;
   shown_surface *surfaces;
   uint32_t surface_count;
@@ -44,7 +44,7 @@ typedef struct shown_mesh {
 struct character_mesh {
   shown_mesh *meshes;
   uint32_t count;
-  sbf_vec3 *positions, *normals; /* room for the largest */
+  sbf_vec3 *positions, *normals; /* capacity for the largest mesh */
 };
 
 /* ---- Material ---- */
@@ -68,7 +68,7 @@ static gd_variant decoded_texture(const sbf_texture *texture) {
   return made;
 }
 
-/* The project's own resource, beside the bundle's. */
+/* A resource of the project next to the bundle. */
 static gd_variant texture_beside(const soft_character *one, const sbf_texture *texture) {
   char bundle[512], path[1024], message[1280];
   gd_variant loader = gd_singleton("ResourceLoader"), from = GD_CALL(&one->asset_value, "get_path");
@@ -88,8 +88,7 @@ static gd_variant texture_beside(const soft_character *one, const sbf_texture *t
   return found;
 }
 
-/* Made once for all nodes that show the asset; false is kept for one that could not be. Nil: there is none.
- */
+/* Created once for all nodes with the asset; false is stored after a failure. Nil: no texture. */
 static gd_variant texture_of(const soft_character *one, int32_t index) {
   gd_variant *kept = soft_model_texture(one->model, index);
   if (!kept) return gd_nil();
@@ -121,7 +120,7 @@ static gd_variant make_material(const soft_character *one, const sbf_material *m
   GD_DO(&made, "set_metallic", gd_float(m->metallic));
   GD_DO(&made, "set_roughness", gd_float(m->roughness));
   set_texture(&made, TEXTURE_ALBEDO, texture_of(one, m->base_color_texture));
-  if (m->metallic_roughness_texture >= 0) { /* metal in blue, roughness in green, as glTF has them */
+  if (m->metallic_roughness_texture >= 0) { /* metallic in blue, roughness in green, as in glTF */
     set_texture(&made, TEXTURE_METALLIC, texture_of(one, m->metallic_roughness_texture));
     set_texture(&made, TEXTURE_ROUGHNESS, texture_of(one, m->metallic_roughness_texture));
     GD_DO(&made, "set_metallic_texture_channel", gd_int(CHANNEL_BLUE));
@@ -142,7 +141,7 @@ static gd_variant make_material(const soft_character *one, const sbf_material *m
   return made;
 }
 
-/* Shared by all nodes that show the asset, as resources are. */
+/* Shared by all nodes with the asset, as resources are. */
 static gd_variant material_of(const soft_character *one, const sbf_render_mesh *mesh, uint32_t slot) {
   int32_t index = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
   gd_variant *kept = soft_model_material(one->model, index);

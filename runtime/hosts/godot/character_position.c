@@ -1,4 +1,4 @@
-/* Where a character is: its node goes with it, and it goes where its node is put. */
+/* Position of a character: its node follows it, and it follows its node. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ float transform_scale(const gd_transform *node_transform) {
   return length > 0 ? length : 1;
 }
 
-/* The bone that travels with the character. */
+/* The bone that moves with the character. */
 static const sbf_bone *body_bone(const sbf_asset *asset, uint32_t *index) {
   *index = asset->gaits.count && asset->gaits.at[0].body >= 0 ? (uint32_t)asset->gaits.at[0].body : 0;
   return asset->bones.count ? &asset->bones.at[*index] : NULL;
@@ -29,11 +29,11 @@ double soft_character_size(const soft_character *one) {
 
 double soft_character_around(const soft_character *one) {
   float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z)) * one->scale;
-  double size = soft_character_size(one); /* what is tall may come to lie */
+  double size = soft_character_size(one); /* a tall character may lie down */
   return fmax(1.5 * (double)wide + 0.1 * size, size);
 }
 
-/* What a parent's transform makes of it is what it has to be compared with. */
+/* Stores the transform after the parent's rounding, for later comparison. */
 static void leave_node(soft_character *one) {
   GD_DO(&one->node, "set_global_transform", gd_transform_value(one->put));
   one->put = soft_character_transform(one);
@@ -77,7 +77,7 @@ void soft_character_set_position(soft_character *one, sbf_vec3 position, float h
   one->stale = true;
   if (soft_character_set_loose_position(one)) return;
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
-  if (above < 0) above = 0; /* from there it falls */
+  if (above < 0) above = 0; /* it falls from there */
   sbr_character_teleport(one->world, one->id, (sbr_double3){position.x, above, position.z}, heading);
 }
 
@@ -88,14 +88,14 @@ gd_transform soft_character_transform(const soft_character *one) {
   return node_transform;
 }
 
-/* How something else has moved the node since the character left it there. */
+/* Movement of the node since the character placed it there. */
 typedef struct node_move {
   sbf_vec3 by; /* m */
   float turn;  /* rad, about +Y */
   bool any;
 } node_move;
 
-static const float STILL = 1e-12f; /* m^2 and rad^2: what the node's numbers are rounded by */
+static const float STILL = 1e-12f; /* m^2 and rad^2: rounding error of the node's transform */
 
 static node_move move_of(const gd_transform *now, const gd_transform *put) {
   node_move made = {
@@ -108,9 +108,10 @@ static node_move move_of(const gd_transform *now, const gd_transform *put) {
   return made;
 }
 
-static const float LARGEST_TURN = 1; /* rad in a frame: what turns farther is put there */
+static const float LARGEST_TURN = 1; /* rad per frame: larger rotations are placements */
 
-/* What is moved so little walks there; what nothing holds, and what is moved farther, is put there. */
+/* Whether the character walks to the new position. Characters without pins, and larger movements, are placed
+ * there. */
 static bool steps_there(const soft_character *one, const node_move *move) {
   double limit = one->settings.teleport_distance, size = soft_character_size(one);
   float x = move->by.x, y = move->by.y, z = move->by.z;
@@ -125,8 +126,7 @@ void soft_character_save(soft_character *one, bool done) {
     GD_DO(&one->node, "set_global_transform", gd_transform_value(done ? one->put : one->from));
 }
 
-/* In the editor the character is at the node's position, moves during a preview, and is put back afterwards.
- */
+/* In the editor the character is at the node's position, moves during a preview, and is reset afterwards. */
 static void edit(soft_character *one, const gd_transform *now) {
   if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
   if (!one->previews && !move_of(now, &one->put).any) return;
@@ -158,14 +158,15 @@ bool soft_character_prepare(soft_character *one) {
     one->placed = false;
   }
   node_move move = move_of(&now, &one->put);
-  if (one->placed && !isfinite(move.by.x + move.by.y + move.by.z + move.turn)) { /* it stays where it was */
+  if (one->placed &&
+      !isfinite(move.by.x + move.by.y + move.by.z + move.turn)) { /* invalid movement: it stays */
     leave_node(one);
     move = (node_move){.any = false};
   }
   bool steps = one->placed && move.any && steps_there(one, &move);
   if (steps) {
     sbr_character_displace(one->world, one->id, move.by, move.turn);
-    one->put = now; /* a frame without a tick leaves it there */
+    one->put = now; /* a frame without a tick keeps it there */
     one->displaced = true;
     one->tick = sbr_world_get_tick_count(one->world);
   }
@@ -179,7 +180,7 @@ bool soft_character_prepare(soft_character *one) {
   return !one->still;
 }
 
-/* A node that does not process may be stepped by another one of its world. */
+/* A node that does not process may still be stepped by another node of its world. */
 void soft_character_pause(soft_character *one) {
   bool still = one->settings.paused || !gd_take_bool(GD_CALL(&one->node, "can_process"));
   if (one->world && still != one->still) sbr_character_set_paused(one->world, one->id, still);

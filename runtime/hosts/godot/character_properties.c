@@ -1,10 +1,10 @@
-/* What the inspector shows of a SoftCharacter3D, and what the editor warns of. */
+/* Properties of SoftCharacter3D in the inspector, and warnings of the editor. */
 #include "soft_character.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* The resource says that it has changed: the character takes its new content. */
+/* Called when the resource has changed: the character takes its new content. */
 void soft_character_asset_changed(void *self, const gd_variant *const *arguments, gd_variant *result) {
   (void)arguments;
   (void)result;
@@ -52,7 +52,7 @@ bool soft_character_fits(const soft_character *one, const char *name, double val
   return false;
 }
 
-/* A plain setting: its getter and setter, and what follows from a change. */
+/* A simple setting: its getter and setter, and the action after a change. */
 #define SETTING(name, type, low, high, after)                                                                \
   static void get_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
     (void)arguments;                                                                                         \

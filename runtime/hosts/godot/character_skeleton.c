@@ -12,7 +12,7 @@ static gd_transform transform(sbf_quat q, sbf_vec3 at) {
       at};
 }
 
-/* A bone's frame as its parent sees it; without one, as the skeleton does. */
+/* Frame of a bone relative to its parent; without a parent, relative to the skeleton. */
 static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t bone) {
   if (parent < 0) return transform(bones[bone].rotation, bones[bone].position);
   sbf_quat back = turn_back(bones[parent].rotation);
@@ -65,7 +65,7 @@ void character_skeleton_update(soft_character *one) {
   if (!bones) return;
   sbr_double3 origin = sbr_character_get_origin(one->world, one->id);
   sbr_character_get_bones(one->world, one->id, bones, list->count);
-  GD_DO(&one->skeleton, "set_position", /* at the top level: the world's */
+  GD_DO(&one->skeleton, "set_position", /* at the top level: in world space */
       gd_vector3((sbf_vec3){(float)origin.x, (float)origin.y, (float)origin.z}));
   for (uint32_t i = 0; i < list->count; i++)
     GD_DO(

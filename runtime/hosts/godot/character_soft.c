@@ -1,5 +1,5 @@
-/* What scripts do with a SoftCharacter3D's soft bodies: push, hold, drag and measure them
- * (sbrun/soft_body.h). */
+/* Methods of SoftCharacter3D for soft bodies: impulses, holds, forces and measurements (sbrun/soft_body.h).
+ */
 #include <stdlib.h>
 
 #include "sbrun/soft_body.h"
@@ -112,7 +112,7 @@ CALL(soft_character_get_hold_force) {
   gd_assign(result, gd_vector3(force));
 }
 
-/* Of each pin set its force and its torque, one after the other. */
+/* Force and torque of each pin set, one after the other. */
 CALL(soft_character_get_pin_reactions) {
   soft_character *one = self;
   uint32_t body = number_of(arguments[0]);
@@ -126,7 +126,7 @@ CALL(soft_character_get_pin_reactions) {
   free(pins);
 }
 
-/* Of each tetrahedron xx, yy, zz and then xy, yz, zx. */
+/* xx, yy, zz, then xy, yz, zx of each tetrahedron. */
 CALL(soft_character_get_stress) {
   soft_character *one = self;
   uint32_t body = number_of(arguments[0]);

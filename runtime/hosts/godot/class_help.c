@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Text that grows ---- */
+/* ---- Growing text ---- */
 
 typedef struct text {
   char *at;
@@ -23,7 +23,7 @@ static void add(text *to, const char *from, size_t size) {
   to->at[to->size += size] = 0;
 }
 
-/* %s of it is escaped, as XML wants it. */
+/* %s is escaped for XML. */
 static void write(text *to, const char *format, ...) {
   va_list given;
   va_start(given, format);
@@ -47,7 +47,7 @@ static const char *type_name(GDExtensionVariantType type, const char *class_name
   switch (type) {
   case GDEXTENSION_VARIANT_TYPE_BOOL:
     return "bool";
-  case GDEXTENSION_VARIANT_TYPE_INT: /* of an enumeration, whose name is in class_name, too */
+  case GDEXTENSION_VARIANT_TYPE_INT: /* also of an enumeration, whose name is in class_name */
     return "int";
   case GDEXTENSION_VARIANT_TYPE_FLOAT:
     return "float";

@@ -31,7 +31,7 @@ static GDExtensionObjectPtr create(void *userdata, GDExtensionBool notify) {
   gd.object_set_instance(object, gd_string_name(form->name), made);
   gd.object_set_instance_binding(object, gd.library, made, &binding);
   if (form->begin) form->begin(made->self, object);
-  if (notify && !form->counted) { /* a counted one would go with the value that holds it here */
+  if (notify && !form->counted) { /* a counted instance would be freed with this value */
     gd_variant value = gd_object(object);
     GD_DO(&value, "notification", gd_int(0)); /* NOTIFICATION_POSTINITIALIZE */
     gd_free(&value);
@@ -80,7 +80,7 @@ static void call_values(void *userdata, GDExtensionClassInstancePtr made,
   gd_free(&answer);
 }
 
-/* A result is a null pointer to begin with, and counts what is counted. */
+/* A result is initially a null pointer, and counted if its class is. */
 static void give_object(GDExtensionTypePtr result, const gd_variant *answer) {
   if (!gd_as_object(answer)) return;
   if (gd_take_bool(GD_CALL(answer, "is_class", gd_string("RefCounted"))))
@@ -89,7 +89,7 @@ static void give_object(GDExtensionTypePtr result, const gd_variant *answer) {
     *(GDExtensionObjectPtr *)result = gd_as_object(answer);
 }
 
-/* Raw values, as typed scripts and Godot's own code hand them over. */
+/* Raw values, as typed scripts and Godot's own code pass them. */
 static void call_raw(const gd_method *method, instance *made, const GDExtensionConstTypePtr *arguments,
     GDExtensionTypePtr result) {
   const gd_variant *given[MAX_ARGUMENTS] = {0};
@@ -136,7 +136,7 @@ static void call_virtual(GDExtensionClassInstancePtr made, GDExtensionConstStrin
 
 /* ---- Registering ---- */
 
-/* Godot wants strings beside names: each registering call has its own, freed after it. */
+/* Godot takes strings in addition to names: each registration has its own, freed after it. */
 typedef struct described {
   GDExtensionPropertyInfo info;
   uint64_t text;
@@ -185,7 +185,7 @@ static void register_method(const gd_class *form, const gd_method *method) {
   undescribe(&result);
 }
 
-/* A property's two methods live as long as the extension does. */
+/* The two methods of a property live as long as the extension. */
 static gd_method accessors[128];
 static uint32_t accessor_count;
 

@@ -5,46 +5,46 @@
 
 #include "variants.h"
 
-/* `arguments` are as many as the table says; `result` is nil, and may be assigned. */
+/* `arguments` has the number of values in the table; `result` is nil, and may be assigned. */
 typedef void gd_function(void *self, const gd_variant *const *arguments, gd_variant *result);
 
-/* A value that is handed over. */
+/* A parameter. */
 typedef struct gd_argument {
   const char *name;
   GDExtensionVariantType type; /* NIL: a Variant of any type */
-  const char *class_name;      /* of an object, or CLASS.ENUM of an INT; NULL: none in particular */
+  const char *class_name;      /* of an object, or CLASS.ENUM for an INT; NULL: any */
 } gd_argument;
 
-/* What can be called. In a table of virtual ones the name is Godot's, with its underscore. */
+/* A method. In a table of virtual methods the name is Godot's, with its underscore. */
 typedef struct gd_method {
   const char *name;
   gd_function *run;
   bool answers;       /* it has a result */
-  gd_argument result; /* its name does not matter */
+  gd_argument result; /* its name is ignored */
   uint32_t count;     /* of arguments, at most 5 */
   gd_argument arguments[5];
 } gd_method;
 
-/* What is shown in the inspector, by a getter and a setter. One without `get` begins a group of its name. */
+/* A property in the inspector, with getter and setter. An entry without `get` begins a group of that name. */
 typedef struct gd_property {
   const char *name;
   GDExtensionVariantType type;
   uint32_t hint; /* of Godot's PropertyHint */
   const char *hint_text;
-  uint32_t usage; /* of Godot's PropertyUsageFlags; 0: shown and stored */
+  uint32_t usage; /* of Godot's PropertyUsageFlags; 0: displayed and stored */
   const char *class_name;
   const char *getter_name, *setter_name;
   gd_function *get, *set;
 } gd_property;
 
-/* What is told. */
+/* A signal. */
 typedef struct gd_signal {
   const char *name;
   uint32_t count;
   gd_argument arguments[6];
 } gd_signal;
 
-/* A number with a name, in an enumeration. */
+/* A named constant in an enumeration. */
 typedef struct gd_constant {
   const char *enumeration, *name;
   int64_t value;
@@ -53,11 +53,11 @@ typedef struct gd_constant {
 /* Tables end with an entry without a name; they may be NULL. */
 typedef struct gd_class {
   const char *name, *parent;
-  bool counted;                                            /* by references, as resources are */
-  size_t size;                                             /* of an instance, which begins as zeros */
+  bool counted;                                            /* reference counted, as resources are */
+  size_t size;                                             /* of an instance, which is zeroed initially */
   void (*begin)(void *self, GDExtensionObjectPtr object);  /* may be NULL */
-  void (*end)(void *self);                                 /* likewise */
-  void (*notify)(void *self, int32_t what, bool reversed); /* likewise */
+  void (*end)(void *self);                                 /* may be NULL */
+  void (*notify)(void *self, int32_t what, bool reversed); /* may be NULL */
   const gd_method *methods, *virtuals;
   const gd_property *properties;
   const gd_signal *signals;
@@ -66,9 +66,9 @@ typedef struct gd_class {
 
 void gd_class_register(const gd_class *form);
 void gd_class_unregister(const gd_class *form);
-/* A new instance; the object, whose own value is freed when nobody holds it. */
+/* A new instance: the object, whose value is freed with its last reference. */
 gd_variant gd_class_new(const gd_class *form);
-/* What begins at `size` zeros, of an object; NULL where it is none of that class. */
+/* Instance data of `size` bytes of an object; NULL if it is not of that class. */
 void *gd_class_instance(const gd_class *form, GDExtensionObjectPtr object);
 
 #endif

@@ -1,4 +1,4 @@
-/* Where Godot enters: sbfmt_godot_begin, as addons/sbfmt/sbfmt.gdextension names it. */
+/* Entry point for Godot: sbfmt_godot_begin, as named in addons/sbfmt/sbfmt.gdextension. */
 #include "asset_loader.h"
 #include "class_help.h"
 #include "soft_character.h"

@@ -1,8 +1,8 @@
-/* Levels of detail by what the camera of the nodes' viewport sees, within the project's budget.
+/* Levels of detail by the camera of the nodes' viewport, within the project's budget.
  *
- * The runtime selects them (sbrun/detail.h); this tells it of the camera. Characters are at their finest
- * level where there is no camera, as on a server, and while a rigid body is near: coarse levels have nothing
- * that it could hit. */
+ * The runtime selects them (sbrun/detail.h); this passes the camera to it. Characters are at their finest
+ * level without a camera, as on a server, and while a rigid body is near: coarse levels have no collision
+ * bodies. */
 #include <math.h>
 
 #include "sbrun/detail.h"
@@ -10,7 +10,7 @@
 
 enum { ORTHOGONAL = 1, KEEP_WIDTH = 0 };
 
-/* Heights of its picture, from where an orthogonal camera sees as a perspective one does. */
+/* Distance in heights of its picture at which an orthogonal camera equals a perspective one. */
 static const double FAR = 1000;
 
 static double project_setting(const char *name, double otherwise) {
@@ -33,7 +33,7 @@ bool level_of_detail_select(sbr_world *world, double budget_us) {
   return sbr_world_select_detail_levels(world, &definition, NULL) == SBF_OK;
 }
 
-/* What the viewport's camera sees; false where it has none. */
+/* View of the viewport's camera; false if it has none. */
 static bool find_view(const gd_variant *viewport, sbr_view *view) {
   gd_variant camera = GD_CALL(viewport, "get_camera_3d");
   if (!gd_as_object(&camera)) return gd_free(&camera), false;

@@ -12,11 +12,11 @@
 #include "turns.h"
 
 enum {
-  MAX = 256,   /* shapes at once */
-  KEPT = 30,   /* frames for which one is kept that is no longer near, while there is room */
+  MAX = 256,   /* maximum number of shapes */
+  KEPT = 30,   /* frames for which a distant shape is kept if there is capacity */
   AGAIN = 4,   /* frames between two queries */
   FORGET = 64, /* frames after which ignored bodies are checked again */
-  QUERIES = 8, /* greatest number in a frame: a mesh may fill one result by itself */
+  QUERIES = 8, /* maximum number per frame: a mesh may fill one result by itself */
   PARAM_BOUNCE = 0,
   PARAM_FRICTION = 1,
   STATE_TRANSFORM = 0,
@@ -26,18 +26,18 @@ enum {
 
 typedef struct mirrored {
   uint64_t body;           /* RID; 0: free */
-  int64_t index;           /* of its shapes */
+  int64_t index;           /* index of its shape */
   gd_variant handle;       /* the RID as a value */
   uint64_t object;         /* instance id of the node */
-  sbr_shape *shape;        /* NULL: of a kind that has none here */
+  sbr_shape *shape;        /* NULL: its kind is not supported */
   sbr_collider_id id;      /* in the character's world */
-  gd_transform inner;      /* of the runtime's shape in Godot's */
-  gd_transform last;       /* of the shape in the world, as it was last moved to */
-  sbf_vec3 arm;            /* from the body's origin to the shape's there */
-  uint32_t seen;           /* frame it was last near */
+  gd_transform inner;      /* transform of the runtime's shape in Godot's */
+  gd_transform last;       /* last transform of the shape in the world */
+  sbf_vec3 arm;            /* from the body's origin to that of the shape */
+  uint32_t seen;           /* last frame in which it was near */
   uint32_t found;          /* query that last found it */
-  body_mass mass;          /* the body's, as its collider was made */
-  bool leads, is_reported; /* its collider has the mass; its motion was set in the frame before */
+  body_mass mass;          /* mass of the body when its collider was created */
+  bool leads, is_reported; /* its collider has the mass; its motion was set in the previous frame */
 } mirrored;
 
 struct physics_bodies {
@@ -47,7 +47,7 @@ struct physics_bodies {
   gd_variant passed;     /* RIDs that queries exclude: bodies below characters */
   gd_variant still;      /* those and static bodies: excluded from queries for fast bodies */
   uint32_t query_count;
-  bool warned; /* it was said that there is no room for more */
+  bool warned; /* the warning about capacity was given */
 };
 
 physics_bodies *physics_bodies_make(void) {
@@ -86,7 +86,7 @@ gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id c
   return gd_object(NULL);
 }
 
-/* ---- Where they are ---- */
+/* ---- Positions ---- */
 
 static float length(sbf_vec3 v) {
   return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
@@ -111,9 +111,9 @@ static sbf_vec3 angular_velocity_of(const gd_variant *server, const gd_variant *
   return gd_take_vector3(GD_CALL(server, "body_get_state", gd_copy(handle), gd_int(STATE_ANGULAR_VELOCITY)));
 }
 
-/* ---- Colliders of them ---- */
+/* ---- Colliders ---- */
 
-/* The collider of its body that has the mass; NULL: there is none yet. */
+/* The collider with the mass of the body; NULL: none yet. */
 static mirrored *leader_of(physics_bodies *bodies, const mirrored *at) {
   for (uint32_t i = 0; i < MAX; i++) {
     mirrored *other = &bodies->each[i];
@@ -122,7 +122,7 @@ static mirrored *leader_of(physics_bodies *bodies, const mirrored *at) {
   return NULL;
 }
 
-/* A collider for the body's shape; what it weighs is the first one's of the body. */
+/* Creates a collider for the body's shape; the first one of the body has its mass. */
 static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at) {
   sbr_collider_definition made = sbr_default_collider_definition();
   gd_transform target = body_transform(server, at);
@@ -145,7 +145,7 @@ static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_var
   sbr_collider_create(world, &made, &at->id, NULL);
 }
 
-/* What has another mass than its collider, or lost the one that had it, gets a new one. */
+/* Recreates the collider if the mass has changed, or its leader was removed. */
 static void follow_mass(
     physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at, bool pushes) {
   body_mass now = pushes ? body_mass_of(server, &at->handle) : (body_mass){0, {0, 0, 0}, {0, 0, 0}};
@@ -157,10 +157,10 @@ static void follow_mass(
   make_collider(bodies, world, server, at);
 }
 
-/* m in a frame: what is elsewhere then was put there, and did not go. */
+/* m per frame: larger movements are placements, not motion. */
 static const float JUMP = 2;
 
-/* What is not rigid is moved by others; most of it never is. */
+/* Bodies that are not rigid are moved by the game; most never move. */
 static void follow_moved(sbr_world *world, mirrored *at, const gd_transform *now) {
   if (!memcmp(now, &at->last, sizeof *now)) return;
   sbf_vec3 o = now->origin, was = at->last.origin;
@@ -172,7 +172,7 @@ static void follow_moved(sbr_world *world, mirrored *at, const gd_transform *now
     sbr_collider_move(world, at->id, target, turn_of(turn.basis));
 }
 
-/* From where it is, by its velocity; with a mass also by what pulls at it. */
+/* Predicts motion by the velocity; with a mass also by its acceleration. */
 static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
   gd_transform now = body_transform(server, at);
   sbf_vec3 o = now.origin;
@@ -200,10 +200,10 @@ static void move(sbr_world *world, const gd_variant *server, mirrored *at, float
   sbr_collider_set_motion(world, at->id, &motion);
 }
 
-/* m/s: greatest speed of a body that is found in time. */
+/* m/s: maximum speed of a body that is found in time. */
 static const float FASTEST = 50;
 
-/* A free place, or that of what has been away longest; NULL: all are near. */
+/* A free entry, or the one that has been distant for longest; NULL: all are near. */
 static mirrored *find_unused(physics_bodies *bodies, sbr_world *world) {
   mirrored *oldest = &bodies->each[0];
   for (uint32_t i = 0; i < MAX; i++) {
@@ -216,7 +216,7 @@ static mirrored *find_unused(physics_bodies *bodies, sbr_world *world) {
   return oldest;
 }
 
-/* Mirrors a body's shape that has not been met. */
+/* Adds a body's shape that is new. */
 static void adopt(soft_character *one, const gd_variant *server, const gd_variant *handle, int64_t index,
     const gd_variant *object) {
   physics_bodies *bodies = one->bodies;
@@ -240,8 +240,8 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
   if (unused->shape) make_collider(bodies, one->world, server, unused);
 }
 
-/* What a query found; a shape that it finds again, as each triangle of a mesh may be, is left out of the next
- * queries of this look, `known`. */
+/* Adds a result of a query. Shapes that it finds again, as each triangle of a mesh may be, are excluded from
+ * the following queries, by `known`. */
 static void note_found(
     soft_character *one, const gd_variant *server, const gd_variant *hit, float speed, gd_variant *known) {
   physics_bodies *bodies = one->bodies;
@@ -267,7 +267,7 @@ static void note_found(
   gd_free(&handle);
 }
 
-/* What the query finds of at least that speed (m/s), and what it found no room for. */
+/* Runs the query for bodies of at least that speed (m/s), and again if its results were full. */
 static void ask(soft_character *one, const gd_variant *space, const gd_variant *server, float speed) {
   physics_bodies *bodies = one->bodies;
   gd_variant known = GD_CALL(speed > 0 ? &bodies->still : &bodies->passed, "duplicate");
@@ -289,8 +289,8 @@ static void ask(soft_character *one, const gd_variant *space, const gd_variant *
   gd_free(&known);
 }
 
-/* Every few frames all bodies in a box about the character; in each, those that would be through it before.
- */
+/* Every few frames finds all bodies in a box around the character; in each frame those that are fast enough
+ * to pass it before the next. */
 static void query_around(soft_character *one, bool all) {
   physics_bodies *bodies = one->bodies;
   gd_variant world = GD_CALL(&one->node, "get_world_3d");
@@ -354,7 +354,7 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
   gd_free(&server);
 }
 
-/* Limits the impulse to a change of velocity of so many m/s, or to what reflects a faster body. */
+/* Limits the impulse to a velocity change in m/s, or to that which reflects a faster body. */
 static float fraction_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
   float size = length(impulse) * at->mass.inverse;
   if (!(limit > 0) || size <= limit) return 1;

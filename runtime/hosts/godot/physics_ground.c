@@ -1,18 +1,18 @@
-/* The runtime's ground under a physics space. Bodies are colliders (physics_bodies.c), so this is a level
- * plane: far below if there is a body to stand on, else at the node's own height. */
+/* The runtime's ground below a physics space. Bodies are colliders (physics_bodies.c), so this is a
+ * horizontal plane: far below if there is a body to stand on, else at the node's own height. */
 #include <stdlib.h>
 
 #include "physics_kinds.h"
 #include "soft_character.h"
 
-/* m: how far down something to stand on is looked for; and how far below the ground is then. */
+/* m: search distance below the node; and the depth of the plane if there is a body */
 static const double DEEP = 1000;
 
-enum { PASSED = 16 /* most bodies that a ray goes through before it gives up */ };
+enum { PASSED = 16 /* maximum number of bodies that a ray ignores */ };
 
 struct physics_ground {
   double level;     /* m */
-  bool warned;      /* it was said that there is nothing */
+  bool warned;      /* the warning was given */
   gd_variant query; /* PhysicsRayQueryParameters3D */
 };
 
@@ -44,7 +44,7 @@ void physics_ground_level(physics_ground *ground, double level) {
   ground->level = level;
 }
 
-/* Whether a ray down from the node finds a body that is not its own. */
+/* Whether a ray downwards from the node finds a body that is not its own. */
 static bool finds_floor(const soft_character *one, const gd_variant *space, double above) {
   const gd_variant *query = &one->ground->query;
   sbf_vec3 from = one->put.origin, to = from;
@@ -69,7 +69,7 @@ static bool finds_floor(const soft_character *one, const gd_variant *space, doub
   return found;
 }
 
-/* Once, as it may be meant: a character that flies. */
+/* Once only, since it may be intended, as for a flying character. */
 static void warn_of_nothing(const soft_character *one) {
   one->ground->warned = true;
   soft_character_warning(one, "there is no ground: nothing below it has a layer of its collision_mask. It "

@@ -1,14 +1,14 @@
-/* Of what a query of the physics space finds: what its engine moves, and what is the character's own. */
+/* Classification of bodies in the physics space: dynamic, static, or part of the character. */
 #ifndef SBFMT_GODOT_PHYSICS_KINDS_H
 #define SBFMT_GODOT_PHYSICS_KINDS_H
 
 #include "variants.h"
 
-/* Whether Godot's engine moves it by its mass; what is frozen it does not. `body`: its RID. */
+/* Whether Godot's engine moves it as a rigid body and it is not frozen. `body`: its RID. */
 bool body_is_rigid(const gd_variant *server, const gd_variant *body);
-/* Whether nothing is to move it; it may be put elsewhere. */
+/* Whether it is static; it may still be placed elsewhere. */
 bool body_is_static(const gd_variant *server, const gd_variant *body);
-/* Whether it hangs in the tree below the node, as a hit box does, which it goes with. */
+/* Whether it is below the node in the tree, as a hit box is, and moves with it. */
 bool body_is_below(const gd_variant *node, const gd_variant *object);
 
 #endif

@@ -20,7 +20,7 @@ static float inverse(float number) {
   return number > 0 ? 1 / number : 0;
 }
 
-/* How the body's principal axes stand in the world. */
+/* Rotation of the body's principal axes in the world. */
 static sbf_quat axes_of(const gd_variant *server, const gd_variant *body) {
   gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(body));
   gd_variant axes = gd_as_object(&state) ? GD_CALL(&state, "get_principal_inertia_axes") : gd_nil();

@@ -1,4 +1,4 @@
-/* A shape of Godot's physics as one of the runtime. */
+/* Conversion of Godot's physics shapes to the runtime's. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,11 +6,11 @@
 #include "soft_character.h"
 #include "turns.h"
 
-enum { CYLINDER = 16 /* sides of a cylinder's hull */ };
+enum { CYLINDER = 16 /* number of sides of a cylinder's hull */ };
 /* Godot's kinds of shapes. */
 enum {
   SHAPE_WORLD_BOUNDARY,
-  SHAPE_SEPARATION_RAY, /* nothing solid */
+  SHAPE_SEPARATION_RAY, /* not solid */
   SHAPE_SPHERE,
   SHAPE_BOX,
   SHAPE_CAPSULE,
@@ -20,7 +20,7 @@ enum {
   SHAPE_HEIGHTMAP
 };
 
-/* Of the main thread alone: whether it was said that something is passed through. */
+/* Main thread only: the warning about unsupported shapes was given. */
 static bool is_reported;
 
 static sbr_shape *made_of(const sbr_shape_definition *form, const gd_variant *object) {
@@ -82,7 +82,7 @@ static float number(const gd_variant *data, const char *key) {
   return (float)gd_take_float(gd_key(data, key));
 }
 
-/* A grid of one metre about its middle. */
+/* A grid with a spacing of one metre about its centre. */
 static sbr_shape *heightmap(const gd_variant *data, const gd_variant *object) {
   sbr_shape_definition form = sbr_default_shape_definition();
   gd_variant heights = gd_key(data, "heights");
@@ -104,7 +104,7 @@ static float distance_to(const gd_variant *plane, sbf_vec3 point) {
   return (float)gd_take_float(GD_CALL(plane, "distance_to", gd_vector3(point)));
 }
 
-/* The runtime's is at the origin and faces its +Y. */
+/* The runtime's plane is at the origin and faces +Y. */
 static sbr_shape *boundary(const gd_variant *plane, const gd_variant *object, gd_transform *inner) {
   sbr_shape_definition form = sbr_default_shape_definition();
   float off = distance_to(plane, (sbf_vec3){0, 0, 0});

@@ -16,18 +16,18 @@ enum {
 
 struct shared_world {
   shared_world *next;
-  uint64_t space; /* RID; 0: it is one node's own */
+  uint64_t space; /* RID; 0: belongs to one node */
   bool has_gravity, threads, selects, has_budget;
   sbf_vec3 gravity;
   double tick_s;
   sbr_world *world;
   physics_bodies *bodies;
   soft_character *members[MAX];
-  uint32_t count, holders; /* nodes, and these and who is busy with it */
+  uint32_t count, holders; /* nodes; nodes and users */
   int64_t frame;           /* last stepped */
 };
 
-/* All there are. Of the main thread alone. */
+/* All worlds. Main thread only. */
 static shared_world *worlds;
 
 static uint64_t space_of(const soft_character *one) {
@@ -128,7 +128,7 @@ bool shared_world_has(const shared_world *shared, const gd_variant *object) {
   return false;
 }
 
-/* ---- What happened ---- */
+/* ---- Events ---- */
 
 static soft_character *member_of(const shared_world *shared, sbr_character_id id) {
   for (uint32_t i = 0; id.value && i < shared->count; i++)
@@ -201,8 +201,8 @@ static void report_events(shared_world *shared) {
 
 /* ---- A frame ---- */
 
-/* The world's part of the project's budget: what it needs and a part of what is left, or, where all need too
- * much, in proportion. */
+/* The world's part of the project's budget: its need and a part of the rest; or in proportion, if all need
+ * too much. */
 static double budget_of(const shared_world *shared, double budget_us) {
   double needed = 0, count = 0, us_per_visit = 1e-3 * (double)sbr_default_detail_definition().ns_per_visit;
   for (const shared_world *one = worlds; one; one = one->next)
@@ -220,8 +220,7 @@ static void update_detail(shared_world *shared) {
   level_of_detail_update(shared->members, shared->count);
 }
 
-/* Characters whose nodes were scaled are recreated; they are then the last of the world, or in another one.
- */
+/* Recreates characters whose nodes were scaled; they are then the last of the world, or in another one. */
 static void rescale(shared_world *shared) {
   shared->holders++;
   for (uint32_t i = 0; i < shared->count;)

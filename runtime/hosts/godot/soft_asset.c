@@ -8,12 +8,12 @@
 
 /* ---- Shared by characters ---- */
 
-/* The bytes stay, as lists of a stored bundle are used in place. */
+/* The bytes are kept, because lists of a stored bundle are used in place. */
 struct soft_content {
   gd_variant bytes;
   sbf_asset *asset;
   soft_model *models;
-  gd_variant *materials, *textures; /* one of each that the asset has; nil: not made yet */
+  gd_variant *materials, *textures; /* one for each of the asset; nil: not created yet */
   uint32_t holders;
 };
 
@@ -37,7 +37,7 @@ static bool same_options(const sbr_model_options *a, const sbr_model_options *b)
          !memcmp(&a->gravity, &b->gravity, sizeof a->gravity);
 }
 
-/* Where it was loaded from, for messages. */
+/* Path of the resource, for messages. */
 static void name_of(const soft_asset *asset, char *name, size_t size) {
   gd_variant value = gd_object(asset->object), path = GD_CALL(&value, "get_path");
   if (!gd_as_text(&path, name, size)) snprintf(name, size, "SoftAsset");
@@ -80,7 +80,8 @@ void soft_model_release(soft_model *model) {
   free(model);
 }
 
-/* The value of that number in a list that is made at first use; NULL without memory or such a number. */
+/* The value with that index in a list that is allocated on first use; NULL without memory or such an index.
+ */
 static gd_variant *value_in(gd_variant **values, uint32_t count, int32_t index) {
   if (index < 0 || (uint32_t)index >= count) return NULL;
   if (!*values) {
@@ -164,7 +165,7 @@ static void add_names(gd_variant *result, uint32_t count, const char *(*name)(co
   for (uint32_t i = 0; asset && i < count; i++) GD_DO(result, "push_back", gd_string(name(asset, i)));
 }
 
-/* Those of a part's element: get_bone_names and its like, by the name that people see or else the id. */
+/* Names of elements, for get_bone_names and similar methods: the display name or else the id. */
 #define NAMES(list)                                                                                          \
   static const char *list##_name(const sbf_asset *asset, uint32_t i) {                                       \
     return asset->list.at[i].name[0] ? asset->list.at[i].name : asset->list.at[i].id;                        \
@@ -180,7 +181,7 @@ NAMES(render_meshes)
 NAMES(clips)
 #undef NAMES
 
-/* What the runtime leaves out of it, a sentence each. */
+/* Adds a sentence for each part that the runtime ignores. */
 static void add_sentence(void *user, const sbf_diagnostic *finding) {
   GD_DO((gd_variant *)user, "push_back", gd_string(finding->message));
 }

@@ -42,7 +42,7 @@ static void notify(void *self, int32_t what, bool reversed) {
   } else if (what == INTERNAL_PHYSICS_PROCESS) {
     if (one->world) shared_world_step(one);
   } else if (what == INTERNAL_PROCESS && one->world && one->stale) {
-    if (!gd_take_bool(GD_CALL(&one->node, "is_visible_in_tree"))) return; /* drawn when it is seen again */
+    if (!gd_take_bool(GD_CALL(&one->node, "is_visible_in_tree"))) return; /* drawn when it becomes visible */
     character_mesh_update(one->mesh, one);
     one->stale = false;
   } else if (what == EDITOR_PRE_SAVE || what == EDITOR_POST_SAVE) {

@@ -10,27 +10,27 @@
 #include "sbrun/collision.h"
 #include "soft_asset.h"
 
-/* Where its ground comes from. */
+/* Source of its ground. */
 typedef enum soft_ground {
   SOFT_GROUND_PHYSICS, /* the bodies of the physics space */
-  SOFT_GROUND_FLAT     /* a plane at the height where the node began */
+  SOFT_GROUND_FLAT     /* a plane at the initial height of the node */
 } soft_ground;
 
-/* How finely it is simulated. */
+/* Detail of the simulation. */
 typedef enum soft_detail {
-  SOFT_DETAIL_AUTOMATIC, /* as the camera sees it (level_of_detail.c) */
-  SOFT_DETAIL_FULL       /* the finest level always */
+  SOFT_DETAIL_AUTOMATIC, /* by the camera's view (level_of_detail.c) */
+  SOFT_DETAIL_FULL       /* always the finest level */
 } soft_detail;
 typedef enum soft_detail_state {
-  SOFT_DETAIL_UNKNOWN, /* of a character that was just made */
+  SOFT_DETAIL_UNKNOWN, /* initial value of a new character */
   SOFT_DETAIL_FINEST,
   SOFT_DETAIL_BY_VIEW,
   SOFT_DETAIL_HIDDEN
 } soft_detail_state;
 
-/* What the inspector sets. */
+/* Settings of the inspector. */
 typedef struct soft_settings {
-  int64_t scheme, substeps, level; /* as sbr_model_options has them */
+  int64_t scheme, substeps, level; /* as in sbr_model_options */
   int64_t detail;                  /* a soft_detail */
   bool free_bodies, hold_pose, use_threads;
   double forward_speed, sideways_speed, turn_speed, vertical_speed; /* m/s, m/s, rad/s, m/s */
@@ -38,11 +38,11 @@ typedef struct soft_settings {
   bool paused, preview, mirror_skeleton;
   int64_t ground;           /* a soft_ground */
   int64_t collision_mask;   /* physics layers that it collides with */
-  double teleport_distance; /* m: a node that is moved farther in a frame is put there; 0: half its size */
+  double teleport_distance; /* m: a node that is moved farther in a frame is placed there; 0: half its size */
   bool push_bodies;
   bool collide_with_others;    /* contacts with other nodes of the physics space */
-  double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
-  int64_t cast_shadow, layers; /* as Godot's GeometryInstance3D has them */
+  double push_limit;           /* m/s: maximum velocity change of a body by a frame's impulse; 0: no bound */
+  int64_t cast_shadow, layers; /* as in Godot's GeometryInstance3D */
 } soft_settings;
 
 typedef struct character_mesh character_mesh;
@@ -51,41 +51,41 @@ typedef struct physics_bodies physics_bodies;
 typedef struct shared_world shared_world;
 
 typedef struct soft_character {
-  gd_variant node;        /* itself, not held */
-  gd_variant asset_value; /* the resource, held; nil: none */
-  gd_variant material;    /* likewise: what all its meshes are drawn with */
+  gd_variant node;        /* itself, without a reference */
+  gd_variant asset_value; /* the resource, with a reference; nil: none */
+  gd_variant material;    /* with a reference: material of all its meshes */
   soft_settings settings;
   bool editor;
 
-  /* While there is an asset and the node is in a tree. */
+  /* Set while there is an asset and the node is in a tree. */
   soft_model *model;
   shared_world *shared;
   sbr_world *world; /* its */
   sbr_character_id id;
   sbf_vec3 low, high; /* of the asset at rest, m */
-  float scale;        /* the node's own when it was made */
+  float scale;        /* scale of the node when it was created */
   soft_detail_state detail;
-  bool loose;        /* nothing holds it (character_loose.c); then, as it was put last: */
+  bool loose;        /* without pins (character_loose.c); then, for its last placement: */
   sbr_double3 frame; /* its frame in the runtime, y above the ground there */
-  sbf_vec3 middle;   /* of its points at rest, from the node's origin, not turned */
-  bool placed;       /* on the ground, by the first physics frame */
+  sbf_vec3 middle;   /* centre of its points at rest, from the node's origin, without rotation */
+  bool placed;       /* on the ground, from the first physics frame on */
   bool still;        /* it does not move: paused, or its node does not process */
   double flat_y;     /* height of the flat ground */
-  gd_transform put;  /* where it was last put by its own motion */
-  bool displaced;    /* its node was moved, which the world has not followed at this tick: */
+  gd_transform put;  /* where its own motion last moved the node */
+  bool displaced;    /* its node was moved, but the world did not follow at this tick: */
   uint64_t tick;
-  sbf_vec3 looked; /* where that was when it last looked for bodies */
+  sbf_vec3 looked; /* position at the last query for bodies */
   bool stale;      /* the mesh must be updated */
-  bool previews;   /* it moves in the editor, having stood at: */
+  bool previews;   /* it moves in the editor; before the preview it was at: */
   gd_transform from;
-  gd_transform warned; /* what the editor's warnings were about */
+  gd_transform warned; /* transform at the last warnings of the editor */
   character_mesh *mesh;
   gd_variant skeleton; /* Skeleton3D; nil: none */
   physics_ground *ground;
   physics_bodies *bodies; /* the shared world's */
 } soft_character;
 
-/* Into Godot's log, with the node's name before it. */
+/* Logs an error with the node's name. */
 void soft_character_error(const soft_character *one, const char *message);
 void soft_character_warning(const soft_character *one, const char *message);
 
@@ -106,43 +106,43 @@ void soft_character_drive(soft_character *one);
 /* The node's transform in the world; and the heading of a transform, rad. */
 gd_transform soft_character_transform(const soft_character *one);
 float transform_heading(const gd_transform *node_transform);
-/* By how much it is larger than without it, along +Y; 1 where that is nothing. */
+/* Scale along +Y; 1 if that is 0. */
 float transform_scale(const gd_transform *node_transform);
-/* Leaves the node where the character now is. */
+/* Moves the node to the character's present position. */
 void soft_character_follow(soft_character *one);
-/* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
+/* Places the character: a position above the ground below it (m), a heading (rad). */
 void soft_character_set_position(soft_character *one, sbf_vec3 position, float heading);
-/* m: the greatest of its width and height; and how far from its node it may reach. */
+/* m: the maximum of its width and height; and the maximum distance of its parts from the node. */
 double soft_character_size(const soft_character *one);
 double soft_character_around(const soft_character *one);
 /* Before its world steps: takes over the node's position and finds nearby bodies. Returns whether it is
  * simulated. */
 bool soft_character_prepare(soft_character *one);
-/* Pauses the character or continues. */
+/* Pauses or continues the character. */
 void soft_character_pause(soft_character *one);
 /* Recreates the character at the node's scale; returns whether that has changed. */
 bool soft_character_rescale(soft_character *one);
-/* In the editor: a scene is saved with the node where it stood before the preview. */
+/* In the editor: a scene is saved with the node at its position before the preview. */
 void soft_character_save(soft_character *one, bool done);
-/* And after: its node and its skeleton follow. */
+/* After the step: its node and its skeleton follow. */
 void soft_character_show(soft_character *one);
 double soft_character_ground_height(const soft_character *one, double x, double z);
 
 /* ---- character_loose.c ---- */
 
 bool soft_asset_is_loose(const sbf_asset *asset);
-/* It has just been made where its node is. */
+/* Call after it was created at its node's position. */
 void soft_character_loose_begin(soft_character *one);
-/* `put` goes with it; it goes to where `put` is. False where something holds it. */
+/* Moves `put` with the character, or the character to `put`. Returns false if it has pins. */
 bool soft_character_loose_follow(soft_character *one);
 bool soft_character_set_loose_position(soft_character *one);
 
 /* ---- character_properties.c ---- */
 
-/* Whether a number may be set; else it stays as it was, and that is said. */
+/* Whether a number may be set; otherwise it does not change, with an error in the log. */
 bool soft_character_fits(const soft_character *one, const char *name, double value, double low, double high);
-#define SOFT_MAX 1e4 /* of what has a unit: more is not meant */
-/* The resource says that it has changed: the character takes its new content. */
+#define SOFT_MAX 1e4 /* maximum of numbers with a unit */
+/* Called when the resource has changed: the character takes its new content. */
 gd_function soft_character_asset_changed;
 
 /* ---- character_soft.c ---- */
@@ -155,18 +155,18 @@ gd_function soft_character_get_soft_mass, soft_character_get_soft_velocity,
 
 /* ---- character_mesh.c ---- */
 
-/* NULL where memory runs out, or nothing is to be drawn. It shows itself under the node. */
+/* NULL if memory runs out, or there is nothing to draw. Creates child nodes of the node. */
 character_mesh *character_mesh_make(soft_character *one);
 void character_mesh_free(character_mesh *mesh);
 void character_mesh_update(character_mesh *mesh, soft_character *one);
-/* By its settings: material, shadows, layers. */
+/* Applies material, shadows and layers of the settings. */
 void character_mesh_dress(character_mesh *mesh, const soft_character *one);
-/* The MeshInstance3D of a render mesh; nil where there is none. */
+/* The MeshInstance3D of a render mesh; nil: none. */
 gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_mesh);
 
 /* ---- character_skeleton.c ---- */
 
-/* Gives it the model's bones, if it is to have any; else it goes. */
+/* Updates the bones from the model, or removes the skeleton if the settings do not want one. */
 void character_skeleton_make(soft_character *one);
 void character_skeleton_free(soft_character *one);
 void character_skeleton_update(soft_character *one);
@@ -180,7 +180,7 @@ void physics_ground_free(physics_ground *ground);
  */
 void physics_ground_query(soft_character *one);
 sbr_ground physics_ground_of(physics_ground *ground);
-/* A level ground at that height (m) until the next query. */
+/* A horizontal ground at that height (m) until the next query. */
 void physics_ground_level(physics_ground *ground, double level);
 
 /* ---- physics_bodies.c ---- */
@@ -189,28 +189,28 @@ physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
 /* Creates colliders for the bodies near the character; queries now, or every few frames. */
 void physics_bodies_query(soft_character *one, bool now);
-/* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
+/* Once per step: moves the present colliders; and applies the impulses of the step to the bodies. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
-/* The object that a collider is of, or null. */
+/* The object of a collider, or null. */
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
 
-/* Whether one of those near is moved by Godot's engine. */
+/* Whether one of the near bodies is moved by Godot's engine. */
 bool physics_bodies_any_rigid(const physics_bodies *bodies);
 
 /* ---- level_of_detail.c ---- */
 
-/* us a frame of physics for all characters of the project, by its setting; 0: no bound. */
+/* us per physics frame for all characters of the project, from its settings; 0: no bound. */
 double level_of_detail_budget_us(void);
 /* Lets the world select the levels of its characters; false without memory. */
 bool level_of_detail_select(sbr_world *world, double budget_us);
-/* Before a step of their world: what is seen of them. */
+/* Call before a step of their world: passes the views to it. */
 void level_of_detail_update(soft_character *const *members, uint32_t count);
 
 /* ---- physics_shapes.c ---- */
 
-/* A body's shape as the runtime's; NULL where it has none, which is said once if it should have one.
- * `object`: whose it is; `inner`: where the runtime's shape is in Godot's. */
+/* Converts a body's shape; NULL if it is not supported, with one message if it should be. `object`: its
+ * owner; `inner`: transform of the runtime's shape in Godot's. */
 sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, int64_t index,
     const gd_variant *object, gd_transform *inner);
 
@@ -220,11 +220,12 @@ sbr_shape *physics_shape_of(const gd_variant *server, const gd_variant *body, in
  * that belong to the world. Returns false, with a message, if it cannot be created. */
 bool shared_world_join(soft_character *one, const sbr_world_definition *definition);
 void shared_world_leave(soft_character *one);
-/* How many nodes are in it. */
+/* Number of nodes in it. */
 uint32_t shared_world_count(const shared_world *shared);
-/* Whether an object hangs below one of them, as a hit box does. */
+/* Whether an object is below one of them in the tree, as a hit box is. */
 bool shared_world_has(const shared_world *shared, const gd_variant *object);
-/* The character's physics frame: the first of the world's that is called in one steps it for all. */
+/* Physics frame of the character: the first character of a world that is called in a frame steps the world
+ * for all. */
 void shared_world_step(soft_character *one);
 
 /* ---- worker_pool.c ---- */

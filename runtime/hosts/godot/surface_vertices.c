@@ -23,7 +23,7 @@ static bool in_slot(const sbf_render_mesh *mesh, uint32_t polygon, uint32_t slot
   return (mesh->polygon_materials.count ? mesh->polygon_materials.at[polygon] : 0) == slot;
 }
 
-/* A key for each corner of the slot's polygons; how many there are. */
+/* Collects a key for each corner of the slot's polygons; returns their number. */
 static uint32_t collect(
     const sbf_render_mesh *mesh, uint32_t slot, bool hard, corner_key *keys, uint32_t *triangles) {
   const sbf_uv_set *uvs = mesh->uv_sets.count ? &mesh->uv_sets.at[0] : NULL;

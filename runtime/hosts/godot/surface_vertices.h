@@ -1,4 +1,4 @@
-/* One material's triangles of a render mesh, with a vertex for each different corner. */
+/* Triangles of one material of a render mesh, with a vertex for each distinct corner. */
 #ifndef SBFMT_GODOT_SURFACE_VERTICES_H
 #define SBFMT_GODOT_SURFACE_VERTICES_H
 
@@ -8,13 +8,13 @@ typedef struct surface_vertices {
   uint32_t count;       /* of vertices */
   uint32_t *points;     /* (count) of the mesh */
   uint32_t *corners;    /* (count) one of its corners, as an index into the mesh's polygon_points */
-  sbf_vec2 *uvs;        /* (count) origin at the upper left, as Godot's; NULL: none */
-  uint32_t index_count; /* three a triangle */
-  int32_t *indices;     /* (index_count) clockwise seen from outside, as Godot wants them */
+  sbf_vec2 *uvs;        /* (count) origin at the upper left, as in Godot; NULL: none */
+  uint32_t index_count; /* three per triangle */
+  int32_t *indices;     /* (index_count) clockwise seen from outside, as in Godot */
 } surface_vertices;
 
-/* `hard`: corners of different normals are different. False where memory runs out; then there is nothing to
- * free. */
+/* `hard`: corners with different normals are distinct. Returns false if memory runs out; then there is
+ * nothing to free. */
 bool surface_vertices_make(surface_vertices *made, const sbf_render_mesh *mesh, uint32_t slot, bool hard);
 void surface_vertices_free(surface_vertices *made);
 

@@ -23,7 +23,7 @@ sbf_vec3 turned(sbf_quat q, sbf_vec3 v) {
   return (sbf_vec3){v.x + q.w * once.x + twice.x, v.y + q.w * once.y + twice.y, v.z + q.w * once.z + twice.z};
 }
 
-/* By the largest of its four numbers (Shepperd 1978). */
+/* From the largest of its four numbers (Shepperd 1978). */
 sbf_quat turn_of(float m[3][3]) {
   float t = m[0][0] + m[1][1] + m[2][2];
   if (t > 0) {

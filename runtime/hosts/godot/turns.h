@@ -9,12 +9,12 @@ sbf_quat turn_product(sbf_quat a, sbf_quat b);
 sbf_quat turn_back(sbf_quat q);
 sbf_vec3 turned(sbf_quat q, sbf_vec3 v);
 sbf_vec3 turn_cross(sbf_vec3 a, sbf_vec3 b);
-/* Of a matrix whose columns are unit vectors at right angles. */
+/* From a matrix whose columns are orthonormal. */
 sbf_quat turn_of(float rows[3][3]);
-/* A matrix with a vector, and a place in a place. */
+/* Applies a transform to a vector, and to a point. */
 sbf_vec3 placed_vector(const gd_transform *transform, sbf_vec3 v);
 gd_transform placed_in(const gd_transform *outer, const gd_transform *inner);
-/* Upright: turned about +Y alone (rad), as large as `scale`. */
+/* Upright: rotated about +Y only (rad), with that scale. */
 gd_transform upright(sbf_vec3 origin, float heading, float scale);
 
 #endif

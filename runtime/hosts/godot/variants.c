@@ -6,7 +6,7 @@
 
 /* ---- Names ---- */
 
-/* StringNames by the address of their literal; equal words at several addresses are several entries. */
+/* StringNames by the address of their literal; equal literals at several addresses are several entries. */
 enum { NAME_CAPACITY = 1024 };
 typedef struct kept_name {
   const char *literal;
@@ -300,7 +300,7 @@ gd_variant gd_call_with(const gd_variant *self, const char *method, uint32_t cou
   for (uint32_t i = 0; i < count && i < MAX; i++) given[i] = &arguments[i];
   gd.variant_call(
       (GDExtensionVariantPtr)(uintptr_t)self, gd_string_name(method), given, count, &answer, &error);
-  for (uint32_t i = 0; i <= count; i++) gd_free(&arguments[i]); /* and the nil that ends the list */
+  for (uint32_t i = 0; i <= count; i++) gd_free(&arguments[i]); /* and the terminating nil */
   if (error.error == GDEXTENSION_CALL_OK) return answer;
   gd_free(&answer);
   gd.print_error_with_message(

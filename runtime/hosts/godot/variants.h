@@ -1,8 +1,8 @@
 /* Godot's values, and calls by name.
  *
- * A gd_variant owns what it holds: whoever has one frees it with gd_free, or hands it to a function that says
- * it takes it. Names of methods, classes and keys are string literals. Any thread may use them, each value
- * one at a time. */
+ * A gd_variant owns its value: the owner frees it with gd_free, or passes it to a function that takes
+ * ownership. Names of methods, classes and keys are string literals. Values may be used on any thread, one
+ * thread at a time. */
 #ifndef SBFMT_GODOT_VARIANTS_H
 #define SBFMT_GODOT_VARIANTS_H
 
@@ -10,12 +10,12 @@
 
 #include "sbrun/sbrun.h"
 
-/* A value of any type; 24 bytes in builds of single precision, which is what Godot ships. */
+/* A value of any type; 24 bytes in single precision builds, which Godot ships. */
 typedef struct gd_variant {
   uint64_t bytes[3];
 } gd_variant;
 
-/* Godot's own, in single precision. */
+/* Godot's layout, in single precision. */
 typedef struct gd_transform {
   float basis[3][3]; /* rows */
   sbf_vec3 origin;
@@ -44,10 +44,10 @@ gd_variant gd_color_value(gd_color value);
 gd_variant gd_aabb_value(gd_aabb value);
 gd_variant gd_object(GDExtensionObjectPtr object); /* NULL: null */
 gd_variant gd_copy(const gd_variant *value);
-/* Of a type's default: an empty array, say. */
+/* Default value of a type, such as an empty array. */
 gd_variant gd_empty(GDExtensionVariantType type);
 void gd_free(gd_variant *value);
-void gd_assign(gd_variant *to, gd_variant value); /* takes `value`, frees what was there */
+void gd_assign(gd_variant *to, gd_variant value); /* takes ownership of `value`, frees the old one */
 
 /* ---- Reading ---- */
 
@@ -59,22 +59,22 @@ sbf_vec3 gd_as_vector3(const gd_variant *value);
 gd_transform gd_as_transform(const gd_variant *value);
 GDExtensionObjectPtr gd_as_object(const gd_variant *value);
 uint64_t gd_as_rid(const gd_variant *value);
-/* What a string says, cut to the room there is; returns its length in bytes. */
+/* Copies a string, truncated to `size`; returns its length in bytes. */
 size_t gd_as_text(const gd_variant *value, char *text, size_t size);
-/* The same for any that takes them by reading and then freeing them. */
+/* The same for values that are freed after reading. */
 bool gd_take_bool(gd_variant value);
 int64_t gd_take_int(gd_variant value);
 double gd_take_float(gd_variant value);
 sbf_vec3 gd_take_vector3(gd_variant value);
 gd_rect gd_take_rect(gd_variant value);
 
-/* Of an array or a dictionary; nil where there is none. */
+/* Item of an array or a dictionary; nil: none. */
 gd_variant gd_at(const gd_variant *array, int64_t index);
 gd_variant gd_key(const gd_variant *dictionary, const char *literal);
-void gd_put(const gd_variant *array, int64_t index, gd_variant value); /* takes `value` */
+void gd_put(const gd_variant *array, int64_t index, gd_variant value); /* takes ownership of `value` */
 int64_t gd_size(const gd_variant *array);
 
-/* Items of a packed array, to be written: NULL where it is empty. */
+/* Writable items of a packed array; NULL if it is empty. */
 uint8_t *gd_bytes(const gd_variant *packed);
 int32_t *gd_int32s(const gd_variant *packed);
 float *gd_floats(const gd_variant *packed);
@@ -85,30 +85,30 @@ gd_variant gd_packed(GDExtensionVariantType type, int64_t count);
 
 /* ---- Calling ---- */
 
-/* Calls a method by its name and frees the arguments; nil, and an error in Godot's log, where it cannot. */
+/* Calls a method by its name and frees the arguments; on failure nil, and an error in Godot's log. */
 gd_variant gd_call_with(const gd_variant *self, const char *method, uint32_t count, gd_variant *arguments);
 #define GD_CALL(self, ...) GD_CALL_NAMED(self, __VA_ARGS__, gd_nil())
 #define GD_CALL_NAMED(self, method, ...)                                                                     \
   gd_call_with((self), (method), (uint32_t)(sizeof((gd_variant[]){__VA_ARGS__}) / sizeof(gd_variant)) - 1,   \
       (gd_variant[]){__VA_ARGS__})
-/* For what a call's answer is not needed. */
+/* Calls without using the result. */
 #define GD_DO(self, ...)                                                                                     \
   do {                                                                                                       \
     gd_variant gd_answer = GD_CALL(self, __VA_ARGS__);                                                       \
     gd_free(&gd_answer);                                                                                     \
   } while (0)
 
-/* A new object of an engine's class, and one of its singletons. */
+/* A new object of an engine class, and an engine singleton. */
 gd_variant gd_new(const char *class_name);
 gd_variant gd_singleton(const char *name);
 
 /* A StringName of a literal: shared, kept until gd_forget_names. */
 GDExtensionConstStringNamePtr gd_string_name(const char *literal);
 void gd_forget_names(void);
-/* Whether a StringName is that word. */
+/* Whether a StringName equals that text. */
 bool gd_is_name(GDExtensionConstStringNamePtr name, const char *literal);
 
-/* Into Godot's log, with what to do in the message. */
+/* Logs an error with advice in Godot's log. */
 void gd_error(const char *message);
 void gd_warning(const char *message);
 

@@ -1,6 +1,6 @@
 #include "soft_character.h"
 
-/* What a task of Godot's pool runs, once an element. */
+/* Context of a group of tasks in Godot's pool, one call per element. */
 typedef struct group {
   sbr_task *task;
   void *context;

@@ -1,6 +1,5 @@
-/* What the pieces of the WebAssembly library share. Each WEB_CALL is seen from JavaScript under its own name;
- * sbfmt.js is what calls them, and the one that programs are to use. Addresses and counts are 32 bits there.
- */
+/* Shared parts of the WebAssembly library. Each WEB_CALL is exported to JavaScript under its own name;
+ * sbfmt.js calls them, and programs use sbfmt.js. Addresses and counts have 32 bits there. */
 #ifndef WEB_H
 #define WEB_H
 
@@ -13,7 +12,7 @@
 
 #define WEB_CALL(name) __attribute__((export_name(#name), visibility("default"))) name
 
-/* Where the last failure is written to. */
+/* Diagnostic of the last failure. */
 sbf_diagnostic *web_failure(void);
 
 #endif

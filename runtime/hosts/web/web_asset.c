@@ -1,4 +1,4 @@
-/* What an asset holds, for JavaScript to read. */
+/* Contents of an asset, for JavaScript. */
 #include <string.h>
 
 #include "web.h"
@@ -73,7 +73,7 @@ const char *WEB_CALL(web_asset_title)(const sbf_asset *a) {
   return a->info.title;
 }
 
-/* The most simulation levels of a body, and the most render levels of a mesh, the full one counted. */
+/* Maximum number of simulation levels of a body, and of render levels of a mesh, including the full one. */
 uint32_t WEB_CALL(web_asset_levels)(const sbf_asset *a) {
   uint32_t max = 0;
   for (uint32_t i = 0; i < a->soft_bodies.count; i++)
@@ -87,7 +87,7 @@ uint32_t WEB_CALL(web_asset_render_levels)(const sbf_asset *a) {
   return max;
 }
 
-/* The greatest error that bodies state for that level of theirs, m; 0: none does. */
+/* Maximum error that bodies state for that level, m; 0: none stated. */
 float WEB_CALL(web_asset_level_error)(const sbf_asset *a, uint32_t level) {
   float max = 0;
   for (uint32_t i = 0; i < a->soft_bodies.count; i++) {

@@ -1,4 +1,4 @@
-/* Characters: made, driven, pushed, and read. */
+/* Characters: creation, control, impulses, and reads. */
 #include <string.h>
 
 #include "web.h"
@@ -52,7 +52,7 @@ void WEB_CALL(web_character_play)(sbr_world *world, uint32_t character, uint32_t
       .weight = weight, .fade_s = fade_s, .speed = speed, .start_s = start_s, .bone_mask = SBF_NONE};
   sbr_character_play_clip(world, id_of(character), layer, clip, &how);
 }
-/* A weight below 0 takes the target away. */
+/* A weight below 0 removes the target. */
 void WEB_CALL(web_character_reach)(
     sbr_world *world, uint32_t character, uint32_t ik_chain, double x, double y, double z, float weight) {
   const sbr_ik_target target = {.position = {x, y, z}, .rotation = {0, 0, 0, 1}, .weight = weight};
@@ -75,8 +75,8 @@ void WEB_CALL(web_character_push)(sbr_world *world, uint32_t character, uint32_t
       (sbf_vec3){impulse_x, impulse_y, impulse_z});
 }
 
-/* Eighteen numbers: mode, place of the body's frame (3), its rotation (4), centre of mass (3), velocity (3),
- * angular velocity (3), mass; places relative to the origin. */
+/* Eighteen numbers: mode, position of the body's frame (3), its rotation (4), centre of mass (3), velocity
+ * (3), angular velocity (3), mass; positions relative to the origin. */
 void WEB_CALL(web_character_rigid)(
     const sbr_world *world, uint32_t character, uint32_t rigid_body, float *to) {
   sbr_rigid_state s = sbr_character_get_rigid_state(world, id_of(character), rigid_body);
@@ -91,7 +91,7 @@ void WEB_CALL(web_character_rigid)(
 void WEB_CALL(web_character_origin)(const sbr_world *world, uint32_t character, sbr_double3 *origin) {
   *origin = sbr_character_get_origin(world, id_of(character));
 }
-/* Seven numbers a bone: place relative to the origin, rotation. */
+/* Seven numbers per bone: position relative to the origin, rotation. */
 void WEB_CALL(web_character_bones)(
     const sbr_world *world, uint32_t character, sbr_transform *bones, uint32_t capacity) {
   _Static_assert(sizeof(sbr_transform) == 28, "seven numbers");
@@ -109,8 +109,8 @@ double WEB_CALL(web_character_distance)(const sbr_world *world, uint32_t charact
   return sbr_character_get_distance(world, id_of(character));
 }
 
-/* How all bodies of the asset fare together: least volume ratio, greatest strain, energy (J), recoveries,
- * torn elements, whether all is finite and nothing inside out, whether all sleep. */
+/* State of all bodies of the asset together: minimum volume ratio, maximum strain, energy (J), recoveries,
+ * torn elements, whether all numbers are finite and nothing is inverted, whether all sleep. */
 void WEB_CALL(web_character_health)(
     const sbr_world *world, uint32_t character, uint32_t body_count, double *to) {
   double all[7] = {1, 0, 0, 0, 0, 1, body_count > 0};
@@ -127,8 +127,7 @@ void WEB_CALL(web_character_health)(
   memcpy(to, all, sizeof all);
 }
 
-/* Ten numbers a leg: planted, steps taken, phase, foot (3), target (3), 0. Returns how many legs there are.
- */
+/* Ten numbers per leg: planted, steps taken, phase, foot (3), target (3), 0. Returns the number of legs. */
 uint32_t WEB_CALL(web_character_legs)(
     const sbr_world *world, uint32_t character, float *to, uint32_t capacity) {
   enum { MAX = 64 };

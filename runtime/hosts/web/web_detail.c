@@ -1,10 +1,10 @@
-/* Levels of detail: detail levels of models, and worlds that choose among them. */
+/* Levels of detail: those of models, and worlds that select among them. */
 #include <string.h>
 
 #include "sbrun/detail.h"
 #include "web.h"
 
-/* Four numbers a detail level: kind, level, error, visits. Returns how many there are. */
+/* Four numbers per detail level: kind, level, error, visits. Returns the number of levels. */
 uint32_t WEB_CALL(web_model_detail_levels)(const sbr_model *model, float *to, uint32_t capacity) {
   enum { MAX = 64 };
   sbr_detail_level detail_levels[MAX];
@@ -20,7 +20,7 @@ uint32_t WEB_CALL(web_model_detail_levels)(const sbr_model *model, float *to, ui
 uint32_t WEB_CALL(web_character_detail_level)(const sbr_world *world, uint32_t character) {
   return sbr_character_get_detail_level(world, (sbr_character_id){character});
 }
-/* SBR_DETAIL_AUTOMATIC: the world chooses. */
+/* SBR_DETAIL_AUTOMATIC: the world selects. */
 void WEB_CALL(web_character_set_detail_level)(sbr_world *world, uint32_t character, uint32_t detail_level) {
   sbr_character_set_detail_level(world, (sbr_character_id){character}, detail_level);
 }
@@ -34,7 +34,7 @@ float WEB_CALL(web_character_error_px)(const sbr_world *world, uint32_t characte
   return sbr_character_get_error_px(world, (sbr_character_id){character});
 }
 
-/* Six numbers, in the order of sbr_detail_definition; what is not a number is left as it begins. */
+/* Six numbers, in the order of sbr_detail_definition; NaN keeps the default. */
 uint32_t WEB_CALL(web_world_detail)(sbr_world *world, const float *from) {
   sbr_detail_definition definition = sbr_default_detail_definition();
   float *const fields[6] = {&definition.error_px, &definition.budget_us, &definition.ns_per_visit,
@@ -44,7 +44,7 @@ uint32_t WEB_CALL(web_world_detail)(sbr_world *world, const float *from) {
     if (from[i] == from[i]) *fields[i] = from[i];
   return sbr_world_select_detail_levels(world, &definition, web_failure()) == SBF_OK;
 }
-/* Nine numbers a view: eye, forward, height, ratio of the sides, lines. */
+/* Nine numbers per view: eye, forward, height, aspect ratio, lines. */
 void WEB_CALL(web_world_views)(sbr_world *world, const double *from, uint32_t count) {
   sbr_view views[SBR_MAX_VIEWS];
   for (uint32_t i = 0; i < count && i < SBR_MAX_VIEWS; i++, from += 9)

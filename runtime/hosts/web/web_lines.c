@@ -1,4 +1,4 @@
-/* What is inside, as lines: springs by their kinds, and the edges of lattices, with their strain. */
+/* Interior structure as lines: springs by their kinds, and the edges of lattices, with their strain. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 
 enum { LATTICE = SBF_SPRING_KIND_COUNT };
 
-/* A line between two points of the lists of all bodies, one after the other. */
+/* A line between two points of the concatenated lists of all bodies. */
 typedef struct line {
   uint32_t ends[2];
   uint32_t kind; /* of sbf_spring_kind, or LATTICE */
@@ -20,7 +20,7 @@ typedef struct web_lines {
   uint32_t *first;  /* (body_count) point */
   uint32_t *counts; /* (body_count) points */
   sbf_vec3 *points;
-  float *vertices; /* (line_count x 2 x 5) place, kind, strain */
+  float *vertices; /* (line_count x 2 x 5) position, kind, strain */
 } web_lines;
 
 void WEB_CALL(web_lines_free)(web_lines *w) {
@@ -71,7 +71,7 @@ static void add_lattice(web_lines *w, const sbf_level *level, uint32_t first) {
   w->line_count += kept;
 }
 
-/* The level of a body that a model of `level` simulates, as far as its points' number tells. */
+/* The level that a model of `level` simulates for a body, as far as the number of points tells. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t point_count, uint32_t level) {
   const sbf_level *best = NULL;
   for (uint32_t l = 0; l < body->levels.count; l++) {
@@ -82,7 +82,7 @@ static const sbf_level *level_of(const sbf_soft_body *body, uint32_t point_count
   return best;
 }
 
-/* Of a character's bodies as its model simulates them. NULL: no memory. */
+/* Lines of a character's bodies as its model simulates them. NULL: no memory. */
 web_lines *WEB_CALL(web_lines_create)(
     const sbf_asset *asset, const sbr_world *world, uint32_t character, uint32_t level) {
   web_lines *w = calloc(1, sizeof *w);
@@ -120,7 +120,7 @@ web_lines *WEB_CALL(web_lines_create)(
 uint32_t WEB_CALL(web_lines_count)(const web_lines *w) {
   return w->line_count;
 }
-/* Ten numbers a line, as of the last tick: place (3), kind and strain of either end. */
+/* Ten numbers per line, of the last tick: position (3), kind and strain of each end. */
 const float *WEB_CALL(web_lines_update)(web_lines *w, const sbr_world *world, uint32_t character) {
   for (uint32_t b = 0; b < w->body_count; b++)
     sbr_character_get_points(world, (sbr_character_id){character}, b, w->points + w->first[b], w->counts[b]);

@@ -1,5 +1,5 @@
-/* Meshes as a graphics card wants them: triangles over vertices that have one normal and one place in the
- * texture each, where a file has those by corner. */
+/* Meshes for a graphics card: triangles over vertices with one normal and one texture coordinate each, where
+ * a file has those per corner. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +9,13 @@
 typedef struct web_mesh {
   uint32_t mesh, level;
   uint32_t vertex_count, index_count, group_count, point_count, corner_count;
-  uint32_t *vertex_points;  /* (vertex_count) which of the points that the runtime writes */
-  uint32_t *vertex_corners; /* (vertex_count) corner whose normal it has */
+  uint32_t *vertex_points;  /* (vertex_count) point of the runtime's output */
+  uint32_t *vertex_corners; /* (vertex_count) corner with its normal */
   uint32_t *indices;        /* (index_count) */
-  uint32_t *groups;         /* (group_count x 3) first index, how many, material + 1 */
+  uint32_t *groups;         /* (group_count x 3) first index, count, material + 1 */
   float *uvs;               /* (vertex_count x 2) from the top left; NULL: none */
   sbf_vec3 *positions, *normals;
-  sbf_vec3 *points, *point_normals, *corner_normals; /* room for what the runtime writes */
+  sbf_vec3 *points, *point_normals, *corner_normals; /* storage for the runtime's output */
   bool by_corner;
 } web_mesh;
 
@@ -30,8 +30,8 @@ void WEB_CALL(web_mesh_free)(web_mesh *m) {
 /* The polygons of the mesh or of one of its levels. */
 typedef struct polygons {
   sbf_u32_list sizes, points, materials;
-  uint32_t *position_of; /* (points of the mesh) among those that the runtime writes */
-  uint32_t *corner_of;   /* (corners) the full mesh's corner that each looks like */
+  uint32_t *position_of; /* (points of the mesh) index in the runtime's output */
+  uint32_t *corner_of;   /* (corners) equivalent corner of the full mesh */
 } polygons;
 
 static bool find_polygons(const sbf_render_mesh *mesh, const sbr_model *model, web_mesh *m, polygons *p) {
@@ -51,7 +51,7 @@ static bool find_polygons(const sbf_render_mesh *mesh, const sbr_model *model, w
   if (good && level) {
     sbr_model_get_level_vertices(model, m->mesh, m->level, scratch, points);
     for (uint32_t i = 0; i < m->point_count; i++) p->position_of[scratch[i]] = i;
-    /* A level may leave unsaid which corner of the full mesh each of its own looks like: the first there. */
+    /* A level may lack the equivalent corners in the full mesh: then the first one at the point. */
     memset(scratch, 0, (points + 1u) * sizeof *scratch);
     for (uint32_t i = mesh->mesh.polygon_points.count; i-- > 0;) scratch[mesh->mesh.polygon_points.at[i]] = i;
     for (uint32_t i = 0; i < p->points.count; i++)
@@ -61,7 +61,7 @@ static bool find_polygons(const sbf_render_mesh *mesh, const sbr_model *model, w
   return good;
 }
 
-/* What makes two corners one vertex. */
+/* Key of a vertex: corners with equal keys share one. */
 typedef struct vertex_key {
   uint32_t point, uv, normal;
 } vertex_key;
@@ -73,7 +73,7 @@ static vertex_key key_of(const sbf_render_mesh *mesh, const polygons *p, uint32_
       mesh->normal_corners.count ? mesh->normal_corners.at[corner_index] : 0};
 }
 
-/* Gives every corner a vertex, by a table of keys. */
+/* Assigns a vertex to every corner, by a hash table of keys. */
 static bool make_vertices(const sbf_render_mesh *mesh, const polygons *p, web_mesh *m, uint32_t *vertex_of) {
   uint32_t slots = 16, corners = p->points.count;
   while (slots < 2 * corners) slots *= 2;
@@ -110,7 +110,7 @@ static float square(const sbf_vec3 *a, const sbf_vec3 *b) {
   return x * x + y * y + z * z;
 }
 
-/* Fans; a quad is cut along its shorter diagonal. */
+/* Fans; a quad is divided along its shorter diagonal. */
 static void cut_polygon(const sbf_render_mesh *mesh, const polygons *p, const uint32_t *vertex_of,
     uint32_t at, uint32_t size, web_mesh *m) {
   const sbf_vec3 *positions_at = mesh->mesh.positions.at;
@@ -144,7 +144,7 @@ static bool make_triangles(
   return true;
 }
 
-/* NULL: no memory, or no such mesh. `level`: where there are fewer, the last. */
+/* NULL: no memory, or no such mesh. `level`: at most the last one. */
 web_mesh *WEB_CALL(web_mesh_create)(
     const sbf_asset *asset, const sbr_model *model, uint32_t number, uint32_t level) {
   if (number >= asset->render_meshes.count) return NULL;
@@ -183,7 +183,7 @@ void WEB_CALL(web_mesh_layout)(const web_mesh *m, uint32_t *to) {
   memcpy(to, numbers, sizeof numbers);
 }
 
-/* Positions and normals as of the sampled moment, relative to the character's origin. */
+/* Positions and normals at the sampled time, relative to the character's origin. */
 void WEB_CALL(web_mesh_update)(web_mesh *m, const sbr_world *world, uint32_t character) {
   sbr_character_id id = {character};
   sbr_character_get_level_skin(

@@ -1,11 +1,11 @@
-/* Recordings of what is asked of a world, and their playing. */
+/* Recordings of a world's calls, and their playback. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "sbrun/record.h"
 #include "web.h"
 
-/* A recording as it grows; where memory runs out it is cut off at its last whole record. */
+/* A growing recording; if memory runs out it ends at its last complete record. */
 typedef struct recording {
   unsigned char *bytes;
   size_t size, capacity;
@@ -34,7 +34,7 @@ recording *WEB_CALL(web_record_begin)(sbr_world *world) {
   if (made) sbr_world_set_recording(world, &(sbr_record_output){write, made});
   return made;
 }
-/* Ends it in its world; its bytes stay until web_record_free. */
+/* Ends the recording of a world; its bytes remain until web_record_free. */
 void WEB_CALL(web_record_end)(sbr_world *world) {
   sbr_world_set_recording(world, NULL);
 }
@@ -47,7 +47,7 @@ void WEB_CALL(web_record_free)(recording *made) {
   free(made);
 }
 
-/* `bytes` stay in use until web_free of what is returned; NULL: web_failure_message says why. */
+/* `bytes` must stay until web_free of the result; NULL: see web_failure_message. */
 sbr_replay *WEB_CALL(web_replay_begin)(sbr_world *world, const void *bytes, size_t size) {
   sbr_replay *made = calloc(1, sizeof *made);
   memset(web_failure(), 0, sizeof(sbf_diagnostic));
@@ -60,7 +60,7 @@ sbr_replay *WEB_CALL(web_replay_begin)(sbr_world *world, const void *bytes, size
 uint32_t WEB_CALL(web_replay_frame)(sbr_replay *replay) {
   return sbr_replay_step(replay);
 }
-/* Five numbers: frames in it, frames played, hashes compared, whether one differed, and at which tick. */
+/* Five numbers: frames in total, frames played, hashes compared, whether one differed, and its tick. */
 void WEB_CALL(web_replay_state)(const sbr_replay *replay, double *to) {
   const double numbers[5] = {(double)replay->frame_count, (double)replay->frames, (double)replay->checks,
       replay->differs, (double)replay->differs_at_tick};

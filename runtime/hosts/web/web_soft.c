@@ -1,4 +1,5 @@
-/* Soft bodies pushed, held and weighed. What fails leaves its reason in web_failure() and returns 0. */
+/* Impulses, holds and measurements of soft bodies. On failure they return 0, with the reason in
+ * web_failure(). */
 #include <string.h>
 
 #include "sbrun/soft_body.h"
@@ -55,14 +56,15 @@ void WEB_CALL(web_character_hold_force)(
   sbf_vec3 force = sbr_character_get_hold_force(world, id_of(character), soft_body, vertex);
   memcpy(to, &force, sizeof force);
 }
-/* 13 numbers a pin set: set, bone, rigid body and count of points as integers, then position, force, torque.
- */
+/* 13 numbers per pin set: set, bone, rigid body and number of points as integers, then position, force,
+ * torque. */
 uint32_t WEB_CALL(web_character_pin_reactions)(
     const sbr_world *world, uint32_t character, uint32_t soft_body, sbr_pin_reaction *to, uint32_t capacity) {
   _Static_assert(sizeof *to == 52, "13 numbers");
   return sbr_character_get_pin_reactions(world, id_of(character), soft_body, to, capacity);
 }
-/* 14 numbers a tetrahedron: six of stress, energy density, rest volume, volume ratio, four corners, torn. */
+/* 14 numbers per tetrahedron: six of stress, energy density, rest volume, volume ratio, four corners, torn.
+ */
 uint32_t WEB_CALL(web_character_tetrahedra)(const sbr_world *world, uint32_t character, uint32_t soft_body,
     sbr_tetrahedron_state *to, uint32_t capacity) {
   _Static_assert(sizeof *to == 56, "14 numbers");

@@ -1,4 +1,4 @@
-/* Assets, models, worlds, colliders: made, asked, and freed. */
+/* Assets, models, worlds and colliders: creation, reads and destruction. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ void WEB_CALL(web_free)(void *memory) {
 
 /* ---- Assets and models ---- */
 
-/* `bytes` stay in use until the asset is freed. NULL: web_failure_message says why. */
+/* `bytes` must stay until the asset is freed. NULL: see web_failure_message. */
 sbf_asset *WEB_CALL(web_asset_load)(const void *bytes, size_t size) {
   sbf_asset *asset = NULL;
   const sbf_load_options options = {.check_crc = true};
@@ -48,7 +48,7 @@ sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, co
   sbr_model *model = NULL;
   sbr_model_options options = sbr_default_model_options();
   options.level = level;
-  options.scheme = SBF_SCHEME_COUNT; /* refused, where the name is none */
+  options.scheme = SBF_SCHEME_COUNT; /* refused if the name is unknown */
   options.substeps = substeps;
   options.free = loose != 0;
   options.has_gravity = has_gravity != 0;
@@ -74,7 +74,7 @@ const char *WEB_CALL(web_model_instructions)(const sbr_model *model) {
 
 enum ground_kind { GROUND_FLAT, GROUND_SLOPE, GROUND_STAIRS, GROUND_NOISE, GROUND_HEIGHTS };
 
-/* Of heights that stay where they are until web_free of what is returned. */
+/* A ground of heights in memory that must stay until web_free of the result. */
 sbr_height_field *WEB_CALL(web_heights_create)(
     const float *heights, uint32_t columns, uint32_t rows, double cell, double x, double z) {
   sbr_height_field *made = malloc(sizeof *made);
@@ -84,7 +84,7 @@ sbr_height_field *WEB_CALL(web_heights_create)(
   return made;
 }
 
-/* Of heights `a` is where they are. */
+/* For heights, `a` is their address. */
 static sbr_ground ground_of(uint32_t kind, double a, double b) {
   switch (kind) {
   case GROUND_HEIGHTS:
@@ -145,7 +145,7 @@ uint32_t WEB_CALL(web_world_snapshot_save)(const sbr_world *world, void *bytes, 
 uint32_t WEB_CALL(web_world_snapshot_restore)(sbr_world *world, const void *bytes, size_t size) {
   return sbr_world_restore_snapshot(world, bytes, size) == SBF_OK;
 }
-/* Heights and normals (x, y, z) of the ground of a world made alike, at `count` places (x, z). */
+/* Heights and normals (x, y, z) of the same ground as in a world, at `count` positions (x, z). */
 void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float *coordinates, uint32_t count,
     float *heights, sbf_vec3 *normals) {
   sbr_ground ground = ground_of(kind, a, b);
@@ -156,7 +156,7 @@ void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float
 
 /* ---- Events ---- */
 
-/* An event as twenty numbers. Those that its kind does not have are 0, or -1 for bodies. */
+/* An event as twenty numbers. Numbers that its kind does not have are 0, or -1 for bodies. */
 enum { EVENT_NUMBERS = 20 };
 
 typedef struct event_list {
@@ -164,7 +164,7 @@ typedef struct event_list {
   uint32_t count, capacity;
 } event_list;
 
-/* The next event's numbers, or NULL where there is no space. */
+/* The numbers of the next event, or NULL without capacity. */
 static double *add_event(
     event_list *list, uint32_t kind, sbr_character_id character, uint64_t tick, sbr_double3 position) {
   if (list->count == list->capacity) return NULL;
@@ -202,8 +202,8 @@ static void add_soft_bodies(
   }
 }
 
-/* Writes the events of the last step, kind after kind, and returns how many: `capacity` at most. The kinds'
- * numbers are those of modules/events.js. */
+/* Writes the events of the last step, kind after kind, and returns their number, at most `capacity`. The
+ * kinds' numbers are those of modules/events.js. */
 uint32_t WEB_CALL(web_world_events)(const sbr_world *world, double *numbers, uint32_t capacity) {
   event_list list = {.to = numbers, .capacity = capacity};
   sbr_foot_events feet = sbr_world_get_foot_events(world);
@@ -233,7 +233,7 @@ uint32_t WEB_CALL(web_world_events)(const sbr_world *world, double *numbers, uin
   return list.count;
 }
 
-/* What a ray hits first: eleven doubles, as in sbr_hit. */
+/* First hit of a ray: eleven doubles, as in sbr_hit. */
 uint32_t WEB_CALL(web_world_ray)(const sbr_world *world, double x, double y, double z, float along_x,
     float along_y, float along_z, double length, double *to) {
   sbr_hit hit;
