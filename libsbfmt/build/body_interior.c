@@ -2,7 +2,7 @@
 
 #include "sbfmt/mechanics.h"
 
-/* What nothing holds is so soft, in its springs, that its equations take hundreds of steps each. */
+/* Bodies without pins with springs only are so soft that their equations take hundreds of iterations each. */
 enum { MAX_CALIBRATED_POINTS = 20000, MAX_CALIBRATED_FREE_POINTS = 1000 };
 
 sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sbf_soft_body *body) {
@@ -10,7 +10,7 @@ sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sb
   sbf_body_measure(body, &measures);
   sbf_build_interior wanted = options->interior;
   if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC && body->derived != SBF_NONE) return wanted;
-  /* A section hangs on its bone by its centroid; what no bone runs through is filled, or a sheet. */
+  /* A section is attached to its bone by its centroid; a body without a bone is filled, or is a sheet. */
   if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC)
     wanted = body->bone != SBF_NONE ? SBF_BUILD_INTERIOR_CENTROID
              : measures.sheet       ? SBF_BUILD_INTERIOR_NONE

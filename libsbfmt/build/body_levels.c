@@ -14,10 +14,11 @@
 #include "build/sections/section_level.h"
 
 enum { MAX_BRUTE_POINTS = 4096, MIN_FRACTION = 100, MAX_REFINED = 3 };
-static const double MAX_OFF = 1e-3; /* of a body's size, a point embedded by its lattice */
-static const double MAX_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
+static const double MAX_OFF = 1e-3; /* fraction of a body's size: maximum error of an embedded point */
+static const double MAX_ELEMENTS = 1 << 24,
+                    ELEMENTS_OF_CELL = 12; /* for all bodies; for a cube of one cell */
 
-/* For a part of the work on one body's levels. */
+/* Progress of a part of the work on one body's levels. */
 static sbfi_progress stretch_of_body(sbfi_build *b, uint32_t number) {
   uint32_t count = b->asset->soft_bodies.count;
   return sbfi_build_stretch(b, "levels", 0.2 + 0.4 * number / count, 0.2 + 0.4 * (number + 1) / count);
@@ -111,7 +112,7 @@ static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   r->calibrated_springs++;
 }
 
-/* The rest of the levels of a body whose finest has been made, and what they are worth. */
+/* Builds the coarser levels of a body whose finest is complete, and assesses them. */
 static sbf_status make_level_set(
     sbfi_build *b, uint32_t number, sbfi_level_set *set, sbfi_level_findings *findings) {
   sbf_soft_body *body = &b->bodies[number];
@@ -135,8 +136,8 @@ static sbf_status make_level_set(
   return SBF_OK;
 }
 
-/* Whether weights that a file may hold embed each point of a polygon where it is: a coarse lattice misses
- * spikes, and then what is drawn there is not where it was. */
+/* Finds points of polygons that valid weights do not embed at their position: a coarse lattice misses spikes,
+ * which would then be drawn elsewhere. */
 static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level *level, sbfi_build *b) {
   const sbf_u32_list *corners = &body->surface.polygon_points;
   sbfi_embedder embedder;
@@ -150,7 +151,7 @@ static bool find_missed(bool *missed, const sbf_soft_body *body, const sbf_level
   return good;
 }
 
-/* Finer where nobody sizes it and it would miss a part of the surface. */
+/* Refines if the size is automatic and the lattice would miss a part of the surface. */
 static sbf_status make_lattice(sbfi_build *b, uint32_t number, sbfi_lattice_recipe recipe, sbf_level *level,
     sbfi_lattice_counts *counts, sbfi_level_set *set, sbfi_arena *scratch) {
   bool sized = recipe.cell > 0 || recipe.elements > 0;
@@ -201,19 +202,19 @@ static sbf_status make_tetrahedra(
   return SBF_OK;
 }
 
-/* A lattice as for tetrahedra, then regions of its points in their stead. */
+/* A lattice as for tetrahedra, then regions of its points in place of them. */
 static sbf_status make_regions(
     sbfi_build *b, uint32_t number, sbfi_level_set *set, sbfi_level_findings *findings, sbfi_arena *scratch) {
   sbf_status status = make_tetrahedra(b, number, set, findings, scratch);
   const sbf_soft_body *body = &b->bodies[number];
   if (status != SBF_OK || !b->made[number] || body->levels.at[0].model != SBF_ELASTIC_MODEL_TETRAHEDRA)
     return status;
-  /* The level is the asset's, made here. */
+  /* The level belongs to the asset and was created here. */
   sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
   return sbfi_region_level_make(level, body, b->asset, scratch) ? SBF_OK : sbfi_build_no_memory(b);
 }
 
-/* What the options ask for, else the recipe of a section; 0: neither does. */
+/* Number set by the options, else by the recipe of a section; 0: neither. */
 static uint32_t elements_of(const sbfi_build *b, const sbf_soft_body *body) {
   bool is_cut = body->derived != SBF_NONE && b->options.interior == SBF_BUILD_INTERIOR_AUTOMATIC;
   if (b->options.elements || !is_cut) return b->options.elements;
@@ -221,7 +222,7 @@ static uint32_t elements_of(const sbfi_build *b, const sbf_soft_body *body) {
   return recipe ? recipe->elements : 0;
 }
 
-/* A section that was cut here; where it encloses nothing, as a sheet does, springs to its centre hold it. */
+/* A section that was cut here. If it encloses no volume, as a sheet, springs to its centre support it. */
 static sbf_status make_section(sbfi_build *b, uint32_t number, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
   const sbfi_section_recipe recipe = {b->options.cell_m, elements_of(b, body), SBFI_BUILD_DERIVATION};
@@ -278,13 +279,13 @@ static sbf_status make_level(sbfi_build *b, uint32_t number, sbfi_level_findings
   return status;
 }
 
-/* Of the bodies that others may equal. */
+/* Levels of bodies that others may equal. */
 typedef struct made_levels {
   sbf_build_report before, after;
   sbfi_level_findings findings;
 } made_levels;
 
-/* Levels of a body that equals an earlier one are that one's, moved. */
+/* A body that equals an earlier one gets that one's levels, translated. */
 static sbf_status make_or_repeat(
     sbfi_build *b, uint32_t number, sbfi_equal_bodies *all, const made_levels **made) {
   sbf_soft_body *body = &b->bodies[number];
@@ -304,13 +305,13 @@ static sbf_status make_or_repeat(
   sbf_status status = make_level(b, number, &own->findings);
   own->after = b->report;
   made[number] = own;
-  /* Of a level of springs there is a map as well, which is about positions. */
+  /* A level of springs has a map too, but for positions. */
   bool is_lattice = b->made[number] && body->levels.at[0].model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   if (status == SBF_OK && is_lattice) sbfi_equal_bodies_add(all, number);
   return status;
 }
 
-/* Authored levels stay; the pins that the body's own stand for are put on them. */
+/* Authored levels stay; they get the pins of the body. */
 static bool pin_authored_levels(sbfi_build *b, uint32_t number) {
   sbf_soft_body *body = &b->bodies[number];
   sbf_level *levels = sbf_asset_allocate(b->asset, body->levels.count, sizeof *levels);
@@ -327,7 +328,8 @@ static bool pin_authored_levels(sbfi_build *b, uint32_t number) {
   return true;
 }
 
-/* Bodies that nobody sizes share what one would get, so that a scene of many is not many times as dear. */
+/* Bodies with automatic size divide the elements of one, so that a scene of many is not many times as
+ * expensive. */
 static void distribute_elements(sbfi_build *b) {
   uint32_t sharing = 0;
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
@@ -337,7 +339,7 @@ static void distribute_elements(sbfi_build *b) {
   b->usual_elements = portion > MIN_FRACTION ? portion : MIN_FRACTION;
 }
 
-/* Tetrahedra that the options ask for of the body; 0 where nobody sizes it. */
+/* Number of tetrahedra that the options request for the body; 0: automatic. */
 static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body) {
   sbf_build_interior interior = sbfi_body_interior(&b->options, body);
   bool filled = interior == SBF_BUILD_INTERIOR_AUTOMATIC || interior == SBF_BUILD_INTERIOR_LATTICE ||
@@ -350,7 +352,7 @@ static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body)
   return measures.sheet ? 0 : ELEMENTS_OF_CELL * fabs(measures.volume) / (cell * cell * cell);
 }
 
-/* Refuses what would take more than memory before any of it is made. */
+/* Refuses more elements than memory allows before any are created. */
 static sbf_status check_elements(sbfi_build *b) {
   double sum = 0, max = 0;
   uint32_t largest = 0;
@@ -396,7 +398,7 @@ sbf_status sbfi_body_levels_make(sbfi_build *b) {
 sbf_status sbfi_body_lattices_clear(sbfi_build *b) {
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     for (uint32_t l = 0; b->made[i] && l < b->bodies[i].levels.count; l++) {
-      /* The level is the asset's, made here. */
+      /* The level belongs to the asset and was created here. */
       sbf_level *level = (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l];
       if (level->model != SBF_ELASTIC_MODEL_SPRINGS) continue;
       level->lattice.tetrahedra = (sbf_uint4_list){NULL, 0};

@@ -1,4 +1,4 @@
-/* The levels of every soft body of a build: those of authored ones get their pins, the rest are made. */
+/* Levels of all soft bodies of a build: authored ones get their pins, the others are built. */
 #ifndef SBFI_BODY_LEVELS_H
 #define SBFI_BODY_LEVELS_H
 
@@ -6,7 +6,7 @@
 
 sbf_status sbfi_body_levels_make(sbfi_build *build);
 
-/* Takes out tetrahedra of levels of springs: embeddings went by them, and they move nothing. */
+/* Removes tetrahedra from levels of springs: embeddings used them, and they have no forces. */
 sbf_status sbfi_body_lattices_clear(sbfi_build *build);
 
 #endif

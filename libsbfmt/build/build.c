@@ -1,4 +1,4 @@
-/* The order of a build: what is derived goes, then each pass makes its part anew. */
+/* Order of a build: removes derived parts, then each pass builds its part again. */
 #include "sbfmt/build.h"
 
 #include <float.h>
@@ -24,7 +24,7 @@
 static const char default_tool[] =
     "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
 
-/* How far sections reach over a cut, by the limb's radius. */
+/* Overlap of sections at a cut, in radii of the limb. */
 static const double USUAL_OVERLAP = 0.5;
 
 static sbf_build_options options_of(const sbf_build_options *given) {
@@ -42,7 +42,7 @@ static const char *settings_of(const sbfi_build *b) {
   return sbf_asset_copy_text(b->asset, text);
 }
 
-/* The source parts, as a copy that may be written to. */
+/* Copies the source parts, so that they can be changed. */
 static sbf_status copy_source(sbfi_build *b) {
   sbf_asset view;
   if (!sbfi_source_view(b->from, &b->scratch, &view)) return sbfi_build_no_memory(b);
@@ -74,7 +74,7 @@ static sbf_status make_sections(sbfi_build *b) {
   return SBF_OK;
 }
 
-/* All bodies in memory that may be written to, the sections behind the source's. */
+/* Lists all bodies in writable memory, with the sections after the source's. */
 static sbf_status line_up_bodies(sbfi_build *b) {
   uint32_t source = b->asset->soft_bodies.count, count = source + b->sections.count;
   b->bodies = sbf_asset_allocate(b->asset, count, sizeof *b->bodies);
@@ -91,13 +91,13 @@ static sbf_status line_up_bodies(sbfi_build *b) {
   return SBF_OK;
 }
 
-/* What sections carry beyond their surfaces. */
+/* Parts attached to sections outside their surfaces. */
 static sbf_status make_frames(sbfi_build *b) {
   uint32_t source = b->asset->soft_bodies.count - b->sections.count;
   for (uint32_t i = 0; i < b->sections.count && !b->options.without_embeddings; i++) {
     uint32_t number = source + i;
     if (!b->made[number]) continue;
-    /* The level is the asset's, made here. */
+    /* The level belongs to the asset and was created here. */
     sbf_level *level = (sbf_level *)(uintptr_t)b->bodies[number].levels.at;
     uint32_t before = level->positions.count;
     if (!sbfi_section_frame_add(
@@ -108,7 +108,7 @@ static sbf_status make_frames(sbfi_build *b) {
   return SBF_OK;
 }
 
-/* With rigid parts of skins behind the bodies or, `with` being false, without. */
+/* Appends rigid parts of skins to the bodies, or removes them if `with` is false. */
 static sbf_status list_rigid_parts(sbfi_build *b, bool with) {
   uint32_t bodies = b->bodies_count, more = with ? b->sections.rigid_count : 0;
   sbf_soft_body *all = b->bodies;
@@ -132,7 +132,7 @@ static sbf_status make_hulls(sbfi_build *b) {
   return list_rigid_parts(b, false);
 }
 
-/* Authored parts name others by their places, which have moved where derived ones stood between. */
+/* References of authored parts are indices, which change if derived parts were in between. */
 static sbf_status renumber(sbfi_build *b) {
   sbfi_lost_reference lost;
   switch (sbfi_new_positions_apply(b->asset, b->from, &b->ids, &lost, &b->scratch)) {
@@ -150,7 +150,7 @@ static sbf_status renumber(sbfi_build *b) {
   return status;
 }
 
-/* After the references: what is made names the new places. */
+/* After the references: new parts use the new indices. */
 static sbf_status make_joints(sbfi_build *b) {
   bool wanted = b->sections.count + b->sections.rigid_count > 0 && !b->options.without_hulls;
   sbf_status status = list_rigid_parts(b, wanted);
@@ -160,13 +160,13 @@ static sbf_status make_joints(sbfi_build *b) {
   return list_rigid_parts(b, false);
 }
 
-/* Of the level of springs, where one was made. */
+/* Map of the level of springs, if one was built. */
 static const sbfi_interior_map *map_of(const sbfi_build *b, uint32_t body, uint32_t level) {
   bool springs = b->bodies[body].levels.at[level].model == SBF_ELASTIC_MODEL_SPRINGS;
   return b->made[body] && springs && level == 0 ? &b->maps[body] : NULL;
 }
 
-/* The first of four points around the body, from which all places follow where it moves as one piece. */
+/* The first of four points around the body that define its rigid motion. */
 static uint32_t frame_of(const sbfi_build *b, uint32_t body, uint32_t level) {
   const sbf_level *of = &b->bodies[body].levels.at[level];
   if (of->model == SBF_ELASTIC_MODEL_JIGGLE && b->made[body]) return 0;
@@ -181,7 +181,7 @@ static sbf_status embed(sbfi_build *b) {
   if (!targets) return sbfi_build_no_memory(b);
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     for (uint32_t l = 0; l < b->bodies[i].levels.count; l++)
-      /* The levels are the asset's, copied into memory that may be written to. */
+      /* The levels belong to the asset and were copied into writable memory. */
       targets[next++] = (sbfi_embed_target){
           i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l], map_of(b, i, l), frame_of(b, i, l)};
   sbfi_embed_report report;
@@ -202,7 +202,7 @@ static sbf_status make_render_levels(sbfi_build *b) {
   return good ? SBF_OK : sbfi_build_no_memory(b);
 }
 
-/* What a report says of the whole without reading the geometry. Beyond all measure: nothing is said. */
+/* Totals for reports without reading the geometry. Not stated beyond all bounds. */
 static sbf_status record_figures(sbfi_build *b) {
   sbf_asset_measures measures;
   sbf_asset_measure(b->asset, &measures);
@@ -210,13 +210,13 @@ static sbf_status record_figures(sbfi_build *b) {
   b->derivation->mass = (float)measures.mass;
   b->derivation->low = measures.low;
   b->derivation->high = measures.high;
-  /* Those that a conversion stated for want of a derivation are of the asset before. */
+  /* Totals that a conversion stated without a derivation belong to the old asset. */
   b->asset->info.mass = 0;
   b->asset->info.low = b->asset->info.high = (sbf_vec3){0, 0, 0};
   return SBF_OK;
 }
 
-/* Of the asset as it now is: what is derived does not count. */
+/* Hash of the asset's present source parts. */
 static sbf_status hash_source(sbfi_build *b) {
   char text[SBFI_SHA256_TEXT_SIZE];
   sbf_status status = sbfi_build_source_hash(b->asset, text, b->error);
@@ -231,7 +231,7 @@ static void take_finding(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
-/* Sizes and moduli beyond all measure can make numbers that no file may hold. */
+/* Extreme sizes and moduli can give numbers that no file may contain. */
 static sbf_status check_made(sbfi_build *b) {
   sbf_diagnostic diagnostic;
   if (sbf_asset_check(b->asset, take_finding, &diagnostic, 1) == 0) return SBF_OK;
@@ -246,7 +246,7 @@ static sbf_status check_made(sbfi_build *b) {
 static sbf_status run(sbfi_build *b) {
   static const struct {
     const char *name;
-    double done; /* before it */
+    double done; /* progress before it */
     sbf_status (*run)(sbfi_build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"sections", 0.06, make_sections}, {"the list of bodies", 0.1, line_up_bodies},

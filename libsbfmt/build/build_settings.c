@@ -11,14 +11,14 @@
 
 typedef enum setting_kind {
   WITHOUT,     /* bool, stated as its opposite */
-  UNLESS,      /* the same, stated where it is set: false */
+  UNLESS,      /* the same, stated if it is false */
   INTERIOR,    /* sbf_build_interior, by name */
   SECTIONS,    /* sbf_build_sections, by name; automatic is not stated */
   COUNT,       /* uint32_t; 0 is not stated */
-  MICROMETRES, /* double, metres; 0 is not stated. Whole numbers read alike everywhere */
+  MICROMETRES, /* double, metres; 0 is not stated. Integers are read alike everywhere */
 } setting_kind;
 
-/* Each setting that shapes what is made, in alphabetical order. Writing and reading go through it both. */
+/* Settings that affect the result, in alphabetical order, for writing and reading. */
 static const struct {
   const char *name;
   setting_kind kind;
@@ -43,7 +43,7 @@ enum { SETTING_COUNT = sizeof settings / sizeof *settings };
 static const char *const interior_words[SBFI_BUILD_INTERIOR_COUNT] = {
     "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching"};
 
-static const double max_um = 4e9; /* fits 32 bits */
+static const double max_um = 4e9; /* fits into 32 bits */
 
 double sbfi_build_settings_cell(double cell_m) {
   if (!(cell_m > 0)) return 0;

@@ -1,6 +1,6 @@
-/* What the passes of one build share: what is asked for, what is made so far, whom to tell.
+/* State shared by the passes of a build: options, results, and reports.
  *
- * build.c runs the passes one after the other; each reads what those before it left here. */
+ * build.c runs the passes one after the other; each reads the results of earlier ones here. */
 #ifndef SBFI_BUILD_STATE_H
 #define SBFI_BUILD_STATE_H
 
@@ -20,30 +20,31 @@ typedef struct sbfi_build {
   sbf_derivation *derivation;
   sbf_soft_body *bodies;
   uint32_t bodies_count;   /* of bodies */
-  sbfi_interior_map *maps; /* (bodies) of the levels made */
-  bool *made;              /* (bodies) the level is made here, the body's only one */
-  uint32_t *frames;        /* (bodies) first frame point of the level made; SBFI_NO_INDEX: none */
+  sbfi_interior_map *maps; /* (bodies) of the new levels */
+  bool *made;              /* (bodies) the level was built here, the body's only one */
+  uint32_t *frames;        /* (bodies) first frame point of the new level; SBFI_NO_INDEX: none */
   sbfi_sections sections;  /* cut here: the last of the bodies */
-  uint32_t usual_elements; /* the most tetrahedra of a body that nobody sizes */
+  uint32_t usual_elements; /* maximum number of tetrahedra of a body with automatic size */
   sbfi_arena scratch;
   sbfi_ids ids;
   sbfi_reporter reporter;
   sbf_build_report report;
   sbf_diagnostic *error;
-  const char *pass; /* that a stretch of it is told under */
+  const char *pass; /* name of the pass in progress reports */
   bool cancelled;
 } sbfi_build;
 
-/* Where memory ran out, or what `progress` was told ended the work: `error` then says so already. */
+/* Call if memory ran out, or `progress` cancelled the build, which has then set `error`. */
 sbf_status sbfi_build_no_memory(sbfi_build *build);
 
-/* Tells how much of the whole is done before that pass; not SBF_OK where the work is to end. */
+/* Reports progress before a pass; not SBF_OK if the build is cancelled. */
 sbf_status sbfi_build_report_progress(sbfi_build *build, const char *pass, double done);
 
-/* For a pass that takes the stretch from `from` to `to` of the whole; one at a time. */
+/* Progress of a pass from `from` to `to` of the whole; one at a time. */
 sbfi_progress sbfi_build_stretch(sbfi_build *build, const char *pass, double from, double to);
 
-/* A finding about soft body `number`: reported, and SBF_OK, or where its code is an error's, the build's. */
+/* Reports a finding about soft body `number` and returns SBF_OK; or fails the build if its code is an error.
+ */
 sbf_status sbfi_build_report_of_body(sbfi_build *build, uint32_t number, sbf_code code, const char *format,
     ...) __attribute__((format(printf, 4, 5)));
 

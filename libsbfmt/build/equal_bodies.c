@@ -7,7 +7,7 @@
 #include "model/compare.h"
 
 enum { MAX_SAMPLES = 64 };
-static const double MAX_DISTANCE = 1e-4; /* of a body's size */
+static const double MAX_DISTANCE = 1e-4; /* fraction of a body's size */
 
 bool sbfi_equal_bodies_make(
     sbfi_equal_bodies *made, const sbf_soft_body *bodies, uint32_t count, sbfi_arena *arena) {
@@ -21,7 +21,7 @@ bool sbfi_equal_bodies_make(
   return true;
 }
 
-/* Of what does not depend on where the body is. */
+/* Hash of properties that do not depend on the position. */
 static uint32_t slot_of(const sbfi_equal_bodies *all, const sbf_soft_body *body) {
   const sbf_polygon_mesh *surface = &body->surface;
   const uint32_t counts[] = {surface->positions.count, surface->polygon_sizes.count};
@@ -39,7 +39,7 @@ static bool is_loose(const sbf_soft_body *body) {
          body->interior.count == 0;
 }
 
-/* Mean way from the points of one body to those of the other, and whether all go that way. */
+/* Mean displacement from the points of one body to those of the other; false if it is not a translation. */
 static bool is_moved(const sbf_vec3_list *from, const sbf_vec3_list *to, sbfi_d3 *offset) {
   sbfi_d3 sum = {0, 0, 0}, low = sbfi_d3_of(from->at[0]), high = low;
   for (uint32_t i = 0; i < from->count; i++) {

@@ -21,7 +21,7 @@ void sbfi_level_findings_report(sbfi_build *b, uint32_t number, const sbfi_level
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_ERROR_MISSED,
         "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
         name, (unsigned)of->missed_elements, b->options.error_m);
-  /* Tips and rims are thin everywhere: a few such points are no thin limb. */
+  /* Tips and rims are always thin: a few such points are no thin limb. */
   if (of->thinness.thin_count > of->thinness.sample_count / 50)
     sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_THIN,
         "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "

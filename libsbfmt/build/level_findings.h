@@ -1,5 +1,4 @@
-/* What a build reports of the levels made for a body: kept, so that it is reported of bodies equal to it too.
- */
+/* Findings about the levels of a body: stored, so that they are reported for bodies equal to it too. */
 #ifndef SBFI_LEVEL_FINDINGS_H
 #define SBFI_LEVEL_FINDINGS_H
 
@@ -8,17 +7,17 @@
 #include "build/levels/level_set.h"
 
 typedef struct sbfi_level_findings {
-  uint32_t missed_elements; /* tetrahedra it got as none came within the error asked for; 0: one did */
+  uint32_t missed_elements; /* number of tetrahedra, if none was within the requested error; 0: success */
   double cell;              /* m, of the finest lattice */
   sbfi_thinness thinness;
-  bool turns; /* about the points that hold it */
+  bool turns; /* it can rotate about its pinned points */
   sbfi_poor_level poor[SBFI_MAX_LEVELS];
   uint32_t poor_count;
 } sbfi_level_findings;
 
 void sbfi_level_findings_report(sbfi_build *build, uint32_t number, const sbfi_level_findings *findings);
 
-/* Counts in the build's report for one more body what it gained for an equal one since it was `before`. */
+/* Adds to the build's report for one more body the counts of an equal one since `before`. */
 void sbfi_level_counts_repeat(
     sbf_build_report *report, const sbf_build_report *before, const sbf_build_report *after);
 

@@ -2,7 +2,7 @@
 
 #include "model/element_path.h"
 
-/* The field by which an element says what derived it; NULL where it cannot be derived by itself. */
+/* The field that marks an element as derived; NULL if it has none. */
 static const sbfi_field *mark_of(const sbfi_element *element) {
   return sbfi_element_field(element, "derived");
 }
@@ -14,7 +14,7 @@ static bool is_derived(const sbfi_element *element, const void *object) {
 
 static bool view_children(const sbfi_element *element, void *object, sbfi_arena *arena);
 
-/* Copies the children that stand in a row, less the derived ones, and gives the field the rest. */
+/* Copies a list of children without the derived ones. */
 static bool view_row(const sbfi_field *field, void *object, sbfi_arena *arena) {
   sbfi_list list = sbfi_get_list(object, field);
   size_t size = field->element->struct_size;
@@ -32,7 +32,8 @@ static bool view_row(const sbfi_field *field, void *object, sbfi_arena *arena) {
   return true;
 }
 
-/* A single child may be marked beside it, as hull by hull_derived: then the mark goes with it. */
+/* A single child may have its mark beside it, such as hull with hull_derived: then the mark is removed with
+ * it. */
 static bool view_optional(
     const sbfi_element *element, const sbfi_field *field, void *object, sbfi_arena *arena) {
   char mark_name[64] = "";
@@ -88,7 +89,7 @@ typedef struct renumber_walk {
 } renumber_walk;
 
 static void renumber_field(renumber_walk *walk, const sbfi_element_path *path, const sbfi_field *field) {
-  /* The walk sees the asset as constant; the caller says that its structs may be written to. */
+  /* The walk treats the asset as constant; the caller guarantees that its structs are writable. */
   void *object = (void *)(uintptr_t)path->object;
   int32_t value = sbfi_get_integer(object, field);
   for (uint32_t i = 0; i < walk->count && value != SBF_NONE; i++) {
