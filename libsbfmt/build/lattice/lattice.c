@@ -8,8 +8,8 @@
 #include "build/lattice/lattice_limbs.h"
 #include "build/lattice/lattice_signs.h"
 
-/* Where the surface cuts an edge with unlike ends: of several places that nearest to the outer end, so that
- * all of the surface is in. */
+/* Cuts of edges with different ends: of several, the one nearest to the outer end, so that the whole surface
+ * is inside. */
 static void lay_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
   const sbfi_lattice_crossing *at = crossings->at;
   for (size_t i = 0; i < crossings->count; i++) {
@@ -22,7 +22,7 @@ static void lay_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_la
   }
 }
 
-/* Through a hole: where the winding number passes a half. */
+/* At a hole: where the winding number passes a half. */
 static float bisect(const sbfi_lattice_grid *grid, const sbfi_winding *winding, uint32_t edge, bool inside) {
   enum { ROUNDS = 12 };
   double low = 0, high = 1;
@@ -54,7 +54,7 @@ static uint32_t bisect_cuts(const sbfi_lattice_grid *grid, const sbfi_winding *w
   return count;
 }
 
-/* A forced node is not inside by right: cuts keep so far from it that it is not warped away. */
+/* A forced node is not really inside: cuts keep a distance from it, so that it is not warped. */
 static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lattice_cuts *cuts) {
   for (size_t s = 0; s < cuts->slot_count; s++) {
     if (cuts->edges[s] == UINT32_MAX) continue;
@@ -67,7 +67,7 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
   }
 }
 
-/* From which nodes are inside to tetrahedra; `inside` then says what became of the nodes. */
+/* Builds tetrahedra from the nodes inside; `inside` then has the states of the nodes. */
 static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sbfi_winding *winding,
     const sbfi_array *crossings, uint8_t *inside, sbfi_arena *scratch) {
   sbfi_lattice_cuts cuts;
@@ -80,7 +80,7 @@ static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sb
   return sbfi_lattice_stuff(grid, inside, &cuts, &lattice->made, scratch, scratch);
 }
 
-/* Again with more nodes inside, where parts hang on others by hinges. */
+/* Repeats with more nodes inside if parts are connected by hinges only. */
 static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sbfi_lattice_grid *grid,
     const sbfi_winding *winding, const sbfi_array *crossings, uint8_t *inside, sbfi_progress progress,
     sbfi_arena *scratch) {
@@ -100,7 +100,7 @@ static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sb
   return SBFI_LATTICE_MADE;
 }
 
-/* The lattice alone, out of the memory in which it was made. */
+/* Copies the lattice without its scratch memory. */
 static bool keep(sbfi_lattice *lattice, sbfi_arena *arena) {
   sbfi_tetrahedra *made = &lattice->made;
   made->positions = sbfi_arena_copy(arena, made->positions, made->point_count, sizeof *made->positions);
@@ -145,13 +145,13 @@ sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding
   return outcome;
 }
 
-/* How far a count is off, as a factor of at least 1. */
+/* Ratio of the count to the requested one, at least 1. */
 static double misses(uint32_t count, uint32_t elements) {
   double ratio = (count + 1.0) / (elements + 1.0);
   return ratio < 1 ? 1 / ratio : ratio;
 }
 
-/* Cube root by Newton's steps, from above. */
+/* Cube root by Newton's method, from above. */
 static double cube_root(double x) {
   double root = x > 1 ? x : 1;
   for (int step = 0; step < 200; step++) {
@@ -162,15 +162,15 @@ static double cube_root(double x) {
   return root;
 }
 
-/* Whether a body in which no tetrahedron of this cell fits will hardly hold so many of any: where elements of
- * a thin layer or rod would fill it, nodes of its grid are not many times as many. */
+/* Whether a body without tetrahedra at this cell can hardly have that many at any: a thin layer or rod, which
+ * would need a grid with many times as many nodes. */
 static bool is_hollow(const sbfi_soup *soup, double cell, uint32_t elements) {
   sbfi_lattice_grid grid;
   return !sbfi_lattice_grid_fit(&grid, soup->low, soup->high, cell) ||
          grid.node_count > 64.0 * elements + 65536;
 }
 
-/* m^3, of surface and caps. */
+/* m^3, within surface and caps. */
 static double enclosed_volume(const sbfi_soup *soup) {
   double sum = 0;
   for (uint32_t t = 0; t < soup->triangle_count + soup->cap_count; t++) {
@@ -188,12 +188,12 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   const sbfi_soup *soup = winding->soup;
   sbfi_d3 size = sbfi_d3_sub(soup->high, soup->low);
   double largest = fmax(size.x, fmax(size.y, size.z));
-  /* Twelve tetrahedra fill a cube. A third of the box is a fair guess at what a body fills of it. */
+  /* Twelve tetrahedra fill a cube. A body fills about a third of its box. */
   double volume = size.x * size.y * size.z / 3, cell = largest / 16;
   *lattice = (sbfi_lattice){.cell = cell};
   if (soup->triangle_count == 0) return SBFI_LATTICE_MADE;
   if (volume > 0) cell = fmin(cell, cube_root(12 * volume / elements));
-  /* Where the number matters less, the first cell is near enough more often than not. */
+  /* With a large tolerance, the first cell is usually good enough. */
   double enclosed = tolerance > SBFI_LATTICE_TOLERANCE ? enclosed_volume(soup) : 0;
   if (enclosed > 0) cell = cube_root(TETRAHEDRA_OF_CELL * enclosed / elements);
   double best = INFINITY;
@@ -219,7 +219,7 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
       return outcome;
     }
     if (count == 0 && is_hollow(soup, cell, elements)) break;
-    /* Nothing at all: the body is thinner than the cell. */
+    /* No tetrahedra: the body is thinner than the cell. */
     double ratio = count ? (double)count / elements : 1.0 / 8;
     cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
   }

@@ -24,7 +24,7 @@ static double component(sbf_vec3 v, int axis) {
   return (double)values[axis];
 }
 
-/* The axis along which few points lie in a ball's reach. */
+/* The axis along which a ball's range contains the fewest points. */
 static int longest_axis(const sbf_vec3 *points, uint32_t count) {
   int longest = 0;
   double max = -1;

@@ -1,4 +1,4 @@
-/* What a bone holds of the matter around it: the inner half, wherever it is thick or thin. */
+/* Core points of a bone: the inner half of the volume around it, at any thickness. */
 #ifndef SBFI_LATTICE_CORE_H
 #define SBFI_LATTICE_CORE_H
 

@@ -1,17 +1,17 @@
 #include "build/lattice/lattice_crossings.h"
 
-/* A cut so near to a node (as a share of the edge) is a cut at the node. Places in single precision are off
- * by less. */
+/* A cut within this fraction of an edge from a node is a cut at the node. Positions in single precision have
+ * a smaller error. */
 static const double at_node = 1e-5;
 
 typedef struct work {
   const sbfi_lattice_grid *grid;
   uint8_t *cut;
   sbfi_array *crossings;
-  uint32_t points[3];            /* of the triangle at hand */
+  uint32_t points[3];            /* of the present triangle */
   double at[3][3];               /* in grid coordinates */
-  double across[3][2], along[3]; /* seen along the lines of the way at hand */
-  double min_area; /* twice: below it the triangle is seen from its side, where rounding rules */
+  double across[3][2], along[3]; /* in a plane perpendicular to the present direction */
+  double min_area; /* twice the area: below it the triangle is seen edge-on, where rounding dominates */
   bool is_cap, good;
 } work;
 
@@ -22,7 +22,7 @@ static void add(work *w, int direction, const int32_t at[3], double fraction) {
   if (!w->is_cap && !sbfi_array_append(w->crossings, &crossing, 1)) w->good = false;
 }
 
-/* A cut of the line at `coordinate` along it; `base` is a node of the line with `along` 0 or 1. */
+/* Adds a cut of the line at `coordinate` along it; `base` is a node of the line with `along` 0 or 1. */
 static void add_on_line(work *w, int direction, const int32_t base[3], double step, double coordinate) {
   int32_t at[3], steps = (int32_t)floor(coordinate / step);
   double fraction = coordinate / step - steps;
@@ -34,8 +34,8 @@ static void add_on_line(work *w, int direction, const int32_t base[3], double st
   add(w, direction, at, fraction < at_node ? 1 : 0);
 }
 
-/* On which side of a triangle's side, as seen along the line, (u, v) lies. The ends are taken in the order of
- * their numbers, so that two triangles that share the side agree to the bit. */
+/* Side of (u, v) relative to a triangle's edge, seen along the line. The ends are ordered by index, so that
+ * two triangles with a common edge agree to the bit. */
 static double side_of(const work *w, int from, int to, double u, double v) {
   bool swap = w->points[from] > w->points[to];
   const double *a = w->across[swap ? to : from], *b = w->across[swap ? from : to];
@@ -43,7 +43,7 @@ static double side_of(const work *w, int from, int to, double u, double v) {
   return swap ? -side : side;
 }
 
-/* Where the triangle cuts the line at (u, v), if it does. */
+/* Whether the triangle cuts the line at (u, v), and where. */
 static bool collide(const work *w, double u, double v, double *position) {
   double c = side_of(w, 0, 1, u, v), a = side_of(w, 1, 2, u, v), b = side_of(w, 2, 0, u, v);
   bool within = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
@@ -63,15 +63,15 @@ static double max_of(double p[3][2], int k) {
   return p[2][k] > max ? p[2][k] : max;
 }
 
-/* The first of the numbers with the remainder (0 or 1) by 2 that is not below `least`. (Most triangles are
- * smaller than a cell and asked this ten times: ceil may be a call.) */
+/* The first integer with the remainder (0 or 1) modulo 2 that is not below `min`. (Most triangles are smaller
+ * than a cell and need this ten times; ceil may be a call.) */
 static int32_t first_from(double min, int32_t remainder) {
   double half = (min - remainder) / 2;
   int32_t whole = (int32_t)half;
   return 2 * (whole + (whole < half)) + remainder;
 }
 
-/* All lines of one way whose (u, v) have the remainder. */
+/* All lines of one direction whose (u, v) have the remainder. */
 static void cross_lines(work *w, int direction, int32_t remainder) {
   bool is_long = direction < SBFI_LATTICE_LONG_EDGES;
   const int *go = sbfi_lattice_directions[direction];
@@ -91,7 +91,7 @@ static void cross_lines(work *w, int direction, int32_t remainder) {
         base[(direction + 2) % 3] = v;
         add_on_line(w, direction, base, 2, coordinate - remainder);
       } else {
-        /* u and v are x and y where the line passes z = 0. */
+        /* u and v are x and y of the line at z = 0. */
         int32_t steps = (int32_t)floor(coordinate);
         const int32_t base[3] = {u + steps * go[0], v + steps * go[1], steps};
         add_on_line(w, direction, base, 1, coordinate - steps);

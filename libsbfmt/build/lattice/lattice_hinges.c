@@ -6,7 +6,7 @@
 
 enum { AROUND = 2 * SBFI_LATTICE_EDGES };
 
-/* Which of the fourteen neighbours of a node an edge joins to which. */
+/* Which of the fourteen neighbours of a node are connected by an edge. */
 static void join_neighbours(uint16_t joined[AROUND]) {
   int indices[AROUND][3];
   for (int a = 0; a < AROUND; a++)
@@ -31,7 +31,7 @@ static uint16_t inside_around(const sbfi_lattice_grid *grid, const uint8_t *stat
   return around;
 }
 
-/* Whether those of the mask are of one piece by themselves. */
+/* Whether the neighbours in the mask are connected. */
 static bool is_one_piece(uint16_t around, const uint16_t joined[AROUND]) {
   uint16_t piece = (uint16_t)(around & -around), before = 0;
   while (piece != before) {
@@ -42,8 +42,8 @@ static bool is_one_piece(uint16_t around, const uint16_t joined[AROUND]) {
   return piece == around;
 }
 
-/* Nodes on the surface between parts that do not meet next to them: few of all, and most on the rim of one
- * part. Border nodes have no neighbours, and are outside. */
+/* Nodes on the surface between parts that are not connected next to them: a small fraction, mostly on the rim
+ * of one part. Border nodes have no neighbours, and are outside. */
 static bool find_doubtful(const sbfi_lattice_grid *grid, const uint8_t *states, sbfi_array *found) {
   uint16_t joined[AROUND];
   join_neighbours(joined);

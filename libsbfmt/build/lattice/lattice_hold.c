@@ -12,7 +12,7 @@ typedef struct work {
   const uint8_t *taken;
   double width;
   uint8_t *holds, *added;
-  uint32_t *list; /* of what holds a piece */
+  uint32_t *list; /* pinned points of a piece */
 } work;
 
 static double squared_from(sbf_vec3 p, const double middle[3]) {
@@ -20,7 +20,7 @@ static double squared_from(sbf_vec3 p, const double middle[3]) {
   return x * x + y * y + z * z;
 }
 
-/* What holds the piece, into the list; how many points. */
+/* Lists the pinned points of the piece; returns their number. */
 static uint32_t find_holding(const work *w, const uint32_t *piece, uint32_t size) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < size; i++)
@@ -28,7 +28,7 @@ static uint32_t find_holding(const work *w, const uint32_t *piece, uint32_t size
   return count;
 }
 
-/* The free point nearest to a place of those that are `width` or more off the line; UINT32_MAX: none. */
+/* The free point nearest to the centre among those at least `width` away from the line; UINT32_MAX: none. */
 static uint32_t nearest_off(const work *w, const uint32_t *piece, uint32_t size, const double middle[3],
     const sbfi_farthest_line *line) {
   uint32_t best = UINT32_MAX;
@@ -52,7 +52,7 @@ static uint32_t deepest(const work *w, const uint32_t *piece, uint32_t size) {
   return best;
 }
 
-/* A second point, a third off the line through both; where the first two are close, one more. */
+/* A second point, and a third off the line through both; if the first two are close, one more. */
 static void hold(work *w, const uint32_t *piece, uint32_t size) {
   double middle[3] = {0};
   uint32_t count = find_holding(w, piece, size);
@@ -94,7 +94,7 @@ bool sbfi_lattice_hold_pieces(const sbf_level *level, const double *depths2, con
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 1; k < 4; k++)
       sbfi_sets_join(parents, level->lattice.tetrahedra.at[t].at[0], level->lattice.tetrahedra.at[t].at[k]);
-  /* Points by their piece. */
+  /* Points sorted by piece. */
   for (uint32_t i = 0; i < points; i++) ends[sbfi_set_root(parents, i)]++;
   for (uint32_t i = 0, before = 0; i < points; i++) {
     uint32_t size = ends[i];

@@ -1,4 +1,4 @@
-/* What a bone must hold of a lattice so that no piece of it turns about a point or a line. */
+/* Points to pin so that no piece of a lattice can rotate about a point or a line. */
 #ifndef SBFI_LATTICE_HOLD_H
 #define SBFI_LATTICE_HOLD_H
 

@@ -6,7 +6,7 @@
 #include "build/materials/point_factors.h"
 
 enum { USUAL_ELEMENTS = 2000 };
-/* Of bodies that get fewer because there are many. */
+/* For bodies whose number is reduced because there are many. */
 static const double shared_tolerance = 0.1;
 
 static bool is_thin(const sbfi_thinness *of) {
@@ -55,8 +55,8 @@ static bool fill(sbf_level *level, const sbf_soft_body *body, const sbfi_lattice
   return true;
 }
 
-/* A lattice holds a little less than the surface, or more where limbs are thin: where the surface is closed,
- * so that one knows, a density of its own gives it the mass that the body has. */
+/* A lattice contains slightly less volume than the surface, or more at thin limbs. If the surface is closed,
+ * so that its volume is known, the level gets a density for the mass of the body. */
 static bool weigh(sbf_level *level, const sbf_soft_body *body, double volume, sbf_asset *asset) {
   sbf_surface_measures surface;
   sbf_surface_measure(&body->surface, NULL, &surface);

@@ -7,24 +7,24 @@
 #include "sbfmt/asset.h"
 #include "sbfmt/mechanics.h"
 
-/* What bodies get that nobody sizes: one where much of it is thin, and all of a file together. */
+/* Default numbers of elements: of one body with many thin parts, and of all bodies of a file. */
 enum { SBFI_LATTICE_THIN_ELEMENTS = 4000, SBFI_LATTICE_SHARED_ELEMENTS = 16000 };
 
 typedef struct sbfi_lattice_recipe {
   double cell;       /* m; 0: by `elements` */
-  uint32_t elements; /* about so many tetrahedra; 0: 2000, or more where much of the body is thin */
-  uint32_t max;      /* of those that nobody asked for; 0: SBFI_LATTICE_THIN_ELEMENTS */
+  uint32_t elements; /* approximate number of tetrahedra; 0: 2000, or more if much of the body is thin */
+  uint32_t max;      /* maximum of the automatic number; 0: SBFI_LATTICE_THIN_ELEMENTS */
   int32_t derivation;
   double tolerance; /* factor less 1 by which their number may be off; 0: SBFI_LATTICE_TOLERANCE, or
                         a tenth where `max` leaves fewer than are usual */
 } sbfi_lattice_recipe;
 
-/* What was made of one body. */
+/* Counts of one body. */
 typedef struct sbfi_lattice_counts {
   uint32_t tetrahedra, points, pins;
-  uint32_t thickened; /* nodes taken in to keep thin limbs, see lattice_limbs.h */
+  uint32_t thickened; /* nodes added to keep thin limbs, see lattice_limbs.h */
   sbf_lattice_measures quality;
-  sbfi_thinness thinness; /* against one cell, which holds two elements */
+  sbfi_thinness thinness; /* relative to one cell, which contains two elements */
 } sbfi_lattice_counts;
 
 /* Fills `*level` for a body that has polygons: the points of the lattice, none of which are the body's own;

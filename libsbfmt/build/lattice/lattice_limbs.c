@@ -5,10 +5,10 @@
 #include "build/lattice/lattice_crossings.h"
 #include "build/lattice/lattice_stuffing.h"
 
-/* Marks while the nodes are chosen, beside the bits that stay. */
+/* Temporary marks of nodes, in addition to the bits that stay. */
 enum { CANDIDATE = 4, LONELY = 8, WEAK = 16 };
 
-static const float min_part = 1e-3f; /* of an edge; less is a touch */
+static const float min_part = 1e-3f; /* fraction of an edge; smaller parts are ignored */
 
 static int compare(const void *a, const void *b) {
   const sbfi_lattice_crossing *x = a, *y = b;
@@ -21,7 +21,7 @@ static uint32_t other_end(const sbfi_lattice_grid *grid, uint32_t edge) {
   return (uint32_t)((int64_t)node + grid->steps[sbfi_lattice_kind(grid, node)][edge & 7]);
 }
 
-/* The crossings of edges with both ends outside, edge by edge. */
+/* The crossings of edges with both ends outside, sorted by edge. */
 static bool sort_crossings(const sbfi_lattice_grid *grid, const sbfi_array *from, const uint8_t *inside,
     sbfi_lattice_crossing **sorted, size_t *count, sbfi_arena *scratch) {
   const sbfi_lattice_crossing *at = from->at;
@@ -50,7 +50,7 @@ static bool is_inside(
       sbfi_winding_of_closed(winding, position), sbfi_winding_of_caps(winding, position));
 }
 
-/* Whether of the fourteen neighbours' bits in the mask one's are as asked. */
+/* Whether one of the fourteen neighbours has the given bits within the mask. */
 static bool has_neighbour(
     const sbfi_lattice_grid *grid, const uint8_t *inside, uint32_t node, int mask, int bits) {
   uint32_t kind = sbfi_lattice_kind(grid, node);
@@ -62,7 +62,7 @@ static bool has_neighbour(
   return false;
 }
 
-/* The nodes at hand, each once. */
+/* The candidate nodes, without duplicates. */
 typedef struct candidates {
   uint8_t *inside;
   uint32_t *at, count;
@@ -73,7 +73,7 @@ static void add(candidates *c, uint32_t node, uint8_t bits) {
   c->inside[node] |= CANDIDATE | bits;
 }
 
-/* Nodes inside so near to a cut that it will warp them onto the surface. */
+/* Adds nodes inside that are so close to a cut that it would warp them onto the surface. */
 static void add_weak(candidates *c, const sbfi_lattice_grid *grid, const sbfi_array *crossings) {
   const sbfi_lattice_crossing *at = crossings->at;
   for (size_t i = 0; i < crossings->count; i++) {
@@ -109,7 +109,7 @@ bool sbfi_lattice_keep_limbs(const sbfi_lattice_grid *grid, const sbfi_winding *
   for (uint32_t i = 0; i < c.count; i++)
     if (!has_neighbour(grid, inside, c.at[i], SBFI_LATTICE_INSIDE | WEAK, SBFI_LATTICE_INSIDE))
       inside[c.at[i]] |= LONELY;
-  /* Chosen before any is taken in: what is chosen does not hang on the order. */
+  /* All are selected before any is added, so the result does not depend on the order. */
   for (uint32_t i = 0; i < c.count; i++) {
     uint32_t node = c.at[i];
     if ((inside[node] & LONELY) || has_neighbour(grid, inside, node, LONELY, LONELY))

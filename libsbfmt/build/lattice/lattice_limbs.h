@@ -1,4 +1,4 @@
-/* Limbs thinner than a lattice's cell: they slip between the nodes, and would be lost. */
+/* Limbs thinner than a lattice's cell, which would fall between the nodes. */
 #ifndef SBFI_LATTICE_LIMBS_H
 #define SBFI_LATTICE_LIMBS_H
 

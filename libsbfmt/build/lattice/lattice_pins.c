@@ -10,14 +10,14 @@
 #include "build/lattice/lattice_hold.h"
 #include "build/sections/level_pins.h"
 
-/* As a share of the cell: so near to the surface a point is on it. */
+/* Fraction of the cell: distance within which a point is on the surface. */
 static const double on_surface = 0.01;
-/* Likewise: so far from a line through it a core must reach. */
+/* Fraction of the cell: minimum extent of a core from any line through it. */
 static const double core_width = 0.25;
 
-/* Where a point on the surface stands: on which source points, with which weights. */
+/* Source points of a point on the surface, with weights. */
 typedef struct footing {
-  uint32_t corners[3]; /* the first is SBFI_NO_INDEX where it is not on the surface */
+  uint32_t corners[3]; /* the first is SBFI_NO_INDEX if it is not on the surface */
   double weights[3];
 } footing;
 
@@ -30,7 +30,7 @@ typedef struct work {
   sbfi_box_tree points; /* of the level */
   double *depths2;      /* (level points) squared distances from the surface */
   footing *footings;    /* (level points) */
-  uint8_t *taken;       /* (level points) some set has it */
+  uint8_t *taken;       /* (level points) belongs to some set */
 } work;
 
 static double squared_between(sbf_vec3 a, const double b[3]) {
@@ -61,7 +61,7 @@ static bool box_points(work *w) {
   return sbfi_box_tree_build(&w->points, boxes, points->count, w->scratch);
 }
 
-/* How deep every point lies, and where those on the surface stand. */
+/* Finds the depth of every point, and source points of those on the surface. */
 static bool find_depths(work *w) {
   const sbf_vec3_list *points = &w->level->positions;
   w->depths2 = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->depths2);
@@ -96,7 +96,7 @@ static float weight_of(const sbf_pin_set *set, uint32_t i) {
   return set->weights.at[set->weights.count == 1 ? 0 : i];
 }
 
-/* Of a point between source points all of which the set has, their mean weight; else -1. */
+/* Mean weight of a point whose source points are all in the set; else -1. */
 static float weight_between(const footing *on, const float *at_source) {
   double sum = 0;
   if (on->corners[0] == SBFI_NO_INDEX) return -1;
@@ -108,7 +108,7 @@ static float weight_between(const footing *on, const float *at_source) {
   return sum > 0.999 ? 1 : (float)sum;
 }
 
-/* The set at the level's points. */
+/* Transfers the set to the level's points. */
 static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   uint32_t sources = w->body->surface.positions.count + w->body->interior.count;
   uint32_t points = w->level->positions.count, count = 0;
@@ -145,14 +145,14 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   return true;
 }
 
-/* Whether what is held there cannot turn about a line through it. */
+/* Whether the points prevent rotation about any line through them. */
 static bool is_wide(const work *w, const uint32_t *core, uint32_t count) {
   return count >= 3 && sbfi_farthest_line_of(w->level->positions.at, core, count).width >= min_width(w);
 }
 
-/* The points of the inner half, by depth, where the body is thick and where it is thin; of a shallower part
- * where those are but a line, which would leave the body free to turn about it; and so many on the surface as
- * it takes where all inside are, or a piece has none. */
+/* Core points: the inner half by depth, at any thickness; more of the volume if these are only on a line,
+ * about which the body could rotate; and points on the surface if all interior points are pinned, or a piece
+ * has none. */
 static bool find_core(work *w, uint32_t **core, uint32_t *count) {
   uint32_t points = w->level->positions.count;
   float *thickness = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *thickness);
@@ -200,7 +200,7 @@ static bool make(work *w, int32_t derivation) {
   for (uint32_t i = 0; i < count; i++) sets[i].derived = derivation;
   w->level->pins = (sbf_pin_set_list){count ? sets : NULL, count};
   if (body->bone != SBF_NONE && !find_core(w, &core, &core_count)) return false;
-  /* What is left of the body's wishes needs no source points. */
+  /* The other attachments of the body need no source points. */
   sbf_soft_body rest = *body;
   rest.pins = (sbf_pin_set_list){NULL, 0};
   rest.attachments = (sbf_attachment_list){by_hull, hull_count};

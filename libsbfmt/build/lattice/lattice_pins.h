@@ -1,4 +1,4 @@
-/* Pins of a level of tetrahedra, whose points are none of the body's own. */
+/* Pins of a level of tetrahedra, whose points are not the body's own. */
 #ifndef SBFI_LATTICE_PINS_H
 #define SBFI_LATTICE_PINS_H
 

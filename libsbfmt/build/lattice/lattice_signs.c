@@ -4,11 +4,11 @@
 
 #include "base/union_find.h"
 
-/* A run: nodes next to each other in a row, joined by uncut edges. */
+/* A run: adjacent nodes of a row, connected by uncut edges. */
 typedef struct runs {
   const sbfi_lattice_grid *grid;
   const uint8_t *cut;
-  uint32_t *begins;     /* (run_count + 1) first nodes; all nodes lie in runs */
+  uint32_t *begins;     /* (run_count + 1) first nodes; every node belongs to a run */
   uint32_t *row_begins; /* (rows + 1) first runs */
   uint32_t *parents;    /* (run_count) */
   int *windings;        /* (run_count) */
@@ -37,12 +37,13 @@ static bool find_runs(runs *r, sbfi_arena *arena) {
   return true;
 }
 
-/* Joins the runs of a row with those of the row that its edges of one way lead to, `shift` nodes aside. */
+/* Joins the runs of a row with those of the row at the other end of its edges in one direction, `shift` nodes
+ * aside. */
 static void join_rows(runs *r, uint32_t row, uint32_t other, int64_t shift, int direction) {
   uint32_t a = r->row_begins[row], a_end = r->row_begins[row + 1];
   uint32_t b = r->row_begins[other], b_end = r->row_begins[other + 1];
   while (a < a_end && b < b_end) {
-    /* The overlap, in nodes of the first row; an edge over the border leads nowhere. */
+    /* The overlap, in nodes of the first row; edges across the border do not exist. */
     int64_t begin = r->begins[a], end = r->begins[a + 1];
     int64_t other_begin = r->begins[b] - shift, other_end = r->begins[b + 1] - shift;
     int64_t low = begin > other_begin ? begin : other_begin, high = end < other_end ? end : other_end;
@@ -64,7 +65,7 @@ static void join_all(runs *r) {
   for (uint32_t row = 0; row < r->row_count; row++) {
     uint32_t kind = row & 1, y = row / 2 % g->counts[1];
     for (int direction = 1; direction < SBFI_LATTICE_EDGES; direction++) {
-      /* Where the edges of the row's first node lead, as a row and a place in it. */
+      /* Other ends of the edges of the row's first node, as a row and an index in it. */
       int go_y = sbfi_lattice_directions[direction][1];
       bool is_long = direction < SBFI_LATTICE_LONG_EDGES;
       if (is_long ? direction == 1 && y + 1 >= g->counts[1]
@@ -85,14 +86,14 @@ static sbfi_d3 position_of(const sbfi_lattice_grid *grid, uint32_t node) {
   return sbfi_lattice_position(grid, (sbfi_d3){at[0], at[1], at[2]});
 }
 
-/* One evaluation for each set of runs: in the middle of its longest. */
+/* One evaluation for each set of runs: in the middle of its longest run. */
 static bool wind_runs(runs *r, const sbfi_winding *winding, sbfi_arena *arena) {
   uint32_t *longest = sbfi_arena_allocate(arena, (size_t)r->run_count + 1, sizeof *longest);
   r->windings = sbfi_arena_allocate(arena, (size_t)r->run_count + 1, sizeof *r->windings);
   if (!longest || !r->windings) return false;
   for (uint32_t i = 0; i < r->run_count; i++) {
     uint32_t root = sbfi_set_root(r->parents, i), best = longest[root];
-    /* Roots are the lowest of their sets, so that `longest` starts with the root itself. */
+    /* Roots are the lowest of their sets, so `longest` starts with the root itself. */
     if (root == i || r->begins[i + 1] - r->begins[i] > r->begins[best + 1] - r->begins[best])
       longest[root] = i;
   }
@@ -105,8 +106,8 @@ static bool wind_runs(runs *r, const sbfi_winding *winding, sbfi_arena *arena) {
   return true;
 }
 
-/* Squared distance from the caps' middle beyond which they add less than a half: their winding number is no
- * more than their area over 4 pi times the squared distance to their nearest point. */
+/* Squared distance from the caps' centre beyond which they contribute less than a half: their winding number
+ * is at most their area over 4 pi times the squared distance to their nearest point. */
 static double reach_of_caps(const sbfi_soup *soup, sbfi_d3 *middle) {
   double area = 0, radius2 = 0;
   sbfi_d3 low = soup->high, high = soup->low;

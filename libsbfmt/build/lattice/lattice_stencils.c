@@ -51,8 +51,7 @@ static double squared(const work *w, spot a, spot b) {
   return sbfi_d3_dot(displacement, displacement);
 }
 
-/* Of the quad that corner `out` leaves of the face a b out: whether its diagonal starts at a, rather than at
- * b. */
+/* For the quad of the face a b out without corner `out`: whether its diagonal starts at a instead of b. */
 static bool starts_at_first(const work *w, uint8_t a, uint8_t b, uint8_t out) {
   if (is_long(a, out)) return false;
   if (is_long(b, out)) return true;
@@ -61,8 +60,8 @@ static bool starts_at_first(const work *w, uint8_t a, uint8_t b, uint8_t out) {
   return w->nodes[a] < w->nodes[b];
 }
 
-/* The prism between the triangles p and q. first[k] says whether the diagonal of the side between edges k and
- * k + 1 starts at p[k], rather than at p[k + 1]; they do not go round in a ring. */
+/* The prism between the triangles p and q. first[k]: whether the diagonal of the face between edges k and k +
+ * 1 starts at p[k] instead of p[k + 1]; they must not form a cycle. */
 static void add_prism(work *w, const spot p[3], const spot q[3], const bool first[3]) {
   int rank[3], order[3] = {0, 0, 0};
   for (int k = 0; k < 3; k++) rank[k] = !first[k] + first[(k + 2) % 3];
@@ -73,8 +72,8 @@ static void add_prism(work *w, const spot p[3], const spot q[3], const bool firs
   add(w, p[x], q[x], q[y], q[z]);
 }
 
-/* How far the dihedral angles keep from 0 and 180 degrees, at worst: the least of 1 - |cosine|, but obtuse
- * angles, of which there may be more, count by half. */
+/* Quality of the dihedral angles, minimum over all: 1 - |cosine|, with half the weight for obtuse angles, of
+ * which there may be more. */
 static double worst_shape(const work *w) {
   static const uint8_t faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   double worst = INFINITY;
@@ -92,7 +91,7 @@ static double worst_shape(const work *w) {
   return worst;
 }
 
-/* Two corners inside, two outside: the side on the surface is free to have either diagonal. */
+/* Two corners inside, two outside: the diagonal of the face on the surface is free. */
 static void cut_wedge(work *w, const uint8_t in[2], const uint8_t out[2]) {
   const spot p[3] = {corner(in[0]), cut(in[0], out[0]), cut(in[0], out[1])};
   const spot q[3] = {corner(in[1]), cut(in[1], out[0]), cut(in[1], out[1])};

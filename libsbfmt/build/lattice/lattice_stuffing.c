@@ -4,9 +4,9 @@
 
 #include "build/lattice/lattice_stencils.h"
 
-/* Shares of an edge within which a cut warps the node. The paper's pair for the widest least angle, 0.24999
- * and 0.41189, goes with its own diagonals; with those of lattice_stencils.h it gives 9.3 degrees, and this
- * one 10.5 to 163.8, over millions of tetrahedra of surfaces made at random. */
+/* Fractions of an edge within which a cut warps the node. The paper's pair for the maximum of the minimum
+ * angle, 0.24999 and 0.41189, belongs to its own diagonals; with those of lattice_stencils.h it gives 9.3
+ * degrees, and this one 10.5 to 163.8, over millions of tetrahedra of random surfaces. */
 static const double warp_long = 0.28, warp_short = 0.40, short_length = 0.86602540378443865;
 
 static const uint32_t NONE = UINT32_MAX;
@@ -21,13 +21,13 @@ size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge) {
   return slot;
 }
 
-/* Border nodes are outside, and so are their neighbours: nothing begins there. */
+/* Border nodes are outside, and so are their neighbours, so they have no cuts. */
 static bool is_inner_row(const sbfi_lattice_grid *grid, uint32_t row) {
   uint32_t y = row / 2 % grid->counts[1], z = row / 2 / grid->counts[1];
   return y > 0 && y + 1 < grid->counts[1] && z > 0 && z + 1 < grid->counts[2];
 }
 
-/* Enters every edge with unlike ends; into `cuts` without slots they are only counted. */
+/* Adds every edge with different ends; without slots in `cuts` they are only counted. */
 static size_t visit_cuts(const sbfi_lattice_grid *grid, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
   size_t count = 0;
   uint32_t length = grid->counts[0], rows = grid->node_count / length;
@@ -64,7 +64,7 @@ bool sbfi_lattice_cuts_find(
   return true;
 }
 
-/* States of nodes, in place of `inside`, and a mark while they are found. */
+/* States of nodes, replacing `inside`, and a temporary mark. */
 enum {
   OUTSIDE = SBFI_LATTICE_NODE_OUTSIDE,
   INSIDE = SBFI_LATTICE_NODE_INSIDE,
@@ -94,7 +94,7 @@ static sbfi_d3 coordinates(const work *w, uint32_t node) {
   return (sbfi_d3){at[0], at[1], at[2]};
 }
 
-/* Moves the node onto the nearest cut that lies too near to it. Its edges then have no cuts any more. */
+/* Moves the node onto its nearest cut, if that is too close. Its edges then have no cuts. */
 static void warp(work *w, uint32_t node) {
   double nearest = 2;
   int best = -1;
@@ -138,7 +138,7 @@ static uint32_t node_point(work *w, uint32_t node) {
   return w->node_points[node];
 }
 
-/* The point on the edge between two nodes, of which `direction` and `forward` say how it lies. */
+/* The point on the edge between two nodes; `direction` and `forward` identify the edge. */
 static uint32_t cut_point(work *w, uint32_t owner, uint32_t direction) {
   size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * owner + direction);
   if (w->cuts->points[slot] == NONE) {
@@ -150,13 +150,13 @@ static uint32_t cut_point(work *w, uint32_t owner, uint32_t direction) {
   return w->cuts->points[slot];
 }
 
-/* Which edge joins two nodes of one tetrahedron. */
+/* The cut of the edge between two nodes of a tetrahedron. */
 static uint32_t cut_between(work *w, uint32_t a, uint32_t b) {
   for (int edge = 0; edge < SBFI_LATTICE_EDGES; edge++) {
     if (sbfi_lattice_neighbour(w->grid, a, edge) == b) return cut_point(w, a, (uint32_t)edge);
     if (sbfi_lattice_neighbour(w->grid, b, edge) == a) return cut_point(w, b, (uint32_t)edge);
   }
-  return 0; /* not reached: the six edges of a tetrahedron are the grid's */
+  return 0; /* unreachable: the six edges of a tetrahedron are edges of the grid */
 }
 
 static void add(work *w, const uint32_t points[4]) {
@@ -167,7 +167,7 @@ static const sbfi_d3 *position(const work *w, uint32_t point) {
   return (const sbfi_d3 *)w->points.at + point;
 }
 
-/* Cuts one tetrahedron of the grid down to its inner part. */
+/* Adds the inner part of one tetrahedron of the grid. */
 static void fill_cut(work *w, const uint32_t nodes[4]) {
   sbfi_stencil_corner corners[4];
   uint32_t names[4][4];
@@ -216,12 +216,12 @@ static void fill(work *w, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   add(w, points);
 }
 
-/* The four tetrahedra around each long edge between two middles. */
+/* The four tetrahedra around each long edge between two centres. */
 static void fill_all(work *w) {
   const sbfi_lattice_grid *g = w->grid;
   const int32_t *steps = g->steps[1];
   uint32_t length = g->counts[0], rows = g->node_count / length;
-  /* From a middle to the corners of its cube. */
+  /* From a centre to the corners of its cube. */
   const int64_t corner = steps[3] - steps[2], x = 1, y = steps[1], z = steps[2];
   const int64_t rings[3][4] = {
       {corner + x, corner + x + y, corner + x + y + z, corner + x + z},
@@ -251,7 +251,7 @@ static bool is_positive(const sbf_vec3 *positions, const uint32_t at[4]) {
   return sbfi_d3_dot(edges[0], sbfi_d3_cross(edges[1], edges[2])) > 1e-3 * longest * longest * longest;
 }
 
-/* Numbers the points in the order in which the tetrahedra meet them. */
+/* Numbers the points in the order of the tetrahedra. */
 static bool hand_over(work *w, sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_arena *scratch) {
   const sbfi_d3 *points = w->points.at;
   const sbf_uint4 *from = w->tetrahedra.at;

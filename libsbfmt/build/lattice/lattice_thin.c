@@ -29,10 +29,10 @@ bool sbfi_lattice_thinness(
   for (uint32_t i = 0; i < count; i += stride) {
     sbfi_d3 inwards = sbfi_d3_scale(sbfi_d3_of(normals[i]), -1);
     if (!(sbfi_d3_dot(inwards, inwards) > 0.5)) continue;
-    /* A little inside, so as not to meet the point's own triangles. */
+    /* Slightly inside, to miss the point's own triangles. */
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->positions.at[i]), sbfi_d3_scale(inwards, 1e-3 * limit));
     sbf_vec3 start = sbfi_d3_rounded(from), end = sbfi_d3_rounded(sbfi_d3_add(from, inwards));
-    /* What is farther is neither thin nor the least. */
+    /* Farther hits are neither thin nor the minimum. */
     uint32_t hits = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->min));
     thinness->sample_count++;
     if (hits == UINT32_MAX) continue;

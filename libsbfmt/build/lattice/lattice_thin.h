@@ -1,4 +1,4 @@
-/* Where a body is too thin for its lattice. */
+/* Parts of a body that are too thin for its lattice. */
 #ifndef SBFI_LATTICE_THIN_H
 #define SBFI_LATTICE_THIN_H
 
@@ -6,13 +6,13 @@
 #include "sbfmt/model.h"
 
 typedef struct sbfi_thinness {
-  uint32_t sample_count; /* points of the surface looked at: 2000 at most, evenly over the list */
-  uint32_t thin_count;   /* of them, those with less than `limit` of matter under them */
-  double min;            /* m; infinite where nothing was measured */
+  uint32_t sample_count; /* number of tested surface points: at most 2000, evenly over the list */
+  uint32_t thin_count;   /* of these, the number with a thickness below `limit` */
+  double min;            /* m; infinite if nothing was measured */
 } sbfi_thinness;
 
-/* Measures the way from points of the surface along their normals to where it comes out again. False where
- * memory runs out. */
+/* Measures the thickness at points of the surface along their inward normals. Returns false if memory runs
+ * out. */
 bool sbfi_lattice_thinness(
     sbfi_thinness *thinness, const sbf_polygon_mesh *mesh, double limit, sbfi_arena *scratch);
 

@@ -7,7 +7,7 @@
 #include "mechanics/shape_region.h"
 #include "sbfmt/mechanics.h"
 
-/* Points beside each other, each way: sorted, and each once. */
+/* Neighbouring points, in both directions: sorted, without duplicates. */
 static int compare_pairs(const void *a, const void *b) {
   const sbf_uint2 *p = a, *q = b;
   for (int k = 0; k < 2; k++)
@@ -15,7 +15,7 @@ static int compare_pairs(const void *a, const void *b) {
   return 0;
 }
 
-/* A point beside itself counts too: so each has its own region. */
+/* A point is a neighbour of itself, so each has its own region. */
 static size_t list_pairs(const sbf_level *level, sbf_uint2 *pairs) {
   size_t count = 0, kept = 0;
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
@@ -29,8 +29,8 @@ static size_t list_pairs(const sbf_level *level, sbf_uint2 *pairs) {
   return kept;
 }
 
-/* Sum over regions and their points of a |r|^2, a the point's mass shared among its regions, kg m^2; all
- * regions' points are in `points`, as many in each as `sizes` says. */
+/* Sum over regions and their points of a |r|^2, kg m^2, with a the point's mass divided among its regions;
+ * the points of all regions are in `points`, with the numbers in `sizes`. */
 static double spread_of(const sbf_level *level, const uint32_t *sizes, uint32_t region_count,
     const uint32_t *points, const float *masses, const uint32_t *uses, double *weights, sbfi_d3 *positions) {
   double sum = 0;

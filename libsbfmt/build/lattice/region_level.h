@@ -1,4 +1,4 @@
-/* A body's level of regions that match shapes. */
+/* A body's level of shape matching regions. */
 #ifndef SBFI_REGION_LEVEL_H
 #define SBFI_REGION_LEVEL_H
 

@@ -15,8 +15,8 @@ typedef struct work {
   sbfi_arena *scratch;
   uint8_t *pinned;  /* (points) */
   float *energies;  /* (points) J, a quarter of modulus times volume of each tetrahedron */
-  float *stiffness; /* (sides) N/m */
-  float *damping;   /* (points) factors on the body's; NULL: none is stated */
+  float *stiffness; /* (edges) N/m */
+  float *damping;   /* (points) factors on the body's damping; NULL: none stated */
   sbfi_spring_list sides;
 } work;
 

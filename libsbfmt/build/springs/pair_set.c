@@ -17,8 +17,8 @@ static uint64_t key_of(uint32_t a, uint32_t b) {
   return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
-/* Slot of the key, or the free one where it belongs (linear probing; a multiplicative hash spreads the
- * neighbouring numbers that meshes are full of). */
+/* Slot of the key, or the free one for it (linear probing; a multiplicative hash spreads the neighbouring
+ * numbers that are common in meshes). */
 static size_t slot_of(const sbfi_pair_set *set, uint64_t key) {
   uint64_t mixed = (key ^ key >> 29) * UINT64_C(0x9e3779b97f4a7c15);
   size_t slot = (size_t)(mixed ^ mixed >> 32) & (set->slot_count - 1);

@@ -10,7 +10,7 @@
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 
-/* One body on its way to a level. */
+/* State of building one body's level. */
 typedef struct work {
   const sbf_soft_body *body;
   const sbfi_spring_recipe *recipe;
@@ -19,12 +19,12 @@ typedef struct work {
   sbf_level *level;
   sbf_body_measures measures;
   sbfi_surface_springs surface;
-  sbfi_centroid_interior interior; /* or a lattice's points and springs, with no points for polygons */
+  sbfi_centroid_interior interior; /* or a lattice's points and springs, without points for polygons */
   double cell;                     /* of a lattice; 0: none */
-  uint32_t deep_count;             /* of the interior points, those a bone holds */
+  uint32_t deep_count;             /* interior points that are pinned to a bone */
   bool one_network;
-  float *damping;            /* (point_count) factors on stiffness_damping; NULL: none is stated */
-  sbfi_spring_list internal; /* the interior's, then those of the author's points */
+  float *damping;            /* (point_count) factors on stiffness_damping; NULL: none stated */
+  sbfi_spring_list internal; /* those of the interior, then those of authored points */
   uint32_t surface_count, source_count, point_count;
   uint8_t *pinned; /* (point_count) */
 } work;
@@ -45,7 +45,7 @@ static bool set_points(work *w) {
   return true;
 }
 
-/* An author's interior point hangs on the corners of the nearest polygon, and on the centre. */
+/* An authored interior point is connected to the corners of the nearest polygon, and to the centre. */
 static bool join_authored(work *w) {
   const sbf_polygon_mesh *mesh = &w->body->surface;
   uint32_t authored = w->body->interior.count;
@@ -78,8 +78,8 @@ static bool is_core_pinned(const work *w) {
   return w->body->bone != SBF_NONE && w->interior.point_count > 0;
 }
 
-/* Shares of the matter at all points of a body whose interior is free; see spring_level.h. Points in no
- * polygon count as the mean of the polygons' corners. */
+/* Volume fractions of all points of a body with a free interior; see spring_level.h. Points in no polygon
+ * count as the mean of the polygons' corners. */
 static void distribute_by_pyramids(const work *w, float *fractions) {
   const sbf_polygon_mesh *mesh = &w->body->surface;
   const uint32_t *corners = mesh->polygon_points.at;
@@ -107,8 +107,8 @@ static void distribute_by_pyramids(const work *w, float *fractions) {
   for (uint32_t i = 0; i < w->point_count; i++) fractions[i] = (float)(fractions[i] / sum);
 }
 
-/* Shares of the matter at all points of a body with a lattice inside; see spring_level.h. Nodes have four
- * fifths of it at most. */
+/* Volume fractions of all points of a body with a lattice inside; see spring_level.h. Nodes have at most four
+ * fifths of it. */
 static void distribute_by_lattice(const work *w, float *fractions) {
   sbf_level surface;
   sbf_level_init(&surface);
@@ -135,7 +135,7 @@ static float *make_volumes(const work *w, bool pyramids) {
     sbf_level_init(&surface);
     surface.positions = w->body->surface.positions;
     sbf_level_mass_fractions(w->body, &surface, NULL, volumes);
-    /* An author's interior points have no area either; like those they count as the mean. */
+    /* Authored interior points have no area either, and count as the mean too. */
     for (uint32_t i = w->surface_count; i < w->source_count; i++) volumes[i] = 1.0f / (float)w->surface_count;
   }
   for (uint32_t i = 0; i < w->point_count; i++) volumes[i] *= (float)w->measures.volume;
@@ -152,7 +152,7 @@ static bool make_network(const work *w, double modulus, const float *volumes, co
   return sums != NULL;
 }
 
-/* Anchored springs by the pyramids; those between two free points, an author's, as a network of their own. */
+/* Anchored springs by the pyramids; authored ones between two free points as a separate network. */
 static bool make_internal_of_pinned_core(const work *w, const float *volumes, float *stiffness) {
   uint32_t count = w->internal.count, free_count = 0;
   double modulus = w->body->attributes.young_modulus;
@@ -193,7 +193,7 @@ static bool make_stiffness_of_all(const work *w, float *stiffness) {
       sbfi_progress_part(w->recipe->progress, 0.5, 1), w->scratch);
 }
 
-/* `stiffness` receives structural, shear, flexion and internal, one after the other. */
+/* `stiffness` receives structural, shear, flexion and internal springs, one after the other. */
 static bool make_stiffness(const work *w, float *stiffness) {
   if (w->one_network) return make_stiffness_of_all(w, stiffness);
   const sbfi_surface_springs *on = &w->surface;
@@ -219,13 +219,13 @@ static bool is_inert(const work *w, sbf_uint2 ends) {
   return w->pinned[ends.at[0]] && w->pinned[ends.at[1]];
 }
 
-/* Between two points in one place there is nothing to be stretched: no format or scheme has a use for it. */
+/* Springs between two points at the same position cannot be stretched; no format or scheme uses them. */
 static bool is_nothing(const work *w, sbf_uint2 ends) {
   sbf_vec3 a = w->level->positions.at[ends.at[0]], b = w->level->positions.at[ends.at[1]];
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Writes one kind's set, less the springs between held points and those without length; nothing where it
+/* Writes the set of one kind without springs between pinned points and those without length; nothing if it
  * would be empty. */
 static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const float *stiffness,
     sbf_spring_set *sets, sbfi_spring_counts *counts) {
@@ -260,7 +260,7 @@ static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const 
   return true;
 }
 
-/* The map's factors, where there is one and something for it to scale. */
+/* Factors of the weight map, if there is one and damping to scale. */
 static bool weigh_damping(work *w) {
   bool mapped = false;
   for (uint32_t m = 0; m < w->body->weight_maps.count; m++)
@@ -291,7 +291,7 @@ static bool add_springs(work *w, sbfi_spring_counts *counts) {
   return true;
 }
 
-/* Masses of a body whose interior is free; the rule of sbf_level_masses would give its points too little. */
+/* Masses of a body with a free interior; the rule of sbf_level_masses would give its points too little. */
 static bool state_masses(work *w) {
   float *masses = sbf_asset_allocate(w->asset, w->point_count, sizeof *masses);
   if (!masses) return false;

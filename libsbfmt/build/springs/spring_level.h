@@ -8,8 +8,8 @@
 
 typedef enum sbfi_spring_interior {
   SBFI_INTERIOR_NONE,
-  SBFI_INTERIOR_CENTROID, /* held by the body's bone where it has one */
-  SBFI_INTERIOR_LATTICE,  /* its deep points held by the body's bone where it has one */
+  SBFI_INTERIOR_CENTROID, /* pinned to the body's bone if it has one */
+  SBFI_INTERIOR_LATTICE,  /* its deep points are pinned to the body's bone if it has one */
   SBFI_INTERIOR_BRUTE
 } sbfi_spring_interior;
 
@@ -17,22 +17,22 @@ typedef struct sbfi_spring_recipe {
   sbfi_spring_interior interior;
   double cell; /* m, of the lattice; 0: by the polygons */
   bool flexion;
-  int32_t derivation;     /* what the parts made are marked with */
-  sbfi_progress progress; /* zeros: nobody asks */
+  int32_t derivation;     /* derivation mark of the new parts */
+  sbfi_progress progress; /* zeros: no progress reports */
 } sbfi_spring_recipe;
 
-/* What was made of one body. */
+/* Counts of one body. */
 typedef struct sbfi_spring_counts {
-  uint32_t interior_points;                /* made, not an author's */
+  uint32_t interior_points;                /* created, not authored */
   uint32_t springs[SBF_SPRING_KIND_COUNT]; /* in the file */
-  uint32_t inert;                          /* left out: both ends are held */
+  uint32_t inert;                          /* dropped: both ends are pinned */
   uint32_t pins;                           /* points of the level's pin sets */
 } sbfi_spring_counts;
 
-/* Where the made points are, for embedding. */
+/* Positions of the new points, for embedding. */
 typedef struct sbfi_interior_map {
-  uint32_t centre;          /* place in the level; SBFI_NO_INDEX: there is none */
-  uint32_t *polygon_points; /* (polygons) places in the level, or SBFI_NO_INDEX; NULL: none */
+  uint32_t centre;          /* index in the level; SBFI_NO_INDEX: none */
+  uint32_t *polygon_points; /* (polygons) indices in the level, or SBFI_NO_INDEX; NULL: none */
 } sbfi_interior_map;
 
 /* Fills `*level` for a body that has surface points; lists are memory of `asset`, the map's of `scratch`.

@@ -1,5 +1,5 @@
-/* Which springs a body gets. The order of every list is part of the contract: the relaxation scheme corrects
- * springs one after the other in it. */
+/* Springs of a body. The order of every list is part of the contract: the relaxation scheme corrects springs
+ * in that order. */
 #ifndef SBFI_SPRINGS_H
 #define SBFI_SPRINGS_H
 
@@ -42,7 +42,7 @@ bool sbfi_springs_surface(sbfi_surface_springs *springs, const sbf_polygon_mesh 
 typedef struct sbfi_centroid_interior {
   sbf_vec3 *points; /* (point_count) the centre first */
   uint32_t point_count;
-  uint32_t *polygon_points; /* (polygons) place of each polygon's point in `points`; SBFI_NO_INDEX: none */
+  uint32_t *polygon_points; /* (polygons) index of each polygon's point in `points`; SBFI_NO_INDEX: none */
   sbfi_spring_list internal;
 } sbfi_centroid_interior;
 
@@ -56,7 +56,7 @@ bool sbfi_springs_centroid(
  * triangle that it sees. So no spring leaves a concave body. Places as with the centroid interior: surface,
  * given, these. */
 typedef struct sbfi_lattice_interior {
-  sbf_vec3 *points; /* (point_count) first those at least half as deep under the surface as the deepest */
+  sbf_vec3 *points; /* (point_count) first those at least half as deep below the surface as the deepest */
   uint32_t point_count, deep_count;
   double cell; /* m, of the grid */
   sbfi_spring_list internal;
@@ -67,7 +67,7 @@ typedef struct sbfi_lattice_interior {
 bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given,
     double cell, sbfi_progress progress, sbfi_arena *arena);
 
-/* All pairs of the first `count` points that are no spring of `known` yet, in the order of their numbers. */
+/* All pairs of the first `count` points without a spring in `known`, in the order of their indices. */
 bool sbfi_springs_brute(
     sbfi_spring_list *springs, uint32_t count, const sbfi_surface_springs *known, sbfi_arena *arena);
 

@@ -1,4 +1,4 @@
-/* Springs between every two points that have none yet. */
+/* Springs between all pairs of points that have none yet. */
 #include "build/springs/pair_set.h"
 #include "build/springs/springs.h"
 

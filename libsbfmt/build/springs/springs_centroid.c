@@ -1,4 +1,4 @@
-/* An interior of a centre and a point for each polygon, in the order and precision of its reference. */
+/* An interior with a centre and a point for each polygon, in the order and precision of the reference. */
 #include "build/springs/springs.h"
 
 static sbf_vec3 plus(sbf_vec3 a, sbf_vec3 b) {
@@ -24,7 +24,7 @@ bool sbfi_springs_centroid(
   interior->points = sbfi_arena_allocate(arena, (size_t)polygon_count + 1, sizeof(sbf_vec3));
   interior->polygon_points = sbfi_arena_allocate(arena, (size_t)polygon_count + 1, sizeof(uint32_t));
   interior->internal.at = sbfi_arena_allocate(arena, max_springs, sizeof(sbf_uint2));
-  /* A polygon that passes a point twice, around a hole, still has one spring to it. */
+  /* A polygon that visits a point twice, around a hole, still has one spring to it. */
   uint32_t *last_polygons = sbfi_arena_allocate(arena, surface_count, sizeof(uint32_t));
   if (!interior->points || !interior->polygon_points || !interior->internal.at || !last_polygons)
     return false;

@@ -1,4 +1,4 @@
-/* An interior on a body-centred grid, joined only where the surface is not in between. */
+/* An interior on a body-centred grid, connected only where the surface is not between. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,9 +9,9 @@
 #include "build/springs/pair_set.h"
 #include "build/springs/springs.h"
 
-/* A node nearer to a cut than this share of an edge is left out: its springs would be short and stiff. */
+/* Nodes closer to a cut than this fraction of an edge are dropped: their springs would be short and stiff. */
 static const double min_fraction = 0.25;
-/* In cells: how far a surface point looks for nodes, and how far where it finds none. */
+/* In cells: search distance of a surface point for nodes, and if it finds none. */
 static const double near_reach = 1.25, far_reach = 2.5;
 enum { MAX_OF_A_POINT = 4, MAX_HALVINGS = 4 };
 
@@ -20,7 +20,7 @@ typedef struct work {
   sbfi_lattice_grid grid;
   sbfi_triangle_tree tree;
   uint8_t *cut, *inside;
-  uint32_t *points; /* (node_count) of nodes kept; SBFI_NO_INDEX else */
+  uint32_t *points; /* (node_count) index of kept nodes; SBFI_NO_INDEX: dropped */
   uint32_t *nodes;  /* of the points */
   uint32_t count;
   sbfi_progress progress;
@@ -52,7 +52,7 @@ static bool find_nodes(work *w, const sbfi_winding *winding, sbfi_array *crossin
   return true;
 }
 
-/* Numbers the nodes kept: those at least half as deep as the deepest first. */
+/* Numbers the kept nodes: first those at least half as deep as the deepest. */
 static bool number_nodes(work *w, sbfi_lattice_interior *interior) {
   double deepest = 0;
   double *depths = sbfi_arena_allocate(w->arena, w->count, sizeof *depths);
@@ -95,7 +95,7 @@ static bool join_nodes(const work *w, uint32_t first, sbfi_array *springs) {
   return true;
 }
 
-/* Whether the way from the node to the surface's point meets nothing before it. */
+/* Whether the segment from the node to the surface point does not cross the surface before it. */
 static bool is_clear(const work *w, sbf_vec3 node, sbf_vec3 point) {
   double corners[3][3], at[3] = {point.x, point.y, point.z}, unused[3];
   uint32_t hits = sbfi_triangle_tree_pierced(&w->tree, node, point, INFINITY);
@@ -119,7 +119,7 @@ static int compare(const void *a, const void *b) {
   return x->point < y->point ? -1 : x->point > y->point;
 }
 
-/* Nodes within `reach` cells of the point, the nearest first. */
+/* Nodes within `reach` cells of the point, by increasing distance. */
 static uint32_t find_near(
     const work *w, const sbf_vec3 *interior, sbf_vec3 point, double reach, neighbour *near, uint32_t max) {
   sbfi_d3 at = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(point), w->grid.origin), 2 / w->grid.cell);
@@ -149,7 +149,7 @@ static uint32_t find_near(
   return count;
 }
 
-/* To the nearest nodes that a surface point sees; false: no memory. */
+/* Connects a surface point to the nearest nodes in its line of sight; false: no memory. */
 static bool join_point(
     const work *w, const sbf_vec3 *interior, uint32_t first, uint32_t i, sbfi_array *springs) {
   enum { MAX_NEAR = 256 };
@@ -188,8 +188,8 @@ static bool lacks_neighbour(const work *w, uint32_t node) {
   return false;
 }
 
-/* Nodes at the lattice's border hang on the corners of the triangle of the surface that is nearest: where the
- * surface's points stand farther apart than the nodes, most of them are no point's nearest. */
+/* Connects nodes at the lattice's border to the corners of the nearest triangle: if surface points are
+ * farther apart than the nodes, most nodes are nearest to no point. */
 static bool join_border(const work *w, const sbf_vec3 *interior, uint32_t first, sbfi_array *springs) {
   sbfi_pair_set known;
   const sbf_uint2 *at = springs->at;
@@ -211,7 +211,7 @@ static bool join_border(const work *w, const sbf_vec3 *interior, uint32_t first,
   return true;
 }
 
-/* By the mean length of the surface's sides: nodes then lie about as far apart. */
+/* The mean length of the surface's edges, so that nodes have about that distance. */
 static double usual_cell(const sbf_polygon_mesh *mesh) {
   double sum = 0;
   const uint32_t *corners = mesh->polygon_points.at;

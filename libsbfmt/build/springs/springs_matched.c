@@ -11,10 +11,10 @@ typedef struct work {
   const sbf_vec3 *positions;
   const sbf_uint2 *ends;
   uint32_t point_count, spring_count;
-  uint32_t *begins;  /* (point_count + 1) of each point's springs */
+  uint32_t *begins;  /* (point_count + 1) first spring of each point */
   uint32_t *springs; /* (2 * spring_count) in the order of the list */
   double *lengths;   /* (spring_count) */
-  double *sums;      /* (point_count) of the lengths of its springs */
+  double *sums;      /* (point_count) sum of the lengths of its springs */
 } work;
 
 static bool index_springs(work *w, sbfi_arena *arena) {
@@ -38,7 +38,7 @@ static bool index_springs(work *w, sbfi_arena *arena) {
   return true;
 }
 
-/* Gives the springs of one point their parts of 6 E V, of which 15 mu = 6 E: those by length, made to fit. */
+/* Distributes 6 E V over the springs of one point, with 15 mu = 6 E: parts by length, then fitted. */
 static void match(const work *w, uint32_t point, double energy, double *parts) {
   const uint32_t *springs = w->springs + w->begins[point];
   uint32_t count = w->begins[point + 1] - w->begins[point];
@@ -60,8 +60,8 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
       intersect[i][k] = intersect[k][i] = cosine * cosine * cosine * cosine;
     }
   }
-  /* In shares of 15 mu V: isotropic matter meets every direction as 3 mu V. All springs step at once, so that
-   * none is favoured for its place in the list. */
+  /* In units of 15 mu V: the diagonal of isotropic material is 3 mu V in every direction. All springs step at
+   * once, so the result does not depend on their order. */
   double steepest = 1, next[MAX_MATCHED];
   for (uint32_t i = 0; i < count; i++) {
     double row = 1;

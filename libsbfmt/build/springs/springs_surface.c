@@ -1,4 +1,4 @@
-/* Springs over the surface: along sides, across polygons, and straight on over a point. */
+/* Springs over the surface: along edges, across polygons, and straight on across a point. */
 #include <math.h>
 
 #include "build/springs/pair_set.h"
@@ -47,7 +47,7 @@ static bool distribute_polygon(const sbfi_topology *t, uint32_t edge, uint32_t o
   return false;
 }
 
-/* Adds the pairs of neighbours of one point that lie opposite each other. */
+/* Adds pairs of opposite neighbours of one point. */
 static void add_flexion(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi_topology *t,
     const sbf_vec3 *positions, uint32_t point) {
   const uint32_t *edges = t->point_edges + t->point_edge_begins[point];
@@ -81,7 +81,7 @@ static void add_flexion(sbfi_spring_list *list, sbfi_pair_set *known, const sbfi
 
 bool sbfi_springs_surface(sbfi_surface_springs *springs, const sbf_polygon_mesh *mesh, const sbfi_topology *t,
     bool flexion, sbfi_arena *arena) {
-  /* Bounds: a side or a diagonal a corner; a pair of opposite neighbours takes two of a point's edges. */
+  /* Bounds: one edge or diagonal per corner; a pair of opposite neighbours takes two of a point's edges. */
   size_t corners = (size_t)t->corner_count + 1, pairs = (flexion ? (size_t)t->edge_count : 0) + 1;
   sbfi_pair_set known;
   *springs = (sbfi_surface_springs){.structural.at = sbfi_arena_allocate(arena, corners, sizeof(sbf_uint2)),
