@@ -38,7 +38,7 @@ void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, i
   if (!c || leg >= (int32_t)c->model->rig.leg_count) return;
   sbri_record(world, SBRI_RECORDED_PIVOT, (const double[]){character.value, leg});
   sbri_character_wake(c);
-  ((sbri_gait_state *)sbri_gait(c))->pace.pivot = leg < 0 ? 0 : (uint32_t)leg + 1;
+  ((sbri_gait_state *)sbri_gait(c))->pace.pivot_leg = leg < 0 ? 0 : (uint32_t)leg + 1;
 }
 
 void sbr_character_play_clip(
@@ -52,7 +52,7 @@ void sbr_character_play_clip(
   sbri_character_wake(c);
   sbri_clip_layer *l = &((sbri_gait_state *)sbri_gait(c))->clips[layer];
   l->fade_s = how->fade_s > 0 ? how->fade_s : 0;
-  l->wanted = clip < 0 ? 0 : sbri_clamp(how->weight, 0, 1);
+  l->target_weight = clip < 0 ? 0 : sbri_clamp(how->weight, 0, 1);
   if (clip < 0) return;
   if (l->clip_plus_1 != (uint32_t)clip + 1) l->time_s = how->start_s, l->weight = 0;
   l->clip_plus_1 = (uint32_t)clip + 1;

@@ -187,8 +187,8 @@ void sbr_character_displace(sbr_world *world, sbr_character_id character, sbf_ve
           (const double[]){character.value, (double)by.x, (double)by.y, (double)by.z, (double)turn}))
     return;
   sbri_character_wake(c);
-  sbri_header(c)->moved = sbri_add(sbri_header(c)->moved, by);
-  sbri_header(c)->turned += turn;
+  sbri_header(c)->displacement = sbri_add(sbri_header(c)->displacement, by);
+  sbri_header(c)->rotation += turn;
 }
 
 void sbr_character_set_paused(sbr_world *world, sbr_character_id character, bool paused) {
@@ -207,7 +207,7 @@ void sbr_character_teleport(
     return;
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
-  sbri_header(c)->moved = sbri_vec3(0, 0, 0), sbri_header(c)->turned = 0;
+  sbri_header(c)->displacement = sbri_vec3(0, 0, 0), sbri_header(c)->rotation = 0;
   set_origin(world, c, position, heading);
   sbri_rigid_move_with_pose(c);
   sbri_jiggles_reset(c);

@@ -81,7 +81,7 @@ static float inverse(float number) {
 }
 
 static void mark_changed(sbr_world *world) {
-  world->colliders.stirred = true;
+  world->colliders.has_changed = true;
 }
 
 sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *definition,
@@ -115,9 +115,9 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
       .from = definition->position,
       .to = definition->position,
       .next = definition->position,
-      .turn_from = rotation,
-      .turn_to = rotation,
-      .turn_next = rotation,
+      .rotation_from = rotation,
+      .rotation_to = rotation,
+      .rotation_next = rotation,
       .friction = definition->friction,
       .restitution = definition->restitution,
       .layer = definition->layer,
@@ -165,8 +165,8 @@ void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 p
   sbri_collider *c = collider_of(world, collider);
   if (!c || !is_position(position, rotation)) return;
   c->next = position;
-  c->turn_next = sbri_quat_normalize(rotation);
-  c->body.goes = false;
+  c->rotation_next = sbri_quat_normalize(rotation);
+  c->body.is_moving = false;
   mark_changed(world);
 }
 
@@ -175,8 +175,8 @@ void sbr_collider_set_transform(
   sbri_collider *c = collider_of(world, collider);
   if (!c || !is_position(position, rotation)) return;
   c->from = c->to = c->next = position;
-  c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
-  c->body.goes = false;
+  c->rotation_from = c->rotation_to = c->rotation_next = sbri_quat_normalize(rotation);
+  c->body.is_moving = false;
   mark_changed(world);
 }
 
@@ -187,11 +187,12 @@ static const float MIN_GRAVITY_FRACTION = 0.2f, MIN_CHANGE_M_S = 0.01f;
 /* Impulse of the host's other bodies since the motion was last set, from the velocity change. */
 static void find_external_impulse(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
   b->blocked_normal = sbri_vec3(0, 0, 0);
-  if (!b->goes || !(m->since_s > 0)) {
-    b->sharers = b->sharing = 0;
+  if (!b->is_moving || !(m->since_s > 0)) {
+    b->sharer_count = b->next_sharer_count = 0;
     return;
   }
-  sbf_vec3 expected = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->inverse_mass);
+  sbf_vec3 expected =
+      sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->reported_impulse, b->inverse_mass);
   sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->reported_velocity), expected);
   float size = sbri_length(other), weight = sbri_length(b->acceleration) * m->since_s;
   if (size > MIN_GRAVITY_FRACTION * weight + MIN_CHANGE_M_S) b->blocked_normal = sbri_scale(other, 1 / size);
@@ -205,13 +206,13 @@ void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const s
       (double)a.x, (double)a.y, (double)a.z, (double)motion->since_s};
   if (!sbri_usable(numbers, 10)) return;
   c->to = c->next = motion->position;
-  c->turn_to = c->turn_next = sbri_quat_normalize(motion->rotation);
-  sbf_vec3 of_mass = sbri_add(v, sbri_cross(w, sbri_rotate(c->turn_to, c->body.centre)));
+  c->rotation_to = c->rotation_next = sbri_quat_normalize(motion->rotation);
+  sbf_vec3 of_mass = sbri_add(v, sbri_cross(w, sbri_rotate(c->rotation_to, c->body.centre)));
   find_external_impulse(&c->body, motion, of_mass);
-  c->body.goes = c->body.is_reported = true;
+  c->body.is_moving = c->body.is_reported = true;
   c->body.velocity = v, c->body.reported_velocity = of_mass, c->body.angular_velocity = w,
   c->body.acceleration = a;
-  c->body.handed = sbri_vec3(0, 0, 0);
+  c->body.reported_impulse = sbri_vec3(0, 0, 0);
   mark_changed(world);
 }
 
@@ -226,6 +227,6 @@ sbr_collider_impulse sbr_collider_take_impulse(sbr_world *world, sbr_collider_id
   if (!c) return (sbr_collider_impulse){{0, 0, 0}, {0, 0, 0}};
   sbf_vec3 impulse = take_sum(c->impulse);
   sbri_host_body *body = &world->colliders.at[c->leader].body;
-  body->handed = sbri_add(body->handed, impulse);
+  body->reported_impulse = sbri_add(body->reported_impulse, impulse);
   return (sbr_collider_impulse){impulse, take_sum(c->moment)};
 }

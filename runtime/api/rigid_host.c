@@ -31,7 +31,7 @@ void sbr_character_set_rigid_mode(
   sbri_character *c = sbri_character_of(world, character);
   if (!has_body(c, rigid_body) || (unsigned)mode > SBR_RIGID_DRIVEN) return;
   sbri_record(world, SBRI_RECORDED_RIGID_MODE, (const double[]){character.value, rigid_body, (double)mode});
-  if (!sbri_rigid_drive(c)->any) move_bodies_to_pose(world, c);
+  if (!sbri_rigid_drive(c)->any_dynamic) move_bodies_to_pose(world, c);
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     if (rigid_body < 0 || rigid_body == (int32_t)b) sbri_rigid_bodies(c)[b].mode = (uint32_t)mode;
   sbri_rigid_wake(c);
@@ -73,7 +73,7 @@ void sbr_character_knock_over(sbr_world *world, sbr_character_id character, cons
           (const double[]){
               character.value, (double)fall->drive_fraction, (double)fall->rest_s, (double)fall->rise_s}))
     return;
-  if (!sbri_rigid_drive(c)->any) move_bodies_to_pose(world, c);
+  if (!sbri_rigid_drive(c)->any_dynamic) move_bodies_to_pose(world, c);
   sbri_reflex_begin(c, fall);
   sbri_rigid_wake(c);
 }

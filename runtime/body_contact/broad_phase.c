@@ -25,7 +25,7 @@ static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const 
   sbf_vec3 size = sbri_sub(box.high, box.low);
   float margin = 2 * sbri_fastest_of(body, velocities) * (float)world->tick_s * c->time_scale +
                  MOTION_FRACTION * body->rest_size_m + body->source->collision.outer_thickness +
-                 body->contact.margin_m + body->contact.sample_beyond * (size.x + size.y + size.z);
+                 body->contact.margin_m + body->contact.max_extrapolation * (size.x + size.y + size.z);
   return sbri_box_in_world(sbri_box_grown(box, margin), sbri_header(c)->origin, c->scale);
 }
 
@@ -138,7 +138,7 @@ static uint32_t root_of(uint32_t *group_of, uint32_t i) {
 
 bool sbri_character_is_awake(const sbri_character *c) {
   if (sbri_header(c)->asleep) return false;
-  bool simulated = c->model->rigid.body_count && sbri_rigid_drive(c)->any;
+  bool simulated = c->model->rigid.body_count && sbri_rigid_drive(c)->any_dynamic;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (!sbri_island_states(c)[i].asleep) return true;
   return simulated ? !sbri_rigid_drive(c)->asleep : c->model->island_count == 0;

@@ -29,10 +29,10 @@ static sbri_box rounded(sbri_box box) {
 
 sbri_box sbri_collider_bounds(const sbri_collider *c) {
   sbri_box box = c->shape->bounds;
-  sbri_box all = sbri_box_join(
-      rotated_bounds(box, c->turn_from, single(c->from)), rotated_bounds(box, c->turn_to, single(c->to)));
+  sbri_box all = sbri_box_join(rotated_bounds(box, c->rotation_from, single(c->from)),
+      rotated_bounds(box, c->rotation_to, single(c->to)));
   /* Between the two rotations, corners leave both boxes by at most a quarter of the diagonal. */
-  if (memcmp(&c->turn_from, &c->turn_to, sizeof c->turn_from) != 0) {
+  if (memcmp(&c->rotation_from, &c->rotation_to, sizeof c->rotation_from) != 0) {
     sbf_vec3 size = sbri_sub(box.high, box.low);
     all = sbri_box_grown(all, 0.25f * sbri_length(size));
   }
@@ -47,18 +47,20 @@ static sbf_vec3 single_of(const double v[3]) {
  * not set the motion since, the body continues with them. */
 static void begin_body(sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
-  b->sharers = b->sharing, b->push = single_of(b->pushing), b->moment = single_of(b->turning);
-  b->sharing = 0;
-  for (int k = 0; k < 3; k++) b->pushing[k] = b->turning[k] = 0;
-  if (!b->goes || b->is_reported) return;
-  sbf_vec3 velocity_change = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->inverse_mass);
+  b->sharer_count = b->next_sharer_count, b->impulse = single_of(b->next_impulse),
+  b->moment = single_of(b->next_moment);
+  b->next_sharer_count = 0;
+  for (int k = 0; k < 3; k++) b->next_impulse[k] = b->next_moment[k] = 0;
+  if (!b->is_moving || b->is_reported) return;
+  sbf_vec3 velocity_change =
+      sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->impulse, b->inverse_mass);
   b->velocity = sbri_add(b->velocity, sbri_host_body_free(b, velocity_change));
 }
 
 /* Predicts the position after the tick without impulses. */
 static void advance(const sbri_collider_set *set, sbri_collider *c, float tick_s) {
   sbri_host_body *b = &c->body;
-  if (!b->goes) return;
+  if (!b->is_moving) return;
   const sbri_collider *leader = &set->at[c->leader];
   if (!b->is_reported && leader != c) {
     sbf_vec3 arm = {
@@ -71,15 +73,16 @@ static void advance(const sbri_collider_set *set, sbri_collider *c, float tick_s
       c->to.y + (double)(tick_s * b->velocity.y), c->to.z + (double)(tick_s * b->velocity.z)};
   sbf_vec3 half = sbri_scale(b->angular_velocity, 0.5f * tick_s);
   if (!(sbri_dot(half, half) > 0)) {
-    c->turn_next = c->turn_to;
+    c->rotation_next = c->rotation_to;
     return;
   }
-  c->turn_next = sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, c->turn_to));
+  c->rotation_next =
+      sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, c->rotation_to));
 }
 
 void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s) {
   uint32_t count = 0;
-  set->moving = set->stirred, set->stirred = false;
+  set->is_moving = set->has_changed, set->has_changed = false;
   for (uint32_t i = 0; i < set->end; i++)
     if (set->at[i].shape && set->at[i].body.inverse_mass > 0) begin_body(&set->at[i], (float)tick_s);
   for (uint32_t i = 0; i < set->end; i++)
@@ -87,10 +90,10 @@ void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s) {
   for (uint32_t i = 0; i < set->end; i++) {
     sbri_collider *c = &set->at[i];
     if (!c->shape) continue;
-    c->from = c->to, c->turn_from = c->turn_to;
-    c->to = c->next, c->turn_to = c->turn_next;
-    set->moving = set->moving || memcmp(&c->from, &c->to, sizeof c->to) != 0 ||
-                  memcmp(&c->turn_from, &c->turn_to, sizeof c->turn_to) != 0;
+    c->from = c->to, c->rotation_from = c->rotation_to;
+    c->to = c->next, c->rotation_to = c->rotation_next;
+    set->is_moving = set->is_moving || memcmp(&c->from, &c->to, sizeof c->to) != 0 ||
+                     memcmp(&c->rotation_from, &c->rotation_to, sizeof c->rotation_to) != 0;
     set->bounds[count] = sbri_collider_bounds(c);
     set->listed[count++] = i;
   }

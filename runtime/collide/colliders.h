@@ -11,7 +11,7 @@ typedef struct sbri_collider {
   uint32_t generation;
   sbr_double3 from, to,
       next; /* positions at the beginning and end of the present tick, and at the end of the next, m, world */
-  sbf_quat turn_from, turn_to, turn_next;
+  sbf_quat rotation_from, rotation_to, rotation_next;
   float friction, restitution; /* negative: use the other body's value */
   uint32_t layer, mask;
   double impulse[3], moment[3]; /* impulse and angular impulse received, about `to`; output, not state */
@@ -26,9 +26,9 @@ typedef struct sbri_collider_set {
   uint32_t *listed;  /* (capacity) used entries: items of the tree */
   sbri_bounds_tree tree;
   uint32_t capacity;
-  uint32_t end; /* end of the used entries */
-  bool stirred; /* some collider was created, moved or destroyed since the last tick */
-  bool moving;  /* some collider moves, appears or disappears in this tick */
+  uint32_t end;     /* end of the used entries */
+  bool has_changed; /* some collider was created, moved or destroyed since the last tick */
+  bool is_moving;   /* some collider moves, appears or disappears in this tick */
 } sbri_collider_set;
 
 /* Moves colliders to their targets and rebuilds the tree. Sleeping bodies check for contacts if any collider
@@ -43,7 +43,7 @@ static inline sbri_collider *sbri_collider_leader(const sbri_collider_set *set, 
 
 /* Centre of mass of a leader's body at the beginning of the tick, world, m. */
 static inline sbr_double3 sbri_collider_centre(const sbri_collider *leader) {
-  sbf_vec3 arm = sbri_rotate(leader->turn_from, leader->body.centre);
+  sbf_vec3 arm = sbri_rotate(leader->rotation_from, leader->body.centre);
   const sbr_double3 *at = &leader->from;
   return (sbr_double3){at->x + (double)arm.x, at->y + (double)arm.y, at->z + (double)arm.z};
 }
@@ -68,18 +68,18 @@ sbri_collider_frame sbri_collider_frame_of(const sbri_collider *collider, sbr_do
  * metres. */
 static inline sbf_vec3 sbri_into_shape(const sbri_collider_frame *f, sbf_vec3 x, bool end) {
   sbf_vec3 off = sbri_sub(sbri_scale(x, f->scale), end ? f->to : f->from);
-  return sbri_rotate(sbri_quat_conjugate(end ? f->collider->turn_to : f->collider->turn_from), off);
+  return sbri_rotate(sbri_quat_conjugate(end ? f->collider->rotation_to : f->collider->rotation_from), off);
 }
 /* Inverse transform, at the beginning of the tick. */
 static inline sbf_vec3 sbri_out_of_shape(const sbri_collider_frame *f, sbf_vec3 x) {
-  sbf_vec3 off = sbri_add(sbri_rotate(f->collider->turn_from, x), f->from);
+  sbf_vec3 off = sbri_add(sbri_rotate(f->collider->rotation_from, x), f->from);
   return sbri_scale(off, 1 / f->scale);
 }
 /* Displacement of a point of the shape in the tick, in the space's units. */
 static inline sbf_vec3 sbri_shape_displacement(const sbri_collider_frame *f, sbf_vec3 x) {
   const sbri_collider *c = f->collider;
-  sbf_vec3 a = sbri_add(sbri_rotate(c->turn_from, x), f->from),
-           b = sbri_add(sbri_rotate(c->turn_to, x), f->to);
+  sbf_vec3 a = sbri_add(sbri_rotate(c->rotation_from, x), f->from),
+           b = sbri_add(sbri_rotate(c->rotation_to, x), f->to);
   return sbri_scale(sbri_sub(b, a), 1 / f->scale);
 }
 

@@ -15,7 +15,7 @@ static float largest(sbf_vec3 v) {
 
 /* Adds a matrix with these eigenvalues along the body's principal axes. */
 static void add_axes(float m[6], const sbri_collider *leader, sbf_vec3 values) {
-  sbf_quat axes = sbri_quat_multiply(leader->turn_from, leader->body.axes);
+  sbf_quat axes = sbri_quat_multiply(leader->rotation_from, leader->body.axes);
   add_outer(m, sbri_rotate(axes, sbri_vec3(1, 0, 0)), values.x);
   add_outer(m, sbri_rotate(axes, sbri_vec3(0, 1, 0)), values.y);
   add_outer(m, sbri_rotate(axes, sbri_vec3(0, 0, 1)), values.z);
@@ -59,11 +59,11 @@ static own_impulse previous_impulse(const sbri_external_body_maker *m, const sbr
   own_impulse own = {{0, 0, 0}, {0, 0, 0}, false};
   for (uint32_t i = 0; i < m->before_count; i++) {
     const sbri_touching_one *one = &m->before[i];
-    if (one->thing >= m->colliders->end || m->colliders->at[one->thing].leader != g->leader) continue;
+    if (one->collider >= m->colliders->end || m->colliders->at[one->collider].leader != g->leader) continue;
     own.any = true;
-    own.impulse = sbri_sub(own.impulse, one->push);
+    own.impulse = sbri_sub(own.impulse, one->total_impulse);
     sbf_vec3 arm = sbri_sub(one->position, g->centre);
-    own.moment = sbri_sub(own.moment, sbri_add(one->moment, sbri_cross(arm, one->push)));
+    own.moment = sbri_sub(own.moment, sbri_add(one->total_moment, sbri_cross(arm, one->total_impulse)));
   }
   return own;
 }
@@ -74,11 +74,11 @@ static void predict_others(sbri_external_body *g, const sbri_external_body_maker
   float root = sqrtf(m->scale), cube = m->scale * m->scale * m->scale;
   float mass = 1 / (cube * root), moment = mass / m->scale; /* the time unit is 1 / root */
   float rate = 1 / ((float)sharers * m->tick_s);
-  sbf_vec3 other_impulse = sbri_add_scaled(sbri_scale(b->push, mass), own->impulse, -(float)sharers);
+  sbf_vec3 other_impulse = sbri_add_scaled(sbri_scale(b->impulse, mass), own->impulse, -(float)sharers);
   sbf_vec3 other_moment = sbri_add_scaled(sbri_scale(b->moment, moment), own->moment, -(float)sharers);
   g->acceleration =
       sbri_add(g->acceleration, sbri_external_body_times(g->inverse_mass, sbri_scale(other_impulse, rate)));
-  g->turning = sbri_external_body_times(g->inverse_inertia, sbri_scale(other_moment, rate));
+  g->angular_acceleration = sbri_external_body_times(g->inverse_inertia, sbri_scale(other_moment, rate));
 }
 
 sbri_external_body sbri_external_body_make(
@@ -88,13 +88,13 @@ sbri_external_body sbri_external_body_make(
       frame->collider == leader ? *frame : sbri_collider_frame_of(leader, m->origin, m->scale);
   const sbri_host_body *b = &leader->body;
   sbri_external_body g = {.leader = number, .lever = 1};
-  sbf_quat rotation = sbri_quat_multiply(leader->turn_to, sbri_quat_conjugate(leader->turn_from));
+  sbf_quat rotation = sbri_quat_multiply(leader->rotation_to, sbri_quat_conjugate(leader->rotation_from));
   float rate = (rotation.w < 0 ? -2 : 2) / m->tick_s;
   g.centre = sbri_out_of_shape(&of, b->centre);
   g.begin_velocity = sbri_scale(sbri_shape_displacement(&of, b->centre), 1 / m->tick_s);
   g.begin_angular_velocity = sbri_vec3(rotation.x * rate, rotation.y * rate, rotation.z * rate);
   own_impulse own = previous_impulse(m, &g);
-  uint32_t sharers = b->sharers + (own.any ? 0 : 1);
+  uint32_t sharers = b->sharer_count + (own.any ? 0 : 1);
   sharers = sharers > 0 ? sharers : 1;
   set_masses(&g, leader, sharers, m->scale);
   g.acceleration = sbri_host_body_free(b, b->acceleration);
@@ -119,7 +119,8 @@ uint8_t sbri_external_body_of(sbri_external_bodies *external_bodies, const sbri_
 void sbri_external_body_begin(sbri_external_body *g, float step_s) {
   g->lever = 1 + g->elapsed_s / step_s;
   g->velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, step_s);
-  g->angular_velocity = sbri_add_scaled(g->begin_angular_velocity, g->turning, step_s);
+  g->angular_velocity = sbri_add_scaled(g->begin_angular_velocity, g->angular_acceleration, step_s);
   g->seen_velocity = sbri_add_scaled(g->begin_velocity, g->acceleration, g->lever * step_s);
-  g->seen_angular_velocity = sbri_add_scaled(g->begin_angular_velocity, g->turning, g->lever * step_s);
+  g->seen_angular_velocity =
+      sbri_add_scaled(g->begin_angular_velocity, g->angular_acceleration, g->lever * step_s);
 }

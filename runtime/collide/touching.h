@@ -9,13 +9,13 @@
 enum { SBRI_TOUCHING = 12 };
 
 typedef struct sbri_touching_one {
-  uint32_t thing; /* index of the collider; UINT32_MAX: the ground */
-  bool fresh;     /* not in contact in the previous tick */
+  uint32_t collider; /* index of the collider; UINT32_MAX: the ground */
+  bool is_new;       /* not in contact in the previous tick */
   sbf_vec3 position, normal;
-  float speed;           /* maximum closing speed in the tick, m/s */
-  float impulse;         /* sum over contact points of the maximum impulse of a substep, N s */
-  sbf_vec3 push, moment; /* impulse and angular impulse about `position` that the body received in the tick, N
-                            s and N m s */
+  float speed;                          /* maximum closing speed in the tick, m/s */
+  float impulse;                        /* sum over contact points of the maximum impulse of a substep, N s */
+  sbf_vec3 total_impulse, total_moment; /* impulse and angular impulse about `position` that the body received
+                            in the tick, N s and N m s */
 } sbri_touching_one;
 
 typedef struct sbri_touching {
@@ -25,35 +25,35 @@ typedef struct sbri_touching {
    * bodies whose points have planes (contact/contact.h): closing speed in m/s, 0 for none. */
   float ground_speed;
   sbf_vec3 ground_position, ground_normal;
-  bool stepped;    /* the impulses are of this tick */
-  bool unreported; /* events have not been created yet */
+  bool is_current;     /* the impulses are of this tick */
+  bool has_unreported; /* events have not been created yet */
 } sbri_touching;
 
 static inline void sbri_touching_begin(sbri_touching *t) {
   for (uint32_t i = 0; i < t->count; i++) t->before[i] = t->now[i];
   t->before_count = t->count;
   t->count = 0;
-  t->stepped = t->unreported = true;
+  t->is_current = t->has_unreported = true;
 }
 
-static inline bool sbri_touching_has(const sbri_touching_one *list, uint32_t count, uint32_t thing) {
+static inline bool sbri_touching_has(const sbri_touching_one *list, uint32_t count, uint32_t collider) {
   bool has = false;
-  for (uint32_t i = 0; i < count; i++) has = has || list[i].thing == thing;
+  for (uint32_t i = 0; i < count; i++) has = has || list[i].collider == collider;
   return has;
 }
 
 /* Returns the entry of the object, a new one if necessary; NULL if all are used. */
 static inline sbri_touching_one *sbri_touching_add(
-    sbri_touching *t, uint32_t thing, sbf_vec3 position, sbf_vec3 normal, float impulse, float speed) {
+    sbri_touching *t, uint32_t collider, sbf_vec3 position, sbf_vec3 normal, float impulse, float speed) {
   for (uint32_t i = 0; i < t->count; i++) {
-    if (t->now[i].thing != thing) continue;
+    if (t->now[i].collider != collider) continue;
     t->now[i].impulse += impulse;
     t->now[i].speed = speed > t->now[i].speed ? speed : t->now[i].speed;
     return &t->now[i];
   }
   if (t->count == SBRI_TOUCHING) return NULL;
-  t->now[t->count] = (sbri_touching_one){.thing = thing,
-      .fresh = !sbri_touching_has(t->before, t->before_count, thing),
+  t->now[t->count] = (sbri_touching_one){.collider = collider,
+      .is_new = !sbri_touching_has(t->before, t->before_count, collider),
       .position = position,
       .normal = normal,
       .speed = speed,
@@ -63,8 +63,8 @@ static inline sbri_touching_one *sbri_touching_add(
 
 /* Adds an impulse on the body at a point. */
 static inline void sbri_touching_add_impulse(sbri_touching_one *one, sbf_vec3 position, sbf_vec3 impulse) {
-  one->push = sbri_add(one->push, impulse);
-  one->moment = sbri_add(one->moment, sbri_cross(sbri_sub(position, one->position), impulse));
+  one->total_impulse = sbri_add(one->total_impulse, impulse);
+  one->total_moment = sbri_add(one->total_moment, sbri_cross(sbri_sub(position, one->position), impulse));
 }
 
 #endif

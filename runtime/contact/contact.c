@@ -47,9 +47,9 @@ static void find_single_contacts(
     }
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *s = &contacts[i].sample;
-    contacts[i].alone = !contacts[i].external_body && s->weights[0] == 1 && s->weights[1] == 0 &&
-                        s->weights[2] == 0 && s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
-                        tables->slot_contacts[s->slots[0]] == 1;
+    contacts[i].is_single = !contacts[i].external_body && s->weights[0] == 1 && s->weights[1] == 0 &&
+                            s->weights[2] == 0 && s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
+                            tables->slot_contacts[s->slots[0]] == 1;
   }
 }
 

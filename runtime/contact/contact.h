@@ -49,7 +49,7 @@ void sbri_contact_prepare(
  * 12 substeps and 0, blocks slide too fast by up to 5 %; with a third, blocks that stick slip by 3e-4 of
  * gravity. */
 #define SBRI_PRESSING_SUBSTEPS 6.0f
-#define SBRI_PRESSING_OWED_FRACTION (2.0f / 3)
+#define SBRI_PRESSING_DEFICIT_FRACTION (2.0f / 3)
 /* s; time of a contact that has had one impulse in the tick */
 #define SBRI_PRESSING_BEGUN_S 1e-20f
 /* m/s; minimum closing speed of an impact */
@@ -59,10 +59,10 @@ typedef struct sbri_contact_rule {
   float friction, restitution;
   const float *frictions; /* (free slots of the island) coefficient per point; NULL: uniform */
   float step_s;
-  float push_m;          /* maximum correction of penetration in a substep, m */
-  float slack_m;         /* penetration that is not corrected, m */
-  float bounce_from_m_s; /* minimum approach speed of a bounce, m/s */
-  float *pressing;       /* as in sbri_island_tick; for points with planes */
+  float max_correction_m; /* maximum correction of penetration in a substep, m */
+  float slack_m;          /* penetration that is not corrected, m */
+  float bounce_from_m_s;  /* minimum approach speed of a bounce, m/s */
+  float *pressing;        /* as in sbri_island_tick; for points with planes */
 } sbri_contact_rule;
 
 /* One plane per lane. */
@@ -114,17 +114,17 @@ static inline sbri_pressing sbri_pressing_add(
   if (closing_speed > SBRI_STRIKE_M_S) return (sbri_pressing){0, -1, 0};
   if (before.time_s == 0) return (sbri_pressing){0, SBRI_PRESSING_BEGUN_S, 0};
   sbri_pressing with = {old_fraction * before.velocity_change + normal_velocity_change,
-      old_fraction * before.time_s + step_s, before.owed};
+      old_fraction * before.time_s + step_s, before.deficit};
   float mean = sbri_pressing_mean(with, normal_velocity_change, step_s);
-  with.owed += normal_velocity_change - (mean + SBRI_PRESSING_OWED_FRACTION * before.owed);
+  with.deficit += normal_velocity_change - (mean + SBRI_PRESSING_DEFICIT_FRACTION * before.deficit);
   return with;
 }
 
 /* Normal velocity change that bounds friction in a substep; `with` is the result of sbri_pressing_add. A mean
  * alone loses its lag whenever a contact begins or ends, which is often for samples that share points. */
 static inline float sbri_pressing_bound(sbri_pressing with, float normal_velocity_change, float step_s) {
-  float bound =
-      sbri_pressing_mean(with, normal_velocity_change, step_s) + SBRI_PRESSING_OWED_FRACTION * with.owed;
+  float bound = sbri_pressing_mean(with, normal_velocity_change, step_s) +
+                SBRI_PRESSING_DEFICIT_FRACTION * with.deficit;
   return bound > 0 ? bound : 0;
 }
 
@@ -168,7 +168,7 @@ static inline sbri_contact_result sbri_contact_evaluate(
       bounces, sbri_wide_max(target, zero - sbri_wide_all(rule->restitution) * speed), target);
   sbri_wide normal_velocity_change = sbri_wide_select(arrives, sbri_wide_max(target - speed, zero), zero);
   sbri_wide depth = sbri_wide_max(zero - gap - sbri_wide_all(rule->slack_m), zero);
-  sbri_wide up = sbri_wide_min(depth, sbri_wide_all(rule->push_m));
+  sbri_wide up = sbri_wide_min(depth, sbri_wide_all(rule->max_correction_m));
   sbri_wide max_friction = sbri_contact_friction(rule, slot) *
                            sbri_contact_update_pressing(rule, slot, normal_velocity_change, speed);
   return (sbri_contact_result){sbri_contact_apply_normal_change(p, v, normal_velocity_change, max_friction),

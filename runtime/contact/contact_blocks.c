@@ -21,7 +21,7 @@ static bool have_only_plane_contacts(const sbri_soft_contact *contacts, uint32_t
 float sbri_contact_friction_at(
     const sbri_island_tick *t, const sbri_body *body, const sbri_soft_contact *contact) {
   const sbri_sample *s = &contact->sample;
-  if (contact->crosses) return 0;
+  if (contact->is_crossed) return 0;
   if (!body->contact.frictions) return body->contact.friction * contact->friction_scale;
   float sum = 0;
   if (contact->collider == SBRI_ITSELF) /* that of the point only */
@@ -59,7 +59,7 @@ static void fill_lane(const sbri_island_tick *t, const sbri_body *body, const sb
   block->friction[lane] = sbri_contact_friction_at(t, body, contact);
   block->restitution[lane] = contact->restitution;
   sbf_vec3 v = contact->velocity;
-  block->moves = block->moves || v.x != 0 || v.y != 0 || v.z != 0;
+  block->is_moving = block->is_moving || v.x != 0 || v.y != 0 || v.z != 0;
 }
 
 static void fill_unused(sbri_contact_block *block, uint32_t lane) {
@@ -100,27 +100,30 @@ void sbri_contact_blocks_unpack(const sbri_island_tick *t, const sbri_body *body
     contact->offset = block->offset[lane];
     contact->velocity_change = block->velocity_change[lane];
     contact->friction_impulse = get3(block->friction_impulse, lane);
-    contact->pushed = block->pushed[lane], contact->closing_speed = block->closing_speed[lane];
-    contact->given = sbri_add(contact->given, get3(block->given, lane));
-    set3(block->given, lane, sbri_vec3(0, 0, 0));
+    contact->max_velocity_change = block->max_velocity_change[lane],
+    contact->closing_speed = block->closing_speed[lane];
+    contact->total_velocity_change =
+        sbri_add(contact->total_velocity_change, get3(block->total_velocity_change, lane));
+    set3(block->total_velocity_change, lane, sbri_vec3(0, 0, 0));
   }
 }
 
 static void advance_lane(sbri_contact_block *block, uint32_t lane, float step_s) {
-  sbri_pressing before = {block->pressing_change[lane], block->pressing_s[lane], block->pressing_owed[lane]};
+  sbri_pressing before = {
+      block->pressing_change[lane], block->pressing_s[lane], block->pressing_deficit[lane]};
   sbri_pressing now =
       sbri_pressing_add(before, block->velocity_change[lane], block->closing_speed[lane], step_s);
   block->pressing_change[lane] = now.velocity_change, block->pressing_s[lane] = now.time_s;
-  block->pressing_owed[lane] = now.owed;
+  block->pressing_deficit[lane] = now.deficit;
 }
 
 void sbri_contact_blocks_advance(const sbri_island_tick *t, const sbri_body *body, float step_s) {
   uint32_t count = sbri_contact_block_count(t, body);
   for (uint32_t b = 0; b < count; b++) {
     sbri_contact_block *block = sbri_contact_blocks_of(t, body) + b;
-    for (uint32_t lane = 0; block->is_near && block->pushes && lane < SBRI_BLOCK; lane++)
+    for (uint32_t lane = 0; block->is_near && block->has_impulses && lane < SBRI_BLOCK; lane++)
       advance_lane(block, lane, step_s);
-    for (uint32_t lane = 0; block->moves && lane < SBRI_BLOCK; lane++)
+    for (uint32_t lane = 0; block->is_moving && lane < SBRI_BLOCK; lane++)
       block->offset[lane] += step_s * sbri_dot(get3(block->normal, lane), get3(block->velocity, lane));
   }
 }

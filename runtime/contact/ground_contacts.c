@@ -47,7 +47,7 @@ static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body
     extend(&e, &t->positions[slot]);
   }
   for (int k = 0; k < 3; k++) {
-    float overhang = body->contact.sample_beyond * (e.high[k] - e.low[k]);
+    float overhang = body->contact.max_extrapolation * (e.high[k] - e.low[k]);
     e.low[k] -= overhang, e.high[k] += overhang;
   }
   return e;
@@ -161,7 +161,7 @@ static float min_height(const sbri_island_tick *t, const sbri_sample_group *grou
     float y = t->positions[group->slots[k]].y;
     low = y < low ? y : low, high = y > high ? y : high;
   }
-  return low - group->beyond * (high - low);
+  return low - group->max_extrapolation * (high - low);
 }
 
 /* ---- Flat ground: heights only ---- */
@@ -211,7 +211,7 @@ void sbri_ground_contacts_add(
   extent e = extent_of_samples(t, body);
   float margin = margin_of(t, body, e.speed), height = 0;
   const bool is_flat = is_ground_flat(t, &height) && !t->island->splits;
-  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->contact.sample_beyond) * 2 * t->tick_s + margin);
+  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->contact.max_extrapolation) * 2 * t->tick_s + margin);
   if (e.low[1] > reach) return;
   if (is_flat) {
     add_on_flat_ground(&(flat_search){t, body, to, height, margin, t->scratch.velocity_points}, reach);

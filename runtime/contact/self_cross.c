@@ -106,7 +106,7 @@ static void add_crossing(const crossing_edge *s, uint32_t number) {
       .offset = sbri_dot(n, sbri_sample_position(l->tick, &sample)),
       .velocity = sbri_scale(n, EXIT_M_S * sbri_min(bend / FULL_BEND, 1)),
       .collider = SBRI_ITSELF,
-      .crosses = true};
+      .is_crossed = true};
 }
 
 /* A triangle and its plane. */

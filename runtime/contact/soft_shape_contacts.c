@@ -66,9 +66,9 @@ static sbri_box travel_bounds(
     box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
   *fastest = sbri_fastest_of(body, t->velocities) * t->tick_s;
-  *longest = *fastest * (1 + 2 * body->contact.sample_beyond) + SBRI_REACH_FRACTION * body->rest_size_m +
+  *longest = *fastest * (1 + 2 * body->contact.max_extrapolation) + SBRI_REACH_FRACTION * body->rest_size_m +
              body->contact.margin_m;
-  return sbri_box_grown(box, *longest + body->contact.sample_beyond * (size.x + size.y + size.z));
+  return sbri_box_grown(box, *longest + body->contact.max_extrapolation * (size.x + size.y + size.z));
 }
 
 /* The same bounds from the samples themselves, one by one. They are far smaller if samples lie outside the

@@ -6,7 +6,7 @@ void sbri_shape_contact_add(const sbri_shape_pair *m, const sbri_sample *s, sbf_
   const sbri_island_tick *t = m->tick;
   uint32_t *count = &m->tables->contact_counts[m->body - t->model->bodies];
   if (*count >= m->body->contact.max_count) return;
-  sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, n);
+  sbf_vec3 normal = sbri_rotate(m->frame.collider->rotation_from, n);
   sbf_vec3 position = sbri_out_of_shape(&m->frame, on_shape);
   sbf_vec3 velocity = sbri_scale(sbri_shape_displacement(&m->frame, on_shape), 1 / t->tick_s);
   float friction = m->body->contact.friction;

@@ -50,7 +50,8 @@ static void draw_soft_contacts(const sbri_character *c, uint32_t number, const s
     sbf_vec3 at = {0, 0, 0};
     for (int k = 0; k < 4; k++)
       at = sbri_add_scaled(at, position_of(&positions[contact->sample.slots[k]]), contact->sample.weights[k]);
-    float impulse = sbri_dot(contact->given, contact->normal) * contact->sample.mass_kg / sbri_own_impulse(c);
+    float impulse = sbri_dot(contact->total_velocity_change, contact->normal) * contact->sample.mass_kg /
+                    sbri_own_impulse(c);
     sbri_draw_contact(to, at, contact->normal, impulse);
   }
 }

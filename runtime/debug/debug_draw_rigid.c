@@ -9,7 +9,7 @@
 static sbr_transform body_pose(const sbri_character *c, int32_t body) {
   const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
   if (body < 0) return (sbr_transform){sbri_scale(anchor->position, 1 / c->scale), anchor->rotation};
-  if (sbri_rigid_drive(c)->any) return sbri_rigid_bodies(c)[body].pose;
+  if (sbri_rigid_drive(c)->any_dynamic) return sbri_rigid_bodies(c)[body].pose;
   return sbri_rigid_target(c, sbri_pose(c), (uint32_t)body);
 }
 
@@ -140,7 +140,7 @@ static void draw_triangles(const sbri_debug_lines *to, const sbri_triangles *all
 static void draw_collider(const sbri_collider *collider, const sbr_debug_draw *draw) {
   const sbr_shape *shape = collider->shape;
   const sbri_debug_lines to = {draw, collider->to, 1};
-  const sbr_transform pose = {{0, 0, 0}, collider->turn_to};
+  const sbr_transform pose = {{0, 0, 0}, collider->rotation_to};
   const sbri_box plane = {{-PLANE_HALF_M, 0, -PLANE_HALF_M}, {PLANE_HALF_M, 0, PLANE_HALF_M}};
   const sbri_box host = {shape->host.low, shape->host.high};
   switch (shape->kind) {

@@ -84,7 +84,7 @@ static void check_contacts(checking *k, uint32_t number) {
 static void check_rigid_bodies(checking *k) {
   const sbri_rigid_model *model = &k->c->model->rigid;
   const sbri_rigid_drive_state *drive = sbri_rigid_drive(k->c);
-  for (uint32_t b = 0; drive->any && b < model->body_count; b++) {
+  for (uint32_t b = 0; drive->any_dynamic && b < model->body_count; b++) {
     const sbri_rigid_body_state *body = &sbri_rigid_bodies(k->c)[b];
     check_pose(k, &body->pose, "rigid body", b);
     expect(k, is_finite(body->velocity) && is_finite(body->angular_momentum), "its velocity is not finite");
@@ -127,7 +127,7 @@ static void check_colliders(checking *k) {
     const double numbers[] = {collider->to.x, collider->to.y, collider->to.z};
     enter(k, "collider", i);
     expect(k, i < set->end, "it lies behind the end of the list");
-    expect(k, sbri_usable(numbers, 3) && is_rotation(collider->turn_to), "its pose is not finite");
+    expect(k, sbri_usable(numbers, 3) && is_rotation(collider->rotation_to), "its pose is not finite");
     expect(k, collider->leader < set->capacity, "the body that it is part of is not there");
   }
 }

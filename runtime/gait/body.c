@@ -258,18 +258,18 @@ static void lower_body(const sbri_rig *rig, const sbri_gait_state *state, const 
   float size = rig->stand.reach * input->scale, tick = input->tick_s;
   float lowering = state->balance.crouch.value > needed ? state->balance.crouch.value : needed,
         eased = lowering;
-  if (state->eased || needed > state->balance.crouch.value - CROUCH_TOLERANCE * size)
+  if (state->spares_knees || needed > state->balance.crouch.value - CROUCH_TOLERANCE * size)
     eased = limit_for_knees(rig, state, input, &stance->root, lowering);
-  if (eased != lowering || state->eased) {
+  if (eased != lowering || state->spares_knees) {
     float steady_change = stance->root.position.y - state->posture.root.position.y -
                           state->posture.rise * tick; /* at constant velocity */
     float change = ABRUPT * size * tick * tick, low = steady_change - change, high = steady_change + change;
-    if (!state->eased && lowering < low) low = lowering;
-    if (!state->eased && lowering > high) high = lowering;
+    if (!state->spares_knees && lowering < low) low = lowering;
+    if (!state->spares_knees && lowering > high) high = lowering;
     eased = sbri_clamp(eased, low, high);
     if (eased < needed) eased = needed;
   }
-  stance->eased = eased != lowering;
+  stance->spares_knees = eased != lowering;
   stance->lowered = eased;
   stance->root.position.y -= eased;
 }
@@ -316,7 +316,7 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   sbri_body_steps_keep(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
   sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->balance.stand, input->scale));
-  if (!state->pace.together || state->pace.standing_s > 0) lean = stands;
+  if (!state->pace.in_groups || state->pace.standing_s > 0) lean = stands;
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, direction);
   update_sway(rig, state, input, lean);
   if (!stride)

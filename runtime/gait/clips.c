@@ -91,10 +91,10 @@ void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) 
     sbri_clip_layer *layer = &state->clips[l];
     if (!layer->clip_plus_1) continue;
     const sbf_clip *clip = &rig->asset->clips.at[layer->clip_plus_1 - 1];
-    float max = layer->fade_s > 0 ? tick_s / layer->fade_s : 1, off = layer->wanted - layer->weight;
+    float max = layer->fade_s > 0 ? tick_s / layer->fade_s : 1, off = layer->target_weight - layer->weight;
     layer->weight += sbri_clamp(off, -max, max);
     layer->time_s += tick_s * layer->speed;
-    if (layer->weight <= 0 && layer->wanted <= 0) layer->clip_plus_1 = 0;
+    if (layer->weight <= 0 && layer->target_weight <= 0) layer->clip_plus_1 = 0;
     if (!(clip->duration > 0)) continue;
     if (!clip->loop) {
       layer->time_s = sbri_clamp(layer->time_s, 0, clip->duration);

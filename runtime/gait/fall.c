@@ -56,18 +56,18 @@ static void set_feet_below(const sbri_rig *rig, sbri_gait_state *state, const sb
 }
 
 bool sbri_fall_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  if (input->hold || !rig->girth.bumper_count || sbri_is_afloat(rig)) return false;
-  if (!state->fall.falls && !(state->motion.position.y > LOW) && !has_no_ground(rig, state, input))
+  if (input->keeps_rest_pose || !rig->girth.bumper_count || sbri_is_afloat(rig)) return false;
+  if (!state->fall.is_falling && !(state->motion.position.y > LOW) && !has_no_ground(rig, state, input))
     return false;
-  if (!state->fall.falls) state->fall.speed = 0;
+  if (!state->fall.is_falling) state->fall.speed = 0;
   float height = state->fall.level + state->motion.position.y;
   set_feet_below(rig, state, input);
   state->fall.speed += input->gravity * input->tick_s;
   height -= state->fall.speed * input->tick_s;
   state->fall.level = support_height(rig, state, input);
   state->motion.position.y = height - state->fall.level;
-  state->fall.falls = state->motion.position.y > LOW;
-  if (state->fall.falls) return true;
+  state->fall.is_falling = state->motion.position.y > LOW;
+  if (state->fall.is_falling) return true;
   state->motion.position.y = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_put_down(rig, state, input, i);
   state->fall.level = support_height(rig, state, input);

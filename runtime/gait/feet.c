@@ -66,7 +66,7 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
     float strain = sbri_strain(state, home, leg) / STRAINED;
     if (strain > DUE) result = strain;
   }
-  float missed = foot->missed / (MISSED * rig->stand.reach * input->scale);
+  float missed = foot->reach_error / (MISSED * rig->stand.reach * input->scale);
   if (missed > 1 && missed > result) result = missed; /* out of the leg's reach */
   if (wide > NOTED && wide > result) result = wide;
   return twist > NOTED && twist > result ? twist : result;
@@ -106,11 +106,12 @@ static int32_t choose(
   if (state->pace.standing_s > 0) wanted = SETTLED;
   if (state->pace.standing_s > 0 && state->pace.standing_s < REST_AFTER_S) return -1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    if (!state->feet[i].planted || state->pace.pivot == i + 1) continue;
+    if (!state->feet[i].planted || state->pace.pivot_leg == i + 1) continue;
     uint32_t own_group = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own_group;
-    float value = state->pace.next == i + 1 ? c->displacements[i] + KEPT
-                                            : c->displacements[i]; /* the body already leans for this foot */
+    float value = state->pace.next_leg == i + 1
+                      ? c->displacements[i] + KEPT
+                      : c->displacements[i]; /* the body already leans for this foot */
     if (worst < 0 || value > max) worst = (int32_t)i, max = value;
     if (in_air && !companion) continue;
     float min = companion ? COMPANION : wanted;
@@ -118,7 +119,7 @@ static int32_t choose(
     if (c->displacements[i] < min) continue;
     uint32_t lifted = in_air | 1u << i;
     bool bears =
-        (c->stride.together || c->stride.running) && (state->pace.standing_s == 0 || rig->stand.has_pegs);
+        (c->stride.in_groups || c->stride.running) && (state->pace.standing_s == 0 || rig->stand.has_pegs);
     if (!bears) {
       bears = sbri_support_bears(rig, state, input, lifted, displacement_in(state, c->stride.duration_s));
       if (!bears && !in_air && state->pace.waiting_s > WAIT_S) bears = true;
@@ -130,7 +131,7 @@ static int32_t choose(
     if (best < 0 || c->displacements[i] > c->displacements[best]) best = (int32_t)i;
   }
   c->next = worst >= 0 ? 1u << worst : 0;
-  state->pace.next = (uint32_t)(worst + 1);
+  state->pace.next_leg = (uint32_t)(worst + 1);
   return best;
 }
 
@@ -156,8 +157,8 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     sbri_stance *stance, sbri_gait_event *events, uint32_t capacity) {
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
-  state->pace.together = c.stride.together;
-  state->pace.widest_m = c.stride.speed > 0 ? c.stride.widest_m : 0;
+  state->pace.in_groups = c.stride.in_groups;
+  state->pace.max_half_m = c.stride.speed > 0 ? c.stride.max_half_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;
@@ -190,7 +191,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     c.next = worst >= 0 ? 1u << worst : 0;
   }
   uint32_t in_air = feet_in_air(rig, state, &groups);
-  bool leans = !rig->stand.has_pegs && (!c.stride.together || state->pace.standing_s > 0);
+  bool leans = !rig->stand.has_pegs && (!c.stride.in_groups || state->pace.standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->pace.standing_s == 0 && !c.next) lifting = 0;
   sbf_vec3 direction = displacement_in(state, time_in_air(rig, state, c.stride.duration_s));

@@ -8,7 +8,7 @@ void sbri_foot_update_heading(
   sbri_foot *foot = &state->feet[leg];
   sbf_vec3 beside = sbri_headed(state, sbri_vec3(ankle->x * input->scale, 0, ankle->z * input->scale));
   bool level = foot->normal.x == 0 && foot->normal.z == 0;
-  foot->frame.beside_at_home = level ? beside : sbri_rotate(foot->frame.tilt, beside);
+  foot->frame.home_ankle_offset = level ? beside : sbri_rotate(foot->frame.tilt, beside);
 }
 
 void sbri_foot_update_orientation(
@@ -21,8 +21,8 @@ void sbri_foot_update_orientation(
   sbri_sincos(heading, &foot->frame.sine, &foot->frame.cosine);
   foot->frame.tilt = level ? sbri_quat_identity() : sbri_quat_between(up, foot->normal);
   foot->frame.rotation = sbri_quat_multiply(foot->frame.tilt, sbri_quat_about(up, heading));
-  foot->frame.beside = sbri_vec3(
+  foot->frame.ankle_offset = sbri_vec3(
       foot->frame.cosine * x + foot->frame.sine * z, 0, foot->frame.cosine * z - foot->frame.sine * x);
-  if (!level) foot->frame.beside = sbri_rotate(foot->frame.tilt, foot->frame.beside);
+  if (!level) foot->frame.ankle_offset = sbri_rotate(foot->frame.tilt, foot->frame.ankle_offset);
   sbri_foot_update_heading(rig, state, input, leg);
 }

@@ -36,7 +36,7 @@ static void store_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->posture.hips_pitch = stance->hips_pitch;
   state->posture.chest_yaw = stance->chest_yaw;
   state->posture.lowered = stance->lowered;
-  state->eased = stance->eased;
+  state->spares_knees = stance->spares_knees;
 }
 
 void sbri_gait_reset(
@@ -50,7 +50,7 @@ void sbri_gait_reset(
   SBF_ASSERT(rig->leg_count <= SBRI_MAX_LEGS);
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tails.bone_count;
-  state->pace.speed_fraction = state->pace.limit = 1;
+  state->pace.speed_fraction = state->pace.step_limit = 1;
   state->pace.since_lift_m = 1e6f; /* the first step does not wait */
   sbri_motion_reset(rig, state, input);
   sbri_body_stand(rig, state, input);
@@ -92,9 +92,9 @@ typedef struct velocity_gain {
 static velocity_gain limited_gain(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float inverse_mass = 1 - sbri_exp(-input->tick_s / SMOOTHING_S), fraction = 1;
-  float ahead = (state->pace.limit * input->forward - state->motion.forward) * inverse_mass;
-  float aside = (state->pace.limit * input->sideways - state->motion.sideways) * inverse_mass;
-  float turn = (state->pace.limit * input->turn - state->motion.turn) * inverse_mass;
+  float ahead = (state->pace.step_limit * input->forward - state->motion.forward) * inverse_mass;
+  float aside = (state->pace.step_limit * input->sideways - state->motion.sideways) * inverse_mass;
+  float turn = (state->pace.step_limit * input->turn - state->motion.turn) * inverse_mass;
   if (rig->leg_count) { /* limited by the fastest home */
     float step_s = rig->gait->step_duration, round = turn * rig->stand.spread * input->scale;
     float brisk_s = step_s > BRISK_S && sbri_stands_level(rig, state, input->scale) ? BRISK_S : step_s;
@@ -112,7 +112,7 @@ float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_in
 }
 
 static bool is_displaced(const sbri_gait_input *input) {
-  return input->turned != 0 || sbri_dot(input->moved, input->moved) > 0;
+  return input->rotation != 0 || sbri_dot(input->displacement, input->displacement) > 0;
 }
 
 /* Moves and rotates the body as far as walls allow. */
@@ -132,16 +132,16 @@ static void move_body(
  * swing. */
 static float displace(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float blend = 1 - sbri_exp(-input->tick_s / DISPLACED_S), h = 1 / input->tick_s;
-  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->moved), h), shift = input->moved;
+  sbf_vec3 speed = sbri_scale(sbri_unheaded(state, input->displacement), h), shift = input->displacement;
   if (!sbri_is_afloat(rig)) shift.y = 0;
   state->motion.forward += (speed.z - state->motion.forward) * blend;
   state->motion.sideways += (speed.x - state->motion.sideways) * blend;
-  state->motion.turn += (h * input->turned - state->motion.turn) * blend;
+  state->motion.turn += (h * input->rotation - state->motion.turn) * blend;
   state->pace.standing_s = 0;
   state->pace.speed_fraction = 1;
   state->displaced = 1;
-  move_body(rig, state, input, shift, input->turned);
-  return input->turned;
+  move_body(rig, state, input, shift, input->rotation);
+  return input->rotation;
 }
 
 float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *host_input) {
@@ -171,7 +171,8 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   } else {
     state->pace.standing_s = 0;
   }
-  float lasting = 1, max = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
+  float lasting = 1,
+        max = rig->leg_count && !input->keeps_rest_pose ? sbri_pace_of(rig, state, input, &lasting) : 1;
   float balanced =
       1 - (state->pace.waiting_s - WAITS_S) / BALANCE_S; /* leaves the next foot time for the body to lean */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
@@ -223,12 +224,12 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_foot_update_heading(rig, state, input, i);
   }
   sbri_stance stance;
-  bool fell = state->fall.falls, in_air = sbri_fall_tick(rig, state, input);
-  if (fell && !state->fall.falls && count < capacity)
+  bool fell = state->fall.is_falling, in_air = sbri_fall_tick(rig, state, input);
+  if (fell && !state->fall.is_falling && count < capacity)
     events[count++] = (sbri_gait_event){.kind = SBRI_GAIT_LANDED, .position = state->motion.position};
   if (in_air && rig->leg_count)
     stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
-  else if (!input->hold && rig->leg_count)
+  else if (!input->keeps_rest_pose && rig->leg_count)
     count = sbri_feet_tick(rig, state, input, &stance, events, capacity);
   else
     stance = sbri_body_stance(rig, state, input);
@@ -258,8 +259,8 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
     foot->ground = sbri_sub(foot->ground, shift);
     foot->step.from = sbri_sub(foot->step.from, shift);
     foot->step.to = sbri_sub(foot->step.to, shift), foot->step.planned = sbri_sub(foot->step.planned, shift);
-    foot->glides.x.at -= shift.x, foot->glides.z.at -= shift.z;
-    foot->glides.base.at -= shift.y;
+    foot->glides.x.position -= shift.x, foot->glides.z.position -= shift.z;
+    foot->glides.base.position -= shift.y;
     foot->pole = sbri_sub(foot->pole, shift);
   }
   sbri_chain_bone *bones = sbri_chain_bones(rig, state);

@@ -9,15 +9,15 @@
 
 typedef struct sbri_gait_input {
   float forward, sideways, turn, up; /* m/s, m/s, rad/s, m/s */
-  sbf_vec3 moved;                    /* by the host, in this tick, m */
-  float turned;                      /* the same, rad */
+  sbf_vec3 displacement;             /* by the host, in this tick, m */
+  float rotation;                    /* the same, rad */
   float tick_s;
   float scale;
-  bool hold;                       /* rest pose, moved rigidly */
-  sbr_double3 origin;              /* world place of the character's origin, for asking the ground */
-  const sbr_ground *ground;        /* with the colliders near it */
-  const sbri_surroundings *around; /* NULL: no colliders */
-  float gravity;                   /* m/s^2, downwards */
+  bool keeps_rest_pose;                  /* rest pose, moved rigidly */
+  sbr_double3 origin;                    /* world place of the character's origin, for asking the ground */
+  const sbr_ground *ground;              /* with the colliders near it */
+  const sbri_surroundings *surroundings; /* NULL: no colliders */
+  float gravity;                         /* m/s^2, downwards */
 } sbri_gait_input;
 
 typedef enum sbri_gait_event_kind {

@@ -9,10 +9,10 @@
 
 /* What follows from a foot's normal and heading (sbri_foot_update_orientation). */
 typedef struct sbri_foot_frame {
-  float sine, cosine;      /* of the world heading */
-  sbf_vec3 beside;         /* the ankle's offset from the middle of the sole, as rotated */
-  sbf_vec3 beside_at_home; /* the same with the body's heading */
-  sbf_quat tilt, rotation; /* rotation to the ground's slope; rotation from the rest pose */
+  float sine, cosine;         /* of the world heading */
+  sbf_vec3 ankle_offset;      /* the ankle's offset from the middle of the sole, as rotated */
+  sbf_vec3 home_ankle_offset; /* the same with the body's heading */
+  sbf_quat tilt, rotation;    /* rotation to the ground's slope; rotation from the rest pose */
 } sbri_foot_frame;
 
 /* The present step, or the last. */
@@ -21,10 +21,10 @@ typedef struct sbri_foot_step {
   sbf_vec3 planned;                          /* `to` at the time of the last plan */
   float phase;                               /* 0 to 1 */
   float duration_s;
-  float lasting;         /* speed fraction that the stance feet allowed at lift-off */
-  float clearance;       /* maximum lift, m */
-  float leaves, arrives; /* phases at which horizontal motion begins and ends */
-  float climbs, climbed; /* phases at which the change of height begins and ends */
+  float speed_fraction;         /* speed fraction that the stance feet allowed at lift-off */
+  float clearance;              /* maximum lift, m */
+  float move_begin, move_end;   /* phases at which horizontal motion begins and ends */
+  float climb_begin, climb_end; /* phases at which the change of height begins and ends */
 } sbri_foot_step;
 
 /* Paths of a foot's `ground`, `lift`, `normal` and `heading`. */
@@ -49,9 +49,9 @@ typedef struct sbri_foot {
   float lift; /* height of the sole above `ground`, m */
   sbri_foot_step step;
   sbri_foot_glides glides;
-  sbf_vec3 hip;  /* hip position in the last pose, in root axes, m */
-  sbf_vec3 pole; /* pole vector of the knee in the last pose */
-  float missed;  /* distance of the sole from its target because of leg limits, m */
+  sbf_vec3 hip;      /* hip position in the last pose, in root axes, m */
+  sbf_vec3 pole;     /* pole vector of the knee in the last pose */
+  float reach_error; /* distance of the sole from its target because of leg limits, m */
   sbri_knee_state knee;
   uint32_t planted, was_planted; /* 1: planted; now and in the previous tick */
   uint32_t steps_taken;
@@ -61,7 +61,7 @@ typedef struct sbri_foot {
 enum { SBRI_CLIP_LAYERS = 4 };
 typedef struct sbri_clip_layer {
   uint32_t clip_plus_1, mask_plus_1; /* 0: none */
-  float time_s, speed, weight, wanted, fade_s;
+  float time_s, speed, weight, target_weight, fade_s;
 } sbri_clip_layer;
 
 /* Follower steps of the body for the present tick length, cached. */
@@ -81,15 +81,15 @@ typedef struct sbri_gait_motion {
 typedef struct sbri_gait_pace {
   float speed_fraction; /* speed fraction that the feet allow, 0 to 1 */
   float standing_s;     /* time since it stopped moving, s; 0 while moving */
-  float limit;          /* speed fraction for which its steps have time, 0 to 1 */
-  float needed_s;       /* recent duration of a step */
+  float step_limit;     /* speed fraction for which its steps have time, 0 to 1 */
+  float step_s;         /* recent duration of a step */
   float half_m;         /* half of the stride length */
-  float widest_m;       /* upper bound of half_m, mean over a stride; 0: unknown */
+  float max_half_m;     /* upper bound of half_m, mean over a stride; 0: unknown */
   float since_lift_m;   /* distance since the last lift-off */
   float waiting_s;      /* time for which a due foot has had to wait */
-  uint32_t together;    /* 1: feet of a group step together; 0: as many as balance allows */
-  uint32_t pivot;       /* 1-based leg that the body turns about; 0: none */
-  uint32_t next;        /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
+  uint32_t in_groups;   /* 1: feet of a group step together; 0: as many as balance allows */
+  uint32_t pivot_leg;   /* 1-based leg that the body turns about; 0: none */
+  uint32_t next_leg;    /* 1-based leg that will lift next, towards whose support the body leans; 0: none */
 } sbri_gait_pace;
 
 /* The body over its feet. */
@@ -113,17 +113,17 @@ typedef struct sbri_gait_posture {
 } sbri_gait_posture;
 
 typedef struct sbri_gait_fall {
-  float level;    /* height of the ground below, relative to the origin, m */
-  float speed;    /* downward speed, m/s */
-  uint32_t falls; /* 1: in free fall */
+  float level;         /* height of the ground below, relative to the origin, m */
+  float speed;         /* downward speed, m/s */
+  uint32_t is_falling; /* 1: in free fall */
 } sbri_gait_fall;
 
 /* The walk cycle of keyed poses. */
 typedef struct sbri_gait_walk {
   float phase;           /* 0 to below 1 */
-  float ahead;           /* lead of that cycle over the feet that is still to be corrected, cycles */
+  float lead;            /* lead of that cycle over the feet that is still to be corrected, cycles */
   float half_m, since_m; /* asset metres between the last two landings (0: unknown); since the last */
-  uint32_t landed;       /* leg that landed last, 1 or 2; 0: none */
+  uint32_t landed_leg;   /* leg that landed last, 1 or 2; 0: none */
 } sbri_gait_walk;
 
 typedef struct sbri_gait_state {
@@ -132,8 +132,8 @@ typedef struct sbri_gait_state {
   sbri_gait_balance balance;
   sbri_gait_posture posture;
   sbri_gait_fall fall;
-  uint32_t displaced; /* 1: moved by its host in this tick; stops when the host stops */
-  uint32_t eased;     /* 1: lowered less than the feet ask for, to spare the knees */
+  uint32_t displaced;    /* 1: moved by its host in this tick; stops when the host stops */
+  uint32_t spares_knees; /* 1: lowered less than the feet ask for, to spare the knees */
   double distance_m;
   sbri_gait_walk walk;
   sbri_lag head_yaw;
@@ -231,7 +231,7 @@ void sbri_foot_update_heading(
 
 /* Horizontal circle within which a foot can stand: centre relative to its home, and radius. */
 typedef struct sbri_roam {
-  sbf_vec3 off;
+  sbf_vec3 center;
   float radius;
 } sbri_roam;
 
@@ -249,10 +249,10 @@ typedef struct sbri_stride {
   float duration_s;  /* duration of a step, s */
   float spacing_m;   /* distance between two lift-offs */
   float available_s; /* time for a step at the widest stride of group steps */
-  bool together;     /* feet of a group step together */
+  bool in_groups;    /* feet of a group step together */
   bool balanced;     /* slow enough to slow down rather than lose balance */
   bool running;      /* many legs, too fast to wait for balance */
-  float widest_m;    /* upper bound of half_m, mean over a stride */
+  float max_half_m;  /* upper bound of half_m, mean over a stride */
   sbri_home homes[SBRI_MAX_LEGS];
 } sbri_stride;
 /* Whether the feet stand on level ground and go to it. */
@@ -276,11 +276,12 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
 /* Ankle position for a sole position, m; and the same with the body's heading. */
 static inline sbf_vec3 sbri_ankle_over(
     const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
-  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.beside);
+  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.ankle_offset);
 }
 static inline sbf_vec3 sbri_ankle_at_home(
     const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
-  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.beside_at_home);
+  return sbri_add(
+      sbri_add_scaled(sole, foot->normal, leg->home.ankle.y * scale), foot->frame.home_ankle_offset);
 }
 /* Circle within which a foot can stand at its present height. */
 sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -356,7 +357,7 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
   float hips_pitch;          /* rad about the left axis; above 0: nose down */
   float lowered;             /* lowering, m */
-  bool eased;                /* lowered less, to spare the knees */
+  bool spares_knees;         /* lowered less, to spare the knees */
 } sbri_stance;
 
 /* Selects the feet that step, moves swinging feet and the body above them. Returns the number of events

@@ -7,7 +7,7 @@
 #include "math/vec3.h"
 
 typedef struct sbri_glide {
-  float at, rate, bend; /* place, speed, acceleration */
+  float position, velocity, acceleration;
 } sbri_glide;
 
 static inline sbri_glide sbri_glide_at(float at) {
@@ -20,12 +20,12 @@ static inline void sbri_glide_tick(sbri_glide *g, float target, float left_s, fl
     *g = sbri_glide_at(target);
     return;
   }
-  float t = step_s / left_s, away = target - g->at, v = g->rate * left_s,
-        a = 0.5f * g->bend * left_s * left_s;
+  float t = step_s / left_s, away = target - g->position, v = g->velocity * left_s,
+        a = 0.5f * g->acceleration * left_s * left_s;
   float c3 = 10 * away - 6 * v - 3 * a, c4 = -15 * away + 8 * v + 3 * a, c5 = 6 * away - 3 * v - a;
-  g->at += t * (v + t * (a + t * (c3 + t * (c4 + t * c5))));
-  g->rate = (v + t * (2 * a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))) / left_s;
-  g->bend = (2 * a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))) / (left_s * left_s);
+  g->position += t * (v + t * (a + t * (c3 + t * (c4 + t * c5))));
+  g->velocity = (v + t * (2 * a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))) / left_s;
+  g->acceleration = (2 * a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))) / (left_s * left_s);
 }
 
 /* The same from rest to rest: rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both

@@ -70,7 +70,7 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
   chain.count = read_joints(rig, leg->upper, leg->foot, &none, pose, joints, bones, &chain.base);
   if (chain.count == 0) return;
   sbri_ccd(&chain);
-  if (!leg->last) {
+  if (!leg->is_last) {
     write_joints(rig, &chain, bones, 1, pose);
     return;
   }

@@ -17,7 +17,7 @@ static floor_motion apply_floor_motion(
     const sbri_collider *c, const sbri_gait_input *input, sbf_vec3 position) {
   sbri_collider_frame frame = sbri_collider_frame_of(c, input->origin, 1);
   sbf_vec3 ahead =
-      sbri_rotate(c->turn_to, sbri_rotate(sbri_quat_conjugate(c->turn_from), sbri_vec3(0, 0, 1)));
+      sbri_rotate(c->rotation_to, sbri_rotate(sbri_quat_conjugate(c->rotation_from), sbri_vec3(0, 0, 1)));
   return (floor_motion){sbri_shape_displacement(&frame, sbri_into_shape(&frame, position, false)),
       sbri_atan2(ahead.x, ahead.z)};
 }
@@ -30,9 +30,9 @@ static void find_floor_motion(const sbri_rig *rig, const sbri_gait_input *input,
   sbr_double3 world = {input->origin.x + (double)position.x, input->origin.y + (double)position.y,
       input->origin.z + (double)position.z};
   *motion = *of_body = (floor_motion){{0, 0, 0}, 0};
-  if (!sbri_surroundings_bearer(input->around, world, tolerance, &number)) return;
-  *motion = apply_floor_motion(&input->around->colliders->at[number], input, position);
-  *of_body = apply_floor_motion(&input->around->colliders->at[number], input, body);
+  if (!sbri_surroundings_bearer(input->surroundings, world, tolerance, &number)) return;
+  *motion = apply_floor_motion(&input->surroundings->colliders->at[number], input, position);
+  *of_body = apply_floor_motion(&input->surroundings->colliders->at[number], input, body);
 }
 
 static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
@@ -40,14 +40,15 @@ static void shift_step(sbri_foot *foot, sbf_vec3 displacement) {
   foot->step.from = sbri_add(foot->step.from, displacement);
   foot->step.to = sbri_add(foot->step.to, displacement),
   foot->step.planned = sbri_add(foot->step.planned, displacement);
-  foot->glides.x.at += displacement.x, foot->glides.z.at += displacement.z,
-      foot->glides.base.at += displacement.y;
+  foot->glides.x.position += displacement.x, foot->glides.z.position += displacement.z,
+      foot->glides.base.position += displacement.y;
   foot->pole = sbri_add(foot->pole, displacement);
 }
 
 void sbri_carry_along(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  if (!input->around || !input->around->colliders || !input->around->colliders->moving) return;
-  if (state->fall.falls || sbri_is_afloat(rig)) return;
+  if (!input->surroundings || !input->surroundings->colliders || !input->surroundings->colliders->is_moving)
+    return;
+  if (state->fall.is_falling || sbri_is_afloat(rig)) return;
   sbf_vec3 body = {state->motion.position.x, state->fall.level, state->motion.position.z};
   floor_motion motions[SBRI_MAX_LEGS], of_body, mean = {{0, 0, 0}, 0};
   float count = 0;

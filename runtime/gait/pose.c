@@ -107,7 +107,7 @@ static sbf_vec3 pole_of(
 /* Sets the transform of a leg's bone. Other children follow, or are posed later. */
 static void set_bone_transform(
     const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
-  if (!leg->last && (leg->has_others || bone == leg->foot)) {
+  if (!leg->is_last && (leg->has_others || bone == leg->foot)) {
     sbf_quat rotation = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
     sbri_rig_turn(rig, (uint32_t)bone, rotation, pose);
     sbri_rig_shift(rig, (uint32_t)bone, sbri_sub(to.position, pose[bone].position), pose);
@@ -151,9 +151,10 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
 
   sbf_vec3 side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(solved.knee, hip));
   if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
-  sbf_quat upper = sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.knee, hip), side1), leg->upper_back);
+  sbf_quat upper =
+      sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.knee, hip), side1), leg->upper_inverse);
   sbf_quat lower =
-      sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_back);
+      sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_inverse);
   sbf_quat thigh = sbri_quat_normalize(sbri_quat_multiply(upper, rig->bones.rest[leg->upper].rotation));
   sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->bones.rest[leg->lower].rotation));
   set_bone_transform(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
@@ -226,11 +227,11 @@ static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *
     solve_leg(rig, leg, &leaning, ankle, foot->pole, fallback, scale, pose);
     if (!rig->bones.limits[leg->foot].active) break;
     ankle = sbri_add(sole, sbri_long_foot_over(rig, leg, foot, scale, pose));
-    foot->missed = sbri_length(sbri_sub(ankle, pose[leg->foot].position));
-    if (foot->missed <= limited) break;
+    foot->reach_error = sbri_length(sbri_sub(ankle, pose[leg->foot].position));
+    if (foot->reach_error <= limited) break;
   }
   sbr_transform toe = sbri_long_foot_toe(rig, leg, foot, scale, pose), *is = &pose[leg->toe];
-  if (!leg->last) {
+  if (!leg->is_last) {
     sbri_rig_turn(
         rig, (uint32_t)leg->toe, sbri_quat_multiply(toe.rotation, sbri_quat_conjugate(is->rotation)), pose);
     sbri_rig_shift(rig, (uint32_t)leg->toe, sbri_sub(toe.position, is->position), pose);
@@ -258,10 +259,10 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
                               : 1 - foot->step.phase; /* phase since lift-off, or until landing */
   float planted_weight = foot->planted ? 1 : 1 - sbri_smooth(phase_to_ground / HANGING_PHASE);
   float limited = SOLE_TOLERANCE * (leg->length.upper + leg->length.lower) * scale;
-  foot->missed = 0;
+  foot->reach_error = 0;
   if (leg->has_toe) {
     pose_long_foot(rig, leg, foot, input, sole, fallback, advance, pose);
-    if (leg->last) pose_children_of_leg(rig, state, leg, scale, pose);
+    if (leg->is_last) pose_children_of_leg(rig, state, leg, scale, pose);
     return;
   }
   for (int iteration = 0; iteration < SOLE_ITERATIONS; iteration++) {
@@ -269,12 +270,12 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     if (!rig->bones.limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot at its ankle's limit keeps its position on the ground; in the air it follows the ankle. */
     sbf_vec3 offset = ankle_over_sole(rig, leg, scale, pose);
-    foot->missed = sbri_length(sbri_sub(sbri_add(sole, offset), pose[leg->foot].position));
-    if (foot->missed <= limited || planted_weight <= 0) break;
+    foot->reach_error = sbri_length(sbri_sub(sbri_add(sole, offset), pose[leg->foot].position));
+    if (foot->reach_error <= limited || planted_weight <= 0) break;
     ankle = sbri_lerp(flat, sbri_add(sole, offset), planted_weight);
   }
   limit_knee(rig, input, leg, foot, pole, fallback, advance, pose);
-  if (leg->last) pose_children_of_leg(rig, state, leg, scale, pose);
+  if (leg->is_last) pose_children_of_leg(rig, state, leg, scale, pose);
 }
 
 /* Stores the hip positions of the pose. */
@@ -315,16 +316,16 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
       .chest_yaw = state->posture.chest_yaw,
       .hips_pitch = state->posture.hips_pitch,
       .lowered = state->posture.lowered};
-  if (input->hold) {
+  if (input->keeps_rest_pose) {
     stance.hips_yaw = stance.chest_yaw = 0;
     stance.root.rotation = yaw_rotation(state->motion.heading);
   }
-  for (uint32_t i = 0; input->hold && i < rig->bones.count; i++) {
+  for (uint32_t i = 0; input->keeps_rest_pose && i < rig->bones.count; i++) {
     sbf_vec3 position = sbri_scale(rig->bones.rest[i].position, input->scale);
     pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, position));
     pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->bones.rest[i].rotation);
   }
-  if (input->hold) {
+  if (input->keeps_rest_pose) {
     sbri_squashes_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
     sbri_weights_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
     return;

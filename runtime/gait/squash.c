@@ -60,7 +60,8 @@ void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_
       follower->stretch =
           length > 0 ? stretch_of(source->strength * lag / (length * input->scale), source->limit) : 1;
     }
-    if (!input->hold && follower->stretch != 1) shift_children(rig, b, axis, follower->stretch, pose);
+    if (!input->keeps_rest_pose && follower->stretch != 1)
+      shift_children(rig, b, axis, follower->stretch, pose);
   }
 }
 

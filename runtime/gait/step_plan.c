@@ -23,11 +23,11 @@ enum { PROFILE_SAMPLES = 12, TRIES = 6, SAMPLES = 16 };
 
 /* Fractions of horizontal and vertical travel at phase t of a step. */
 static float travel(const sbri_foot *foot, float t) {
-  return sbri_smooth((t - foot->step.leaves) / (foot->step.arrives - foot->step.leaves));
+  return sbri_smooth((t - foot->step.move_begin) / (foot->step.move_end - foot->step.move_begin));
 }
 
 static float height_at(const sbri_foot *foot, float t) {
-  float climb = sbri_smooth((t - foot->step.climbs) / (foot->step.climbed - foot->step.climbs));
+  float climb = sbri_smooth((t - foot->step.climb_begin) / (foot->step.climb_end - foot->step.climb_begin));
   float up = t < 0.5f ? 2 * t : 2 - 2 * t;
   return foot->step.from.y + (foot->step.to.y - foot->step.from.y) * climb +
          foot->step.clearance * sbri_smooth(up);
@@ -105,14 +105,14 @@ static float lack(const sbri_foot *foot, const profile *p, float margin, float *
 static bool add_clearance(sbri_foot *foot, float when) {
   float rise = foot->step.to.y - foot->step.from.y;
   bool fresh = foot->step.phase <= 0;
-  if (rise > 0 && foot->step.climbed > SOONEST) {
-    foot->step.climbed -= 0.5f * (1 - SOONEST);
-  } else if (fresh && rise < 0 && foot->step.climbs < 1 - SOONEST) {
-    foot->step.climbs += 0.5f * (1 - SOONEST);
-  } else if (fresh && when < 0.5f && foot->step.leaves < LATEST) {
-    foot->step.leaves += 0.5f * LATEST;
-  } else if (when >= 0.5f && foot->step.arrives > 1 - LATEST) {
-    foot->step.arrives -= 0.5f * LATEST;
+  if (rise > 0 && foot->step.climb_end > SOONEST) {
+    foot->step.climb_end -= 0.5f * (1 - SOONEST);
+  } else if (fresh && rise < 0 && foot->step.climb_begin < 1 - SOONEST) {
+    foot->step.climb_begin += 0.5f * (1 - SOONEST);
+  } else if (fresh && when < 0.5f && foot->step.move_begin < LATEST) {
+    foot->step.move_begin += 0.5f * LATEST;
+  } else if (when >= 0.5f && foot->step.move_end > 1 - LATEST) {
+    foot->step.move_end -= 0.5f * LATEST;
   } else {
     return false;
   }
@@ -122,8 +122,8 @@ static bool add_clearance(sbri_foot *foot, float when) {
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   float usual = rig->gait->step_height * input->scale, when = 0;
-  if (foot->step.phase <= 0) foot->step.leaves = foot->step.climbs = 0;
-  foot->step.arrives = foot->step.climbed = 1;
+  if (foot->step.phase <= 0) foot->step.move_begin = foot->step.climb_begin = 0;
+  foot->step.move_end = foot->step.climb_end = 1;
   foot->step.clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;

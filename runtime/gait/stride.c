@@ -32,8 +32,8 @@ static const float LEVEL = 0.05f;    /* fraction of the reach: maximum height di
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->motion.sideways, 0, state->motion.forward));
-  if (state->pace.pivot) { /* rotation about a foot moves the body */
-    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->pace.pivot - 1].ground);
+  if (state->pace.pivot_leg) { /* rotation about a foot moves the body */
+    sbf_vec3 arm = sbri_sub(state->motion.position, state->feet[state->pace.pivot_leg - 1].ground);
     v.x += state->motion.turn * arm.z, v.z -= state->motion.turn * arm.x;
   }
   return v;
@@ -42,7 +42,7 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
 /* Bipeds place each foot close to the middle, so that the body need not lean far to be above it. This applies
  * to forward motion only, because sideways the feet would collide. */
 static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
-  if (rig->leg_count != 2 || rig->stand.has_pegs || state->pace.together) return x;
+  if (rig->leg_count != 2 || rig->stand.has_pegs || state->pace.in_groups) return x;
   float forward_square = state->motion.forward * state->motion.forward,
         sideways_square = state->motion.sideways * state->motion.sideways;
   float rotation_speed = state->motion.turn * rig->stand.spread,
@@ -151,8 +151,8 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
   sbri_roam roam;
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->motion.position, arm), true);
-  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
-  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(roam.off);
+  float radius = reachable_circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.center);
+  float length = (l->length.upper + l->length.lower) * input->scale, offset = sbri_length(roam.center);
   if (l->lower < 0) radius = offset + PEG * length;
   roam.radius = radius < offset + MIN * length ? offset + MIN * length : radius;
   return roam;
@@ -163,8 +163,8 @@ typedef struct span {
   float ahead, behind;
 } span;
 static span span_of(const sbri_roam *roam, sbf_vec3 direction) {
-  return (span){USED * to_edge(roam->off, roam->radius, direction),
-      USED * to_edge(roam->off, roam->radius, sbri_scale(direction, -1))};
+  return (span){USED * to_edge(roam->center, roam->radius, direction),
+      USED * to_edge(roam->center, roam->radius, sbri_scale(direction, -1))};
 }
 
 float sbri_ahead(const sbri_roam *roam, sbf_vec3 direction, float half) {
@@ -208,12 +208,11 @@ bool sbri_stands_level(const sbri_rig *rig, const sbri_gait_state *state, float 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
   float max = check_homes(rig, state, input, &s);
-  if (state->pace.widest_m > 0)
-    max = state->pace.widest_m + (max - state->pace.widest_m) * input->tick_s / STRIDE_S;
-  s.widest_m = max;
+  if (state->pace.max_half_m > 0)
+    max = state->pace.max_half_m + (max - state->pace.max_half_m) * input->tick_s / STRIDE_S;
+  s.max_half_m = max;
   max *= SURE;
-  float usual = rig->gait->step_duration,
-        needed_s = state->pace.needed_s > usual ? state->pace.needed_s : usual;
+  float usual = rig->gait->step_duration, needed_s = state->pace.step_s > usual ? state->pace.step_s : usual;
   float groups = (float)(rig->stand.group_count > 1 ? rig->stand.group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
@@ -222,23 +221,23 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float lean_s = rig->leg_count == 2 ? lean_two_s : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float turn_time_s = 0.5f * (turns - 1) * (SLACK * needed_s + lean_s),
         sequential_half = turn_time_s * s.speed;
-  s.together = (turns > groups || rig->leg_count == 2) &&
-               turn_time_s * fastest > (state->pace.together ? 0.62f : 0.74f) * max;
+  s.in_groups = (turns > groups || rig->leg_count == 2) &&
+                turn_time_s * fastest > (state->pace.in_groups ? 0.62f : 0.74f) * max;
   s.balanced = slow;
   s.running = quick && rig->leg_count >= MANY_LEGS && !rig->chains.count &&
               sbri_stands_level(rig, state, input->scale);
-  if (slow) s.together = false;
-  if (rig->stand.has_pegs) s.together = true; /* rigid legs cannot follow a leaning body */
+  if (slow) s.in_groups = false;
+  if (rig->stand.has_pegs) s.in_groups = true; /* rigid legs cannot follow a leaning body */
   float half_per_second =
       0.5f * s.speed * (groups - 1) * SLACK; /* half a stride per second of a step's duration */
   s.available_s = half_per_second > 0 ? max / half_per_second : 1e6f;
   s.duration_s = usual;
   float needed = sequential_half;
-  if (slow && !s.together) { /* prefers low speed to loss of balance */
+  if (slow && !s.in_groups) { /* prefers low speed to loss of balance */
     float half_per_step = 0.5f * s.speed * (turns - 1);
     if (half_per_step > 0) s.available_s = max / half_per_step - lean_s;
     if (needed > max) needed = max;
-  } else if (s.together || needed > max) { /* uses all available time: quick steps are harder */
+  } else if (s.in_groups || needed > max) { /* uses all available time: quick steps are harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
     s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
     needed = half_per_second * s.duration_s;
@@ -246,7 +245,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   }
   float trigger = rig->gait->step_trigger * input->scale;
   s.half_m = needed > trigger ? needed : trigger < max ? trigger : max;
-  s.spacing_m = (2 * s.half_m + s.speed * s.duration_s) / (s.together ? groups : turns);
+  s.spacing_m = (2 * s.half_m + s.speed * s.duration_s) / (s.in_groups ? groups : turns);
   return s;
 }
 
@@ -255,7 +254,7 @@ float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t 
   offset.y = 0;
   float distance = sbri_length(offset);
   if (distance <= 0) return 0;
-  float roam = to_edge(home->roam.off, home->roam.radius, sbri_scale(offset, 1 / distance));
+  float roam = to_edge(home->roam.center, home->roam.radius, sbri_scale(offset, 1 / distance));
   return distance / (roam > 1e-6f ? roam : 1e-6f);
 }
 
@@ -267,7 +266,7 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
   sbf_vec3 home = sbri_add(state->motion.position, arm);
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->posture.root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
-  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.off);
+  float radius = reachable_circle(rig, state, input, leg, from, lowered, &stance.center);
   sbf_vec3 offset = from_hip(rig, state, input->scale, leg, hip, home, true);
   offset.y = 0;
   float length = (l->length.upper + l->length.lower) * input->scale, rest = sbri_length(offset);
@@ -280,7 +279,7 @@ float sbri_remaining_reach(const sbri_rig *rig, const sbri_gait_state *state, co
     uint32_t leg, sbf_vec3 direction) {
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, LEANING);
-  return to_edge(stance.off, stance.radius, sbri_scale(direction, -1));
+  return to_edge(stance.center, stance.radius, sbri_scale(direction, -1));
 }
 
 /* Remaining travel of a planted leg until the end of its reach, if its home moves at `speed`; m. */
@@ -291,11 +290,11 @@ static float remaining_travel(const sbri_rig *rig, const sbri_gait_state *state,
   if (*speed <= 0) return 0;
   sbf_vec3 displacement = sbri_scale(v, 1 / *speed);
   sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
-  float left = to_edge(stance.off, stance.radius, sbri_scale(displacement, -1));
+  float left = to_edge(stance.center, stance.radius, sbri_scale(displacement, -1));
   float rotation =
       left > 0 ? sbri_clamp(state->motion.turn * left / *speed, -2, 2) : 0; /* rotation until then */
   if (rotation != 0)
-    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * rotation), -1));
+    left = to_edge(stance.center, stance.radius, sbri_scale(sbri_turned(displacement, 0.5f * rotation), -1));
   return left > 0 ? left : 0;
 }
 
@@ -304,7 +303,7 @@ float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   float min = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    if (state->pace.together &&
+    if (state->pace.in_groups &&
         rig->legs[i].group == rig->legs[leg].group) { /* this foot steps too, if it is behind */
       sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
       sbf_vec3 behind = sbri_sub(sbri_add(state->motion.position, arm), state->feet[i].ground);
@@ -328,7 +327,7 @@ float sbri_pace_of(
   *lasting = 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].missed;
+    float left = remaining_travel(rig, state, input, i, &speed), missed = state->feet[i].reach_error;
     if (speed <= 0) continue;
     missed /= rig->stand.reach * input->scale;
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < min) min = 1 - (missed - MISSED) / MISSES;

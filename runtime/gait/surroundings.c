@@ -27,7 +27,7 @@ typedef struct collider_pose {
 } collider_pose;
 
 static collider_pose collider_pose_of(const sbri_collider *c, bool begin) {
-  return (collider_pose){c->shape, begin ? &c->from : &c->to, begin ? c->turn_from : c->turn_to};
+  return (collider_pose){c->shape, begin ? &c->from : &c->to, begin ? c->rotation_from : c->rotation_to};
 }
 
 /* Intersection of a vertical ray from (x, from, z) over `travel` with the shape. */

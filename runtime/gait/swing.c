@@ -16,7 +16,7 @@ enum { PASSES = 4 };
 /* Landing position: ahead of the foot's home at the time of landing. */
 static sbf_vec3 target_position(const sbri_rig *rig, const sbri_gait_state *state,
     const sbri_gait_input *input, const sbri_stride *stride, uint32_t leg, float left_s) {
-  float lasting = state->feet[leg].step.lasting;
+  float lasting = state->feet[leg].step.speed_fraction;
   left_s *= state->pace.speed_fraction < lasting ? state->pace.speed_fraction : lasting;
   const sbri_home *at = &stride->homes[leg];
   float turned = state->motion.turn * left_s;
@@ -60,7 +60,7 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
 
 /* Needed time over available time of a step. */
 static float time_ratio_of(const sbri_foot *foot) {
-  return foot->step.leaves - foot->step.arrives + foot->step.climbs - foot->step.climbed;
+  return foot->step.move_begin - foot->step.move_end + foot->step.climb_begin - foot->step.climb_end;
 }
 
 /* Plans the step. Returns true if it is higher or faster than the previous plan. */
@@ -76,13 +76,13 @@ static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
  * legs have no spare time, as on stairs. */
 static void adapt_speed(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, float needed_s) {
-  float fraction = needed_s > state->pace.needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
-  state->pace.needed_s += fraction * (needed_s - state->pace.needed_s);
+  float fraction = needed_s > state->pace.step_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
+  state->pace.step_s += fraction * (needed_s - state->pace.step_s);
   float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
         max = stride->available_s * stride->speed;
-  float at_max = max / (SPARE_TIME * state->pace.needed_s); /* m/s */
-  if (stride->speed > 0) state->pace.limit = wanted > at_max ? at_max / wanted : 1;
-  if (state->pace.limit < MIN_LIMIT) state->pace.limit = MIN_LIMIT;
+  float at_max = max / (SPARE_TIME * state->pace.step_s); /* m/s */
+  if (stride->speed > 0) state->pace.step_limit = wanted > at_max ? at_max / wanted : 1;
+  if (state->pace.step_limit < MIN_LIMIT) state->pace.step_limit = MIN_LIMIT;
 }
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -95,7 +95,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->step.from_normal = foot->normal;
   float needed = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* a longer step lands further ahead */
-    foot->step.lasting = sbri_lasting(rig, state, input, leg, foot->step.duration_s);
+    foot->step.speed_fraction = sbri_lasting(rig, state, input, leg, foot->step.duration_s);
     aim(rig, state, input, stride, leg, 1);
     if (!plan(rig, state, input, leg) && pass > 0) break; /* the plan has converged */
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
@@ -129,20 +129,21 @@ static void move_coordinate(
 
 /* Moves the foot along its plan to its phase. */
 static void move(sbri_foot *foot, float tick_s) {
-  move_coordinate(&foot->glides.x, foot->step.to.x, foot, tick_s, foot->step.leaves, foot->step.arrives);
-  move_coordinate(&foot->glides.z, foot->step.to.z, foot, tick_s, foot->step.leaves, foot->step.arrives);
-  move_coordinate(&foot->glides.base, foot->step.to.y, foot, tick_s, foot->step.climbs, foot->step.climbed);
+  move_coordinate(&foot->glides.x, foot->step.to.x, foot, tick_s, foot->step.move_begin, foot->step.move_end);
+  move_coordinate(&foot->glides.z, foot->step.to.z, foot, tick_s, foot->step.move_begin, foot->step.move_end);
+  move_coordinate(
+      &foot->glides.base, foot->step.to.y, foot, tick_s, foot->step.climb_begin, foot->step.climb_end);
   float past = (foot->step.phase - 0.5f) * foot->step.duration_s; /* rises until the middle, then falls */
   if (past < tick_s) move_coordinate(&foot->glides.rise, foot->step.clearance, foot, tick_s, 0, 0.5f);
   if (past > 0) move_coordinate(&foot->glides.rise, 0, foot, tick_s, 0.5f, 1);
   move_coordinate(&foot->glides.tilt_x, foot->step.to_normal.x, foot, tick_s, 0, 1);
   move_coordinate(&foot->glides.tilt_z, foot->step.to_normal.z, foot, tick_s, 0, 1);
   move_coordinate(&foot->glides.twist, 0, foot, tick_s, 0, 1);
-  foot->ground = sbri_vec3(foot->glides.x.at, foot->glides.base.at, foot->glides.z.at);
-  foot->lift = foot->glides.rise.at;
-  float x = foot->glides.tilt_x.at, z = foot->glides.tilt_z.at, y = 1 - x * x - z * z;
+  foot->ground = sbri_vec3(foot->glides.x.position, foot->glides.base.position, foot->glides.z.position);
+  foot->lift = foot->glides.rise.position;
+  float x = foot->glides.tilt_x.position, z = foot->glides.tilt_z.position, y = 1 - x * x - z * z;
   foot->normal = sbri_normalize(sbri_vec3(x, y > 0 ? sqrtf(y) : 0, z), sbri_vec3(0, 1, 0));
-  foot->heading = foot->glides.twist.at;
+  foot->heading = foot->glides.twist.position;
 }
 
 bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

@@ -7,7 +7,7 @@
 void sbri_gait_travel(const sbri_rig *rig, void *memory, const sbri_gait_input *input) {
   sbri_gait_state *state = memory;
   sbri_gait_input footless = *input;
-  footless.hold = true; /* no foot slows it down */
+  footless.keeps_rest_pose = true; /* no foot slows it down */
   state->pace.waiting_s = 0;
   (void)sbri_body_move(rig, state, &footless);
   state->fall.level = sbri_ground_below(input, state->motion.position, NULL).y;

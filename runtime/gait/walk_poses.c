@@ -34,12 +34,12 @@ static void synchronise(const sbri_walks *walks, sbri_gait_state *state, float h
   for (int half = 0; half < 2 && legs[half] >= 0; half++) {
     const sbri_foot *foot = &state->feet[legs[half]];
     if (!foot->planted || foot->was_planted) continue;
-    state->walk.ahead = sbri_wrap(state->walk.phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
+    state->walk.lead = sbri_wrap(state->walk.phase - 0.5f * (float)half + 0.5f, 1) - 0.5f;
     float walked = state->walk.since_m;
-    bool other = state->walk.landed == (uint32_t)(2 - half); /* steps alternate */
+    bool other = state->walk.landed_leg == (uint32_t)(2 - half); /* steps alternate */
     state->walk.half_m =
         other && walked > MIN_STEP * half_cycle_m && walked < MAX_STEP * half_cycle_m ? walked : 0;
-    state->walk.landed = (uint32_t)half + 1;
+    state->walk.landed_leg = (uint32_t)half + 1;
     state->walk.since_m = 0;
   }
 }
@@ -54,13 +54,13 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   walked_m /= scale;
   state->walk.since_m += walked_m;
   if (low->mirrored) synchronise(walks, state, 0.5f * cycle);
-  if (state->pace.standing_s > 0) state->walk.half_m = 0, state->walk.landed = 0;
+  if (state->pace.standing_s > 0) state->walk.half_m = 0, state->walk.landed_leg = 0;
   float fraction = walked_m / (low->mirrored && state->walk.half_m > 0 ? 2 * state->walk.half_m : cycle);
   if (low->mirrored && !backwards) {
     float max = MAX_CATCH * fraction,
-          correction = sbri_clamp(CATCH_UP * state->walk.ahead * fraction, -max, max);
+          correction = sbri_clamp(CATCH_UP * state->walk.lead * fraction, -max, max);
     fraction -= correction;
-    state->walk.ahead -= correction;
+    state->walk.lead -= correction;
   }
   state->walk.phase = sbri_wrap(state->walk.phase + (backwards ? -fraction : fraction), 1);
 }

@@ -39,7 +39,7 @@ static bool resolve_collider(body_move *m, sbf_vec3 position, float radius, cons
   if (!sbri_shape_nearest(
           c->shape, sbri_into_shape(&frame, position, true), radius, DEEPEST * radius, &found))
     return false;
-  sbf_vec3 n = sbri_rotate(c->turn_to, found.normal);
+  sbf_vec3 n = sbri_rotate(c->rotation_to, found.normal);
   float deep = radius - found.gap;
   if (!m->afloat) {
     if (n.y >= WALKABLE || n.y <= -CEILING) return false;
@@ -61,7 +61,7 @@ static sbf_vec3 middle_of(const sbri_gait_state *state) {
 }
 
 static void resolve_colliders(body_move *m) {
-  const sbri_surroundings *around = m->input->around;
+  const sbri_surroundings *around = m->input->surroundings;
   const sbri_girth *girth = &m->rig->girth;
   bool resolved = true;
   for (int pass = 0; pass < PASSES && resolved; pass++) {
@@ -95,7 +95,7 @@ static float smallest(const sbri_girth *girth) {
 
 bool sbri_walls_keep_out(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 from, float turned) {
-  if (!input->around || !input->around->colliders) return false;
+  if (!input->surroundings || !input->surroundings->colliders) return false;
   float s, c;
   sbri_sincos(0.5f * turned, &s, &c);
   body_move m = {rig, state, input, sbri_quat_multiply((sbf_quat){0, s, 0, c}, state->posture.root.rotation),

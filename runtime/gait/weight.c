@@ -54,7 +54,7 @@ bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
           sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
       sbri_position_follower_tick(follower, pose[b].position, &step);
     }
-    if (input->hold || !(length > 0)) continue;
+    if (input->keeps_rest_pose || !(length > 0)) continue;
     sbf_vec3 lag = limited_lag(source, follower, length);
     if (lag.x == 0 && lag.y == 0 && lag.z == 0) continue;
     move_bone(rig, b, lean_towards(lag), vertical_shift(rig, state, lag.y * length), pose);

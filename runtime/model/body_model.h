@@ -25,8 +25,8 @@ typedef struct sbri_sample {
 /* Samples that are embedded in the same points. */
 typedef struct sbri_sample_group {
   uint32_t slots[4];
-  uint32_t first, end; /* in sbri_body_contact.samples */
-  float beyond;        /* maximum absolute sum of negative weights of a sample */
+  uint32_t first, end;     /* in sbri_body_contact.samples */
+  float max_extrapolation; /* maximum absolute sum of negative weights of a sample */
 } sbri_sample_group;
 
 /* Free slots of a body in its island. */
@@ -69,7 +69,7 @@ typedef struct sbri_body_contact {
   uint32_t sample_count;
   const sbri_sample_group *sample_groups; /* (sample_group_count) all samples, in order */
   uint32_t sample_group_count;
-  float sample_beyond; /* maximum absolute sum of a sample's negative weights */
+  float max_extrapolation; /* maximum absolute sum of a sample's negative weights */
   const uint32_t
       *coarse_edges; /* (coarse_edge_count x 2) edges of its surface: samples, or slots without samples */
   uint32_t coarse_edge_count;

@@ -12,7 +12,7 @@
  * of the substeps. time_s < 0: there was an impact in this tick. */
 typedef struct sbri_pressing {
   float velocity_change, time_s; /* m/s, s */
-  float owed;                    /* sum of velocity changes beyond the bounds of friction, m/s */
+  float deficit;                 /* sum of velocity changes beyond the bounds of friction, m/s */
 } sbri_pressing;
 
 /* A possible contact of a surface sample within the tick: the plane that it must not pass. A sample may have
@@ -29,18 +29,18 @@ typedef struct sbri_soft_contact {
   uint32_t collider;     /* index of the collider, SBRI_NO_COLLIDER for the ground, or SBRI_ITSELF for self
                             contact (the other side's points have negative weights) */
   bool edges;            /* self contact of two edges: the first two points against the last two */
-  bool crosses;          /* self contact: the edges have passed through each other */
-  bool alone;            /* the sample is a single free point that no other contact moves */
+  bool is_crossed;       /* self contact: the edges have passed through each other */
+  bool is_single;        /* the sample is a single free point that no other contact moves */
   uint8_t external_body; /* 1-based index of the body's external body that receives the impulse
                             (collide/external_body.h); 0: none */
   /* Solver state (solvers/soft_contacts.c, contact/contact_blocks.c): */
-  float gap, wanted;     /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
-  float velocity_change; /* normal velocity change by the contact, m/s */
-  sbf_vec3 friction_impulse; /* friction, tangential */
-  sbri_pressing pressing;    /* before this substep */
-  float pushed;              /* maximum velocity_change in the tick */
-  float closing_speed;       /* maximum closing speed in the tick, m/s; for events */
-  sbf_vec3 given;            /* sum of velocity changes in the tick, m/s */
+  float gap, target_speed; /* separation, m, and target normal velocity, m/s, at the beginning of a substep */
+  float velocity_change;   /* normal velocity change by the contact, m/s */
+  sbf_vec3 friction_impulse;      /* friction, tangential */
+  sbri_pressing pressing;         /* before this substep */
+  float max_velocity_change;      /* maximum velocity_change in the tick */
+  float closing_speed;            /* maximum closing speed in the tick, m/s; for events */
+  sbf_vec3 total_velocity_change; /* sum of velocity changes in the tick, m/s */
 } sbri_soft_contact;
 
 /* Eight contacts of a body with ground and colliders, which no impulse of the body moves. An unused lane has
@@ -55,20 +55,22 @@ typedef struct sbri_contact_block {
   float offset[SBRI_BLOCK];      /* n . x of the plane at the beginning of the present substep */
   float velocity[3][SBRI_BLOCK]; /* velocity of the other surface, m/s */
   float friction[SBRI_BLOCK], restitution[SBRI_BLOCK];
-  float active[SBRI_BLOCK];   /* 1: has an impulse, or arrives in this substep; else 0 */
-  float fraction[SBRI_BLOCK]; /* relaxation factor of an iteration by row sums; 0 if not active */
-  float gap[SBRI_BLOCK], wanted[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
-  float velocity_change[SBRI_BLOCK];         /* normal velocity change by the contact, m/s */
-  float friction_impulse[3][SBRI_BLOCK];     /* friction, tangential */
-  float pressing_change[SBRI_BLOCK], pressing_s[SBRI_BLOCK], pressing_owed[SBRI_BLOCK]; /* sbri_pressing */
+  float active[SBRI_BLOCK];     /* 1: has an impulse, or arrives in this substep; else 0 */
+  float relaxation[SBRI_BLOCK]; /* relaxation factor of an iteration by row sums; 0 if not active */
+  float gap[SBRI_BLOCK], target_speed[SBRI_BLOCK]; /* separation, m, and target normal velocity, m/s */
+  float velocity_change[SBRI_BLOCK];               /* normal velocity change by the contact, m/s */
+  float friction_impulse[3][SBRI_BLOCK];           /* friction, tangential */
+  float pressing_change[SBRI_BLOCK], pressing_s[SBRI_BLOCK], pressing_deficit[SBRI_BLOCK]; /* sbri_pressing */
   float bound[SBRI_BLOCK],
       bound_slope[SBRI_BLOCK]; /* of friction, as a function of the normal velocity change */
-  float pushed[SBRI_BLOCK], closing_speed[SBRI_BLOCK]; /* maxima in the tick, as in sbri_soft_contact */
-  float given[3][SBRI_BLOCK];                          /* sum of velocity changes in the tick, m/s */
-  float clear_m; /* separation of the nearest contact at the last check, minus the possible motion since */
-  bool moves;    /* some plane moves */
-  bool is_near;  /* not idle in this substep */
-  bool pushes;   /* some lane has an impulse, from the warm start or an iteration */
+  float max_velocity_change[SBRI_BLOCK],
+      closing_speed[SBRI_BLOCK];              /* maxima in the tick, as in sbri_soft_contact */
+  float total_velocity_change[3][SBRI_BLOCK]; /* sum of velocity changes in the tick, m/s */
+  float
+      clearance_m; /* separation of the nearest contact at the last check, minus the possible motion since */
+  bool is_moving;  /* some plane moves */
+  bool is_near;    /* not idle in this substep */
+  bool has_impulses; /* some lane has an impulse, from the warm start or an iteration */
 } sbri_contact_block;
 
 #endif

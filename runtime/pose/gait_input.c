@@ -29,14 +29,14 @@ sbri_gait_input sbri_gait_input_of(
       .sideways = up ? head->sideways : 0,
       .turn = up ? head->turn : 0,
       .up = up ? head->up : 0,
-      .moved = head->moved,
-      .turned = head->turned,
+      .displacement = head->displacement,
+      .rotation = head->rotation,
       .tick_s = (float)world->tick_s,
       .scale = c->scale,
-      .hold = c->hold,
+      .keeps_rest_pose = c->hold,
       .origin = head->origin,
       .ground = seen ? &seen->ground : &c->ground,
-      .around = seen,
+      .surroundings = seen,
       .gravity = gravity_of(world, c)};
 }
 

@@ -33,7 +33,8 @@ static float weight_below_0(const sbri_sample *s) {
 static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
   if (!(s.mass_kg > 0)) return; /* it follows bones only */
   float beyond = weight_below_0(&s);
-  body->contact.sample_beyond = beyond > body->contact.sample_beyond ? beyond : body->contact.sample_beyond;
+  body->contact.max_extrapolation =
+      beyond > body->contact.max_extrapolation ? beyond : body->contact.max_extrapolation;
   samples[body->contact.sample_count++] = s;
 }
 
@@ -189,7 +190,7 @@ static bool group(sbr_model *model, sbri_body *body, sbri_sample *samples, sbfi_
       memcpy(at->slots, sorted[i].key, sizeof at->slots);
     }
     at->end = i + 1;
-    at->beyond = fmaxf(at->beyond, weight_below_0(&samples[i]));
+    at->max_extrapolation = fmaxf(at->max_extrapolation, weight_below_0(&samples[i]));
   }
   return true;
 }

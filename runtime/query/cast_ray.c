@@ -27,7 +27,7 @@ static void hit_colliders(ray *r) {
   for (uint32_t i = 0; i < set->capacity; i++) {
     const sbri_collider *c = &set->at[i];
     if (!c->shape) continue;
-    sbf_quat into = sbri_quat_conjugate(c->turn_to);
+    sbf_quat into = sbri_quat_conjugate(c->rotation_to);
     sbf_vec3 off = {(float)(r->from.x - c->to.x), (float)(r->from.y - c->to.y), (float)(r->from.z - c->to.z)};
     sbf_vec3 x = sbri_rotate(into, off), direction = sbri_rotate(into, r->direction), normal;
     sbri_box all = sbri_box_with(sbri_box_of_point(x), sbri_add(x, direction));
@@ -38,7 +38,7 @@ static void hit_colliders(ray *r) {
     sbr_object object = sbri_no_object;
     object.collider = sbri_collider_name(set, i);
     if (sbri_query_accepts(r->filter, c->layer, c->mask, &object))
-      note(r, fraction, sbri_rotate(c->turn_to, normal), &object);
+      note(r, fraction, sbri_rotate(c->rotation_to, normal), &object);
   }
 }
 

@@ -40,7 +40,7 @@ static sbri_box box_of_collider(const box_query *q, const sbri_collider *collide
   for (int i = 0; i < 8; i++) {
     sbf_vec3 corner = {
         i & 1 ? own->high.x : own->low.x, i & 2 ? own->high.y : own->low.y, i & 4 ? own->high.z : own->low.z};
-    sbf_vec3 x = sbri_add(f.to, sbri_rotate(collider->turn_to, corner));
+    sbf_vec3 x = sbri_add(f.to, sbri_rotate(collider->rotation_to, corner));
     box = i ? sbri_box_with(box, x) : sbri_box_of_point(x);
   }
   return box;

@@ -32,8 +32,8 @@ bool sbri_query_sees_ground(const sbr_world *world, const sbr_query_filter *filt
 /* ---- Bodies ---- */
 
 sbr_transform sbri_query_rigid_pose(const sbri_character *c, uint32_t rigid_body) {
-  return sbri_rigid_drive(c)->any ? sbri_rigid_bodies(c)[rigid_body].pose
-                                  : sbri_rigid_target(c, sbri_pose(c), rigid_body);
+  return sbri_rigid_drive(c)->any_dynamic ? sbri_rigid_bodies(c)[rigid_body].pose
+                                          : sbri_rigid_target(c, sbri_pose(c), rigid_body);
 }
 
 const sbri_point *sbri_query_surface(const sbri_character *c, uint32_t soft_body, sbri_skin *surface) {
@@ -169,8 +169,8 @@ static void visit_collider(const visit *v, uint32_t index) {
   object.collider = sbri_collider_name(set, index);
   sbri_query_piece piece = {.object = &object, .kind = SBRI_PIECE_CONVEX, .shape = c->shape};
   sbf_vec3 ends[2];
-  if (!sbri_query_convex_of(c->shape, c->turn_to, &piece.convex, ends)) piece.convex.radius = 0;
-  sbri_convex_set_frame(&piece.convex, from_origin(v->space, c->to), c->turn_to, 1);
+  if (!sbri_query_convex_of(c->shape, c->rotation_to, &piece.convex, ends)) piece.convex.radius = 0;
+  sbri_convex_set_frame(&piece.convex, from_origin(v->space, c->to), c->rotation_to, 1);
   sbri_box inside = box_in_frame(&v->space->box, &piece.convex);
   if (!sbri_boxes_overlap(&inside, &c->shape->bounds)) return;
   if (!sbri_query_accepts(v->space->filter, c->layer, c->mask, &object)) return;

@@ -11,7 +11,7 @@ sbr_rigid_state sbr_character_get_rigid_state(
   if (!c || rigid_body >= c->model->rigid.body_count) return state;
   const sbri_rigid_body *is = &c->model->rigid.bodies[rigid_body];
   sbri_rigid_body_state now = sbri_rigid_bodies(c)[rigid_body];
-  if (!sbri_rigid_drive(c)->any) now.pose = sbri_rigid_target(c, sbri_pose(c), rigid_body);
+  if (!sbri_rigid_drive(c)->any_dynamic) now.pose = sbri_rigid_target(c, sbri_pose(c), rigid_body);
   float s = c->scale, mass = is->mass * s * s * s, speed = s * c->time_scale;
   sbf_quat rotation = sbri_quat_multiply(now.pose.rotation, sbri_quat_conjugate(is->axes));
   sbf_vec3 off = sbri_rotate(rotation, sbri_sub(is->source->center, is->center));
@@ -59,9 +59,9 @@ sbr_joint_state sbr_character_get_joint_state(
   const sbr_transform *at[SBRI_SIDES];
   for (int side = 0; side < SBRI_SIDES; side++) {
     int32_t body = joint->bodies[side];
-    poses[side] = body < 0                   ? anchor
-                  : sbri_rigid_drive(c)->any ? sbri_rigid_bodies(c)[body].pose
-                                             : sbri_rigid_target(c, sbri_pose(c), (uint32_t)body);
+    poses[side] = body < 0                           ? anchor
+                  : sbri_rigid_drive(c)->any_dynamic ? sbri_rigid_bodies(c)[body].pose
+                                                     : sbri_rigid_target(c, sbri_pose(c), (uint32_t)body);
     at[side] = &poses[side];
   }
   sbri_joint_frames joint_frames = sbri_joint_frames_of(joint, at, &anchor, sbri_vec3(0, 0, 0));

@@ -106,8 +106,9 @@ void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *t, float step_
     sbri_rigid_burden *burden = &sbri_burdens(c)[b];
     const sbri_rigid_body_state *body = &t->bodies[b];
     double axes[3][3];
-    burden->on = burden->needed_steps * step_s > LONGEST * t->tick_s && step_s <= LONGEST * longest_step_s(c);
-    if (!burden->on) continue;
+    burden->is_attached =
+        burden->needed_steps * step_s > LONGEST * t->tick_s && step_s <= LONGEST * longest_step_s(c);
+    if (!burden->is_attached) continue;
     burden->begin = body->pose, burden->velocity = body->velocity,
     burden->angular_momentum = body->angular_momentum;
     axes_of(rotation_of(&t->model->bodies[b], &body->pose), axes);
@@ -226,7 +227,7 @@ void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *t, float step_s,
     sbri_rigid_body_state *body = &t->bodies[b];
     sbri_lane_sums applied = {{{0}}, {{0}}}, again = applied;
     sbf_vec3 impulse, moment;
-    if (!burden->on) continue;
+    if (!burden->is_attached) continue;
     sbf_vec3 fall = sbri_scale(t->gravity, weight_s * is->source->gravity_scale);
     change changes = {.velocity = sbri_sub(sbri_sub(body->velocity, burden->velocity), fall),
         .angular_velocity = sbri_angular_velocity_from_momentum(

@@ -228,7 +228,7 @@ static void shift(sbri_character *c, const sbri_rigid_tick *t, float rate) {
 void sbri_coupled_before_step(
     sbri_coupled *group, const sbri_rigid_tick *t, float from, float to, float weight_s) {
   sbri_character *c = group->character;
-  group->falls = t->drive->flies && !group->is_touching;
+  group->falls = t->drive->is_free && !group->is_touching;
   group->weight_s = weight_s;
   sbf_vec3 velocity_change = sbri_scale(t->gravity, group->falls ? weight_s : 0);
   float step_s = t->tick_s * (to - from);
@@ -244,7 +244,7 @@ void sbri_coupled_before_step(
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
     const sbri_reaction *r = &sbri_reactions(c)[b];
-    if (sbri_burdens(c)[b].on) {
+    if (sbri_burdens(c)[b].is_attached) {
       sbri_burden_apply_impulse(t, b, r);
       continue;
     }

@@ -9,7 +9,8 @@ bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body) {
 
 bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
-  if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any) return false;
+  if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any_dynamic)
+    return false;
   for (uint32_t i = 0; i < island->pins.carrier_count; i++)
     if (sbri_rigid_is_simulated(c, island->pins.carriers[i])) return true;
   return false;
@@ -30,15 +31,16 @@ void sbri_rigid_apply_impulse(sbri_character *c, uint32_t rigid_body, sbf_vec3 a
 
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  drive->asleep = drive->idle_ticks = drive->slow_ticks = drive->any = 0;
+  drive->asleep = drive->idle_ticks = drive->slow_ticks = drive->any_dynamic = 0;
   drive->damping_ticks = 0, drive->damped_max = drive->damped_before = 0;
-  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
+    drive->any_dynamic |= sbri_rigid_is_simulated(c, b);
   sbri_character_wake(c);
 }
 
 bool sbri_rigid_is_still(const sbri_character *c) {
   const sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
-  return !drive || !drive->any || drive->asleep;
+  return !drive || !drive->any_dynamic || drive->asleep;
 }
 
 sbr_rigid_drive sbr_default_rigid_drive(void) {

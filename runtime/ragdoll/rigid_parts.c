@@ -116,13 +116,13 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   if (!model->body_count) return false;
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   sbri_rigid_frames_follow(c, sbri_pose(c));
-  if (!drive->any) return false;
+  if (!drive->any_dynamic) return false;
   for (uint32_t b = 0; b < model->body_count; b++)
     sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
   memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
   if (drive->asleep &&
-      (world->colliders.moving || has_moved_support(c) || !sbri_coupled_sleep(&parts->coupled)))
+      (world->colliders.is_moving || has_moved_support(c) || !sbri_coupled_sleep(&parts->coupled)))
     drive->asleep = drive->idle_ticks = 0, drive->damped_before = 0;
   if (drive->asleep || !c->rigid_work) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));

@@ -38,7 +38,7 @@ static void add_compliance(const sbri_edge *edge, double k[3][3]) {
   for (uint32_t r = 0; r < edge->active_count; r++) {
     const sbri_row *row = &edge->rows[edge->actives[r]];
     const float *g = row->rates[edge->ball->child] + 3;
-    double stiff = 1 / (double)row->give;
+    double stiff = 1 / (double)row->compliance;
     for (int i = 0; i < 3; i++)
       for (int j = 0; j <= i; j++) k[i][j] += stiff * g[i] * g[j];
   }
@@ -187,7 +187,7 @@ static void add_targets(const sbri_edge *edge, double angular_change[3]) {
   for (uint32_t r = 0; r < edge->active_count; r++) {
     const sbri_row *row = &edge->rows[edge->actives[r]];
     const float *g = row->rates[edge->ball->child] + 3;
-    double pull = edge->rhs[r] / (double)row->give;
+    double pull = edge->rhs[r] / (double)row->compliance;
     for (int k = 0; k < 3; k++) angular_change[k] += pull * g[k];
   }
 }
@@ -257,7 +257,7 @@ static void add_row_impulses(const sbri_edge *edge, const double relative[3]) {
     sbri_row *row = &edge->rows[edge->actives[r]];
     const float *g = row->rates[edge->ball->child] + 3;
     double moved = -(g[0] * relative[0] + g[1] * relative[1] + g[2] * relative[2]);
-    row->impulse += (float)((edge->rhs[r] - moved) / (double)row->give);
+    row->impulse += (float)((edge->rhs[r] - moved) / (double)row->compliance);
   }
 }
 

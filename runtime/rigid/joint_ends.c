@@ -52,11 +52,12 @@ static float find_violation(
   float worst = 0;
   for (uint32_t r = 0; r < e->row_count; r++) {
     const sbri_row *row = &e->rows[r];
-    if (row->kind != SBRI_ROW_LIMIT || row->active || row->clear > reach) continue;
+    if (row->kind != SBRI_ROW_LIMIT || row->active || row->clearance > reach) continue;
     float now = sbri_joint_coordinate(joint, joint_frames, (sbf_joint_axis)row->axis);
-    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, row->low, row->high);
-    float violation = now < row->low ? row->low - now : now - row->high;
-    float violation_at_begin = row->now < row->low ? row->low - row->now : row->now - row->high;
+    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, row->lower, row->upper);
+    float violation = now < row->lower ? row->lower - now : now - row->upper;
+    float violation_at_begin =
+        row->position < row->lower ? row->lower - row->position : row->position - row->upper;
     if (violation > MAX_VIOLATION && violation > violation_at_begin)
       worst = violation > worst ? violation : worst;
   }
@@ -77,7 +78,7 @@ static float reach_in_step(
 static bool is_bare_ball(const sbri_edge *e, float reach) {
   if (!e->ball || e->ball->end.x != 0 || e->ball->end.y != 0 || e->ball->end.z != 0) return false;
   for (uint32_t r = 0; r < e->row_count; r++)
-    if (e->rows[r].kind <= SBRI_ROW_LIMIT && !(e->rows[r].clear > reach)) return false;
+    if (e->rows[r].kind <= SBRI_ROW_LIMIT && !(e->rows[r].clearance > reach)) return false;
   return true;
 }
 
@@ -122,8 +123,9 @@ bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *e, const 
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];
     e->rhs[r] = 0;
-    if (!(row->bounce > 0)) continue;
-    e->rhs[r] = (float)row->sign * row->bounce - sbri_row_speed(work, model, &model->joints[e->joint], row);
+    if (!(row->bounce_speed > 0)) continue;
+    e->rhs[r] =
+        (float)row->sign * row->bounce_speed - sbri_row_speed(work, model, &model->joints[e->joint], row);
     any = true;
   }
   return any;

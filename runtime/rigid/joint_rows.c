@@ -28,12 +28,13 @@ typedef struct row_maker {
 /* Adds a row without rates. */
 static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
-  row->target = row->give = row->max = row->bound = row->bounce = row->impulse = row->attached_mass = 0;
-  row->dry = row->max_dry = 0;
-  row->wanted = row->was = row->moved = row->clear = row->speed = 0;
+  row->target = row->compliance = row->max = row->bound = row->bounce_speed = row->impulse =
+      row->attached_mass = 0;
+  row->dry_friction = row->max_dry_friction = 0;
+  row->target_change = row->previous_change = row->last_change = row->clearance = row->speed = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
-  row->active = true, row->full = false;
+  row->active = true, row->is_saturated = false;
   return row;
 }
 
@@ -69,8 +70,8 @@ static void add_locked_at(row_maker *m, sbf_joint_axis axis, float value) {
 static void make_soft(
     const row_maker *m, sbri_row *row, float stiffness, float damping, float error, float velocity) {
   float kick_s = m->work->kick_s;
-  row->give = 1 / (kick_s * (m->step_s * stiffness + damping));
-  row->target = row->give * kick_s * (stiffness * error + damping * velocity);
+  row->compliance = 1 / (kick_s * (m->step_s * stiffness + damping));
+  row->target = row->compliance * kick_s * (stiffness * error + damping * velocity);
 }
 
 /* Lower bound of the distance from the bounds, without an arctangent. Below 0: unknown. */
@@ -79,9 +80,10 @@ static float min_distance_of(const sbri_row *row, const sbri_joint_frames *joint
                           joint_frames->half_tangent[1] * joint_frames->half_tangent[1]);
   float w = fabsf(joint_frames->rotation.w);
   if (!(swing < CLEAR_SWING && w > CLEAR_TURN)) return -1;
-  if (row->axis == SBF_JOINT_AXIS_SWING) return row->low > 0 ? -1 : row->high - swing;
+  if (row->axis == SBF_JOINT_AXIS_SWING) return row->lower > 0 ? -1 : row->upper - swing;
   if (row->axis != SBF_JOINT_AXIS_TWIST) return -1;
-  float twist = 2 * fabsf(joint_frames->rotation.x) / w, min = row->high < -row->low ? row->high : -row->low;
+  float twist = 2 * fabsf(joint_frames->rotation.x) / w,
+        min = row->upper < -row->lower ? row->upper : -row->lower;
   return min - twist;
 }
 
@@ -90,7 +92,7 @@ static bool is_clear(const row_maker *m, sbri_row *row) {
   if (!m->edge->ball) return false;
   float clear = min_distance_of(row, m->frames);
   if (!(clear > sbri_turn_reach(m->turn_rad_s, m->step_s))) return false;
-  row->clear = clear, row->now = row->high - clear;
+  row->clearance = clear, row->position = row->upper - clear;
   row->active = false;
   return true;
 }
@@ -110,16 +112,16 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   }
   sbri_row *row = add_bare_row(m, soft ? SBRI_ROW_SPRING : SBRI_ROW_LIMIT, axis);
   bool pressed = m->tick->joints[m->edge->joint].pressed >> ((m->edge->row_count - 1) & 31) & 1;
-  row->low = min_of(limit), row->high = limit->max;
+  row->lower = min_of(limit), row->upper = limit->max;
   if (!soft && !pressed && is_clear(m, row)) return;
   float now = sbri_joint_coordinate(m->joint, m->frames, axis);
   if (axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_twist(now, limit->min, limit->max);
-  row->now = now;
+  row->position = now;
   sbri_limit_ready(m->work, m->tick->model, m->edge, m->frames, row, m->step_s);
   if (soft) make_soft(m, row, limit->stiffness, limit->damping, row->bound - now, 0);
   row->active = pressed || sbri_limit_acts(row, row->speed, m->step_s);
   float into = -(float)row->sign * row->speed;
-  if (!soft && row->active && into > BOUNCE_FROM) row->bounce = limit->restitution * into;
+  if (!soft && row->active && into > BOUNCE_FROM) row->bounce_speed = limit->restitution * into;
 }
 
 static void add_drive(row_maker *m, const sbf_drive *drive) {
@@ -161,8 +163,8 @@ static void add_track(row_maker *m) {
   if (!(stiffness > 0 || damping > 0)) return;
   if (m->edge->ball && !(stiffness > 0)) {
     m->edge->ball->attached_inertia = (double)(damping * m->work->kick_s);
-    m->edge->ball->dry = (double)(dry * m->work->kick_s);
-    m->edge->ball->max_dry = (double)(torque * m->work->kick_s);
+    m->edge->ball->dry_friction = (double)(dry * m->work->kick_s);
+    m->edge->ball->max_dry_friction = (double)(torque * m->work->kick_s);
     return;
   }
   sbf_vec3 error = {0, 0, 0};
@@ -181,7 +183,7 @@ static void add_track(row_maker *m) {
     make_soft(m, row, stiffness, damping, sbri_dot(error, *u), 0);
     row->max = fraction * t->drive->strength * joint->hold_torque * m->work->kick_s;
     row->attached_mass = attached * m->work->kick_s;
-    row->dry = dry * m->work->kick_s, row->max_dry = torque * m->work->kick_s;
+    row->dry_friction = dry * m->work->kick_s, row->max_dry_friction = torque * m->work->kick_s;
   }
 }
 
@@ -232,7 +234,7 @@ static void make_ball(row_maker *m) {
   store(ball->levers[SBRI_B], joint_frames->arms[SBRI_B]);
   store(ball->rhs, sbri_sub(target, slip));
   store(ball->attached_rhs, sbri_scale(turn, -1));
-  ball->attached_inertia = ball->dry = ball->max_dry = 0;
+  ball->attached_inertia = ball->dry_friction = ball->max_dry_friction = 0;
   m->turn_rad_s = sbri_length(turn);
 }
 

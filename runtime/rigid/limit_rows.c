@@ -33,21 +33,21 @@ float sbri_nearest_twist(float value, float low, float high) {
 }
 
 void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
-  float next = row->now + step_s * speed;
-  bool low = next - row->low < row->high - next;
+  float next = row->position + step_s * speed;
+  bool low = next - row->lower < row->upper - next;
   row->sign = low ? 1 : -1;
-  row->bound = low ? row->low : row->high;
+  row->bound = low ? row->lower : row->upper;
   if (row->kind != SBRI_ROW_LIMIT) return;
   float max = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_CORRECTION_RAD_S : SBRI_CORRECTION_M_S;
-  float back = (row->bound - row->now) / step_s;
+  float back = (row->bound - row->position) / step_s;
   row->target = low ? (back > max ? max : back) : (back < -max ? -max : back);
-  row->end = row->now + step_s * row->target;
+  row->end = row->position + step_s * row->target;
 }
 
 bool sbri_limit_acts(const sbri_row *row, float speed, float step_s) {
   float sign = row->sign;
   bool pushes = sign * (row->target - speed) > 0;
-  return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->now - step_s * speed) > 0);
+  return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->position - step_s * speed) > 0);
 }
 
 float sbri_turn_reach(float turn_rad_s, float step_s) {
@@ -60,5 +60,5 @@ void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *mo
   sbri_joint_compute_gradient(joint, joint_frames, (sbf_joint_axis)row->axis, row->rates);
   row->speed = sbri_row_speed(work, model, joint, row);
   sbri_limit_choose_side(row, row->speed, step_s);
-  row->give = (float)(sbri_row_response(&work->system, e, row) / FIRM);
+  row->compliance = (float)(sbri_row_response(&work->system, e, row) / FIRM);
 }

@@ -116,22 +116,22 @@ static void linearise(sbri_rigid_contact *contact, sbf_vec3 du) {
   sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
   if (is_idle(contact, du)) {
     contact->slides = true, contact->active = false;
-    contact->drag = sbri_vec3(0, 0, 0), contact->side_grip = 0;
+    contact->sliding_impulse = sbri_vec3(0, 0, 0), contact->side_mass = 0;
     return;
   }
-  sbf_vec3 pull =
-      sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -sbri_dot(n, error)), contact->grip);
+  sbf_vec3 pull = sbri_add_scaled(
+      contact->sticking_impulse, sbri_add_scaled(error, n, -sbri_dot(n, error)), contact->tangential_mass);
   float tangential = sbri_length(pull);
   contact->slides = tangential > contact->bound;
   contact->active = sbri_dot(n, error) > 0;
-  contact->drag = sbri_vec3(0, 0, 0);
-  contact->side_grip = 0;
+  contact->sliding_impulse = sbri_vec3(0, 0, 0);
+  contact->side_mass = 0;
   if (!contact->slides || !(contact->bound > 0)) return;
   sbf_vec3 direction = sbri_scale(pull, 1 / tangential);
-  contact->side = sbri_cross(n, direction);
-  contact->side_grip = contact->grip * contact->bound / tangential;
-  contact->drag = sbri_add_scaled(
-      sbri_scale(direction, contact->bound), contact->side, contact->side_grip * sbri_dot(contact->side, du));
+  contact->side_direction = sbri_cross(n, direction);
+  contact->side_mass = contact->tangential_mass * contact->bound / tangential;
+  contact->sliding_impulse = sbri_add_scaled(sbri_scale(direction, contact->bound), contact->side_direction,
+      contact->side_mass * sbri_dot(contact->side_direction, du));
 }
 
 void sbri_rigid_contacts_linearise(
@@ -161,7 +161,7 @@ void sbri_rigid_contacts_linearise(
     contact->inverse_mass = inverse_mass_of(body, s->pose.rotation, contact->arm, n) + external_inverse_mass;
     float weight = 1 / contact->inverse_mass, single_impulse = weight * (target_speed - speed);
     contact->target = sbri_sub(sbri_scale(n, target_speed), u);
-    contact->more = sbri_vec3(0, 0, 0);
+    contact->extra_impulse = sbri_vec3(0, 0, 0);
     contact->bounce_m_s = 0;
     contact->closing_speed = -speed;
     if (speed < target_speed && -speed > bounce_from) {
@@ -174,18 +174,19 @@ void sbri_rigid_contacts_linearise(
     }
     float normal = work->kick_s * contact->normal_n, own_weight = mass * sbri_length(t->gravity) * step_s;
     float load = sbri_clamp(own_weight > 0 ? normal / own_weight : 1, 1, MAX_LOAD);
-    contact->stiff = firmer * FIRM * weight;
-    contact->grip = load * firmer * FIRM_ACROSS * weight;
+    contact->normal_mass = firmer * FIRM * weight;
+    contact->tangential_mass = load * firmer * FIRM_ACROSS * weight;
     contact->tolerance = FRICTION_TOLERANCE * load * own_weight;
-    if (!(contact->known && (normal > 0 || speed > -bounce_from)))
+    if (!(contact->has_history && (normal > 0 || speed > -bounce_from)))
       normal = single_impulse > 0 ? single_impulse : 0;
     contact->bound = contact->friction * normal;
     sbf_vec3 old_friction =
-        sbri_scale(contact->drag_n, contact->known ? (1 - FRICTION_RELEASE) * work->kick_s : 0);
-    contact->hold = sbri_add_scaled(old_friction, n, -sbri_dot(n, old_friction));
+        sbri_scale(contact->friction_n, contact->has_history ? (1 - FRICTION_RELEASE) * work->kick_s : 0);
+    contact->sticking_impulse = sbri_add_scaled(old_friction, n, -sbri_dot(n, old_friction));
     /* Starts from the state of the previous step: sticking or sliding. */
-    linearise(contact, contact->known ? sbri_sub(contact->target, contact->left) : sbri_vec3(0, 0, 0));
-    if (!contact->known) continue;
+    linearise(contact,
+        contact->has_history ? sbri_sub(contact->target, contact->velocity_error) : sbri_vec3(0, 0, 0));
+    if (!contact->has_history) continue;
     if (contact->normal_n > 0 && contact->gap < LYING_M) contact->active = true;
     if (contact->normal_n == 0 && speed > -bounce_from) contact->active = false;
   }
@@ -195,7 +196,8 @@ void sbri_rigid_contacts_linearise(
 static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_contact *contact, float more,
     float grip, float side_grip, sbf_vec3 f) {
   const double n[3] = {(double)contact->normal.x, (double)contact->normal.y, (double)contact->normal.z};
-  const double p[3] = {(double)contact->side.x, (double)contact->side.y, (double)contact->side.z};
+  const double p[3] = {(double)contact->side_direction.x, (double)contact->side_direction.y,
+      (double)contact->side_direction.z};
   double w[3][3];
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -208,11 +210,11 @@ static void add_external_body(sbri_rigid_external_body *g, const sbri_rigid_cont
  * n^T + side_grip side side^T for sliding, and f the impulse at zero velocity change. */
 static void add_contact(
     sbri_node *node, const sbri_rigid_contact *contact, sbri_rigid_external_body *external_body) {
-  float stiff = contact->active ? contact->stiff : 0, grip = contact->slides ? 0 : contact->grip,
-        more = stiff - grip;
-  float side_grip = contact->slides ? contact->side_grip : 0;
+  float stiff = contact->active ? contact->normal_mass : 0,
+        grip = contact->slides ? 0 : contact->tangential_mass, more = stiff - grip;
+  float side_grip = contact->slides ? contact->side_mass : 0;
   const float n[3] = {contact->normal.x, contact->normal.y, contact->normal.z};
-  const float p[3] = {contact->side.x, contact->side.y, contact->side.z};
+  const float p[3] = {contact->side_direction.x, contact->side_direction.y, contact->side_direction.z};
   sbf_vec3 arm_w[3]; /* columns of arm x W */
   for (int j = 0; j < 3; j++) {
     float column[3];
@@ -233,10 +235,10 @@ static void add_contact(
   float target_speed = sbri_dot(contact->normal, contact->target);
   sbf_vec3 f = sbri_scale(contact->normal, stiff * target_speed);
   if (contact->slides) {
-    f = sbri_add(f, contact->drag);
+    f = sbri_add(f, contact->sliding_impulse);
   } else {
     sbf_vec3 direction = sbri_add_scaled(contact->target, contact->normal, -target_speed);
-    f = sbri_add(f, sbri_add_scaled(contact->hold, direction, contact->grip));
+    f = sbri_add(f, sbri_add_scaled(contact->sticking_impulse, direction, contact->tangential_mass));
   }
   sbf_vec3 moment = sbri_cross(contact->arm, f);
   const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
@@ -255,10 +257,11 @@ void sbri_rigid_contacts_add(sbri_rigid_solving *work) {
 /* W x, as in add_contact. */
 static sbf_vec3 reaction_velocity(const sbri_rigid_contact *contact, sbf_vec3 x) {
   float normal_part = sbri_dot(contact->normal, x);
-  sbf_vec3 f = sbri_scale(contact->normal, contact->active ? contact->stiff * normal_part : 0);
+  sbf_vec3 f = sbri_scale(contact->normal, contact->active ? contact->normal_mass * normal_part : 0);
   if (contact->slides)
-    return sbri_add_scaled(f, contact->side, contact->side_grip * sbri_dot(contact->side, x));
-  return sbri_add_scaled(f, sbri_add_scaled(x, contact->normal, -normal_part), contact->grip);
+    return sbri_add_scaled(
+        f, contact->side_direction, contact->side_mass * sbri_dot(contact->side_direction, x));
+  return sbri_add_scaled(f, sbri_add_scaled(x, contact->normal, -normal_part), contact->tangential_mass);
 }
 
 static sbf_vec3 velocity_change_now(const sbri_rigid_solving *work, const sbri_rigid_contact *contact) {
@@ -274,8 +277,9 @@ static sbf_vec3 velocity_change_now(const sbri_rigid_solving *work, const sbri_r
 static sbf_vec3 impulse_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
   sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
   float into = sbri_dot(n, error);
-  *normal = into > 0 ? contact->stiff * into : 0;
-  sbf_vec3 pull = sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -into), contact->grip);
+  *normal = into > 0 ? contact->normal_mass * into : 0;
+  sbf_vec3 pull =
+      sbri_add_scaled(contact->sticking_impulse, sbri_add_scaled(error, n, -into), contact->tangential_mass);
   float tangential = sbri_length(pull);
   return tangential > contact->bound ? sbri_scale(pull, contact->bound / tangential) : pull;
 }
@@ -287,20 +291,20 @@ static double dot_of(sbf_vec3 a, sbf_vec3 b) {
 void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     const sbri_rigid_contact *contact = &work->contacts[i];
-    if (is_idle(contact, contact->was) && is_idle(contact, contact->moved)) continue;
-    sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, contact->was),
-             displacement = sbri_sub(contact->moved, contact->was);
+    if (is_idle(contact, contact->previous_change) && is_idle(contact, contact->last_change)) continue;
+    sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, contact->previous_change),
+             displacement = sbri_sub(contact->last_change, contact->previous_change);
     float into = sbri_dot(n, error), normal_part = sbri_dot(n, displacement);
     sbri_contact_search *p = &work->pushes[work->push_count++];
     *p = (sbri_contact_search){
-        .stiff = (double)contact->stiff, .into = (double)into, .distance = (double)normal_part};
+        .stiff = (double)contact->normal_mass, .into = (double)into, .distance = (double)normal_part};
     if (!(contact->bound > 0)) continue;
     sbf_vec3 tangential = sbri_add_scaled(error, n, -into),
              tangential_change = sbri_add_scaled(displacement, n, -normal_part);
-    sbf_vec3 pull = sbri_add_scaled(contact->hold, tangential, contact->grip),
-             grip = sbri_scale(tangential_change, contact->grip);
+    sbf_vec3 pull = sbri_add_scaled(contact->sticking_impulse, tangential, contact->tangential_mass),
+             grip = sbri_scale(tangential_change, contact->tangential_mass);
     p->bound = (double)contact->bound;
-    p->inverse_mass = 1 / (double)contact->grip;
+    p->inverse_mass = 1 / (double)contact->tangential_mass;
     p->pull_pull = dot_of(pull, pull), p->pull_grip = dot_of(pull, grip), p->grip_grip = dot_of(grip, grip);
   }
 }
@@ -308,8 +312,8 @@ void sbri_rigid_contacts_find_changes(sbri_rigid_solving *work) {
 void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
-    contact->was = contact->moved;
-    contact->moved = velocity_change_now(work, contact);
+    contact->previous_change = contact->last_change;
+    contact->last_change = velocity_change_now(work, contact);
   }
 }
 
@@ -317,20 +321,22 @@ void sbri_rigid_contacts_update_velocities(sbri_rigid_solving *work) {
 static sbf_vec3 linear_at(const sbri_rigid_contact *contact, sbf_vec3 du, float *normal) {
   sbf_vec3 n = contact->normal, error = sbri_sub(contact->target, du);
   float into = sbri_dot(n, error);
-  *normal = contact->active ? contact->stiff * into : 0;
+  *normal = contact->active ? contact->normal_mass * into : 0;
   if (contact->slides)
-    return sbri_add_scaled(contact->drag, contact->side, -contact->side_grip * sbri_dot(contact->side, du));
-  return sbri_add_scaled(contact->hold, sbri_add_scaled(error, n, -into), contact->grip);
+    return sbri_add_scaled(contact->sliding_impulse, contact->side_direction,
+        -contact->side_mass * sbri_dot(contact->side_direction, du));
+  return sbri_add_scaled(
+      contact->sticking_impulse, sbri_add_scaled(error, n, -into), contact->tangential_mass);
 }
 
 float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
   float energy = 0;
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     const sbri_rigid_contact *contact = &work->contacts[i];
-    if (!contact->active && is_idle(contact, contact->moved)) continue;
+    if (!contact->active && is_idle(contact, contact->last_change)) continue;
     float normal, linear;
-    sbf_vec3 was = linear_at(contact, contact->moved, &linear),
-             is = impulse_at(contact, contact->moved, &normal);
+    sbf_vec3 was = linear_at(contact, contact->last_change, &linear),
+             is = impulse_at(contact, contact->last_change, &normal);
     float tangential = sbri_length(sbri_sub(was, is));
     float normal_part = fabsf(normal - linear);
     if (normal_part > contact->tolerance || tangential > CHANGE * contact->bound + contact->tolerance)
@@ -342,18 +348,18 @@ float sbri_rigid_contacts_error(const sbri_rigid_solving *work) {
 void sbri_rigid_contacts_keep_solution(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
-    if (!contact->active && is_idle(contact, contact->moved)) continue;
+    if (!contact->active && is_idle(contact, contact->last_change)) continue;
     float normal, linear;
-    sbf_vec3 was = linear_at(contact, contact->moved, &linear),
-             is = impulse_at(contact, contact->moved, &normal);
-    contact->more = sbri_add_scaled(sbri_sub(was, is), contact->normal, linear - normal);
+    sbf_vec3 was = linear_at(contact, contact->last_change, &linear),
+             is = impulse_at(contact, contact->last_change, &normal);
+    contact->extra_impulse = sbri_add_scaled(sbri_sub(was, is), contact->normal, linear - normal);
   }
 }
 
 void sbri_rigid_contacts_check(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
-    if (contact->active || !is_idle(contact, contact->moved)) linearise(contact, contact->moved);
+    if (contact->active || !is_idle(contact, contact->last_change)) linearise(contact, contact->last_change);
   }
 }
 
@@ -361,7 +367,7 @@ bool sbri_rigid_contacts_bound(sbri_rigid_solving *work) {
   float error = 0, all = 0, tolerance_sum = 0;
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
-    float normal, used = sbri_length(impulse_at(contact, contact->moved, &normal)),
+    float normal, used = sbri_length(impulse_at(contact, contact->last_change, &normal)),
                   bound = contact->friction * normal;
     all += bound;
     tolerance_sum += contact->tolerance;
@@ -371,9 +377,9 @@ bool sbri_rigid_contacts_bound(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     float normal;
-    (void)impulse_at(contact, contact->moved, &normal);
+    (void)impulse_at(contact, contact->last_change, &normal);
     contact->bound = contact->friction * normal;
-    linearise(contact, contact->moved);
+    linearise(contact, contact->last_change);
   }
   return true;
 }
@@ -383,7 +389,7 @@ void sbri_rigid_contacts_apply_impulse(sbri_rigid_solving *work) {
     sbri_rigid_contact *contact = &work->contacts[i];
     if (!contact->active && !(contact->bound > 0)) continue;
     sbf_vec3 direction = reaction_velocity(contact, velocity_change_now(work, contact));
-    contact->more = sbri_sub(contact->more, direction);
+    contact->extra_impulse = sbri_sub(contact->extra_impulse, direction);
   }
 }
 
@@ -391,16 +397,16 @@ void sbri_rigid_contacts_report(const sbri_rigid_tick *t, sbri_rigid_solving *wo
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
     float normal;
-    sbf_vec3 tangential = impulse_at(contact, contact->moved, &normal);
-    contact->known = true;
-    contact->left = sbri_sub(contact->target, contact->moved);
+    sbf_vec3 tangential = impulse_at(contact, contact->last_change, &normal);
+    contact->has_history = true;
+    contact->velocity_error = sbri_sub(contact->target, contact->last_change);
     contact->normal_n = normal / work->kick_s;
-    contact->drag_n = sbri_scale(tangential, normal > 0 ? 1 / work->kick_s : 0);
+    contact->friction_n = sbri_scale(tangential, normal > 0 ? 1 / work->kick_s : 0);
     if (!(normal > 0)) continue;
     sbf_vec3 position = sbri_add(t->bodies[contact->body].pose.position, contact->arm);
     sbri_touching_one *one = sbri_touching_add(&t->touching[contact->body], contact->collider, position,
         contact->normal, normal, contact->closing_speed);
-    sbf_vec3 push = sbri_add(sbri_add_scaled(tangential, contact->normal, normal), contact->more);
+    sbf_vec3 push = sbri_add(sbri_add_scaled(tangential, contact->normal, normal), contact->extra_impulse);
     if (one) sbri_touching_add_impulse(one, position, push);
   }
 }
@@ -411,14 +417,14 @@ bool sbri_rigid_contacts_bounce(sbri_rigid_solving *work) {
     sbri_rigid_contact *contact = &work->contacts[i];
     if (!contact->active || !(contact->bounce_m_s > 0)) continue;
     sbf_vec3 u = slip_of(work, contact), n = contact->normal;
-    sbf_vec3 f = sbri_scale(n, contact->stiff * (contact->bounce_m_s - sbri_dot(n, u)));
+    sbf_vec3 f = sbri_scale(n, contact->normal_mass * (contact->bounce_m_s - sbri_dot(n, u)));
     sbf_vec3 moment = sbri_cross(contact->arm, f);
     const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
     for (int k = 0; k < 6; k++) work->system.nodes[contact->node].b[k] += both[k];
     if (contact->external_body)
       sbri_rigid_external_body_apply_impulse(
           external_body_of(work, contact), contact->external_body_arm, sbri_scale(f, -1));
-    contact->more = sbri_add(contact->more, f);
+    contact->extra_impulse = sbri_add(contact->extra_impulse, f);
     any = true;
   }
   return any;

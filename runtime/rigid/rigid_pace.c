@@ -22,7 +22,7 @@ static const float ROUNDED = 1.001f;
 static const float SLOW_1_S = 0.1f;
 
 float sbri_rigid_mass_factor(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
-  if (pull->burdens && pull->burdens[body].on) return 1;
+  if (pull->burdens && pull->burdens[body].is_attached) return 1;
   float swell = pull->squares
                     ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MAX_SWING * SBRI_RIGID_MAX_SWING)
                     : 0;
@@ -99,7 +99,8 @@ static void store_frequency(const sbri_rigid_tick *t, sbri_rigid_solving *work, 
     const sbf_vec3 *i = &t->model->bodies[joint->bodies[side]].inverse_inertia, at = joint->frames[side].at;
     float inverse_mass = i->x > i->y ? i->x : i->y;
     inverse_mass = i->z > inverse_mass ? i->z : inverse_mass;
-    work->system.nodes[e->nodes[side]].pulled += ROUNDED * inverse_mass * sqrtf(square * sbri_dot(at, at));
+    work->system.nodes[e->nodes[side]].max_swing_square +=
+        ROUNDED * inverse_mass * sqrtf(square * sbri_dot(at, at));
   }
 }
 
@@ -107,10 +108,10 @@ bool sbri_rigid_oscillates_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving
   sbri_rigid_system *s = &work->system;
   float max = PULLED_SWING / step_s;
   max *= max;
-  for (uint32_t i = 0; i < s->node_count; i++) s->nodes[i].pulled = 0;
+  for (uint32_t i = 0; i < s->node_count; i++) s->nodes[i].max_swing_square = 0;
   for (uint32_t i = 0; i < s->edge_count; i++) store_frequency(t, work, &s->edges[i]);
   bool may = false;
-  for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].pulled > max;
+  for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].max_swing_square > max;
   if (!may) return false; /* the common case, without checking directions */
   float swings = sbri_rigid_swings(t, work);
   return swings > max && swings > PULLED_MORE * work->swings;
@@ -139,7 +140,7 @@ uint32_t sbri_rigid_step_count(const sbri_rigid_tick *t, sbri_rigid_solving *wor
    * a margin, or if the bodies have landed or taken off: a leapfrog gains energy if its step size changes
    * often. */
   bool is_resting = t->drive->slow_ticks >= LYING_TICKS, is_flying_now = is_flying(t, work),
-       flew = t->drive->flies;
+       flew = t->drive->is_free;
   uint32_t count = min_steps(t, is_resting, is_flying_now, steps),
            max = t->substeps > SBRI_RIGID_MAX_SUBSTEPS ? t->substeps : SBRI_RIGID_MAX_SUBSTEPS;
   while ((float)count < steps && 2 * count <= max) count *= 2;
@@ -149,7 +150,7 @@ uint32_t sbri_rigid_step_count(const sbri_rigid_tick *t, sbri_rigid_solving *wor
   if (!is_resting && is_flying_now == flew && old_steps > count && old_steps <= max && nearly)
     count = old_steps;
   t->drive->substeps = count;
-  t->drive->flies = is_flying_now;
+  t->drive->is_free = is_flying_now;
   return count;
 }
 

@@ -16,15 +16,15 @@ static const double LEFT = 1e-3;
 void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
-    float mass = node->swell * t->model->bodies[node->body].mass;
+    float mass = node->mass_factor * t->model->bodies[node->body].mass;
     memset(node->d, 0, sizeof node->d);
     for (int k = 0; k < 3; k++) {
       node->d[k][k] = mass;
-      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->swell * node->inertia[k][j];
+      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->mass_factor * node->inertia[k][j];
     }
     for (int k = 0; node->burden && k < 6; k++)
       for (int j = 0; j <= k; j++) node->d[k][j] += node->burden[k][j];
-    memcpy(node->b, node->push, sizeof node->b);
+    memcpy(node->b, node->known_impulse, sizeof node->b);
   }
   sbri_rigid_external_bodies_clear(work);
   sbri_rigid_contacts_add(work);
@@ -36,11 +36,12 @@ void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
 static void scale_back(sbri_rigid_solving *work, float fraction) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
-    for (int k = 0; k < 6; k++) node->x[k] = node->was[k] + (double)fraction * (node->x[k] - node->was[k]);
+    for (int k = 0; k < 6; k++)
+      node->x[k] = node->previous[k] + (double)fraction * (node->x[k] - node->previous[k]);
   }
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     sbri_rigid_contact *contact = &work->contacts[i];
-    contact->moved = sbri_lerp(contact->was, contact->moved, fraction);
+    contact->last_change = sbri_lerp(contact->previous_change, contact->last_change, fraction);
   }
   sbri_rigid_external_bodies_scale_back(work, fraction);
   sbri_joint_rows_scale_back(work, fraction);
@@ -71,7 +72,8 @@ void sbri_rigid_iterate(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   sbri_rigid_system *s = &work->system;
   int bounds = t->coarse ? 0 : MAX_BOUNDS;
   for (int pass = 0; pass < MAX_PASSES; pass++) {
-    for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
+    for (uint32_t i = 0; i < s->node_count; i++)
+      memcpy(s->nodes[i].previous, s->nodes[i].x, sizeof s->nodes[i].x);
     sbri_rigid_external_bodies_store_solution(work);
     for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_set_targets(&s->edges[e]);
     sbri_rigid_factor(t, work);

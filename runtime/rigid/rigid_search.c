@@ -26,7 +26,7 @@ static void add_attached(const sbri_rigid_solving *work, const sbri_edge *e, dou
     if (e->nodes[side] < 0) continue;
     const sbri_node *node = &work->system.nodes[e->nodes[side]];
     double sign = side == SBRI_B ? 1 : -1;
-    for (int k = 0; k < 3; k++) was[k] += sign * node->was[3 + k], now[k] += sign * node->x[3 + k];
+    for (int k = 0; k < 3; k++) was[k] += sign * node->previous[3 + k], now[k] += sign * node->x[3 + k];
   }
   for (int k = 0; k < 3; k++) {
     double travel = now[k] - was[k];
@@ -41,21 +41,22 @@ static void find_slope(
   double a = 0, q = 0;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
-    double mass = (double)(node->swell * t->model->bodies[node->body].mass), swell = (double)node->swell,
-           direction[6];
-    for (int k = 0; k < 6; k++) direction[k] = node->x[k] - node->was[k], a -= node->push[k] * direction[k];
+    double mass = (double)(node->mass_factor * t->model->bodies[node->body].mass),
+           swell = (double)node->mass_factor, direction[6];
+    for (int k = 0; k < 6; k++)
+      direction[k] = node->x[k] - node->previous[k], a -= node->known_impulse[k] * direction[k];
     for (int k = 0; k < 3; k++) {
       const float *row = node->inertia[k];
       double linear = mass * direction[k];
       double angular = swell * ((double)row[0] * direction[3] + (double)row[1] * direction[4] +
                                    (double)row[2] * direction[5]);
-      a += node->was[k] * linear + node->was[3 + k] * angular;
+      a += node->previous[k] * linear + node->previous[3 + k] * angular;
       q += direction[k] * linear + direction[3 + k] * angular;
     }
     for (int k = 0; node->burden && k < 6; k++)
       for (int j = 0; j < 6; j++) {
         double mass_of = node->burden[k][j];
-        a += mass_of * node->was[k] * direction[j], q += mass_of * direction[k] * direction[j];
+        a += mass_of * node->previous[k] * direction[j], q += mass_of * direction[k] * direction[j];
       }
   }
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
@@ -64,15 +65,15 @@ static void find_slope(
     for (uint32_t r = 0; r < e->active_count; r++) {
       const sbri_row *row = &e->rows[e->actives[r]];
       double was = 0, now = 0;
-      if (!(row->give > 0) || row->kind == SBRI_ROW_LIMIT) continue;
+      if (!(row->compliance > 0) || row->kind == SBRI_ROW_LIMIT) continue;
       for (int side = 0; side < SBRI_SIDES; side++) {
         if (e->nodes[side] < 0) continue;
         const sbri_node *node = &work->system.nodes[e->nodes[side]];
-        was += sbri_dot6_rates(row->rates[side], node->was);
+        was += sbri_dot6_rates(row->rates[side], node->previous);
         now += sbri_dot6_rates(row->rates[side], node->x);
       }
-      a -= (e->rhs[r] - was) * (now - was) / (double)row->give;
-      q += (now - was) * (now - was) / (double)row->give;
+      a -= (e->rhs[r] - was) * (now - was) / (double)row->compliance;
+      q += (now - was) * (now - was) / (double)row->compliance;
     }
   }
   *slope = a, *rise = q;
@@ -87,10 +88,10 @@ static void add_limits(sbri_rigid_solving *work) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
-      float travel = row->moved - row->was, sign = (float)row->sign;
+      float travel = row->last_change - row->previous_change, sign = (float)row->sign;
       if (row->kind != SBRI_ROW_LIMIT || travel == 0) continue;
-      work->pushes[work->push_count++] = (sbri_contact_search){.stiff = 1 / (double)row->give,
-          .into = (double)(sign * (row->wanted - row->was)),
+      work->pushes[work->push_count++] = (sbri_contact_search){.stiff = 1 / (double)row->compliance,
+          .into = (double)(sign * (row->target_change - row->previous_change)),
           .distance = (double)(sign * travel)};
     }
   }

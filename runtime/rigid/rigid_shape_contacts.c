@@ -31,7 +31,7 @@ static void add_contact(const shape_pair *m, sbf_vec3 on_hull, sbf_vec3 on_shape
   if (m->work->rigid_contact_count >= m->work->max_contacts) return;
   const sbri_collider *c = m->frame.collider;
   sbf_vec3 own = sbri_sub(sbri_out_of_shape(&m->frame, on_hull), m->pose.position);
-  sbf_vec3 n = sbri_rotate(c->turn_from, normal), position = sbri_out_of_shape(&m->frame, on_shape);
+  sbf_vec3 n = sbri_rotate(c->rotation_from, normal), position = sbri_out_of_shape(&m->frame, on_shape);
   uint32_t external_body =
       sbri_rigid_external_body_of(m->tick, m->work, m->number, m->node, &m->frame, m->collider);
   sbf_vec3 centre = external_body ? m->work->external_bodies[external_body - 1].is.centre : position;
@@ -241,8 +241,8 @@ static void collide_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uin
     sbf_vec3 at = sbri_into_shape(&m.frame, x, false);
     sbf_vec3 end = sbri_into_shape(&m.frame, sbri_add(x, displacement), true);
     sbf_vec3 own_displacement = sbri_sub(end, at);
-    m.hull = (sbri_placed_hull){
-        &body->hull, at, sbri_quat_multiply(sbri_quat_conjugate(c->turn_from), s->pose.rotation), t->scale};
+    m.hull = (sbri_placed_hull){&body->hull, at,
+        sbri_quat_multiply(sbri_quat_conjugate(c->rotation_from), s->pose.rotation), t->scale};
     m.radius = t->scale * body->radius;
     float ahead = sbri_length(own_displacement), max = 0.5f * m.radius;
     m.reach = t->scale * swing + (ahead < max ? ahead : max);

@@ -36,8 +36,8 @@ typedef struct sbri_rigid_drive_state {
   uint32_t soft_steps;             /* steps per tick last requested by its soft bodies; 0: none */
   uint32_t slow_ticks;             /* ticks with slow motion only */
   float last_step_s;               /* of the last tick; 0: the bodies have just begun to move */
-  uint32_t flies;                  /* in the last tick nothing was near or attached */
-  uint32_t any;                    /* some body is not kinematic */
+  uint32_t is_free;                /* in the last tick nothing was near or attached */
+  uint32_t any_dynamic;            /* some body is not kinematic */
   uint32_t posture;                /* of sbr_posture */
   float posture_s, still_s;        /* time in that posture; time of lying still in it, s */
   float limp_fraction, rest_s, rise_s; /* of sbr_fall_definition */
@@ -59,11 +59,12 @@ typedef struct sbri_rigid_contact {
                                  (rigid_external_bodies.h); 0: none */
   sbf_vec3 external_body_arm; /* lever arm from the external body's centre of mass, m */
   /* From the previous step, if `known`: */
-  bool known;
-  uint32_t idle;   /* ticks for which it has not pressed */
-  float normal_n;  /* normal force, N; 0: inactive */
-  sbf_vec3 drag_n; /* sliding friction, N */
-  sbf_vec3 left;   /* m/s, of what was wanted then what was not had: backwards, how it slid */
+  bool has_history;
+  uint32_t idle_ticks;     /* ticks for which it has not pressed */
+  float normal_n;          /* normal force, N; 0: inactive */
+  sbf_vec3 friction_n;     /* sliding friction, N */
+  sbf_vec3 velocity_error; /* part of the target velocity change that was not reached, m/s: minus the sliding
+                              velocity */
   /* Within a substep: */
   sbf_vec3 arm;
   sbf_vec3 target;     /* target velocity change of the contact point */
@@ -71,24 +72,25 @@ typedef struct sbri_rigid_contact {
   float bounce_m_s;    /* bounce speed; 0: none */
   float closing_speed; /* m/s at the beginning of the substep; for events */
   float inverse_mass;  /* inverse effective mass along the normal, body alone, 1/kg */
-  float stiff, grip;   /* effective mass along the normal, and tangential while it sticks, kg */
-  sbf_vec3 hold;       /* friction impulse of the previous step, about which sticking yields */
-  sbf_vec3 drag;       /* sliding friction impulse; and perpendicular to it and the normal: */
-  sbf_vec3 side;       /* unit vector along which friction changes with the sliding direction */
-  float side_grip;     /* friction impulse over sliding speed, kg */
-  float bound;         /* bound of the friction impulse, N s */
-  float tolerance;     /* tolerance of the friction impulse, N s */
-  sbf_vec3 was, moved; /* velocity change by the previous iteration, and by the last */
+  float normal_mass,
+      tangential_mass;       /* effective mass along the normal, and tangential while it sticks, kg */
+  sbf_vec3 sticking_impulse; /* friction impulse of the previous step, about which sticking yields */
+  sbf_vec3 sliding_impulse;  /* sliding friction impulse; and perpendicular to it and the normal: */
+  sbf_vec3 side_direction;   /* unit vector along which friction changes with the sliding direction */
+  float side_mass;           /* friction impulse over sliding speed, kg */
+  float bound;               /* bound of the friction impulse, N s */
+  float tolerance;           /* tolerance of the friction impulse, N s */
+  sbf_vec3 previous_change, last_change; /* velocity change by the previous iteration, and by the last */
   bool active, slides;
-  sbf_vec3 more; /* impulse in addition to the iterations, N s */
+  sbf_vec3 extra_impulse; /* impulse in addition to the iterations, N s */
 } sbri_rigid_contact;
 
 /* Part of a contact that is stored for the next tick. */
 typedef struct sbri_stored_contact {
   uint32_t body, surface;
-  uint32_t found; /* found again in this tick */
-  uint32_t idle;  /* ticks for which it has not pressed */
-  sbf_vec3 at, drag_n, normal, left;
+  uint32_t found;      /* found again in this tick */
+  uint32_t idle_ticks; /* ticks for which it has not pressed */
+  sbf_vec3 at, friction_n, normal, velocity_error;
   float normal_n, offset; /* N; of the plane, as normal.x */
 } sbri_stored_contact;
 
@@ -96,7 +98,7 @@ struct sbri_rigid_tick;
 
 /* Mass that attached soft bodies add to a body in a step (ragdoll/attached_bodies.c). */
 typedef struct sbri_rigid_burden {
-  bool on;
+  bool is_attached;
   double mass[6][6];   /* about the body's centre, in character space */
   float needed_steps;  /* steps per tick without attachment */
   sbr_transform begin; /* state of the body at the beginning of the step: */

@@ -187,9 +187,9 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     const sbf_vec3 *inverse_mass = &model->bodies[b].inverse_inertia;
     node->inverse_mass[0] = model->bodies[b].inverse_mass;
     node->inverse_mass[1] = (inverse_mass->x + inverse_mass->y + inverse_mass->z) / 3;
-    node->swell = sbri_rigid_mass_factor(&t->pull, b, step_s);
-    node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
-    memset(node->push, 0, sizeof node->push);
+    node->mass_factor = sbri_rigid_mass_factor(&t->pull, b, step_s);
+    node->burden = t->pull.burdens && t->pull.burdens[b].is_attached ? t->pull.burdens[b].mass : NULL;
+    memset(node->known_impulse, 0, sizeof node->known_impulse);
   }
   sbri_rigid_external_bodies_begin(work, step_s);
   advance_all(t, work, step_s);
@@ -233,7 +233,7 @@ static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, s
   for (uint32_t r = 0; r < e->row_count; r++) {
     const sbri_row *row = &e->rows[r];
     const float *b = row->rates[SBRI_B];
-    if ((e->ball && row->active) || (!row->active && !row->full)) continue;
+    if ((e->ball && row->active) || (!row->active && !row->is_saturated)) continue;
     impulse = sbri_add_scaled(impulse, sbri_vec3(b[0], b[1], b[2]), row->impulse);
     about = sbri_add_scaled(about, sbri_vec3(b[3], b[4], b[5]), row->impulse);
   }

@@ -71,7 +71,7 @@ static void eliminate_edge(sbri_rigid_system *s, sbri_node *node, sbri_edge *e) 
     for (int i = 0; i < 6; i++) y[i] = row->rates[child][i];
     sbri_sym6_solve_forward(node->d, y);
     for (uint32_t k = 0; k <= r; k++) e->g[r * count + k] = sbri_dot6(y, e->y + 6 * (size_t)k);
-    e->g[r * count + r] += row->give;
+    e->g[r * count + r] += row->compliance;
   }
   factor_dense(e->g, count, NULL);
   if (node->parent < 0) return;
@@ -207,7 +207,7 @@ static void factor_loops(sbri_rigid_system *s) {
       double *to = s->loop_matrix + (size_t)at * count;
       for (uint32_t k = 0; k <= at; k++)
         to[k] = rate_of(e, row, s->responses + (size_t)k * s->node_count * 6);
-      to[at] += row->give + GIVE * sbri_row_response(s, e, row);
+      to[at] += row->compliance + GIVE * sbri_row_response(s, e, row);
       s->loop_rhs[at] = REDUNDANT * sbri_row_response(s, e, row);
     }
   }

@@ -30,46 +30,48 @@ typedef enum sbri_row_kind {
 typedef struct sbri_row {
   float rates[SBRI_SIDES][6]; /* of the two bodies */
   float target;               /* c, of the velocities at the substep's end */
-  float give;                 /* G */
-  float max;                  /* N s or N m s: of drives; 0: no bound */
-  float attached_mass;        /* N s or N m s per unit of velocity: the damping part of its compliance */
-  float dry;                  /* of the flesh, what stands for dry friction, */
-  float max_dry;              /* N m s, and what that may come to */
-  float bound;                /* of the coordinate, where it is held or limited */
-  float end;            /* of the coordinate, wanted at the substep's end, where it is held or limited */
-  float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
-  float bounce;         /* of a limit that was run into: the speed that it throws back with, else 0 */
-  float impulse;        /* l */
-  float speed;          /* of the coordinate, as the bodies moved when the step was made */
-  float clear;        /* rad, of a limit that the coordinate is that far from: it has no rates yet; else 0 */
-  float wanted;       /* of a limit: what the bodies' velocities are to change its rate by */
-  float was, moved;   /* of a limit: by what they do, by the pass before and by the last */
-  int8_t sign;        /* of a limit: the impulse may only be of this sign */
+  float compliance;           /* G */
+  float max;                  /* maximum impulse of a drive, N s or N m s; 0: no bound */
+  float attached_mass;        /* damping part of the compliance, N s or N m s per unit of velocity */
+  float dry_friction;         /* impulse that stands for the dry friction of soft bodies across the joint, */
+  float max_dry_friction;     /* and its maximum, N m s */
+  float bound;                /* of a locked or limited coordinate */
+  float end;                  /* target of a locked or limited coordinate at the substep's end */
+  float position, lower, upper; /* of a limit: the coordinate when the substep begins, and its range */
+  float bounce_speed;           /* of a limit that was reached: speed of the rebound; else 0 */
+  float impulse;                /* l */
+  float speed;                  /* of the coordinate, from the velocities at the beginning of the step */
+  float clearance; /* of an inactive limit: distance of the coordinate, rad; it has no rates yet; else 0 */
+  float target_change; /* of a limit: change of its rate that is asked of the bodies' velocities */
+  float previous_change,
+      last_change;    /* of a limit: change of its rate by the previous iteration and the last */
+  int8_t sign;        /* of a limit: the only sign that its impulse may have */
   uint8_t kind, axis; /* of sbri_row_kind and sbf_joint_axis */
-  bool active;        /* takes part */
-  bool full;          /* of a drive: it gives its maximum, which is in the velocities already */
+  bool active;        /* part of the system */
+  bool is_saturated;  /* of a drive: its impulse is the maximum, which the velocities contain already */
 } sbri_row;
 
 /* What a joint that holds a place and no turn has instead of rows for that; see ball_edge.h. */
 typedef struct sbri_ball {
   int child;                    /* side of the body farther from the root */
-  double levers[SBRI_SIDES][3]; /* m, from the bodies' centres of mass to the place */
-  double rhs[3];                /* m/s: by how much the place of b is to change its speed against that of a */
-  double attached_inertia;      /* N m s per rad/s, about all axes, */
-  double dry, max_dry;          /* as sbri_row has them, */
-  double attached_rhs[3];       /* rad/s, and what it wants b's turn against a's to change by */
-  double impulse[3], moment[3]; /* N s and N m s, on body b, about the place */
-  sbf_vec3 end;                 /* m, along a's axes: how far apart the places are to be at the step's end */
+  double levers[SBRI_SIDES][3]; /* m, from the bodies' centres of mass to the joint */
+  double rhs[3];           /* m/s: velocity change of b's joint point relative to a's that is asked for */
+  double attached_inertia; /* N m s per rad/s, about all axes, */
+  double dry_friction, max_dry_friction; /* as sbri_row has them, */
+  double
+      attached_rhs[3]; /* rad/s, and the change of b's angular velocity relative to a's that they ask for */
+  double impulse[3], moment[3]; /* N s and N m s, on body b, about the joint */
+  sbf_vec3 end;                 /* m, along a's axes: separation of the two joint points at the step's end */
 } sbri_ball;
 
 /* A joint in the system. */
 typedef struct sbri_edge {
   uint32_t joint;
-  sbri_ball *ball;           /* NULL: it has rows for all that it asks */
+  sbri_ball *ball;           /* NULL: all its constraints are rows */
   int32_t nodes[SBRI_SIDES]; /* -1: that side is not simulated */
   uint32_t row_count;
   sbri_row *rows;        /* (row_count) */
-  uint32_t active_count; /* rows that take part; their places in `actives` */
+  uint32_t active_count; /* active rows; their indices in `actives` */
   uint16_t *actives;
   double *y;   /* (active_count x 6) L^-1 J^T of the child */
   double *g;   /* (active_count^2) Cholesky factor of J D^-1 J^T + G; a pivot's inverse on its diagonal */
@@ -84,18 +86,19 @@ typedef struct sbri_node {
   int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
   double d[6][6];       /* lower half, then its factor, with the pivots' inverses on the diagonal */
   double b[6], x[6];
-  double was[6];             /* x of the pass before */
-  double push[6];            /* impulses that are known already: of drives that give their maximum */
+  double previous[6];        /* x of the previous iteration */
+  double known_impulse[6];   /* impulses that are known already: of saturated drives */
   float inertia[3][3];       /* in space */
-  float swell;               /* sbri_rigid_mass_factor */
-  const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
-  float pulled;              /* (rad/s)^2 that its joints' pulls swing it by, at most */
-  float inverse_mass[2];     /* 1 / mass, and the mean of 1 / moment of inertia */
+  float mass_factor;         /* sbri_rigid_mass_factor */
+  const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: no mass is attached */
+  float
+      max_swing_square; /* maximum squared angular frequency of the swing by its joints' springs, (rad/s)^2 */
+  float inverse_mass[2]; /* 1 / mass, and the mean of 1 / moment of inertia */
 } sbri_node;
 
-/* Two of the tree's balls that are eliminated at once, neither being above the other; or one. */
+/* One or two ball joints of the tree that are eliminated together; neither is above the other. */
 typedef struct sbri_ball_pair {
-  sbri_edge *edges[2]; /* twice the same, as what follows, where there is but one */
+  sbri_edge *edges[2]; /* if there is only one, both entries are the same, here and below */
   sbri_node *children[2];
   sbri_node *parents[2]; /* NULL: the world */
   uint32_t count;

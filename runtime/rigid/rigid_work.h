@@ -77,7 +77,7 @@ bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *w
 /* Whether joints predict the arcs of rotating bodies: in flight, and near objects that may stop them within a
  * step. Otherwise, as for a whip under tension, they use tangents, and the error controls the step size. */
 static inline bool sbri_rigid_predicts_arcs(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
-  return tick->drive->flies || work->rigid_contact_count > 0;
+  return tick->drive->is_free || work->rigid_contact_count > 0;
 }
 
 /* ---- rigid_passes.c: solves for the nodes' x and the active rows and contacts of a step. ---- */

@@ -18,10 +18,10 @@ static bool is_same(const sbri_stored_contact *stored, const sbri_rigid_contact 
 }
 
 static void restore(const sbri_stored_contact *stored, sbri_rigid_contact *contact) {
-  contact->known = true;
-  contact->idle = stored->idle;
-  contact->normal_n = stored->normal_n, contact->drag_n = stored->drag_n;
-  contact->left = stored->left;
+  contact->has_history = true;
+  contact->idle_ticks = stored->idle_ticks;
+  contact->normal_n = stored->normal_n, contact->friction_n = stored->friction_n;
+  contact->velocity_error = stored->velocity_error;
 }
 
 /* A newly found contact of the pair whose normal is similar to that of the lost one; NULL: none. */
@@ -41,7 +41,7 @@ static const sbri_rigid_contact *find_similar(
  * that is not found in this tick persists while the body is near it. */
 static void keep_contact(
     const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_stored_contact *stored) {
-  if (stored->idle > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
+  if (stored->idle_ticks > IDLE_TICKS || work->rigid_contact_count >= work->max_contacts) return;
   const sbri_rigid_contact *similar = find_similar(work, stored);
   if (!similar) return;
   const sbri_rigid_body_state *s = &t->bodies[stored->body];
@@ -79,13 +79,13 @@ void sbri_stored_contacts_save(const sbri_rigid_tick *t, const sbri_rigid_solvin
   uint32_t count = 0;
   for (uint32_t i = 0; i < work->rigid_contact_count; i++) {
     const sbri_rigid_contact *contact = &work->contacts[i];
-    if (!contact->known) continue;
+    if (!contact->has_history) continue;
     t->kept[count++] = (sbri_stored_contact){.body = contact->body,
         .surface = contact->surface,
         .at = contact->at,
-        .drag_n = contact->drag_n,
-        .left = contact->left,
-        .idle = contact->normal_n > 0 ? 0 : contact->idle + 1,
+        .friction_n = contact->friction_n,
+        .velocity_error = contact->velocity_error,
+        .idle_ticks = contact->normal_n > 0 ? 0 : contact->idle_ticks + 1,
         .normal = contact->normal,
         .offset = contact->offset,
         .normal_n = contact->normal_n};

@@ -54,13 +54,13 @@ typedef struct sbri_leg {
   float toe_copies; /* fraction of the ground's slope that the toe takes; the foot leans, and takes none */
   float copy_rotation;
   uint32_t group;
-  bool hind;                       /* hangs on the hips; else on the chest */
-  bool fore;                       /* one of those in front, by which the body pitches */
-  sbf_quat upper_back, lower_back; /* undo the rotations of thigh and shin at rest */
+  bool hind;                             /* hangs on the hips; else on the chest */
+  bool fore;                             /* one of those in front, by which the body pitches */
+  sbf_quat upper_inverse, lower_inverse; /* undo the rotations of thigh and shin at rest */
   sbri_sole sole;
   bool has_toe;    /* its foot is long */
   bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
-  bool last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
+  bool is_last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
 } sbri_leg;
 
 typedef struct sbri_tail_bone {

@@ -80,8 +80,8 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
         sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole.direction, rest->position));
   }
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole.direction, hip));
-  leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
-  leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
+  leg->upper_inverse = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
+  leg->lower_inverse = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
   leg->length.rest_span = sbri_length(sbri_sub(ankle, hip));
   leg->length.reach = sbri_rig_leg_reach(rig, leg);
   if (toe >= 0) leg->length.reach += LEANS * (leg->length.reach - leg->length.rest_span);
@@ -202,19 +202,20 @@ static void find_last_legs(sbri_rig *rig, uint8_t *roles) {
   for (uint32_t l = 0; l < rig->leg_count; l++) {
     sbri_leg *leg = &rig->legs[l];
     uint32_t begin = rig->bones.subtree_begin[leg->upper], end = rig->bones.subtree_end[leg->upper];
-    leg->last = leg->lower >= 0;
+    leg->is_last = leg->lower >= 0;
     for (int32_t b = rig->bones.parents[leg->upper]; b >= 0; b = rig->bones.parents[b])
-      if (on_chain(rig, (uint32_t)b)) leg->last = false;
+      if (on_chain(rig, (uint32_t)b)) leg->is_last = false;
     for (uint32_t k = begin; k < end; k++) {
       uint32_t b = rig->bones.subtree[k];
-      if (roles[b] != SBRI_ROLE_NONE || on_chain(rig, b)) leg->last = false;
+      if (roles[b] != SBRI_ROLE_NONE || on_chain(rig, b)) leg->is_last = false;
     }
     for (uint32_t other = 0; other < rig->leg_count; other++) {
       const sbri_leg *o = &rig->legs[other];
       bool hangs = other != l && sbri_rig_is_below(rig, o->upper, leg->upper);
-      if (hangs || (o->pole.bone >= 0 && sbri_rig_is_below(rig, o->pole.bone, leg->upper))) leg->last = false;
+      if (hangs || (o->pole.bone >= 0 && sbri_rig_is_below(rig, o->pole.bone, leg->upper)))
+        leg->is_last = false;
     }
-    for (uint32_t k = begin + 1; leg->last && k < end; k++) roles[rig->bones.subtree[k]] = SBRI_ROLE_LEG;
+    for (uint32_t k = begin + 1; leg->is_last && k < end; k++) roles[rig->bones.subtree[k]] = SBRI_ROLE_LEG;
   }
 }
 

@@ -158,7 +158,7 @@ static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
     sbf_vec3 low = {0, 0, 0}, high = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
       sbf_vec3 n = contacts[i].normal;
-      if (!(contacts[i].pushed > 0) || contacts[i].collider == SBRI_ITSELF) continue;
+      if (!(contacts[i].max_velocity_change > 0) || contacts[i].collider == SBRI_ITSELF) continue;
       low = (sbf_vec3){fminf(low.x, n.x), fminf(low.y, n.y), fminf(low.z, n.z)};
       high = (sbf_vec3){fmaxf(high.x, n.x), fmaxf(high.y, n.y), fmaxf(high.z, n.z)};
     }

@@ -81,7 +81,7 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
-  bool checks = world->colliders.moving ||
+  bool checks = world->colliders.is_moving ||
                 (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % CHECK_INTERVAL == 0);
   if (!have_pins_moved(c, island) && !(checks && find_ground_mark(world, c, index) != state->ground_mark))
     return true;

@@ -102,7 +102,7 @@ static inline void sbri_contact_store_velocities(
 /* The bound of friction in this substep is `bound + bound_slope * normal velocity change`, the linear form of
  * sbri_pressing_add and sbri_pressing_bound. */
 SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t lane, float step_s) {
-  const float owed_fraction = SBRI_PRESSING_OWED_FRACTION, kept_fraction = 1 - 1 / SBRI_PRESSING_SUBSTEPS;
+  const float owed_fraction = SBRI_PRESSING_DEFICIT_FRACTION, kept_fraction = 1 - 1 / SBRI_PRESSING_SUBSTEPS;
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(step_s), old_fraction = sbri_wide_all(kept_fraction);
   sbri_wide owing = sbri_wide_all(owed_fraction), paid = sbri_wide_all(1 - owed_fraction);
   sbri_wide time = sbri_wide_load(block->pressing_s + lane);
@@ -110,7 +110,7 @@ SBRI_INLINE void sbri_contact_bound_friction(sbri_contact_block *block, uint32_t
   sbri_wide before = old_fraction * sbri_wide_load(block->pressing_change + lane);
   sbri_mask pressed =
       (time > zero) & (sbri_wide_load(block->closing_speed + lane) <= sbri_wide_all(SBRI_STRIKE_M_S));
-  sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing_owed + lane)),
+  sbri_wide bound = paid * (mean * before + owing * sbri_wide_load(block->pressing_deficit + lane)),
             slope = paid * mean + owing;
   sbri_wide_store(block->bound + lane, sbri_wide_select(pressed, bound, zero));
   sbri_wide_store(block->bound_slope + lane, sbri_wide_select(pressed, slope, sbri_wide_all(1)));
@@ -133,17 +133,18 @@ SBRI_INLINE bool sbri_contact_begin_lanes(const sbri_island_tick *t, sbri_contac
   /* Target: arrive at the plane; stop if it penetrates already; bounce if it is fast. */
   sbri_wide arrival = zero - sbri_wide_max(gap, zero) / h;
   sbri_wide bounce = zero - sbri_wide_load(block->restitution + lane) * speed;
-  sbri_wide_store(block->wanted + lane, sbri_wide_select(bounces, sbri_wide_max(bounce, arrival), arrival));
+  sbri_wide_store(
+      block->target_speed + lane, sbri_wide_select(bounces, sbri_wide_max(bounce, arrival), arrival));
   sbri_wide_store(block->gap + lane, gap);
   /* Only the first impulse of the tick counts: later ones come from the body's own vibration. */
-  sbri_mask first = arrives & (sbri_wide_load(block->pushed + lane) <= zero);
+  sbri_mask first = arrives & (sbri_wide_load(block->max_velocity_change + lane) <= zero);
   closing = sbri_wide_select(first, sbri_wide_max(closing, zero - speed), closing);
   sbri_wide_store(block->closing_speed + lane, closing);
   sbri_wide active = sbri_wide_select(arrives | (old_change > zero), one, zero);
   bool changed = sbri_mask_any(active != sbri_wide_load(block->active + lane));
   sbri_wide_store(block->active + lane, active);
-  sbri_wide_store(
-      block->fraction + lane, sbri_wide_select(active > zero, sbri_wide_load(block->fraction + lane), zero));
+  sbri_wide_store(block->relaxation + lane,
+      sbri_wide_select(active > zero, sbri_wide_load(block->relaxation + lane), zero));
   sbri_wide_store(clear + lane, sbri_wide_select(active > zero, zero, gap));
   sbri_wide ahead = h * (sbri_wide_all(SBRI_CONTACT_NEAR_M_S) - speed) - gap;
   sbri_wide_store(near + lane, sbri_wide_select(active > zero, one, ahead));
@@ -157,9 +158,9 @@ static inline bool sbri_contact_begin(
   bool changed = false;
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
     changed = sbri_contact_begin_lanes(t, block, lane, rule, clear, near) || changed;
-  block->clear_m = clear[0], block->is_near = false;
+  block->clearance_m = clear[0], block->is_near = false;
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
-    block->clear_m = clear[lane] < block->clear_m ? clear[lane] : block->clear_m;
+    block->clearance_m = clear[lane] < block->clearance_m ? clear[lane] : block->clearance_m;
     block->is_near = block->is_near || near[lane] > 0;
   }
   return changed;
@@ -185,7 +186,7 @@ static inline void sbri_contact_sum_rows(
         row = row + sbri_wide_max(r, zero - r) * sbri_wide_gather_floats(sums, block->slots[k] + lane);
       }
       sbri_mask is_active = sbri_wide_load(block->active + lane) > zero;
-      sbri_wide_store(block->fraction + lane,
+      sbri_wide_store(block->relaxation + lane,
           sbri_wide_select(is_active, sbri_wide_all(1) / sbri_wide_max(row, sbri_wide_all(1e-20f)), zero));
     }
   }
@@ -205,7 +206,7 @@ static inline void sbri_contact_warm_start(
           (sbri_wide3){f.x + n.x * velocity_change, f.y + n.y * velocity_change, f.z + n.z * velocity_change};
       has_impulses = has_impulses || sbri_mask_any(velocity_change > sbri_wide_all(0));
     }
-    block->pushes = has_impulses;
+    block->has_impulses = has_impulses;
     if (has_impulses) sbri_contact_scatter(t->scratch.velocity_points, block, changes);
   }
 }
@@ -213,13 +214,13 @@ static inline void sbri_contact_warm_start(
 /* Corrects the impulses of a group of lanes. Returns the velocity change. */
 SBRI_INLINE sbri_wide3 sbri_contact_correct(
     const sbri_island_tick *t, sbri_contact_block *block, uint32_t lane) {
-  sbri_wide zero = sbri_wide_all(0), fraction = sbri_wide_load(block->fraction + lane);
+  sbri_wide zero = sbri_wide_all(0), fraction = sbri_wide_load(block->relaxation + lane);
   sbri_wide3 n = sbri_load_rows(block->normal, lane), plane_velocity = sbri_load_rows(block->velocity, lane);
   sbri_wide3 v = sbri_contact_blend(t->scratch.velocity_points, block, lane);
   sbri_wide3 f = sbri_load_rows(block->friction_impulse, lane), now;
   v.x = v.x - plane_velocity.x, v.y = v.y - plane_velocity.y, v.z = v.z - plane_velocity.z;
   sbri_wide speed = sbri_wide3_along(n, v), velocity_change = sbri_wide_load(block->velocity_change + lane);
-  sbri_wide corrected = velocity_change + fraction * (sbri_wide_load(block->wanted + lane) - speed);
+  sbri_wide corrected = velocity_change + fraction * (sbri_wide_load(block->target_speed + lane) - speed);
   corrected = sbri_wide_max(corrected, zero);
   now.x = f.x - fraction * (v.x - n.x * speed), now.y = f.y - fraction * (v.y - n.y * speed),
   now.z = f.z - fraction * (v.z - n.z * speed);
@@ -250,7 +251,7 @@ static inline float sbri_contact_iterate(
       any = any || sbri_mask_any(square > sbri_wide_all(0));
       sbri_wide_store(squares + lane, sbri_wide_max(square, sbri_wide_load(squares + lane)));
     }
-    block->pushes = block->pushes || any;
+    block->has_impulses = block->has_impulses || any;
     if (any) sbri_contact_scatter(t->scratch.velocity_points, block, changes);
   }
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) max = squares[lane] > max ? squares[lane] : max;
@@ -268,7 +269,7 @@ static inline void sbri_contact_correct_penetration(const sbri_island_tick *t,
     gap += block->weights[k][lane] * (n.x * x->x + n.y * x->y + n.z * x->z);
   }
   float depth = -gap - rule->slack_m;
-  depth = depth < rule->push_m ? depth : rule->push_m;
+  depth = depth < rule->max_correction_m ? depth : rule->max_correction_m;
   for (int k = 0; depth > 0 && k < 4; k++) {
     sbri_point *x = &t->positions[block->slots[k][lane]];
     float displacement = block->responses[k][lane] * depth;
@@ -284,12 +285,12 @@ static inline void sbri_contact_finish(
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
     sbri_wide zero = sbri_wide_all(0), velocity_change = sbri_wide_load(block->velocity_change + lane);
     sbri_wide3 n = sbri_load_rows(block->normal, lane), f = sbri_load_rows(block->friction_impulse, lane),
-               total = sbri_load_rows(block->given, lane);
+               total = sbri_load_rows(block->total_velocity_change, lane);
     total.x = total.x + (f.x + n.x * velocity_change), total.y = total.y + (f.y + n.y * velocity_change),
     total.z = total.z + (f.z + n.z * velocity_change);
-    sbri_store_rows(block->given, lane, total);
-    sbri_wide_store(
-        block->pushed + lane, sbri_wide_max(sbri_wide_load(block->pushed + lane), velocity_change));
+    sbri_store_rows(block->total_velocity_change, lane, total);
+    sbri_wide_store(block->max_velocity_change + lane,
+        sbri_wide_max(sbri_wide_load(block->max_velocity_change + lane), velocity_change));
     sbri_wide depth = zero - sbri_wide_load(block->gap + lane) - sbri_wide_all(rule->slack_m);
     sbri_wide correction = sbri_wide_select(velocity_change > zero, depth, zero);
     sbri_wide_store(corrections + lane, correction);
@@ -306,12 +307,14 @@ static inline void sbri_contact_solve(
   uint32_t count = sbri_contact_block_count(t, body);
   sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   bool changed = false, any = false;
-  float fastest = sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->contact.sample_beyond);
-  float displacement = 2 * rule->step_s * fastest + rule->push_m, near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
+  float fastest =
+      sbri_contact_load_velocities(t, body, velocities) * (1 + 2 * body->contact.max_extrapolation);
+  float displacement = 2 * rule->step_s * fastest + rule->max_correction_m,
+        near = rule->step_s * SBRI_CONTACT_NEAR_M_S;
   for (uint32_t b = 0; b < count; b++) {
     blocks[b].is_near = false;
-    blocks[b].clear_m -= displacement;
-    if (blocks[b].clear_m > near && !blocks[b].moves) continue;
+    blocks[b].clearance_m -= displacement;
+    if (blocks[b].clearance_m > near && !blocks[b].is_moving) continue;
     changed = sbri_contact_begin(t, &blocks[b], rule) || changed;
     any = any || blocks[b].is_near;
   }
@@ -322,7 +325,7 @@ static inline void sbri_contact_solve(
   for (int i = 0; i < SBRI_MAX_CONTACT_ITERATIONS && square >= resting; i++)
     square = sbri_contact_iterate(t, blocks, count, i % 2);
   for (uint32_t b = 0; b < count; b++)
-    if (blocks[b].is_near && blocks[b].pushes) sbri_contact_finish(t, &blocks[b], rule);
+    if (blocks[b].is_near && blocks[b].has_impulses) sbri_contact_finish(t, &blocks[b], rule);
   sbri_contact_store_velocities(t, body, velocities);
 }
 

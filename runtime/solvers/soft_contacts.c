@@ -174,27 +174,27 @@ static float effective_mass(const contact_set *c, const sbri_sample *s) {
 
 /* Only the first impulse of the tick counts: later ones come from the body's own vibration. */
 static void store_closing_speed(sbri_soft_contact *contact, float normal_speed) {
-  if (!(contact->pushed > 0) && -normal_speed > contact->closing_speed)
+  if (!(contact->max_velocity_change > 0) && -normal_speed > contact->closing_speed)
     contact->closing_speed = -normal_speed;
 }
 
 /* Prepares a contact for the substep. Returns whether it may touch. */
 static bool prepare_contact(contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
-  if (contact->collider == SBRI_ITSELF && !contact->crosses) sbri_self_contact_update(c->tick, contact);
+  if (contact->collider == SBRI_ITSELF && !contact->is_crossed) sbri_self_contact_update(c->tick, contact);
   if (has_reaction(c, contact)) contact->sample.mass_kg = effective_mass(c, &contact->sample);
   sbf_vec3 v = velocity_of(c, contact);
   float speed = sbri_dot(
       contact->normal, sbri_sub(v, c->external_bodies ? other_side_velocity(c, contact) : contact->velocity));
   contact->gap = gap_of(c, contact);
   if (contact->gap + rule->step_s * speed < 0) store_closing_speed(contact, speed);
-  contact->wanted = target_speed(contact, speed, rule);
+  contact->target_speed = target_speed(contact, speed, rule);
   return contact->velocity_change > 0 || contact->gap < rule->step_s * (NEAR_M_S - speed);
 }
 
 /* Penetration correction of the substep. */
 static float penetration_correction(const sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   float correction = -contact->gap - rule->slack_m;
-  return correction < rule->push_m ? correction : rule->push_m;
+  return correction < rule->max_correction_m ? correction : rule->max_correction_m;
 }
 
 /* Solves a contact that shares its point with no other contact. The result equals that of the general
@@ -220,7 +220,9 @@ static void solve_single(const contact_set *c, sbri_soft_contact *contact, const
   velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
   float correction = penetration_correction(contact, rule);
   if (correction > 0) x->x += correction * n.x, x->y += correction * n.y, x->z += correction * n.z;
-  contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
+  contact->max_velocity_change = contact->velocity_change > contact->max_velocity_change
+                                     ? contact->velocity_change
+                                     : contact->max_velocity_change;
 }
 
 /* Solves the single contacts, and moves the others that may touch to the front. Returns the number of those.
@@ -229,8 +231,8 @@ static uint32_t prepare_contacts(contact_set *c, const sbri_contact_rule *rule) 
   uint32_t near_count = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     sbri_soft_contact *contact = &c->contacts[i];
-    if (contact->alone) solve_single(c, contact, rule);
-    if (contact->alone || !prepare_contact(c, contact, rule)) continue;
+    if (contact->is_single) solve_single(c, contact, rule);
+    if (contact->is_single || !prepare_contact(c, contact, rule)) continue;
     sbri_soft_contact first = c->contacts[near_count];
     c->contacts[near_count++] = c->contacts[i];
     c->contacts[i] = first;
@@ -241,7 +243,8 @@ static uint32_t prepare_contacts(contact_set *c, const sbri_contact_rule *rule) 
 /* One iteration of a contact; returns the velocity change. */
 static float solve_contact(const contact_set *c, sbri_soft_contact *contact, const sbri_contact_rule *rule) {
   sbf_vec3 v = sbri_sub(velocity_of(c, contact), contact->velocity), n = contact->normal;
-  float speed = sbri_dot(n, v), normal_velocity_change = contact->velocity_change + contact->wanted - speed;
+  float speed = sbri_dot(n, v),
+        normal_velocity_change = contact->velocity_change + contact->target_speed - speed;
   if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
   sbf_vec3 friction_impulse = sbri_sub(contact->friction_impulse, sbri_add_scaled(v, n, -speed));
@@ -265,7 +268,7 @@ static float solve_external_contact(
   float tangential_response =
       1 + s->mass_kg * g->lever * (g->max_inverse_mass + sbri_dot(arm, arm) * g->max_inverse_inertia);
   float speed = sbri_dot(n, v),
-        normal_velocity_change = contact->velocity_change + (contact->wanted - speed) / normal_response;
+        normal_velocity_change = contact->velocity_change + (contact->target_speed - speed) / normal_response;
   if (!(normal_velocity_change > 0)) normal_velocity_change = 0;
   if (normal_velocity_change == 0 && contact->velocity_change == 0) return 0;
   sbf_vec3 friction_impulse =
@@ -319,7 +322,9 @@ void sbri_soft_contacts_solve(
   }
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_soft_contact *contact = &c.contacts[i];
-    contact->pushed = contact->velocity_change > contact->pushed ? contact->velocity_change : contact->pushed;
+    contact->max_velocity_change = contact->velocity_change > contact->max_velocity_change
+                                       ? contact->velocity_change
+                                       : contact->max_velocity_change;
     correct_penetration(&c, contact, rule);
   }
 }
@@ -334,7 +339,7 @@ static sbri_sliding sum_sliding_of_blocks(const sbri_island_tick *t, const sbri_
   sbri_sliding sum = {0, 0, {0, 0, 0}};
   const sbri_contact_block *blocks = sbri_contact_blocks_of(t, body);
   for (uint32_t b = 0; b < sbri_contact_block_count(t, body); b++)
-    for (uint32_t i = 0; blocks[b].is_near && blocks[b].pushes && i < SBRI_BLOCK; i++) {
+    for (uint32_t i = 0; blocks[b].is_near && blocks[b].has_impulses && i < SBRI_BLOCK; i++) {
       float load = blocks[b].velocity_change[i], bound = blocks[b].bound[i] + blocks[b].bound_slope[i] * load;
       if (load > 0)
         add_sliding(&sum, blocks[b].mass_kg[i], load, blocks[b].friction[i] * (bound > 0 ? bound : 0),
@@ -373,7 +378,7 @@ void sbri_soft_contacts_advance(const sbri_island_tick *t, const sbri_body *body
     contact->pressing =
         sbri_pressing_add(contact->pressing, contact->velocity_change, contact->closing_speed, step_s);
     if (contact->velocity_change > 0)
-      contact->given = sbri_add(contact->given,
+      contact->total_velocity_change = sbri_add(contact->total_velocity_change,
           sbri_add_scaled(contact->friction_impulse, contact->normal, contact->velocity_change));
   }
   if (has_external_bodies) sbri_external_bodies_end_step(c.external_bodies, step_s);
@@ -401,12 +406,14 @@ void sbri_soft_contacts_report(const sbri_island_tick *t, const sbri_body *body,
   for (uint32_t i = 0; i < sbri_soft_contact_count(t, body); i++) {
     const sbri_soft_contact *contact = &t->contacts.at[body->contact.first + i];
     if (contact->collider == SBRI_ITSELF ||
-        !(contact->pushed > 0 || sbri_dot(contact->normal, contact->given) > 0))
+        !(contact->max_velocity_change > 0 || sbri_dot(contact->normal, contact->total_velocity_change) > 0))
       continue;
     sbf_vec3 position = sbri_sample_position(t, &contact->sample);
     sbri_touching_one *one = sbri_touching_add(to, contact->collider, position, contact->normal,
-        contact->pushed * contact->sample.mass_kg, contact->closing_speed);
-    if (one) sbri_touching_add_impulse(one, position, sbri_scale(contact->given, contact->sample.mass_kg));
+        contact->max_velocity_change * contact->sample.mass_kg, contact->closing_speed);
+    if (one)
+      sbri_touching_add_impulse(
+          one, position, sbri_scale(contact->total_velocity_change, contact->sample.mass_kg));
   }
   report_planes(t, body, to);
 }
@@ -436,6 +443,6 @@ void sbri_soft_contacts_bound(
     if (contact->external_body) apply_external_reaction(&c, contact, change);
     correct_position(
         &c, contact, sbri_scale(change, rule->step_s), false); /* rigid bodies already get the impulse */
-    contact->given = sbri_add(contact->given, change);
+    contact->total_velocity_change = sbri_add(contact->total_velocity_change, change);
   }
 }

@@ -17,7 +17,8 @@ bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_header(c);
   if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0 || head->up != 0)
     return false;
-  if (sbri_any_loads(c) || head->turned != 0 || sbri_dot(head->moved, head->moved) > 0) return false;
+  if (sbri_any_loads(c) || head->rotation != 0 || sbri_dot(head->displacement, head->displacement) > 0)
+    return false;
   if (head->fade_ticks > 0 || head->fade_before > 0 || head->fade_kept) return false;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (!sbri_island_states(c)[i].asleep) return false;
@@ -36,7 +37,7 @@ bool sbri_character_is_still(const sbri_character *c) {
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
   if (!sbri_header(c)->asleep) return false;
   bool checks = !sbri_ground_is_fixed(&c->ground) && world->ticks % CHECK_INTERVAL == 0;
-  if (!checks && !world->colliders.moving) return true;
+  if (!checks && !world->colliders.is_moving) return true;
   /* The feet and the bodies make their own checks. */
   sbri_header(c)->asleep = 0;
   return false;

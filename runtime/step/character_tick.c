@@ -19,8 +19,8 @@ static void note_landing(sbri_character *c) {
 }
 
 static void end_displacement(sbri_character *c) {
-  sbri_header(c)->moved = sbri_vec3(0, 0, 0);
-  sbri_header(c)->turned = 0;
+  sbri_header(c)->displacement = sbri_vec3(0, 0, 0);
+  sbri_header(c)->rotation = 0;
 }
 
 void sbri_character_tick(sbr_world *world, sbri_character *c) {
@@ -56,5 +56,5 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   sbri_rigid_tick_parts(world, c);
   sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);
   if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_deltas(c));
-  sbri_header(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
+  sbri_header(c)->asleep = may_sleep && !world->colliders.is_moving && sbri_character_is_still(c);
 }

@@ -40,7 +40,7 @@ static void update_storage(sbr_world *world, sbri_character *c) {
 /* Without solver memory, rigid parts do not move (ragdoll/rigid_parts.c). */
 static void update_rigid_storage(sbr_world *world, sbri_character *c) {
   size_t size = c->model->layout.rigid.work_size;
-  if (sbri_rigid_drive(c)->any) {
+  if (sbri_rigid_drive(c)->any_dynamic) {
     c->rigid_ticks = 0;
     if (c->rigid_work || c->refused_ticks > 0) return;
     c->rigid_work = sbfi_allocate(&world->allocator, size);

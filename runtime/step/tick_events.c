@@ -35,9 +35,10 @@ static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, 
 
 /* Whether no earlier contact in the list is with the same rigid body. */
 static bool is_first_of(const sbri_collider_set *set, const sbri_touching *touching, uint32_t i) {
-  uint32_t leader = set->at[touching->now[i].thing].leader;
+  uint32_t leader = set->at[touching->now[i].collider].leader;
   for (uint32_t k = 0; k < i; k++)
-    if (touching->now[k].thing < set->end && set->at[touching->now[k].thing].leader == leader) return false;
+    if (touching->now[k].collider < set->end && set->at[touching->now[k].collider].leader == leader)
+      return false;
   return true;
 }
 
@@ -47,38 +48,38 @@ static void add_collider_impulse(sbri_collider *leader, const double impulse[3],
   sbri_host_body *body = &leader->body;
   sbr_double3 centre = sbri_collider_centre(leader);
   const double arm[3] = {about.x - centre.x, about.y - centre.y, about.z - centre.z};
-  body->sharing += is_first ? 1 : 0;
+  body->next_sharer_count += is_first ? 1 : 0;
   for (int k = 0; k < 3; k++) {
     int a = (k + 1) % 3, b = (k + 2) % 3;
-    body->pushing[k] += impulse[k];
-    body->turning[k] += arm[a] * impulse[b] - arm[b] * impulse[a] + moment[k];
+    body->next_impulse[k] += impulse[k];
+    body->next_moment[k] += arm[a] * impulse[b] - arm[b] * impulse[a] + moment[k];
   }
 }
 
 /* Applies the reaction of contact impulses to colliders. A sleeping body applies those of its last tick. */
 static void apply_reactions(sbr_world *world, const sbri_character *c, sbri_touching *touching, bool asleep) {
-  bool acts = touching->stepped || asleep;
-  touching->stepped = false;
+  bool acts = touching->is_current || asleep;
+  touching->is_current = false;
   double mass = (double)(c->scale * c->scale * c->scale) / (double)c->time_scale, scale = (double)c->scale;
   for (uint32_t i = 0; acts && i < touching->count; i++) {
     const sbri_touching_one *one = &touching->now[i];
-    if (one->thing >= world->colliders.end || !world->colliders.at[one->thing].shape) continue;
-    sbri_collider *collider = &world->colliders.at[one->thing];
+    if (one->collider >= world->colliders.end || !world->colliders.at[one->collider].shape) continue;
+    sbri_collider *collider = &world->colliders.at[one->collider];
     sbr_double3 origin = sbri_header(c)->origin;
-    const sbr_double3 *position = collider->body.goes ? &collider->from : &collider->to;
+    const sbr_double3 *position = collider->body.is_moving ? &collider->from : &collider->to;
     const double arm[3] = {origin.x + scale * (double)one->position.x - position->x,
         origin.y + scale * (double)one->position.y - position->y,
         origin.z + scale * (double)one->position.z - position->z};
-    const double impulse[3] = {
-        -mass * (double)one->push.x, -mass * (double)one->push.y, -mass * (double)one->push.z};
-    const double moment[3] = {-mass * scale * (double)one->moment.x, -mass * scale * (double)one->moment.y,
-        -mass * scale * (double)one->moment.z};
+    const double impulse[3] = {-mass * (double)one->total_impulse.x, -mass * (double)one->total_impulse.y,
+        -mass * (double)one->total_impulse.z};
+    const double moment[3] = {-mass * scale * (double)one->total_moment.x,
+        -mass * scale * (double)one->total_moment.y, -mass * scale * (double)one->total_moment.z};
     for (int k = 0; k < 3; k++) {
       int a = (k + 1) % 3, b = (k + 2) % 3;
       collider->impulse[k] += impulse[k];
       collider->moment[k] += arm[a] * impulse[b] - arm[b] * impulse[a] + moment[k];
     }
-    sbri_collider *leader = sbri_collider_leader(&world->colliders, one->thing);
+    sbri_collider *leader = sbri_collider_leader(&world->colliders, one->collider);
     if (!leader) continue;
     sbr_double3 about = {position->x + arm[0], position->y + arm[1], position->z + arm[2]};
     add_collider_impulse(leader, impulse, moment, about, is_first_of(&world->colliders, touching, i));
@@ -97,9 +98,9 @@ static void add_contact(sbr_world *world, const sbri_character *c, const sbr_obj
       .normal = one->normal,
       .impulse = is_over ? 0 : one->impulse * c->scale * c->scale * c->scale / c->time_scale,
       .speed = is_over ? 0 : one->speed / c->time_scale};
-  if (one->thing < world->colliders.capacity) {
-    if (is_over && !world->colliders.at[one->thing].shape) return; /* destroyed */
-    event.b.collider = sbri_collider_name(&world->colliders, one->thing);
+  if (one->collider < world->colliders.capacity) {
+    if (is_over && !world->colliders.at[one->collider].shape) return; /* destroyed */
+    event.b.collider = sbri_collider_name(&world->colliders, one->collider);
   }
   sbri_event_add(world, kind, &event);
 }
@@ -107,15 +108,15 @@ static void add_contact(sbr_world *world, const sbri_character *c, const sbr_obj
 /* Contacts of a body with the ground and colliders that begin, hit or end in this tick. */
 static void add_contacts(
     sbr_world *world, const sbri_character *c, sbri_touching *touching, sbr_object body) {
-  if (!touching->unreported) return;
-  touching->unreported = false;
+  if (!touching->has_unreported) return;
+  touching->has_unreported = false;
   body.character = sbri_id_of(world, c);
   for (uint32_t i = 0; i < touching->before_count; i++)
-    if (!sbri_touching_has(touching->now, touching->count, touching->before[i].thing))
+    if (!sbri_touching_has(touching->now, touching->count, touching->before[i].collider))
       add_contact(world, c, &body, &touching->before[i], SBRI_EVENT_CONTACT_END);
   for (uint32_t i = 0; i < touching->count; i++) {
     const sbri_touching_one *one = &touching->now[i];
-    if (one->fresh) add_contact(world, c, &body, one, SBRI_EVENT_CONTACT_BEGIN);
+    if (one->is_new) add_contact(world, c, &body, one, SBRI_EVENT_CONTACT_BEGIN);
     if (one->speed / c->time_scale >= world->hit_speed)
       add_contact(world, c, &body, one, SBRI_EVENT_CONTACT_HIT);
   }

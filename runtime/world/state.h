@@ -35,8 +35,8 @@ typedef struct sbri_character_state {
   uint32_t fade_kept;      /* changes level in the next tick; its vertices are stored until then */
   uint32_t swing_ticks;    /* ticks for which a change has been delayed because it swings */
   float up;                /* commanded vertical speed, m/s */
-  sbf_vec3 moved;          /* displacement by the host in the next tick, m */
-  float turned;            /* rotation by the host in the next tick, rad */
+  sbf_vec3 displacement;   /* displacement by the host in the next tick, m */
+  float rotation;          /* rotation by the host in the next tick, rad */
 } sbri_character_state;
 
 typedef struct sbri_island_state {

@@ -59,7 +59,7 @@ void gait_stage_ticks(gait_stage *s, int count) {
 }
 
 void gait_stage_play(gait_stage *s) {
-  s->state->clips[0] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .weight = 1, .wanted = 1};
+  s->state->clips[0] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .weight = 1, .target_weight = 1};
 }
 
 void gait_stage_step_clip(

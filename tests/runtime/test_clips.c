@@ -71,7 +71,7 @@ START_TEST(weights_fade_and_masks_hold_back)
   begin(&s, SBF_INTERPOLATION_STEP, turning + 4, 4);
   sbf_track *track = (sbf_track *)(uintptr_t)&s.asset->clips.at[0].tracks.at[0];
   track->times.count = 1;
-  s.state->clips[1] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .wanted = 1, .fade_s = 1};
+  s.state->clips[1] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .target_weight = 1, .fade_s = 1};
   gait_stage_ticks(&s, 30);
   ck_assert_float_eq_tol(head_angle(&s), 0.5f, 0.03f);
   sbf_bone_mask *mask = sbf_asset_allocate(s.asset, 1, sizeof *mask);

@@ -40,7 +40,7 @@ START_TEST(all_that_polygons_use_is_sampled)
   body->surface.polygon_points.count -= 4;
   scene_start(&s);
   ck_assert_uint_eq(body_of(&s)->contact.sample_count, count);
-  ck_assert_float_gt(body_of(&s)->contact.sample_beyond, 0.2f);
+  ck_assert_float_gt(body_of(&s)->contact.max_extrapolation, 0.2f);
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *sample = &body_of(&s)->contact.samples[i];

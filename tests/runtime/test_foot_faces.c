@@ -32,8 +32,8 @@ START_TEST(on_level_ground_it_turns_alone)
   sbf_vec3 ahead = sbri_rotate(foot->frame.rotation, sbri_vec3(0, 0, 1));
   expect_near(ahead, sbri_vec3(foot->frame.sine, 0, foot->frame.cosine));
   expect_near(ahead, sbri_rotate(sbri_quat_about(UP, TURNED + FOOT_TURNED), sbri_vec3(0, 0, 1)));
-  expect_near(foot->frame.beside, beside_at(TURNED + FOOT_TURNED));
-  expect_near(foot->frame.beside_at_home, beside_at(TURNED));
+  expect_near(foot->frame.ankle_offset, beside_at(TURNED + FOOT_TURNED));
+  expect_near(foot->frame.home_ankle_offset, beside_at(TURNED));
   gait_stage_end(&stage);
 }
 END_TEST
@@ -45,10 +45,10 @@ START_TEST(on_a_slope_it_tilts_with_it)
   foot->normal = sbri_normalize(sbri_vec3(-0.3f, 1, 0.2f), UP);
   sbri_foot_update_orientation(&stage.rig, stage.state, &stage.input, 0);
   expect_near(sbri_rotate(foot->frame.rotation, UP), foot->normal);
-  ck_assert_float_eq_tol(sbri_dot(foot->frame.beside, foot->normal), 0, 1e-6f); /* along the ground */
-  ck_assert_float_eq_tol(sbri_dot(foot->frame.beside_at_home, foot->normal), 0, 1e-6f);
-  ck_assert_float_eq_tol(sbri_length(foot->frame.beside), sbri_length(beside_at(0)), 1e-6f);
-  ck_assert_float_gt(sbri_length(sbri_sub(foot->frame.beside, foot->frame.beside_at_home)), 0.01f);
+  ck_assert_float_eq_tol(sbri_dot(foot->frame.ankle_offset, foot->normal), 0, 1e-6f); /* along the ground */
+  ck_assert_float_eq_tol(sbri_dot(foot->frame.home_ankle_offset, foot->normal), 0, 1e-6f);
+  ck_assert_float_eq_tol(sbri_length(foot->frame.ankle_offset), sbri_length(beside_at(0)), 1e-6f);
+  ck_assert_float_gt(sbri_length(sbri_sub(foot->frame.ankle_offset, foot->frame.home_ankle_offset)), 0.01f);
   gait_stage_end(&stage);
 }
 END_TEST
@@ -61,8 +61,8 @@ START_TEST(a_body_that_turns_on_moves_what_goes_by_its_heading_alone)
   sbri_foot before = *foot;
   stage.state->motion.heading_sine = 1, stage.state->motion.heading_cosine = 0;
   sbri_foot_update_heading(&stage.rig, stage.state, &stage.input, 0);
-  expect_near(foot->frame.beside_at_home, beside_at(1.57079633f));
-  expect_near(foot->frame.beside, before.frame.beside);
+  expect_near(foot->frame.home_ankle_offset, beside_at(1.57079633f));
+  expect_near(foot->frame.ankle_offset, before.frame.ankle_offset);
   ck_assert(foot->frame.sine == before.frame.sine && foot->frame.rotation.y == before.frame.rotation.y);
   gait_stage_end(&stage);
 }

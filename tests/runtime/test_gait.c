@@ -418,14 +418,14 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
   for (float speed = 0.6f; speed < 2; speed += 0.2f) {
     state->motion.forward = speed;
     sbri_stride stride = sbri_stride_of(&w.on.rig, state, &w.on.input);
-    ck_assert(stride.together);
+    ck_assert(stride.in_groups);
     ck_assert_float_le(stride.duration_s, last);
     ck_assert_float_ge(stride.half_m, last_half - 1e-6f);
     last = stride.duration_s, last_half = stride.half_m;
   }
   ck_assert_float_lt(last, 0.8f * w.on.asset->gaits.at[0].step_duration);
   state->motion.forward = 0.1f;
-  ck_assert(!sbri_stride_of(&w.on.rig, state, &w.on.input).together);
+  ck_assert(!sbri_stride_of(&w.on.rig, state, &w.on.input).in_groups);
   gait_stage_end(&w.on);
 }
 END_TEST

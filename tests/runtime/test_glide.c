@@ -10,9 +10,9 @@ START_TEST(from_rest_to_rest_a_glide_runs_along_the_smooth_rise)
   sbri_glide g = sbri_glide_at(2);
   for (int i = 1; i <= TICKS; i++) {
     sbri_glide_tick(&g, 5, (float)(TICKS + 1 - i) * TICK_S, TICK_S);
-    ck_assert_float_eq_tol(g.at, 2 + 3 * sbri_smooth((float)i / TICKS), 1e-4f);
+    ck_assert_float_eq_tol(g.position, 2 + 3 * sbri_smooth((float)i / TICKS), 1e-4f);
   }
-  ck_assert(g.at == 5 && g.rate == 0 && g.bend == 0);
+  ck_assert(g.position == 5 && g.velocity == 0 && g.acceleration == 0);
 }
 END_TEST
 
@@ -32,12 +32,12 @@ START_TEST(a_target_that_moves_is_reached_without_a_jump_of_speed)
   sbri_glide g = sbri_glide_at(0);
   float target = 1;
   for (int i = 1; i <= TICKS; i++) {
-    float rate = g.rate;
+    float rate = g.velocity;
     if (i > 15) target = 1.2f;
     sbri_glide_tick(&g, target, (float)(TICKS + 1 - i) * TICK_S, TICK_S);
-    ck_assert_float_eq_tol(g.rate, rate, 0.35f); /* a jump by the change within its tick were 12 m/s */
+    ck_assert_float_eq_tol(g.velocity, rate, 0.35f); /* a jump by the change within its tick were 12 m/s */
   }
-  ck_assert_float_eq(g.at, 1.2f);
+  ck_assert_float_eq(g.position, 1.2f);
 }
 END_TEST
 
