@@ -156,9 +156,9 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
       sbr_character_reset(world, character);
       break;
     case SCRIPT_REACH: {
-      const sbr_ik_target target = {.position = {n[1], n[2], n[3]},
-          .rotation = {0, 0, 0, 1},
-          .weight = line->count > 4 ? (float)n[4] : 1};
+      sbr_ik_target target = sbr_default_ik_target();
+      target.position = (sbr_double3){n[1], n[2], n[3]};
+      target.weight = line->count > 4 ? (float)n[4] : 1;
       if (n[0] >= 0) sbr_character_set_ik_target(world, character, (uint32_t)n[0], &target);
       break;
     }
@@ -166,10 +166,8 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
       if (n[0] >= 0) sbr_character_set_ik_target(world, character, (uint32_t)n[0], NULL);
       break;
     case SCRIPT_PLAY: {
-      const sbr_clip_play how = {.weight = line->count > 1 ? (float)n[1] : 1,
-          .fade_s = (float)n[2],
-          .speed = 1,
-          .bone_mask = SBF_NONE};
+      sbr_clip_play how = sbr_default_clip_play();
+      how.weight = line->count > 1 ? (float)n[1] : 1, how.fade_s = (float)n[2];
       sbr_character_play_clip(world, character, n[3] > 0 ? (uint32_t)n[3] : 0, (int32_t)n[0], &how);
       break;
     }

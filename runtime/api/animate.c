@@ -3,18 +3,21 @@
 #include "sbrun/animation.h"
 #include "world/world.h"
 
+enum { IK_TARGET_COOKIE = 0x5b72696b, CLIP_COOKIE = 0x5b72636c };
+
 sbr_ik_target sbr_default_ik_target(void) {
-  return (sbr_ik_target){.rotation = {0, 0, 0, 1}};
+  return (sbr_ik_target){.cookie = IK_TARGET_COOKIE, .rotation = {0, 0, 0, 1}};
 }
 
 sbr_clip_play sbr_default_clip_play(void) {
-  return (sbr_clip_play){.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
+  return (sbr_clip_play){.cookie = CLIP_COOKIE, .weight = 1, .speed = 1, .bone_mask = SBF_NONE};
 }
 
 void sbr_character_set_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || ik_chain >= c->model->asset->ik_chains.count) return;
+  if (target && target->cookie != IK_TARGET_COOKIE) return;
   if (target && target->weight <= 0) target = NULL;
   if (target && !sbri_record(world, SBRI_RECORDED_REACH,
                     (const double[]){character.value, ik_chain, target->position.x, target->position.y,
@@ -44,7 +47,9 @@ void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id character, i
 void sbr_character_play_clip(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how) {
   sbri_character *c = sbri_character_of(world, character);
-  if (!c || !how || layer >= SBRI_CLIP_LAYERS || clip >= (int32_t)c->model->asset->clips.count) return;
+  if (!c || !how || how->cookie != CLIP_COOKIE || layer >= SBRI_CLIP_LAYERS ||
+      clip >= (int32_t)c->model->asset->clips.count)
+    return;
   if (!sbri_record(world, SBRI_RECORDED_PLAY,
           (const double[]){character.value, layer, clip, (double)how->weight, (double)how->fade_s,
               (double)how->speed, (double)how->start_s, how->bone_mask}))

@@ -44,11 +44,9 @@ static void play_view(sbr_world *world, const double *n) {
 }
 
 static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
-  const sbr_rigid_drive drive = {.frequency_hz = (float)n[1],
-      .damping_ratio = (float)n[2],
-      .strength = (float)n[3],
-      .joint_damping_1_s = (float)n[4],
-      .joint_friction = (float)n[5]};
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  drive.frequency_hz = (float)n[1], drive.damping_ratio = (float)n[2], drive.strength = (float)n[3];
+  drive.joint_damping_1_s = (float)n[4], drive.joint_friction = (float)n[5];
   sbr_fall_definition fall = sbr_default_fall_definition();
   fall.drive_fraction = (float)n[1], fall.rest_s = (float)n[2], fall.rise_s = (float)n[3];
   if (what == SBRI_RECORDED_RIGID_MODE)
@@ -71,7 +69,9 @@ static sbf_vec3 vec3_at(const double *n) {
 /* Returns false for other calls. A call that failed while it was recorded fails again. */
 static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
   uint32_t body = whole(n[1]), vertex = whole(n[2]);
-  const sbr_soft_hold hold = {{n[3], n[4], n[5]}, (float)n[6], (float)n[7], (float)n[8]};
+  sbr_soft_hold hold = sbr_default_soft_hold();
+  hold.target = (sbr_double3){n[3], n[4], n[5]};
+  hold.frequency_hz = (float)n[6], hold.damping_ratio = (float)n[7], hold.max_force = (float)n[8];
   if (what == SBRI_RECORDED_SOFT_VELOCITY)
     (void)sbr_character_set_soft_velocity(world, id, body, vec3_at(n + 2), vec3_at(n + 5), NULL);
   else if (what == SBRI_RECORDED_SOFT_IMPULSE)
@@ -90,9 +90,13 @@ static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id,
 /* `n` is padded with zeros. */
 static void play(sbr_replay *r, sbri_recorded what, const double *n) {
   sbr_character_id id = {whole(n[0])};
-  const sbr_ik_target target = {
-      {n[2], n[3], n[4]}, {(float)n[5], (float)n[6], (float)n[7], (float)n[8]}, (float)n[9]};
-  const sbr_clip_play how = {(float)n[3], (float)n[4], (float)n[5], (float)n[6], index_of(n[7])};
+  sbr_ik_target target = sbr_default_ik_target();
+  target.position = (sbr_double3){n[2], n[3], n[4]};
+  target.rotation = (sbf_quat){(float)n[5], (float)n[6], (float)n[7], (float)n[8]};
+  target.weight = (float)n[9];
+  sbr_clip_play how = sbr_default_clip_play();
+  how.weight = (float)n[3], how.fade_s = (float)n[4], how.speed = (float)n[5], how.start_s = (float)n[6];
+  how.bone_mask = index_of(n[7]);
   switch (what) {
   case SBRI_RECORDED_HASH:
     check(r, n);

@@ -40,7 +40,7 @@ void sbr_character_set_rigid_mode(
 void sbr_character_set_rigid_drive(
     sbr_world *world, sbr_character_id character, const sbr_rigid_drive *drive) {
   sbri_character *c = sbri_character_of(world, character);
-  if (!has_body(c, -1) || !drive) return;
+  if (!has_body(c, -1) || !drive || drive->cookie != SBRI_RIGID_DRIVE_COOKIE) return;
   if (!sbri_record(world, SBRI_RECORDED_RIGID_DRIVE,
           (const double[]){character.value, (double)drive->frequency_hz, (double)drive->damping_ratio,
               (double)drive->strength, (double)drive->joint_damping_1_s, (double)drive->joint_friction}))

@@ -183,11 +183,16 @@ sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_character_id cha
   return SBF_OK;
 }
 
+enum { HOLD_COOKIE = 0x5b72686f };
+
 sbr_soft_hold sbr_default_soft_hold(void) {
-  return (sbr_soft_hold){.damping_ratio = 1};
+  return (sbr_soft_hold){.cookie = HOLD_COOKIE, .damping_ratio = 1};
 }
 
 static sbf_status check_hold(const char *name, const sbr_soft_hold *hold, sbf_diagnostic *error) {
+  if (hold->cookie != HOLD_COOKIE)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "%s: hold was not initialised: begin with sbr_default_soft_hold()", name);
   if (!(hold->frequency_hz >= 0 && hold->frequency_hz <= 100))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s: frequency_hz is %g: give one from 0 to 100", name,
         (double)hold->frequency_hz);

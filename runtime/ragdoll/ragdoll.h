@@ -23,6 +23,8 @@ bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
 /* Whether an island is coupled to simulated rigid bodies. It is then stepped with them, in the character's
  * task. */
 bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
+/* Of sbr_rigid_drive. */
+enum { SBRI_RIGID_DRIVE_COOKIE = 0x5b726472 };
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
 /* Applies an impulse at a point to a simulated body; both in the character's own units. */
 void sbri_rigid_apply_impulse(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse);

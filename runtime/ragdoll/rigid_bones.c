@@ -44,8 +44,12 @@ bool sbri_rigid_is_still(const sbri_character *c) {
 }
 
 sbr_rigid_drive sbr_default_rigid_drive(void) {
-  return (sbr_rigid_drive){
-      .frequency_hz = 4, .damping_ratio = 1, .strength = 2, .joint_damping_1_s = 2, .joint_friction = 0.04f};
+  return (sbr_rigid_drive){.cookie = SBRI_RIGID_DRIVE_COOKIE,
+      .frequency_hz = 4,
+      .damping_ratio = 1,
+      .strength = 2,
+      .joint_damping_1_s = 2,
+      .joint_friction = 0.04f};
 }
 
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive) {

@@ -54,8 +54,11 @@ static float separation(sbf_vec3 a, sbf_vec3 b) {
 }
 
 static sbr_ik_target target_at(sbf_vec3 at, float weight) {
-  return (sbr_ik_target){{position.x + (double)at.x, position.y + (double)at.y, position.z + (double)at.z},
-      {0, 0, 0, 1}, weight};
+  sbr_ik_target target = sbr_default_ik_target();
+  target.position =
+      (sbr_double3){position.x + (double)at.x, position.y + (double)at.y, position.z + (double)at.z};
+  target.weight = weight;
+  return target;
 }
 
 static const sbf_vec3 wanted = {0.15f, 0.15f, 0.3f};

@@ -162,7 +162,8 @@ static void handle(chance *c, scene *s) {
   float times = decades(c, -3, 4), seconds = decades(c, -3, 0);
   much = (sbf_vec3){times * much.x, times * much.y, times * much.z};
   uint32_t vertex = likely(c, 3) ? SBR_WHOLE_BODY : roll(c, 30);
-  sbr_soft_hold hold = {.frequency_hz = between(c, 0, 100), .damping_ratio = between(c, 0, 10)};
+  sbr_soft_hold hold = sbr_default_soft_hold();
+  hold.frequency_hz = between(c, 0, 100), hold.damping_ratio = between(c, 0, 10);
   sbr_double3 o = sbr_character_get_origin(s->world, s->character);
   hold.target = (sbr_double3){o.x + (double)turn.x, o.y + (double)turn.y, o.z + (double)turn.z};
   hold.max_force = likely(c, 2) ? times : 0;

@@ -81,7 +81,8 @@ class Transform(Structure):
 
 
 class ClipPlay(Structure):
-    _fields_ = [("weight", c_float), ("fade_s", c_float), ("speed", c_float), ("start_s", c_float), ("bone_mask", c_int32)]
+    _fields_ = [("cookie", c_uint32), ("weight", c_float), ("fade_s", c_float), ("speed", c_float), ("start_s", c_float),
+                ("bone_mask", c_int32)]
 
 
 class BodyHealth(Structure):
@@ -122,6 +123,7 @@ CALLS = {
     "sbr_character_set_vertical_speed": (None, [W, C, c_float]),
     "sbr_character_displace": (None, [W, C, Vec3, c_float]),
     "sbr_character_teleport": (None, [W, C, Double3, c_float]),
+    "sbr_default_clip_play": (ClipPlay, []),
     "sbr_character_play_clip": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
     "sbr_character_get_origin": (Double3, [W, C]),
     "sbr_character_get_bones": (None, [W, C, POINTER(Transform), c_uint32]),
@@ -303,7 +305,9 @@ class Character:
 
     def play(self, clip, layer=0, weight=1.0, fade=0.0, speed=1.0, start=0.0):
         """Plays a clip of the asset by its number; NONE fades the layer out."""
-        self.call("sbr_character_play_clip", layer, clip, byref(ClipPlay(weight, fade, speed, start, NONE)))
+        how = LIBRARY_CALL
+        how.weight, how.fade_s, how.speed, how.start_s = weight, fade, speed, start
+        self.call("sbr_character_play_clip", layer, clip, byref(how))
 
     @property
     def origin(self):

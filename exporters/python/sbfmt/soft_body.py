@@ -34,7 +34,7 @@ class MotionStruct(Structure):
 
 
 class HoldStruct(Structure):
-    _fields_ = [("target", Double3), ("frequency_hz", c_float), ("damping_ratio", c_float), ("max_force", c_float)]
+    _fields_ = [("cookie", c_uint32), ("target", Double3), ("frequency_hz", c_float), ("damping_ratio", c_float), ("max_force", c_float)]
 
 
 class PinReactionStruct(Structure):

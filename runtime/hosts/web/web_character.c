@@ -48,14 +48,15 @@ void WEB_CALL(web_character_pause)(sbr_world *world, uint32_t character, uint32_
 }
 void WEB_CALL(web_character_play)(sbr_world *world, uint32_t character, uint32_t layer, int32_t clip,
     float weight, float fade_s, float speed, float start_s) {
-  const sbr_clip_play how = {
-      .weight = weight, .fade_s = fade_s, .speed = speed, .start_s = start_s, .bone_mask = SBF_NONE};
+  sbr_clip_play how = sbr_default_clip_play();
+  how.weight = weight, how.fade_s = fade_s, how.speed = speed, how.start_s = start_s;
   sbr_character_play_clip(world, id_of(character), layer, clip, &how);
 }
 /* A weight below 0 removes the target. */
 void WEB_CALL(web_character_reach)(
     sbr_world *world, uint32_t character, uint32_t ik_chain, double x, double y, double z, float weight) {
-  const sbr_ik_target target = {.position = {x, y, z}, .rotation = {0, 0, 0, 1}, .weight = weight};
+  sbr_ik_target target = sbr_default_ik_target();
+  target.position = (sbr_double3){x, y, z}, target.weight = weight;
   sbr_character_set_ik_target(world, id_of(character), ik_chain, weight < 0 ? NULL : &target);
 }
 void WEB_CALL(web_character_rigid_mode)(

@@ -15,6 +15,7 @@ extern "C" {
 
 /* Target of an IK chain's end. Begin with the default. */
 typedef struct sbr_ik_target {
+  uint32_t cookie;      /* set by sbr_default_ik_target; without it the call does nothing */
   sbr_double3 position; /* world: target of the end bone's head */
   sbf_quat rotation;    /* world: target rotation, weighted by the chain's copy_rotation */
   float weight;         /* 0 to 1: blend from the pose without the target to the solved one */
@@ -37,6 +38,7 @@ SBF_API void sbr_character_set_pivot_leg(sbr_world *world, sbr_character_id char
 
 /* Settings of a clip. Begin with the default. */
 typedef struct sbr_clip_play {
+  uint32_t cookie;   /* set by sbr_default_clip_play; without it the call does nothing */
   float weight;      /* 0 to 1: weight of the layer over lower layers */
   float fade_s;      /* time of the change to this weight; 0: at once */
   float speed;       /* 1: as keyed; negative: backwards */

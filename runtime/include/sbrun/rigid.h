@@ -31,6 +31,7 @@ typedef enum sbr_rigid_mode {
 
 /* Drive of the joints of driven bodies towards the animated pose. */
 typedef struct sbr_rigid_drive {
+  uint32_t cookie;     /* set by sbr_default_rigid_drive; without it the call does nothing */
   float frequency_hz;  /* (0, 100]: natural frequency of a joint with its load; default 4 */
   float damping_ratio; /* [0, 10]: damping ratio of that; default 1, without overshoot */
   /* Torque limit of a joint, in multiples of the torque that holds its load level against the earth's

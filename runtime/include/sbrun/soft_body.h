@@ -60,6 +60,7 @@ SBF_API sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_characte
 
 /* How a vertex is drawn to a target: by a damped spring with a bounded force. */
 typedef struct sbr_soft_hold {
+  uint32_t cookie;     /* set by sbr_default_soft_hold: catches a struct that was never initialised */
   sbr_double3 target;  /* world, m */
   float frequency_hz;  /* (0, 100]: of the whole body on that spring; 0: 5 */
   float damping_ratio; /* [0, 10]: of that swing; 1 does not overshoot */
