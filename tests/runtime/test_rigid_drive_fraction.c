@@ -199,6 +199,29 @@ static scene swinging(float times[KEYS], float values[4 * KEYS]) {
   return s;
 }
 
+START_TEST(settings_without_their_cookie_change_nothing)
+{
+  float times[KEYS], values[4 * KEYS];
+  scene s = swinging(times, values);
+  uint64_t hash = sbr_world_get_state_hash(s.world);
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  sbr_clip_play how = sbr_default_clip_play();
+  drive.strength = 7, how.speed = 3;
+  drive.cookie = how.cookie = 0;
+  sbr_character_set_rigid_drive(s.world, s.character, &drive);
+  sbr_character_play_clip(s.world, s.character, 1, 0, &how);
+  ck_assert_uint_eq(sbr_world_get_state_hash(s.world), hash);
+  drive.cookie = sbr_default_rigid_drive().cookie;
+  sbr_character_set_rigid_drive(s.world, s.character, &drive);
+  uint64_t driven = sbr_world_get_state_hash(s.world);
+  ck_assert_uint_ne(driven, hash);
+  how.cookie = sbr_default_clip_play().cookie;
+  sbr_character_play_clip(s.world, s.character, 1, 0, &how);
+  ck_assert_uint_ne(sbr_world_get_state_hash(s.world), driven);
+  scene_free(&s);
+}
+END_TEST
+
 /* Kinematic ones are at the pose; driven ones behind it by what the drive's damping and the weight make, the
  * less the greater their share. */
 START_TEST(what_is_driven_follows_the_animation)
@@ -286,6 +309,7 @@ int main(void) {
   tcase_add_test(tests, what_is_driven_follows_the_animation);
   tcase_add_test(tests, shares_change_without_a_jump);
   tcase_add_loop_test(tests, what_is_let_go_keeps_its_speed, 0, 2);
+  tcase_add_test(tests, settings_without_their_cookie_change_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

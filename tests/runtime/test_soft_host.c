@@ -275,7 +275,11 @@ START_TEST(what_is_held_hangs_where_it_is_held)
   uint32_t vertex = far_corner(&s);
   sbf_vec3 at = vertex_at(&s, vertex);
   sbr_double3 o = sbr_character_get_origin(s.world, s.character);
-  sbr_soft_hold hold = sbr_default_soft_hold();
+  sbr_soft_hold hold = {0};
+  sbf_diagnostic error;
+  ck_assert_int_eq(sbr_character_hold_vertex(s.world, s.character, 0, vertex, &hold, &error), SBF_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(error.message, "begin with sbr_default_soft_hold"));
+  hold = sbr_default_soft_hold();
   hold.target = (sbr_double3){o.x + (double)at.x + 0.3, o.y + (double)at.y + 0.2, o.z + (double)at.z};
   hold.frequency_hz = 4;
   float weight = mass_of(&s) * gravity, k = mass_of(&s) * powf(2 * 3.14159265f * hold.frequency_hz, 2);

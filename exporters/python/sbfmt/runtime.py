@@ -305,7 +305,7 @@ class Character:
 
     def play(self, clip, layer=0, weight=1.0, fade=0.0, speed=1.0, start=0.0):
         """Plays a clip of the asset by its number; NONE fades the layer out."""
-        how = LIBRARY_CALL
+        how = runtime_library().sbr_default_clip_play()
         how.weight, how.fade_s, how.speed, how.start_s = weight, fade, speed, start
         self.call("sbr_character_play_clip", layer, clip, byref(how))
 
