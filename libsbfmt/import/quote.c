@@ -8,7 +8,7 @@ void sbfi_quote_into(char *to, size_t size, sbfi_span text) {
   if (length) memcpy(to, text.at, length);
   while ((at += sbfi_utf8_check(to + at, length - at)) < length) {
     if (cut && length - at < 4)
-      length = at; /* the cut went through a character */
+      length = at; /* the cut split a character */
     else
       to[at++] = '?';
   }

@@ -1,4 +1,4 @@
-/* Text of a file inside a message: hostile bytes must not reach a terminal or a report. */
+/* Quotes text of a file in messages: control bytes must not reach a terminal or a report. */
 #ifndef SBFI_QUOTE_H
 #define SBFI_QUOTE_H
 
@@ -8,7 +8,8 @@ typedef struct sbfi_quote {
   char text[64];
 } sbfi_quote;
 
-/* The beginning of the text, '?' in place of what is not UTF-8 and of control characters, "..." where cut. */
+/* Copies the beginning of the text. Replaces invalid UTF-8 and control characters by '?', and ends with
+ * "..." if it is cut. */
 sbfi_quote sbfi_quote_of(sbfi_span text);
 
 /* The same into a buffer of `size` bytes, at least 8. */

@@ -8,13 +8,14 @@
 #include "import/convert/main_bones.h"
 #include "mechanics/extent.h"
 
-static const double CONTACT_DISTANCE = 0.005; /* of the skins' size: what is closer touches */
-static const double MAX_SIZE = 1.5; /* times the skins' size: larger is the scene around the character */
-static const double SOLE = 0.03;    /* of the skins' size: what ends there is what it stands on */
+static const double CONTACT_DISTANCE = 0.005; /* fraction of the skins' size; closer points are in contact */
+static const double MAX_SIZE = 1.5;           /* times the skins' size; larger objects are scenery */
+static const double SOLE = 0.03; /* fraction of the skins' size; objects that end below are the ground */
 
-/* A surface with bones. */
+/* Surface with a bone at each point. */
 typedef struct holder {
-  const uint32_t *bones; /* (points of it) SBFI_NO_INDEX where no bone moves it; NULL: all are of `bone` */
+  const uint32_t
+      *bones; /* (points) SBFI_NO_INDEX where no bone moves the point; NULL: all points follow `bone` */
   int32_t bone;
   sbfi_triangle_tree tree;
 } holder;
@@ -24,7 +25,7 @@ typedef struct work {
   const sbf_polygon_mesh *const *objects;
   holder *holders; /* skins, then objects that have a bone */
   uint32_t holder_count;
-  double size, lowest; /* m: of the skins; y */
+  double size, lowest; /* of the skins: extent, m; minimum y, m */
   uint32_t *votes;     /* (bones) */
 } work;
 
@@ -60,7 +61,7 @@ static void vote(work *w, int32_t bone) {
   if (bone != SBF_NONE) w->votes[bone]++;
 }
 
-/* The triangle of `on` that the point lies on, or that the edge from it pierces; UINT32_MAX: none. */
+/* Triangle of `on` that contains the point or is crossed by the edge from it; UINT32_MAX if none. */
 static uint32_t find_touched(
     const work *w, const sbfi_triangle_tree *on, const sbf_vec3 *point, const sbf_vec3 *edge_end) {
   double distance2 = pow(CONTACT_DISTANCE * w->size, 2);
@@ -68,7 +69,7 @@ static uint32_t find_touched(
   return found == UINT32_MAX ? sbfi_triangle_tree_pierced(on, *point, *edge_end, 1) : found;
 }
 
-/* Corners of either surface that touch the other vote for the holder's bone there. */
+/* Each corner of one surface in contact with the other votes for the holder's bone there. */
 static void vote_at_contacts(work *w, const sbfi_triangle_tree *object, const holder *h) {
   for (uint32_t i = 0; i < 3 * object->triangle_count; i++) {
     const uint32_t *corners = object->triangles[i / 3].points;
@@ -84,7 +85,7 @@ static void vote_at_contacts(work *w, const sbfi_triangle_tree *object, const ho
   }
 }
 
-/* In `*bone` that of what the object touches most; SBF_NONE: nothing. False where memory runs out. */
+/* Stores the bone that the object touches most, SBF_NONE if it touches nothing. False if memory runs out. */
 static bool find_bone(work *w, const sbf_polygon_mesh *object, int32_t *bone) {
   uint32_t bones = w->c->asset->bones.count, max = 0;
   sbfi_triangle_tree tree;
@@ -104,7 +105,8 @@ static bool may_be_part(const work *w, const sbf_polygon_mesh *object) {
   return sbfi_extent(object->positions) <= MAX_SIZE * w->size && highest > w->lowest + SOLE * w->size;
 }
 
-/* Attaches what touches a holder, which it then is itself; `*found`: there was one. */
+/* Attaches objects in contact with a holder. They become holders themselves. `*found` is true if there
+ * were any. */
 static sbf_status attach_some(work *w, bool *found) {
   *found = false;
   for (uint32_t i = 0; i < w->c->scene->mesh_count; i++) {

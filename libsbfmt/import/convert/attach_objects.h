@@ -1,14 +1,14 @@
-/* Objects that lie loose in a file beside its skeleton: a turret that nobody parented to the tank. */
+/* Objects outside the skeleton's node tree, such as a turret that is not parented to its tank. */
 #ifndef SBFI_ATTACH_OBJECTS_H
 #define SBFI_ATTACH_OBJECTS_H
 
 #include "import/convert/conversion.h"
 
-/* Gives each loose object the bone of what it touches: of the skin there, or of another object that has one.
- * Left loose are those larger than the character, and those that end below its soles, as the ground does.
+/* Attaches each loose object to the bone that it touches: through a skin or another attached object. Objects
+ * larger than the character, or that end below its soles like a ground plane, stay loose.
  *
- * `skins` are the skinned meshes; `objects` has a surface for each mesh of the scene that may be attached,
- * else NULL. Writes c->bone_of_mesh, reports each as RIG_SECTION_GUESSED. */
+ * `skins` are the skinned meshes. `objects` holds one surface per scene mesh; NULL entries are not
+ * attached. Writes c->bone_of_mesh and reports each as RIG_SECTION_GUESSED. */
 sbf_status sbfi_attach_objects(sbfi_conversion *c, const sbf_render_mesh *skins, uint32_t skin_count,
     const sbf_polygon_mesh *const *objects);
 

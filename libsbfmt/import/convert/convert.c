@@ -1,4 +1,4 @@
-/* Conversion in order: reads scenes, transforms them to asset space, makes an asset and builds it. */
+/* Runs the conversion: reads scenes, transforms them to asset space, creates an asset. */
 #include "sbfmt/convert.h"
 
 #include <float.h>
@@ -89,11 +89,11 @@ static sbf_status describe_sources(sbfi_conversion *c) {
   return SBF_OK;
 }
 
-static void pass_on_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
+static void forward_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
   for (uint32_t i = 0; i < scene->warning_count; i++) sbfi_report(&c->reporter, &scene->warnings[i]);
 }
 
-/* Converts a tetrahedral mesh: no rig, no materials, one body. */
+/* Converts a tetrahedral mesh to one body without a rig or materials. */
 static sbf_status run_tet_passes(sbfi_conversion *c, const sbfi_tet_mesh *tets) {
   sbf_status status = describe_sources(c);
   return status == SBF_OK ? sbfi_convert_tets(c, tets, c->asset->info.title) : status;
@@ -104,9 +104,9 @@ static sbf_status run_paper_passes(sbfi_conversion *c, const sbfi_paper_model *p
   return status == SBF_OK ? sbfi_convert_paper(c, paper, c->asset->info.title) : status;
 }
 
-/* Reports the number of merged vertices. assimp does not tell which corners shared a vertex, so points that
- * are separate on purpose cannot be told apart. */
-static void say_joined(sbfi_conversion *c) {
+/* Reports the number of merged vertices. assimp does not record which corners shared a vertex, so points
+ * that the author kept separate at one position are merged too. */
+static void report_joined_points(sbfi_conversion *c) {
   uint64_t vertices = 0, points = 0;
   for (uint32_t i = 0; i < c->scene->mesh_count; i++) {
     vertices += c->scene->meshes[i].vertex_count;
@@ -127,7 +127,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_MESH,
         "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
         "input and this one with --rig");
-  say_joined(c);
+  report_joined_points(c);
   if (!c->rig)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
@@ -224,8 +224,8 @@ static sbf_status convert_readings(
             options->forward ? options->forward : "", scene->file);
   if (status == SBF_OK) {
     sbfi_summarize(&c, from->tets, from->paper, options);
-    pass_on_warnings(&c, scene);
-    if (rig && rig != scene) pass_on_warnings(&c, rig);
+    forward_warnings(&c, scene);
+    if (rig && rig != scene) forward_warnings(&c, rig);
     status = from->tets    ? run_tet_passes(&c, from->tets)
              : from->paper ? run_paper_passes(&c, from->paper)
                            : run_passes(&c, options);

@@ -4,13 +4,13 @@
 
 #include "build/geometry/hulls.h"
 
-/* Lists that are the asset's, in memory that may be written to. */
+/* Lists of the asset, as writable memory. */
 typedef struct work {
   sbfi_conversion *c;
   sbf_soft_body *bodies;
   sbf_rigid_body *rigids;
   uint32_t rigid_count;
-  int32_t *rigid_of_object; /* (bodies) the hull that a body has become; SBF_NONE: it is soft */
+  int32_t *rigid_of_object; /* (bodies) rigid body that replaced a soft body; SBF_NONE: it is still soft */
 } work;
 
 static int64_t body_named(const work *w, const char *name) {
@@ -29,8 +29,8 @@ static int32_t rigid_named(const work *w, const char *name) {
   return SBF_NONE;
 }
 
-/* The object as the rigid body of its own hull. */
-static sbf_status harden(work *w, uint32_t object) {
+/* Converts an object to a rigid body with its own hull. */
+static sbf_status convert_to_rigid(work *w, uint32_t object) {
   sbfi_conversion *c = w->c;
   const sbf_soft_body *from = &w->bodies[object];
   const sbf_vec3_list *points = &from->surface.positions;
@@ -70,7 +70,7 @@ static sbf_status find_holder(work *w, const char *name, int32_t *holder) {
   if (object < 0)
     return sbfi_diagnose(w->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "no object, and no bone with a rigid body, is called '%s' to attach something to", name);
-  sbf_status status = harden(w, (uint32_t)object);
+  sbf_status status = convert_to_rigid(w, (uint32_t)object);
   *holder = w->rigid_of_object[object];
   return status;
 }
@@ -100,8 +100,8 @@ static sbf_status attach(work *w, const sbf_convert_attachment *wish) {
   return SBF_OK;
 }
 
-/* What has become a hull is neither soft nor drawn. */
-static sbf_status take_out(work *w) {
+/* Removes converted objects from the soft bodies and render meshes. */
+static sbf_status remove_converted(work *w) {
   sbf_asset *a = w->c->asset;
   sbf_render_mesh *meshes = sbfi_convert_allocate(w->c, (size_t)a->render_meshes.count + 1, sizeof *meshes);
   uint32_t kept = 0, kept_meshes = 0;
@@ -140,5 +140,5 @@ sbf_status sbfi_convert_attachments(sbfi_conversion *c) {
   for (uint32_t i = 0; i < a->soft_bodies.count; i++) w.rigid_of_object[i] = SBF_NONE;
   for (uint32_t i = 0; i < o->attachment_count && status == SBF_OK; i++)
     status = attach(&w, &o->attachments[i]);
-  return status == SBF_OK ? take_out(&w) : status;
+  return status == SBF_OK ? remove_converted(&w) : status;
 }

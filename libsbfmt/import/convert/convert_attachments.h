@@ -1,11 +1,11 @@
-/* What of a soft body a rigid hull holds: everything of it inside. */
+/* Attachments of soft bodies to rigid hulls: points inside the hull are pinned. */
 #ifndef SBFI_CONVERT_ATTACHMENTS_H
 #define SBFI_CONVERT_ATTACHMENTS_H
 
 #include "import/convert/conversion.h"
 
-/* After the joints: gives bodies the attachments that the options ask for, and makes rigid bodies of the
- * objects that are to hold. SBF_CODE_IMPORT_PIN_UNKNOWN: there is no such body or holder. */
+/* After the joints: adds the attachments that the options request, and converts the objects that hold them
+ * to rigid bodies. SBF_CODE_IMPORT_PIN_UNKNOWN if a body or a holder does not exist. */
 sbf_status sbfi_convert_attachments(sbfi_conversion *c);
 
 #endif

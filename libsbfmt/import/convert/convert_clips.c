@@ -1,9 +1,9 @@
-/* Animations of the rig's nodes to tracks of bones.
+/* Converts animations of the rig's nodes to tracks of bones.
  *
- * A track is of a bone's frame in its parent bone's. Between the two lie nodes that are no bones, a unit,
- * axes, mirrors, and the turn by which a frame was laid along its bone: with H = W D the frame of a bone, W
- * its node's transform to asset space and D constant, the track is D_parent^-1 (W_parent^-1 W) D, where of
- * the product in the middle only the nodes between the two are left. */
+ * A track holds a bone's frame relative to its parent bone's frame. Between the two there may be helper
+ * nodes, a unit, a change of axes, mirrors, and the rotation that aligned the frame with its bone. Let H =
+ * W D be the frame of a bone, where W is its node's transform to asset space and D is constant. Then the
+ * track is D_parent^-1 (W_parent^-1 W) D. The middle product needs only the nodes between the two bones. */
 #include <math.h>
 #include <string.h>
 
@@ -11,21 +11,22 @@
 #include "import/scene/baked_keys.h"
 #include "import/scene/trs.h"
 
-/* What differs from rest, or from the first key, by no more is rounding: of the skeleton's size, of a
- * quaternion's components, of a scale. */
+/* Tolerances for equality with the rest pose or the first key, to absorb rounding: fraction of the
+ * skeleton's size, quaternion component, scale factor. */
 static const double SAME_POSITION = 1e-6, SAME_TURN = 5e-6, SAME_SCALE = 1e-4;
-/* From the last keys to the first: what is no jump, rad and a share of the size; and steps between keys. */
+/* A clip loops if its last keys are this close to its first: rad, fraction of the size, multiple of the
+ * largest step between keys. */
 static const double LOOP_TURN = 0.2, LOOP_DISTANCE = 0.05, LOOP_STEPS = 1.5;
 
 typedef struct clip_work {
   sbfi_conversion *c;
   const sbfi_scene *rig;
   const sbfi_scene_clip *clip;
-  const sbfi_scene_channel **channel_of; /* (nodes) of the clip at hand */
-  bool *used;                            /* (nodes) the channel moves a bone */
+  const sbfi_scene_channel **channel_of; /* (nodes) of the current clip */
+  bool *used;                            /* (nodes) whether the channel moves a bone */
   uint32_t *path, *seen;                 /* (nodes) scratch */
   double size;                           /* m, of the skeleton */
-  uint32_t lost_bones;                   /* whose keys cannot be told */
+  uint32_t lost_bones;                   /* bones whose keys cannot be converted */
 } clip_work;
 
 /* --- Which transforms lie between a bone and its parent ---------------------------------------------- */
@@ -33,7 +34,7 @@ typedef struct clip_work {
 typedef struct link_list {
   sbfi_link at[SBFI_LONGEST_CHAIN];
   uint32_t count, keyed;
-  sbfi_matrix still; /* product of what does not move, since the last link */
+  sbfi_matrix still; /* product of constant transforms since the last link */
   bool too_long;
 } link_list;
 
@@ -44,12 +45,12 @@ static void push_link(link_list *links, const sbfi_link *link) {
     links->at[links->count++] = *link;
 }
 
-static void push_still(link_list *links) {
+static void push_constant(link_list *links) {
   push_link(links, &(sbfi_link){.local = links->still});
   links->still = sbfi_matrix_identity();
 }
 
-static void add_still(link_list *links, const sbfi_matrix *m) {
+static void add_constant(link_list *links, const sbfi_matrix *m) {
   links->still = sbfi_matrix_multiply(m, &links->still);
 }
 
@@ -62,10 +63,10 @@ static bool add_node(clip_work *w, link_list *links, uint32_t node, bool undone)
   sbfi_matrix local = w->rig->nodes[node].local;
   if (!moves(channel)) {
     if (undone && !sbfi_matrix_invert(&local, &local)) return false;
-    add_still(links, &local);
+    add_constant(links, &local);
     return true;
   }
-  push_still(links);
+  push_constant(links);
   sbfi_link link = {.local = local, .undone = undone};
   link.keys.tracks[SBFI_RAW_POSITION] =
       (sbfi_track){channel->position_count, channel->position_times, (const float *)channel->positions};
@@ -84,7 +85,7 @@ static sbfi_matrix rotation_of(sbf_quat q) {
   return sbfi_trs_compose(&trs);
 }
 
-/* D: from the bone's frame to its node's space. False where that space is flat. */
+/* D, from the bone's frame to its node's space. False if the node's transform is singular. */
 static bool frame_in_node(const clip_work *w, uint32_t bone, sbfi_matrix *to) {
   sbfi_matrix world =
       sbfi_matrix_multiply(&w->c->rig_to_asset, &w->rig->nodes[w->c->node_of_bone[bone]].world);
@@ -95,7 +96,7 @@ static bool frame_in_node(const clip_work *w, uint32_t bone, sbfi_matrix *to) {
   return true;
 }
 
-/* The lowest node that both hang below, which is mostly the second itself. */
+/* Lowest common ancestor of two nodes. It is usually `other`. */
 static int32_t common_node(clip_work *w, uint32_t node, uint32_t other, uint32_t mark) {
   const sbfi_scene_node *nodes = w->rig->nodes;
   for (int32_t n = (int32_t)node; n != SBF_NONE; n = nodes[n].parent)
@@ -106,7 +107,7 @@ static int32_t common_node(clip_work *w, uint32_t node, uint32_t other, uint32_t
   return SBF_NONE;
 }
 
-/* The transforms whose product is the bone's frame in its parent's, the innermost first. */
+/* Collects the transforms whose product is the bone's frame in its parent's frame, innermost first. */
 static bool gather_links(clip_work *w, uint32_t bone, link_list *links) {
   const sbfi_conversion *c = w->c;
   int32_t parent = c->asset->bones.at[bone].parent, top = SBF_NONE;
@@ -118,7 +119,7 @@ static bool gather_links(clip_work *w, uint32_t bone, link_list *links) {
   for (int32_t n = (int32_t)node; n != top; n = w->rig->nodes[n].parent)
     if (!add_node(w, links, (uint32_t)n, false)) return false;
   if (parent == SBF_NONE) {
-    add_still(links, &c->rig_to_asset);
+    add_constant(links, &c->rig_to_asset);
   } else {
     sbfi_matrix frame;
     for (int32_t n = (int32_t)c->node_of_bone[parent]; n != top; n = w->rig->nodes[n].parent)
@@ -126,9 +127,9 @@ static bool gather_links(clip_work *w, uint32_t bone, link_list *links) {
     while (depth)
       if (!add_node(w, links, w->path[--depth], true)) return false;
     if (!frame_in_node(w, (uint32_t)parent, &frame) || !sbfi_matrix_invert(&frame, &frame)) return false;
-    add_still(links, &frame);
+    add_constant(links, &frame);
   }
-  push_still(links);
+  push_constant(links);
   return !links->too_long;
 }
 
@@ -140,8 +141,7 @@ static bool is_finite(const sbfi_track *track, uint32_t width) {
   return true;
 }
 
-/* Whether all keys say the same as `rest`, or as the first; quaternions of opposite sign are the same turn.
- */
+/* Whether all keys equal `rest`, or the first key if that is NULL. Quaternions of opposite sign are equal. */
 static bool all_are(const sbfi_track *track, uint32_t width, const double *rest, double tolerance) {
   for (uint32_t i = 0; i < track->count; i++) {
     const float *value = track->values + (size_t)i * width;
@@ -154,7 +154,7 @@ static bool all_are(const sbfi_track *track, uint32_t width, const double *rest,
   return true;
 }
 
-/* Adds a track unless it says what rest says. False where memory runs out. */
+/* Adds a track unless it equals the rest pose. False if memory runs out. */
 static bool add_track(clip_work *w, uint32_t bone, sbf_track_property property, const sbfi_track *from,
     const double *rest, double tolerance, sbf_track *to, uint32_t *count) {
   uint32_t width = property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3, keys = from->count;
@@ -192,10 +192,10 @@ static void rest_of(const sbf_bone *bones, uint32_t bone, sbfi_trs *rest) {
   *rest = sbfi_trs_decompose(&own);
 }
 
-/* A character that was moved onto the ground is moved in its clips too, unless they have it there already, as
- * motions recorded on the ground that are tied to a skin drawn around the hips. */
+/* Raises the clip as far as the character was raised onto the ground. Skips clips that already stand at
+ * that height, such as motions recorded on the ground for a skin drawn around the hips. */
 static void lift_root(const sbfi_track *track, double lift, const double *rest) {
-  float *values = (float *)(uintptr_t)track->values; /* of this bone alone */
+  float *values = (float *)(uintptr_t)track->values; /* no other bone uses them */
   if (track->count == 0) return;
   double y = (double)values[1];
   if (fabs(y + lift - rest[1]) > fabs(y - rest[1])) return;
@@ -252,7 +252,7 @@ static void warn_of_losses(clip_work *w) {
         w->clip->name, (unsigned)w->lost_bones);
 }
 
-/* How far one key is from another: an angle, or a length. */
+/* Distance between two keys: an angle or a length. */
 static double step_between(const sbf_track *track, uint32_t a, uint32_t b) {
   uint32_t width = track->property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
   const float *from = track->values.at + (size_t)width * a, *to = track->values.at + (size_t)width * b;
@@ -264,9 +264,9 @@ static double step_between(const sbf_track *track, uint32_t a, uint32_t b) {
   return track->property == SBF_TRACK_PROPERTY_ROTATION ? 2 * acos(fmin(fabs(dot), 1)) : sqrt(squared);
 }
 
-/* A clip starts again where the way from its last keys to its first is no longer than one key's to the next;
- * from farther it would throw about what hangs on the bones. */
-static bool ends_as_it_begins(const clip_work *w, const sbf_track_list *tracks) {
+/* A clip loops if the step from its last keys to its first is no longer than a step between keys. A larger
+ * jump would throw soft bodies around. */
+static bool is_loop(const clip_work *w, const sbf_track_list *tracks) {
   for (uint32_t i = 0; i < tracks->count; i++) {
     const sbf_track *track = &tracks->at[i];
     uint32_t last = track->times.count ? track->times.count - 1 : 0;
@@ -297,7 +297,7 @@ static sbf_status convert_clip(clip_work *w, sbf_clip *to) {
   sbf_track *kept = good && count ? sbfi_convert_allocate(w->c, count, sizeof *kept) : NULL;
   if (kept) memcpy(kept, tracks, count * sizeof *kept);
   to->tracks = (sbf_track_list){kept, kept ? count : 0};
-  to->loop = ends_as_it_begins(w, &to->tracks);
+  to->loop = is_loop(w, &to->tracks);
   sbfi_arena_free(&scratch);
   if (!good || (count && !kept) || !to->id || !to->name) return sbfi_convert_no_memory(w->c);
   warn_of_losses(w);

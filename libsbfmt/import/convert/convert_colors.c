@@ -12,7 +12,7 @@ static float linear_of_srgb(float stored) {
   return (float)(v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
 }
 
-/* Three numbers a colour leave the importer with an opacity of 0 throughout. */
+/* assimp sets an opacity of 0 everywhere when the file has three components per colour. */
 static bool has_opacity(const sbfi_scene_mesh *mesh) {
   for (uint32_t i = 0; i < mesh->color_count; i++)
     if (mesh->colors[i].w > 0) return true;
@@ -27,7 +27,7 @@ static bool is_white(const sbf_vec4 *colors, uint32_t count) {
 
 static sbf_status write_colors(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const uint32_t *corner_order,
     bool linear, sbf_render_mesh *render) {
-  uint32_t white = mesh->color_count; /* of corners without a colour */
+  uint32_t white = mesh->color_count; /* index used by corners without a colour */
   bool opaque = !has_opacity(mesh), partial = false;
   sbf_vec4 *colors = sbfi_convert_allocate(c, (size_t)white + 1, sizeof *colors);
   uint32_t *corners = sbfi_convert_allocate(c, mesh->corner_count, sizeof *corners);

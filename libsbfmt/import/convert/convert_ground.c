@@ -1,16 +1,16 @@
-/* The ground: in asset space a character stands on y = 0, wherever its file has put the origin. */
+/* Moves a character onto y = 0 in asset space, whatever the origin of its file. */
 #include <math.h>
 
 #include "import/convert/conversion.h"
 
-/* Share of the height within which a character is taken to stand on y = 0 as it is. */
+/* Fraction of the height; a character whose lowest point is this close to y = 0 is not moved. */
 static const double STANDS = 0.05;
 
 typedef struct span {
   double low, high;
 } span;
 
-static void see(span *s, const sbf_vec3_list points) {
+static void extend(span *s, const sbf_vec3_list points) {
   for (uint32_t i = 0; i < points.count; i++) {
     s->low = fmin(s->low, (double)points.at[i].y);
     s->high = fmax(s->high, (double)points.at[i].y);
@@ -19,15 +19,15 @@ static void see(span *s, const sbf_vec3_list points) {
 
 static span span_of(const sbf_asset *a) {
   span s = {INFINITY, -INFINITY};
-  for (uint32_t i = 0; i < a->soft_bodies.count; i++) see(&s, a->soft_bodies.at[i].surface.positions);
-  for (uint32_t i = 0; i < a->render_meshes.count; i++) see(&s, a->render_meshes.at[i].mesh.positions);
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++) extend(&s, a->soft_bodies.at[i].surface.positions);
+  for (uint32_t i = 0; i < a->render_meshes.count; i++) extend(&s, a->render_meshes.at[i].mesh.positions);
   if (s.low <= s.high) return s;
-  for (uint32_t i = 0; i < a->bones.count; i++) see(&s, (sbf_vec3_list){&a->bones.at[i].head, 1});
+  for (uint32_t i = 0; i < a->bones.count; i++) extend(&s, (sbf_vec3_list){&a->bones.at[i].head, 1});
   return s;
 }
 
 static void lift(const sbf_vec3_list points, double by) {
-  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)points.at; /* the asset is ours until it is handed out */
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)points.at; /* the conversion owns the asset */
   for (uint32_t i = 0; i < points.count; i++) at[i].y = (float)((double)at[i].y + by);
 }
 
@@ -48,7 +48,7 @@ static void lift_asset(const sbf_asset *a, double by) {
 }
 
 sbf_status sbfi_stand_on_ground(sbfi_conversion *c) {
-  if (c->asset->gaits.count == 0) return SBF_OK; /* nothing says that it stands at all */
+  if (c->asset->gaits.count == 0) return SBF_OK; /* without a gait the character may not stand at all */
   span s = span_of(c->asset);
   double height = s.high - s.low;
   if (!(fabs(s.low) > STANDS * height)) return SBF_OK;

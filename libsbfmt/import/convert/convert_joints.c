@@ -1,7 +1,8 @@
-/* Rigid bodies of the bones that carry sections, and the joints that the skeleton makes between them.
+/* Creates rigid bodies for bones with sections, and joints between them along the skeleton.
  *
- * A body moves with its bone and gets its hull from the build. A joint sits at the head of the lower bone, in
- * the frame that joint limits refer to: +X, the twist axis, is the bone's +Y, +Y its +Z, +Z its +X. */
+ * A body moves with its bone; the build computes its hull. A joint is at the head of the child bone, in
+ * the frame that joint limits refer to: the joint's +X (twist axis), +Y and +Z are the bone's +Y, +Z and
+ * +X. */
 #include <math.h>
 
 #include "build/sections/section_joints.h"
@@ -11,10 +12,10 @@
 typedef struct body_center {
   double sum[3];
   uint32_t corners, first_section, section_count;
-  bool of_skin; /* no section, but points of a skin */
+  bool of_skin; /* it has no section, only points of a skin */
 } body_center;
 
-/* Centres are means over polygon corners: a stray point in no polygon does not pull at them. */
+/* Centres are means over polygon corners, so that points outside all polygons have no effect. */
 static void add_section(body_center *center, const sbf_soft_body *section, uint32_t number) {
   const sbf_polygon_mesh *mesh = &section->surface;
   if (center->section_count++ == 0) center->first_section = number;
@@ -66,7 +67,7 @@ static bool fill_limits(sbfi_conversion *c, const sbfi_scene_limit *from, sbf_li
   return true;
 }
 
-/* `a` and `b`: places of the upper and the lower body. */
+/* `a` and `b` are indices of the parent and the child body. */
 static bool fill_joint(
     sbfi_conversion *c, int32_t a, int32_t b, const sbf_rigid_body *bodies, sbf_joint *joint) {
   int32_t bone = bodies[b].bone;
@@ -80,11 +81,11 @@ static bool fill_joint(
   joint->frame_b = sbfi_bone_joint_frame(&c->asset->bones.at[bone], &bodies[b]);
   if (!joint->id || !fill_limits(c, c->rig->nodes[c->node_of_bone[bone]].limits, &joint->limits))
     return false;
-  joint->proposed = joint->limits.count == 0; /* nobody has said yet how far it turns */
+  joint->proposed = joint->limits.count == 0; /* no limits were authored */
   return true;
 }
 
-/* The points of a skin go to the bones that hold most of them, or to those whose sections will have them. */
+/* Adds each point of a skin to the centre of its main bone, or of the bone whose section will contain it. */
 static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_center *centers) {
   const sbf_skin *skin = mesh->skin;
   uint32_t at = 0;
@@ -109,7 +110,8 @@ static void add_head(const sbf_bone *bone, body_center *center) {
   *center = (body_center){{(double)bone->head.x, (double)bone->head.y, (double)bone->head.z}, 1, 0, 0, true};
 }
 
-/* What hangs on a bone that holds nothing, as legs on the hips of many rigs, turns against that bone. */
+/* Bones that hang on a bone without sections, such as legs on the hips of many rigs, need a joint to that
+ * bone. */
 static void add_tops(const sbf_bone_list *bones, body_center *centers, uint8_t *below_one) {
   for (uint32_t i = 0; i < bones->count; i++) {
     int32_t above = bones->at[i].parent;
@@ -119,14 +121,14 @@ static void add_tops(const sbf_bone_list *bones, body_center *centers, uint8_t *
   }
 }
 
-/* Bones that have no section but hold a skin, at the mean of its points: of those skins that a build cuts,
- * the bones whose sections it makes. */
+/* Adds bones that have no section but move points of a skin; the centre is the mean of the points. For
+ * skins that the build cuts into sections these are the bones of the sections. */
 static bool add_skins(sbfi_conversion *c, body_center *centers) {
   const uint32_t *owners;
   uint8_t *below_one = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, 1);
   if (!below_one || !sbfi_section_owners_find(&owners, c->asset, &c->scratch)) return false;
   if (!owners && c->options->limits == SBF_CONVERT_LIMITS_NONE)
-    return true; /* sections have what was stated */
+    return true; /* sections already determine the bodies */
   for (uint32_t m = 0; m < c->asset->render_meshes.count; m++)
     add_skin(&c->asset->render_meshes.at[m], owners, centers);
   for (uint32_t i = 0; owners && i < c->asset->bones.count; i++)
@@ -135,7 +137,7 @@ static bool add_skins(sbfi_conversion *c, body_center *centers) {
   return true;
 }
 
-/* Whether somebody said how far some bone turns, or it is to be proposed. */
+/* Whether joint limits were authored or will be proposed. */
 static bool limits_known(const sbfi_conversion *c) {
   bool known = c->options->limits != SBF_CONVERT_LIMITS_NONE;
   for (uint32_t i = 0; i < c->asset->bones.count && !known; i++)
@@ -162,7 +164,7 @@ sbf_status sbfi_convert_joints(sbfi_conversion *c) {
   if (!bodies || !joints) return sbfi_convert_no_memory(c);
   count = 0;
   for (uint32_t i = 0; i < bones.count; i++) {
-    /* What hangs on a bone without sections of its own hangs on the nearest body above. */
+    /* A bone whose parent has no body is joined to the nearest body above. */
     int32_t above = bones.at[i].parent >= 0 ? body_of_bone[bones.at[i].parent] : SBF_NONE;
     body_of_bone[i] = above;
     if (centers[i].section_count == 0 && !centers[i].of_skin) continue;

@@ -1,5 +1,5 @@
-/* Which bone carries which mesh, and what the section is called: a mesh hangs on the nearest bone above it in
- * the node tree, which for objects of another file the rigging pass (import/rigging) has made. */
+/* Assigns a bone and a section name to each mesh: a mesh follows the nearest bone above it in the node
+ * tree. For objects of another file import/rigging has created that tree. */
 #include "import/convert/conversion.h"
 
 static void match_own_tree(sbfi_conversion *c) {

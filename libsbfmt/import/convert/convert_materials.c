@@ -12,8 +12,8 @@ static const char *media_type_of(const char *extension) {
   return "";
 }
 
-/* Of a path that leaves the folder of the file, as one of the author's disk, the last part: the image is then
- * looked for beside the bundle. */
+/* File name of a path outside the file's folder, such as one on the author's disk: the image is then
+ * searched beside the bundle. */
 static const char *path_within(sbfi_conversion *c, const char *path) {
   if (!path) return "";
   if (!sbfi_path_leaves_folder(path)) return path;
@@ -50,7 +50,7 @@ static sbf_status convert_images(sbfi_conversion *c) {
   return SBF_OK;
 }
 
-/* NULL in `*to` where the image lies as it is; false: memory ran out. */
+/* Sets `*to` to NULL for an identity transform. False if memory runs out. */
 static bool convert_uv(sbfi_conversion *c, const sbfi_scene_uv_transform *from, const sbf_uv_transform **to) {
   *to = NULL;
   if (from->offset[0] == 0 && from->offset[1] == 0 && from->rotation == 0 && from->scale[0] == 1 &&
@@ -84,7 +84,7 @@ sbf_status sbfi_convert_materials(sbfi_conversion *c) {
     to->emissive = (sbf_vec3){from->emissive[0], from->emissive[1], from->emissive[2]};
     to->metallic = from->metallic;
     to->roughness = from->roughness;
-    to->alpha_mode = (sbf_alpha_mode)from->alpha_mode; /* the same three in the same order */
+    to->alpha_mode = (sbf_alpha_mode)from->alpha_mode; /* both enums have the same values */
     if (from->alpha_mode == SBFI_ALPHA_MASK) to->alpha_cutoff = from->alpha_cutoff;
     to->double_sided = from->double_sided;
     to->base_color_texture = from->base_color_image;

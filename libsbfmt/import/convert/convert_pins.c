@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-/* So near to 1 a weight is meant to hold fast: exporters divide by sums. */
-static const double fast = 0.9999;
+/* Goal weights from this value on are rigid pins; exporters that divide by sums do not reach 1 exactly. */
+static const double rigid_weight = 0.9999;
 
-/* The mesh's joint of that name; -1: none. */
+/* Index of the mesh's joint with that name; -1 if none. */
 static int64_t joint_named(const sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
   for (uint32_t j = 0; j < mesh->joint_count; j++)
     if (strcmp(c->scene->nodes[mesh->joints[j].node].name, name) == 0) return j;
@@ -54,7 +54,7 @@ sbf_status sbfi_convert_check_pins(sbfi_conversion *c) {
   return status;
 }
 
-/* Weights of the points under a name, as bone and as group together; 0 where it has none. */
+/* Weights of the points under a name, the sum of bone and group; 0 where neither is defined. */
 static float *weights_of(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
   float *weights = sbfi_arena_allocate(&c->scratch, (size_t)mesh->point_count + 1, sizeof *weights);
   const sbfi_scene_group *group = group_named(mesh, name);
@@ -80,7 +80,7 @@ static bool fill_set(
   if (!weights || !points || !goals || !set->name) return false;
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     if (!(weights[i] > 0)) continue;
-    goals[count] = (double)weights[i] > fast ? 1 : sbfi_goal_weight((double)weights[i]);
+    goals[count] = (double)weights[i] > rigid_weight ? 1 : sbfi_goal_weight((double)weights[i]);
     pinned += goals[count] >= 1;
     points[count++] = i;
   }
@@ -93,7 +93,7 @@ static bool fill_set(
   return true;
 }
 
-/* One for each of the wishes that names a group of the mesh. */
+/* Creates one set for each requested pin that names a group of the mesh. */
 static bool fill_sets(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbf_convert_pin *pins,
     uint32_t pin_count, sbf_pin_set *sets, uint32_t *count) {
   *count = 0;

@@ -18,8 +18,7 @@ static sbfi_d3 across(sbfi_d3 a, sbfi_d3 axis) {
   return sbfi_d3_sub(a, sbfi_d3_scale(axis, sbfi_d3_dot(a, axis)));
 }
 
-/* Of a right-handed orthonormal frame whose Y is the given axis and whose X is as near `x` as that leaves it.
- */
+/* Rotation of a right-handed orthonormal frame whose Y is the given axis and whose X is closest to `x`. */
 static sbf_quat rotation_from_axes(sbfi_d3 x, sbfi_d3 y) {
   sbfi_d3 axis_y = normal_or(y, (sbfi_d3){0, 1, 0});
   sbfi_d3 spare = fabs(axis_y.x) < 0.9 ? (sbfi_d3){1, 0, 0} : (sbfi_d3){0, 0, 1};
@@ -33,7 +32,7 @@ static sbf_quat rotation_from_axes(sbfi_d3 x, sbfi_d3 y) {
       (float)(q[3] * sign + 0.0)}; /* no negative zero */
 }
 
-/* The direction in which the bone is drawn, which becomes its +Y. */
+/* Direction of the bone as drawn; it becomes the bone's +Y. */
 static sbfi_d3 direction_of(const sbfi_skeleton_draft *s, const sbfi_bone_draft *bone) {
   if (s->along_y) return bone->y;
   if (bone->next != SBF_NONE) return bone->along;
@@ -42,7 +41,7 @@ static sbfi_d3 direction_of(const sbfi_skeleton_draft *s, const sbfi_bone_draft 
   return below ? s->bones[bone->parent].along : bone->y;
 }
 
-/* Places of the bones in an order in which parents stand first, the file's own order otherwise. */
+/* Indices of the bones ordered so that parents come first, otherwise in file order. */
 static bool order_bones(sbfi_conversion *c, const sbfi_skeleton_draft *s, uint32_t *old_from_new) {
   bool *placed = sbfi_arena_allocate(&c->scratch, s->count, sizeof *placed);
   uint32_t *path = sbfi_arena_allocate(&c->scratch, s->count, sizeof *path), count = 0;
@@ -103,7 +102,7 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
   for (uint32_t i = 0; i < node_count; i++) {
     const sbfi_scene_node *node = &c->rig->nodes[i];
     int32_t above = node->parent != SBF_NONE ? c->bone_of_node[node->parent] : SBF_NONE;
-    c->bone_of_node[i] = above; /* what is no bone hangs on the nearest above */
+    c->bone_of_node[i] = above; /* other nodes follow the nearest bone above */
     sbfi_matrix world = sbfi_matrix_multiply(&c->rig_to_asset, &node->world);
     bool marks_tip = node->is_end && above != SBF_NONE && s.bones[above].node == (uint32_t)node->parent;
     if (!node->is_bone && marks_tip) s.bones[above].tip = sbfi_d3_sub(column(&world, 3), s.bones[above].head);
@@ -144,7 +143,7 @@ static void reach_skin(const sbf_render_mesh *mesh, sbf_bone *bones, float *leng
 sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c) {
   uint32_t count = c->asset->bones.count;
   if (count == 0) return SBF_OK;
-  sbf_bone *bones = (sbf_bone *)(uintptr_t)c->asset->bones.at; /* ours until the asset is handed out */
+  sbf_bone *bones = (sbf_bone *)(uintptr_t)c->asset->bones.at; /* the conversion owns the asset */
   float *lengths = sbfi_arena_allocate(&c->scratch, count, sizeof *lengths);
   if (!lengths) return sbfi_convert_no_memory(c);
   for (uint32_t b = 0; b < c->asset->soft_bodies.count; b++) {

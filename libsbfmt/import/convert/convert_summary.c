@@ -36,7 +36,7 @@ void sbfi_summarize(sbfi_conversion *c, const sbfi_tet_mesh *tets, const sbfi_pa
   if (paper) {
     sbfi_copy_text(first->form, sizeof first->form, "2012 dialect");
     first->objects = (uint32_t)(paper->soft_bodies.count + paper->rigid_bodies.count);
-    first->unit_stated = first->axes_stated = true; /* the dialect has metres and +Y up */
+    first->unit_stated = first->axes_stated = true; /* the dialect defines metres and +Y up */
   }
   if (options->unit_m > 0) first->unit_m = options->unit_m;
   if (c->rig && c->rig != c->scene) summarize_scene(c->rig, &s->sources[s->source_count++]);

@@ -1,4 +1,4 @@
-/* What came in, for whoever asked. */
+/* Summary of the input for the caller. */
 #ifndef SBFI_CONVERT_SUMMARY_H
 #define SBFI_CONVERT_SUMMARY_H
 
@@ -6,8 +6,8 @@
 #include "import/paper/dialect2012.h"
 #include "import/tetrahedra/tet_mesh.h"
 
-/* Fills options->summary, where it is not NULL: of the conversion's scenes, or of `tets` or `paper` where
- * those are what was read. */
+/* Fills options->summary unless it is NULL: from the conversion's scenes, or from `tets` or `paper` if one
+ * of them is the input. */
 void sbfi_summarize(sbfi_conversion *c, const sbfi_tet_mesh *tets, const sbfi_paper_model *paper,
     const sbf_convert_options *options);
 

@@ -4,8 +4,7 @@
 
 static const uint32_t INSIDE = UINT32_MAX;
 
-/* Source points in the body's order: those of the boundary first, then the inner ones, each in the file's
- * order. */
+/* Source points in the body's order: boundary points first, then interior points, both in file order. */
 typedef struct order {
   uint32_t *new_from_old, *old_from_new;
   uint32_t surface_count, count;
@@ -62,7 +61,7 @@ static sbf_status fill_level(sbfi_conversion *c, const sbfi_tet_mesh *mesh, cons
   return SBF_OK;
 }
 
-static void say_what_changed(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
+static void report_repairs(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
   if (mesh->turned_count)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_TETRAHEDRA_TURNED,
         "%u tetrahedra were listed the other way round and have been turned", mesh->turned_count);
@@ -98,7 +97,7 @@ static sbf_status fill_body(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const
       (sbf_vec3_list){o.count > o.surface_count ? points + o.surface_count : NULL, o.count - o.surface_count};
   body->source_points = (sbf_u32_list){sources, o.surface_count};
   if (new_from_old) *new_from_old = o.new_from_old;
-  say_what_changed(c, mesh);
+  report_repairs(c, mesh);
   return status;
 }
 

@@ -7,9 +7,9 @@
 #include "mechanics/extent.h"
 #include "mechanics/polygon.h"
 
-/* In the surface of a skin: no farther from it than this part of the section's extent. */
+/* Points this close to a skin's surface count as inside; fraction of the section's extent. */
 static const double IN_SURFACE = 0.005;
-/* The winding number from which a point is enclosed. */
+/* Minimum winding number of an enclosed point. */
 static const double ENCLOSED = 0.95;
 
 struct sbfi_one_skin {

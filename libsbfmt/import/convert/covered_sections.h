@@ -1,23 +1,23 @@
-/* Which bodies on bones a skin hides: sections of a character that is drawn by its skin. */
+/* Finds sections that the skin of a character hides. */
 #ifndef SBFI_COVERED_SECTIONS_H
 #define SBFI_COVERED_SECTIONS_H
 
 #include "base/memory.h"
 #include "sbfmt/model.h"
 
-/* The skinned meshes of an asset, ready for queries. */
+/* Skinned meshes of an asset, prepared for queries. */
 typedef struct sbfi_skins {
   struct sbfi_one_skin *at;
   uint32_t count;
 } sbfi_skins;
 
-/* `meshes` must outlive it. Memory of `arena`; false where it runs out. */
+/* `meshes` must outlive the result. Allocates from `arena`; false if memory runs out. */
 bool sbfi_skins_make(
     sbfi_skins *skins, const sbf_render_mesh *meshes, uint32_t mesh_count, sbfi_arena *arena);
 
-/* Whether nothing of a surface shows: the middle and the corners of every polygon lie inside a skin or in its
- * surface. Inside is what the skin encloses on all sides, but for a twentieth of the directions: legs under a
- * skirt show. */
+/* Whether a skin hides the whole surface: the centre and the corners of every polygon are inside or on a
+ * skin. A point is inside if the skin encloses 95 % of the directions around it, so legs under a skirt
+ * stay visible. */
 bool sbfi_skins_hide(const sbfi_skins *skins, const sbf_polygon_mesh *surface);
 
 #endif

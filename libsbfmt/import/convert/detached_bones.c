@@ -1,27 +1,27 @@
-/* Bones that were moved by hand: they hold skin and hang on nothing; each goes to the limb that points at
- * its head. */
+/* Animators move some bones directly: these have skin weights but no parent. Each is attached to the limb
+ * that points at its head. */
 #include "import/convert/skeleton_draft.h"
 #include "model/bone_ends.h"
 
 #include <math.h>
 #include <string.h>
 
-/* How often the length of the bone before it a limb's last bone may have; a target in its place is no end of
- * it. */
+/* Limits of the length of a limb's last bone, as multiples of the bone before it. A shorter one is a
+ * target at the limb's end. */
 static const double LONGEST_TIP = 3, SHORTEST_TIP = 0.1;
-/* Cosine of the angle within which a limb goes on. */
+/* Minimum cosine of the angle between a limb and its continuation. */
 static const double AHEAD = 0.3;
-/* A file's, an armature's and a rig's root may stand above a foot that is moved by hand. */
+/* Maximum number of root nodes above a detached foot: the file's, the armature's and the rig's. */
 enum { MAX_FRAMES = 3 };
 
-/* Moved by hand: it holds skin and hangs on nothing, or on a root that holds none. */
+/* A detached bone has skin weights and no parent, or only a root without weights. */
 static bool is_detached(const sbfi_skeleton_draft *s, uint32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (!s->bones[bone].points) return false;
   return parent == SBF_NONE || (s->bones[parent].parent == SBF_NONE && !s->bones[parent].points);
 }
 
-/* The last bone of a limb of at least two, with skin on it. */
+/* Whether the bone is the last of a limb of at least two bones and has skin weights. */
 static bool is_tip(const sbfi_skeleton_draft *s, uint32_t bone) {
   const sbfi_bone_draft *b = &s->bones[bone];
   return b->next == SBF_NONE && b->points && b->parent != SBF_NONE && s->bones[b->parent].parent != SBF_NONE;
@@ -32,8 +32,7 @@ static bool hangs_below(const sbfi_skeleton_draft *s, int32_t bone, int32_t abov
   return bone == above;
 }
 
-/* The limb whose last bone points at the head of `bone` and is nearest to it; SBF_NONE where there is none.
- */
+/* Limb whose last bone points at the head of `bone` and is nearest to it; SBF_NONE if there is none. */
 static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
   int32_t best = SBF_NONE;
   double nearest = 0;
@@ -58,7 +57,7 @@ static bool is_end(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t
   return s->bones[bone].below == 0 && sbfi_name_is_end(name, strlen(name));
 }
 
-/* Bones that hang below, without marks of ends. */
+/* Number of descendants, without end markers. */
 static uint32_t count_below(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
   uint32_t count = s->bones[bone].below;
   for (uint32_t i = 0; i < s->count; i++)
@@ -66,14 +65,14 @@ static uint32_t count_below(const sbfi_skeleton_draft *s, const sbfi_scene *rig,
   return count;
 }
 
-/* A bone, or a foot and its toe, below nothing but roots and frames. */
+/* Whether only roots and frames are above the bone, and at most a toe below it. */
 static bool is_loose(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
   int depth = 0;
   for (int32_t above = s->bones[bone].parent; above != SBF_NONE; above = s->bones[above].parent) depth++;
   return depth <= MAX_FRAMES && !is_end(s, rig, bone) && count_below(s, rig, bone) <= 1;
 }
 
-/* The last bone of a limb of at least two below a bone that is no root. */
+/* Whether the bone is the last of a limb of at least two bones below a bone that is not a root. */
 static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (parent == SBF_NONE || is_end(s, rig, bone) || count_below(s, rig, bone)) return false;
@@ -82,8 +81,9 @@ static bool ends_limb(const sbfi_skeleton_draft *s, const sbfi_scene *rig, uint3
          count_below(s, rig, (uint32_t)parent) == 1;
 }
 
-/* Distance from where a limb's last bone begins to a loose bone in which it may end; INFINITY where it
- * cannot: a limb points at its foot where bones run along +Y, and else goes on down to it. */
+/* Distance from the head of a limb's last bone to a loose bone that may continue it; INFINITY if it
+ * cannot. If bones run along +Y the limb must point at the loose bone, otherwise the limb must continue
+ * downwards to it. */
 static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t loose) {
   const sbfi_bone_draft *last = &s->bones[tip];
   int32_t carrier = s->bones[loose].parent, limb = s->bones[last->parent].parent;
@@ -98,8 +98,7 @@ static double reach_of_limb(const sbfi_skeleton_draft *s, uint32_t tip, uint32_t
                                                                                                  : INFINITY;
 }
 
-/* A loose bone and a limb's last one belong together where each is the nearest to the other that it can be.
- */
+/* Pairs loose bones with the last bones of limbs where each is the nearest candidate of the other. */
 static void find_limbs_without_skin(const sbfi_skeleton_draft *s, const sbfi_scene *rig, int32_t *limbs) {
   for (uint32_t i = 0; i < s->count; i++) limbs[i] = SBF_NONE;
   for (uint32_t tip = 0; tip < s->count; tip++) {
@@ -125,8 +124,8 @@ static void find_neighbors_without_skin(sbfi_skeleton_draft *s, const sbfi_scene
 
 bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
   bool moved = false;
-  /* All are found before any is moved, so that their order does not matter. Where bones do not run along +Y
-   * the last one of a limb does not say where it points. */
+  /* Finds all limbs before moving any bone, so that the result does not depend on the order. If bones do
+   * not run along +Y, the last bone of a limb has no known direction. */
   for (uint32_t i = 0; i < s->count; i++) {
     limbs[i] = s->bones[i].neighbor;
     if (limbs[i] == SBF_NONE && s->along_y && is_detached(s, i)) limbs[i] = find_limb(s, i);

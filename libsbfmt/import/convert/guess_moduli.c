@@ -6,11 +6,11 @@
 #include "sbfmt/materials.h"
 #include "sbfmt/mechanics.h"
 
-/* Flesh around a bone hangs on it all along: it has to bear what lies between bone and skin alone, and a
- * quarter of strain there still looks as it was drawn. */
+/* Maximum strain of soft tissue under its own weight. Tissue is attached along the whole bone, so it bears
+ * only the mass between bone and skin; at this strain the shape still looks as authored. */
 static const double MAX_TISSUE_STRAIN = 0.25;
 
-/* What a guess is about, and how it went. */
+/* Guessed moduli, for the report. */
 typedef struct guesses {
   double min, max; /* Pa */
   unsigned count;
@@ -28,8 +28,7 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
   double soft_tissue = (double)sbf_material_find("flesh")->young_modulus;
   guesses sections = {0}, standing = {0};
   for (uint32_t i = 0; i < bodies->count; i++) {
-    sbf_soft_body *body =
-        (sbf_soft_body *)(uintptr_t)&bodies->at[i]; /* the asset is ours until it is handed out */
+    sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)&bodies->at[i]; /* the conversion owns the asset */
     sbf_body_measures measures;
     sbf_body_measure(body, &measures);
     if (measures.sheet || (body->bone == SBF_NONE && body->pins.count)) continue;

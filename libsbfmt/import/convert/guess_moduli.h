@@ -1,11 +1,11 @@
-/* What bodies are made of where nobody says so. */
+/* Default moduli for bodies without an authored one. */
 #ifndef SBFI_GUESS_MODULI_H
 #define SBFI_GUESS_MODULI_H
 
 #include "import/convert/conversion.h"
 
-/* Gives sections on bones the modulus of flesh, or as much as their thickness takes, and bodies that nothing
- * holds as much as it takes to stand on the ground; tells what was guessed. */
+/* Sets the modulus of sections on bones to that of soft tissue, or higher if their thickness needs it, and
+ * of free bodies to one that can bear their weight on the ground. Reports the guesses. */
 void sbfi_guess_moduli(sbfi_conversion *c);
 
 #endif

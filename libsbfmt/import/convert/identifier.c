@@ -1,4 +1,4 @@
-/* Ids of names: letters that a file may hold, and each only once. */
+/* Creates unique ids from names, with characters that a file allows. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ static uint64_t hash_text(const char *text) {
   return hash;
 }
 
-/* The slot that holds `id`, or the free one where it belongs. */
+/* Slot of `id`, or the free slot where it belongs. */
 static const char **find_slot(sbfi_id_set *set, const char *id) {
   const char **slots = set->slots.at;
   size_t mask = set->slots.count - 1;
@@ -30,7 +30,7 @@ static bool grow(sbfi_id_set *set) {
   return true;
 }
 
-/* Room for one more. */
+/* Ensures capacity for one more id. */
 static bool reserve(sbfi_id_set *set) {
   return 2 * (size_t)(set->used + 1) <= set->slots.count || grow(set);
 }

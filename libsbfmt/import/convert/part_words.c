@@ -5,7 +5,7 @@
 
 enum { MAX_WORD = 24 };
 
-/* Words that stand alone in a name, or that longer ones begin with where a * follows. */
+/* Whole words of a name. A trailing * matches any continuation. */
 static const char *const soft_words[] = {"belly", "stomach", "abdomen", "breast*", "boob*", "butt",
     "buttock*", "glute*", "thigh*", "tail*", "ear", "ears", "cheek*", "udder*", "hump*", "jelly", "blob",
     NULL};
@@ -54,7 +54,7 @@ static bool next_word(const char **name, char word[MAX_WORD]) {
   return length > 0;
 }
 
-/* What limbs end in after `lower`: LowerArm, lower_leg. */
+/* Second word of a limb's name after `lower`: LowerArm, lower_leg. */
 static bool is_limb(const char *word) {
   return is_word(word, "arm*") || is_word(word, "leg*");
 }

@@ -1,4 +1,4 @@
-/* What names say of how hard a thing is. */
+/* Hints about softness from names. */
 #ifndef SBFI_PART_WORDS_H
 #define SBFI_PART_WORDS_H
 
@@ -10,13 +10,14 @@ typedef enum sbfi_name_says {
   SBFI_SAYS_LIMB,   /* hands, feet, fingers, shins, forearms */
   SBFI_SAYS_FACE,   /* eyes, jaw, teeth, beak, horns */
   SBFI_SAYS_PROP,   /* weapons, armour, tools, wheels */
-  SBFI_SAYS_MACHINE /* the whole is one: mech, robot, tank, car */
+  SBFI_SAYS_MACHINE /* the whole character is a machine: mech, robot, tank, car */
 } sbfi_name_says;
 
-/* By English words, as rigs have them. Names are divided at capitals, digits and marks; NULL says nothing. */
+/* Matches the English words that rigs use. Names are split at capitals, digits and punctuation. NULL gives
+ * no hint. */
 sbfi_name_says sbfi_words_of_name(const char *name);
 
-/* Whether a material of that name is hard: metal, wood, glass, armour. */
+/* Whether the name is that of a hard material: metal, wood, glass, armour. */
 bool sbfi_material_is_hard(const char *name);
 
 #endif

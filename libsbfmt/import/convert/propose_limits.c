@@ -1,17 +1,18 @@
-/* Angles are degrees from the straight limb where the part is a hinge, and from the rest pose elsewhere.
+/* Angles are in degrees, from the straight limb for hinges and from the rest pose for other parts.
  *
- * Human: what handbooks of goniometry give for adults, as the American Academy of Orthopaedic Surgeons'
- * (elbow 0 to 145-150, knee 0 to 140, hip 120 to -20, wrist 80 to -70, ankle 20 up and 50 down, neck 45 each
- * way), trunk and neck shared among their bones; Soucie et al., Haemophilia 17, 2011, measured 674 people.
+ * Human: values of goniometry handbooks for adults, such as that of the American Academy of Orthopaedic
+ * Surgeons (elbow 0 to 145-150, knee 0 to 140, hip 120 to -20, wrist 80 to -70, ankle 20 up and 50 down, neck
+ * 45 in each direction). Trunk and neck angles are divided among their bones. Soucie et al., Haemophilia 17,
+ * 2011, measured 674 people.
  *
- * Quadruped: dogs. The angles between the bones of 16 Labradors (Jaegger, Marcellin-Little and Levine, Am. J.
- * Vet. Res. 63, 2002) and of textbooks of lameness: elbow 25-36 bent to 155-165 straight, carpus 32-34 to
- * 196-198, shoulder 47-57 to 159-165 with 30 sideways; stifle and tarsus are alike to elbow and carpus within
- * some ten degrees. A bend is 180 less that angle. Trunk and tail are a judgement.
+ * Quadruped: dogs. Angles between bones of 16 Labradors (Jaegger, Marcellin-Little and Levine, Am. J. Vet.
+ * Res. 63, 2002) and from textbooks of lameness: elbow 25-36 bent to 155-165 straight, carpus 32-34 to
+ * 196-198, shoulder 47-57 to 159-165 with 30 sideways. Stifle and tarsus resemble elbow and carpus within
+ * about ten degrees. A bend is 180 minus that angle. Trunk and tail are estimates.
  *
- * Reptile: the femur of a lizard swings through a large arc and turns about itself (Brinkman, J. Zool. 1981,
- * Iguana), knees are strict hinges, ankles turn as they bend (Rewcastle, J. Zool. 1980). The numbers are a
- * judgement on that. */
+ * Reptile: the femur of a lizard swings through a large arc and rotates about its axis (Brinkman, J. Zool.
+ * 1981, Iguana), knees are strict hinges, ankles twist as they bend (Rewcastle, J. Zool. 1980). The
+ * numbers are estimates from these. */
 #include "import/convert/propose_limits.h"
 
 #include <ctype.h>
@@ -22,15 +23,15 @@
 
 static const double degree = 0.017453292519943295;
 
-/* Where the limb bends to. */
+/* Direction in which the limb bends. */
 typedef enum bend { FORWARD, BACKWARD, UPWARD, BELLY } bend;
 
 typedef struct range {
-  bool known, hinge; /* hinge: min and max are bends of the straight limb */
-  float cone;        /* half angle; 0: the four below */
+  bool known, hinge; /* for a hinge min and max are bends of the straight limb */
+  float cone;        /* half angle; 0: use the four below */
   float min, max;    /* swing_z, about the axis of bending */
-  float aside;       /* swing_y, to either side */
-  float twist;       /* to either side */
+  float aside;       /* swing_y, to both sides */
+  float twist;       /* to both sides */
   bend to;
 } range;
 
@@ -80,7 +81,7 @@ static bool has(const char *name, const char *word) {
 }
 
 sbfi_limb_part sbfi_part_by_name(const char *name) {
-  /* The first that is in the name counts: narrow words stand before wide ones. */
+  /* The first match wins, so specific words come before general ones. */
   static const struct {
     const char *word;
     sbfi_limb_part part;
@@ -110,7 +111,8 @@ sbfi_limb_part sbfi_part_by_name(const char *name) {
   return SBFI_PART_OTHER;
 }
 
-/* By its place in a leg of the gait: thigh, shin, foot; fore legs are those ahead of the middle of all. */
+/* Part by its index in a leg of the gait: thigh, shin, foot. Fore legs are those in front of the mean of
+ * all. */
 static sbfi_limb_part part_by_gait(const sbf_asset *a, int32_t bone) {
   if (a->gaits.count == 0) return SBFI_PART_OTHER;
   const sbf_leg_list *legs = &a->gaits.at[0].legs;
@@ -128,7 +130,7 @@ static sbfi_limb_part part_by_gait(const sbf_asset *a, int32_t bone) {
   return SBFI_PART_OTHER;
 }
 
-static sbfi_d3 turned(sbf_quat q, sbfi_d3 v) {
+static sbfi_d3 rotated(sbf_quat q, sbfi_d3 v) {
   sbfi_d3 u = {q.x, q.y, q.z}, t = sbfi_d3_scale(sbfi_d3_cross(u, v), 2);
   return sbfi_d3_add(v, sbfi_d3_add(sbfi_d3_scale(t, q.w), sbfi_d3_cross(u, t)));
 }
@@ -152,11 +154,11 @@ static sbf_quat frame_of(sbfi_d3 x, sbfi_d3 y, sbfi_d3 z) {
   return (sbf_quat){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
 }
 
-/* The axis about which the bone bends, and by how much it is bent at rest, rad. A hinge that is bent goes on
- * bending the way it is. */
+/* Axis about which the bone bends, and its bend at rest, rad. A hinge that is bent at rest keeps that
+ * direction. */
 static sbfi_d3 bending(const sbfi_conversion *c, int32_t bone, const range *r, double *bent) {
   const sbf_bone_list *bones = &c->asset->bones;
-  sbfi_d3 along = turned(bones->at[bone].rotation, (sbfi_d3){0, 1, 0});
+  sbfi_d3 along = rotated(bones->at[bone].rotation, (sbfi_d3){0, 1, 0});
   *bent = 0;
   if (r->hinge && bones->at[bone].parent != SBF_NONE) {
     sbfi_d3 above = sbfi_d3_normal(
@@ -173,16 +175,16 @@ static sbfi_d3 bending(const sbfi_conversion *c, int32_t bone, const range *r, d
   sbfi_d3 axis = sbfi_d3_cross(along, to);
   double sine = sbfi_d3_length(axis);
   if (sine > 0.2) return sbfi_d3_scale(axis, 1 / sine);
-  /* It points where it should bend to: any axis across it will do, the leftmost is taken. */
+  /* The bone points in its bending direction: any axis across it will do. Chooses the leftmost. */
   sbfi_d3 left = {fabs(along.x) < 0.9, fabs(along.x) >= 0.9, 0};
   return sbfi_d3_normal(sbfi_d3_sub(left, sbfi_d3_scale(along, sbfi_d3_dot(left, along))));
 }
 
 static void add(sbf_limit_list *list, sbf_joint_axis axis, double min, double max) {
-  sbf_limit *limit = (sbf_limit *)(uintptr_t)&list->at[list->count++]; /* allocated for it below */
+  sbf_limit *limit = (sbf_limit *)(uintptr_t)&list->at[list->count++]; /* propose allocates it */
   sbf_limit_init(limit);
   limit->target = axis;
-  /* The rest pose lies inside, whatever the handbooks say. */
+  /* The range always includes the rest pose, even against the handbooks. */
   limit->min = (float)(fmin(min, 0) * degree);
   limit->max = (float)(fmax(max, 0) * degree);
 }
@@ -192,7 +194,7 @@ static bool propose(sbfi_conversion *c, sbf_joint *joint, const range *r) {
   sbf_limit *limits = sbfi_convert_allocate(c, 3, sizeof *limits);
   if (!limits) return false;
   double bent;
-  sbfi_d3 along = turned(c->asset->bones.at[bone].rotation, (sbfi_d3){0, 1, 0});
+  sbfi_d3 along = rotated(c->asset->bones.at[bone].rotation, (sbfi_d3){0, 1, 0});
   sbfi_d3 axis = bending(c, bone, r, &bent);
   axis = sbfi_d3_normal(sbfi_d3_sub(axis, sbfi_d3_scale(along, sbfi_d3_dot(axis, along))));
   joint->frame_a.rotation = joint->frame_b.rotation = frame_of(along, sbfi_d3_cross(axis, along), axis);
@@ -213,7 +215,7 @@ sbf_status sbfi_propose_limits(sbfi_conversion *c) {
   const sbf_asset *a = c->asset;
   uint32_t proposed = 0, unknown = 0;
   for (uint32_t j = 0; j < a->joints.count; j++) {
-    sbf_joint *joint = (sbf_joint *)(uintptr_t)&a->joints.at[j]; /* made by the pass before */
+    sbf_joint *joint = (sbf_joint *)(uintptr_t)&a->joints.at[j]; /* an earlier pass created it */
     if (joint->limits.count || joint->body_b == SBF_NONE) continue;
     int32_t bone = a->rigid_bodies.at[joint->body_b].bone;
     sbfi_limb_part part = part_by_gait(a, bone);

@@ -1,10 +1,10 @@
-/* How far joints turn, by what the bones are called and how they lie: a proposal, marked as one. */
+/* Proposes joint limits from the names and positions of bones, and marks them as proposals. */
 #ifndef SBFI_PROPOSE_LIMITS_H
 #define SBFI_PROPOSE_LIMITS_H
 
 #include "import/convert/conversion.h"
 
-/* What a bone is, seen from the joint at its head. */
+/* Kind of bone by the joint at its head. */
 typedef enum sbfi_limb_part {
   SBFI_PART_OTHER,
   SBFI_PART_SPINE,
@@ -22,12 +22,12 @@ typedef enum sbfi_limb_part {
   SBFI_PART_COUNT
 } sbfi_limb_part;
 
-/* By its name alone: English words, as rigs have them, whatever else stands around them. */
+/* Part from the name alone: matches the English words that rigs use anywhere in the name. */
 sbfi_limb_part sbfi_part_by_name(const char *name);
 
-/* After the joints: gives every joint that states no limits those of the kind of animal that the options
- * name, where its bone's part is known: the legs of the gait by their place in it, others by name. The
- * joint's frames are turned about the twist axis so that positive swing_z bends the limb. */
+/* After the joints: adds limits to every joint without authored limits whose bone has a known part, for
+ * the kind of animal that the options name. Legs of the gait are known by position, other bones by name.
+ * The joint's frames are rotated about the twist axis so that positive swing_z bends the limb. */
 sbf_status sbfi_propose_limits(sbfi_conversion *c);
 
 #endif

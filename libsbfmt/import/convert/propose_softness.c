@@ -1,6 +1,6 @@
-/* Under a body acceleration a, a section of density rho and modulus E whose skin lies r from its bone gives
- * by about rho a r^2 / E: sections that are thin against the character do not show that they are soft, thick
- * ones do. (Dimensional analysis of a layer in shear; measured on 131 rigs.) */
+/* Consider a section of density rho and modulus E whose skin is at distance r from the bone. Under
+ * acceleration a it deforms by about rho a r^2 / E. Sections that are thin relative to the character do
+ * not visibly deform; thick ones do. (Dimensional analysis of a layer in shear; measured on 131 rigs.) */
 #include "import/convert/propose_softness.h"
 
 #include <math.h>
@@ -19,25 +19,27 @@
 
 enum { MAX_SOFT = 8, NAMES_SIZE = 256 };
 static const double GRAVITY = 9.81; /* m/s^2 */
-/* E / (rho g size): 1.5 where the thickest part is as thick as most animals'. Where it is thinner or thicker
- * it goes by the square, down to a share, so that it gives as much. */
+/* E / (rho g size): 1.5 if the thickest part has a usual thickness for an animal. Outside this range the
+ * ratio scales with the square of the thickness, down to a minimum, so that the deformation stays the
+ * same. */
 static const double MODULUS_RATIO = 1.5, MIN_USUAL = 0.066, MAX_USUAL = 0.12, MIN_RATIO = 0.33;
-/* Points on one bone each, of all, and area of polygons between bones, of all, of machines: the parts of a
- * machine are pieces of their own. Rigs of animals and people have 0.13 and more of the latter. */
+/* Minimum fraction of points with a single bone, and maximum fraction of area in polygons between bones,
+ * for a machine: its parts are separate pieces. Rigs of animals and people have an area fraction of at
+ * least 0.13. */
 static const double MACHINE_SINGLE = 0.87, MACHINE_JOINED = 0.06;
 static const double PIECES_SINGLE = 0.6, PIECES_JOINED = 0.015;
-static const double MIN_THICKNESS = 0.032;   /* of the size: thinner parts do not show that they are soft */
-static const double SLENDER_THICKNESS = 0.6; /* of the thickest part's, where nothing is as thick as that */
-static const double NAMED_THICKNESS = 0.5;   /* of those bounds, where the name says soft */
-static const double SHEET_THICKNESS = 0.012; /* of the size: a sheet or a fin */
+static const double MIN_THICKNESS = 0.032;   /* fraction of the size; thinner parts do not visibly deform */
+static const double SLENDER_THICKNESS = 0.6; /* fraction of the thickest part, if no part reaches that */
+static const double NAMED_THICKNESS = 0.5;   /* factor on these bounds if the name suggests a soft part */
+static const double SHEET_THICKNESS = 0.012; /* fraction of the size; sheets and fins are thinner */
 static const double MIN_AREA = 0.012;        /* of the skin's */
-static const double LOW_LEG = 0.1;           /* of the size, above the ground */
-static const double ALIKE = 0.15;            /* of the sum, by which left and right differ at most */
-static const double NEAR_TWIN = 0.04;        /* of the size */
-static const double PROP_AREA = 0.3;         /* of the skin's: of all objects on bones at most */
-static const double HARD_FRACTION = 0.5;     /* of a part's area of hard materials */
+static const double LOW_LEG = 0.1;           /* fraction of the size, above the ground */
+static const double ALIKE = 0.15;        /* fraction of the sum; maximum difference between left and right */
+static const double NEAR_TWIN = 0.04;    /* fraction of the size */
+static const double PROP_AREA = 0.3;     /* fraction of the skin's area; maximum for all objects on bones */
+static const double HARD_FRACTION = 0.5; /* fraction of a part's area with hard materials */
 
-/* Why a part is rigid. */
+/* Reason why a part is rigid. */
 typedef enum reason {
   SOFT,
   ASKED,
@@ -57,11 +59,11 @@ static const char *const reason_texts[REASON_COUNT] = {NULL, "as asked", "of a m
     "too small to show", "too thin to show", "beyond the largest 8"};
 
 typedef struct part {
-  double thickness, area; /* m: radius of a ball of the same volume by area; m^2 */
+  double thickness, area; /* radius of a ball with the same ratio of volume to area, m; m^2 */
   double hard_area;       /* m^2 */
-  double lowest;          /* m: y of its lowest vertex */
+  double lowest;          /* y of its lowest vertex, m */
   bool twin;              /* measured with its mirror image */
-  bool asked;             /* the caller names it */
+  bool asked;             /* the caller's options name it */
   reason why;
 } part;
 
@@ -71,7 +73,7 @@ typedef struct work {
   sbfi_skin_parts skin;
   part *parts; /* (bones) */
   double size, area, thickest;
-  double joining_area; /* m^2: of polygons between two bones */
+  double joining_area; /* of polygons between two bones, m^2 */
   double modulus;
 } work;
 
@@ -79,7 +81,7 @@ static bool is_part(const work *w, uint32_t bone) {
   return w->skin.at[bone].polygons > 0;
 }
 
-/* The largest extent of the skinned meshes. */
+/* Largest extent of the skinned meshes. */
 static double size_of(const sbf_asset *asset) {
   sbf_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
   for (uint32_t m = 0; m < asset->render_meshes.count; m++) {
@@ -158,8 +160,8 @@ static uint32_t leg_count(const sbf_asset *asset) {
   return asset->gaits.count ? asset->gaits.at[0].legs.count : 0;
 }
 
-/* Below the first bone of a leg: feet stand where the gait sets them. Or all of a leg that lies low, as a
- * frog's, which the ground would press flat. */
+/* Lower legs stay rigid: feet stand where the gait puts them. A whole leg close to the ground, such as a
+ * frog's, would be pressed flat. */
 static bool is_lower_leg(const work *w, int32_t bone) {
   const sbf_asset *asset = w->asset;
   for (uint32_t l = 0; l < leg_count(asset); l++) {
@@ -178,15 +180,15 @@ static bool has_face(const sbf_asset *asset, int32_t bone) {
   return false;
 }
 
-/* A person's head, or a chibi's, is what its face is painted on. */
+/* Whether the bone is the head of a person; the face is painted on it. */
 static bool is_face(const sbf_asset *asset, int32_t bone) {
   const char *name = asset->bones.at[bone].name;
   bool head = sbfi_part_by_name(name) == SBFI_PART_HEAD || sbfi_words_of(name) & 1u << SBFI_WORD_HEAD;
   return head && (leg_count(asset) == 2 || has_face(asset, bone));
 }
 
-/* Bones of a prop move what hangs on them as one piece. */
-static sbfi_name_says say(const sbf_asset *asset, int32_t bone) {
+/* Bones of a prop move their section as one piece. */
+static sbfi_name_says name_hint(const sbf_asset *asset, int32_t bone) {
   sbfi_name_says says = sbfi_words_of_name(asset->bones.at[bone].name);
   for (int32_t b = asset->bones.at[bone].parent; b != SBF_NONE; b = asset->bones.at[b].parent) {
     sbfi_name_says above = sbfi_words_of_name(asset->bones.at[b].name);
@@ -196,7 +198,7 @@ static sbfi_name_says say(const sbf_asset *asset, int32_t bone) {
   return says;
 }
 
-/* Whether two bones are each other's mirror images: side by side, of parts of one size. */
+/* Whether two bones are mirror images: left and right, with parts of similar size. */
 static bool are_twins(const work *w, uint32_t a, uint32_t b) {
   const sbf_vec3 p = w->asset->bones.at[a].head, q = w->asset->bones.at[b].head;
   double near = NEAR_TWIN * w->size;
@@ -207,7 +209,7 @@ static bool are_twins(const work *w, uint32_t a, uint32_t b) {
          fabs(m->thickness - n->thickness) < ALIKE * (m->thickness + n->thickness);
 }
 
-/* Left and right get one measure, so that both are soft or neither is. */
+/* Gives left and right one common measure, so that both become soft or neither. */
 static void join_twins(const work *w) {
   for (uint32_t a = 0; a < w->asset->bones.count; a++)
     for (uint32_t b = a + 1; b < w->asset->bones.count; b++) {
@@ -223,7 +225,7 @@ static void join_twins(const work *w) {
 
 static reason by_kind(const work *w, uint32_t bone) {
   const sbf_asset *asset = w->asset;
-  sbfi_name_says says = say(asset, (int32_t)bone);
+  sbfi_name_says says = name_hint(asset, (int32_t)bone);
   const part *p = &w->parts[bone];
   if (says == SBFI_SAYS_PROP || says == SBFI_SAYS_MACHINE) return PROP;
   if (p->hard_area > HARD_FRACTION * p->area) return HARD_MATERIAL;
@@ -259,29 +261,31 @@ static void check_thickness(work *w) {
   }
 }
 
-/* How much it shows. */
-static double show_of(const part *p) {
+/* Visibility of a part's deformation. */
+static double visibility(const part *p) {
   return p->thickness * p->thickness * p->area;
 }
 
-/* Of those that show alike, as left and right, all stay or none. */
+/* Keeps the most visible parts. Equally visible parts, such as left and right, are kept or dropped
+ * together. */
 static void keep_largest(const work *w) {
   double bound = 0;
   for (uint32_t b = 0; b < w->asset->bones.count; b++) {
     uint32_t larger = 0;
     if (!is_part(w, b) || w->parts[b].why != SOFT) continue;
     for (uint32_t o = 0; o < w->asset->bones.count; o++)
-      larger += is_part(w, o) && w->parts[o].why == SOFT && show_of(&w->parts[o]) > show_of(&w->parts[b]);
-    if (larger >= MAX_SOFT) bound = fmax(bound, show_of(&w->parts[b]));
+      larger +=
+          is_part(w, o) && w->parts[o].why == SOFT && visibility(&w->parts[o]) > visibility(&w->parts[b]);
+    if (larger >= MAX_SOFT) bound = fmax(bound, visibility(&w->parts[b]));
   }
   for (uint32_t b = 0; b < w->asset->bones.count; b++)
-    if (is_part(w, b) && w->parts[b].why == SOFT && show_of(&w->parts[b]) <= bound)
+    if (is_part(w, b) && w->parts[b].why == SOFT && visibility(&w->parts[b]) <= bound)
       w->parts[b].why = NOT_AMONG_LARGEST;
 }
 
 /* ---- What the caller asks for ---- */
 
-static sbf_status take_wishes(work *w, const char *const *names, uint32_t count, reason why) {
+static sbf_status apply_requests(work *w, const char *const *names, uint32_t count, reason why) {
   for (uint32_t i = 0; i < count; i++) {
     uint32_t found = 0;
     for (uint32_t b = 0; b < w->asset->bones.count; b++) {
@@ -313,8 +317,8 @@ static double rounded(double value) {
   return round(value / unit) * unit;
 }
 
-/* Water carries the flesh of what swims. */
-static bool is_carried(const sbf_asset *a) {
+/* Buoyancy supports the tissue of swimmers. */
+static bool is_buoyant(const sbf_asset *a) {
   return a->gaits.count && a->gaits.at[0].proposed && a->gaits.at[0].kind == SBF_GAIT_KIND_SWIM;
 }
 
@@ -332,8 +336,8 @@ static bool write_recipes(const work *w) {
     recipe->rigid = w->parts[b].why != SOFT;
     recipe->attributes.young_modulus = (float)w->modulus;
     recipe->attributes.sag_free = true;
-    if (is_carried(w->asset)) recipe->attributes.gravity_scale = 0;
-    /* What walks low does not drag along the ground. */
+    if (is_buoyant(w->asset)) recipe->attributes.gravity_scale = 0;
+    /* Parts of low walkers must not drag on the ground. */
     if (leg_count(w->asset) && w->parts[b].lowest < LOW_LEG * w->size) recipe->attributes.friction = 0;
   }
   w->c->asset->section_recipes = (sbf_section_recipe_list){count ? recipes : NULL, count};
@@ -380,12 +384,12 @@ static bool is_wanted_soft(const work *w, const sbf_soft_body *body) {
   return body->pins.count > 0 || body->attachments.count > 0;
 }
 
-/* The rigid body of the bone gets the object's hull, where no part of a skin gives it one. */
+/* Uses the object as the hull of the bone's rigid body, unless a part of a skin provides one. */
 static bool give_hull(const work *w, const sbf_soft_body *body) {
   const sbf_rigid_body_list *all = &w->asset->rigid_bodies;
   if (is_part(w, (uint32_t)body->bone)) return true;
   for (uint32_t i = 0; i < all->count; i++) {
-    sbf_rigid_body *rigid = (sbf_rigid_body *)(uintptr_t)&all->at[i]; /* made by an earlier pass */
+    sbf_rigid_body *rigid = (sbf_rigid_body *)(uintptr_t)&all->at[i]; /* an earlier pass created it */
     if (rigid->bone != body->bone || rigid->hull) continue;
     sbf_polygon_mesh *hull = sbfi_convert_allocate(w->c, 1, sizeof *hull);
     if (!hull) return false;
@@ -403,7 +407,7 @@ static bool give_hull(const work *w, const sbf_soft_body *body) {
   return true;
 }
 
-/* Area of the objects on bones, m^2. */
+/* Area of objects on bones, m^2. */
 static double area_of_objects(const work *w) {
   double sum = 0;
   for (uint32_t i = 0; i < w->asset->soft_bodies.count; i++) {
@@ -415,11 +419,12 @@ static double area_of_objects(const work *w) {
   return sum;
 }
 
-/* Where they are much of what is seen, objects are the sections of a character that is not called a machine.
- * Else objects that hang on bones of a character drawn by a skin are its props: they are drawn, and no flesh.
- */
-static bool let_props_be_rigid(const work *w) {
-  sbf_soft_body *bodies = (sbf_soft_body *)(uintptr_t)w->asset->soft_bodies.at; /* the conversion's own */
+/* If objects make up much of the visible area, they are the sections of the character, unless its name
+ * says that it is a machine. Otherwise objects on bones of a skinned character are props: they are drawn
+ * but not simulated. */
+static bool make_props_rigid(const work *w) {
+  sbf_soft_body *bodies =
+      (sbf_soft_body *)(uintptr_t)w->asset->soft_bodies.at; /* the conversion owns the asset */
   uint32_t kept = 0, count = w->asset->soft_bodies.count;
   if (!is_called_machine(w) && area_of_objects(w) > PROP_AREA * w->area) return true;
   for (uint32_t i = 0; i < count; i++) {
@@ -446,8 +451,8 @@ static sbf_status decide(work *w) {
   for (uint32_t b = 0; b < w->asset->bones.count; b++) w->parts[b].why = machine ? MACHINE : by_kind(w, b);
   check_thickness(w);
   keep_largest(w);
-  sbf_status status = take_wishes(w, o->soft, o->soft_count, SOFT);
-  if (status == SBF_OK) status = take_wishes(w, o->rigid, o->rigid_count, ASKED);
+  sbf_status status = apply_requests(w, o->soft, o->soft_count, SOFT);
+  if (status == SBF_OK) status = apply_requests(w, o->rigid, o->rigid_count, ASKED);
   if (status != SBF_OK) return status;
   sbf_attributes usual;
   sbf_attributes_init(&usual);
@@ -455,7 +460,7 @@ static sbf_status decide(work *w) {
   double thin = fmin(thick / MIN_USUAL, 1), over = fmax(thick / MAX_USUAL, 1);
   double ratio = MODULUS_RATIO * fmax(thin * thin, MIN_RATIO) * over * over;
   w->modulus = rounded(firmness * ratio * (double)usual.density * GRAVITY * w->size);
-  if (!write_recipes(w) || !let_props_be_rigid(w)) return sbfi_convert_no_memory(w->c);
+  if (!write_recipes(w) || !make_props_rigid(w)) return sbfi_convert_no_memory(w->c);
   report(w);
   return SBF_OK;
 }

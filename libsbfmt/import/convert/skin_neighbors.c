@@ -1,16 +1,17 @@
-/* Where detached bones belong, told by their skin: to the bone across the border of what they hold, else to
- * the one whose skin is nearest. A target without skin that lies where a limb's last bone ends is its ankle.
- */
+/* Finds the parents of detached bones from the skin: the bone across the border of their skin, else the
+ * bone with the nearest skin. A target without skin at the end of a limb's last bone is its ankle. */
 #include <string.h>
 
 #include "import/convert/skeleton_draft.h"
 
-static const double MAX_BORDER = 0.5;   /* of its border a detached bone shares with its limb */
-static const double NEAR_LIMB = 0.04;   /* of the size: from its skin to that of its limb's last bone */
-static const double NEAR_ANY = 0.02;    /* the same to a bone that is not the last of a limb */
-static const double NEAR_TARGET = 0.04; /* of the size: from a target to the skin it belongs to */
-static const double FAR_END = 0.5;      /* of the last bone's reach: a target is beyond */
-enum { MAX_PINNED = 2, STEPS = 1500 };  /* bones with skin of a detached one; points compared of one bone */
+static const double MAX_BORDER =
+    0.5; /* maximum fraction of its border that a detached bone shares with its limb */
+static const double NEAR_LIMB =
+    0.04;                            /* fraction of the size; from its skin to that of its limb's last bone */
+static const double NEAR_ANY = 0.02; /* the same for bones other than the last of a limb */
+static const double NEAR_TARGET = 0.04; /* fraction of the size; from a target to the skin that it moves */
+static const double FAR_END = 0.5;      /* fraction of the last bone's length; targets are beyond */
+enum { MAX_PINNED = 2, STEPS = 1500 };  /* bones with skin below a detached bone; points compared per bone */
 
 typedef struct skin_points {
   sbfi_d3 *at;
@@ -61,7 +62,7 @@ static bool hangs_below(const sbfi_skeleton_draft *s, int32_t bone, int32_t abov
   return bone == above;
 }
 
-/* How many bones at and below hold skin. */
+/* Number of bones with skin in the subtree of a bone. */
 static uint32_t count_holding(const sbfi_skeleton_draft *s, uint32_t bone) {
   uint32_t holding = 0;
   for (uint32_t i = 0; i < s->count; i++)
@@ -69,7 +70,7 @@ static uint32_t count_holding(const sbfi_skeleton_draft *s, uint32_t bone) {
   return holding;
 }
 
-/* Hangs on nothing, on a root, or with only bones without skin above it. */
+/* Whether the bone has no parent, only a root, or only ancestors without skin. */
 static bool is_loose(const sbfi_skeleton_draft *s, uint32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (parent == SBF_NONE) return s->count > 1;
@@ -79,18 +80,18 @@ static bool is_loose(const sbfi_skeleton_draft *s, uint32_t bone) {
   return grand == SBF_NONE || s->bones[grand].parent == SBF_NONE;
 }
 
-/* The last bone with skin of a limb of at least two that hangs on something. */
+/* Whether the bone is the last with skin of an attached limb of at least two bones. */
 static bool is_last(const sbfi_skeleton_draft *s, int32_t bone) {
   int32_t parent = s->bones[bone].parent;
   if (!s->bones[bone].points || parent == SBF_NONE || s->bones[parent].parent == SBF_NONE) return false;
   return count_holding(s, (uint32_t)bone) == 1 && s->bones[parent].points;
 }
 
-static bool takes_part(const sbfi_skeleton_draft *s, int32_t bone, uint32_t detached) {
+static bool is_candidate(const sbfi_skeleton_draft *s, int32_t bone, uint32_t detached) {
   return bone != SBF_NONE && s->bones[bone].points && !hangs_below(s, bone, (int32_t)detached);
 }
 
-/* Edges between the skin at and below `bone` and that of each other bone. */
+/* Counts edges between the skin of `bone` with its descendants and that of each other bone. */
 static uint32_t count_border(
     const sbfi_conversion *c, const sbfi_skeleton_draft *s, uint32_t bone, uint32_t *border) {
   uint32_t total = 0;
@@ -113,7 +114,7 @@ static uint32_t count_border(
   return total;
 }
 
-/* The bone with the skin nearest to that at and below `bone`. */
+/* Bone whose skin is nearest to that of `bone` and its descendants. */
 static int32_t nearest_bone(
     const sbfi_skeleton_draft *s, const skin_points *all, uint32_t bone, double *distance) {
   int32_t best = SBF_NONE;
@@ -126,7 +127,7 @@ static int32_t nearest_bone(
     for (uint32_t k = 0; k < all->count; k++) {
       sbfi_d3 displacement = sbfi_d3_sub(all->at[k], all->at[i]);
       double squared = sbfi_d3_dot(displacement, displacement);
-      if (squared >= nearest || !takes_part(s, all->bone[k], bone)) continue;
+      if (squared >= nearest || !is_candidate(s, all->bone[k], bone)) continue;
       nearest = squared;
       best = all->bone[k];
     }
@@ -141,7 +142,7 @@ static int32_t find_neighbor(const sbfi_conversion *c, const sbfi_skeleton_draft
   int32_t across = SBF_NONE;
   double distance;
   for (uint32_t i = 0; i < s->count; i++)
-    if (border[i] > shared && takes_part(s, (int32_t)i, bone)) {
+    if (border[i] > shared && is_candidate(s, (int32_t)i, bone)) {
       shared = border[i];
       across = (int32_t)i;
     }
@@ -155,7 +156,7 @@ static int32_t find_neighbor(const sbfi_conversion *c, const sbfi_skeleton_draft
   return prop && distance < NEAR_ANY * all->size ? nearest : SBF_NONE;
 }
 
-/* The limb whose last bone ends at the head of a target that holds nothing. */
+/* Limb whose last bone ends at the head of a target without skin. */
 static int32_t find_target_limb(const sbfi_skeleton_draft *s, const skin_points *all, uint32_t bone) {
   double nearest = NEAR_TARGET * all->size, reach = 0;
   int32_t best = SBF_NONE;
