@@ -1,19 +1,19 @@
-/* The backbone: the longest way through the bones of the middle, nose first. */
+/* Finds the backbone: the longest path through the bones of the middle, nose first. */
 #include "import/gait/gait_parts.h"
 
-static const double MIN_SPAN = 0.35; /* of the length: a shorter way is no backbone */
+static const double MIN_SPAN = 0.35; /* fraction of the length; a shorter path is not a backbone */
 
 typedef struct bone_chain_path {
-  double length; /* m, to the far end of the longest way down */
-  int32_t next;  /* the child on it, or SBF_NONE */
+  double length; /* to the far end of the longest path downwards, m */
+  int32_t next;  /* child on that path, or SBF_NONE */
 } bone_chain_path;
 
 static bool is_named_mouth(const sbfi_rig_view *view, uint32_t bone) {
   return sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)bone)->name) >> SBFI_WORD_MOUTH & 1;
 }
 
-/* Bones that may lie on the backbone: those of the middle, but no tongue and no jaw. With `askew` also those
- * of limbs that no other limb mirrors: the spine of a rig that is not straight leaves the middle. */
+/* Selects candidates for the backbone: bones of the middle except tongue and jaw. With `askew` it adds
+ * limbs without a mirror image, because the spine of a rig that is not straight leaves the middle. */
 static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candidates) {
   const sbfi_gait_draft *d = &view->draft;
   for (uint32_t i = 0; i < d->asset->bones.count; i++) {
@@ -24,7 +24,8 @@ static void find_candidates(const sbfi_rig_view *view, bool askew, bool *candida
   }
 }
 
-/* The two longest ways down from each bone of the middle; the bone through which the longest way leads. */
+/* Finds the two longest paths downwards from each bone of the middle, and the bone on the overall longest
+ * path. */
 static int32_t find_directions(
     const sbfi_rig_view *view, const bool *candidates, bone_chain_path *first, bone_chain_path *second) {
   const sbfi_gait_draft *d = &view->draft;
@@ -51,8 +52,8 @@ static int32_t find_directions(
   return top;
 }
 
-/* Whether the way, as it was found, begins with the tail: a bone named as the head says so, else the end that
- * is farther back. */
+/* Whether the path begins at the tail. A bone named as the head decides, otherwise the end farther back is
+ * the tail. */
 static bool begins_with_tail(const sbfi_rig_view *view, const uint32_t *path, uint32_t count) {
   for (uint32_t i = 0; i < count / 2; i++) {
     bool first = sbfi_words_of(sbfi_draft_bone(&view->draft, (int32_t)path[i])->name) >> SBFI_WORD_HEAD & 1;
@@ -89,8 +90,8 @@ static bool begin(backbone_work *w, sbf_asset *asset, sbfi_arena *scratch) {
   return w->first && w->second && w->candidates && w->bones;
 }
 
-/* Whether the top, where two ways meet, lies between them along z. A control of the whole body often does
- * not. */
+/* Whether the topmost bone, which joins both halves, is between them along z. A control bone of the whole
+ * body often is not. */
 static bool is_between(const sbfi_rig_view *view, const backbone_work *w, int32_t top) {
   double z = (double)sbfi_draft_head(&view->draft, top).z;
   double one = (double)sbfi_draft_head(&view->draft, (int32_t)w->bones[w->count - 1]).z;
@@ -98,7 +99,8 @@ static bool is_between(const sbfi_rig_view *view, const backbone_work *w, int32_
   return (z - one) * (z - two) <= 0;
 }
 
-/* Along the hierarchy, whatever the body's shape: up one way to the top and down the other. */
+/* Lists the bones along the hierarchy, regardless of the body's shape: up one half to the top and down the
+ * other. */
 static void list_bones(const sbfi_rig_view *view, bool askew, backbone_work *w) {
   find_candidates(view, askew, w->candidates);
   int32_t top = find_directions(view, w->candidates, w->first, w->second);

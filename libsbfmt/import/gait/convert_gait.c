@@ -1,8 +1,8 @@
 #include "import/gait/propose_gait.h"
 #include "model/options.h"
 
-/* What an asset has already that an id proposed here could meet: those made here say their kind, so it takes
- * an author who named something else "ik.foot". */
+/* Reserves the asset's ids that a proposed id could collide with. Proposed ids contain their kind, so a
+ * collision needs an author who named something else "ik.foot". */
 static bool know_ids(sbfi_conversion *c) {
   for (uint32_t i = 0; i < c->asset->bones.count; i++)
     if (!sbfi_claim_id(c, c->asset->bones.at[i].id)) return false;

@@ -1,4 +1,4 @@
-/* What keeps the legs of an asset from being found: feet that hang on the root, a rig that looks aside. */
+/* Corrects rigs whose legs cannot be found: feet that hang on the root, and rigs that face sideways. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "model/options.h"
 #include "motion/turn.h"
 
-/* Bones as the pass that hangs detached ones knows them. */
+/* Bones in the form that the pass for detached bones needs. */
 static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t *hangs_on) {
   const sbf_bone_list *bones = &d->asset->bones;
   sbfi_skeleton_draft s = {sbfi_arena_allocate(scratch, bones->count, sizeof *s.bones), bones->count, false};
@@ -26,14 +26,14 @@ static bool find_hangings(const sbfi_gait_draft *d, sbfi_arena *scratch, int32_t
         .points = d->shapes[i].points};
   }
   sbfi_draft_continue(&s);
-  s.along_y = true; /* as every bone of an asset does */
+  s.along_y = true; /* true for all bones of an asset */
   sbfi_hang_on_limbs(&s, hangs_on);
   return true;
 }
 
 static bool find_stance(
     const sbf_asset *asset, sbfi_arena *scratch, sbf_convert_stance *stance, int32_t *hangs_on) {
-  sbfi_gait_draft d = {.asset = (sbf_asset *)(uintptr_t)asset}; /* only read from here */
+  sbfi_gait_draft d = {.asset = (sbf_asset *)(uintptr_t)asset}; /* not modified here */
   if (!sbfi_draft_facing(asset, scratch, &d.turns) || !sbfi_draft_shapes(&d, scratch)) return false;
   if (!sbfi_draft_legs(&d, scratch) || !find_hangings(&d, scratch, hangs_on)) return false;
   stance->quarter_turns = d.turns;

@@ -1,14 +1,14 @@
-/* Head and tail, by name first and then by shape. */
+/* Finds head and tail, first by name, then by shape. */
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
 
-enum { MIN_TAIL = 2 }; /* bones that count as one by their shape alone */
+enum { MIN_TAIL = 2 }; /* minimum number of bones of a tail recognized by shape alone */
 
-/* Whether a name holds a word, whatever its case. */
-static bool says(const char *name, const char *word) {
+/* Whether a name contains a word, ignoring case. */
+static bool contains_word(const char *name, const char *word) {
   size_t length = strlen(word);
   for (; *name; name++) {
     size_t k = 0;
@@ -24,7 +24,7 @@ static bool is_leg_bone(const sbfi_gait_draft *d, int32_t bone) {
   return false;
 }
 
-/* Whether legs hang on the bone or below it. */
+/* Whether the bone or a descendant carries legs. */
 static bool bears_legs(const sbfi_gait_draft *d, int32_t bone) {
   for (uint32_t l = 0; l < d->leg_count; l++)
     if (sbfi_draft_is_below(d, d->legs[l].limb, bone)) return true;
@@ -35,26 +35,27 @@ static bool is_middle(const sbfi_gait_draft *d, int32_t bone) {
   return d->shapes[bone].bears && d->shapes[bone].side == 0 && !is_leg_bone(d, bone);
 }
 
-/* Whether the bone or one above it is called a tail. */
+/* Whether the bone or an ancestor is named a tail. */
 static bool is_called_tail(const sbfi_gait_draft *d, int32_t bone) {
   for (; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent)
-    if (says(sbfi_draft_bone(d, bone)->name, "tail")) return true;
+    if (contains_word(sbfi_draft_bone(d, bone)->name, "tail")) return true;
   return false;
 }
 
 int32_t sbfi_draft_named_head(const sbfi_gait_draft *d) {
-  for (int pass = 0; pass < 2; pass++) /* better one that holds something itself */
+  for (int pass = 0; pass < 2; pass++) /* the first pass requires a bone with points of its own */
     for (uint32_t i = 0; i < d->asset->bones.count; i++) {
       int32_t bone = (int32_t)i;
       bool holds = pass || !d->has_mesh || d->shapes[i].points;
-      if (holds && is_middle(d, bone) && !bears_legs(d, bone) && says(sbfi_draft_bone(d, bone)->name, "head"))
+      if (holds && is_middle(d, bone) && !bears_legs(d, bone) &&
+          contains_word(sbfi_draft_bone(d, bone)->name, "head"))
         return bone;
     }
   return SBF_NONE;
 }
 
-/* The end that reaches farthest ahead of the feet, or where all legs hang on one bone highest above it. Ears,
- * eyes and jaws count with the bone they hang on. */
+/* Finds the end farthest in front of the feet, or the highest end if all legs hang on one bone. Ears, eyes
+ * and jaws count as part of their parent bone. */
 static int32_t head_by_shape(const sbfi_gait_draft *d) {
   double foremost = -INFINITY, best = -INFINITY;
   int32_t head = SBF_NONE;
@@ -77,7 +78,7 @@ static int32_t head_by_shape(const sbfi_gait_draft *d) {
   return shared && !bears_legs(d, parent) && parent != d->hips && parent != d->chest ? parent : head;
 }
 
-/* Bones from `first` on as long as each has one child; their number. */
+/* Lists bones from `first` on while each has one child. Returns their number. */
 static uint32_t follow(const sbfi_gait_draft *d, int32_t first, uint32_t *bones) {
   uint32_t count = 0;
   for (int32_t bone = first; bone != SBF_NONE; bone = sbfi_draft_only_child(d, bone))
@@ -85,8 +86,8 @@ static uint32_t follow(const sbfi_gait_draft *d, int32_t first, uint32_t *bones)
   return count;
 }
 
-/* A chain that leads back from behind the hips, longer than it drops, and ends in nothing. */
-static bool leads_back(const sbfi_gait_draft *d, const uint32_t *bones, uint32_t count) {
+/* Whether a chain leads back from behind the hips, is longer than its drop, and has no other children. */
+static bool is_tail_chain(const sbfi_gait_draft *d, const uint32_t *bones, uint32_t count) {
   if (count < MIN_TAIL || d->shapes[bones[count - 1]].children) return false;
   const sbf_vec3 from = sbfi_draft_bone(d, (int32_t)bones[0])->head;
   const sbf_vec3 to = sbfi_draft_bone(d, (int32_t)bones[count - 1])->head;
@@ -108,9 +109,9 @@ static bool find_tail(sbfi_gait_draft *d) {
       if (d->head != SBF_NONE &&
           (sbfi_draft_is_below(d, bone, d->head) || sbfi_draft_is_below(d, d->head, bone)))
         continue;
-      if (!by_shape && !says(sbfi_draft_bone(d, bone)->name, "tail")) continue;
+      if (!by_shape && !contains_word(sbfi_draft_bone(d, bone)->name, "tail")) continue;
       d->tail_count = follow(d, bone, d->tail);
-      if (!by_shape || leads_back(d, d->tail, d->tail_count)) return true;
+      if (!by_shape || is_tail_chain(d, d->tail, d->tail_count)) return true;
       d->tail_count = 0;
     }
   return true;

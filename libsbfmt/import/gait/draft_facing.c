@@ -1,5 +1,5 @@
-/* Which way a character looks: its legs pair up across the plane that divides left from right, and their
- * names or their feet say which end is the front. */
+/* Finds the direction that a character faces: its legs form pairs across the plane between left and right;
+ * their names or their feet tell which end is the front. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,11 +7,11 @@
 #include "motion/carried_motion.h"
 
 static const double PAIR_FRACTION =
-    0.1; /* of the height: from where its twin is mirrored to a leg, at most */
-static const double SIDEWAYS_MARGIN = 0.25; /* by how much looking aside must be the better guess */
+    0.1; /* fraction of the height; maximum distance of a leg from its twin's mirror image */
+static const double SIDEWAYS_MARGIN = 0.25; /* minimum advantage for a sideways facing to win */
 enum { QUADRUPED_LEGS = 4 };
 
-/* Above 0: the legs named left are on the left; below 0: on the right. */
+/* Above 0 if the legs named left are on the left; below 0 if they are on the right. */
 static int ask_names(const sbfi_gait_draft *d) {
   int votes = 0;
   for (uint32_t l = 0; l < d->leg_count; l++)
@@ -19,8 +19,8 @@ static int ask_names(const sbfi_gait_draft *d) {
   return votes;
 }
 
-/* How well left and right are told apart: of each leg how near its twin is to where it is mirrored, 0 to 1,
- * and what the names say. */
+/* Rates a division into left and right: for each leg 0 to 1 by how close it is to its twin's mirror image,
+ * plus the evidence of names. */
 static double rate_sides(const sbfi_gait_draft *d) {
   double sum = abs(ask_names(d));
   for (uint32_t l = 0; l < d->leg_count; l++) {
@@ -37,7 +37,7 @@ static double rate_sides(const sbfi_gait_draft *d) {
   return sum;
 }
 
-/* Above 0: the feet reach farther ahead of where they are joined than behind it. */
+/* Above 0 if the feet reach farther to the front of their joints than to the back. */
 static double ask_feet(const sbfi_gait_draft *d) {
   double ahead = 0;
   for (uint32_t l = 0; l < d->leg_count; l++) {
@@ -54,7 +54,8 @@ static double ask_feet(const sbfi_gait_draft *d) {
   return ahead;
 }
 
-/* An animal's head is ahead of its fore feet: one behind all feet tells more than short hooves do. */
+/* Whether the head is behind all feet. An animal's head is in front of its fore feet, so this is stronger
+ * evidence than short hooves. */
 static bool is_head_behind_feet(const sbfi_gait_draft *d) {
   int32_t head = d->leg_count >= QUADRUPED_LEGS ? sbfi_draft_named_head(d) : SBF_NONE;
   if (head == SBF_NONE) return false;
@@ -67,7 +68,7 @@ bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *tu
   sbfi_gait_draft seen[2];
   double rates[2];
   for (uint32_t t = 0; t < 2; t++) {
-    seen[t] = (sbfi_gait_draft){.asset = (sbf_asset *)(uintptr_t)asset, .turns = t}; /* only read from here */
+    seen[t] = (sbfi_gait_draft){.asset = (sbf_asset *)(uintptr_t)asset, .turns = t}; /* not modified here */
     if (!sbfi_draft_shapes(&seen[t], scratch) || !sbfi_draft_legs(&seen[t], scratch)) return false;
     rates[t] = rate_sides(&seen[t]);
   }

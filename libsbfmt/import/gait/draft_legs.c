@@ -1,23 +1,26 @@
-/* Legs: limbs of one side that end at the ground.
+/* Finds legs: limbs of one side that end at the ground.
  *
- * A limb begins where everything below a bone lies on one side. It is a leg where it comes down to the
- * ground; the way from its root to what stands there is followed, and of the bones on that way the three that
- * follow each other with the longest reach are thigh, shin and foot: a collar bone before them, or the long
- * middle foot of an animal that walks on its toes, goes along with its neighbour. A spider's foot, as long
- * as they, stands on its toe: a fourth. */
+ * A limb begins where everything below a bone is on one side. It is a leg if it reaches the ground.
+ * Consider the path from its root to the bone that stands on the ground: the three consecutive bones with
+ * the longest reach are thigh, shin and foot. A collar bone before them, or the long middle foot of an
+ * animal that walks on its toes, moves with its neighbour. A spider's foot is as long as the others and
+ * stands on its toe, a fourth bone. */
 #include <math.h>
 
 #include "import/gait/gait_draft.h"
 
-static const double GROUND_FRACTION = 0.05; /* of the height: a leg ends no higher above the ground */
-static const double LIFTED_FRACTION = 0.2;  /* the same of the twin of a leg, in a rig bound in mid stride */
-static const double FOOT_FRACTION = 0.02;   /* of the height: what stands as low as the leg's lowest point */
-static const double HIP_FRACTION = 0.05;    /* of the height: a leg begins higher than that above its sole */
-static const double MIN_SEGMENT = 0.05;     /* share of the reach that thigh and shin have at least */
-static const double LONG_FOOT = 0.25;       /* share of the reach: a foot so long leans over its toe, */
-static const double HIGH_ANKLE = 0.7;       /* where its ankle is so high, in shares of the hip's height */
+static const double GROUND_FRACTION =
+    0.05; /* fraction of the height; maximum height of a leg's end above the ground */
+static const double LIFTED_FRACTION = 0.2; /* the same for the twin of a leg, in a rig bound in mid stride */
+static const double FOOT_FRACTION =
+    0.02; /* fraction of the height; parts this close to the leg's lowest point are on the ground */
+static const double HIP_FRACTION =
+    0.05; /* fraction of the height; minimum height of a leg's root above its sole */
+static const double MIN_SEGMENT = 0.05; /* minimum fraction of the reach for thigh and shin */
+static const double LONG_FOOT = 0.25;   /* fraction of the reach; a foot this long leans over its toe */
+static const double HIGH_ANKLE = 0.7;   /* if its ankle is this high, as a fraction of the hip's height */
 
-/* The child by which the ground is reached; the longer way where several reach it. */
+/* Child on the path to the ground; the longer path if several reach it. */
 static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
   int32_t best = SBF_NONE;
   for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
@@ -28,7 +31,7 @@ static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
   return best;
 }
 
-/* A child that holds nothing but marks where the last bone of a leg ends, well below its head. */
+/* Child without points that marks the end of a leg's last bone, well below its head. */
 static int32_t ankle_mark(const sbfi_gait_draft *d, int32_t bone) {
   double head = (double)sbfi_draft_bone(d, bone)->head.y, lowest = 0.5 * (head + d->ground);
   int32_t best = SBF_NONE;
@@ -41,15 +44,15 @@ static int32_t ankle_mark(const sbfi_gait_draft *d, int32_t bone) {
   return best;
 }
 
-/* Whether a foot stands upright below an ankle about as high as the hip, as a spider's: the leg has little to
- * bend and to stretch by itself. */
+/* Whether a foot stands upright below an ankle about as high as the hip, as a spider's does: then the leg
+ * itself can bend and extend only a little. */
 static bool is_long_foot(const sbfi_gait_draft *d, const sbfi_leg_draft *leg, int32_t toe) {
   double hip = (double)sbfi_draft_bone(d, leg->upper)->head.y - d->ground;
   double ankle = (double)sbfi_draft_bone(d, leg->end)->head.y - d->ground;
   return sbfi_draft_distance(d, leg->end, toe) > LONG_FOOT * leg->reach && ankle > HIGH_ANKLE * hip;
 }
 
-/* Thigh, shin and foot among the bones of a way down; false where it has none. */
+/* Selects thigh, shin and foot among the bones of a path downwards; false if there are none. */
 static bool choose_bones(const sbfi_gait_draft *d, const int32_t *path, uint32_t count, sbfi_leg_draft *leg) {
   leg->reach = 0;
   for (uint32_t i = 0; i + 2 < count; i++) {
@@ -64,14 +67,14 @@ static bool choose_bones(const sbfi_gait_draft *d, const int32_t *path, uint32_t
   }
   if (leg->reach > 0) return true;
   if (count < 2) return false;
-  leg->upper = path[count - 2]; /* a peg: one bone swings the foot */
+  leg->upper = path[count - 2]; /* a single bone swings the foot */
   leg->lower = SBF_NONE;
   leg->end = path[count - 1];
   leg->reach = sbfi_draft_distance(d, leg->upper, leg->end);
   return leg->reach > 0;
 }
 
-static bool take_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, int32_t *path) {
+static bool add_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, int32_t *path) {
   const sbfi_bone_shape *shape = &d->shapes[limb];
   uint32_t count = 0;
   if (shape->low_below > d->ground + ground_fraction * d->height) return false;
@@ -87,7 +90,8 @@ static bool take_leg(sbfi_gait_draft *d, int32_t limb, double ground_fraction, i
   return choose_bones(d, path, count, leg);
 }
 
-/* Hips and chest: the bones on which the hindmost and the foremost legs hang. One of them serves as hips. */
+/* Finds hips and chest: the bones that carry the rearmost and the foremost legs. If they are one bone, it
+ * is the hips. */
 static void find_girdles(sbfi_gait_draft *d) {
   double hindmost = INFINITY, foremost = -INFINITY;
   d->hips = d->chest = SBF_NONE;
@@ -115,9 +119,9 @@ static bool begins_limb(const sbfi_gait_draft *d, int32_t bone) {
   return d->height > 0 && d->shapes[bone].side && parent != SBF_NONE && d->shapes[parent].side == 0;
 }
 
-/* A rig bound in mid stride has a foot in the air: a limb is a leg too that hangs on the same bone as a leg
- * of the other side without a twin, and is made as that one. */
-static void take_lifted(sbfi_gait_draft *d, int32_t *path) {
+/* A rig bound in mid stride has a foot in the air. A limb is also a leg if it hangs on the same bone as an
+ * unpaired leg of the other side and is built like it. */
+static void add_lifted_legs(sbfi_gait_draft *d, int32_t *path) {
   uint32_t sides[2] = {0, 0}, grounded = d->leg_count;
   for (uint32_t l = 0; l < grounded; l++) sides[d->legs[l].side > 0]++;
   if (sides[0] == sides[1]) return;
@@ -132,7 +136,7 @@ static void take_lifted(sbfi_gait_draft *d, int32_t *path) {
                            count_bearing(d, other) == count_bearing(d, (int32_t)i));
     }
     for (uint32_t l = 0; l < grounded; l++) alike = alike && d->legs[l].limb != (int32_t)i;
-    if (!alike || !take_leg(d, (int32_t)i, LIFTED_FRACTION, path)) continue;
+    if (!alike || !add_leg(d, (int32_t)i, LIFTED_FRACTION, path)) continue;
     d->leg_count++;
     sides[poorer > 0]++;
   }
@@ -144,8 +148,8 @@ bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch) {
   d->legs = sbfi_arena_allocate(scratch, count, sizeof *d->legs);
   if (!path || !d->legs) return false;
   for (uint32_t i = 0; i < count; i++)
-    if (begins_limb(d, (int32_t)i) && take_leg(d, (int32_t)i, GROUND_FRACTION, path)) d->leg_count++;
-  take_lifted(d, path);
+    if (begins_limb(d, (int32_t)i) && add_leg(d, (int32_t)i, GROUND_FRACTION, path)) d->leg_count++;
+  add_lifted_legs(d, path);
   find_girdles(d);
   return true;
 }

@@ -1,5 +1,5 @@
-/* Many pairs of legs on bones that hang one on the other, from the head back: what bears them is a chain that
- * the foremost leads, rather than hips and chest with a stiff back between them. */
+/* Detects many pairs of legs on consecutive bones from the head back. Their spine is a chain that follows
+ * the foremost bone, not hips and chest with a stiff back between them. */
 #include "import/gait/gait_draft.h"
 
 enum { MIN_GIRDLES = 4 };
@@ -10,16 +10,16 @@ static bool bears_a_leg(const sbfi_gait_draft *d, int32_t bone) {
   return false;
 }
 
-/* How many bones above it, itself included. */
+/* Number of bones from the root to this bone, inclusive. */
 static uint32_t depth_of(const sbfi_gait_draft *d, int32_t bone) {
   uint32_t depth = 0;
   for (; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent) depth++;
   return depth;
 }
 
-/* The bones from the first girdle to the last, and on as far as they lead; 0 where a girdle is aside or they
- * do not lead back. */
-static uint32_t take_row(sbfi_gait_draft *d, int32_t last) {
+/* Lists bones from the first girdle to the last, and on to the end of the chain. Returns 0 if a girdle is
+ * off the chain or the chain does not lead back. */
+static uint32_t list_row(sbfi_gait_draft *d, int32_t last) {
   uint32_t girdles = 0, all = 0, depth = depth_of(d, last), first = depth;
   for (uint32_t i = 0; i < d->asset->bones.count; i++) all += bears_a_leg(d, (int32_t)i);
   for (int32_t bone = last; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent, depth--) {
@@ -47,8 +47,8 @@ bool sbfi_draft_row(sbfi_gait_draft *d) {
   for (uint32_t i = 0; i < d->asset->bones.count; i++)
     if (bears_a_leg(d, (int32_t)i) && (last == SBF_NONE || depth_of(d, (int32_t)i) > depth_of(d, last)))
       last = (int32_t)i;
-  d->spine_count = last == SBF_NONE ? 0 : take_row(d, last);
+  d->spine_count = last == SBF_NONE ? 0 : list_row(d, last);
   d->row = d->spine_count > 0;
-  if (d->row) d->hips = d->chest = SBF_NONE; /* nothing is stiff that could turn with their feet */
+  if (d->row) d->hips = d->chest = SBF_NONE; /* no stiff part rotates with the feet */
   return true;
 }

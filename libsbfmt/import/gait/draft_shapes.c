@@ -1,13 +1,13 @@
-/* What a gait is drafted from: how wide and how low is what each bone carries, and on which side it
- * hangs. */
+/* Measures the input of a gait draft: extents of each bone's points, and the side it is on. */
 #include <math.h>
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
 #include "model/bone_ends.h"
 
-static const double SIDE_FRACTION = 0.02;  /* of the height: what is nearer to x = 0 is in the middle */
-static const double FLAT_FRACTION = 0.006; /* the same of the greatest extent, for what is flat */
+static const double SIDE_FRACTION =
+    0.02; /* fraction of the height; points this close to x = 0 are in the middle */
+static const double FLAT_FRACTION = 0.006; /* fraction of the greatest extent, used for flat characters */
 
 double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b) {
   const sbf_vec3 p = sbfi_draft_bone(d, a)->head, q = sbfi_draft_bone(d, b)->head;
@@ -29,11 +29,11 @@ int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone) {
 
 typedef struct extents {
   double low[3], high[3];
-  bool all;      /* what no bone holds counts too */
-  double *sum_x; /* (bones) of the points each holds */
+  bool all;      /* also counts points without a bone */
+  double *sum_x; /* (bones) sum over the points of each bone */
 } extents;
 
-static void see(extents *e, sbf_vec3 point) {
+static void extend(extents *e, sbf_vec3 point) {
   const double p[3] = {(double)point.x, (double)point.y, (double)point.z};
   for (int k = 0; k < 3; k++) {
     e->low[k] = fmin(e->low[k], p[k]);
@@ -41,7 +41,7 @@ static void see(extents *e, sbf_vec3 point) {
   }
 }
 
-static void hold(sbfi_gait_draft *d, extents *e, uint32_t bone, sbf_vec3 point) {
+static void add_bone_point(sbfi_gait_draft *d, extents *e, uint32_t bone, sbf_vec3 point) {
   sbfi_bone_shape *shape = &d->shapes[bone];
   shape->points++;
   shape->low = fmin(shape->low, (double)point.y);
@@ -49,49 +49,49 @@ static void hold(sbfi_gait_draft *d, extents *e, uint32_t bone, sbf_vec3 point) 
   e->sum_x[bone] += (double)point.x;
 }
 
-static void see_points(sbfi_gait_draft *d, extents *e, const sbf_vec3_list points, int32_t bone) {
+static void add_points(sbfi_gait_draft *d, extents *e, const sbf_vec3_list points, int32_t bone) {
   for (uint32_t i = 0; i < points.count; i++) {
     sbf_vec3 point = sbfi_draft_seen(d, points.at[i]);
-    if (bone >= 0 || e->all) see(e, point);
-    if (bone >= 0) hold(d, e, (uint32_t)bone, point);
+    if (bone >= 0 || e->all) extend(e, point);
+    if (bone >= 0) add_bone_point(d, e, (uint32_t)bone, point);
   }
 }
 
-static void see_skin(sbfi_gait_draft *d, extents *e, const sbf_render_mesh *mesh) {
+static void add_skin(sbfi_gait_draft *d, extents *e, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   for (uint32_t i = 0, at = 0; i < mesh->mesh.positions.count; at += skin->influence_counts.at[i++]) {
     uint32_t max = at;
     for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
       if (skin->weights.at[s] > skin->weights.at[max]) max = s;
     sbf_vec3 point = sbfi_draft_seen(d, mesh->mesh.positions.at[i]);
-    if (skin->influence_counts.at[i] || e->all) see(e, point);
-    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[max], point);
+    if (skin->influence_counts.at[i] || e->all) extend(e, point);
+    if (skin->influence_counts.at[i]) add_bone_point(d, e, skin->bones.at[max], point);
   }
 }
 
-static void see_meshes(sbfi_gait_draft *d, extents *e) {
+static void add_meshes(sbfi_gait_draft *d, extents *e) {
   const sbf_asset *a = d->asset;
   for (uint32_t b = 0; b < a->soft_bodies.count; b++)
-    see_points(d, e, a->soft_bodies.at[b].surface.positions, a->soft_bodies.at[b].bone);
+    add_points(d, e, a->soft_bodies.at[b].surface.positions, a->soft_bodies.at[b].bone);
   for (uint32_t m = 0; m < a->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &a->render_meshes.at[m];
     if (mesh->skin)
-      see_skin(d, e, mesh);
+      add_skin(d, e, mesh);
     else
-      see_points(d, e, mesh->mesh.positions, mesh->bone);
+      add_points(d, e, mesh->mesh.positions, mesh->bone);
   }
   d->has_mesh = e->low[0] <= e->high[0];
 }
 
-/* A floor or a prop beside the character makes it no taller; where bones hold nothing all is seen. */
-static void see_everything(sbfi_gait_draft *d, extents *e) {
+/* A floor or a prop beside the character must not make it taller. If no bone has points, all points count. */
+static void add_all_points(sbfi_gait_draft *d, extents *e) {
   const sbf_asset *a = d->asset;
-  see_meshes(d, e);
+  add_meshes(d, e);
   if (!d->has_mesh) {
     e->all = true;
-    see_meshes(d, e);
+    add_meshes(d, e);
   }
-  for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, sbfi_draft_head(d, (int32_t)i));
+  for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) extend(e, sbfi_draft_head(d, (int32_t)i));
 }
 
 static void widen(sbfi_bone_shape *shape, double min_x, double max_x) {
@@ -99,7 +99,7 @@ static void widen(sbfi_bone_shape *shape, double min_x, double max_x) {
   shape->max_x = fmax(shape->max_x, max_x);
 }
 
-/* Children stand behind their parents: each is done when its parent's turn comes. */
+/* Children come after their parents, so a reverse pass handles each bone after its descendants. */
 static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
   double extent = fmax(e->high[0] - e->low[0], e->high[2] - e->low[2]);
   double margin = fmax(SIDE_FRACTION * d->height, FLAT_FRACTION * extent);
@@ -108,7 +108,7 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
     if (!d->has_mesh) {
       shape->bears |= !sbfi_name_is_end(bone->name, strlen(bone->name));
-      shape->low = (double)bone->head.y; /* tips mark how far the bones above them reach */
+      shape->low = (double)bone->head.y; /* tips mark the end of the bones above them */
     }
     shape->bears |= shape->points > 0;
     shape->low_below = fmin(shape->low_below, shape->low);
@@ -138,7 +138,7 @@ bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch) {
   for (uint32_t i = 0; i < count; i++)
     d->shapes[i] =
         (sbfi_bone_shape){.low = INFINITY, .low_below = INFINITY, .min_x = INFINITY, .max_x = -INFINITY};
-  see_everything(d, &e);
+  add_all_points(d, &e);
   d->ground = e.low[1];
   d->height = e.high[1] - e.low[1];
   d->low_z = e.low[2];

@@ -1,4 +1,4 @@
-/* Which end of a character without legs is its front. */
+/* Finds the front end of a character without legs. */
 #include <math.h>
 
 #include "import/gait/locomotion.h"
@@ -6,9 +6,11 @@
 
 enum { MIN_CHAIN = 4 }; /* bones */
 
-static const double TAIL_END = 0.25, NARROW = 0.7; /* share of the length at an end; of the other's width */
+static const double TAIL_END = 0.25,
+                    NARROW = 0.7; /* fraction of the length at an end; ratio of the widths of both ends */
 
-/* Above 0: bones named left are on the left, and heads ahead of tails, seen from `turns`. */
+/* Above 0 if bones named left are on the left and heads in front of tails, seen after `turns` quarter
+ * turns. */
 static double ask_names(const sbf_asset *asset, uint32_t turns, double length) {
   const sbfi_gait_draft seen = {.turns = turns};
   double votes = 0, ends[2] = {0, 0};
@@ -44,8 +46,8 @@ static double width_near(const sbfi_rig_points *points, bool front) {
   return high > low ? high - low : 0;
 }
 
-/* Above 0: the root of a plain chain of bones is ahead of its end; 0: it is no plain chain. Rigs of fishes
- * and snakes are led by their heads. */
+/* Above 0 if the root of a simple chain of bones is in front of its end; 0 if it is not a simple chain.
+ * The heads of fishes and snakes are the roots of their rigs. */
 static double ask_chain(const sbf_asset *asset, uint32_t turns) {
   const sbfi_gait_draft seen = {.turns = turns};
   uint32_t count = asset->bones.count;

@@ -1,4 +1,4 @@
-/* The pass that decides how a character moves, and says why. */
+/* Determines how a character moves, and reports the reasons. */
 #include <stdio.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@ static bool gather_names(sbfi_conversion *c, sbfi_locomotion_names *names) {
   return true;
 }
 
-/* What speaks most for a kind, strongest first. */
+/* Lists the strongest evidence for a kind, strongest first. */
 static void reasons_text(const sbfi_locomotion *found, sbfi_locomotion_kind kind, char *text, size_t size) {
   bool used[SBFI_MAX_EVIDENCE] = {false};
   text[0] = 0;
@@ -44,11 +44,11 @@ static void reasons_text(const sbfi_locomotion *found, sbfi_locomotion_kind kind
   }
 }
 
-static void say_kind(sbfi_conversion *c, const sbfi_locomotion *found) {
+static void report_kind(sbfi_conversion *c, const sbfi_locomotion *found) {
   char first[320], second[320];
   reasons_text(found, found->kind, first, sizeof first);
   reasons_text(found, found->second, second, sizeof second);
-  if (!found->unsure && found->kind == SBFI_LOCOMOTION_NONE) return; /* RIG_NO_LEGS says it */
+  if (!found->unsure && found->kind == SBFI_LOCOMOTION_NONE) return; /* RIG_NO_LEGS reports it */
   if (!found->unsure)
     sbfi_convert_warn(c, SBF_CODE_GAIT_KIND, "its gait is %s: %s", sbfi_locomotion_name(found->kind), first);
   else
@@ -67,6 +67,6 @@ sbf_status sbfi_evaluate_gait(sbfi_conversion *c) {
   if (c->options->gait)
     c->locomotion->kind = sbfi_locomotion_named(c->options->gait);
   else
-    say_kind(c, c->locomotion);
+    report_kind(c, c->locomotion);
   return SBF_OK;
 }

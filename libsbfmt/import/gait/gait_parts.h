@@ -1,4 +1,4 @@
-/* Parts of a gait that are proposed for what does not walk. */
+/* Proposes parts of a gait for characters that do not walk. */
 #ifndef SBFI_GAIT_PARTS_H
 #define SBFI_GAIT_PARTS_H
 
@@ -7,15 +7,15 @@
 #include "import/convert/conversion.h"
 #include "import/gait/locomotion.h"
 
-/* Each fills the gait of an asset that looks along +Z; false: memory ran out. */
+/* Each adds the gait of an asset that faces +Z; false if memory runs out. */
 bool sbfi_propose_swim(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
 bool sbfi_propose_fly(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
 bool sbfi_propose_slither(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
 bool sbfi_propose_crawl(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
 bool sbfi_propose_roll(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait);
 
-/* Bones in the middle that hold points, from the nose (+Z) to the tail, along the longest way between two
- * ends of the tree; their number is 0 where there are fewer than two. */
+/* Finds middle bones with points, from the nose (+Z) to the tail, along the longest path between two ends
+ * of the tree. Their number is 0 if there are fewer than two. */
 bool sbfi_find_backbone(
     const sbfi_rig_view *view, sbf_asset *asset, sbfi_arena *scratch, sbf_u32_list *bones);
 

@@ -1,13 +1,16 @@
-/* Natural angles for arms that a rig was bound with held out. */
+/* Natural angles for arms that are held out in the bind pose. */
 #include <math.h>
 
 #include "import/gait/rest_pose.h"
 #include "motion/turn.h"
 
 static const double DEGREE = 0.017453292519943295;
-static const double ENOUGH = 30, DOWN = 70, AHEAD = 5, ELBOW = 20; /* degrees; ENOUGH: below level as bound */
-static const double FINGER[3] = {15, 25, 15};                      /* degrees, joint by joint */
-static const double STRAIGHT = 0.94; /* cosine within which fingers are straight */
+static const double
+    ENOUGH = 30,
+    DOWN = 70, AHEAD = 5,
+    ELBOW = 20; /* degrees; ENOUGH: angle below level in the bind pose from which arms stay as they are */
+static const double FINGER[3] = {15, 25, 15}; /* degrees, by joint */
+static const double STRAIGHT = 0.94;          /* minimum cosine between the bones of straight fingers */
 
 static void head_of(const sbfi_rig_view *view, int32_t bone, double to[3]) {
   sbf_vec3 head = sbfi_draft_head(&view->draft, bone);
@@ -37,7 +40,7 @@ static void set_turn(sbfi_pose_draft *pose, int32_t bone, const double rotation[
   pose->turned[bone] = true;
 }
 
-/* The child that holds most of what is below; SBF_NONE for none. */
+/* Child with most points in its subtree; SBF_NONE if none. */
 static int32_t thickest_child(const sbfi_rig_view *view, int32_t bone, double *length) {
   const sbfi_gait_draft *d = &view->draft;
   int32_t best = SBF_NONE;
@@ -53,8 +56,8 @@ static int32_t thickest_child(const sbfi_rig_view *view, int32_t bone, double *l
   return best;
 }
 
-/* Upper arm, forearm and hand: of the bones from the shoulder on the two that follow each other with the
- * longest reach. */
+/* Selects upper arm, forearm and hand: the two consecutive bones below the shoulder with the longest
+ * reach. */
 static bool choose_arm(const sbfi_rig_view *view, const sbfi_limb_shape *limb, sbfi_arm_draft *arm) {
   double best = 0, one, two;
   *arm = (sbfi_arm_draft){.upper = SBF_NONE, .side = limb->side};
@@ -73,7 +76,7 @@ static bool choose_arm(const sbfi_rig_view *view, const sbfi_limb_shape *limb, s
   return arm->upper != SBF_NONE;
 }
 
-/* Ears, hair and horns are paired as arms are. */
+/* Ears, hair and horns form pairs like arms do. */
 static bool is_of_head(const sbfi_gait_draft *d, const sbf_gait *gait, int32_t bone) {
   for (int32_t at = bone; at != SBF_NONE; at = sbfi_draft_bone(d, at)->parent)
     if (sbfi_words_of(sbfi_draft_bone(d, at)->name) >> SBFI_WORD_HEAD & 1) return true;
@@ -96,7 +99,7 @@ uint32_t sbfi_draft_arms(const sbfi_rig_view *view, const sbf_gait *gait, sbfi_a
     bool named = words >> SBFI_WORD_ARM & 1;
     if (is_leg || limb->twin == SBF_NONE || limb->bones < 2 || words >> SBFI_WORD_WING & 1) continue;
     if (is_of_head(d, gait, limb->root) || (!named && top < view->points.low[1] + 0.35 * height)) continue;
-    /* What is short hangs on clothes. */
+    /* Short limbs belong to clothes. */
     double reach = fmax(limb->high[0] - limb->low[0], limb->high[1] - limb->low[1]);
     if (!named && reach < 0.15 * height) continue;
     double score = reach + (named ? 10 * height : 0);
@@ -110,8 +113,7 @@ uint32_t sbfi_draft_arms(const sbfi_rig_view *view, const sbf_gait *gait, sbfi_a
   return count;
 }
 
-/* Fingers that are straight and lie along the hand curl towards the palm, which faces down where arms are
- * held out. */
+/* Curls straight fingers that continue the hand towards the palm, which faces down if arms are held out. */
 static void curl_fingers(
     const sbfi_rig_view *view, int32_t hand, const double along[3], sbfi_pose_draft *pose) {
   const sbfi_gait_draft *d = &view->draft;
@@ -131,7 +133,7 @@ static void curl_fingers(
       }
       double size = sqrt(along[0] * along[0] + along[2] * along[2]);
       if (!(size > 0.5)) break;
-      /* From the finger's direction down: along x (0, -1, 0). */
+      /* The axis rotates the finger's direction downwards: along x it is (0, -1, 0). */
       const double axis[3] = {along[2] / size, 0, -along[0] / size};
       double rotation[4];
       turn_about(axis, FINGER[joint] * DEGREE, rotation);
@@ -164,7 +166,8 @@ static bool hang(const sbfi_rig_view *view, const sbfi_arm_draft *arm, sbfi_pose
     bent = acos(fmin(1, fmax(-1, cosine))) / DEGREE;
   }
   if (bent < ELBOW) {
-    /* The hinge is that of the hanging arm: undone by its turn it is the bound arm's. */
+    /* The hinge is defined for the hanging arm. Undoing the arm's rotation gives the hinge in the bind
+     * pose. */
     double undo[4], axis[3], ahead[3];
     const double hinge[3] = {
         target[0] * target[0] - 1, target[0] * target[1], target[0] * target[2]}; /* -X across the arm */

@@ -1,14 +1,14 @@
-/* Limbs: parts of a rig whose skin lies on one side, how they are formed, and which mirror each other. */
+/* Finds limbs (parts of a rig whose skin is on one side), their shapes, and which limbs mirror each other. */
 #include <math.h>
 
 #include "import/gait/locomotion.h"
 #include "mechanics/symmetric_eigen.h"
 
 enum { SECTORS = 12, MIN_ROUND_POINTS = 12, MIN_LOOP = 8 };
-static const double TWINS = 0.12;          /* share of the size within which extents mirror */
-static const double TWIN_SEPARATION = 0.4; /* the same of limbs in different poses, made of the same */
-static const double ROUND_EXTENT = 0.8;    /* of a disc's height and length, the smaller by the greater */
-static const double ROUND_RADIUS = 0.8;    /* of a disc's radii by sector, the least by the greatest */
+static const double TWINS = 0.12;          /* fraction of the size; maximum difference of mirrored extents */
+static const double TWIN_SEPARATION = 0.4; /* the same for limbs in different poses with equal point counts */
+static const double ROUND_EXTENT = 0.8; /* minimum ratio of a disc's height and length, smaller by greater */
+static const double ROUND_RADIUS = 0.8; /* minimum ratio of a disc's radii by sector, smallest by greatest */
 
 static void take_point(double low[3], double high[3], sbf_vec3 point) {
   const double p[3] = {(double)point.x, (double)point.y, (double)point.z};
@@ -18,7 +18,7 @@ static void take_point(double low[3], double high[3], sbf_vec3 point) {
   }
 }
 
-/* Extents along the axes of the points' own spread. */
+/* Measures extents along the principal axes of the points. */
 static void measure_own(
     const sbfi_rig_points *points, const int32_t *limb_of, int32_t limb, sbfi_limb_shape *shape) {
   double mean[3] = {0}, spread[9] = {0}, axes[9], extent[3];
@@ -53,7 +53,8 @@ static void measure_own(
   if (extent[2] > 0) shape->slimness = extent[1] / extent[2];
 }
 
-/* A disc seen from the side: as high as it is long, no wider, and reaching as far out in every sector. */
+/* Whether a limb is a disc seen from the side: as high as long, no wider, and with the same radius in
+ * every sector. */
 static bool is_disc(
     const sbfi_rig_points *points, const int32_t *limb_of, int32_t limb, const sbfi_limb_shape *shape) {
   double height = shape->high[1] - shape->low[1], length = shape->high[2] - shape->low[2];
@@ -75,7 +76,7 @@ static bool is_disc(
   return min > ROUND_RADIUS * max && max < 1.2 * 0.5 * fmax(height, length);
 }
 
-/* Siblings on one side whose skins stand around their middle in an upright loop: links of a track. */
+/* Whether siblings on one side form an upright loop around their centre: links of a track. */
 static bool is_in_loop(const sbfi_gait_draft *d, const sbfi_limb_shape *limbs, uint32_t limb_count,
     const sbfi_limb_shape *limb) {
   double y = 0, z = 0;
@@ -103,7 +104,7 @@ static bool is_in_loop(const sbfi_gait_draft *d, const sbfi_limb_shape *limbs, u
   return filled * 3 >= SECTORS * 2;
 }
 
-/* How far from mirroring each other two limbs are, m. */
+/* Error of two limbs as mirror images, m. */
 static double twin_error(const sbfi_limb_shape *a, const sbfi_limb_shape *b) {
   double error = fmax(fabs(a->low[0] + b->high[0]), fabs(a->high[0] + b->low[0]));
   for (int k = 1; k < 3; k++)
@@ -111,7 +112,7 @@ static double twin_error(const sbfi_limb_shape *a, const sbfi_limb_shape *b) {
   return error;
 }
 
-/* In a rig bound in mid stride twins are told by what they are made of. */
+/* In a rig bound in mid stride, twins are recognized by their numbers of points and bones. */
 static bool are_alike(const sbfi_limb_shape *a, const sbfi_limb_shape *b) {
   uint32_t slack = (a->points + b->points) / 100;
   return a->bones == b->bones && a->points > 0 && a->points <= b->points + slack &&
@@ -131,7 +132,7 @@ static int32_t nearest_twin(
   return twin;
 }
 
-/* Twins are each other's nearest. */
+/* Twins are mutually nearest. */
 static void find_twins(const sbfi_rig_points *points, sbfi_limb_shape *limbs, uint32_t count) {
   double size = 0;
   for (int k = 0; k < 3; k++) size = fmax(size, points->high[k] - points->low[k]);

@@ -1,5 +1,5 @@
-/* Points for and against each kind of locomotion. The kind with most of them is taken. Where the next one is
- * near, legs decide, and a message asks. */
+/* Scores each kind of locomotion. The highest score wins. If the second is close, legs decide, and a
+ * message asks for a check. */
 #include "import/gait/locomotion.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double CLEAR_MARGIN = 2.5; /* points: with less between two kinds a person should look */
+static const double CLEAR_MARGIN = 2.5; /* minimum lead in points; with less a person should check */
 
 enum { BINS = 20, MIN_MIDDLE = 4, MIN_SNAKE = 6 };
 
@@ -29,7 +29,7 @@ typedef struct evaluation {
   sbfi_limb_shape *limbs;
   uint32_t limb_count;
   double height, length, width, size;              /* m; along y, z and x */
-  uint32_t legs, wings, wheels, flippers, holding; /* `holding`: bones that hold points */
+  uint32_t legs, wings, wheels, flippers, holding; /* `holding`: number of bones with points */
   bool paired;
   bool is_row; /* a long body of many bones, which moves by waves */
   sbfi_locomotion *found;
@@ -57,12 +57,12 @@ static double root_height(const evaluation *j, const sbfi_limb_shape *limb) {
 
 static bool could_stand(const evaluation *j, const sbfi_limb_shape *limb, double lowest) {
   if (limb->twin == SBF_NONE || limb->bones < 2 || limb->is_round || limb->is_loop) return false;
-  const sbfi_limb_shape *twin = &j->limbs[limb->twin]; /* in mid stride one is lifted */
+  const sbfi_limb_shape *twin = &j->limbs[limb->twin]; /* in mid stride one of a pair is lifted */
   double low = fmin(limb->low[1], twin->low[1]), root = fmax(root_height(j, limb), root_height(j, twin));
   return low < lowest + 0.08 * j->height && root > low + 0.12 * j->height;
 }
 
-/* Limbs in pairs that reach down as far as the lowest pair, from a hip well above their soles. */
+/* Scores pairs of limbs that reach as low as the lowest pair and have hips well above their soles. */
 static void score_legs(evaluation *j) {
   double lowest = INFINITY, ahead = -INFINITY, behind = INFINITY, middle = 0;
   uint32_t standing = 0, thick = 0;
@@ -87,7 +87,7 @@ static void score_legs(evaluation *j) {
   add(j, SBFI_LOCOMOTION_SWIM, -3, "%u limbs can stand", standing);
 }
 
-/* Flat pairs off the ground: wings; of what is flat all over, the fins of a ray. */
+/* Scores flat pairs above the ground: wings, or the fins of a ray if the body is flat too. */
 static void score_wings(evaluation *j) {
   double ground = j->points.low[1];
   for (uint32_t l = 0; l < j->limb_count; l++) {
@@ -103,7 +103,7 @@ static bool hovers(const evaluation *j) {
   return !j->legs && j->points.low[1] > 0.05 * fmax(j->height, 0.3 * j->size);
 }
 
-/* A long body without wings swims through the air as it does through water: its height tells nothing. */
+/* A long body without wings swims through air as through water, so its height is no evidence. */
 static void score_position(evaluation *j) {
   double low = j->points.low[1];
   if (hovers(j) && (j->wings || !j->is_row))
@@ -112,15 +112,15 @@ static void score_position(evaluation *j) {
     add(j, SBFI_LOCOMOTION_SWIM, 2, "it is modelled about y = 0, not on it");
 }
 
-/* The topmost bone above one. */
+/* Topmost ancestor of a bone. */
 static uint32_t root_of(const evaluation *j, uint32_t bone) {
   int32_t parent;
   while ((parent = j->draft.asset->bones.at[bone].parent) != SBF_NONE) bone = (uint32_t)parent;
   return bone;
 }
 
-/* Bones in the middle that hold something, of the root with most of them: their number, and the extent of
- * their heads along z. Several skeletons side by side are no row. */
+/* Counts middle bones with points below the root with most of them, and the extent of their heads along z.
+ * Several skeletons side by side are not a row. */
 static uint32_t measure_middle(const evaluation *j, const uint32_t *holds, double *span) {
   uint32_t max = 0;
   *span = 0;
@@ -165,7 +165,7 @@ static double area_of(const slice *s) {
   return s->points ? (s->high[0] - s->low[0]) * (s->high[1] - s->low[1]) : 0;
 }
 
-/* A long body of many bones: of a fish where it is thin at an end, of a snake where it lies. */
+/* Scores a long body of many bones: a fish is thin at one end, a snake touches the ground. */
 static void score_body(evaluation *j, const uint32_t *holds) {
   slice slices[BINS];
   double span, lying = 0, widest = 0;
@@ -255,7 +255,7 @@ static void score_things(evaluation *j, const sbfi_locomotion_names *names) {
     add(j, SBFI_LOCOMOTION_NONE, 2, "it is named as a thing");
 }
 
-/* A clip of walking speaks for legs only where there are some. */
+/* A walking clip counts for legs only if there are legs. */
 static sbfi_locomotion_kind walking_without_legs(const evaluation *j) {
   if (j->legs) return SBFI_LOCOMOTION_WALK;
   for (uint32_t e = 0; e < j->found->evidence_count; e++) {
@@ -282,7 +282,8 @@ static void score_clips(evaluation *j, const sbfi_locomotion_names *names) {
 
 /* --- Verdict ----------------------------------------------------------------------------------------- */
 
-/* Where it is not clear, what has legs to walk on walks, and what little speaks for stands. */
+/* If the result is unclear, a character with usable legs walks, and one with little evidence stays in
+ * place. */
 static void decide(const evaluation *j) {
   sbfi_locomotion *found = j->found;
   double sums[SBFI_LOCOMOTION_KINDS] = {0};
@@ -306,8 +307,8 @@ static void decide(const evaluation *j) {
   }
 }
 
-/* Points, sides and limbs, seen from `turns` quarters; `mirrored`: points of limbs that have a
- * twin; those of wheels count thrice, for a car mirrors both ways. */
+/* Computes points, sides and limbs seen after `turns` quarter turns. `mirrored` counts points of limbs
+ * with a twin. Wheels count three times, because a car is symmetric in both directions. */
 static bool check(evaluation *j, uint32_t turns, sbfi_arena *scratch, uint32_t *mirrored) {
   uint32_t bones = j->draft.asset->bones.count;
   j->draft.turns = turns;
@@ -322,7 +323,8 @@ static bool check(evaluation *j, uint32_t turns, sbfi_arena *scratch, uint32_t *
   return true;
 }
 
-/* What mirrors both ways, as a crab or a tank, looks the way that gives more of its limbs a twin. */
+/* For a shape with two symmetry planes, such as a crab or a tank, chooses the direction in which more
+ * limbs have a twin. */
 static bool predict(evaluation *j, sbfi_arena *scratch) {
   uint32_t mirrored, others;
   bool clear;
@@ -338,8 +340,7 @@ static bool predict(evaluation *j, sbfi_arena *scratch) {
 
 bool sbfi_find_locomotion(
     const sbf_asset *asset, const sbfi_locomotion_names *names, sbfi_arena *scratch, sbfi_locomotion *found) {
-  evaluation j = {
-      .draft = {.asset = (sbf_asset *)(uintptr_t)asset}, .found = found}; /* only read from here */
+  evaluation j = {.draft = {.asset = (sbf_asset *)(uintptr_t)asset}, .found = found}; /* not modified here */
   *found = (sbfi_locomotion){.kind = SBFI_LOCOMOTION_NONE, .second = SBFI_LOCOMOTION_WALK};
   if (asset->bones.count == 0) return true;
   uint32_t *holds = sbfi_arena_allocate(scratch, asset->bones.count, sizeof *holds);
@@ -351,7 +352,7 @@ bool sbfi_find_locomotion(
   j.size = fmax(j.width, fmax(j.height, j.length));
   found->turns = j.draft.turns;
   score_legs(&j);
-  if (j.draft.has_mesh) { /* bare bones tell no more than their names do */
+  if (j.draft.has_mesh) { /* bones without meshes give no evidence beyond their names */
     score_wings(&j);
     score_body(&j, holds);
     score_position(&j);

@@ -1,6 +1,6 @@
-/* Words in the names of bones, objects and clips. A name is split at capitals, digits and marks; a word of
- * the lists is found as a piece, or at the end of one ("upperleg"). Scripts without such pieces are searched
- * inside. */
+/* Finds words in the names of bones, objects and clips. A name is split into pieces at capitals, digits
+ * and punctuation. A listed word matches a piece or the end of one ("upperleg"). Scripts without such
+ * pieces are searched for substrings. */
 #include <ctype.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@ enum { LONGEST_NAME = 256, MIN_SUFFIX = 3 };
 
 typedef struct word_list {
   sbfi_word word;
-  const char *pieces; /* one space around each */
-  const char *inside; /* found anywhere; NULL for none */
+  const char *pieces; /* separated by single spaces */
+  const char *inside; /* matched anywhere; NULL if none */
 } word_list;
 
 static const word_list lists[] = {
@@ -92,7 +92,7 @@ static const word_list lists[] = {
         NULL},
 };
 
-/* Pieces that end in a word of the lists by chance. */
+/* Pieces that end in a listed word by chance. */
 static const char *const accidents =
     " swing owing drawing rowing arrowing following growing throwing showing knowing viewing sewing wingding "
     "barrel charm alarm farm harm swarm warm coffin muffin dolphin griffin paraffin define "
@@ -106,7 +106,7 @@ static bool is_listed(const char *list, const char *piece, size_t length) {
   return false;
 }
 
-/* Whether a piece ends in a word of the list. Short words end too many others. */
+/* Whether a piece ends in a listed word. Excludes short words, because too many other words end in them. */
 static bool ends_listed(const char *list, const char *piece, size_t length) {
   static const char *const shorts = " leg toe fin arm paw hip ";
   for (size_t skip = 1; skip + MIN_SUFFIX <= length; skip++) {
@@ -132,7 +132,8 @@ static bool is_inside(const char *list, const char *name) {
   return false;
 }
 
-/* The pieces of a name in lower case, a space around each; letters with marks become plain ones. */
+/* Splits a name into lower case pieces with spaces around each. Replaces letters with diacritics by plain
+ * ones. */
 static void split_name(const char *name, char *pieces, size_t size) {
   static const char *const plain[][2] = {{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"ß", "ss"}, {"é", "e"},
       {"è", "e"}, {"ê", "e"}, {"á", "a"}, {"à", "a"}, {"â", "a"}, {"ã", "a"}, {"ç", "c"}, {"ñ", "n"},
@@ -163,7 +164,7 @@ static void split_name(const char *name, char *pieces, size_t size) {
   pieces[used] = 0;
 }
 
-/* Calls for each piece of the name until one is accepted. */
+/* Tests the pieces of a name until one matches. */
 static bool any_piece(const char *pieces, const char *list, bool ends) {
   char piece[LONGEST_NAME];
   for (const char *at = pieces + 1; *at;) {
@@ -181,7 +182,7 @@ uint32_t sbfi_words_of(const char *name) {
   uint32_t words = 0;
   split_name(name, pieces, sizeof pieces);
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-    /* Names of animals are too short and too many to be looked for at the ends of other words. */
+    /* Names of animals are too short and numerous to match the ends of other words. */
     bool ends = lists[i].word <= SBFI_WORD_SPINE || lists[i].word == SBFI_WORD_TAIL;
     if (any_piece(pieces, lists[i].pieces, ends) || is_inside(lists[i].inside, name))
       words |= 1u << lists[i].word;
@@ -224,7 +225,7 @@ static const clip_list clip_lists[] = {
 sbfi_locomotion_kind sbfi_clip_kind(const char *name) {
   char pieces[LONGEST_NAME];
   split_name(name, pieces, sizeof pieces);
-  /* A dodge, a roll or a jump forward is no drive. */
+  /* A dodge, a roll or a jump forward is not locomotion. */
   bool dodge = any_piece(pieces, " dodge roll jump leap hit death kick attack punch fall dash ", false);
   for (size_t i = 0; i < sizeof clip_lists / sizeof *clip_lists; i++) {
     const clip_list *list = &clip_lists[i];

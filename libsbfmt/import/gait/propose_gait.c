@@ -6,8 +6,8 @@
 #include "import/gait/gait_draft.h"
 #include "import/gait/gait_parts.h"
 
-/* Beyond the knee, away from the line between hip and ankle: the leg goes on bending as it is bent at rest. A
- * straight leg bends forward. */
+/* Pole beyond the knee, away from the line between hip and ankle: the leg keeps its bending direction at
+ * rest. A straight leg bends forward. */
 static sbf_vec3 pole_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
   sbf_vec3 hip = sbfi_draft_bone(d, leg->upper)->head, knee = sbfi_draft_bone(d, leg->lower)->head;
   sbf_vec3 ankle = sbfi_draft_bone(d, leg->end)->head;
@@ -29,7 +29,7 @@ static sbf_vec3 pole_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
       (float)((double)knee.z + scale * out[2] + (bent ? 0 : leg->reach))};
 }
 
-/* How far a foot may fall behind or get ahead of its home before the leg is stretched. */
+/* Maximum distance of a foot from its home before the leg is fully extended. */
 static double play_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
   sbf_vec3 hip = sbfi_draft_bone(d, leg->upper)->head, ankle = sbfi_draft_bone(d, leg->end)->head;
   double x = (double)ankle.x - (double)hip.x, y = (double)ankle.y - (double)hip.y;
@@ -61,7 +61,7 @@ static bool write_ik_chains(sbfi_conversion *c, sbfi_gait_draft *d) {
   return true;
 }
 
-/* How many legs of the same side stand ahead of this one. */
+/* Number of legs of the same side in front of this one. */
 static uint32_t legs_ahead(const sbfi_gait_draft *d, uint32_t leg) {
   uint32_t ahead = 0;
   double here = (double)sbfi_draft_bone(d, d->legs[leg].end)->head.z;
@@ -72,7 +72,7 @@ static uint32_t legs_ahead(const sbfi_gait_draft *d, uint32_t leg) {
   return ahead;
 }
 
-/* Left and right of a pair take turns, and so do pairs one behind the other: groups are diagonals. */
+/* The legs of a pair alternate, and so do consecutive pairs: groups are diagonals. */
 static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   sbf_leg *legs = sbf_asset_allocate(d->asset, d->leg_count, sizeof *legs);
   if (!legs) return false;
@@ -92,7 +92,7 @@ static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   return true;
 }
 
-/* Lengths go with the shortest leg, times with its root, as a pendulum's do. */
+/* Lengths scale with the shortest leg, and times with its square root, as for a pendulum. */
 static void set_steps(const sbfi_gait_draft *d, sbf_gait *gait) {
   double play = INFINITY, reach = INFINITY;
   for (uint32_t l = 0; l < d->leg_count; l++) {
@@ -140,14 +140,14 @@ static bool write_tail(sbfi_conversion *c, sbfi_gait_draft *d, sbf_gait *gait) {
   return true;
 }
 
-/* What crawls: each bone is dragged behind the one before at the distance it has at rest. */
+/* For crawlers: each bone follows the one before at its rest distance. */
 static bool write_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
   float *spacing = sbf_asset_allocate(d->asset, d->spine_count, sizeof *spacing);
   if (!spacing || !write_chain(c, "spine", SBF_CHAIN_KIND_DISTANCE, d->spine, d->spine_count)) return false;
   for (uint32_t i = 0; i + 1 < d->spine_count; i++)
     spacing[i] = (float)sbfi_draft_distance(d, (int32_t)d->spine[i], (int32_t)d->spine[i + 1]);
   spacing[d->spine_count - 1] = sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->length;
-  sbf_chain *chain = (sbf_chain *)(uintptr_t)d->asset->chains.at; /* made above: still ours to fill */
+  sbf_chain *chain = (sbf_chain *)(uintptr_t)d->asset->chains.at; /* created above and still writable */
   chain->spacing = (sbf_f32_list){spacing, d->spine_count};
   return true;
 }
@@ -172,7 +172,7 @@ static bool write_gait(sbfi_conversion *c, sbfi_gait_draft *d) {
   return true;
 }
 
-/* The root with most of the skin below it. */
+/* Root with most of the skin in its subtree. */
 static int32_t main_root(const sbf_asset *a, const uint32_t *holds, sbfi_arena *scratch) {
   uint32_t *below = sbfi_arena_allocate(scratch, a->bones.count, sizeof *below);
   int32_t best = 0;
@@ -211,24 +211,24 @@ static bool propose_other(sbfi_conversion *c, sbfi_locomotion_kind kind) {
   return true;
 }
 
-static void say_legless(sbfi_conversion *c) {
+static void report_no_legs(sbfi_conversion *c) {
   sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
       "no two limbs of the rig come down to the ground: no gait is proposed, and the character moves as a "
       "whole; --gait KIND proposes one of another kind");
 }
 
-/* What should walk and has no legs to do it hops. */
+/* Proposes hopping for characters that should walk but have no legs. */
 static bool propose_walk(sbfi_conversion *c) {
   sbfi_gait_draft d = {.asset = c->asset};
   if (!sbfi_draft_shapes(&d, &c->scratch) || !sbfi_draft_legs(&d, &c->scratch)) return false;
-  if (d.leg_count > 1) /* nothing walks on one */
+  if (d.leg_count > 1) /* one leg is not enough to walk */
     return sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
   if (c->locomotion && c->locomotion->second == SBFI_LOCOMOTION_CRAWL) {
     sbfi_convert_warn(c, SBF_CODE_GAIT_KIND,
         "its gait is crawl and not walk: no two limbs of the rig come down to the ground");
     return propose_other(c, SBFI_LOCOMOTION_CRAWL);
   }
-  say_legless(c);
+  report_no_legs(c);
   return true;
 }
 
@@ -240,7 +240,7 @@ sbf_status sbfi_propose_gait(sbfi_conversion *c) {
   if (kind == SBFI_LOCOMOTION_WALK)
     good = propose_walk(c);
   else if (kind == SBFI_LOCOMOTION_NONE)
-    say_legless(c);
+    report_no_legs(c);
   else
     good = propose_other(c, kind);
   return good ? SBF_OK : sbfi_convert_no_memory(c);

@@ -1,14 +1,14 @@
-/* A gait guessed from a rig: which bones are legs, head and tail, and how far they step. Everything made here
- * is marked as proposed, for a person to confirm or change. */
+/* Proposes a gait from a rig: which bones are legs, head and tail, and the step lengths. Everything is
+ * marked as proposed, for a person to confirm or change. */
 #ifndef SBFI_PROPOSE_GAIT_H
 #define SBFI_PROPOSE_GAIT_H
 
 #include "import/convert/conversion.h"
 
-/* Adds a gait of the kind that was judged (c->locomotion; legs are looked for where it was not) to an asset
- * that has none, with ik chains and chains. Legs are limbs of one side that come down to the ground, left
- * those on +X, each named after its foot; head and tail go by name first, then by shape. Kind none gets no
- * gait, and a warning says so. */
+/* Adds a gait with ik chains and chains to an asset that has none. Uses the kind in c->locomotion;
+ * searches for legs if that is NULL. Legs are limbs of one side that reach the ground; left is +X; each is
+ * named after its foot. Head and tail are found by name first, then by shape. Kind none adds no gait and
+ * warns. */
 sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
 #endif

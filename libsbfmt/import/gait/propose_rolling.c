@@ -1,4 +1,4 @@
-/* Wheels and tracks. */
+/* Proposes wheels and tracks. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 
 enum { MIN_LINKS = 8 };
 
-/* The extent of what a bone holds itself. */
+/* Extent of a bone's own points. */
 static uint32_t box_of(const sbfi_rig_view *view, int32_t bone, double low[3], double high[3]) {
   uint32_t count = 0;
   for (int k = 0; k < 3; k++) {
@@ -32,7 +32,7 @@ static const sbfi_limb_shape *limb_at(const sbfi_rig_view *view, int32_t root) {
   return NULL;
 }
 
-/* A disc that touches the ground, or what is named as a wheel and as high as long. */
+/* Whether the bone is a disc that touches the ground, or is named a wheel and as high as long. */
 static bool is_wheel(const sbfi_rig_view *view, int32_t bone, double *radius) {
   double low[3], high[3], ground = view->points.low[1], height = sbfi_view_extent(view, 1);
   const sbfi_limb_shape *limb = limb_at(view, bone);
@@ -48,7 +48,7 @@ static bool is_wheel(const sbfi_rig_view *view, int32_t bone, double *radius) {
 }
 
 typedef struct link {
-  double angle; /* rad about the loop's middle, from ahead upwards */
+  double angle; /* rad, about the loop's centre, upwards from the front */
   uint32_t bone;
 } link;
 
@@ -57,7 +57,7 @@ static int by_angle(const void *a, const void *b) {
   return p < q ? 1 : p > q ? -1 : 0;
 }
 
-/* The links of one loop, so that those at the top lead ahead. */
+/* Adds the links of one loop so that the upper links move forward. */
 static bool add_tread(sbfi_conversion *c, const sbfi_rig_view *view, const sbfi_limb_shape *first, bool *done,
     sbf_tread_list *treads) {
   const sbf_bone_list *bones = &c->asset->bones;
@@ -115,7 +115,7 @@ bool sbfi_propose_roll(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *
   for (uint32_t l = 0; l < view->limb_count; l++)
     if (view->limbs[l].is_loop && !done[l] && !add_tread(c, view, &view->limbs[l], done, &of_tracks))
       return false;
-  for (uint32_t w = 0; w < wheels && of_tracks.count == 0; w++) /* what has tracks turns by them */
+  for (uint32_t w = 0; w < wheels && of_tracks.count == 0; w++) /* tracks replace wheels */
     if (foremost - hindmost > (double)list[w].radius &&
         (double)c->asset->bones.at[list[w].bone].head.z > foremost - 0.25 * (foremost - hindmost))
       list[w].steer_limit = 0.5f;

@@ -1,4 +1,5 @@
-/* What water or air carries, and what slithers or hops: waves along the spine, fins and wings, the medium. */
+/* Proposes gaits for swimmers, fliers, slitherers and hoppers: waves along the spine, fins and wings, the
+ * medium. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +7,7 @@
 
 /* --- Waves ------------------------------------------------------------------------------------------- */
 
-/* Whether the tail ends in a fluke that lies flat, as of whales. */
+/* Whether the tail ends in a horizontal fluke, as a whale's does. */
 static bool beats_vertically(const sbfi_rig_view *view) {
   double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
   double end = view->points.low[2] + 0.15 * sbfi_view_extent(view, 2);
@@ -37,7 +38,7 @@ static bool propose_undulation(sbfi_conversion *c, const sbfi_rig_view *view, sb
 
 /* --- Fins and wings ---------------------------------------------------------------------------------- */
 
-/* Bones of a limb from the body to its tip: down by the child with most points below. */
+/* Bones of a limb from the body to its tip: follows the child with most points in its subtree. */
 static bool limb_bones(sbfi_conversion *c, const sbfi_rig_view *view, int32_t root, sbf_u32_list *list) {
   const sbfi_gait_draft *d = &view->draft;
   uint32_t count = 0, *bones = sbfi_convert_allocate(c, d->asset->bones.count, sizeof *bones);
@@ -74,7 +75,7 @@ static double depth_of(const sbfi_limb_shape *limb) {
   return limb->high[2] - limb->low[2];
 }
 
-/* The twins that reach farthest sideways and are flat or named as wings; their wing area, m2. */
+/* Twins that extend farthest sideways and are flat or named as wings; stores their wing area, m^2. */
 static int32_t widest_pair(const sbfi_rig_view *view, sbfi_word word, double *area) {
   double best = 0;
   int32_t pair = SBF_NONE;
@@ -152,15 +153,15 @@ bool sbfi_propose_swim(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *
   double length = sbfi_view_extent(view, 2), area;
   int32_t ray = widest_pair(view, SBFI_WORD_FIN, &area);
   if (!is_ray(view, ray)) ray = SBF_NONE;
-  /* A length a second; above a metre the beat slows as 1/L, and speed grows with the root. */
+  /* One body length per second. Above one metre the beat slows as 1/L and the speed grows with the root. */
   gait->walk_speed = (float)fmax(0.02, length > 1 ? sqrt(length) : length);
   if (!propose_undulation(c, view, gait) || !propose_fins(c, view, gait, ray)) return false;
-  sbf_undulation *wave = (sbf_undulation *)(uintptr_t)gait->undulation; /* made above: still ours */
+  sbf_undulation *wave = (sbf_undulation *)(uintptr_t)gait->undulation; /* created above and still writable */
   if (wave) {
     bool slender = length > 6 * fmax(sbfi_view_extent(view, 0), sbfi_view_extent(view, 1));
     bool whale = !slender && beats_vertically(view);
     wave->exaggeration = ray != SBF_NONE ? 0.3f : 1.5f;
-    if (slender) { /* an eel's: all of it waves */
+    if (slender) { /* an eel: the whole body waves */
       wave->amplitude = (sbf_vec3){0.02f, 0.08f, 0};
       wave->wavelength = 0.7f;
     }
@@ -192,7 +193,8 @@ bool sbfi_propose_fly(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *g
     sbf_fin *fin = &fins[count++];
     if (!fill_fin(c, view, limb, fin)) return false;
     fin->motion = SBF_FIN_MOTION_FLAP;
-    /* Beats of alike fliers go as 1 / sqrt(span) (Pennycuick 1996); faster ones are not seen as beats. */
+    /* Wingbeat frequencies of similar fliers scale as 1 / sqrt(span) (Pennycuick 1996); faster ones are
+     * not visible as beats. */
     fin->frequency = (float)fmin(8, fmax(0.5, 4.4 / sqrt(fmax(span, 0.01))));
     fin->amplitude = bird ? 0.6f : 0.75f;
     fin->mean = bird ? 0.1f : 0;
@@ -213,7 +215,7 @@ bool sbfi_propose_fly(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *g
 bool sbfi_propose_slither(sbfi_conversion *c, const sbfi_rig_view *view, sbf_gait *gait) {
   gait->walk_speed = (float)fmax(0.02, 0.4 * sbfi_view_extent(view, 2));
   if (!propose_undulation(c, view, gait)) return false;
-  sbf_undulation *wave = (sbf_undulation *)(uintptr_t)gait->undulation; /* made above: still ours */
+  sbf_undulation *wave = (sbf_undulation *)(uintptr_t)gait->undulation; /* created above and still writable */
   if (wave) wave->wavelength = 0.6f;
   return true;
 }

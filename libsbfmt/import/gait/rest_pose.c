@@ -1,4 +1,4 @@
-/* Poses of a proposed gait. */
+/* Proposes poses of a gait. */
 #include "import/gait/rest_pose.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 
 #include "motion/carried_motion.h"
 
-static const double STILL = 2e-3; /* rad: a bone that turns by less needs no key */
+static const double STILL = 2e-3; /* rad; a bone that rotates less needs no key */
 
-/* A walk of poses: lengths and speeds in legs, angles of an arm ahead and back in radians. Bipeds of the
- * runtime's gait take such steps at these speeds. */
+/* Poses of a walk: lengths and speeds in leg lengths, angles of an arm forward and back in radians. Bipeds
+ * of the runtime's gait take such steps at these speeds. */
 typedef struct arm_swing {
   const char *passing, *reaching;
   double speed, step, shoulder, elbow;
@@ -20,8 +20,8 @@ static const arm_swing swings[] = {{"arms passing slowly", "arm swing slow", 0.2
 
 enum { SWINGS = sizeof swings / sizeof *swings };
 
-/* Bones whose pose is not the clip's: those of the legs, which find their own, and those that bear legs. */
-static bool *find_left_alone(sbfi_conversion *c, const sbf_gait *gait) {
+/* Bones that keep their own pose: legs, which the gait poses, and the bones that carry them. */
+static bool *find_excluded_bones(sbfi_conversion *c, const sbf_gait *gait) {
   const sbf_asset *a = c->asset;
   bool *alone = sbfi_arena_allocate(&c->scratch, a->bones.count, sizeof *alone);
   const sbfi_gait_draft d = {.asset = c->asset};
@@ -40,7 +40,7 @@ static double turned_by(const double q[4]) {
   return 2 * acos(fmin(1, fabs(q[3])));
 }
 
-/* Keys of those bones that turn; false: memory ran out. */
+/* Writes keys of the bones that rotate; false if memory runs out. */
 static bool write_pose(
     sbfi_conversion *c, const char *name, const double (*turns)[4], const bool *turned, sbf_pose *pose) {
   uint32_t count = 0;
@@ -66,7 +66,7 @@ static void key_of(const double rest[4], const double posed[4], double key[4]) {
   sbfi_turn_product(undo, posed, key);
 }
 
-/* The first frame of a clip, as turns after rest. */
+/* Reads the first frame of a clip as rotations from rest. */
 static bool take_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alone, double (*turns)[4],
     bool *turned, bool *any) {
   const sbf_asset *a = c->asset;
@@ -87,8 +87,9 @@ static bool take_clip(sbfi_conversion *c, const sbf_clip *clip, const bool *alon
   return true;
 }
 
-/* Turns in asset space, relative to the parent's, as turns after rest: in the bone's own frame. */
-static void own_turns(const sbf_asset *a, const bool *turned, double (*turns)[4]) {
+/* Converts rotations in asset space, relative to the parent's, to rotations from rest in the bone's own
+ * frame. */
+static void convert_to_bone_frames(const sbf_asset *a, const bool *turned, double (*turns)[4]) {
   for (uint32_t i = 0; i < a->bones.count; i++) {
     const sbf_quat q = a->bones.at[i].rotation;
     const double rest[4] = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
@@ -104,7 +105,7 @@ static const sbf_clip *find_idle(const sbf_asset *a) {
   const sbf_clip *best = NULL;
   size_t shortest = 0;
   for (uint32_t i = 0; i < a->clips.count; i++) {
-    size_t length = strlen(a->clips.at[i].name); /* Idle rather than Idle_Bored */
+    size_t length = strlen(a->clips.at[i].name); /* prefers Idle over Idle_Bored */
     if (!sbfi_clip_is_idle(a->clips.at[i].name) || (best && length >= shortest)) continue;
     best = &a->clips.at[i];
     shortest = length;
@@ -123,7 +124,7 @@ static bool start(sbfi_conversion *c, pose_work *w) {
   return w->turns && w->turned;
 }
 
-/* Where a bone points once the pose is taken: its frame's rotation in asset space. */
+/* Rotation of a bone's frame in asset space in the pose. */
 static void posed_rotation(const sbf_asset *a, const pose_work *pose, int32_t bone, double to[4]) {
   const sbf_quat q = a->bones.at[bone].rotation;
   const double rest[4] = {(double)q.x, (double)q.y, (double)q.z, (double)q.w};
@@ -143,7 +144,7 @@ static void posed_rotation(const sbf_asset *a, const pose_work *pose, int32_t bo
 static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, double angle, pose_work *to) {
   double posed[4], undo[4];
   if (bone == SBF_NONE) return;
-  const double about[4] = {-sin(angle / 2), 0, 0, cos(angle / 2)}; /* what hangs goes ahead */
+  const double about[4] = {-sin(angle / 2), 0, 0, cos(angle / 2)}; /* moves a hanging bone forward */
   posed_rotation(a, rest, bone, posed);
   sbfi_turn_undo(posed, undo);
   sbfi_turn_product(undo, about, to->turns[bone]);
@@ -151,9 +152,9 @@ static void swing(const sbf_asset *a, const pose_work *rest, int32_t bone, doubl
   to->turned[bone] = true;
 }
 
-/* The shortest leg, m: the distances between the heads of its bones. */
+/* Length of the shortest leg, m: sum of the distances between the heads of its bones. */
 static double leg_length(const sbf_asset *a, const sbf_gait *gait) {
-  const sbfi_gait_draft d = {.asset = (sbf_asset *)(uintptr_t)a}; /* only read from here */
+  const sbfi_gait_draft d = {.asset = (sbf_asset *)(uintptr_t)a}; /* not modified here */
   double shortest = INFINITY;
   for (uint32_t l = 0; l < gait->legs.count; l++) {
     const sbf_ik_chain *chain = &a->ik_chains.at[gait->legs.at[l].ik];
@@ -165,8 +166,8 @@ static double leg_length(const sbf_asset *a, const sbf_gait *gait) {
   return shortest;
 }
 
-/* Two poses of each walk, the middle and the end of a half cycle: where the leg opposite the first lands, the
- * first leg's arm is ahead. */
+/* Writes two poses of each walk, for the middle and the end of a half cycle. When the opposite leg lands,
+ * the arm on the first leg's side is in front. */
 static bool write_swings(sbfi_conversion *c, const sbf_gait *gait, const sbfi_arm_draft *arms, uint32_t count,
     const pose_work *rest, sbf_pose *poses) {
   const sbf_asset *a = c->asset;
@@ -195,7 +196,7 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
   const sbf_asset *a = c->asset;
   const sbf_clip *idle = find_idle(a);
   bool any = false;
-  bool *alone = find_left_alone(c, gait);
+  bool *alone = find_excluded_bones(c, gait);
   sbfi_rig_view view;
   sbfi_arm_draft arms[2];
   pose_work rest;
@@ -206,7 +207,7 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
   if (!idle) {
     sbfi_pose_draft draft = {rest.turns, rest.turned, a->bones.count};
     any = sbfi_hang_arms(&view, arms, arm_count, &draft);
-    own_turns(a, rest.turned, rest.turns);
+    convert_to_bone_frames(a, rest.turned, rest.turns);
   }
   if (any) {
     if (!write_pose(c, "stance", (const double(*)[4])rest.turns, rest.turned, &poses[count++])) return false;
@@ -230,6 +231,6 @@ static bool propose(sbfi_conversion *c, sbf_gait *gait) {
 sbf_status sbfi_propose_rest_pose(sbfi_conversion *c) {
   const sbf_asset *a = c->asset;
   if (a->gaits.count != 1 || !a->gaits.at[0].proposed || a->poses.count) return SBF_OK;
-  sbf_gait *gait = (sbf_gait *)(uintptr_t)&a->gaits.at[0]; /* proposed here: still ours to fill */
+  sbf_gait *gait = (sbf_gait *)(uintptr_t)&a->gaits.at[0]; /* proposed by this pass and still writable */
   return propose(c, gait) ? SBF_OK : sbfi_convert_no_memory(c);
 }

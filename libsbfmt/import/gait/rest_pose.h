@@ -1,32 +1,32 @@
-/* The pose that a character stands and moves in, and how its arms swing as it walks. */
+/* Proposes the rest pose of a gait, and how arms swing during a walk. */
 #ifndef SBFI_REST_POSE_H
 #define SBFI_REST_POSE_H
 
 #include "import/convert/conversion.h"
 #include "import/gait/locomotion.h"
 
-/* After the clips: gives a proposed gait its rest pose, from the first frame of a clip that stands idle, else
- * from natural angles where arms are held out; and walk poses in which arms swing against the legs. */
+/* After the clips: adds a rest pose to a proposed gait, from the first frame of an idle clip, else from
+ * natural angles if the arms are held out. Adds walk poses in which arms swing opposite to the legs. */
 sbf_status sbfi_propose_rest_pose(sbfi_conversion *c);
 
-/* Bones of an arm and what continues it. */
+/* Bones of an arm and its continuation. */
 typedef struct sbfi_arm_draft {
-  int32_t upper, lower, hand; /* consecutive; hand is SBF_NONE where the arm ends without */
+  int32_t upper, lower, hand; /* consecutive; hand is SBF_NONE if the arm has none */
   int side;
 } sbfi_arm_draft;
 
-/* Arms of what stands on two legs: `arms` (2 at most); returns how many. */
+/* Finds the arms of a biped: `arms` has a capacity of 2. Returns their number. */
 uint32_t sbfi_draft_arms(const sbfi_rig_view *view, const sbf_gait *gait, sbfi_arm_draft arms[2]);
 
-/* A pose under construction: turns of bones in asset space, each added to its parent's. */
+/* A pose under construction: rotations of bones in asset space, each applied on top of its parent's. */
 typedef struct sbfi_pose_draft {
-  double (*turns)[4]; /* (bones) x y z w, away from the bind pose, relative to the parent's turn */
-  bool *turned;       /* (bones) */
+  double (*turns)[4]; /* (bones) x y z w, from the bind pose, relative to the parent's rotation */
+  bool *turned;       /* (bones) whether the bone rotates */
   uint32_t count;
 } sbfi_pose_draft;
 
-/* Lets arms hang: 70 degrees down, 5 ahead, elbows bent by 20, fingers curled. Arms that hang by 30 degrees
- * or more already stay. Returns whether any was moved. */
+/* Lowers arms: 70 degrees down, 5 forward, elbows bent by 20, fingers curled. Arms that already hang by 30
+ * degrees or more stay. Returns whether any arm moved. */
 bool sbfi_hang_arms(
     const sbfi_rig_view *view, const sbfi_arm_draft *arms, uint32_t count, sbfi_pose_draft *pose);
 

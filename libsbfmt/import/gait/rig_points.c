@@ -1,14 +1,14 @@
-/* The skin of a rig as plain points, each with the bone that holds most of it, and the axis across which it
- * mirrors. */
+/* Collects the skin of a rig as points with the bone of greatest weight, and finds its plane of symmetry. */
 #include <math.h>
 
 #include "import/gait/locomotion.h"
 #include "motion/carried_motion.h"
 
-enum { ASKED = 400, COMPARED = 6000 }; /* points that are mirrored, and that they are compared with */
-enum { MIN_NAMED = 2 };                /* bones that name a side */
-static const double CLEAR_VOTES = 0.3; /* between how well their names part them along x and along z */
-static const double CLEARLY = 0.85;    /* an error this much smaller makes looking along X the better guess */
+enum { ASKED = 400, COMPARED = 6000 }; /* points that are mirrored, and points that they are compared with */
+enum { MIN_NAMED = 2 };                /* minimum number of bones that name a side */
+static const double CLEAR_VOTES =
+    0.3;                            /* minimum difference between the scores of names along x and along z */
+static const double CLEARLY = 0.85; /* maximum ratio of errors for facing along X to be the better guess */
 
 static void add_point(sbfi_rig_points *points, const sbfi_gait_draft *seen, sbf_vec3 at, int32_t bone) {
   points->at[points->count] = sbfi_draft_seen(seen, at);
@@ -70,8 +70,8 @@ bool sbfi_gather_points(
   return true;
 }
 
-/* Mean distance from mirrored points to their nearest ones, as a share of the size; the mirror stands at 0 or
- * in the middle of the extent, whichever serves better. `axis` 0: across x, 2: across z. */
+/* Mean distance from mirrored points to their nearest points, as a fraction of the size. The mirror plane
+ * is at 0 or in the middle of the extent, whichever fits better. `axis` 0: across x, 2: across z. */
 static double mirror_error(const sbfi_rig_points *points, int axis) {
   double size = 0, best = INFINITY;
   for (int k = 0; k < 3; k++) size = fmax(size, points->high[k] - points->low[k]);
@@ -95,7 +95,7 @@ static double mirror_error(const sbfi_rig_points *points, int axis) {
   return best;
 }
 
-/* Left bones less right ones, by name: along x and z, as a share of what they would be at most. */
+/* Scores named sides along x and z: difference of left and right bones as a fraction of the maximum. */
 static uint32_t ask_sides(const sbf_asset *asset, double votes[2]) {
   uint32_t named = 0;
   double max[2] = {0, 0};
@@ -115,12 +115,12 @@ static uint32_t ask_sides(const sbf_asset *asset, double votes[2]) {
 }
 
 uint32_t sbfi_mirror_turns(const sbf_asset *asset, const sbfi_rig_points *points, bool *clear) {
-  static const double noise = 1e-3; /* share of the size: both mirrors are good */
+  static const double noise = 1e-3; /* fraction of the size; below it both planes are good */
   double votes[2];
   *clear = true;
   if (ask_sides(asset, votes) >= MIN_NAMED && fabs(votes[0] - votes[1]) > CLEAR_VOTES)
     return votes[1] > votes[0];
-  if (points->are_heads || points->count < 3) return 0; /* bones alone lie in a plane too often */
+  if (points->are_heads || points->count < 3) return 0; /* heads of bones often lie in one plane */
   *clear = false;
   double across_x = mirror_error(points, 0), across_z = mirror_error(points, 2);
   *clear = fmax(across_x, across_z) > 3 * fmin(across_x, across_z) + 5 * noise;

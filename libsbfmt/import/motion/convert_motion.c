@@ -1,4 +1,4 @@
-/* Reads a file with motion and carries its clips over: what is carried, and how, motion/ knows. */
+/* Reads a file with motion and retargets its clips; motion/ does the retargeting. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -13,8 +13,8 @@ static bool is_bundle(const char *path) {
          (length > 5 && strcmp(path + length - 5, ".sbfz") == 0);
 }
 
-/* What is said of a motion file's own meshes and gait matters to nobody here. */
-static void pass_on(void *user, const sbf_diagnostic *diagnostic) {
+/* Drops messages about a motion file's own meshes and gait. */
+static void forward_report(void *user, const sbf_diagnostic *diagnostic) {
   if (diagnostic->code == SBF_CODE_IMPORT_KEYS || diagnostic->severity == SBF_SEVERITY_ERROR)
     sbfi_report(user, diagnostic);
 }
@@ -26,7 +26,7 @@ static sbf_status read_motion(const char *file, const sbf_convert_options *optio
   const sbf_convert_options reading = {.allocator = options->allocator,
       .no_gait = true,
       .import_helper = options->import_helper,
-      .report = pass_on,
+      .report = forward_report,
       .user = reporter};
   return sbf_convert(file, &reading, from, error);
 }

@@ -1,7 +1,7 @@
-/* Lays an input over a rig without a mesh like it: so that its bones lie inside.
+/* Aligns an input with a rig without a similar mesh, so that the bones are inside.
  *
- * The transform that the files state stays where most of the bones' length lies inside. Else axes, usual
- * units and offsets are tried, the plainest first, and at last a scale that makes the two as large. */
+ * The stated transform stays if most of the bones' length is inside. Otherwise tries axes, usual units and
+ * offsets, simplest first, and finally the scale that makes both equally large. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,23 +24,26 @@ enum {
   MAX_CANDIDATES = 1 + ROTATIONS * (SBFI_USUAL_UNITS + 3)
 };
 
-static const double CERTAIN = 0.85; /* with less, the rig may stand otherwise */
-static const double GOOD = 0.95;    /* so much of the length inside is as it should be */
+static const double CERTAIN =
+    0.85;                        /* fraction inside; below it the input may be in another pose than the rig */
+static const double GOOD = 0.95; /* fraction of the length inside that needs no further search */
 
-/* Of turned limbs: so much of the bones lies inside, so little of the input is without any, so much of the
- * cost without turns is left. How thick a body is around its bones, as a share of its longest side. */
+/* For rotated limbs: minimum fraction of the bones inside, maximum fraction of the input without bones,
+ * maximum ratio of the cost to that without rotations. Radius of a body around its bones as a fraction of
+ * its longest side. */
 static const double MIN_TURNED = 0.85, MAX_UNCOVERED = 0.35, BETTER_TURNED = 0.85, THICK = 0.15;
-static const double BETTER = 0.02;  /* by which a later candidate has to be better */
-static const double NEARNESS = 2;   /* of a mean distance, by a share inside */
-static const double MIN_LONG = 0.6; /* of a body's longest side, of bones that lie as the files say */
-static const double KEPT = 0.85;    /* so much inside as the files say is no accident: */
-static const double ODD = 0.15;     /* an odd scale or offset with the same axes has to be so much better */
-static const double POSED = 0.1; /* so much better a rarer rotation has to be where limbs stand otherwise */
-static const double REACH = 0.3; /* so much worse one may be before its scale and offset are refined */
+static const double BETTER = 0.02; /* minimum improvement by a later candidate */
+static const double NEARNESS = 2;  /* weight of a mean distance against the fraction inside */
+static const double MIN_LONG =
+    0.6; /* minimum extent of the bones as a fraction of the body's longest side, for the stated transform */
+static const double KEPT = 0.85; /* fraction inside from which the stated transform is not a coincidence */
+static const double ODD = 0.15;  /* minimum improvement by an unusual scale or offset with the same axes */
+static const double POSED = 0.1; /* minimum improvement by a rarer rotation if limbs are posed differently */
+static const double REACH = 0.3; /* maximum deficit of a candidate before its scale and offset are refined */
 
 typedef struct candidate {
   sbfi_matrix m;
-  double fraction, score; /* inside; less what its distance from the surface takes */
+  double fraction, score; /* fraction inside; the same minus a penalty for the distance from the surface */
 } candidate;
 
 typedef struct search {
@@ -48,7 +51,7 @@ typedef struct search {
   sbfi_soup soup;
   sbfi_winding winding; /* of the input in its own space */
   sbfi_bone_lines lines;
-  uint32_t rotation; /* at hand */
+  uint32_t rotation; /* current rotation */
   candidate of_rotation[ROTATIONS];
   candidate best;
 } search;
@@ -76,7 +79,7 @@ static double inside_of_line(const search *s, const sbfi_matrix *back, const sbf
   return (double)inside / PER_BONE;
 }
 
-/* Stops where less than `least` can be inside. */
+/* Stops once the fraction cannot reach `min`. */
 static double inside_fraction(const search *s, const sbfi_matrix *m, double min) {
   sbfi_matrix back;
   double sum = 0, left = s->lines.total;
@@ -95,8 +98,8 @@ static double distance_to_line(const sbfi_bone_line *line, sbfi_d3 p) {
   return sbfi_d3_length(sbfi_d3_sub(displacement, sbfi_d3_scale(along, t)));
 }
 
-/* Mean distance of the input's points to the nearest bone, as a share of its longest side. It tells the front
- * of a body from its back, and a skeleton from a small one that lies in its belly. */
+/* Mean distance of the input's points to the nearest bone, as a fraction of its longest side. It
+ * distinguishes the front of a body from its back, and a full skeleton from a small one inside the belly. */
 static double distance_to_bones(const search *s, const sbfi_matrix *m) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
   double sum = 0, size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(m);
@@ -112,7 +115,7 @@ static double distance_to_bones(const search *s, const sbfi_matrix *m) {
   return samples ? sum / samples : 0;
 }
 
-/* A score below `least` is not told. */
+/* May return any lower value for a score below `min`. */
 static candidate evaluate(const search *s, const sbfi_matrix *m, double min) {
   candidate c = {*m, 0, -INFINITY};
   if (!sbfi_alignment_allowed(s->r, m)) return c;
@@ -128,7 +131,8 @@ static void consider(search *s, const sbfi_matrix *m) {
 
 /* --- Candidates ---------------------------------------------------------------------------------------- */
 
-/* As it is; middle on middle; standing on the lowest bone, which is an ankle's height above the sole. */
+/* Tries no offset, equal centres, and the input standing on the lowest bone, which is an ankle's height
+ * above the sole. */
 static void consider_offsets(search *s, const sbfi_matrix *axes, double scale) {
   sbfi_matrix m = sbfi_similarity_scaled(axes, scale, (sbfi_d3){0, 0, 0});
   sbfi_d3 bones = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
@@ -151,7 +155,7 @@ static void consider_scale(search *s, double scale) {
   }
 }
 
-/* Other scales and offsets up and forwards around a candidate, in ever smaller steps. */
+/* Searches scales and offsets up and forwards around a candidate, in decreasing steps. */
 static candidate refined(const search *s, candidate from) {
   double size = longest_side(s->lines.low, s->lines.high);
   sbfi_d3 middle = sbfi_d3_scale(sbfi_d3_add(s->lines.low, s->lines.high), 0.5);
@@ -168,18 +172,19 @@ static candidate refined(const search *s, candidate from) {
   return from;
 }
 
-/* How rarely an input is turned so: up on up with its left on the left; facing backwards; sideways; else. */
+/* Rank of a rotation by how rarely files need it: up on up with left on left; facing backwards; sideways;
+ * others. */
 static uint32_t rarity_of(const sbfi_matrix *m) {
   double max = 0.9 * sbfi_similarity_scale(m);
   if (m->at[1][1] < max && m->at[1][2] < max) return 3;
   return m->at[0][0] > max ? 0 : m->at[0][0] < -max ? 1 : 2;
 }
 
-/* The best of all rotations, each as well as it can lie if limbs do not stand otherwise. A more usual one
- * stays where another is little better, as around straight chains of bones, and so does one of a usual unit
+/* Selects the best of all rotations, each with its best scale and offset. A more common rotation stays
+ * unless another is clearly better, as around straight chains of bones; the same holds for a usual unit
  * and offset. */
 static void choose(search *s) {
-  static const double by[] = {0.02, 0.03, 0.05, 0.2}; /* so much better than more usual ones */
+  static const double by[] = {0.02, 0.03, 0.05, 0.2}; /* minimum improvement over more common rotations */
   double max = s->best.score;
   for (uint32_t i = 0; i < 4 * ROTATIONS; i++) {
     const candidate *plain = &s->of_rotation[i % ROTATIONS];
@@ -193,7 +198,7 @@ static void choose(search *s) {
   }
 }
 
-/* Whether a candidate has the axes that the files state, and another scale or offset. */
+/* Whether a candidate has the stated axes but another scale or offset. */
 static bool has_stated_axes(const search *s, const sbfi_matrix *m) {
   const sbfi_matrix *stated = &s->r->c->to_asset;
   double scale = sbfi_similarity_scale(m) / sbfi_similarity_scale(stated);
@@ -203,19 +208,19 @@ static bool has_stated_axes(const search *s, const sbfi_matrix *m) {
   return true;
 }
 
-/* Whether the stated transform stays. */
+/* Returns whether the stated transform stays. */
 static bool consider_all(search *s) {
   const candidate stated = s->best;
   double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
   double stated_scale = sbfi_similarity_scale(&s->r->c->to_asset);
-  /* A small rig lies inside anything. One of few bones may leave large parts of its body without any. */
+  /* A small rig fits inside anything. A rig of few bones may leave large parts of its body without bones. */
   double max = s->lines.count < SEVERAL && !sbfi_rig_has_no_size(s->r) ? 3 : 1.6;
   for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS; unit++) {
     double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated_scale;
     if (input * scale < 0.7 * bones || input * scale > (unit ? max : 3) * bones) continue;
     consider_scale(s, scale);
   }
-  /* How much longer an input is than its bones. */
+  /* Ratio of the input's length to that of its bones. */
   static const double ratios[] = {1.12, 1.3, 1, 1.06, 1.2, 1.45, 1.7, 2};
   size_t count = sizeof ratios / sizeof *ratios - (s->lines.count < SEVERAL ? 0 : 2);
   for (size_t k = 0; k < count; k++) consider_scale(s, ratios[k] * bones / input);
@@ -234,7 +239,7 @@ typedef struct outside_bone {
   double distance; /* m, of its farthest sample */
 } outside_bone;
 
-/* Names the bones that are farthest outside. */
+/* Lists the bones that are farthest outside. */
 static bool describe_outside(const search *s, char *text, size_t size, sbfi_arena *arena) {
   sbfi_scene_surface moved;
   sbfi_surface_finder finder;
@@ -309,7 +314,7 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   if (!outside[0])
     snprintf(outside, sizeof outside, "bones on the surface of the mesh, which encloses no space");
-  /* Without a skin only a BVH says how bones stand at rest: others hold them as a clip has moved them. */
+  /* Without a skin only a BVH defines the rest pose; other files store a pose of a clip. */
   const sbfi_scene *rig = s->r->rig.scene;
   bool may_be_moved =
       s->r->rig.mesh.positions.count == 0 && rig->clip_count > 0 && strcmp(rig->format, "bvh") != 0;
@@ -321,7 +326,7 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
       may_be_moved ? ", exported in its rest pose (its clips may have moved it) or with its mesh" : "");
 }
 
-/* Of bones that fit, 89 % of their length and more was measured inside. */
+/* Bones that fit had at least 89 % of their length inside in measurements. */
 static sbf_status warn_of_misfit(const search *s, sbfi_arena *arena) {
   char outside[260] = "";
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
@@ -333,13 +338,12 @@ static sbf_status warn_of_misfit(const search *s, sbfi_arena *arena) {
   return SBF_OK;
 }
 
-/* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
+/* Motion capture states no unit, so the input's unit is used: scales the rig instead of the input. */
 static void scale_rig(sbfi_rigging *r) {
   double factor = sbfi_similarity_scale(&r->c->to_asset) / sbfi_similarity_scale(&r->alignment.to_asset);
   if (!sbfi_rig_has_no_size(r) || fabs(factor - 1) < 1e-9) return;
   for (uint32_t b = 0; b < r->c->asset->bones.count; b++) {
-    sbf_bone *bone =
-        (sbf_bone *)(uintptr_t)&r->c->asset->bones.at[b]; /* ours until the asset is handed out */
+    sbf_bone *bone = (sbf_bone *)(uintptr_t)&r->c->asset->bones.at[b]; /* the conversion owns the asset */
     bone->head = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_of(bone->head), factor));
     bone->length = (float)((double)bone->length * factor);
   }
@@ -352,7 +356,7 @@ static void scale_rig(sbfi_rigging *r) {
       factor);
 }
 
-/* Share of the input's points that lie farther from every bone than any part of a body is thick. */
+/* Fraction of the input's points that are farther from every bone than the maximum radius of a body. */
 static double uncovered_fraction(const search *s) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
   double size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
@@ -368,10 +372,10 @@ static double uncovered_fraction(const search *s) {
   return samples ? (double)far / samples : 0;
 }
 
-/* Of a usual unit the cost of turned limbs counts by this factor, without an offset by the last as well:
- * where limbs stand otherwise an odd scale makes up for much. By so much for rarer rotations. */
+/* Factors on the cost of rotated limbs: for a usual unit, for the stated unit, and additionally without an
+ * offset, because in another pose an unusual scale can compensate. Added cost for each rarer rotation. */
 static const double USUAL_UNIT = 0.75, STATED_UNIT = 0.68, NO_OFFSET = 0.8, RARER = 0.15;
-static const double SAME_SCALE = 1e-6; /* as a share */
+static const double SAME_SCALE = 1e-6; /* relative */
 
 static void add_candidate(const search *s, const sbfi_matrix *m, sbfi_limb_candidate *to, uint32_t *count) {
   double scale = sbfi_similarity_scale(m);
@@ -384,8 +388,8 @@ static void add_candidate(const search *s, const sbfi_matrix *m, sbfi_limb_candi
   to[(*count)++] = (sbfi_limb_candidate){*m, factor * (1 + RARER * rarity_of(m))};
 }
 
-/* Ways in which the input may lie over the rig, whose limbs stand otherwise: the best of the rotations that
- * may be meant, and those of usual units without an offset. */
+/* Collects candidate alignments for a rig in another pose: the best of the plausible rotations, and those
+ * of usual units without an offset. */
 static uint32_t collect_candidates(search *s, sbfi_limb_candidate to[MAX_CANDIDATES]) {
   double bones = longest_side(s->lines.low, s->lines.high), input = longest_side(s->soup.low, s->soup.high);
   uint32_t count = 0;
@@ -407,14 +411,14 @@ static uint32_t collect_candidates(search *s, sbfi_limb_candidate to[MAX_CANDIDA
   return count;
 }
 
-static void say_turned(const search *s, const sbfi_limb_alignment *found) {
+static void report_rotated(const search *s, const sbfi_limb_alignment *found) {
   sbfi_convert_warn(s->r->c, SBF_CODE_RIG_ALIGNED,
       "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
       "hangs on it",
       found->names);
 }
 
-/* Cuts a list of names to what an error has room for. */
+/* Truncates a list of names to fit into an error. */
 static void shorten_names(char *names) {
   enum { MAX_LENGTH = 80 };
   char *last = names;
@@ -424,7 +428,7 @@ static void shorten_names(char *names) {
   if (last > names) memcpy(last, " ...", sizeof " ...");
 }
 
-/* Bones that still lie outside, or parts without bones, may be limbs in the wrong place. */
+/* Bones that are still outside, or parts without bones, may be limbs in the wrong position. */
 static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sbfi_arena *arena) {
   sbfi_conversion *c = s->r->c;
   char outside[130] = "";
@@ -448,7 +452,7 @@ static sbf_status report_limbs_outside(search *s, sbfi_limb_alignment *found, sb
       found->names, 100 * s->best.fraction, outside);
 }
 
-/* A rig that stands otherwise than the input, limb by limb. What the files state stays where that fits. */
+/* Matches a rig in another pose than the input limb by limb. The stated transform stays if it fits. */
 static sbf_status match_limbs(sbfi_rigging *r, search *s, bool is_stated, bool *matched) {
   sbfi_limb_candidate candidates[MAX_CANDIDATES];
   sbfi_limb_alignment found;
@@ -472,7 +476,7 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, bool is_stated, bool *
     if (fits || (!is_stated && s->best.fraction >= SBFI_MIN_BONES_INSIDE)) {
       r->alignment.to_asset = s->best.m;
       if (!fits) status = report_limbs_outside(s, &found, &arena);
-      if (status == SBF_OK) say_turned(s, &found);
+      if (status == SBF_OK) report_rotated(s, &found);
       good = sbfi_rig_move_bones(r, found.motions);
       *matched = true;
     } else
@@ -483,7 +487,7 @@ static sbf_status match_limbs(sbfi_rigging *r, search *s, bool is_stated, bool *
   return good ? status : sbfi_convert_no_memory(r->c);
 }
 
-/* Whether the bones, as they lie, are about as long as the input. */
+/* Whether the bones in the current alignment are about as long as the input. */
 static bool is_long(const search *s) {
   double input = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best.m);
   return longest_side(s->lines.low, s->lines.high) >= MIN_LONG * input;

@@ -9,11 +9,12 @@
 #include "import/rigging/limb_symmetry.h"
 #include "import/rigging/similarity.h"
 
-/* Candidates that limbs are fitted to, of those without an offset and of others. */
+/* Maximum number of candidates to which limbs are fitted: without an offset, and others. */
 enum { MAX_FIXED = 3, MAX_FREE = 2 };
-/* The cost of a pose of which both sides are alike, as is the input, counts by this factor. */
+/* Factor on the cost of a symmetric pose, if the input is symmetric. */
 static const double SYMMETRIC = 0.8;
-/* Bones are so long, as a share of the input's longest side: shorter ones lie in its belly. */
+/* Minimum extent of the bones as a fraction of the input's longest side; a smaller rig would fit into its
+ * belly. */
 static const double MIN_LONG = 0.6;
 
 typedef struct ranked {
@@ -59,7 +60,7 @@ static void take(const sbfi_limb_fit *f, const sbfi_matrix *m, sbfi_limb_alignme
   name_turned(f, found->names, sizeof found->names);
 }
 
-/* Of a symmetric input, from the rig's pose of either side. */
+/* Fits a symmetric input, starting from the rig's pose of each side. */
 static bool consider_symmetric(sbfi_limb_symmetry *s, const sbfi_body_core *core, sbfi_limb_fit *f,
     const sbfi_limb_candidate *candidate, double *best, sbfi_limb_alignment *found, sbfi_arena *arena) {
   double plane;

@@ -1,10 +1,10 @@
-/* Lays an input over the rig's own meshes by points that both have.
+/* Aligns an input with the rig's own meshes by shared points.
  *
- * Which point is which is not known: order, unit, axes, handedness and offset may all differ, and either may
- * hold only a part of the other. Candidates for the transform come from what files usually do (axes swapped,
- * a usual unit, no offset), from the two bounding boxes, and from triangles of one shape, which give all of
- * it at once. Each is judged by the share of sampled points that fall onto a point of the rig; earlier ones
- * win unless a later one is better, so that of a symmetric mesh's transforms the plainest is taken. */
+ * The correspondence of points is unknown: order, unit, axes, handedness and offset may differ, and either
+ * mesh may be only a part of the other. Candidate transforms come from common differences between files
+ * (swapped axes, a usual unit, no offset), from the two bounding boxes, and from congruent triangles,
+ * which define a complete transform. The score is the fraction of sampled points that fall onto a point of
+ * the rig. Earlier candidates win ties, so a symmetric mesh gets its simplest transform. */
 #include <math.h>
 #include <string.h>
 
@@ -23,26 +23,26 @@ enum {
   SEED_CANDIDATES = 400
 };
 
-/* Points are one where they are this near, as a share of the input's size. */
+/* Maximum distance of equal points as a fraction of the input's size. */
 static const double TOLERANCE = 1e-4;
-/* So much better a later candidate has to be. */
+/* Minimum improvement by a later candidate. */
 static const double BETTER = 5e-3;
-/* Of the rig's size, by which objects together lie nearer to their namesakes where a mirror image is meant.
- */
+/* Minimum decrease in the summed distance of objects to their namesakes for a mirror image to win, as a
+ * fraction of the rig's size. */
 static const double NAME_DISTANCE = 0.05;
-/* The least share of points that says anything. */
+/* Minimum significant fraction of points. */
 static const double MIN_FRACTION = 0.1;
 
 typedef struct search {
   const sbfi_rigging *r;
   sbfi_point_finder finder; /* of the rig's points */
   uint32_t samples[SAMPLES], sample_count;
-  double quantum; /* of the input's numbers, in its own unit: decimals of its text */
+  double quantum; /* resolution of the input's numbers in its own unit: decimals of its text */
   sbfi_matrix best;
   double best_fraction;
 } search;
 
-/* The step in which a text wrote its numbers, where all are whole multiples of one; else 0. */
+/* Resolution of numbers in a text: the step of which all are multiples; 0 if there is none. */
 static double find_quantum(const sbf_vec3_list points) {
   for (double steps = 1e3; steps < 2e7; steps *= 10) {
     bool whole = true;
@@ -108,7 +108,7 @@ static void consider(search *s, const sbfi_matrix *m) {
   s->best_fraction = fraction;
 }
 
-/* Steps of the golden ratio: early ones are spread as well. */
+/* Golden ratio steps, so that any number of first samples is spread out. */
 static uint32_t sample_of(uint32_t count, uint32_t samples, uint32_t i) {
   return count <= samples ? i : (uint32_t)((double)count * fmod(0.5 + i * 0.6180339887498949, 1.0));
 }
@@ -117,7 +117,8 @@ static uint32_t common_divisor(uint32_t a, uint32_t b) {
   return b ? common_divisor(b, a % b) : a;
 }
 
-/* Of few points all, in steps as well: the first ones may be of an object that the rig does not have. */
+/* Takes all points if they are few, in the same steps: the first ones may belong to an object that the rig
+ * does not have. */
 static void take_samples(search *s) {
   uint32_t count = s->r->input.mesh.positions.count, step = (uint32_t)(0.618 * count) + 1;
   s->sample_count = count < SAMPLES ? count : SAMPLES;
@@ -126,7 +127,7 @@ static void take_samples(search *s) {
     s->samples[i] = count <= SAMPLES ? i * step % count : sample_of(count, SAMPLES, i);
 }
 
-/* Axes swapped, a usual unit, no offset. */
+/* Tries swapped axes and usual units without an offset. */
 static void consider_usual(search *s) {
   for (uint32_t unit = 0; unit < SBFI_USUAL_UNITS; unit++) {
     double scale = sbfi_usual_units[unit].unit_m, size = s->r->input.size * scale;
@@ -139,7 +140,7 @@ static void consider_usual(search *s) {
   }
 }
 
-/* The whole of one is the whole of the other. */
+/* Tries transforms that match the two bounding boxes. */
 static void consider_boxes(search *s) {
   const sbfi_scene_surface *a = &s->r->input, *b = &s->r->rig;
   sbfi_d3 low = sbfi_d3_of(a->low), high = sbfi_d3_of(a->high);
@@ -174,7 +175,7 @@ static bool consider_triangle(void *user, const sbfi_shaped_triangle *to) {
     if (!sbfi_similarity_of_triangle(a, b, mirrored, &m)) continue;
     double scale = sbfi_similarity_scale(&m) * at->s->r->input.size;
     if (scale > 3 * at->s->r->rig.size || scale < 0.01 * at->s->r->rig.size) continue;
-    /* The triangle's own rounding is magnified by what it is smaller than the whole. */
+    /* The triangle's rounding error is magnified by the ratio of the whole to the triangle. */
     sbfi_matrix snapped = sbfi_similarity_snapped(&m, at->s->r->rig.size, 3e-3);
     sbfi_d3 moved = sbfi_d3_sub(b[0], sbfi_similarity_apply(&snapped, a[0]));
     if (sbfi_d3_length(moved) > 1e-5 * at->s->r->rig.size) {
@@ -187,7 +188,7 @@ static bool consider_triangle(void *user, const sbfi_shaped_triangle *to) {
   return ++at->candidates < SEED_CANDIDATES;
 }
 
-/* Large triangles of rare shapes say most. */
+/* Large triangles of rare shapes are most distinctive. */
 static double worth(const sbfi_triangle_shapes *rig, const sbfi_shaped_triangle *t) {
   uint32_t like = sbfi_triangle_shapes_count(rig, t);
   return like ? (double)t->longest / (1 + sqrt((double)like)) : 0;
@@ -221,7 +222,7 @@ typedef struct pairs {
   double squared; /* sum of squared distances */
 } pairs;
 
-/* Of `samples` points, spread over all. */
+/* Compares `samples` points, spread over all. */
 static void find_pairs(const search *s, const sbfi_matrix *m, uint32_t samples, pairs *p) {
   const sbf_vec3_list points = s->r->input.mesh.positions;
   double within = sbfi_match_tolerance(s->r, sbfi_similarity_scale(m), s->quantum), distance;
@@ -242,8 +243,8 @@ static bool is_mirrored(const sbfi_matrix *m) {
   return sbfi_matrix_determinant(m) < 0;
 }
 
-/* A nearly symmetric character fits nearly as well the wrong way round: all its points tell, not a sample,
- * and where they do not, the names of its objects: those of the left lie at the rig's of the left. */
+/* A nearly symmetric character fits nearly as well when mirrored. All points decide instead of a sample,
+ * and if they are inconclusive, the names of objects: those named left must be at the rig's left. */
 static void try_mirrors(search *s, pairs *p) {
   uint32_t count = s->r->input.mesh.positions.count;
   sbfi_d3 low = sbfi_d3_of(s->r->rig.low), high = sbfi_d3_of(s->r->rig.high);
@@ -254,7 +255,7 @@ static void try_mirrors(search *s, pairs *p) {
   double separation = sbfi_names_distance(s->r, &from), near = NAME_DISTANCE * s->r->rig.size;
   bool is_plain = !is_mirrored(&from);
   for (int i = 0; i < 6 && (max < count || separation > near || !is_plain); i++) {
-    sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
+    sbfi_matrix mirror = sbfi_matrix_identity(); /* about the centre, or about the origin */
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
     sbfi_matrix m = sbfi_matrix_multiply(&mirror, &from);
@@ -262,7 +263,8 @@ static void try_mirrors(search *s, pairs *p) {
     find_pairs(s, &m, count, p);
     if (p->count < max) continue;
     double named = sbfi_names_distance(s->r, &m);
-    /* Samples of a symmetric mesh may fit its mirror image better: of two that fit alike it is none. */
+    /* Samples of a symmetric mesh may fit its mirror image better: prefers the one without a mirror if
+     * they are equally good. */
     double min_nearer = !is_plain && !is_mirrored(&m) ? -near : near;
     if (p->count == max && separation - named < min_nearer) continue;
     max = p->count;
@@ -272,7 +274,7 @@ static void try_mirrors(search *s, pairs *p) {
   }
 }
 
-/* By least squares, and to a usual transform where that is as good. */
+/* Fits by least squares, and snaps to a usual transform if that is as good. */
 static void fit(search *s, pairs *p) {
   uint32_t count = s->r->input.mesh.positions.count,
            samples = count < FITTED_SAMPLES ? count : FITTED_SAMPLES;
@@ -286,7 +288,7 @@ static void fit(search *s, pairs *p) {
     if (pass == 3) m = sbfi_similarity_snapped(&s->best, s->r->rig.size, 3e-4);
     if (pass == 3 && !sbfi_alignment_allowed(s->r, &m)) break;
     find_pairs(s, &m, samples, p);
-    /* A usual transform may be a little worse: rounding is all that speaks for another. */
+    /* A usual transform may be slightly worse, because the difference is only rounding. */
     double allowed =
         squared + (pass == 3 ? 3 * squared + 1e-12 * s->r->rig.size * s->r->rig.size * samples : 0);
     if (p->count < max || (p->count == max && p->squared > allowed)) continue;
@@ -302,7 +304,8 @@ static bool refine(search *s, sbfi_arena *arena, double *fraction) {
       sbfi_arena_allocate(arena, count, sizeof *p.to), 0, 0};
   if (!p.from || !p.to) return false;
   try_mirrors(s, &p);
-  bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* and right: it stays */
+  bool is_stated =
+      memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* the stated transform is right and stays */
   if (!is_stated) fit(s, &p);
   uint32_t samples = count < MATCH_SAMPLES ? count : MATCH_SAMPLES;
   find_pairs(s, &s->best, samples, &p);

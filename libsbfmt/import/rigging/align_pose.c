@@ -1,8 +1,8 @@
-/* Lays an input over a rig whose mesh stands in another pose, limb by limb.
+/* Aligns an input with a rig whose mesh is in another pose, limb by limb.
  *
- * The input lies over a part of the rig already. Limbs beside it are turned onto it, and then all joints
- * together; where nearly all of both surfaces lie on each other, the rig takes that pose: its joints lie
- * where the input's limbs are, and the input's shape is the one that its skin is bound in. */
+ * The input already overlaps a part of the rig. First rotates limbs that do not overlap onto it, then
+ * optimizes all joints together. If nearly all of both surfaces match, the rig takes that pose: its joints
+ * move to the input's limbs, and its skin is bound to the input's shape. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,20 +13,21 @@
 
 enum { PASSES = 4, MAX_NAMED = 8 };
 
-/* Shares of surfaces that lie beside each other, of both together: so much tells of another pose; so little
- * is as it should be; with so little no more is tried; a later pass leaves so much of it, the first so much,
- * or it is the last. */
+/* Fractions of both surfaces without a match: minimum that suggests another pose; acceptable result;
+ * result that ends the search; maximum left by a later pass, relative to before; maximum left by the first
+ * pass. */
 static const double POSED = 0.06, WELL = 0.06, FITTED = 0.01, BETTER = 0.8, HOPELESS = 0.5;
-/* Of each, so much may be left, and so much of what there was; what is left of the input's that is reported.
- */
+/* For each surface: maximum unmatched fraction, absolute and relative to before; unmatched fraction of the
+ * input that is reported. */
 static const double FITTING = 0.12, FEWER = 0.5, DOUBTFUL = 0.04;
-/* So near, as a share, a usual transform may be meant. */
+/* Relative tolerance for a usual transform. */
 static const double USUAL = 0.1;
-/* Half of the input's surface lies nearer, as a share of the size. */
+/* Maximum median distance of the input's surface as a fraction of the size. */
 static const double NEAR = 0.01;
-/* How far points are drawn in passes after the first, as a share of the size. */
+/* Maximum distance of correspondences in passes after the first, as a fraction of the size. */
 static const double LATER_WITHIN = 0.05;
-/* Smaller turns, rad, are not reported; where none is wider, the input stands as the rig's mesh does. */
+/* Rotations below REPORTED, rad, are not reported. If none exceeds MIN_TURN, the input has the pose of the
+ * rig's mesh. */
 static const double REPORTED = 0.087, MIN_TURN = 0.17;
 
 static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
@@ -34,7 +35,7 @@ static bool apply_pose(sbfi_rigging *r, const sbfi_pose_fit *f) {
   sbf_vec3 *positions =
       sbfi_arena_copy(arena, f->posed.mesh.positions.at, f->posed.mesh.positions.count, sizeof *positions);
   if (!positions || !sbfi_rig_move_bones(r, f->motions)) return false;
-  const sbfi_scene_surface bound = r->rig; /* with the scene of moved nodes */
+  const sbfi_scene_surface bound = r->rig; /* uses the scene of moved nodes */
   if (!sbfi_surface_with_positions(&r->rig, &bound, positions, arena)) return false;
   r->alignment.to_asset = f->to_asset;
   r->alignment.is_stated = memcmp(&f->to_asset, &r->c->to_asset, sizeof f->to_asset) == 0;
@@ -47,7 +48,7 @@ static double turn_of(const sbfi_pose_fit *f, uint32_t bone) {
   return 2 * asin(fmin(0.5 * sbfi_d3_length(sbfi_pose_fit_turn_vector(f, bone)), 1));
 }
 
-/* The widest turns first. */
+/* Lists the largest rotations first. */
 static void report_pose(const sbfi_pose_fit *f, const sbfi_pose_gaps *gaps) {
   char text[600] = "";
   double last = INFINITY;
@@ -84,7 +85,7 @@ static double beside(const sbfi_pose_gaps *gaps) {
   return gaps->input_beside + gaps->rig_beside;
 }
 
-/* Passes while they bring the surfaces nearer to each other; the gaps that are left. */
+/* Repeats passes while they reduce the gaps; stores the remaining gaps. */
 static bool fit(sbfi_pose_fit *f, bool is_free, sbfi_pose_gaps *gaps) {
   for (int pass = 0; pass < PASSES && beside(gaps) > FITTED; pass++) {
     double last = beside(gaps);
@@ -97,8 +98,8 @@ static bool fit(sbfi_pose_fit *f, bool is_free, sbfi_pose_gaps *gaps) {
   return true;
 }
 
-/* From a usual unit, axes and no offset, where the alignment is near those: shapes of different poses give
- * the position of the whole roughly. */
+/* Starts from a usual unit, axes and no offset if the alignment is close to them: shapes in different
+ * poses determine the overall position only roughly. */
 static bool fit_from_usual(const sbfi_rigging *r, sbfi_pose_fit *f, sbfi_arena *arena, sbfi_pose_gaps *gaps) {
   sbfi_rigging usual = *r;
   sbfi_pose_fit other;

@@ -1,9 +1,8 @@
-/* Lays an input over the rig's own meshes where both have no points in common but nearly one shape.
+/* Aligns an input with the rig's own meshes if they share no points but have similar shapes.
  *
- * Candidates are what files usually differ by, each moved to the middle of the rig's box or left where it is;
- * the best are drawn to the nearest surface again and again (Besl and McKay 1992), with the scale free. A
- * candidate is judged by the mean distance between the surfaces both ways, so that a small input does not
- * hide in a large rig. */
+ * Candidates are common differences between files, each centred in the rig's box or left in place. The
+ * best are refined by iterative closest points (Besl and McKay 1992) with a free scale. The score is the
+ * symmetric mean distance between the surfaces, so that a small input cannot hide in a large rig. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +12,11 @@
 
 enum { SAMPLES = 300, FIRST_SAMPLES = 40, KEPT = 4, PASSES = 12 };
 
-/* Farther is no worse, as a share of the rig's size. */
+/* Upper bound of a distance as a fraction of the rig's size. */
 static const double FARTHEST = 0.2;
-/* Farther away lies something else: another character, or what one holds. */
+/* Points farther away belong to another character or an object that one holds. */
 static const double BESIDE = 0.1;
-/* So much better, as a share, a later candidate has to be. */
+/* Minimum relative improvement by a later candidate. */
 static const double BETTER = 0.1;
 
 typedef struct candidate {
@@ -28,7 +27,7 @@ typedef struct candidate {
 typedef struct search {
   const sbfi_rigging *r;
   sbfi_surface_finder input, rig;
-  candidate best[KEPT]; /* the best first */
+  candidate best[KEPT]; /* best first */
   uint32_t count;
 } search;
 
@@ -41,7 +40,7 @@ static double distance_to(const sbfi_surface_finder *to, sbfi_d3 position, doubl
   return sbfi_surface_nearest(to, position, NULL, within, &near) ? near.distance : within;
 }
 
-/* Mean distance of the samples, as a share of the rig's size. */
+/* Mean distance of the samples as a fraction of the rig's size. */
 static double error_of(const search *s, const sbfi_matrix *m, uint32_t samples) {
   double size = s->r->rig.size, scale = sbfi_similarity_scale(m), sum = 0;
   sbfi_matrix back;
@@ -91,7 +90,7 @@ static void consider_all(search *s) {
   }
 }
 
-/* Draws the samples to the nearest surface. */
+/* Moves the samples towards the nearest surface. */
 static sbfi_matrix drawn(const search *s, sbfi_matrix m) {
   sbfi_d3 from[SAMPLES], to[SAMPLES];
   bool mirrored = sbfi_matrix_determinant(&m) < 0;

@@ -3,8 +3,8 @@
 #include "build/weights/body_rays.h"
 #include "import/rigging/similarity.h"
 
-/* In units of the longest side: where rays start below the surface; the thinnest that counts by its length.
- */
+/* As fractions of the longest side: depth below the surface at which rays start; minimum radius in the
+ * weight by length. */
 static const double BELOW = 1e-4, MIN_RADIUS = 0.02;
 
 static double area_of(const sbfi_weight_mesh *mesh, const uint32_t corners[3], sbfi_d3 *normal) {
@@ -15,7 +15,7 @@ static double area_of(const sbfi_weight_mesh *mesh, const uint32_t corners[3], s
   return sbfi_d3_length(n);
 }
 
-/* A point of a triangle; successive numbers spread over it. */
+/* Point of a triangle; successive numbers spread over it. */
 static sbfi_d3 point_on(const sbfi_weight_mesh *mesh, const uint32_t corners[3], uint32_t number) {
   double u = sqrt(fmod(0.5 + number * 0.7548776662466927, 1.0)),
          v = fmod(0.5 + number * 0.5698402909980532, 1.0);
@@ -26,7 +26,7 @@ static sbfi_d3 point_on(const sbfi_weight_mesh *mesh, const uint32_t corners[3],
   return sum;
 }
 
-/* Pieces that are not closed may face either way, and sheets enclose nothing. */
+/* Open pieces may face either direction, and sheets enclose nothing. */
 static bool find_inwards(const sbfi_body_rays *rays, sbfi_d3 at, sbfi_d3 normal, sbfi_d3 *inwards) {
   for (int sign = -1; sign <= 1; sign += 2) {
     *inwards = sbfi_d3_scale(normal, sign);

@@ -20,8 +20,8 @@ static void add_line(sbfi_bone_lines *s, const sbf_bone *bones, uint32_t child, 
   s->total += length;
 }
 
-/* Exporters mark the end of a limb's last bone as far away as their own setting says. Ends farther than any
- * two bones of the rig's limbs are apart are moved to the median distance. */
+/* Exporters place the end of a limb's last bone at a distance from their settings. Ends farther than the
+ * longest bone of the rig's limbs are moved to the median length. */
 static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *lengths) {
   const sbf_bone_list *bones = &r->c->asset->bones;
   const sbfi_weights_input in = {.bones = bones->at, .bone_count = bones->count};
@@ -38,7 +38,7 @@ static void shorten_ends(const sbfi_rigging *r, const bool *holds_skin, double *
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
     if (!sbfi_bone_is_end(&in, b) || !holds_skin[parent]) continue;
-    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* ours until the asset is handed out */
+    sbf_bone *end = (sbf_bone *)(uintptr_t)&bones->at[b]; /* the conversion owns the asset */
     sbf_bone *last = (sbf_bone *)(uintptr_t)&bones->at[parent];
     sbfi_d3 from = sbfi_d3_of(last->head), along = sbfi_d3_sub(sbfi_d3_of(end->head), from);
     double length = sbfi_d3_length(along);
@@ -63,7 +63,7 @@ bool sbfi_bone_lines_find(const sbfi_rigging *r, sbfi_bone_lines *s, sbfi_arena 
   const sbfi_weight_mesh space = {.scale = size > 0 ? 1 / size : 1};
   sbfi_bone_roles_find(&in, &space, NULL, holds_skin);
   shorten_ends(r, holds_skin, lengths);
-  uint32_t joined = 0; /* bones between two that hold skin */
+  uint32_t joined = 0; /* bones between two bones that have skin */
   for (uint32_t b = 0; b < bones->count; b++)
     joined += bones->at[b].parent != SBF_NONE && holds_skin[bones->at[b].parent] && holds_skin[b];
   for (uint32_t b = 0; b < bones->count; b++) {

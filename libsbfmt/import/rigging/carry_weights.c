@@ -1,30 +1,31 @@
-/* Weights of a mesh like the rig's own: edited, of another resolution, with clothes or hair.
+/* Transfers weights from the rig's own mesh to a similar one: edited, of another resolution, with clothes or
+ * hair.
  *
- * A point takes the weights of the nearest surface that faces as it does; where there is none near, as on a
- * brim or between legs that touch, weights spread along the input's own surface from the points that have
- * some (Abdrashitov, Raichstat, Monsen, Hill 2023). Pieces of which little lies on the rig's surface, as a
- * sword, or that stand on it, as a saddle, move with the one bone that they touch most. */
+ * A point takes the weights of the nearest surface that faces in its direction. If none is close, as on a
+ * brim or between legs in contact, weights spread along the input's own surface from points that have some
+ * (Abdrashitov, Raichstat, Monsen, Hill 2023). Pieces mostly away from the rig's surface, such as a sword,
+ * or standing on it, such as a saddle, follow the one bone that they touch most. */
 #include <math.h>
 
 #include "import/rigging/surface_finder.h"
 #include "import/rigging/surface_pieces.h"
 #include "import/rigging/weigh.h"
 
-/* As shares of the rig's size: the farthest surface that gives weights; how much farther than the nearest
- * surface one may be that faces right; how far from a piece's nearest point its others still touch. */
+/* As fractions of the rig's size: maximum distance of a surface that gives weights; how much farther than
+ * the nearest surface the one with the right direction may be; how much farther than a piece's nearest
+ * point others still count as touching. */
 static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
-/* The least share of a piece's points with weights for the others to follow them. */
+/* Minimum fraction of a piece's points with weights for the rest to inherit theirs. */
 static const double MIN_CARRIED = 0.4;
-/* The least share of a piece's points beside rigid pieces of one bone for all to follow it. */
+/* Minimum fraction of a piece's points near rigid pieces of one bone for all to follow it. */
 static const double MIN_RIGID = 0.75;
-/* The least share of an object's points beside meshes of the rig that no bone moves for it to hang as those.
- */
+/* Minimum fraction of an object's points near unskinned meshes of the rig for it to be attached like them. */
 static const double MIN_BARE = 0.9;
-/* A piece stands on the surface, instead of lying along it as clothes do, where so much of it faces the
- * surface and no more than so much lies along it, which is nearer than this share of the rig's size. It is
- * smaller than the rig. */
+/* A piece stands on the surface, instead of covering it as clothes do, if this fraction of it faces the
+ * surface and at most this fraction is parallel to it within a distance. Distance and maximum size of the
+ * piece are fractions of the rig's size. */
 static const double MIN_FACING = 0.2, MAX_ALONG = 0.35, ALONG = 0.01, MAX_STANDING = 0.6;
-/* By so much farther than one side of a thin part a sheet in its middle may lie from the other. */
+/* A sheet in the middle of a thin part may be this many times farther from one side than from the other. */
 static const double SHEET = 3;
 enum { SPREADING_PASSES = 100 };
 
@@ -32,13 +33,13 @@ typedef struct carrying {
   sbfi_rigging *r;
   const sbfi_scene_surface *moved;
   sbfi_surface_finder finder;
-  uint32_t *pieces; /* (points) the first point of the piece that each belongs to */
-  float *distances; /* (points) from the rig's surface */
-  int32_t *nearest; /* (points) node of the rigid piece of the rig that is nearest, or SBF_NONE */
-  int32_t *bare;    /* (points) node of the nearest mesh of the rig, where no bone moves it, or SBF_NONE */
-  int32_t *rigid;   /* (rig points) node that moves all of the piece alone, or SBF_NONE */
-  bool *is_stiff;   /* (points) of the first of each piece: rigid pieces of one bone move it */
-  uint8_t *stands;  /* (points) whether it faces the surface beside it, or lies along it */
+  uint32_t *pieces; /* (points) first point of the piece of each */
+  float *distances; /* (points) distance from the rig's surface */
+  int32_t *nearest; /* (points) node of the nearest rigid piece of the rig, or SBF_NONE */
+  int32_t *bare;    /* (points) node of the nearest mesh of the rig if no bone moves it, or SBF_NONE */
+  int32_t *rigid;   /* (rig points) node that alone moves the whole piece, or SBF_NONE */
+  bool *is_stiff;   /* (points) at the first point of each piece: rigid pieces of one bone move it */
+  uint8_t *stands;  /* (points) whether the point faces the nearby surface or is parallel to it */
   sbfi_arena *scratch;
 } carrying;
 
@@ -48,7 +49,7 @@ static bool is_open(const carrying *c, uint32_t point) {
   return c->r->sources[point] == SBFI_WEIGHTS_NONE;
 }
 
-/* Of each point of the rig the node that moves all of its piece alone, or SBF_NONE. */
+/* Finds, for each point of the rig, the node that alone moves its whole piece, or SBF_NONE. */
 static bool find_rigid_pieces(carrying *c) {
   const sbfi_scene_surface *s = &c->r->rig;
   const uint32_t *pieces = sbfi_surface_pieces(s, c->scratch);
@@ -66,7 +67,7 @@ static bool find_rigid_pieces(carrying *c) {
   return true;
 }
 
-/* Whether an object faces away from the rig's surface beside it. */
+/* Whether an object faces away from the rig's nearby surface. */
 static bool faces_away(const carrying *c, uint32_t mesh) {
   double sum = 0;
   uint32_t from = c->moved->mesh_starts[mesh], to = c->moved->mesh_starts[mesh + 1];
@@ -85,8 +86,8 @@ static const sbfi_scene_mesh *mesh_at(const carrying *c, uint32_t rig_point) {
   return mesh;
 }
 
-/* As where the rig's own mesh is converted: a point of a skin that has no weights follows the mesh's node or
- * the root. */
+/* Same rule as in the conversion of the rig's own mesh: a skin point without weights follows the mesh's
+ * node or the root. */
 static void add_home(const carrying *c, uint32_t rig_point, double factor, sbfi_influences *to) {
   const sbfi_scene_mesh *mesh = mesh_at(c, rig_point);
   if (!mesh->joint_count) return;
@@ -110,7 +111,7 @@ static void take_weights(carrying *c, uint32_t point, sbfi_influences *weights) 
   if (weights->at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
 }
 
-/* A thin part of the rig that became a sheet in its middle: both of its sides, the nearer one more. */
+/* For a thin part of the rig that the input has as a sheet: blends both sides, the nearer one more. */
 static void carry_sheet(carrying *c, uint32_t point, sbfi_d3 position, const sbfi_surface_location *near) {
   double size = c->r->rig.size, min = 1e-6 * size;
   sbfi_d3 back = sbfi_d3_scale(sbfi_surface_normal(&c->r->rig, near), -1);
@@ -156,7 +157,7 @@ static void carry_point(carrying *c, uint32_t point, double sign) {
 
 /* --- Where no surface near faces as the point does ----------------------------------------------------- */
 
-/* The mean of the neighbours' weights, near ones more; false where none has any. */
+/* Mean of the neighbours' weights by proximity; false if none has weights. */
 static bool mean_of_neighbours(const carrying *c, uint32_t point, sbfi_influences *to) {
   const sbfi_scene_surface *s = c->moved;
   sbfi_d3 here = sbfi_d3_of(s->mesh.positions.at[point]);
@@ -172,9 +173,9 @@ static bool mean_of_neighbours(const carrying *c, uint32_t point, sbfi_influence
   return to->at[0].weight > 0;
 }
 
-/* Points unlike all around them found a surface that is not theirs. */
+/* Drops points unlike all neighbours: they matched a surface of another part. */
 static bool drop_outliers(carrying *c) {
-  static const double unlike = 0.4; /* of 1: nothing in common is 0 */
+  static const double unlike = 0.4; /* of 1; 0: nothing in common */
   uint32_t count = c->moved->mesh.positions.count;
   bool *outlier = sbfi_arena_allocate(c->scratch, count + 1, sizeof *outlier);
   if (!outlier) return false;
@@ -197,7 +198,8 @@ static bool drop_outliers(carrying *c) {
   return true;
 }
 
-/* Weights of open points become means of those around them, to and fro, so that news travels both ways. */
+/* Sets weights of open points to means of their neighbours, in alternating order, so that they spread in
+ * both directions. */
 static bool spread(carrying *c) {
   uint32_t count = c->moved->mesh.positions.count, open_count = 0;
   uint32_t *open = sbfi_arena_allocate(c->scratch, count + 1, sizeof *open);
@@ -219,10 +221,10 @@ static bool spread(carrying *c) {
 
 typedef struct piece {
   uint32_t points, weighted;
-  uint32_t facing, along; /* points that face the rig's surface, and that lie along it */
-  float nearest;          /* to the rig's surface */
+  uint32_t facing, along; /* points that face the rig's surface, and points parallel to it */
+  float nearest;          /* distance to the rig's surface */
   sbf_vec3 low, high;
-  bool is_stiff; /* it has its bone */
+  bool is_stiff; /* it already has a bone */
   sbfi_influences touched;
 } piece;
 
@@ -232,7 +234,7 @@ static void widen(piece *p, sbf_vec3 at) {
   p->high = first ? at : (sbf_vec3){fmaxf(p->high.x, at.x), fmaxf(p->high.y, at.y), fmaxf(p->high.z, at.z)};
 }
 
-/* Whether it is a thing of its own that no bone bends. */
+/* Whether the piece is a separate rigid object. */
 static bool is_attached(const carrying *c, const piece *p) {
   double length = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(p->high), sbfi_d3_of(p->low)));
   if (p->weighted < MIN_CARRIED * p->points) return true;
@@ -293,11 +295,11 @@ static bool attach_pieces(carrying *c) {
 typedef struct vote {
   uint32_t points, agreed;
   int32_t node;
-  int32_t lead; /* of the node over all others */
+  int32_t lead; /* votes of the leading node over all others */
 } vote;
 
-/* A piece that lies on rigid pieces of one bone moves with that alone, also where another's surface is nearer
- * (majority by Boyer and Moore 1981). */
+/* A piece on rigid pieces of one bone follows that bone alone, even if another surface is nearer (majority
+ * vote by Boyer and Moore 1981). */
 static bool stiffen_pieces(carrying *c) {
   uint32_t count = c->moved->mesh.positions.count;
   vote *votes = sbfi_arena_allocate(c->scratch, (size_t)count + 1, sizeof *votes);
@@ -328,7 +330,7 @@ static double weighted_fraction(const sbfi_rigging *r) {
   return count ? (double)weighted / count : 0;
 }
 
-/* Of an object that lies on meshes of the rig that no bone moves, the node of one; else SBF_NONE. */
+/* Node of an unskinned rig mesh on which the object lies; SBF_NONE if there is none. */
 static int32_t bare_node_of(const carrying *c, uint32_t mesh) {
   uint32_t from = c->r->input.mesh_starts[mesh], to = c->r->input.mesh_starts[mesh + 1], on = 0;
   int32_t node = SBF_NONE;
@@ -350,7 +352,7 @@ static void carry_objects(carrying *c) {
   sbfi_rigging *r = c->r;
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
     bool away = faces_away(c, m), mirrored = sbfi_matrix_determinant(&r->alignment.to_asset) < 0;
-    r->turned[m] = away != mirrored; /* a mirrored mesh is turned later in any case */
+    r->turned[m] = away != mirrored; /* a mirrored mesh is flipped later anyway */
     if (r->carriers[m] != SBF_NONE) continue;
     for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
       if (is_open(c, i)) carry_point(c, i, away ? -1 : 1);
@@ -374,7 +376,7 @@ bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, do
   bool good = c.distances && c.nearest && c.bare && c.pieces && c.is_stiff && c.stands &&
               find_rigid_pieces(&c) && sbfi_surface_finder_make(&c.finder, &r->rig, &scratch);
   for (uint32_t i = 0; good && i < count; i++) c.bare[i] = SBF_NONE;
-  for (uint32_t i = 0; good && i < count; i++) /* points by place have the node that they have */
+  for (uint32_t i = 0; good && i < count; i++) /* points matched by position keep their node */
     c.nearest[i] = r->weights[i].at[0].weight > 0 && r->weights[i].at[1].weight <= 0
                        ? (int32_t)r->weights[i].at[0].node
                        : SBF_NONE;

@@ -1,6 +1,6 @@
-/* The shape of a surface is told by numbers that no unit, axes, mirroring, order or splitting of points
- * changes: its area and the principal moments of it, one by another. They are compared at each frame of each
- * clip, and around the most alike between frames. */
+/* Compares shapes of surfaces by numbers that do not depend on unit, axes, mirroring, order or splitting
+ * of points: area and ratios of principal moments. Compares each frame of each clip, and searches between
+ * frames around the best ones. */
 #include "import/rigging/clip_moments.h"
 
 #include <math.h>
@@ -11,14 +11,14 @@
 #include "mechanics/symmetric_eigen.h"
 #include "motion/turn.h"
 
-/* s, of a frame; the longest step where there are many. Points to pose in all; frames to look around, and
- * steps of that. */
+/* Step between frames, s; it is longer if the limit of posed points needs it. Frames to search around, and
+ * search steps. */
 static const double FRAME = 1.0 / 24, MAX_POINTS = 1e7;
 enum { LOOKED_AT = 8, REFINED = 18 };
-/* The greatest difference that is worth a comparison of points, that between two frames that is, and what is
- * no difference. Points without weights lie anywhere. */
+/* Maximum difference at a frame for a search around it; maximum difference for a comparison of points;
+ * difference that counts as equal. Points without weights can be anywhere. */
 static const double ALIKE = 0.03, ALIKE_BETWEEN = 2e-3, SAME = 1e-6;
-/* Of the numbers of triangles: programs drop some that are flat or double. */
+/* Relative tolerance of triangle counts: programs drop some flat or duplicate triangles. */
 static const double SAME_COUNT = 0.01;
 
 typedef struct shape {
@@ -31,13 +31,13 @@ typedef struct search {
   sbfi_scene_node *nodes;
   sbfi_matrix *worlds, *motions;
   sbf_vec3 *positions;
-  sbfi_clip_moment best[LOOKED_AT]; /* the most alike first */
+  sbfi_clip_moment best[LOOKED_AT]; /* best first */
   uint32_t count;
 } search;
 
 /* --- Shapes -------------------------------------------------------------------------------------------- */
 
-/* Area, its first moments and its second moments about the origin, of a triangle. */
+/* Adds area, first and second moments of a triangle about the origin. */
 static void add_triangle(sbfi_d3 a, sbfi_d3 b, sbfi_d3 c, double sums[10]) {
   double area = 0.5 * sbfi_d3_length(sbfi_d3_cross(sbfi_d3_sub(b, a), sbfi_d3_sub(c, a)));
   const double p[3][3] = {{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}};
@@ -83,7 +83,7 @@ static uint32_t count_triangles(const sbfi_scene_surface *surface) {
 
 /* --- Moments of a clip --------------------------------------------------------------------------------- */
 
-/* The key before a time, and how far it is to the next one. */
+/* Index of the last key before a time, and the fraction towards the next one. */
 static uint32_t key_before(const float *times, uint32_t count, double time, double *t) {
   uint32_t at = 0;
   while (at + 1 < count && (double)times[at + 1] <= time) at++;
@@ -140,7 +140,7 @@ static void keep(search *s, sbfi_clip_moment pose) {
   if (at < LOOKED_AT) s->best[at] = pose;
 }
 
-/* Frames that are more alike than those before and after. */
+/* Keeps frames that are local minima. */
 static void measure_clip(search *s, const sbfi_scene_clip *clip, double step) {
   double before = INFINITY, here = INFINITY;
   uint32_t frames = (uint32_t)((double)clip->duration_s / step) + 1;
@@ -152,7 +152,7 @@ static void measure_clip(search *s, const sbfi_scene_clip *clip, double step) {
   }
 }
 
-/* Between the frames on both sides, by the golden section. */
+/* Golden section search between the neighbouring frames. */
 static void refine(search *s, sbfi_clip_moment *pose, double step) {
   const double part = 0.6180339887498949;
   double low = fmax(pose->time_s - step, 0), high = fmin(pose->time_s + step, (double)pose->clip->duration_s);

@@ -15,7 +15,7 @@ static int compare_points(const sbf_vec3 *a, const sbf_vec3 *b) {
   return a->z == b->z ? 0 : a->z < b->z ? -1 : 1;
 }
 
-/* Whether the mesh hangs as a mesh of the rig does, and is of a form that keeps no vertices of its own. */
+/* Whether the mesh is attached like a mesh of the rig, and its format has no vertices of its own. */
 static bool is_piece(const sbfi_rigging *r, uint32_t mesh) {
   if (r->carriers[mesh] == SBF_NONE || r->input.scene->meshes[mesh].corner_vertices) return false;
   for (uint32_t m = 0; m < r->rig.scene->mesh_count; m++)
@@ -26,7 +26,7 @@ static bool is_piece(const sbfi_rigging *r, uint32_t mesh) {
 /* --- Which of them belong together --------------------------------------------------------------------- */
 
 typedef struct side {
-  sbf_vec3 ends[2]; /* the lower first */
+  sbf_vec3 ends[2]; /* the smaller one first */
   uint32_t mesh;
 } side;
 
@@ -51,7 +51,7 @@ static uint32_t add_sides(const sbfi_scene_mesh *mesh, uint32_t number, side *to
   return count;
 }
 
-/* Sides that an odd number of a piece's polygons have are its border. */
+/* Edges that an odd number of a piece's polygons share are its border. */
 static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
   const sbfi_scene *scene = r->input.scene;
   size_t total = 0, count = 0;
@@ -62,7 +62,7 @@ static bool join_along_borders(const sbfi_rigging *r, uint32_t *sets) {
   for (uint32_t m = 0; m < scene->mesh_count; m++)
     if (is_piece(r, m)) count += add_sides(&scene->meshes[m], m, sides + count);
   qsort(sides, count, sizeof *sides, compare_sides);
-  uint32_t last = UINT32_MAX; /* the piece before with a border here */
+  uint32_t last = UINT32_MAX; /* the previous piece with a border here */
   for (size_t i = 0, end; i < count; i = end) {
     bool same = i > 0 && compare_points(&sides[i].ends[0], &sides[i - 1].ends[0]) == 0 &&
                 compare_points(&sides[i].ends[1], &sides[i - 1].ends[1]) == 0;
@@ -87,7 +87,7 @@ static void join_those_by_position(const sbfi_rigging *r, uint32_t *sets) {
 typedef struct piece_point {
   sbf_vec3 at;
   uint32_t source, mesh, local;
-  uint32_t rank; /* among points of its piece in this place, which stay apart */
+  uint32_t rank; /* rank among points of its piece at this position, which stay separate */
 } piece_point;
 
 static int compare_numbers(uint32_t a, uint32_t b) {
@@ -101,7 +101,7 @@ static int compare_by_piece(const void *a, const void *b) {
   return order ? order : compare_numbers(x->source, y->source);
 }
 
-/* Points that become one stand side by side, the first of the file in front. */
+/* Sorts points that will be merged next to each other, in file order. */
 static int compare_by_rank(const void *a, const void *b) {
   const piece_point *x = a, *y = b;
   int order = compare_points(&x->at, &y->at);
@@ -129,16 +129,16 @@ static void rank_points(piece_point *all, uint32_t count) {
 typedef struct joining {
   const sbfi_rigging *r;
   const uint32_t *sets;
-  const sbfi_scene_mesh *meshes; /* before they are joined */
+  const sbfi_scene_mesh *meshes; /* before the merge */
   uint32_t mesh_count, root;
-  uint32_t **points; /* (meshes) new numbers of the points of each */
+  uint32_t **points; /* (meshes) new indices of each mesh's points */
 } joining;
 
 static bool is_of(const joining *j, uint32_t mesh) {
   return j->sets[mesh] == j->root && is_piece(j->r, mesh);
 }
 
-/* Points of several pieces in one place become one, in the order of the file. */
+/* Merges points of several pieces at one position, in file order. */
 static bool join_points(joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++) total += is_of(j, m) ? j->meshes[m].point_count : 0;
@@ -174,7 +174,8 @@ static bool join_points(joining *j, sbfi_scene_mesh *to) {
   return true;
 }
 
-/* Numbers of corners in a list of values that grew by `offset`; SBF_NONE where the piece has no such list. */
+/* Copies indices of corners into a list of values that grew by `offset`; SBF_NONE if the piece has no such
+ * list. */
 static void copy_corners(const int32_t *from, uint32_t count, uint32_t offset, int32_t *to) {
   for (uint32_t i = 0; i < count; i++)
     to[i] = from && from[i] != SBF_NONE ? from[i] + (int32_t)offset : SBF_NONE;
@@ -240,7 +241,7 @@ static bool join_colors(const joining *j, sbfi_scene_mesh *to) {
   return true;
 }
 
-/* An OBJ has one set at most. */
+/* An OBJ has at most one set. */
 static bool join_uvs(const joining *j, sbfi_scene_mesh *to) {
   uint32_t total = 0, count = 0, corner = 0;
   for (uint32_t m = 0; m < j->mesh_count; m++)

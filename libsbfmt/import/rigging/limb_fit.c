@@ -1,6 +1,6 @@
-/* Limb by limb, from the trunk to the tips: of many directions the one is taken in which a limb lies best in
- * parts of the body that no other bone lies in. Then all joints of turned limbs turn in ever smaller steps.
- */
+/* Fits limbs one by one, from the trunk to the tips. Among many directions it chooses the one in which a
+ * limb best fits parts of the body without other bones. Then it refines all joints of rotated limbs in
+ * decreasing steps. */
 #include "import/rigging/limb_fit.h"
 
 #include <string.h>
@@ -11,25 +11,30 @@
 
 enum { DIRECTIONS = 300, MAX_SAMPLES = 8, ROUNDS = 24, DESCENTS = 3 };
 
-/* In shares of the size: how far from a bone the middle of a part is that has none, and from the body a bone
- * that is outside; how far apart samples along bones are; how short bones are not looked at. */
+/* As fractions of the size: distance from a bone at which the centre of a part counts as having none;
+ * distance at which a bone counts as outside the body; spacing of samples along bones; minimum length of
+ * bones. */
 static const double UNCOVERED = 0.1, OUTSIDE = 0.05, SPACING = 0.03, SHORTEST = 0.012;
-/* Of the radius: bones lie so far from the middle of their body, and so near to a part of it. */
+/* As fractions of the radius: usual distance of bones from the centre of their body; distance within which
+ * a part is occupied. */
 static const double OFF_CENTRE = 0.6, WITHIN = 0.9;
-/* A limb is no more than this share of all bones, and reaches so far. */
+/* Maximum fraction of all bones in a limb; minimum reach of a limb. */
 static const double MAX_LIMB = 0.45, MIN_REACH = 0.06;
-/* Cosine of the widest turn. */
+/* Minimum cosine of the rotation of a limb. */
 static const double FARTHEST = 0.1;
-/* All by the limb's share of the bones: costs of a turn, by its square and, of later joints, by itself; what
- * a turn has to save; where the limb of the other side has turned; and in the middle of a symmetric body. */
+/* All relative to the limb's fraction of the bones: cost of a rotation by its squared angle and, for later
+ * joints, by its angle; minimum gain by a rotation; the same if the limb on the other side rotated; the
+ * same in the middle of a symmetric body. */
 static const double PER_RADIAN2 = 0.15, PER_RADIAN_OF_LATER = 0.05, GAIN = 0.2, GAIN_OF_TWIN = 0.1,
                     GAIN_IN_MIDDLE = 0.7;
-static const double MIN_ANGLE = 0.07; /* rad, that a later joint turns */
-/* So near in length, as a share, limbs of both sides are. */
+static const double MIN_ANGLE = 0.07; /* rad, minimum rotation of a later joint */
+/* Relative tolerance for the lengths of limbs on both sides. */
 static const double TWIN = 0.15;
-/* A bone on which so much of a limb hangs turns instead, where that saves so much. */
+/* A child bone with this fraction of the limb rotates instead if its cost relative to the parent's is
+ * below TIE. */
 static const double CHAIN = 0.6, TIE = 0.995;
-/* Of a bone along its own y, and of a tail by the length of the bone before. */
+/* Minimum cosine for a bone along its own y; length of a tail relative to the bone before, and its
+ * maximum. */
 static const double ALONG = 0.9, TAIL = 0.5, LONGEST_TAIL = 2;
 
 static sbfi_d3 head_of(const sbfi_limb_fit *f, uint32_t bone) {
@@ -45,18 +50,18 @@ static double squared_distance(const sbfi_bone_line *line, sbfi_d3 p) {
 
 /* --- Cost ---------------------------------------------------------------------------------------------- */
 
-/* Of a part of the body whose nearest bone is so far from its middle: little within the body. */
+/* Cost of a part of the body by the distance from its centre to the nearest bone; small within the body. */
 static double cost_of_distance(const sbfi_limb_fit *f, const sbfi_core_point *p, double distance) {
   double beyond = distance * distance / (distance + OFF_CENTRE * p->radius + 1e-9 * f->size);
   return p->weight * fmin(beyond / (UNCOVERED * f->size), 1);
 }
 
-/* A length's share of all bones: one of the middle, beside one of two sides, counts half. */
+/* Fraction of all bones for a length. A middle bone counts half, because only one of two sides is fitted. */
 static double fraction_of(const sbfi_limb_fit *f, uint32_t bone, double length) {
   return (f->is_middle && f->is_middle[bone] ? 0.5 : 1) * length / f->posed.total;
 }
 
-/* Of bone that lies outside the body. */
+/* Cost of a bone outside the body. */
 static double cost_of_line(const sbfi_limb_fit *f, const sbfi_bone_line *line) {
   double wanted = line->length / (SPACING * f->size), sum = 0;
   if (line->length < SHORTEST * f->size || line->is_tail) return 0;
@@ -87,7 +92,7 @@ static double whole_cost(const sbfi_limb_fit *f) {
   return sum;
 }
 
-/* Of all the body and the limb at hand, turned about its joint. */
+/* Cost of the whole body with the current limb rotated about its joint. */
 static double cost_of_turn(const sbfi_limb_fit *f, sbfi_d3 joint, const double rotation[4]) {
   sbfi_matrix turn = sbfi_rotation_about(rotation, joint);
   sbfi_bone_line *lines = f->turned_lines;
@@ -110,8 +115,7 @@ static double cost_of_turn(const sbfi_limb_fit *f, sbfi_d3 joint, const double r
 
 /* --- Limbs --------------------------------------------------------------------------------------------- */
 
-/* The limb that a bone carries: its length; the direction in which it reaches; false where it is too large
- * or too small to be turned. */
+/* Selects the limb of a bone: its length and direction. False if it is too large or too small to rotate. */
 static bool take_limb(sbfi_limb_fit *f, uint32_t first, double *length, sbfi_d3 *direction) {
   double farthest = 0;
   sbfi_d3 joint = head_of(f, first);
@@ -160,13 +164,13 @@ static void turn_between(sbfi_d3 from, sbfi_d3 to, double rotation[4]) {
   sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, rotation);
 }
 
-/* What a turn costs itself. */
+/* Cost of a rotation itself. */
 static double cost_of_angle(double fraction, const double rotation[4]) {
   double sine = sqrt(fmax(1 - rotation[3] * rotation[3], 0)); /* of half the angle */
   return fraction * PER_RADIAN2 * 4 * sine * sine;
 }
 
-/* The best of all directions, then the best of those around it. */
+/* Tries all directions, then those around the best. */
 static double find_turn(const sbfi_limb_fit *f, sbfi_d3 joint, sbfi_d3 direction, double fraction,
     bool in_plane, const sbfi_d3 *directions, double best_turn[4]) {
   double best = INFINITY, step = 0.1;
@@ -203,7 +207,7 @@ static double find_turn_of(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *direc
       f, head_of(f, bone), direction, fraction_of(f, bone, *length), in_plane, directions, rotation);
 }
 
-/* Whether a bone on the way to nearly all of a limb turns as well: collarbones lie still. */
+/* Whether a child that carries nearly the whole limb should rotate instead: collarbones rarely move. */
 static bool is_child_better(
     sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directions, double length, double saved) {
   double rotation[4], child_length, before;
@@ -217,7 +221,7 @@ static bool is_child_better(
   return false;
 }
 
-/* Whether a limb as long on the other side has turned. */
+/* Whether a limb of equal length on the other side has been rotated. */
 static bool has_turned_twin(const sbfi_limb_fit *f, uint32_t bone, double length) {
   int side = sbfi_name_side(f->bones[bone].name);
   for (uint32_t b = 0; side && b < f->bone_count; b++)
@@ -233,7 +237,7 @@ static bool is_below_turned(const sbfi_limb_fit *f, uint32_t bone) {
   return false;
 }
 
-/* Whether it is a part of the trunk of a symmetric body, of which the limbs tell where it lies. */
+/* Whether the bone is in the trunk of a symmetric body; the limbs determine its position. */
 static bool carries_limbs(const sbfi_limb_fit *f, uint32_t bone) {
   for (uint32_t k = 0; f->is_middle && f->is_middle[bone] && k < f->rest.count; k++) {
     int32_t b = (int32_t)f->rest.at[k].child;
@@ -244,7 +248,7 @@ static bool carries_limbs(const sbfi_limb_fit *f, uint32_t bone) {
   return false;
 }
 
-/* Turns a limb where that saves enough. */
+/* Rotates a limb if the gain is sufficient. */
 static void search_bone(sbfi_limb_fit *f, uint32_t bone, const sbfi_d3 *directions, bool as_twin) {
   double rotation[4], length, before;
   sbfi_d3 direction;
@@ -272,7 +276,7 @@ static void search(sbfi_limb_fit *f) {
 
 /* --- All joints of turned limbs ------------------------------------------------------------------------ */
 
-/* Of a turn against the parent: twice the sine of half the angle, the same bits on every machine. */
+/* Rotation relative to the parent: twice the sine of half the angle, which is identical on all machines. */
 static double angle_of(const sbfi_limb_fit *f, uint32_t bone, const sbfi_matrix *motion) {
   sbfi_matrix above = sbfi_matrix_identity(), by;
   if (f->bones[bone].parent != SBF_NONE && !sbfi_matrix_invert(&f->motions[f->bones[bone].parent], &above))
@@ -282,7 +286,7 @@ static double angle_of(const sbfi_limb_fit *f, uint32_t bone, const sbfi_matrix 
   return sqrt(fmin(fmax(2 - 2 * cosine, 0), 4));
 }
 
-/* Joints further along a limb stay straight where turning them saves little. */
+/* Later joints of a limb stay straight if rotating them gains little. */
 static double cost_of_pose(const sbfi_limb_fit *f, uint32_t bone, double length, const double rotation[4]) {
   sbfi_matrix motion = sbfi_rotation_about(rotation, head_of(f, bone));
   motion = sbfi_matrix_multiply(&motion, &f->motions[bone]);
@@ -314,7 +318,7 @@ static void move_body(sbfi_limb_fit *f, sbfi_d3 by) {
     f->core.points[i].position = sbfi_d3_add(f->core.points[i].position, by);
 }
 
-/* The position of the whole. */
+/* Refines the offset of the whole rig. */
 static void descend_offset(sbfi_limb_fit *f, double step) {
   double best = whole_cost(f);
   for (int k = f->is_middle ? 2 : 0; k < 6; k++) {
@@ -338,7 +342,7 @@ static void descend(sbfi_limb_fit *f) {
     }
 }
 
-/* Takes the turn of a joint back, to the last bit. */
+/* Removes the rotation of a joint exactly. */
 static void straighten(sbfi_limb_fit *f, uint32_t bone) {
   const sbfi_matrix above = f->motions[f->bones[bone].parent], old = f->motions[bone];
   sbfi_matrix back;
@@ -359,7 +363,7 @@ static void straighten(sbfi_limb_fit *f, uint32_t bone) {
   }
 }
 
-/* Small turns of later joints say nothing. */
+/* Removes small rotations of later joints, which are noise. */
 static void straighten_later(sbfi_limb_fit *f) {
   for (uint32_t b = 0; b < f->bone_count; b++)
     if (is_below_turned(f, b) && !f->is_turned[b] && angle_of(f, b, &f->motions[b]) < MIN_ANGLE)
@@ -391,7 +395,7 @@ static sbfi_d3 axis_of(sbf_quat q) {
   return sbfi_d3_normal((sbfi_d3){2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)});
 }
 
-/* Whether most bones point along their own y, as those of some programs do. */
+/* Whether most bones point along their own y axis, as in some programs. */
 static bool points_along_y(const sbfi_limb_fit *f) {
   uint32_t along = 0;
   for (uint32_t k = 0; k < f->rest.count; k++) {
@@ -402,7 +406,7 @@ static bool points_along_y(const sbfi_limb_fit *f) {
   return 2 * along > f->rest.count;
 }
 
-/* Hands, feet and heads go on beyond the last joint. */
+/* Extends hands, feet and heads beyond the last joint. */
 static void add_tails(sbfi_limb_fit *f) {
   bool own = points_along_y(f);
   for (uint32_t k = 0; k < f->rest.count; k++) {

@@ -1,5 +1,5 @@
-/* The limbs of one side are fitted to both halves of the body at once: the other half is mirrored onto it. A
- * rig that was saved in mid-stride stands otherwise on both sides, so that each is tried for both. */
+/* Fits the limbs of one side to both halves of the body at once, with the other half mirrored onto it. The
+ * sides of a rig saved in mid stride differ, so each pose is tried for both sides. */
 #include "import/rigging/limb_symmetry.h"
 
 #include <stdlib.h>
@@ -10,12 +10,12 @@
 
 enum { SAMPLES = 400, MIDDLES = 64 };
 
-/* As shares of the input's longest side: so near to the surface the mirror images of points lie, and bones of
- * the middle to the plane; so far one limb of a pair from the other's image. */
+/* As fractions of the input's longest side: tolerance of mirrored points, tolerance of middle bones, and
+ * minimum asymmetry of a pair of limbs. */
 static const double NEAR = 0.01, MIDDLE = 0.1, ASKEW = 0.03;
-/* The least share of points whose mirror images do. */
+/* Minimum fraction of points within the tolerance. */
 static const double MIN_ALIKE = 0.85;
-/* rad, that a bone of the other side turns to become the mirror image. */
+/* Minimum rotation, rad, of a bone of the other side onto the mirror image. */
 static const double MIN_ANGLE = 0.07;
 
 /* --- Twins --------------------------------------------------------------------------------------------- */
@@ -31,7 +31,7 @@ static size_t length_of_word(const char *text, const char *word) {
   return length;
 }
 
-/* The length of the word or letter for a side at the start of a text, left or right; 0 where it has none. */
+/* Length of a leading word or letter for the left or right side; 0 if there is none. */
 static size_t length_of_side(const char *text, bool left) {
   size_t length = length_of_word(text, left ? "left" : "right");
   return length ? length : length_of_word(text, left ? "l" : "r");
@@ -49,7 +49,7 @@ static bool differ_by_side(const char *a, const char *b) {
   return true;
 }
 
-/* What hangs on a limb is of its side, whatever its name says. */
+/* Descendants of a limb belong to its side, whatever their names. */
 static void find_sides(sbfi_limb_symmetry *s, const sbf_bone_list *bones) {
   for (uint32_t b = 0; b < bones->count; b++) {
     int32_t parent = bones->at[b].parent;
@@ -58,7 +58,7 @@ static void find_sides(sbfi_limb_symmetry *s, const sbf_bone_list *bones) {
   }
 }
 
-/* Among the bones that hang on the twin of its parent. */
+/* Searches among the children of the parent's twin. */
 static int32_t twin_of(const sbfi_limb_symmetry *s, const sbf_bone_list *bones, uint32_t bone) {
   int32_t parent = bones->at[bone].parent, above = parent == SBF_NONE ? SBF_NONE : s->twins[parent];
   if (!s->sides[bone]) return (int32_t)bone;
@@ -100,7 +100,7 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The median of the middles between twins: what one side alone carries leaves it where it is. */
+/* Median of the centres between twins, which is robust to objects on one side. */
 static double plane_between_twins(const sbfi_limb_symmetry *s) {
   const sbf_bone *bones = s->r->c->asset->bones.at;
   double middles[MIDDLES];
@@ -139,7 +139,7 @@ static bool is_middle_near(const sbfi_limb_symmetry *s, double plane, double wit
   return true;
 }
 
-/* Whether the limbs of the rig's two sides stand otherwise, as in mid-stride. */
+/* Whether the limbs of the rig's two sides are posed differently, as in mid stride. */
 static bool is_rig_askew(const sbfi_limb_symmetry *s, double size) {
   const sbf_bone *bones = s->r->c->asset->bones.at;
   double plane = plane_between_twins(s), farthest = 0;
@@ -179,13 +179,13 @@ static sbfi_matrix translation(sbfi_d3 by) {
   return m;
 }
 
-/* Of a side; the middle lies in the plane. */
+/* Copies the lines of one side; the middle is in the plane. */
 static bool take_lines(const sbfi_limb_symmetry *s, int side, sbfi_bone_lines *own, sbfi_arena *arena) {
   *own = *s->lines;
   own->at = sbfi_arena_allocate(arena, (size_t)s->lines->count + 1, sizeof *own->at);
   if (!own->at) return false;
   own->count = 0;
-  own->total = 0.5 * s->lines->total; /* each limb of two counts as much of all as both of them */
+  own->total = 0.5 * s->lines->total; /* each of two limbs counts as much as both do in all lines */
   for (uint32_t k = 0; k < s->lines->count; k++) {
     const sbfi_bone_line *line = &s->lines->at[k];
     if (s->sides[line->bone] == -side || s->sides[line->child] == -side) continue;
@@ -194,7 +194,7 @@ static bool take_lines(const sbfi_limb_symmetry *s, int side, sbfi_bone_lines *o
   return true;
 }
 
-/* The body's half of the other side onto this one. */
+/* Mirrors the other half of the body onto this side. */
 static void fold_core(const sbfi_limb_symmetry *s, double plane, int side, sbfi_body_core *core) {
   const sbf_bone_list bones = s->r->c->asset->bones;
   double sum = 0;
@@ -214,7 +214,7 @@ static sbfi_d3 direction_of(const sbfi_limb_symmetry *s, uint32_t bone) {
   return (sbfi_d3){0, 0, 0};
 }
 
-/* Takes a bone at rest to the mirror image of its twin at rest. */
+/* Motion of a bone at rest to the mirror image of its twin at rest. */
 static sbfi_matrix motion_to_twin(
     const sbfi_limb_symmetry *s, uint32_t bone, double plane, const double above[4], double rotation[4]) {
   const sbf_bone *bones = s->r->c->asset->bones.at;
@@ -237,7 +237,7 @@ static sbfi_matrix mirrored_motion(const sbfi_matrix *motion, double plane) {
   return sbfi_matrix_multiply(&mirror, &m);
 }
 
-/* The pose of all bones from that of one side. */
+/* Computes the pose of all bones from that of one side. */
 static bool take_both(const sbfi_limb_symmetry *s, double plane, int side, const sbfi_limb_fit *half,
     sbfi_limb_fit *f, sbfi_arena *arena) {
   double(*turns)[4] = sbfi_arena_allocate(arena, (size_t)f->bone_count + 1, sizeof *turns);

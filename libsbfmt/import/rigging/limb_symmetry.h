@@ -1,4 +1,4 @@
-/* Poses of a rig in an input whose two sides are alike: limbs of both sides turn as mirror images. */
+/* Symmetric poses of a rig: limbs of both sides rotate as mirror images. */
 #ifndef SBFI_LIMB_SYMMETRY_H
 #define SBFI_LIMB_SYMMETRY_H
 
@@ -8,22 +8,22 @@
 typedef struct sbfi_limb_symmetry {
   const sbfi_rigging *r;
   const sbfi_bone_lines *lines;
-  int32_t *twins; /* (bones) of the other side; itself in the middle; SBF_NONE where it has none */
+  int32_t *twins; /* (bones) twin on the other side; the bone itself in the middle; SBF_NONE if it has none */
   int8_t *sides;  /* (bones) 1 left, -1 right, 0 in the middle */
-  bool has_twins; /* all bones that lie in a body have one, and some of the other side */
+  bool has_twins; /* all bones inside a body have a twin, and some are on a side */
   sbfi_surface_finder finder; /* of the input, in its own space */
 } sbfi_limb_symmetry;
 
-/* By the names of bones. Memory of `arena`; false where it runs out. */
+/* Pairs bones by name. Allocates from `arena`; false if memory runs out. */
 bool sbfi_limb_symmetry_find(
     sbfi_limb_symmetry *s, const sbfi_rigging *r, const sbfi_bone_lines *lines, sbfi_arena *arena);
 
-/* Whether the input, laid over the rig by the alignment at hand, is its own mirror image in x about `plane`.
- */
+/* Whether the input in the current alignment is its own mirror image in x about `plane`. */
 bool sbfi_limb_symmetry_holds(const sbfi_limb_symmetry *s, double *plane);
 
-/* Fits the limbs of one side, 1 left or -1 right, and the middle to the input, from the rig's pose of that
- * side, and turns those of the other side alike. Memory of `arena`; false where it runs out. */
+/* Fits the limbs of one side (1 left, -1 right) and the middle to the input, starting from the rig's pose
+ * of that side, and mirrors the result to the other side. Allocates from `arena`; false if memory runs
+ * out. */
 bool sbfi_limb_symmetry_search(sbfi_limb_symmetry *s, double plane, int side, const sbfi_body_core *core,
     sbfi_limb_fit *f, sbfi_arena *arena);
 

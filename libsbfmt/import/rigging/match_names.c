@@ -3,7 +3,7 @@
 
 #include "import/rigging/weigh.h"
 
-/* How well an object's name stands for a mesh node of the rig; 0: not at all. Blender's OBJ names an object
+/* Score of an object's name as that of a mesh node of the rig; 0: no match. Blender's OBJ names an object
  * `<object>_<data block>`. */
 static int name_score(const char *object, const char *node, const char *data) {
   size_t length = strlen(node);
@@ -25,8 +25,8 @@ static void middle_of(
   for (int k = 0; k < 3 && to > from; k++) middle[k] /= to - from;
 }
 
-/* The rig's mesh that an object stands for: the best name, of equals the nearest, which is `*distance` away;
- * SBF_NONE where none fits. */
+/* Finds the rig's mesh with the best matching name, the nearest if equal; `*distance` is its distance.
+ * SBF_NONE if none matches. */
 static int32_t find_namesake(
     const sbfi_rigging *r, uint32_t mesh, const sbfi_matrix *to_asset, double *distance) {
   const sbfi_scene *rig = r->rig.scene;
@@ -64,8 +64,8 @@ static void carry(sbfi_rigging *r, uint32_t mesh, int32_t node) {
     r->sources[i] = SBFI_WEIGHTS_NAMED;
 }
 
-/* One object may be called Body or Hips and be all of a character: bones' names count where most objects have
- * some. */
+/* A single object may be called Body or Hips and contain a whole character, so names of bones count only
+ * if most objects have one. */
 static void weigh_by_bones(sbfi_rigging *r) {
   const sbfi_scene *scene = r->input.scene;
   uint32_t named = 0;
@@ -98,7 +98,7 @@ void sbfi_weigh_by_name(sbfi_rigging *r) {
 
 /* --- Skins of the input -------------------------------------------------------------------------------- */
 
-/* Weights of a skin whose joints all bear names of the rig's bones; false where one does not. */
+/* Copies weights of a skin if all joints have names of the rig's bones; false if one does not. */
 static bool weigh_by_joints(sbfi_rigging *r, uint32_t mesh) {
   const sbfi_scene *scene = r->input.scene;
   const sbfi_scene_mesh *from = &scene->meshes[mesh];

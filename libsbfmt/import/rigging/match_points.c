@@ -1,4 +1,4 @@
-/* Weights by place: a point of the input that lies on one of the rig's has its weights. */
+/* Copies weights by position: a point of the input at a point of the rig takes its weights. */
 #include <math.h>
 #include <string.h>
 
@@ -8,18 +8,18 @@
 
 typedef struct matching {
   const sbfi_rigging *r;
-  const sbfi_scene_surface *moved; /* the input in asset space */
+  const sbfi_scene_surface *moved; /* input in asset space */
   sbfi_point_finder finder;
   double within;
-  uint32_t *used; /* (rig points) how many of the input's points took each */
-  /* Of the point at hand: */
+  uint32_t *used; /* (rig points) number of the input's points that matched each */
+  /* State of the current point. */
   uint32_t point;
   uint32_t best;
   double best_score;
 } matching;
 
-/* How many sides of the input's point lead where sides of the rig's point lead: tells apart points of two
- * surfaces that meet in one place. Its normal settles what is left. */
+/* Counts edges of the input's point that have the direction of an edge at the rig's point. This separates
+ * points of two surfaces at one position. Normals decide ties. */
 static double score(const matching *m, uint32_t candidate) {
   const sbfi_scene_surface *a = m->moved, *b = &m->r->rig;
   double same = 0, squared = m->within * m->within;
@@ -40,7 +40,8 @@ static void weigh_candidate(void *user, uint32_t candidate) {
   if (m->best == candidate) return;
   if (m->best_score < 0) m->best_score = score(m, m->best);
   double here = score(m, candidate);
-  bool even = fabs(here - m->best_score) < 1e-6; /* doubled surfaces: to each of the input's its own */
+  bool even =
+      fabs(here - m->best_score) < 1e-6; /* double surfaces: each of the input's points gets its own */
   bool less_used = m->used[candidate] < m->used[m->best];
   bool before = m->used[candidate] == m->used[m->best] && candidate < m->best;
   if (even ? !less_used && !before : here < m->best_score) return;
@@ -74,7 +75,8 @@ static uint32_t mesh_of_point(const sbfi_scene_surface *s, uint32_t point) {
   return low;
 }
 
-/* The mesh of the rig that all points of an object lie on, where that has no skin: it hangs as that does. */
+/* Mesh of the rig that contains all points of an object, if it has no skin: the object is attached like
+ * it. */
 static int32_t common_carrier(const sbfi_rigging *r, uint32_t mesh, const uint32_t *matches) {
   int32_t carrier = SBF_NONE;
   for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
@@ -86,7 +88,7 @@ static int32_t common_carrier(const sbfi_rigging *r, uint32_t mesh, const uint32
   return carrier;
 }
 
-/* Whether an object's polygons face away from the rig's, once those of a mirrored one have been turned. */
+/* Whether an object's polygons face away from the rig's, after mirrored ones have been flipped. */
 static bool faces_away(
     const sbfi_rigging *r, const sbfi_scene_surface *moved, uint32_t mesh, const uint32_t *matches) {
   double sum = 0, sign = sbfi_matrix_determinant(&r->alignment.to_asset) < 0 ? -1 : 1;

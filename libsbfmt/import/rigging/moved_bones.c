@@ -37,7 +37,7 @@ static void move_bones(const sbfi_matrix *motions, sbf_bone *bones, uint32_t cou
   }
 }
 
-/* Whether the node stands for a bone that moves otherwise than the node above. */
+/* Whether the node belongs to a bone that moves differently from the parent node. */
 static bool turns_itself(
     const sbfi_conversion *c, const sbfi_matrix *motions, const sbfi_scene_node *nodes, uint32_t node) {
   int32_t bone = c->bone_of_node[node], parent = nodes[node].parent;
@@ -46,7 +46,7 @@ static bool turns_itself(
   return above == SBF_NONE || memcmp(&motions[bone], &motions[above], sizeof *motions) != 0;
 }
 
-/* Nodes that stand for a bone move with it, others with the node above. */
+/* Nodes of a bone move with it, others with their parent. */
 static bool move_nodes(
     const sbfi_conversion *c, const sbfi_matrix *motions, sbfi_scene_node *nodes, uint32_t count) {
   sbfi_matrix to_scene, above;
@@ -75,9 +75,10 @@ bool sbfi_rig_move_bones(sbfi_rigging *r, const sbfi_matrix *motions) {
   if (!scene) return false;
   sbfi_scene_node *nodes = sbfi_arena_copy(arena, scene->nodes, scene->node_count, sizeof *nodes);
   if (!nodes) return false;
-  if (!move_nodes(r->c, motions, nodes, scene->node_count)) return true; /* a flat rig has no poses */
+  if (!move_nodes(r->c, motions, nodes, scene->node_count))
+    return true; /* a rig with a singular transform has no poses */
   scene->nodes = nodes;
   r->c->rig = r->rig.scene = scene;
-  move_bones(motions, (sbf_bone *)(uintptr_t)bones.at, bones.count); /* ours until the asset is handed out */
+  move_bones(motions, (sbf_bone *)(uintptr_t)bones.at, bones.count); /* the conversion owns the asset */
   return true;
 }

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Cells along the longest side of the points' box are at most so many times the square root of their number,
- * so that a cell of a surface holds a point or none. */
+/* Cells per longest side of the bounding box, at most this multiple of the root of the point count, so
+ * that a cell of a surface contains about one point. */
 static const double MAX_CELLS = 4;
-/* A query spans two cells along an axis at most, if a cell is longer than twice its distance. */
+/* Cells are longer than twice the query distance, so a query spans at most two per axis. */
 static const double CELL_OF_DISTANCE = 4;
 
 typedef struct cell_range {
@@ -56,7 +56,7 @@ bool sbfi_point_finder_make(
   return true;
 }
 
-/* The cells of the points' box that a query reaches; false where it reaches none. */
+/* Range of cells that a query overlaps; false if it overlaps none. */
 static bool find_cells(const sbfi_point_finder *finder, sbfi_d3 position, double within, cell_range *cells) {
   const double at[3] = {position.x, position.y, position.z};
   const double low[3] = {finder->low.x, finder->low.y, finder->low.z};
@@ -70,7 +70,7 @@ static bool find_cells(const sbfi_point_finder *finder, sbfi_d3 position, double
   return true;
 }
 
-/* Different cells may share a slot: only points of the cell itself are visited, so that each comes once. */
+/* Different cells may share a slot. Visits only points of the cell itself, so that each point comes once. */
 static bool is_in_cell(const sbfi_point_finder *finder, uint32_t point, int64_t x, int64_t y, int64_t z) {
   sbfi_d3 from_low = sbfi_d3_sub(sbfi_d3_of(finder->points[point]), finder->low);
   return (int64_t)floor(from_low.x / finder->cell) == x && (int64_t)floor(from_low.y / finder->cell) == y &&

@@ -26,8 +26,7 @@ static double area_of_all(const sbfi_scene_surface *s) {
   return area;
 }
 
-/* Evenly along the triangles, laid end to end by their areas; within each by a sequence of low discrepancy.
- */
+/* Samples evenly along the triangles, concatenated by area; a low discrepancy sequence within each. */
 static void take_samples(const sbfi_scene_surface *s, sbfi_surface_sample *samples) {
   const uint32_t *points = s->mesh.polygon_points.at;
   double step = area_of_all(s) / SBFI_POSE_SAMPLES, passed = 0;
@@ -55,7 +54,7 @@ static void locate_samples(const sbfi_scene_surface *s, double sign, sbfi_surfac
   }
 }
 
-/* No farther than the place that was the nearest before, which saves most of the search. */
+/* Bounds the search by the distance to the previous nearest location, which saves most of it. */
 static double bound_by_last(const sbfi_surface_finder *to, const sbfi_surface_sample *s, double within) {
   if (!s->is_near || sbfi_d3_dot(sbfi_surface_normal(to->surface, &s->near), s->normal) < 0.51) return within;
   double distance = sbfi_d3_length(sbfi_d3_sub(sbfi_surface_point(to->surface, &s->near), s->position));
@@ -94,9 +93,9 @@ static bool make_posed(sbfi_pose_fit *f) {
          sbfi_surface_finder_make(&f->posed_finder, &f->posed, &f->posed_arena);
 }
 
-/* Normals of the points outwards. */
+/* Orients the points' normals outwards. */
 static void turn_normals(sbfi_pose_fit *f) {
-  sbf_vec3 *normals = (sbf_vec3 *)(uintptr_t)f->input.normals; /* of `input_arena` */
+  sbf_vec3 *normals = (sbf_vec3 *)(uintptr_t)f->input.normals; /* owned by `input_arena` */
   for (uint32_t i = 0; f->sign < 0 && i < f->input.mesh.positions.count; i++)
     normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
 }
@@ -171,11 +170,11 @@ void sbfi_pose_fit_turn(sbfi_pose_fit *f, uint32_t bone, const double rotation[4
     if (sbfi_pose_fit_hangs_on(f, b, bone)) f->motions[b] = sbfi_matrix_multiply(&turn, &f->motions[b]);
 }
 
-/* The axis, twice the sine of half the angle long. */
+/* Axis of a rotation with a length of twice the sine of half the angle. */
 static sbfi_d3 vector_of(const sbfi_matrix *m) {
   sbfi_d3 axis = {m->at[2][1] - m->at[1][2], m->at[0][2] - m->at[2][0], m->at[1][0] - m->at[0][1]};
   double cosine = 0.5 * (m->at[0][0] + m->at[1][1] + m->at[2][2] - 1);
-  double half = sqrt(fmax(0.5 * (1 + cosine), 1e-6)); /* its cosine */
+  double half = sqrt(fmax(0.5 * (1 + cosine), 1e-6)); /* cosine of half the angle */
   return sbfi_d3_scale(axis, 1 / (2 * half));
 }
 

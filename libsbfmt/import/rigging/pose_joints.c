@@ -1,7 +1,7 @@
-/* All joints of a pose together, by Gauss-Newton steps: points of either surface are drawn to the nearest
- * point of the other that faces alike, near ones more, and rotations are damped as far as the surface does
- * not determine them (Besl and McKay 1992, with joints as Pellegrini, Schindler and Nardi 2008 have them).
- * Lengths are fractions of the rig's size. */
+/* Optimizes all joints of a pose together by Gauss-Newton steps. Points of each surface are pulled to the
+ * nearest point of the other with a similar normal, with weights that decrease with distance. Rotations
+ * that the surface does not determine are damped (Besl and McKay 1992; joints as in Pellegrini, Schindler
+ * and Nardi 2008). Lengths are fractions of the rig's size. */
 #include <math.h>
 #include <string.h>
 
@@ -10,18 +10,18 @@
 
 enum { STEPS = 20, MAX_MOVED = 64 };
 
-/* How far points are drawn at last; of a pull the part that is along the surface as well. */
+/* Final and relative correspondence distance per step; weight of the tangential part of a pull. */
 static const double LAST_WITHIN = 0.025, NEARER = 0.9, ALONG = 0.1;
-/* How much a turn by 1 rad costs at first and at last, against a mean squared distance. */
+/* Cost of a rotation by 1 rad relative to a mean squared distance: first, last, and factor per step. */
 static const double FIRST_COST = 3e-5, LAST_COST = 1e-6, CHEAPER = 0.7;
 
 typedef struct system {
   sbfi_pose_fit *f;
-  uint32_t *columns; /* (bones) first of the three unknowns of each + 1, 0: it does not turn */
-  uint32_t count;    /* unknowns */
+  uint32_t *columns; /* (bones) index of the first of a bone's three unknowns + 1; 0: it does not rotate */
+  uint32_t count;    /* number of unknowns */
   double *matrix, *right;
-  sbfi_d3 *levers, *joints; /* (bones) of the point at hand; where they are */
-  double *fractions;        /* (bones) of its weight on the bone and what hangs on it */
+  sbfi_d3 *levers, *joints; /* (bones) of the current point; positions of the joints */
+  double *fractions;        /* (bones) sum of its weights on the bone and descendants */
   uint32_t moved[MAX_MOVED], moved_count;
 } system;
 
@@ -57,7 +57,7 @@ static void collect_bones(system *s, const uint32_t points[3], const double weig
 
 /* --- The system ---------------------------------------------------------------------------------------- */
 
-/* A distance along a direction that the turns are to close. */
+/* Adds an equation: the rotations should close a distance along a direction. */
 static void add_row(system *s, sbfi_d3 direction, double distance, double weight, double size) {
   sbfi_d3 slopes[MAX_MOVED];
   for (uint32_t i = 0; i < s->moved_count; i++)
@@ -79,7 +79,7 @@ static void add_row(system *s, sbfi_d3 direction, double distance, double weight
   }
 }
 
-/* `distance` from the rig's point to the input's. */
+/* `distance` points from the rig's point to the input's. */
 static void add_pull(system *s, sbfi_d3 distance, sbfi_d3 normal, double within) {
   double size = s->f->r->rig.size, length = sbfi_d3_length(distance) / (within * size / 3);
   double weight = 1 / ((1 + length * length) * (1 + length * length)) / SBFI_POSE_SAMPLES;
@@ -121,7 +121,7 @@ static void add_costs(system *s, double cost) {
   }
 }
 
-/* Cholesky's, of the lower triangle, in place; the solution replaces the right side. */
+/* Cholesky factorization of the lower triangle in place; the solution replaces the right-hand side. */
 static bool solve(system *s) {
   uint32_t n = s->count;
   double *a = s->matrix, *x = s->right;
@@ -143,7 +143,7 @@ static bool solve(system *s) {
 }
 
 static void turn_bones(system *s) {
-  static const double farthest = 0.5; /* rad in a step */
+  static const double farthest = 0.5; /* rad per step */
   for (uint32_t b = 0; b < s->f->bone_count; b++) {
     if (!s->columns[b]) continue;
     const double *at = &s->right[s->columns[b] - 1];
@@ -157,7 +157,7 @@ static void turn_bones(system *s) {
 /* --- The input's position ---------------------------------------------------------------------------------
  */
 
-/* Lays the input over the posed rig as a whole. */
+/* Aligns the input with the posed rig as a whole. */
 static bool move_input(sbfi_pose_fit *f, double within) {
   sbfi_d3 from[SBFI_POSE_SAMPLES], to[SBFI_POSE_SAMPLES];
   sbfi_matrix back, fitted;

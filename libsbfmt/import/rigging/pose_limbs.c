@@ -1,5 +1,5 @@
-/* Where a limb stands far from the rig's, no nearest surface leads there: of many directions the one is taken
- * in which the limb lies on the input, on parts of it that no other part of the rig lies on. */
+/* If a limb is far from the rig's, the nearest surface gives no direction. Among many directions chooses
+ * the one in which the limb matches parts of the input that no other part of the rig matches. */
 #include <math.h>
 
 #include "import/rigging/pose_fit.h"
@@ -8,25 +8,26 @@
 
 enum { DIRECTIONS = 600, LIMB_SAMPLES = 80 };
 
-/* Cosine of the widest turn. */
+/* Minimum cosine of the rotation of a limb. */
 static const double FARTHEST = 0.0;
-/* A limb reaches so far, as a share of the rig's size, and is so small a share of its samples. */
+/* Minimum reach of a limb as a fraction of the rig's size; maximum fraction of the samples in a limb. */
 static const double MIN_REACH = 0.06, MAX_LIMB = 0.5;
-/* So large a share of a limb's samples lies beside the input where it stands otherwise. */
+/* Minimum fraction of a limb's samples without a match if its pose differs. */
 static const double BESIDE = 0.25;
-/* What a turn has to gain, of 1 for lying on the input and 1 for covering as much of it as the limb has. */
+/* Minimum gain of a rotation. A full match of the limb counts 1, and covering an equal amount of unmatched
+ * input counts 1. */
 static const double GAIN = 0.15;
-static const double PER_RADIAN = 0.1; /* of gain that a wider turn has to have more */
+static const double PER_RADIAN = 0.1; /* additional gain required per radian */
 
 typedef struct limb {
   sbfi_d3 joint, direction;
-  sbfi_d3 positions[LIMB_SAMPLES], normals[LIMB_SAMPLES]; /* from the joint */
-  uint32_t count, all;                                    /* of those; of the rig's samples */
+  sbfi_d3 positions[LIMB_SAMPLES], normals[LIMB_SAMPLES]; /* relative to the joint */
+  uint32_t count, all; /* number of samples of the limb; number of the rig's samples */
 } limb;
 
 typedef struct search {
   sbfi_pose_fit *f;
-  sbfi_d3 bare[SBFI_POSE_SAMPLES], bare_normals[SBFI_POSE_SAMPLES]; /* of the input, beside the rig */
+  sbfi_d3 bare[SBFI_POSE_SAMPLES], bare_normals[SBFI_POSE_SAMPLES]; /* samples of the input without a match */
   uint32_t bare_count;
   sbfi_d3 directions[DIRECTIONS];
 } search;
@@ -42,7 +43,7 @@ static double weight_below(const sbfi_pose_fit *f, const sbfi_surface_sample *s,
   return sum;
 }
 
-/* The samples that hang on a bone; false where they are none that stands otherwise. */
+/* Selects the samples that a bone moves; false if the limb has no differing pose. */
 static bool take_limb(const search *s, uint32_t bone, limb *l) {
   const sbfi_pose_fit *f = s->f;
   uint32_t of_limb[SBFI_POSE_SAMPLES], beside = 0;
@@ -83,8 +84,7 @@ static double squared_distance(sbfi_d3 a, sbfi_d3 b) {
   return sbfi_d3_dot(d, d);
 }
 
-/* How well a limb lies on the input, of 1, and how much of it that nothing else covers, of what it has
- * itself. */
+/* Score of a limb: fraction that matches the input, plus the newly covered amount relative to the limb. */
 static double evaluate(const search *s, const limb *l, const double rotation[4]) {
   const sbfi_pose_fit *f = s->f;
   double cap = SBFI_MAX_GAP * f->r->rig.size, lies = 0, covers = 0, nearest_of_bare[SBFI_POSE_SAMPLES];
@@ -131,7 +131,7 @@ static bool find_turn(const search *s, const limb *l, double best_rotation[4]) {
     double rotation[4], cosine = sbfi_d3_dot(to, l->direction);
     if (cosine < FARTHEST) continue;
     turn_between(l->direction, to, rotation);
-    double sine = sqrt(fmax(1 - rotation[3] * rotation[3], 0)); /* of half the turn */
+    double sine = sqrt(fmax(1 - rotation[3] * rotation[3], 0)); /* of half the angle */
     double score = evaluate(s, l, rotation) - PER_RADIAN * 2 * sine;
     if (score <= best) continue;
     best = score;

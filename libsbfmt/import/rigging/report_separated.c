@@ -10,12 +10,12 @@
 
 enum { NAMED = 4 };
 
-/* As shares of the rig's size: half of a piece apart is farther from its surface, or from its bones; all of
- * it is farther, unless it is so large that it is no prop. */
+/* As fractions of the rig's size: median distance of a piece from the rig's surface, or from its bones, at
+ * which it is separated; distance beside a near piece; maximum size of a prop. */
 static const double FAR_FROM_SURFACE = 0.1, FAR_FROM_BONES = 0.2, BESIDE = 0.05, LARGE = 0.5;
 
 typedef struct piece {
-  uint32_t points, far, number; /* from 1, of the object's, as --shell counts */
+  uint32_t points, far, number; /* counts; number within the object from 1, as in --shell */
   double nearest;
   sbfi_d3 low, high;
   bool is_separated;
@@ -32,7 +32,7 @@ typedef struct separation_search {
   bool by_surface;
   double size, far_m;
   const uint32_t *pieces; /* (points) */
-  piece *all;             /* (points) at the first of each piece */
+  piece *all;             /* (points) valid at the first point of each piece */
 } separation_search;
 
 static double distance_to_bone(const sbf_bone *bone, sbfi_d3 p) {
@@ -74,7 +74,8 @@ static void add_point(separation_search *a, uint32_t point) {
   p->far += distance > a->far_m;
 }
 
-/* Far from the rig. Bones may be short against their body: what holds some is never far. */
+/* Whether a piece is far from the rig. Bones may be short relative to their body, so a piece that contains
+ * some is never far. */
 static bool is_far(const separation_search *a, const piece *p) {
   bool large = a->by_surface && length_of(p) > LARGE * a->size;
   return 2 * p->far > p->points && (p->nearest > BESIDE * a->size || large);
@@ -87,8 +88,8 @@ static double gap_between(const piece *a, const piece *b) {
   return fmax(x, fmax(y, z));
 }
 
-/* What is far from the rig, and from all that is near it, piece by piece: a fin is beside its fish, a lock of
- * hair beside another. */
+/* Finds pieces that are far from the rig and from all near pieces: a fin may be near its fish only, a lock
+ * of hair near another. */
 static bool find_separated(separation_search *a, sbfi_arena *arena) {
   uint32_t count = a->moved->mesh.positions.count, near_count = 0, far_count = 0;
   piece **near = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *near);
@@ -103,7 +104,7 @@ static bool find_separated(separation_search *a, sbfi_arena *arena) {
     else
       near[near_count++] = p;
   }
-  for (uint32_t i = 0; i < near_count; i++) /* grows */
+  for (uint32_t i = 0; i < near_count; i++) /* near_count grows */
     for (uint32_t k = 0; k < far_count; k++) {
       if (!far[k]->is_separated || (a->by_surface && length_of(far[k]) > LARGE * a->size)) continue;
       if (gap_between(near[i], far[k]) > BESIDE * a->size) continue;
@@ -113,7 +114,7 @@ static bool find_separated(separation_search *a, sbfi_arena *arena) {
   return true;
 }
 
-/* Numbers shells by their first points, as --shell does: points in one place are several. */
+/* Numbers shells by their first points, as --shell does; coincident points count separately. */
 static bool number_pieces(separation_search *a, sbfi_arena *arena) {
   const sbfi_scene_surface *s = a->moved;
   uint32_t count = s->mesh.positions.count,
@@ -159,7 +160,7 @@ static void report_object(const separation_search *a, uint32_t mesh) {
       count, pieces, a->r->names[mesh], a->r->rig.scene->file, nearest, names, points, to - from);
 }
 
-/* Whether nobody has said what moves it. */
+/* Whether the bone of a point was guessed. */
 static bool is_guessed(const separation_search *a, uint32_t point) {
   sbfi_weight_source source = (sbfi_weight_source)a->r->sources[point];
   return source == SBFI_WEIGHTS_ATTACHED || source == SBFI_WEIGHTS_CARRIED || source == SBFI_WEIGHTS_COMPUTED;

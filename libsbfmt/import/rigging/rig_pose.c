@@ -2,7 +2,7 @@
 
 #include "import/rigging/similarity.h"
 
-/* The motion of each node from the bind pose to another one, in asset space. */
+/* Motion of each node from the bind pose to another pose, in asset space. */
 static void find_motions(const sbfi_rigging *r, const sbfi_matrix *worlds, sbfi_matrix *motions) {
   const sbfi_scene *rig = r->rig.scene;
   sbfi_matrix from_asset, from_bind;
@@ -65,7 +65,7 @@ bool sbfi_pose_surface(const sbfi_rigging *r, const sbfi_matrix *worlds, sbfi_sc
 
 /* --- The input ----------------------------------------------------------------------------------------- */
 
-/* The motion of a point of the input. */
+/* Motion of a point of the input. */
 static sbfi_matrix motion_of_point(
     const sbfi_rigging *r, const sbfi_matrix *motions, uint32_t mesh, uint32_t i) {
   const sbfi_influences *of = &r->weights[r->input.mesh_starts[mesh] + i];
@@ -77,7 +77,7 @@ static sbfi_matrix motion_of_point(
   return sum;
 }
 
-/* Normals of the pose go back by the transpose of the motion, in the mesh's own space. */
+/* Normals are mapped back by the transpose of the motion, in the mesh's own space. */
 static sbf_vec3 normal_back(const sbfi_matrix *motion, sbf_vec3 n) {
   const double v[3] = {(double)n.x, (double)n.y, (double)n.z};
   double out[3] = {0, 0, 0};
@@ -86,7 +86,7 @@ static sbf_vec3 normal_back(const sbfi_matrix *motion, sbf_vec3 n) {
   return sbfi_d3_rounded(sbfi_d3_normal((sbfi_d3){out[0], out[1], out[2]}));
 }
 
-/* A normal for each corner: corners that shared one may have turned differently. */
+/* Creates one normal per corner, because corners that shared a normal may have rotated differently. */
 static bool undo_normals(const sbfi_matrix *motions, sbfi_scene_mesh *to, sbfi_arena *arena) {
   sbf_vec3 *normals = sbfi_arena_allocate(arena, (size_t)to->corner_count + 1, sizeof *normals);
   int32_t *corners = sbfi_arena_allocate(arena, (size_t)to->corner_count + 1, sizeof *corners);
@@ -129,7 +129,7 @@ bool sbfi_pose_undo(const sbfi_rigging *r, uint32_t mesh, const sbfi_matrix *to_
   sbf_vec3 *points = sbfi_arena_allocate(arena, (size_t)to->point_count + 1, sizeof *points);
   if (!motions || !own || !back || !points) return false;
   find_motions(r, r->alignment.pose_worlds, motions);
-  if (!sbfi_matrix_invert(to_asset, &from_asset)) return true; /* flat: there is nothing to move */
+  if (!sbfi_matrix_invert(to_asset, &from_asset)) return true; /* singular: nothing to undo */
   for (uint32_t i = 0; i < to->point_count; i++) {
     own[i] = motion_of_point(r, motions, mesh, i);
     own[i] = sbfi_matrix_multiply(&own[i], to_asset);

@@ -9,7 +9,7 @@ static void *allocate(const sbfi_rigging *r, size_t count, size_t size) {
   return sbfi_arena_allocate(&r->c->scratch, count + 1, size);
 }
 
-/* The space of an input mesh in that of the rig's nodes. */
+/* Transform of an input mesh into the space of the rig's nodes. */
 static bool position_of(const sbfi_rigging *r, const sbfi_scene_mesh *mesh, sbfi_matrix *world) {
   sbfi_matrix from_asset, transform = sbfi_scene_mesh_world(r->input.scene, mesh);
   if (!sbfi_matrix_invert(&r->c->rig_to_asset, &from_asset)) return false;
@@ -37,7 +37,7 @@ static bool add_skin(
     const sbfi_rigging *r, uint32_t mesh, const sbfi_scene_node *nodes, sbfi_scene_mesh *to) {
   const sbfi_influences *weights = r->weights + r->input.mesh_starts[mesh];
   uint32_t node_count = r->rig.scene->node_count, total = 0;
-  uint32_t *joint_of_node = allocate(r, node_count, sizeof *joint_of_node); /* + 1 */
+  uint32_t *joint_of_node = allocate(r, node_count, sizeof *joint_of_node); /* index + 1 */
   sbfi_scene_joint *joints = allocate(r, node_count, sizeof *joints);
   uint32_t *starts = allocate(r, (size_t)to->point_count + 1, sizeof *starts);
   uint32_t *skin_joints = allocate(r, (size_t)to->point_count * SBFI_MAX_INFLUENCES, sizeof *skin_joints);
@@ -47,7 +47,8 @@ static bool add_skin(
     for (uint32_t k = 0; k < SBFI_MAX_INFLUENCES && weights[i].at[k].weight > 0; k++)
       joint_of_node[weights[i].at[k].node] = 1;
   to->joint_count = 0;
-  for (uint32_t n = 0; n < node_count; n++) { /* ascending, so that a point's joints ascend as its nodes do */
+  for (uint32_t n = 0; n < node_count;
+       n++) { /* ascending, so that joints of a point keep the order of its nodes */
     sbfi_matrix to_node;
     if (!joint_of_node[n] || !sbfi_matrix_invert(&nodes[n].world, &to_node)) continue;
     joints[to->joint_count] =
@@ -72,7 +73,7 @@ static bool add_skin(
 
 /* --- Polygons that face the wrong way ------------------------------------------------------------------ */
 
-/* Corners of each polygon in the opposite order, the first one first. */
+/* Reverses the corners of each polygon but keeps the first. */
 static void turn_corners(const sbfi_scene_mesh *mesh, const void *from, void *to) {
   const uint32_t *in = from;
   uint32_t *out = to;

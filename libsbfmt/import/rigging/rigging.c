@@ -1,4 +1,4 @@
-/* Which way each object comes by its bones. */
+/* Selects how each object gets its weights. */
 #include "import/rigging/rigging.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ static uint32_t count_points(const sbfi_rigging *r, sbfi_weight_source source) {
   return count;
 }
 
-static void say_alignment(const sbfi_rigging *r) {
+static void report_alignment(const sbfi_rigging *r) {
   char pose[120] = "when it was saved, in the middle of a movement";
   if (r->alignment.pose_clip)
     snprintf(pose, sizeof pose, "%.3f s after the start of its clip '%.60s'", r->alignment.pose_s,
@@ -90,7 +90,7 @@ static const char *const SOURCE_TEXTS[SBFI_WEIGHTS_SOURCES] = {[SBFI_WEIGHTS_NON
     [SBFI_WEIGHTS_COMPUTED] = "computed from the bones",
     [SBFI_WEIGHTS_FROM_FILE] = "from the file of weights"};
 
-static void say_weights(const sbfi_rigging *r) {
+static void report_weights(const sbfi_rigging *r) {
   char text[400] = "";
   for (int s = 0; s < SBFI_WEIGHTS_SOURCES; s++) {
     uint32_t count = count_points(r, (sbfi_weight_source)s);
@@ -103,8 +103,8 @@ static void say_weights(const sbfi_rigging *r) {
 
 /* --- Objects that nothing else moves ------------------------------------------------------------------- */
 
-/* The bone whose segment lies nearest to a point; of equals the last, for what lies beyond a bone's end is
- * its child's. */
+/* Bone whose segment is nearest to a point; the last if equal, because points beyond a bone's end belong
+ * to its child. */
 static int32_t nearest_bone(const sbf_asset *asset, sbfi_d3 p) {
   int32_t best = SBF_NONE;
   double best_squared = INFINITY;
@@ -124,7 +124,7 @@ static int32_t nearest_bone(const sbf_asset *asset, sbfi_d3 p) {
   return best;
 }
 
-static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, uint32_t mesh) {
+static void assign_nearest_bone(sbfi_rigging *r, const sbfi_scene_surface *moved, uint32_t mesh) {
   uint32_t from = moved->mesh_starts[mesh], to = moved->mesh_starts[mesh + 1];
   sbfi_d3 middle = {0, 0, 0};
   for (uint32_t i = from; i < to; i++) {
@@ -147,22 +147,23 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
 
 /* --- Which way fits ------------------------------------------------------------------------------------ */
 
-/* Surfaces farther from each other than this share of the rig's size are not alike. */
+/* Maximum distance of similar surfaces as a fraction of the rig's size. */
 static const double ALIKE = 0.03;
-/* Half of the points of a mesh like the rig's lie nearer to it than this share of the rig's size. */
+/* Maximum median distance of points for a mesh similar to the rig's, as a fraction of the rig's size. */
 static const double ALIKE_MEDIAN = 0.01;
-/* Of an edited mesh half of the surface lies nearer than this share of the size, and no more than this share
- * of it lies beside the rig's, or it may be another character's; where more points than this are the rig's
- * own it is not. */
+/* Bounds for an edited version of the rig's mesh: maximum median distance as a fraction of the size,
+ * maximum fraction of the surface without a match. Outside them it may be another character's mesh, unless
+ * at least this fraction of points equals the rig's. */
 static const double SAME_MEDIAN = 0.0015, SAME_BESIDE = 0.02, SAME_MATCHED = 0.5;
-/* The least share of points beside a surface of the rig for all to take weights from it. */
+/* Minimum fraction of points near the rig's surface for a transfer of weights; the same if the caller
+ * requests it. */
 static const double MIN_BESIDE = 0.6, MIN_FORCED = 0.25;
-/* The least share of points on the rig's own for --weights match. */
+/* Minimum fraction of points at the rig's points for --weights match. */
 static const double MIN_MATCHED = 0.999;
-/* Where so many points lie on the rig's own, no other pose is tried. */
+/* Fraction of matched points from which no other pose is tried; minimum improvement by another pose. */
 static const double MATCHED_WELL = 0.95, MATCHED_BETTER = 1e-9;
 
-/* Lays the input over the rig in another pose, which stays where more points lie on the rig's. */
+/* Aligns the input with the rig in another pose, which stays if more points match. */
 static bool try_pose(sbfi_rigging *r, const sbfi_matrix *worlds, bool *found) {
   sbfi_rigging posed = *r;
   bool found_posed;
@@ -180,7 +181,7 @@ static bool is_found_well(const sbfi_rigging *r, bool found) {
   return found && r->alignment.matched >= MATCHED_WELL;
 }
 
-/* As programs write a file that they play: at a moment of one of its clips. */
+/* Tries times of the rig's clips, because programs export the frame that they show. */
 static bool align_by_clips(sbfi_rigging *r, const sbfi_rigging *bound, bool *found) {
   sbfi_clip_moment poses[SBFI_MAX_CLIP_MOMENTS];
   uint32_t count;
@@ -200,8 +201,7 @@ static bool align_by_clips(sbfi_rigging *r, const sbfi_rigging *bound, bool *fou
   return true;
 }
 
-/* By points that the input shares with the rig's meshes as they were bound, as they were saved, or as a clip
- * moves them. */
+/* Aligns by shared points with the rig's meshes in the bind pose, the saved pose, or a pose of a clip. */
 static bool align_by_points(sbfi_rigging *r, bool *found) {
   const sbfi_rigging bound = *r;
   const sbfi_matrix *saved = r->rig.scene->saved_worlds;
@@ -211,7 +211,7 @@ static bool align_by_points(sbfi_rigging *r, bool *found) {
   return is_found_well(r, *found) || align_by_clips(r, &bound, found);
 }
 
-/* By shape, as bound or as saved. */
+/* Aligns by shape, in the bind pose or the saved pose. */
 static bool align_by_shape(sbfi_rigging *r, double *error) {
   sbfi_rigging saved = *r;
   const sbfi_matrix *worlds = r->rig.scene->saved_worlds;
@@ -238,7 +238,7 @@ static bool is_carried(const sbfi_rigging *r, uint32_t point) {
   return false;
 }
 
-/* Points that are still to get bones. */
+/* Number of points without weights. */
 static uint32_t count_open(const sbfi_rigging *r) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < r->input.mesh.positions.count; i++)
@@ -261,13 +261,13 @@ static sbf_status refuse_transfer(const sbfi_rigging *r, double fraction) {
       100 * fraction, r->input.scene->file, r->rig.scene->file);
 }
 
-/* From the bones, where nothing else gives weights. The alignment is found before. */
+/* Computes the remaining weights from the bones alone. The alignment must be known. */
 static sbf_status weigh_rest(sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode) {
   if ((mode != MODE_ANY && mode != MODE_COMPUTE) || !count_open(r)) return SBF_OK;
   return sbfi_weigh_by_bones(r, moved);
 }
 
-/* By nearness, where the input is like the rig's mesh or it is asked for. */
+/* Transfers weights by proximity if the input is similar to the rig's mesh or the caller requests it. */
 static sbf_status weigh_beside(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
   double fraction = 0, min = mode == MODE_TRANSFER ? MIN_FORCED : MIN_BESIDE;
@@ -278,7 +278,7 @@ static sbf_status weigh_beside(
   return mode == MODE_TRANSFER && fraction < min ? refuse_transfer(r, fraction) : SBF_OK;
 }
 
-/* Nameless objects go to the nearest bone only beside named ones. */
+/* Unmatched names are only assigned to the nearest bone if other objects have matching names. */
 static sbf_status refuse_nameless(const sbfi_rigging *r) {
   return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
       "--weights named: no object of %s has the name of a node or bone of %s; name its objects as those, or "
@@ -292,8 +292,8 @@ static bool has_named_objects(const sbfi_rigging *r) {
   return false;
 }
 
-/* By turning bones, from the alignment that there is: where the input is not like the rig as saved, as bound.
- */
+/* Rotates bones, starting from the current alignment: from the saved pose, or the bind pose if the input
+ * does not resemble that. */
 static bool align_pose(sbfi_rigging *r, weights_mode mode, double error, bool *posed) {
   if ((mode != MODE_ANY && mode != MODE_TRANSFER) || !isfinite(error) || !rig_has_weights(r)) return true;
   if (!r->alignment.pose_worlds) return sbfi_align_pose(r, posed);
@@ -306,8 +306,8 @@ static bool align_pose(sbfi_rigging *r, weights_mode mode, double error, bool *p
   return true;
 }
 
-/* Lays what has no bones yet over the rig: by the rig's own meshes where those are alike, else by its bones.
- * An input whose objects are named for the rig already stands where its bones are. */
+/* Aligns objects without weights: by the rig's own meshes if they are similar, otherwise by its bones. If
+ * the objects of an input are named after the rig's, it is aligned already. */
 static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   double error = INFINITY, median = 0;
   bool posed = false;
@@ -333,7 +333,7 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 
-/* Of a sample of the input's surface, whether its points have weights of the rig's mesh beside them. */
+/* Whether the points of a surface sample have weights from a nearby mesh of the rig. */
 static bool is_on_rig(const sbfi_rigging *r, const sbfi_surface_sample *s) {
   for (int k = 0; k < 3; k++) {
     uint8_t source = r->sources[s->points[k]];
@@ -347,7 +347,7 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* A mesh that only resembles the rig's may have bones in other places. */
+/* Warns that a mesh that only resembles the rig's may need its bones elsewhere. */
 static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   sbfi_arena scratch;
   sbfi_pose_fit f;
@@ -380,7 +380,8 @@ static bool warn_of_another(const sbfi_rigging *r, weights_mode mode) {
   return good;
 }
 
-/* Of an object that lies on the rig's mesh elsewhere, a large part beside it may be limbs in another pose. */
+/* Warns if a large part of an object is away from the rig's mesh while the rest matches: it may be limbs
+ * in another pose. */
 static const double MANY_ATTACHED = 0.2;
 
 static void warn_of_attached(const sbfi_rigging *r, weights_mode mode) {
@@ -427,14 +428,14 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
     status = refuse_nameless(r);
   if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
-  say_alignment(r);
+  report_alignment(r);
   if (!sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
     return sbfi_convert_no_memory(c);
   status = weigh_objects(r, &moved, mode, by_points, alike);
   if (status != SBF_OK) return status;
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
-    if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
-  say_weights(r);
+    if (r->carriers[m] == SBF_NONE) assign_nearest_bone(r, &moved, m);
+  report_weights(r);
   if (alike && !warn_of_another(r, mode)) return sbfi_convert_no_memory(c);
   warn_of_attached(r, mode);
   if (mode != MODE_NAMED && !sbfi_report_separated(r, &moved, alike)) return sbfi_convert_no_memory(c);

@@ -1,4 +1,4 @@
-/* The meshes of a scene as one surface, with its sides, its normals and its weights. */
+/* Combines the meshes of a scene to one surface with edges, normals and weights. */
 #include <math.h>
 #include <string.h>
 
@@ -42,7 +42,8 @@ static bool find_neighbours(sbfi_scene_surface *s, sbfi_arena *arena) {
   return true;
 }
 
-/* Polygons around a point face opposite ways where less than this share of their area is left in the sum. */
+/* Polygons around a point face opposite directions if less than this fraction of their area remains in the
+ * vector sum. */
 static const double MIN_LEFT = 0.1;
 
 static bool find_normals(sbfi_scene_surface *s, sbfi_arena *arena) {
@@ -171,7 +172,7 @@ bool sbfi_influences_equal(const sbfi_influences *a, const sbfi_influences *b) {
   return true;
 }
 
-/* The node of the bone that moves a node of the rig; false where none does. */
+/* Node of the bone that moves a node of the rig; false if there is none. */
 static bool moved_by(const sbfi_conversion *c, int32_t node, uint32_t *bone_node) {
   int32_t bone = c->bone_of_node[node];
   if (bone != SBF_NONE) *bone_node = c->node_of_bone[bone];

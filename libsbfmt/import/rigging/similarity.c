@@ -54,7 +54,7 @@ double sbfi_similarity_scale(const sbfi_matrix *m) {
   return sqrt(squared / 3);
 }
 
-/* Columns along the first side, across it in the plane, and out of it. */
+/* Columns: along the first side, across it in the plane, and out of the plane. */
 static bool frame_of(const sbfi_d3 at[3], double frame[3][3]) {
   sbfi_d3 x = sbfi_d3_normal(sbfi_d3_sub(at[1], at[0]));
   sbfi_d3 z = sbfi_d3_normal(sbfi_d3_cross(x, sbfi_d3_sub(at[2], at[0])));
@@ -74,7 +74,7 @@ static sbfi_d3 mean_of(const sbfi_d3 *at, uint32_t count) {
   return sbfi_d3_scale(sum, 1.0 / count);
 }
 
-/* The offset that takes one point to another. */
+/* Sets the offset that maps one point to another. */
 static void set_offset(sbfi_matrix *m, sbfi_d3 from, sbfi_d3 to) {
   m->at[0][3] = m->at[1][3] = m->at[2][3] = 0;
   sbfi_d3 offset = sbfi_d3_sub(to, sbfi_similarity_apply(m, from));
@@ -100,7 +100,7 @@ bool sbfi_similarity_of_triangle(
   return true;
 }
 
-/* The rotation that turns a set of directions best, from the sums of products of their coordinates. */
+/* Best rotation between sets of directions, from the sums of products of their coordinates. */
 static void rotation_of_sums(double s[3][3], sbfi_matrix *m) {
   double n[16] = {s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0], 0,
       s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2], 0, 0, s[1][1] - s[0][0] - s[2][2],
@@ -160,7 +160,7 @@ static void add_text(sbfi_similarity_text *text, const char *part) {
   snprintf(text->at + used, sizeof text->at - used, "%s%s", used ? ", " : "", part);
 }
 
-/* A rotation about an axis of the file where it is one, else its axis and angle. */
+/* Describes a rotation about an axis of the file if it is one, otherwise by axis and angle. */
 static void describe_rotation(const sbfi_matrix *m, sbfi_similarity_text *text) {
   static const double degrees = 57.295779513082323;
   char part[96];

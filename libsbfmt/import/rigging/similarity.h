@@ -1,4 +1,4 @@
-/* Transforms that keep shapes: a rotation, perhaps with a mirror, one scale, and an offset. */
+/* Similarity transforms: a rotation, possibly a mirror, a uniform scale, and an offset. */
 #ifndef SBFI_SIMILARITY_H
 #define SBFI_SIMILARITY_H
 
@@ -15,25 +15,25 @@ void sbfi_spread_directions(sbfi_d3 *directions, uint32_t count);
 /* A rotation (quaternion x, y, z, w) about a point. */
 sbfi_matrix sbfi_rotation_about(const double rotation[4], sbfi_d3 about);
 sbfi_d3 sbfi_similarity_apply(const sbfi_matrix *m, sbfi_d3 p);
-/* The same rotation with another scale, or with another offset. */
+/* Replaces the scale, or the offset. */
 sbfi_matrix sbfi_similarity_scaled(const sbfi_matrix *rotation, double scale, sbfi_d3 offset);
 double sbfi_similarity_scale(const sbfi_matrix *m);
 
-/* The transform that takes a triangle to one of the same shape; two of them, of which one mirrors. False
- * where a triangle has no area. */
+/* The transform that maps a triangle to a similar one; there are two, one of them mirrored. False if a
+ * triangle has no area. */
 bool sbfi_similarity_of_triangle(
     const sbfi_d3 from[3], const sbfi_d3 to[3], bool mirrored, sbfi_matrix *matrix);
 
-/* Least squares over `count` pairs (Horn 1987), mirroring or not; a `scale` above 0 is kept. False where the
- * points are all in one place. */
+/* Least squares over `count` pairs (Horn 1987), mirrored or not; keeps a `scale` above 0. False if all
+ * points coincide. */
 bool sbfi_similarity_fit(
     const sbfi_d3 *from, const sbfi_d3 *to, uint32_t count, bool mirrored, double scale, sbfi_matrix *matrix);
 
-/* What is nearly a usual transform becomes it: axes to axes, a usual unit, no offset. `size` is that of the
- * points after it; `relative` (1e-4, say) how near is near. */
+/* Snaps to a usual transform: axes to axes, a usual unit, no offset. `size` is that of the transformed
+ * points; `relative` is the tolerance, such as 1e-4. */
 sbfi_matrix sbfi_similarity_snapped(const sbfi_matrix *m, double size, double relative);
 
-/* Units that files are written in, m: `name` NULL where it has none of use in a sentence. */
+/* Usual units of files, m: `name` is NULL if there is no suitable word for a message. */
 typedef struct sbfi_usual_unit {
   double unit_m;
   const char *name;
@@ -41,7 +41,7 @@ typedef struct sbfi_usual_unit {
 enum { SBFI_USUAL_UNITS = 12 };
 extern const sbfi_usual_unit sbfi_usual_units[SBFI_USUAL_UNITS];
 
-/* What a transform does, for a message: "scaled by 0.01 (centimetres), turned by -90 degrees about x". */
+/* Description of a transform for a message: "scaled by 0.01 (centimetres), turned by -90 degrees about x". */
 typedef struct sbfi_similarity_text {
   char at[256];
 } sbfi_similarity_text;

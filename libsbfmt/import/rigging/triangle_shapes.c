@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Ratios of sides differ by less than this where a shape is the same. */
+/* Tolerance of side ratios for equal shapes. */
 static const double TOLERANCE = 1e-3;
 enum { CELLS_ASIDE = 500 };
 
@@ -73,7 +73,7 @@ bool sbfi_triangle_shapes_make(
   collect_all(&c, &surface->mesh);
   for (uint32_t i = 0; i < cells; i++) {
     shapes->count += shapes->cell_starts[i];
-    shapes->cell_starts[i] = shapes->count; /* the end, which filling takes back to the start */
+    shapes->cell_starts[i] = shapes->count; /* the end; filling moves it back to the start */
   }
   shapes->cell_starts[cells] = shapes->count;
   shapes->triangles = sbfi_arena_allocate(arena, shapes->count + 1, sizeof *shapes->triangles);

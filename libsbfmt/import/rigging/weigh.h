@@ -1,35 +1,34 @@
-/* Ways to weigh the points of an input that have no weights yet. Those that need memory return
- * false where it runs out. */
+/* Methods that add weights to points without weights. Those that allocate return false if memory runs out. */
 #ifndef SBFI_WEIGH_H
 #define SBFI_WEIGH_H
 
 #include "import/rigging/rigging.h"
 
-/* By name: objects that stand for a mesh of the rig which hangs on a bone. Names only say which object a node
- * stands for, never which bone it hangs on, because a section and a different bone may bear one name; where
- * the rig has no mesh, objects named as its bones are theirs. */
+/* By name: objects that have the name of a rig mesh on a bone. A name identifies the mesh node, not the
+ * bone, because a section and a different bone may have equal names. If the rig has no mesh, objects named
+ * after bones belong to them. */
 void sbfi_weigh_by_name(sbfi_rigging *r);
-/* How far objects lie from the rig's meshes that they are named as, laid over the rig by that transform: the
- * sum of the distances of their middles, m. */
+/* Sum of the distances between the centres of objects and the rig's meshes of equal names under a
+ * transform, m. */
 double sbfi_names_distance(const sbfi_rigging *r, const sbfi_matrix *to_asset);
-/* By order of the caller: objects, or shells of them (pieces that share no point), that a bone is to move,
- * and only that. After those by name. IMPORT_PIN_UNKNOWN: there is no such object, shell or bone. */
+/* By the caller's request: objects, or shells of them (pieces that share no point), that exactly one bone
+ * moves. Runs after the names. IMPORT_PIN_UNKNOWN if an object, shell or bone does not exist. */
 sbf_status sbfi_weigh_shells(sbfi_rigging *r);
-/* Skins that the input has itself, for bones of the same names. */
+/* By the input's own skins, for bones with equal names. */
 void sbfi_weigh_by_own_skin(sbfi_rigging *r);
 
-/* By place: points that lie on points of the rig's meshes. `moved` is the input in asset space. */
+/* By position: points at points of the rig's meshes. `moved` is the input in asset space. */
 bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved);
 
-/* By nearness: the other points, from the surface of the rig's meshes beside them. `*share` is that of all
- * points which then have weights; where it is below `least` the input is no mesh like the rig's, and nothing
- * changes. */
+/* By proximity: remaining points take weights of the nearby surface of the rig's meshes. `*share` is the
+ * fraction of all points that then have weights. Below `min` the input is not similar to the rig's mesh,
+ * and nothing changes. */
 bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *fraction);
 
-/* From the bones alone (build/weights): the other points of objects that no node carries. */
+/* From the bones alone (build/weights): remaining points of objects without a carrier node. */
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved);
 
-/* From the file of --weights: an error says which line is wrong. */
+/* From the file of --weights; errors name the line. */
 sbf_status sbfi_weigh_by_file(sbfi_rigging *r, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* Weights from the bones alone, for points that nothing else gives any. */
+/* Computes weights from the bones alone, for points without other weights. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,12 +9,13 @@
 #include "mechanics/vector.h"
 #include "motion/carried_motion.h"
 
-/* Farther than this fraction of the rig's size, an object is no part of its character. */
+/* Objects farther away than this fraction of the rig's size are not part of the character. */
 static const double BESIDE = 0.15;
-/* As large as this fraction of the rig's size, it may be another character, and must hold a bone. */
+/* Objects larger than this fraction of the rig's size may be another character, so they must contain a
+ * bone. */
 static const double LARGE = 0.6;
 
-/* Where the rig has skins, only bones that they name move anything. */
+/* If the rig has skins, only their joints deform anything. */
 static bool *find_deforming(const sbfi_rigging *r) {
   bool any = false,
        *deforming = sbfi_arena_allocate(&r->c->scratch, r->c->asset->bones.count + 1, sizeof *deforming);
@@ -26,7 +27,7 @@ static bool *find_deforming(const sbfi_rigging *r) {
   return any ? deforming : NULL;
 }
 
-/* Which limbs are left and right, by their names. */
+/* Finds left and right limbs by name. */
 static int8_t *find_sides(const sbfi_rigging *r) {
   const sbf_bone_list bones = r->c->asset->bones;
   int8_t *sides = sbfi_arena_allocate(&r->c->scratch, (size_t)bones.count + 1, sizeof *sides);
@@ -55,14 +56,14 @@ static double size_of(const box *b) {
   return sbfi_d3_length(sbfi_d3_sub(b->high, b->low));
 }
 
-/* Whether a joint lies in the object's box, or nearer to that than the margin, as a hat's does. */
+/* Whether a joint is within a margin of the object's box; a hat has a joint beside it. */
 static bool is_beside_bones(const sbf_bone_list bones, const box *object, double margin) {
   for (uint32_t b = 0; b < bones.count; b++)
     if (holds(object, sbfi_d3_of(bones.at[b].head), margin)) return true;
   return false;
 }
 
-/* Several characters in one input: the rig is that of one. */
+/* Reports several characters in one input: the rig is that of one. */
 static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *moved) {
   const sbf_bone_list bones = r->c->asset->bones;
   const sbfi_d3 min = {-INFINITY, -INFINITY, -INFINITY}, max = {INFINITY, INFINITY, INFINITY};
@@ -91,15 +92,15 @@ static void report_separated(const sbfi_rigging *r, const sbfi_scene_surface *mo
 
 enum { NAMED = 4 };
 
-/* Bones that lie inside and yet are nearest to no point hold no skin: limbs in the trunk of a body that has
- * no such limbs. They count as little as those outside. */
+/* Bones that are inside but nearest to no point move no skin: limbs inside the trunk of a body without
+ * such limbs. They count as outside. */
 static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *computed) {
   char names[200] = "";
   double idle = 0, last = INFINITY;
   for (uint32_t b = 0; b < computed->bone_count; b++) idle += (double)computed->idle_lengths[b];
   double inside = fmin(r->alignment.inside, computed->figures.inside), fraction = inside * (1 - idle);
   if (!(inside > 0) || fraction >= SBFI_MIN_BONES_INSIDE) return SBF_OK;
-  for (int n = 0; n < NAMED; n++) { /* the longest first; of equals the first alone */
+  for (int n = 0; n < NAMED; n++) { /* the longest first; only one of equals */
     uint32_t best = UINT32_MAX;
     for (uint32_t b = 0; b < computed->bone_count; b++) {
       double length = (double)computed->idle_lengths[b];
@@ -120,8 +121,8 @@ static sbf_status check_idle_bones(const sbfi_rigging *r, const sbfi_weights *co
       100 * fraction, 100 * idle, names);
 }
 
-/* Several bones reach over most of their body; a few may not, but then lie in its middle. A rig of another
- * character lies in a part of the input, or beside the middle of most of it. */
+/* Many bones span most of their body. A few may not, but then they are near its middle. A rig of another
+ * character covers a part of the input, or is off the middle of most of it. */
 enum { SEVERAL = 10 };
 static const double MIN_EXTENT = 0.75, MIN_BESIDE = 0.9, MIN_OF_FEW = 0.4, MAX_BESIDE = 2.2, FAR_BESIDE = 3;
 
@@ -145,14 +146,14 @@ static sbf_status check_extent(const sbfi_rigging *r, const sbfi_weights *comput
       r->rig.scene->file, 100 * f->bone_extent, f->median_distance);
 }
 
-/* So near to one, as a share, a scale is that of a unit. */
+/* Relative tolerance between a scale and a unit. */
 static const double NEAR_UNIT = 0.05;
 
 static bool is_near(double scale, double unit) {
   return fabs(scale / unit - 1) <= NEAR_UNIT;
 }
 
-/* Whether the input was scaled by a unit, stated or usual, and not as much as it takes to hold the bones. */
+/* Whether the input was scaled by a unit, stated or usual, instead of being fitted to the bones. */
 static bool is_scaled_by_unit(const sbfi_rigging *r) {
   double scale = sbfi_similarity_scale(&r->alignment.to_asset);
   bool found = is_near(scale, sbfi_similarity_scale(&r->c->to_asset));
@@ -160,19 +161,19 @@ static bool is_scaled_by_unit(const sbfi_rigging *r) {
   return found;
 }
 
-/* Objects that stand where the rig's do: all of the input was laid over it by them. */
+/* Whether objects match the rig's by name: they aligned the whole input. */
 static bool has_carriers(const sbfi_rigging *r) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (r->carriers[m] != SBF_NONE) return true;
   return false;
 }
 
-/* The bones of a fish lie inside a caterpillar too, if it is made as long: a rig with a mesh states its size.
- * Where units agree it may be meant, as for two characters of one maker. */
+/* The bones of a fish also fit a caterpillar of equal length, so a rig with a mesh must agree in size. If
+ * the units agree it may be intended, as for two characters by one author. */
 static sbf_status check_other_mesh(const sbfi_rigging *r) {
   if (!(r->unlike > 0) || r->c->options->weights || has_carriers(r)) return SBF_OK;
   if (is_scaled_by_unit(r)) {
-    char lie[60] = ""; /* nothing where the rig has no two joints to lie between */
+    char lie[60] = ""; /* empty if the rig has no two joints to interpolate */
     if (r->alignment.inside > 0)
       snprintf(lie, sizeof lie, ", of which %.0f %% lie inside the input,", 100 * r->alignment.inside);
     sbfi_convert_warn(r->c, SBF_CODE_RIG_OTHER_MESH,

@@ -1,4 +1,4 @@
-/* Shells that the caller gives to a bone: whole objects, or pieces of one by number. */
+/* Assigns shells to bones at the caller's request: whole objects, or numbered pieces. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 typedef struct shell_wish {
   int32_t mesh;    /* of the input */
-  uint32_t number; /* of its shells, from 1; 0: all */
+  uint32_t number; /* shell number from 1; 0: all */
   int32_t node;    /* of the rig */
 } shell_wish;
 
@@ -20,7 +20,7 @@ static int32_t find_object(const sbfi_rigging *r, const char *name, size_t lengt
   return SBF_NONE;
 }
 
-/* OBJECT or OBJECT#NUMBER; an object may have the sign in its name. */
+/* OBJECT or OBJECT#NUMBER; the object's name may contain the sign. */
 static sbf_status read_wish(const sbfi_rigging *r, const sbf_convert_pin *from, shell_wish *wish) {
   const sbf_bone_list bones = r->c->asset->bones;
   const char *sign = strrchr(from->group, '#');
@@ -46,15 +46,16 @@ static sbf_status read_wish(const sbfi_rigging *r, const sbf_convert_pin *from, 
   return SBF_OK;
 }
 
-static void give(sbfi_rigging *r, uint32_t point, int32_t node) {
+static void assign_point(sbfi_rigging *r, uint32_t point, int32_t node) {
   memset(&r->weights[point], 0, sizeof r->weights[point]);
   sbfi_influences_add(&r->weights[point], (uint32_t)node, 1);
   sbfi_influences_finish(&r->weights[point]);
   r->sources[point] = SBFI_WEIGHTS_NAMED;
 }
 
-/* Gives the points of the wish; numbers shells by their first points. */
-static sbf_status fulfil(sbfi_rigging *r, const shell_wish *wish, const char *name, uint32_t *parents) {
+/* Assigns the requested points; numbers shells by their first points. */
+static sbf_status apply_request(
+    sbfi_rigging *r, const shell_wish *wish, const char *name, uint32_t *parents) {
   uint32_t from = r->input.mesh_starts[wish->mesh], to = r->input.mesh_starts[wish->mesh + 1], shells = 0;
   if (r->carriers[wish->mesh] != SBF_NONE && wish->number)
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
@@ -68,7 +69,7 @@ static sbf_status fulfil(sbfi_rigging *r, const shell_wish *wish, const char *na
     return sbfi_diagnose(r->c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
         "there is no shell '%s': the object consists of %u", name, shells);
   for (uint32_t i = from; i < to; i++)
-    if (!wish->number || sbfi_set_root(parents, i) == wanted) give(r, i, wish->node);
+    if (!wish->number || sbfi_set_root(parents, i) == wanted) assign_point(r, i, wish->node);
   return SBF_OK;
 }
 
@@ -87,7 +88,7 @@ sbf_status sbfi_weigh_shells(sbfi_rigging *r) {
   for (uint32_t i = 0; status == SBF_OK && i < options->shell_count; i++) {
     shell_wish wish;
     status = read_wish(r, &options->shells[i], &wish);
-    if (status == SBF_OK) status = fulfil(r, &wish, options->shells[i].group, parents);
+    if (status == SBF_OK) status = apply_request(r, &wish, options->shells[i].group, parents);
   }
   return status;
 }

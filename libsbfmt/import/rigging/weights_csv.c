@@ -36,7 +36,7 @@ sbf_status sbfi_weights_rows_add(
 enum { COLUMN_VERTEX, COLUMN_BONE, COLUMN_WEIGHT, COLUMNS };
 static const char *const COLUMN_NAMES[COLUMNS] = {"vertex", "bone", "weight"};
 
-/* Takes the next field off a line; `*quoted` where quotes around it hold doubled ones. False at the end. */
+/* Reads the next field of a line; sets `*quoted` if it contains doubled quotes. False at the end. */
 static bool next_field(sbfi_span *rest, bool *first, sbfi_span *field, bool *quoted) {
   if (!*first) {
     if (!rest->length || rest->at[0] != ',') return false;

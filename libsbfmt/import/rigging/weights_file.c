@@ -1,5 +1,5 @@
-/* Weights from a file. A vertex is a line `v` of an OBJ, from 0; of other files a point, counted over the
- * objects in their order, as in the OBJ that `sbfmt export` writes of them. */
+/* Reads weights from a file. A vertex is a line `v` of an OBJ, from 0. For other files it is a point,
+ * counted over the objects in order, as in the OBJ that `sbfmt export` writes. */
 #include <string.h>
 
 #include "base/file.h"
@@ -8,7 +8,7 @@
 #include "import/rigging/weigh.h"
 #include "import/rigging/weights_rows.h"
 
-/* The point of each vertex + 1, 0 for none. */
+/* Point of each vertex + 1; 0 for none. */
 static uint32_t *points_of_vertices(const sbfi_rigging *r, uint32_t *vertex_count) {
   const sbfi_scene *scene = r->input.scene;
   bool is_obj = strcmp(scene->format, "obj") == 0;

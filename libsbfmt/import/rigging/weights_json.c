@@ -1,4 +1,4 @@
-/* As much of JSON (RFC 8259) as a list of weights needs; values of other keys are passed over. */
+/* Parses the subset of JSON (RFC 8259) that a list of weights needs; skips values of other keys. */
 #include <string.h>
 
 #include "import/quote.h"
@@ -58,7 +58,7 @@ static char *put_utf8(char *to, uint32_t code) {
   return to;
 }
 
-/* One escape, behind its backslash; NULL where it is none. */
+/* Parses an escape after its backslash; NULL if it is invalid. */
 static char *take_escape(reader *r, char *to) {
   static const char names[] = "\"\\/bfnrt", values[] = "\"\\/\b\f\n\r\t";
   const char *found = r->at < r->end && *r->at ? strchr(names, *r->at) : NULL;
@@ -101,7 +101,7 @@ static sbf_status take_string(reader *r, const char **text) {
   return SBF_OK;
 }
 
-/* A number or a word, as text. */
+/* Returns a number or a word as text. */
 static sbfi_span take_word(reader *r) {
   skip_blanks(r);
   const char *from = r->at;
@@ -109,7 +109,7 @@ static sbfi_span take_word(reader *r) {
   return (sbfi_span){from, (size_t)(r->at - from)};
 }
 
-/* Passes over any value. */
+/* Skips any value. */
 static sbf_status skip_value(reader *r) {
   int depth = 0;
   do {

@@ -1,4 +1,4 @@
-/* Makes a scene of what an importer found: axes and units first, then nodes, materials, meshes and
+/* Assembles a scene from an importer's output: axes and units first, then nodes, materials, meshes and
  * clips. */
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/diagnostic.h"
 #include "import/scene/assembly.h"
 
-/* Rows: which axis of the file is +X, +Y and +Z here. FBX states them as up, front and right ("coord"). */
+/* Rows: which axis of the file becomes +X, +Y and +Z. FBX states them as up, front and right ("coord"). */
 static bool axes_of(const int32_t stated[6], sbfi_matrix *to) {
   static const int row_of[] = {1, 2, 0};
   sbfi_matrix m = {.at[3][3] = 1};
@@ -18,12 +18,12 @@ static bool axes_of(const int32_t stated[6], sbfi_matrix *to) {
   double determinant = m.at[0][0] * (m.at[1][1] * m.at[2][2] - m.at[1][2] * m.at[2][1]) -
                        m.at[0][1] * (m.at[1][0] * m.at[2][2] - m.at[1][2] * m.at[2][0]) +
                        m.at[0][2] * (m.at[1][0] * m.at[2][1] - m.at[1][1] * m.at[2][0]);
-  if (determinant != 1) return false; /* an axis twice, or a left-handed file */
+  if (determinant != 1) return false; /* a repeated axis, or a left-handed file */
   *to = m;
   return true;
 }
 
-/* glTF is in metres with +Y up; Collada is turned and scaled so by assimp, in its root node. */
+/* glTF is in metres with +Y up; assimp converts Collada to that in its root node. */
 bool sbfi_assemble_frame(sbfi_assembly *a) {
   sbfi_scene *scene = a->scene;
   const char *format = scene->format;
@@ -48,13 +48,13 @@ bool sbfi_assemble_frame(sbfi_assembly *a) {
                                   (int)a->raw->axes[1], (int)a->raw->axes[3], (int)a->raw->axes[5]);
 }
 
-/* What assimp calls a node of which the file has no name: "", "<STL_BINARY>", "$dummy_node". */
+/* Whether assimp invented the name because the file has none: "", "<STL_BINARY>", "$dummy_node". */
 static bool is_invented_name(const char *name) {
   size_t length = strlen(name);
   return length == 0 || (name[0] == '<' && name[length - 1] == '>') || strcmp(name, "$dummy_node") == 0;
 }
 
-/* An object without a name of its own is called as its data are, else as the file is. */
+/* Names an unnamed object after its data, or after the file. */
 static bool name_objects(sbfi_assembly *a) {
   const char *path = a->scene->file, *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
   const char *dot = strrchr(file, '.');
@@ -69,7 +69,7 @@ static bool name_objects(sbfi_assembly *a) {
   return true;
 }
 
-/* Forms that state a unit which assimp 5.2.5 does not hand on. */
+/* Formats with a unit that assimp 5.2.5 drops. */
 static bool say_lost_unit(sbfi_assembly *a) {
   bool lost = strcmp(a->scene->format, "3mf") == 0 || strcmp(a->scene->format, "amf") == 0;
   return !lost || sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_UNIT, 0,

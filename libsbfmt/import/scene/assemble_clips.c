@@ -1,12 +1,12 @@
-/* Clips: channels find their nodes by name, ticks become seconds, and what moves the helper nodes of an FBX
- * is worked into keys of the node they were split from. */
+/* Assembles clips: finds nodes of channels by name, converts ticks to seconds, and bakes the motion of FBX
+ * helper nodes into keys of the original node. */
 #include <math.h>
 #include <string.h>
 
 #include "import/scene/assembly.h"
 #include "import/scene/baked_keys.h"
 
-/* What assimp's own tools assume where a file names no rate. */
+/* Default rate of assimp's own tools for files without one. */
 static const double default_ticks_per_second = 25;
 
 typedef struct clipping {
@@ -16,8 +16,8 @@ typedef struct clipping {
   uint32_t *helper_of_name;            /* (helper names) raw node */
   uint32_t *dependent_starts;          /* (raw nodes + 1) into dependents */
   uint32_t *dependents;                /* scene nodes that each helper was folded into */
-  const sbfi_raw_channel **channel_of; /* (raw nodes) of the clip at hand */
-  uint32_t *seen;                      /* (scene nodes) clip + 1 whose channel is made already */
+  const sbfi_raw_channel **channel_of; /* (raw nodes) of the current clip */
+  uint32_t *seen;                      /* (scene nodes) clip + 1 if the channel exists already */
   double ticks_per_second, shift_ticks;
   uint64_t dropped_keys;
   double longest_s;
@@ -63,7 +63,7 @@ static bool list_dependents(clipping *c) {
   return true;
 }
 
-/* The raw node that a channel is about, SBF_NONE for a name that no node has. */
+/* Raw node of a channel; SBF_NONE if no node has the name. */
 static int32_t find_raw(clipping *c, sbfi_span name, bool *good) {
   int64_t helper = sbfi_name_table_find(&c->helper_names, name);
   if (helper >= 0) return (int32_t)c->helper_of_name[helper];
@@ -73,8 +73,8 @@ static int32_t find_raw(clipping *c, sbfi_span name, bool *good) {
 
 /* --- Keys ------------------------------------------------------------------------------------------ */
 
-/* Keys in seconds, strictly ascending from 0 or later; the others are dropped and counted. Times and values
- * in `arena`. */
+/* Reads keys in seconds, strictly ascending from 0; drops and counts others. Allocates times and values
+ * from `arena`. */
 static bool read_track(
     clipping *c, sbfi_arena *arena, const sbfi_raw_keys *raw, uint32_t width, sbfi_track *to) {
   *to = (sbfi_track){0};
@@ -86,7 +86,7 @@ static bool read_track(
   for (uint32_t i = 0; i < raw->count; i++) {
     float *value = values + (size_t)count * width;
     float time = (float)((sbfi_raw_key(raw, width, i, value) + c->shift_ticks) / c->ticks_per_second);
-    bool good = isfinite(time) && time >= 0; /* the clip begins at the first keys, whose times may be NaN */
+    bool good = isfinite(time) && time >= 0; /* the clip begins at its first keys, whose times may be NaN */
     if (width == 4) {
       double length = sqrt((double)value[0] * value[0] + (double)value[1] * value[1] +
                            (double)value[2] * value[2] + (double)value[3] * value[3]);
@@ -112,7 +112,7 @@ static bool read_channel(clipping *c, sbfi_arena *arena, const sbfi_raw_channel 
   return true;
 }
 
-/* Keys of a node whose transform was split over helpers: all of them together. */
+/* Bakes keys of a node whose transform was split into helpers. */
 static bool bake_channel(clipping *c, uint32_t node, sbfi_keys *to) {
   sbfi_assembly *a = c->a;
   sbfi_arena scratch;

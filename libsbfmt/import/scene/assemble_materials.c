@@ -1,12 +1,12 @@
-/* Materials of a scene and the images they name, embedded or beside the file. */
+/* Assembles materials of a scene and their images, embedded or in files. */
 #include <string.h>
 
 #include "import/scene/assembly.h"
 
 typedef struct imaging {
   sbfi_assembly *a;
-  sbfi_name_table names;    /* of the images as the materials name them */
-  sbfi_array image_of_name; /* int32_t, SBF_NONE for one that cannot be had */
+  sbfi_name_table names;    /* names of images as in the materials */
+  sbfi_array image_of_name; /* int32_t, SBF_NONE if the image is missing */
   sbfi_array images;        /* sbfi_scene_image */
 } imaging;
 
@@ -16,7 +16,7 @@ static sbfi_span base_name(sbfi_span path) {
   return path;
 }
 
-/* "*3" is embedded image 3; an FBX may embed an image and yet refer to it by its path. */
+/* "*3" is embedded image 3. An FBX may also refer to an embedded image by its path. */
 static int64_t find_embedded(const sbfi_raw_scene *raw, sbfi_span name) {
   uint64_t number = 0;
   bool starred = name.length > 1 && name.at[0] == '*';
@@ -60,7 +60,7 @@ static bool make_image(imaging *m, sbfi_span name, int32_t *number) {
   return sbfi_array_append(&m->images, &image, 1);
 }
 
-/* The image of that name, made when it is first asked for. */
+/* Finds an image by name; creates it at the first request. */
 static bool find_image(imaging *m, sbfi_span name, int32_t *number) {
   *number = SBF_NONE;
   if (!name.length) return true;
@@ -90,7 +90,7 @@ static bool make_material(imaging *m, const sbfi_raw_material *raw, sbfi_scene_m
          find_image(m, raw->images[SBFI_RAW_NORMAL], &to->normal_image);
 }
 
-/* Those that a mesh uses: assimp adds one of its own to many files. */
+/* Creates only materials that a mesh uses: assimp adds one of its own to many files. */
 static bool make_materials(imaging *m) {
   sbfi_assembly *a = m->a;
   const sbfi_raw_scene *raw = a->raw;

@@ -1,17 +1,17 @@
-/* The parts of one node become one mesh again, and corners that share a point share it again.
+/* Merges the parts of a node into one mesh and restores shared points.
  *
- * assimp hands out a mesh in parts, one a material, with a vertex at every corner or at every difference of
- * normal or texture coordinate. What the author made is found by bits: vertices of one node at the same
- * position, with the same joints and weights and the same movement in every shape, are one point. Two points
- * at one place that move differently (lips) stay two. Never across nodes: two sections that touch stay apart.
- */
+ * assimp splits a mesh into one part per material, with a vertex at every corner or at every difference of
+ * normal or texture coordinate. The original points are found by exact comparison: vertices of one node
+ * with equal positions, joints, weights and shape deltas are one point. Two points at one position that
+ * move differently (lips) stay separate. Vertices of different nodes are never merged, so adjacent
+ * sections stay separate. */
 #include <math.h>
 #include <string.h>
 
 #include "import/scene/assembly.h"
 #include "import/scene/row_table.h"
 
-enum { NO_JOINT = 0x7fffffff }; /* of a bone whose name no node has */
+enum { NO_JOINT = 0x7fffffff }; /* for a bone whose name no node has */
 
 typedef struct influence {
   uint32_t joint;
@@ -23,7 +23,7 @@ typedef struct joining {
   sbfi_arena scratch;
   const sbfi_raw_mesh **parts;
   uint32_t part_count;
-  uint32_t *part_vertices; /* (part_count + 1) first vertex of each part in the whole */
+  uint32_t *part_vertices; /* (part_count + 1) first vertex of each part in the merged mesh */
   sbfi_scene_mesh *to;
   uint32_t vertex_count, shape_count, uv_set_count;
   uint32_t *influence_starts; /* (vertex_count + 1), NULL without a skin */
@@ -50,7 +50,7 @@ static bool refuse_number(joining *j, const char *what) {
       "the %s of mesh \"%s\" are beyond single precision: export the file again", what, j->to->name);
 }
 
-/* A part's name is the mesh's with "-0", "-1", … where there are several: the beginning they share. */
+/* Common prefix of the parts' names: several parts are named "-0", "-1", … after the mesh's name. */
 static sbfi_span shared_name(const joining *j) {
   sbfi_span name = j->parts[0]->name;
   for (uint32_t i = 1; i < j->part_count; i++) {
@@ -88,7 +88,7 @@ static bool count_parts(joining *j) {
   return true;
 }
 
-/* Lines and points, which have one or two corners, are left out. */
+/* Skips lines and points, which have one or two corners. */
 static bool join_polygons(joining *j) {
   sbfi_scene_mesh *to = j->to;
   uint32_t *starts = allocate(j, (size_t)to->polygon_count + 1, sizeof *starts);
@@ -114,7 +114,7 @@ static bool join_polygons(joining *j) {
   return true;
 }
 
-/* One joint a node: the parts list the same joints with the same bind, each in an order of its own. */
+/* Adds one joint per node: parts list the same joints with equal bind matrices in different orders. */
 static int64_t add_joint(joining *j, sbfi_array *joints, int32_t node, const sbfi_matrix *bind) {
   uint32_t *joint_of_node = j->assembly->joint_of_node;
   if (joint_of_node[node] == 0) {
@@ -124,7 +124,7 @@ static int64_t add_joint(joining *j, sbfi_array *joints, int32_t node, const sbf
   return (int64_t)joint_of_node[node] - 1;
 }
 
-/* The joint of each bone of a part, NO_JOINT for one without a node. */
+/* Finds the joint of each bone of a part; NO_JOINT if it has no node. */
 static bool join_joints(joining *j, sbfi_array *joints, const sbfi_raw_mesh *part, uint32_t *joint_of_bone) {
   sbfi_assembly *a = j->assembly;
   bool good = true;
@@ -146,7 +146,7 @@ static bool join_joints(joining *j, sbfi_array *joints, const sbfi_raw_mesh *par
   return good;
 }
 
-/* Ascending joints, each once, weights above 0; returns how many stay. */
+/* Sorts and merges joints, and drops weights of 0. Returns the remaining count. */
 static uint32_t tidy(influence *list, uint32_t count) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < count; i++) {
@@ -164,8 +164,8 @@ static uint32_t tidy(influence *list, uint32_t count) {
   return kept;
 }
 
-/* Calls for every weight above 0, parts and bones in order: `indices` is counted up, or filled and moved on.
- */
+/* Visits every weight above 0 in order of parts and bones: the first pass counts in `indices`, the second
+ * fills and advances them. */
 static void visit_weights(joining *j, uint32_t *const *joint_of_bone, uint32_t *indices, influence *list) {
   for (uint32_t i = 0; i < j->part_count; i++)
     for (uint32_t b = 0; b < j->parts[i]->bone_count; b++) {
@@ -194,7 +194,7 @@ static bool join_influences(joining *j, uint32_t *const *joint_of_bone) {
   j->influences = scratch(j, (size_t)total, sizeof *j->influences);
   if (!j->influences) return false;
   visit_weights(j, joint_of_bone, starts, j->influences);
-  /* starts[v] is now where v's list ends: tidy each and close the gaps. */
+  /* starts[v] is now the end of v's list: sorts each list and closes the gaps. */
   uint32_t from = 0, kept = 0;
   for (uint32_t v = 0; v < j->vertex_count; v++) {
     uint32_t end = starts[v], count = tidy(j->influences + from, end - from);
@@ -241,16 +241,16 @@ static sbf_vec3 shape_delta(const sbfi_raw_mesh *part, uint32_t shape, uint32_t 
   return (sbf_vec3){moved.x - at.x, moved.y - at.y, moved.z - at.z};
 }
 
-/* One step down a tree: the number of the child that differs from its siblings by three words; -1 where
- * memory runs out. A number of no more than 31 bits leaves one to keep the kinds of steps apart. */
+/* Steps down a tree: returns the number of the child with these three words as its key; -1 if memory runs
+ * out. Numbers have at most 31 bits, which leaves one bit for the kind of step. */
 static int64_t step(joining *j, int64_t from, uint32_t kind, uint32_t a, uint32_t b, uint32_t c) {
   if (from < 0) return -1;
   int64_t child = sbfi_row_table_add(&j->classes, (sbfi_row){{(uint32_t)from | kind << 31, a, b, c}});
   return child < 0 ? -1 : child + 1;
 }
 
-/* A number that two vertices share if the same joints and shapes move them alike: where the walk ends that
- * takes a step for each joint, and two for each shape. */
+/* Number that two vertices share if the same joints and shapes move them equally: the end of a walk with
+ * one step per joint and two per shape. */
 static int64_t class_of(joining *j, const sbfi_raw_mesh *part, uint32_t part_vertex, uint32_t vertex) {
   int64_t class = 0;
   for (uint32_t k = j->influence_starts ? j->influence_starts[vertex] : 0;
@@ -265,7 +265,7 @@ static int64_t class_of(joining *j, const sbfi_raw_mesh *part, uint32_t part_ver
   return class;
 }
 
-/* Numbers the points in the order of their first vertices. */
+/* Numbers points by their first vertices. */
 static bool weld(joining *j) {
   sbfi_scene_mesh *to = j->to;
   uint32_t *points = allocate(j, j->vertex_count, sizeof *points);
@@ -323,7 +323,7 @@ static bool take_skin(joining *j) {
   return true;
 }
 
-/* The part and its vertex that a vertex of the whole is. */
+/* Part and vertex within it of a vertex of the merged mesh. */
 static const sbfi_raw_mesh *part_of(const joining *j, uint32_t vertex, uint32_t *part_vertex) {
   uint32_t low = 0, high = j->part_count - 1;
   while (low < high) {
@@ -362,7 +362,7 @@ static bool take_shapes(joining *j) {
   return true;
 }
 
-/* The group of that name, a new one without weights if there is none; NULL where memory runs out. */
+/* Finds a group by name or adds one without weights; NULL if memory runs out. */
 static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const char *name) {
   for (uint32_t g = 0; g < j->to->group_count; g++)
     if (strcmp(groups[g].name, name) == 0) return &groups[g];
@@ -374,7 +374,7 @@ static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const
   return group;
 }
 
-/* What bones without a node say of the points; of vertices welded to one, the greatest. */
+/* Creates groups from bones without a node; merged vertices take the maximum. */
 static bool take_groups(joining *j) {
   if (!j->nodeless_count) return true;
   sbfi_scene_group *groups = allocate(j, j->nodeless_count, sizeof *groups);
@@ -387,10 +387,10 @@ static bool take_groups(joining *j) {
       const char *name = good ? sbfi_scene_string(j->assembly->scene, bone->name) : NULL;
       sbfi_scene_group *group = name ? group_named(j, groups, name) : NULL;
       if (!group) return false;
-      float *weights = (float *)(uintptr_t)group->weights; /* made above */
+      float *weights = (float *)(uintptr_t)group->weights; /* created above and still writable */
       for (uint32_t k = 0; k < bone->weight_count; k++) {
         float *weight = &weights[j->to->vertex_points[j->part_vertices[i] + bone->vertices[k]]];
-        *weight = fminf(1, fmaxf(*weight, bone->weights[k])); /* what is no number stays out */
+        *weight = fminf(1, fmaxf(*weight, bone->weights[k])); /* fmaxf ignores NaN */
       }
     }
   j->to->groups = groups;
@@ -413,7 +413,7 @@ static const float *uvs_of(const sbfi_raw_mesh *part, uint32_t set) {
   return set < part->uv_set_count ? (const float *)part->uvs[set] : NULL;
 }
 
-/* The different values of an attribute, `width` numbers each, and which of them each corner has. */
+/* Collects the distinct values of an attribute (`width` numbers each) and the index of each corner. */
 static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t width, float **values,
     uint32_t *count, int32_t **corner_values) {
   sbfi_scene_mesh *to = j->to;
@@ -480,7 +480,7 @@ static bool join(joining *j) {
          take_shapes(j) && take_attributes(j);
 }
 
-/* Makes the mesh of a node in `*to`, unless it has no polygons; those it leaves out are counted. */
+/* Creates the mesh of a node in `*to`, unless it has no polygons; counts skipped ones. */
 static bool join_node(sbfi_assembly *a, uint32_t node, sbfi_scene_mesh *to, uint64_t *left_out) {
   const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[node]];
   joining j = {.assembly = a, .part_count = raw->mesh_count, .to = to};

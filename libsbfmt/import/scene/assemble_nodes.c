@@ -1,12 +1,12 @@
-/* Nodes of a scene; those an importer made of one node's pivots are folded into one again. */
+/* Assembles nodes of a scene; merges the nodes that an importer made of one node's pivots. */
 #include <string.h>
 
 #include "import/scene/assembly.h"
 #include "model/bone_ends.h"
 
-/* assimp splits the transform of an FBX node into a chain of helpers, one for each pivot and offset. */
+/* assimp splits the transform of an FBX node into a chain of helpers, one per pivot and offset. */
 static const char pivot_mark[] = "_$AssimpFbx$_";
-enum { LONGEST_PIVOT_CHAIN = 32 }; /* assimp makes 16 at most */
+enum { LONGEST_PIVOT_CHAIN = 32 }; /* assimp creates 16 at most */
 
 static bool contains(sbfi_span text, const char *part) {
   size_t length = strlen(part);
@@ -19,7 +19,7 @@ bool sbfi_is_folded(const sbfi_assembly *a, uint32_t raw_node) {
   return a->new_from_old[raw_node] == SBF_NONE;
 }
 
-/* By name as well as by place: any tool writes leaves that are bones of their own. */
+/* Requires a matching name and position, because other tools write leaves that are bones of their own. */
 static void mark_ends(sbfi_assembly *a, uint32_t node_count) {
   for (uint32_t i = 0; i < node_count; i++) {
     sbfi_span name = a->raw->nodes[a->old_from_new[i]].name;
@@ -42,13 +42,14 @@ static bool take_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scen
   return good;
 }
 
-/* A helper's transform goes into every node below it. */
+/* Merges a helper's transform into every node below it. */
 static bool fold(sbfi_assembly *a) {
   const sbfi_raw_scene *raw = a->raw;
   sbfi_matrix *above =
-      sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *above); /* helpers' product */
+      sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *above); /* product of the helpers */
   int32_t *kept_parent = sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *kept_parent);
-  uint8_t *chain = sbfi_arena_allocate(&a->scratch, raw->node_count, 1); /* helpers that end in this node */
+  uint8_t *chain = sbfi_arena_allocate(
+      &a->scratch, raw->node_count, 1); /* number of consecutive helpers up to this node */
   if (!above || !kept_parent || !chain) return false;
   uint32_t count = 0;
   for (uint32_t i = 0; i < raw->node_count; i++) {
@@ -91,7 +92,7 @@ bool sbfi_assemble_nodes(sbfi_assembly *a) {
   return true;
 }
 
-/* How likely a skin or a clip means this one of several nodes of a name. */
+/* Rank of a node by how likely a skin or a clip refers to it among nodes with equal names. */
 static int rank_of(const sbfi_assembly *a, uint32_t node) {
   const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[node]];
   if (a->nodes[node].is_bone) return 3;
@@ -127,7 +128,7 @@ static bool is_gltf(const char *format) {
   return strcmp(format, "glb") == 0 || strcmp(format, "gltf") == 0;
 }
 
-/* The node deepest down with every bone in or below it, and how many bones each subtree has. */
+/* Lowest common ancestor of all bones; also counts the bones in each subtree. */
 static int32_t common_ancestor(const sbfi_assembly *a, uint32_t *bones_below) {
   uint32_t all = 0;
   int32_t deepest = SBF_NONE;
@@ -141,8 +142,8 @@ static int32_t common_ancestor(const sbfi_assembly *a, uint32_t *bones_below) {
   return deepest;
 }
 
-/* A glTF without a skin may still hold a rig, its meshes hanging rigidly on it: the nodes that are no meshes
- * themselves, below the top one, where at least two of them carry a mesh. */
+/* A glTF without a skin may still be a rig with rigidly attached meshes: marks the nodes without a mesh
+ * below the common ancestor as bones if at least two of them carry a mesh. */
 static void mark_rigid_rig(sbfi_assembly *a) {
   sbfi_scene_node *nodes = a->nodes;
   uint32_t count = a->scene->node_count, carriers = 0;
@@ -173,8 +174,8 @@ static bool is_armature_name(const char *name) {
   return !word[i] && (!name[i] || name[i] == '.'); /* Armature.001 */
 }
 
-/* Forms in which programs write an armature alone. Files of others hold meshes: without one they are damaged.
- */
+/* Formats in which programs export an armature without meshes. In other formats a file without meshes is
+ * damaged. */
 static bool may_be_armature(const char *format) {
   static const char *const forms[] = {"fbx", "dae", "x", "blend"};
   bool is_one = is_gltf(format);
@@ -182,8 +183,8 @@ static bool may_be_armature(const char *format) {
   return is_one;
 }
 
-/* A file without a mesh that declares no joint: two nodes or more are a skeleton, from the first that is no
- * frame around it. Such frames are the root that importers invent and an armature's own node. */
+/* A file without meshes and declared joints: at least two nodes form a skeleton, from the first that is
+ * not a frame around it. Frames are the root that importers add and an armature's own node. */
 static void mark_bare_skeleton(sbfi_assembly *a) {
   sbfi_scene_node *nodes = a->nodes;
   uint32_t count = 0;
@@ -199,9 +200,9 @@ static void mark_bare_skeleton(sbfi_assembly *a) {
   for (uint32_t i = 0; count < 2 && i < a->scene->node_count; i++) nodes[i].is_bone = false;
 }
 
-/* glTF lists the joints of a skin, and FBX says of each node whether it is a limb. Elsewhere only the joints
- * that hold a point are known: to them come what joins them and what hangs on them, but never the root of the
- * file. In a BVH everything is a joint. */
+/* glTF lists the joints of a skin, and FBX marks limbs. In other formats only joints with points are
+ * known: adds nodes that connect them and their descendants, but never the root of the file. In a BVH
+ * every node is a joint. */
 static bool mark_bones(sbfi_assembly *a) {
   const char *format = a->scene->format;
   sbfi_scene_node *nodes = a->nodes;

@@ -16,8 +16,8 @@ static const char helper_name[] = "sbfmt-import";
 
 enum { PATH_SIZE = 4096 };
 
-/* Places of the helper relative to the folder of the program or library: beside it, an installed tree (bin,
- * or lib with or without the machine's name), a build tree. */
+/* Paths of the helper relative to the folder of the program or library: beside it, in an installed tree
+ * (bin, or lib with or without the architecture), in a build tree. */
 static const char *const positions[] = {
     "", "/../libexec/sbfmt", "/../../libexec/sbfmt", "/../libsbfmt", "/.."};
 
@@ -41,7 +41,7 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
     from = "SBFMT_IMPORT_HELPER";
   }
   if (stated && *stated) {
-    /* A bare name would be looked for along PATH by some systems: it means the folder we are in. */
+    /* Some systems would search PATH for a bare name: prefixes the current folder. */
     int length = snprintf(to, size, "%s%s", strchr(stated, '/') ? "" : "./", stated);
     if (length < 0 || (size_t)length >= size || !sbfi_is_program(to))
       return helper_missing(error, stated, from);
@@ -59,7 +59,7 @@ static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_dia
       helper_name);
 }
 
-/* The last line of what the child said, without its full stop. */
+/* Last line of the child's output without its full stop. */
 static void last_words(const char *text, char *to, size_t size) {
   sbfi_span rest = sbfi_span_of(text), line, last = {"nothing", 7};
   while (sbfi_span_next_line(&rest, &line)) {
@@ -78,10 +78,10 @@ static sbf_status limit_reached(sbf_diagnostic *error, const char *what) {
       what);
 }
 
-/* Sound files take a second for some megabytes; on damaged ones assimp can run for ever. */
+/* Valid files take about a second for several megabytes; damaged ones can make assimp run forever. */
 static double time_limit_s(const sbfi_scene_options *options, uint64_t size_bytes) {
   double by_size = 20 + 10e-6 * (double)size_bytes;
-  if (options->helper_time_limit_s > 4e6) return 4e6; /* what 32 bits of milliseconds hold */
+  if (options->helper_time_limit_s > 4e6) return 4e6; /* milliseconds must fit into 32 bits */
   if (options->helper_time_limit_s > 0) return options->helper_time_limit_s;
   return by_size < 120 ? by_size : 120;
 }
@@ -125,8 +125,8 @@ static sbf_status check_end(const sbfi_process_result *result, sbf_diagnostic *e
       how);
 }
 
-/* Looked at first, so that a missing file is told from one that is refused, and one that would never be read
- * to its end is not tried. */
+/* Checks the file first, to distinguish a missing file from a rejected one, and to skip one that is too
+ * large. */
 static sbf_status check_input(const char *path, const char *format, const sbfi_scene_options *options,
     uint64_t *size_bytes, sbf_diagnostic *error) {
   size_t limit_bytes = options->input_limit_bytes;
@@ -144,7 +144,7 @@ static sbf_status check_input(const char *path, const char *format, const sbfi_s
   return SBF_OK;
 }
 
-/* The ending of the name in small letters, "" where there is none. */
+/* Lower case extension of the name, "" if there is none. */
 static const char *format_of(sbfi_scene *scene, const char *path) {
   const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
   char *format = (char *)sbfi_scene_string(scene, sbfi_span_of(dot ? dot + 1 : ""));

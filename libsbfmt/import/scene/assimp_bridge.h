@@ -1,15 +1,15 @@
-/* Every form that assimp reads, to a scene: the program sbfmt-import reads the file in a process of its own.
- */
+/* Reads every format of assimp into a scene: the program sbfmt-import reads the file in a separate
+ * process. */
 #ifndef SBFI_ASSIMP_BRIDGE_H
 #define SBFI_ASSIMP_BRIDGE_H
 
 #include "import/scene/scene.h"
 
-/* Fills a scene that sbfi_scene_init made. Leaves it to the caller to free on failure. */
+/* Fills a scene after sbfi_scene_init. On failure the caller must free it. */
 sbf_status sbfi_assimp_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error);
 
-/* The same from a stream the child wrote; scene->format is set. `bytes` is at a multiple of 4. */
+/* Reads a stream from the child; scene->format is set. `bytes` is aligned to 4. */
 sbf_status sbfi_assimp_take(sbfi_scene *scene, const uint8_t *bytes, size_t size,
     const sbf_allocator *allocator, sbf_diagnostic *error);
 

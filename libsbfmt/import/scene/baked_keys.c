@@ -7,10 +7,10 @@
 #include "motion/turn.h"
 
 typedef struct location {
-  uint32_t next[SBFI_LONGEST_CHAIN][SBFI_RAW_TRACKS]; /* the first key of each track after the time at hand */
+  uint32_t next[SBFI_LONGEST_CHAIN][SBFI_RAW_TRACKS]; /* first key of each track after the current time */
 } location;
 
-/* The next time at which any track has a key; the tracks ascend. False at the end. */
+/* Next time at which any track has a key; tracks are ascending. False at the end. */
 static bool next_time(const sbfi_link *links, uint32_t count, location *p, float *time) {
   bool found = false;
   for (uint32_t i = 0; i < count; i++)
@@ -29,7 +29,8 @@ static bool next_time(const sbfi_link *links, uint32_t count, location *p, float
   return found;
 }
 
-/* The track's value at `time`, given that `next` is its first key later than that; untouched without keys. */
+/* Value of the track at `time`; `next` is its first later key. Leaves `to` unchanged if the track has no
+ * keys. */
 static void sample(const sbfi_track *track, uint32_t next, float time, uint32_t width, double *to) {
   if (!track->count) return;
   uint32_t a = next ? next - 1 : 0, b = next < track->count ? next : track->count - 1;

@@ -6,19 +6,19 @@
 #include "import/scene/bind_space.h"
 #include "import/scene/trs.h"
 
-/* A pose further than this from the bind pose, as sbfi_bind_worlds measures it, is another one. */
+/* Minimum difference between two poses, as sbfi_bind_worlds measures it. */
 static const double SAME_POSE = 1e-3;
 
-/* While worlds are worked out their last corner, which is 1 in the end, says where they come from. */
+/* During the computation the last element of each world matrix, finally 1, marks its source. */
 enum { UNSET = 0, FROM_SKIN = 1, FROM_BELOW = 2 };
 
-/* A joint was where its bind matrix and its skin's bind space put it. */
+/* Sets the joints' worlds from their bind matrices and the skins' bind spaces. */
 static bool set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, &scene->arena.allocator, 0);
   sbfi_matrix *spaces = sbfi_arena_allocate(&scratch, (size_t)scene->mesh_count + 1, sizeof *spaces);
   bool good = spaces && sbfi_bind_spaces(scene, spaces);
-  /* Later skins first, so that the first one stays. */
+  /* Later skins first, so that the first skin wins. */
   for (uint32_t m = scene->mesh_count; good && m-- > 0;) {
     const sbfi_scene_mesh *mesh = &scene->meshes[m];
     for (uint32_t j = 0; j < mesh->joint_count; j++) {
@@ -31,8 +31,8 @@ static bool set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
   return good;
 }
 
-/* A bone that no skin has, with a joint somewhere below: from its first child, as if that had not moved in it
- * since. Children stand behind their parents, so each is done when its parent's turn comes. */
+/* Sets a bone without a skin but with a joint below it from its first child, as if that had not moved
+ * relative to it since. Children come after their parents, so a reverse pass works. */
 static void set_bones_above(const sbfi_scene *scene, sbfi_matrix *worlds) {
   for (uint32_t i = scene->node_count; i-- > 0;) {
     int32_t parent = scene->nodes[i].parent;
@@ -52,7 +52,7 @@ static double distance(const sbfi_matrix *a, const sbfi_matrix *b) {
   return sqrt(squared);
 }
 
-/* The largest sine of an angle between axes of the same name. */
+/* Largest sine of the angle between corresponding axes. */
 static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
   double max = 0;
   for (int axis = 0; axis < 3; axis++) {
@@ -106,7 +106,7 @@ typedef struct rest_key {
   sbf_quat rotation;
 } rest_key;
 
-/* Gives a channel, where it has no track, one key that holds the node at what it was. */
+/* Adds a constant key at the rest value to each empty track of a channel. */
 static void complete(sbfi_scene_channel *channel, const rest_key *rest) {
   if (!channel->position_count) {
     channel->position_count = 1;
@@ -137,7 +137,7 @@ static rest_key *rest_keys(sbfi_scene *scene) {
   return keys;
 }
 
-/* Every bone gets a channel: what the clip leaves alone stayed in the pose the file was saved in. */
+/* Adds a channel to every bone: bones without one stayed in the saved pose. */
 static bool complete_clip(sbfi_scene *scene, sbfi_scene_clip *clip, const rest_key *rest) {
   sbfi_scene_channel *channels =
       sbfi_arena_allocate(&scene->arena, (size_t)clip->channel_count + scene->node_count, sizeof *channels);
@@ -176,8 +176,7 @@ static bool is_usable(const sbfi_matrix *m) {
   return true;
 }
 
-/* A damaged file may hold bind transforms that are nearly flat: their inverses lead out of single precision.
- */
+/* A damaged file may contain nearly singular bind matrices, whose inverses overflow single precision. */
 static bool all_usable(const sbfi_scene *scene, const sbfi_matrix *worlds) {
   for (uint32_t i = 0; i < scene->node_count; i++)
     if (!is_usable(&worlds[i]) || !is_usable(&scene->nodes[i].local)) return false;

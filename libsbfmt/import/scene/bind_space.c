@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Two placements of a mesh are the same if they move no corner of its box by more than this part of its size.
- */
+/* Two transforms of a mesh are equal if no corner of its bounding box moves by more than this fraction of
+ * its size. */
 static const double SAME_PLACEMENT = 1e-3;
-/* A placement that a file suggests is taken if it differs from the mean placement by no more than this, as a
- * part of the size: a turn by 60 degrees, or half a length. */
+/* Maximum difference between a suggested transform and the mean transform, as a fraction of the size: a
+ * rotation by 60 degrees, or half a length. */
 static const double NEAR_PLACEMENT = 0.5;
 static const double NEAR_SCALE = 1.25;
 
@@ -15,7 +15,7 @@ enum { CORNERS = 8, SUGGESTIONS = 4 };
 
 typedef struct skin_view {
   const sbfi_scene_mesh *mesh;
-  double low[3], high[3]; /* box of the points in mesh space */
+  double low[3], high[3]; /* bounding box in mesh space */
   double *weights;        /* (joint_count) sum over the points */
   sbfi_matrix *shown;     /* (joint_count) joint's world times bind: mesh to scene in the saved pose */
 } skin_view;
@@ -73,7 +73,8 @@ static double placed_size(const skin_view *view, const sbfi_matrix *m) {
   return size;
 }
 
-/* How far two placements put a corner of the mesh's box apart at most, as a part of the size in the first. */
+/* Maximum distance of a corner of the bounding box under two transforms, as a fraction of the size under
+ * the first. */
 static double difference(const skin_view *view, const sbfi_matrix *one, const sbfi_matrix *other) {
   double separation = 0, size = placed_size(view, one), a[3], b[3];
   for (int corner = 0; corner < CORNERS; corner++) {
@@ -84,8 +85,8 @@ static double difference(const skin_view *view, const sbfi_matrix *one, const sb
   return separation > 0 ? separation / size : 0;
 }
 
-/* The placement that holds for more than half of the weight (Boyer and Moore 1981), NULL where none does. A
- * pose that moves a few bones only is read exactly by it. */
+/* The transform with more than half of the weight (Boyer and Moore 1981); NULL if there is none. It is
+ * exact if a pose moves only a few bones. */
 static const sbfi_matrix *majority(const skin_view *view) {
   const sbfi_matrix *leader = NULL;
   double lead = 0, agreed = 0, total = 0;
@@ -106,8 +107,8 @@ static const sbfi_matrix *majority(const skin_view *view) {
   return leader && 2 * agreed > total ? leader : NULL;
 }
 
-/* The rotation nearest to a matrix, by Newton's iteration for the polar decomposition (Higham 1986). False
- * for a matrix that is nearly flat. */
+/* Nearest rotation to a matrix by Newton's iteration for the polar decomposition (Higham 1986). False if
+ * the matrix is nearly singular. */
 static bool nearest_rotation(sbfi_matrix *m) {
   for (int round = 0; round < 50; round++) {
     sbfi_matrix inverse;
@@ -118,7 +119,7 @@ static bool nearest_rotation(sbfi_matrix *m) {
         double next = (m->at[r][k] + inverse.at[k][r]) / 2;
         if (!isfinite(next)) return false;
         change = fmax(change, fabs(next - m->at[r][k]));
-        inverse.at[k][r] = next; /* read no more: it is its own transpose's place */
+        inverse.at[k][r] = next; /* not read again: it is the transposed element */
       }
     for (int r = 0; r < 3; r++)
       for (int k = 0; k < 3; k++) m->at[r][k] = inverse.at[k][r];
@@ -136,8 +137,8 @@ static double determinant(const sbfi_matrix *m) {
   return sum;
 }
 
-/* Mean of the placements by weight: its rotation is the nearest to all of them, its scale their mean, and the
- * middle of the mesh goes where the mean takes it. */
+/* Weighted mean of the transforms: the nearest rotation to all, the mean scale, and the mean position of
+ * the mesh's centre. */
 static bool mean_placement(const skin_view *view, sbfi_matrix *to) {
   sbfi_matrix sum = {.at[3][3] = 1};
   double total = 0, scale = 0, middle[3];
@@ -166,23 +167,23 @@ static bool mean_placement(const skin_view *view, sbfi_matrix *to) {
   return true;
 }
 
-/* The node that holds a skeleton: the lowest one above the joint that is no bone. */
+/* Node that contains a skeleton: the lowest ancestor of the joint that is not a bone. */
 static sbfi_matrix holder_world(const sbfi_scene *scene, int32_t joint) {
   int32_t node = joint;
   while (node != SBF_NONE && scene->nodes[node].is_bone) node = scene->nodes[node].parent;
   return node == SBF_NONE ? sbfi_matrix_identity() : scene->nodes[node].world;
 }
 
-/* The placement by the joint that stands highest in the tree, which a pose turns least. */
+/* Transform by the topmost joint, which poses rotate least. */
 static const sbfi_matrix *root_placement(const skin_view *view) {
   const sbfi_scene_joint *joints = view->mesh->joints;
-  uint32_t root = UINT32_MAX; /* parents stand before their children */
+  uint32_t root = UINT32_MAX; /* parents come before their children */
   for (uint32_t j = 0; j < view->mesh->joint_count; j++)
     if (view->weights[j] > 0 && (root == UINT32_MAX || joints[j].node < joints[root].node)) root = j;
   return root == UINT32_MAX ? NULL : &view->shown[root];
 }
 
-/* The suggestion nearest to a placement, of those near enough to it; NULL: there is none. */
+/* Nearest suggestion within the tolerance; NULL if there is none. */
 static const sbfi_matrix *nearest_suggestion(
     const skin_view *view, const sbfi_matrix *placement, const sbfi_matrix suggested[SUGGESTIONS]) {
   const sbfi_matrix *best = NULL;
@@ -197,9 +198,9 @@ static const sbfi_matrix *nearest_suggestion(
   return best;
 }
 
-/* In a saved frame of a movement the mean gives size and direction roughly, the root where limbs bend far.
- * What exporters write is exact: vertices bound in the scene's space (Blender), in the armature's, or in the
- * mesh node's (FBX). */
+/* Determines the bind space from a saved frame of a motion. The mean gives size and direction roughly, or
+ * the root if limbs bend far. Exporters use exact spaces: vertices bound in the space of the scene
+ * (Blender), of the armature, or of the mesh node (FBX). */
 static sbfi_matrix placement_of_frame(
     const sbfi_scene *scene, const skin_view *view, const sbfi_matrix *hint) {
   const sbfi_scene_mesh *mesh = view->mesh;
@@ -220,7 +221,7 @@ typedef struct sharing {
   uint32_t *starts; /* (node_count + 1) first entry of each node in `skins` */
   uint32_t *skins;  /* meshes that have the node as a joint */
   bool *node_done, *placed;
-  sbfi_matrix *worlds; /* (node_count) of joints done, in the bind pose */
+  sbfi_matrix *worlds; /* (node_count) of finished joints, in the bind pose */
   uint32_t *queue;
 } sharing;
 
@@ -245,7 +246,7 @@ static bool list_skins(sharing *s, sbfi_arena *scratch) {
   return true;
 }
 
-/* From the first skin outwards: each next one stands so that a joint they share has one world. */
+/* Propagates from the first skin: each next skin is placed so that a shared joint has one world matrix. */
 static void reuse_bind_pose(sharing *s, uint32_t first) {
   uint32_t count = 1;
   s->queue[0] = first;
@@ -272,7 +273,7 @@ static void reuse_bind_pose(sharing *s, uint32_t first) {
   }
 }
 
-/* The skin of a group that says most: by points; the group is found again from it. */
+/* Starts each group at the skin with the most points. */
 static bool pose_groups(sharing *s, sbfi_arena *scratch) {
   const sbfi_scene *scene = s->scene;
   const sbfi_matrix *hint = NULL;

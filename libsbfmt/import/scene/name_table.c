@@ -19,8 +19,8 @@ static uint32_t hash(sbfi_span name) {
   return (uint32_t)(h ^ h >> 32);
 }
 
-/* The slot that holds the name or the empty one where it belongs; slots are a power of two, never all full.
- */
+/* Slot of the name, or the empty slot where it belongs. The number of slots is a power of two; at least
+ * one is empty. */
 static uint32_t *slot_of(const sbfi_name_table *table, sbfi_span name) {
   uint32_t *slots = table->slots.at;
   const sbfi_span *names = table->names.at;

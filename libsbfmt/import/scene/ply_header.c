@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-enum { MAX_BYTES = 1 << 20 }; /* many times any real header */
+enum { MAX_BYTES = 1 << 20 }; /* far more than any real header */
 
 static bool has_end(sbfi_span rest) {
   sbfi_span line;

@@ -9,7 +9,7 @@
 typedef struct cursor {
   const uint8_t *at, *end;
   sbfi_arena *scratch;
-  sbf_status status; /* the first failure: everything after it reads zeros */
+  sbf_status status; /* first failure; afterwards all reads return zeros */
   sbf_diagnostic *error;
 } cursor;
 
@@ -30,14 +30,14 @@ static void fail_not_finite(cursor *c, const char *what, sbfi_span name, size_t 
       sbfi_quote_of(name).text);
 }
 
-/* Some of assimp's readers hand out the indices of a damaged file unchecked. */
+/* Some of assimp's readers do not check the indices of a damaged file. */
 static void fail_index(cursor *c, const char *what) {
   if (c->status) return;
   c->status = sbfi_diagnose(c->error, SBF_CODE_IMPORT_INDEX,
       "%s refer to vertices that the file does not have: it is damaged or cut off", what);
 }
 
-/* `count` items of `size` bytes each, a whole number of words; NULL where the stream ends before. */
+/* Reads `count` items of `size` bytes, a whole number of words; NULL if the stream ends earlier. */
 static const void *take(cursor *c, size_t count, size_t size, const char *what) {
   if (c->status || count > left(c) / size) {
     fail(c, what);
@@ -62,8 +62,8 @@ static double take_f64(cursor *c, const char *what) {
   return value;
 }
 
-/* The count of a list whose items take `least` bytes or more: one that cannot fit is refused before anything
- * is allocated for it. */
+/* Reads the count of a list whose items have at least `min` bytes. Rejects a count that cannot fit before
+ * any allocation. */
 static uint32_t take_count(cursor *c, size_t min, const char *what) {
   uint32_t count = take_u32(c, what);
   if (c->status || count <= left(c) / min) return count;
@@ -262,7 +262,7 @@ static void read_materials(cursor *c, sbfi_raw_scene *scene) {
     m->values.alpha_mode = (sbfi_alpha_mode)alpha_mode;
     m->values.double_sided = double_sided != 0;
   }
-  /* Materials came after the meshes: an index that names none says that the mesh has none. */
+  /* Materials come after the meshes in the stream: an invalid index means that the mesh has no material. */
   sbfi_raw_mesh *meshes = scene->meshes;
   for (uint32_t i = 0; !c->status && i < scene->mesh_count; i++)
     if ((uint32_t)meshes[i].material >= scene->material_count) meshes[i].material = SBF_NONE;

@@ -1,4 +1,4 @@
-/* A scene as sbfmt-import sends it: checked, not yet put together. Numbers point into the stream. */
+/* A scene from sbfmt-import: validated, not yet assembled. Numbers point into the stream. */
 #ifndef SBFI_RAW_SCENE_H
 #define SBFI_RAW_SCENE_H
 
@@ -7,10 +7,10 @@
 
 typedef struct sbfi_raw_node {
   sbfi_span name;
-  int32_t parent; /* before this one, or SBF_NONE */
+  int32_t parent; /* index below that of the node, or SBF_NONE */
   sbfi_stream_kind kind;
   sbfi_matrix local;
-  sbfi_scene_limit limits[SBFI_LIMITS]; /* in whatever order the file has least and greatest */
+  sbfi_scene_limit limits[SBFI_LIMITS]; /* minimum and maximum may be swapped */
   uint32_t mesh_count;
   const uint32_t *meshes; /* (mesh_count) */
 } sbfi_raw_node;
@@ -29,10 +29,11 @@ typedef struct sbfi_raw_shape {
   const sbf_vec3 *positions; /* (vertex_count) */
 } sbfi_raw_shape;
 
-/* Vertices are split wherever an attribute differs, or at every corner; polygons may have less than three. */
+/* Vertices are split at every difference of an attribute, or at every corner; polygons may have less than
+ * three corners. */
 typedef struct sbfi_raw_mesh {
   sbfi_span name;
-  int32_t material; /* SBF_NONE where it is no material of the scene */
+  int32_t material; /* SBF_NONE if the scene has no such material */
   uint32_t vertex_count, uv_set_count, polygon_count, corner_count, bone_count, shape_count;
   const sbf_vec3 *positions;     /* (vertex_count) */
   const sbf_vec3 *normals;       /* (vertex_count), or NULL */
@@ -57,7 +58,7 @@ typedef struct sbfi_raw_image {
   const uint8_t *bytes;
 } sbfi_raw_image;
 
-/* Times are in ticks; keys stand in the stream as f64 time, f32 values, so they are read one by one. */
+/* Times are in ticks. The stream stores keys as f64 time and f32 values, so they are read one by one. */
 typedef struct sbfi_raw_keys {
   uint32_t count;
   const uint8_t *at;
@@ -90,12 +91,12 @@ typedef struct sbfi_raw_scene {
   const sbfi_raw_clip *clips;
 } sbfi_raw_scene;
 
-/* Reads a stream, `bytes` at a multiple of 4, which must stay as long as the scene is used. Lists are made in
- * `scratch`. What it gives: indices in range, numbers finite, parents before children. */
+/* Reads a stream that must outlive the scene; `bytes` is aligned to 4. Allocates lists from `scratch`.
+ * Guarantees indices in range, finite numbers, and parents before children. */
 sbf_status sbfi_raw_scene_read(
     sbfi_raw_scene *scene, const uint8_t *bytes, size_t size, sbfi_arena *scratch, sbf_diagnostic *error);
 
-/* Key `index` of a track: its time and 3 or 4 values. */
+/* Time and 3 or 4 values of key `index` of a track. */
 double sbfi_raw_key(const sbfi_raw_keys *keys, uint32_t width, uint32_t index, float *values);
 
 #endif

@@ -24,7 +24,7 @@ uint32_t sbfi_float_word(float value) {
   return word;
 }
 
-/* Words are mixed one after the other; the constants are odd, with bits well spread. */
+/* Mixes words one by one; the constants are odd with well distributed bits. */
 static size_t hash(const sbfi_row *row) {
   uint64_t h = 0x9e3779b97f4a7c15u;
   for (int i = 0; i < 4; i++) {
@@ -34,7 +34,8 @@ static size_t hash(const sbfi_row *row) {
   return (size_t)h;
 }
 
-/* The slot that holds the row or the empty one where it belongs; slots are a power of two, never all full. */
+/* Slot of the row, or the empty slot where it belongs. The number of slots is a power of two; at least one
+ * is empty. */
 static uint32_t *slot_of(const sbfi_row_table *table, const sbfi_row *row) {
   uint32_t *slots = table->slots.at;
   const sbfi_row *rows = table->rows.at;

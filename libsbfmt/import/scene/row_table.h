@@ -1,4 +1,4 @@
-/* Rows of four words to consecutive numbers, each row once: equal bits get equal numbers. */
+/* Maps rows of four words to consecutive numbers: rows with equal bits get equal numbers. */
 #ifndef SBFI_ROW_TABLE_H
 #define SBFI_ROW_TABLE_H
 
@@ -9,7 +9,7 @@ typedef struct sbfi_row {
 } sbfi_row;
 
 typedef struct sbfi_row_table {
-  sbfi_array rows;  /* sbfi_row, in the order first seen */
+  sbfi_array rows;  /* sbfi_row, in order of insertion */
   sbfi_array slots; /* uint32_t, number + 1 or 0 */
 } sbfi_row_table;
 
@@ -17,10 +17,10 @@ void sbfi_row_table_init(sbfi_row_table *table, const sbf_allocator *allocator);
 void sbfi_row_table_free(sbfi_row_table *table);
 void sbfi_row_table_clear(sbfi_row_table *table); /* keeps the memory */
 
-/* The number of the row, which is new if it equals the count before the call; -1 where memory runs out. */
+/* Number of the row; a new row gets the previous count. -1 if memory runs out. */
 int64_t sbfi_row_table_add(sbfi_row_table *table, sbfi_row row);
 
-/* The bits of a number as a word of a row; -0 counts as 0. */
+/* Bits of a number as a word of a row; -0 counts as 0. */
 uint32_t sbfi_float_word(float value);
 
 #endif

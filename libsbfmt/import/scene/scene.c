@@ -5,7 +5,7 @@
 
 #include "base/diagnostic.h"
 
-enum { NAME_LIMIT = 1024 }; /* longer names are cut: nothing of ours holds more */
+enum { NAME_LIMIT = 1024 }; /* longer names are truncated; no other limit is as large */
 
 bool sbfi_scene_init(
     sbfi_scene *scene, const sbf_allocator *allocator, size_t memory_limit_bytes, const char *file) {
@@ -45,8 +45,8 @@ bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char
   return true;
 }
 
-/* Bytes of text at the front that may stand as they are, at most `length`: neither control characters nor
- * U+FFFE and U+FFFF, which XML has no way to write. */
+/* Length of the prefix that needs no replacement, at most `length`: no control characters, U+FFFE and
+ * U+FFFF, which XML cannot represent. */
 static size_t good_length(const char *text, size_t length) {
   size_t good = sbfi_utf8_check(text, length);
   for (size_t i = 0; i < good; i++) {

@@ -1,11 +1,11 @@
-/* What a file of another program holds, as plain data: every importer fills a scene, the converter reads it.
+/* Content of another program's file as plain data: importers fill a scene, the converter reads it.
  *
- * Nothing here is decided, only told: numbers are in the file's own unit and axes, weights as the file has
- * them, rest pose and bind pose side by side. What a loaded scene promises: every index is in range, every
- * number finite, every string UTF-8, nodes form a tree with parents first.
+ * A scene contains the file's data without interpretation: numbers in the file's unit and axes, original
+ * weights, both rest pose and bind pose. Guarantees of a loaded scene: indices in range, finite numbers,
+ * valid UTF-8, nodes in a tree with parents first.
  *
- * All memory belongs to the scene's arena and goes with sbfi_scene_free. A scene is read only once loaded and
- * may then be read from several threads. */
+ * The scene's arena owns all memory; sbfi_scene_free releases it. A loaded scene is read-only, so several
+ * threads may read it. */
 #ifndef SBFI_SCENE_H
 #define SBFI_SCENE_H
 
@@ -18,13 +18,13 @@ typedef struct sbfi_matrix {
   double at[4][4];
 } sbfi_matrix;
 
-/* Bounds of a joint's motion at a node, rad from the rest pose. They are about the bone's own axes: twist
- * about +Y, swing_y about +Z, swing_z about +X (as axes of a joint frame, whose +X is the twist axis). */
+/* Limits of a joint at a node, rad from the rest pose, about the bone's own axes: twist about +Y, swing_y
+ * about +Z, swing_z about +X (in a joint frame the twist axis is +X). */
 enum { SBFI_LIMIT_TWIST, SBFI_LIMIT_SWING_Y, SBFI_LIMIT_SWING_Z, SBFI_LIMITS };
 
 typedef struct sbfi_scene_limit {
   bool stated;
-  float min, max; /* min is not above max */
+  float min, max; /* min <= max */
 } sbfi_scene_limit;
 
 typedef struct sbfi_scene_node {
@@ -32,22 +32,22 @@ typedef struct sbfi_scene_node {
   int32_t parent;    /* index of a node before this one, or SBF_NONE */
   sbfi_matrix local; /* rest transform, node to parent */
   sbfi_matrix world; /* node to scene: world of the parent times local */
-  bool is_bone;      /* a joint of a skin, or what the file declares to be a bone */
+  bool is_bone;      /* a joint of a skin, or declared as a bone by the file */
   bool is_end;       /* a leaf that only marks the tip of its parent: "…_end" bones, BVH end sites */
   sbfi_scene_limit limits[SBFI_LIMITS]; /* of the joint between the node and its parent */
 } sbfi_scene_node;
 
 typedef struct sbfi_scene_image {
-  const char *name;     /* "" where it has none */
-  const char *path;     /* as the file has it, with '/' between its parts; NULL where embedded */
+  const char *name;     /* "" if it has none */
+  const char *path;     /* as in the file, with '/' as separator; NULL if embedded */
   const uint8_t *bytes; /* the embedded file (PNG, JPEG, ...), NULL otherwise (byte_count) */
   uint32_t byte_count;
-  const char *extension; /* of an embedded file, as "png"; "" where it is not known */
+  const char *extension; /* of an embedded file, as "png"; "" if unknown */
 } sbfi_scene_image;
 
 typedef enum sbfi_alpha_mode { SBFI_ALPHA_OPAQUE, SBFI_ALPHA_MASK, SBFI_ALPHA_BLEND } sbfi_alpha_mode;
 
-/* Where an image lies, as KHR_texture_transform has it. */
+/* Transform of texture coordinates, as in KHR_texture_transform. */
 typedef struct sbfi_scene_uv_transform {
   uint32_t uv_set;
   float offset[2], rotation, scale[2];
@@ -65,12 +65,12 @@ typedef struct sbfi_scene_material {
   sbfi_scene_uv_transform base_color_uv, metallic_roughness_uv, normal_uv;
 } sbfi_scene_material;
 
-/* Texture coordinates, in the file's own list of them: corners share an entry where the file says so. */
+/* Texture coordinates as a list with indices: corners share an entry if they do in the file. */
 typedef struct sbfi_scene_uvs {
-  const char *name; /* "" where it has none */
+  const char *name; /* "" if it has none */
   uint32_t count;
   const sbf_vec2 *at;    /* (count), v upwards as in OBJ */
-  const int32_t *corner; /* (corner_count) index into `at`, SBF_NONE where the corner has none */
+  const int32_t *corner; /* (corner_count) index into `at`, SBF_NONE if the corner has none */
 } sbfi_scene_uvs;
 
 typedef struct sbfi_scene_joint {
@@ -78,25 +78,24 @@ typedef struct sbfi_scene_joint {
   sbfi_matrix bind; /* mesh space to joint space, when the skin was bound */
 } sbfi_scene_joint;
 
-/* Weights under a name that is no node: a vertex group that moves nothing. */
+/* Weights under a name that is not a node: a vertex group without effect on skinning. */
 typedef struct sbfi_scene_group {
   const char *name;
   const float *weights; /* (point_count), 0 to 1 */
 } sbfi_scene_group;
 
-/* A form the points can be moved to. Deltas: what to add to a point at weight 1. */
+/* A morph target. Deltas are added to points at weight 1. */
 typedef struct sbfi_scene_shape {
   const char *name;
-  float weight;          /* as the file sets it at rest */
+  float weight;          /* value at rest in the file */
   const sbf_vec3 *delta; /* (point_count) */
 } sbfi_scene_shape;
 
-/* A surface under one node. Points are what the author made, one where several corners meet; positions are in
- * the space of `node`. Polygons keep their number of sides and their order in the file; a polygon may name a
- * point twice (a bridged hole).
+/* A surface under one node. Points are the original ones, shared by corners; positions are in the space of
+ * `node`. Polygons keep their sizes and file order; a polygon may contain a point twice (a bridged hole).
  *
- * "Source vertex": in an OBJ the v-lines of the file from 0; elsewhere what the file stores split for
- * rendering, counted over the parts of the mesh in their order. */
+ * "Source vertex": in an OBJ the file's v-lines from 0; otherwise the vertices that the file stores for
+ * rendering, counted over the parts of the mesh in order. */
 typedef struct sbfi_scene_mesh {
   const char *name; /* of the data block; the node's name is the object's. In an OBJ both are the same. */
   int32_t node;
@@ -112,14 +111,14 @@ typedef struct sbfi_scene_mesh {
 
   uint32_t normal_count;
   const sbf_vec3 *normals;       /* (normal_count), as stored: not always of unit length */
-  const int32_t *corner_normals; /* (corner_count) index or SBF_NONE; NULL where the mesh has no normals */
+  const int32_t *corner_normals; /* (corner_count) index or SBF_NONE; NULL if the mesh has no normals */
   uint32_t color_count;
   const sbf_vec4 *colors;       /* (color_count), as stored: not always in [0, 1] */
-  const int32_t *corner_colors; /* (corner_count) index or SBF_NONE; NULL where the mesh has no colours */
+  const int32_t *corner_colors; /* (corner_count) index or SBF_NONE; NULL if the mesh has no colours */
   uint32_t uv_set_count;
   const sbfi_scene_uvs *uv_sets; /* (uv_set_count) */
 
-  uint32_t vertex_count;           /* source vertices of this mesh; 0 for OBJ, which shares them itself */
+  uint32_t vertex_count; /* source vertices of this mesh; 0 for OBJ, whose v-lines are shared by all meshes */
   const uint32_t *vertex_points;   /* (vertex_count) source vertex to point */
   const uint32_t *corner_vertices; /* (corner_count) source vertex of each corner; NULL for OBJ */
 
@@ -132,11 +131,11 @@ typedef struct sbfi_scene_mesh {
   uint32_t shape_count;
   const sbfi_scene_shape *shapes; /* (shape_count) */
   uint32_t group_count;
-  const sbfi_scene_group *groups; /* (group_count) names differ */
+  const sbfi_scene_group *groups; /* (group_count) unique names */
 } sbfi_scene_mesh;
 
-/* Keys of one node, times in seconds from the clip's start, ascending; linear between keys, the nearest key
- * outside them. A kind without keys keeps the node's rest value. */
+/* Keys of one node, times in seconds from the clip's start, ascending. Linear between keys, clamped
+ * outside. Tracks without keys keep the node's rest value. */
 typedef struct sbfi_scene_channel {
   int32_t node;
   uint32_t position_count, rotation_count, scale_count;
@@ -152,15 +151,15 @@ typedef struct sbfi_scene_clip {
   const char *name;
   float duration_s;
   uint32_t channel_count;
-  const sbfi_scene_channel *channels; /* at most one a node */
+  const sbfi_scene_channel *channels; /* at most one per node */
 } sbfi_scene_clip;
 
 typedef struct sbfi_scene {
   sbfi_arena arena;
-  const char *file;      /* file name as the caller gave it, as valid text for messages and assets */
-  const char *path;      /* the same, unchanged bytes */
-  const char *format;    /* "obj", or assimp's name of the format in lower case, as "fbx", "glb", "bvh" */
-  const char *generator; /* the program that wrote it, "" where not known */
+  const char *file;      /* file name from the caller, sanitized for messages and assets */
+  const char *path;      /* the same without changes */
+  const char *format;    /* "obj", or assimp's lower case name of the format, as "fbx", "glb", "bvh" */
+  const char *generator; /* program that wrote the file, "" if unknown */
 
   double unit_m; /* metres per unit of the file; 1 if not stated */
   bool unit_known;
@@ -169,7 +168,7 @@ typedef struct sbfi_scene {
 
   uint32_t node_count, mesh_count, material_count, image_count, clip_count, warning_count;
   const sbfi_scene_node *nodes; /* parents before children */
-  /* (node_count) node to scene in the pose that the file was saved in; NULL where that is the rest pose. */
+  /* (node_count) node to scene in the saved pose of the file; NULL if that is the rest pose. */
   const sbfi_matrix *saved_worlds;
   const sbfi_scene_mesh *meshes;
   const sbfi_scene_material *materials;
@@ -184,30 +183,30 @@ enum { SBFI_SCENE_WARNINGS = 64 };
 typedef struct sbfi_scene_options {
   const sbf_allocator *allocator;   /* NULL: malloc */
   size_t input_limit_bytes;         /* largest file read; 0: 4 GiB */
-  size_t memory_limit_bytes;        /* of the scene, and of what the helper sends; 0: 8 GiB */
-  const char *helper_path;          /* the program sbfmt-import; NULL: environment, then its usual places */
-  double helper_time_limit_s;       /* 0: 20 s and 10 s for each megabyte, up to 120 s */
+  size_t memory_limit_bytes;        /* for the scene, and for the helper's output; 0: 8 GiB */
+  const char *helper_path;          /* program sbfmt-import; NULL: environment, then default paths */
+  double helper_time_limit_s;       /* 0: 20 s plus 10 s per megabyte, up to 120 s */
   size_t helper_memory_limit_bytes; /* 0: 8 GiB */
 } sbfi_scene_options;
 
-/* Reads a file of a supported format: .obj by the own reader, others by assimp. On failure the scene is empty
- * and `*error` (may be NULL) says why. `options` may be NULL. */
+/* Reads a file of a supported format: .obj by our own reader, others by assimp. On failure the scene is
+ * empty and `*error` (may be NULL) has the reason. `options` may be NULL. */
 sbf_status sbfi_scene_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error);
 
 /* Safe on a zeroed scene. */
 void sbfi_scene_free(sbfi_scene *scene);
 
-/* Bones in the tree; 0 for a scene without a rig. */
+/* Number of bones in the tree; 0 for a scene without a rig. */
 uint32_t sbfi_scene_bone_count(const sbfi_scene *scene);
 
 /* --- For importers ---------------------------------------------------------------------------------- */
 
-/* An empty scene with its arena, unit 1 and identity axes. False where memory runs out. */
+/* Creates an empty scene with its arena, unit 1 and identity axes. False if memory runs out. */
 bool sbfi_scene_init(
     sbfi_scene *scene, const sbf_allocator *allocator, size_t memory_limit_bytes, const char *file);
 
-/* Adds a warning about line `line` (0: none), formatted as printf does; false where memory runs out. */
+/* Adds a warning about line `line` (0: none) with printf formatting; false if memory runs out. */
 bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
@@ -215,8 +214,8 @@ bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char
  * memory runs out. */
 const char *sbfi_scene_string(sbfi_scene *scene, sbfi_span text);
 
-/* Matrix from mesh to scene at rest: the world matrix of its node. For a skinned mesh that is ignored: the
- * first joint's world matrix times its bind matrix. */
+/* Matrix from mesh to scene at rest: the world matrix of its node. A skinned mesh ignores its node: uses
+ * the first joint's world matrix times its bind matrix. */
 sbfi_matrix sbfi_scene_mesh_world(const sbfi_scene *scene, const sbfi_scene_mesh *mesh);
 
 /* Computes world matrices from local ones; parents must come first. */
@@ -227,7 +226,7 @@ sbf_status sbfi_scene_fail(sbfi_scene *scene, sbf_diagnostic *error, sbf_status 
 
 sbfi_matrix sbfi_matrix_identity(void);
 sbfi_matrix sbfi_matrix_multiply(const sbfi_matrix *a, const sbfi_matrix *b);
-/* False where it has no inverse; the last row is taken to be 0 0 0 1. `to` may be `matrix`. */
+/* False if the matrix is singular; assumes a last row of 0 0 0 1. `to` may be `matrix`. */
 bool sbfi_matrix_invert(const sbfi_matrix *matrix, sbfi_matrix *to);
 
 #endif

@@ -1,4 +1,4 @@
-/* Which reader a file is for: OBJ has our own, everything else goes to assimp's process. */
+/* Selects the reader of a file: OBJ has our own, others use assimp's process. */
 #include <string.h>
 
 #include "base/diagnostic.h"

@@ -1,23 +1,23 @@
-/* What the program sbfmt-import writes and the library reads: private, both are of one build, and yet the
- * reader trusts none of it, as the child reads hostile files with a parser that is not ours.
+/* Private stream format from the program sbfmt-import to the library. Both come from one build, but the
+ * reader validates everything, because the child reads hostile files with a third-party parser.
  *
- * Words of 4 bytes in the machine's order. str: u32 length, then the bytes, zeros up to a whole word. Doubles
- * stand at whole words. A list is its count, then its items, unless a count is named.
+ * Words of 4 bytes in native byte order. str: u32 length, then the bytes, padded with zeros to a whole word.
+ * Doubles are aligned to words. A list is its count, then its items, unless a count is named.
  *
  *   u32 SBFI_STREAM_MAGIC, u32 SBFI_STREAM_VERSION
  *   str generator
- *   f64 unit_scale_factor       centimetres in a unit (FBX), 0 where the file has none
- *   i32 axes[6]                 up axis, its sign, front, sign, right, sign (FBX); all 0 where it has none
- *   u32 incomplete              the importer says that the scene is not whole
+ *   f64 unit_scale_factor       centimetres per unit (FBX), 0 if the file has none
+ *   i32 axes[6]                 up axis, its sign, front, sign, right, sign (FBX); all 0 if it has none
+ *   u32 incomplete              the importer reports an incomplete scene
  *   list of nodes, parents first:
  *     str name, i32 parent, u32 kind (sbfi_stream_kind), f32 local[16] row after row,
- *     u32 limited (bits 0 to 2: twist, swing_y, swing_z), f32 least and greatest (rad) for each bit set,
+ *     u32 limited (bits 0 to 2: twist, swing_y, swing_z), f32 minimum and maximum (rad) for each set bit,
  *     list of u32 meshes
  *   list of meshes:
  *     str name, u32 material
  *     u32 vertex_count, f32 positions[3 * vertex_count]
- *     u32 has_normals (0 or 1), f32 normals[3 * vertex_count] where it is 1
- *     u32 has_colors (0 or 1), f32 colors[4 * vertex_count] where it is 1
+ *     u32 has_normals (0 or 1), f32 normals[3 * vertex_count] if 1
+ *     u32 has_colors (0 or 1), f32 colors[4 * vertex_count] if 1
  *     list of uv sets: f32 uv[2 * vertex_count]
  *     list of u32 polygon sizes, list of u32 corners
  *     list of bones: str node name, f32 bind[16], list of u32 vertices, f32 weights[as many]
@@ -39,17 +39,18 @@ enum {
   SBFI_STREAM_MAGIC = 0x53464253, /* "SBFS" where the low byte comes first */
   SBFI_STREAM_VERSION = 3,
   SBFI_STREAM_END = 0x21646e65,
-  SBFI_STREAM_LIMITS = 3 /* kinds of limits a node may state */
+  SBFI_STREAM_LIMITS = 3 /* kinds of limits that a node may have */
 };
 
-/* What the file says a node without a mesh is. */
+/* What the file declares a node without a mesh to be. */
 typedef enum sbfi_stream_kind {
   SBFI_STREAM_PLAIN,   /* nothing */
   SBFI_STREAM_NO_BONE, /* a null, a camera, a light */
   SBFI_STREAM_BONE     /* a limb of an FBX, a joint of a glTF or Collada file without meshes */
 } sbfi_stream_kind;
 
-/* How the child ends: with the stream on its output, or a message in one line on its error output. */
+/* Exit codes of the child. It writes either the stream to its output or a one-line message to its error
+ * output. */
 enum {
   SBFI_CHILD_DONE = 0,
   SBFI_CHILD_REFUSED = 1,

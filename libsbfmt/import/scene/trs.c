@@ -23,7 +23,7 @@ static double determinant(double m[3][3]) {
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* By the largest of the four, so that nothing is divided by a number near 0 (Shepperd 1978). */
+/* Uses the largest of the four components, to avoid a division by a number near 0 (Shepperd 1978). */
 static void quaternion_of(double m[3][3], double q[4]) {
   double trace = m[0][0] + m[1][1] + m[2][2];
   int i = m[1][1] > m[0][0] ? 1 : 0;

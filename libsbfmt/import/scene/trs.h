@@ -1,4 +1,4 @@
-/* Transforms in parts: translation, rotation and scale, for keys. */
+/* Transforms as translation, rotation and scale, for keys. */
 #ifndef SBFI_TRS_H
 #define SBFI_TRS_H
 
@@ -7,12 +7,12 @@
 typedef struct sbfi_trs {
   double position[3];
   double rotation[4]; /* x y z w, unit length */
-  double scale[3];    /* along the rotated axes; all of one mirrored transform's mirroring is in x */
+  double scale[3];    /* along the rotated axes; a mirrored transform has its negative sign in x */
 } sbfi_trs;
 
 sbfi_matrix sbfi_trs_compose(const sbfi_trs *trs); /* scale first, then rotation, then translation */
 
-/* Shear is lost: no key can hold it. */
+/* Drops shear, because keys cannot represent it. */
 sbfi_trs sbfi_trs_decompose(const sbfi_matrix *matrix);
 
 #endif
