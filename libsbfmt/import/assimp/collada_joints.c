@@ -19,13 +19,13 @@ typedef struct joint_node {
 } joint_node;
 
 typedef struct name_list {
-  span id, names; /* of the source; the text of its array */
+  span id, names; /* id of the source; text of its array */
   int controller;
 } name_list;
 
 typedef struct controller {
-  span id, joints; /* the id of the source of its joints' names */
-  int skeleton;    /* node below which its joints lie; NONE: nobody says */
+  span id, joints; /* id of the source of its joints' names */
+  int skeleton;    /* root node of its joints; NONE: not stated */
   bool instanced, several;
 } controller;
 
@@ -37,7 +37,8 @@ typedef struct items {
 typedef struct document {
   items nodes, lists, controllers;
   int open_nodes[DEEPEST], depth;
-  int controller, list, instance; /* open; NONE: none. `instance`: the controller that it shows */
+  int controller, list,
+      instance; /* currently open; NONE: none. `instance`: the controller that it refers to */
   bool out_of_memory;
 } document;
 
@@ -88,7 +89,7 @@ static span without_hash(span reference) {
                                                   : reference;
 }
 
-/* The value of an attribute in the text of a tag; empty where it has none. */
+/* Value of an attribute in the text of a tag; empty if it is missing. */
 static span attribute(span tag, const char *name) {
   size_t length = strlen(name);
   for (size_t i = 1; i + length + 2 < tag.length; i++) {
@@ -149,7 +150,7 @@ static void set_skeleton(document *d, span text) {
   shown->skeleton = node;
 }
 
-/* `text`: what stands behind the tag up to the next one. */
+/* `text`: text between this tag and the next one. */
 static void read_tag(document *d, span name, span tag, span text, bool closed) {
   if (is(name, "node")) {
     open_node(d, tag, closed);
@@ -184,7 +185,7 @@ static const char *find(const char *at, const char *end, const char *word) {
   return NULL;
 }
 
-/* Two walks: skeletons may stand behind the instances that name them. */
+/* Two passes, because skeletons may come after the instances that refer to them. */
 static void walk(document *d, const char *text, size_t size, bool instances) {
   const char *end = text + size, *at = memchr(text, '<', size);
   while (at) {
@@ -210,7 +211,7 @@ static bool lies_below(const document *d, int node, int root) {
   return node == root;
 }
 
-/* The joint of that short id below a skeleton; NONE where there is none, or it has no id. */
+/* Joint with that short id below a skeleton; NONE if there is none or it has no id. */
 static int joint_below(const document *d, span sid, int root) {
   for (int i = 0; i < d->nodes.count; i++)
     if (same(node_at(d, i)->sid, sid) && node_at(d, i)->id.length && lies_below(d, i, root)) return i;
@@ -223,7 +224,7 @@ static int count_sids(const document *d, span sid) {
   return count;
 }
 
-/* assimp asks for names and ids of nodes before short ids: an object named as a joint goes before it. */
+/* assimp looks up names and ids of nodes before short ids, so an object with the name of a joint hides it. */
 static bool is_named_elsewhere(const document *d, span name, int joint) {
   for (int i = 0; i < d->nodes.count; i++)
     if (i != joint && (same(node_at(d, i)->name, name) || same(node_at(d, i)->id, name))) return true;
@@ -249,7 +250,7 @@ static void append(output *o, span text) {
   o->size += text.length;
 }
 
-/* Appends the names with those replaced that stand for a joint of another skeleton too. */
+/* Appends the names; replaces those that also refer to a joint of another skeleton. */
 static text_verdict rename_list(
     const document *d, const name_list *list, output *to, bool *changed, char why[TEXT_WHY]) {
   const controller *c = controller_at(d, list->controller);

@@ -30,7 +30,7 @@ static void add(search *s, const struct aiNode *node) {
   to->nodes[to->count++] = node;
 }
 
-/* assimp keeps the order of children; names need not be unique. */
+/* Matches nodes by order, because assimp keeps the order of children and names need not be unique. */
 static void walk_gltf(search *s, const struct aiNode *node, const json_t *number, int depth) {
   size_t at = json_is_integer(number) ? (size_t)json_integer_value(number) : SIZE_MAX;
   const json_t *children = json_object_get(json_array_get(s->nodes, at), "children");
@@ -41,7 +41,7 @@ static void walk_gltf(search *s, const struct aiNode *node, const json_t *number
       walk_gltf(s, node->mChildren[i], json_array_get(children, i), depth + 1);
 }
 
-/* The scene's only node is assimp's root; above several it sets one of its own. */
+/* A scene's only node is assimp's root; for several nodes assimp adds a root. */
 static void walk_scene(search *s, const struct aiNode *root, const json_t *json) {
   const json_t *number = json_object_get(json, "scene");
   size_t scene = json_is_integer(number) ? (size_t)json_integer_value(number) : 0;

@@ -1,5 +1,5 @@
-/* Joints of a file without a mesh. assimp hands on joints with the meshes that they move alone, so an
- * armature in a file of its own would come as nodes of which nobody says that they are bones. */
+/* Finds joints in a file without meshes. assimp only returns joints together with the meshes that they
+ * move, so it returns an armature file as nodes that are not marked as bones. */
 #ifndef DECLARED_JOINTS_H
 #define DECLARED_JOINTS_H
 
@@ -12,8 +12,8 @@ typedef struct declared_joints {
   size_t count, capacity;
 } declared_joints;
 
-/* The nodes that the glTF or Collada file `path` declares to be joints. None where the scene has a mesh, in
- * files of other forms, and where the file declares none. False where memory runs out. */
+/* Nodes that the glTF or Collada file `path` declares as joints. None if the scene has a mesh, for other
+ * formats, or if the file declares none. False if memory runs out. */
 bool find_declared_joints(const struct aiScene *scene, const char *path, declared_joints *to);
 
 bool is_declared_joint(const declared_joints *joints, const struct aiNode *node);

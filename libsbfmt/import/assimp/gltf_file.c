@@ -28,7 +28,8 @@ uint32_t gltf_word_at(const uint8_t *at) {
   return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-/* The chunk of a GLB that begins at `*offset`, which moves behind it; nothing where it is another or cut. */
+/* Reads the chunk of a GLB at `*offset` and advances the offset; empty if it has another type or is
+ * truncated. */
 static bytes chunk(const bytes *file, size_t *offset, uint32_t type) {
   if (file->size < *offset || file->size - *offset < 8) return (bytes){NULL, 0};
   const uint8_t *header = file->at + *offset;

@@ -1,4 +1,4 @@
-/* A glTF file as it is written, for what assimp does not hand on. */
+/* Reads a glTF file directly, for data that assimp drops. */
 #ifndef GLTF_FILE_H
 #define GLTF_FILE_H
 
@@ -16,22 +16,21 @@ typedef struct gltf {
   const char *path;
   bytes file;
   json_t *json;
-  bytes *buffers; /* (buffer_count); the first of a GLB lies in the file */
+  bytes *buffers; /* (buffer_count); the first buffer of a GLB points into the file */
   size_t buffer_count;
 } gltf;
 
-/* Empty where it cannot be read; `at` is to be freed. */
+/* Empty if it cannot be read; the caller frees `at`. */
 bytes read_file(const char *path);
 
-/* Whether the name ends as that of a glTF file. */
+/* Whether the name has the extension of a glTF file. */
 bool is_gltf_path(const char *path);
 
-/* False where it cannot be read as glTF; gltf_close is to follow in any case. Buffers in data URIs stay
- * empty. */
+/* False if it cannot be read as glTF; gltf_close is required in any case. Buffers in data URIs stay empty. */
 bool gltf_open(gltf *g, const char *path);
 void gltf_close(gltf *g);
 
-/* An extension that the file requires and by which assimp would read its vertices wrong; NULL: none. */
+/* Required extension of the file that makes assimp read wrong vertices; NULL if none. */
 const char *gltf_unread_extension(const gltf *g);
 
 uint32_t gltf_word_at(const uint8_t *at);

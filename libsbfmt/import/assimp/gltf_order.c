@@ -10,7 +10,7 @@
 enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126, TRIANGLES = 4 };
 static const uint32_t unused = UINT32_MAX;
 
-/* Items of an accessor where they lie. */
+/* Items of an accessor in place. */
 typedef struct view {
   const uint8_t *at;
   size_t count, stride;
@@ -24,7 +24,7 @@ static bool size_of(const json_t *object, const char *key, size_t *to) {
   return true;
 }
 
-/* Of `components` numbers an item; false where it cannot be read in place. */
+/* Views items of `components` numbers; false if they cannot be read in place. */
 static bool open_view(const gltf *g, const json_t *number, size_t components, view *to) {
   size_t view_number, buffer, first, offset, length, width;
   const json_t *accessor = json_array_get(json_object_get(g->json, "accessors"),
@@ -57,7 +57,7 @@ static uint32_t index_at(const view *v, size_t i) {
   return v->type == UNSIGNED_SHORT ? at[0] | (uint32_t)at[1] << 8 : gltf_word_at(at);
 }
 
-/* Fills `source` (mNumVertices): the file's number of each vertex. False where the mesh is not this
+/* Fills `source` (mNumVertices): the file's number of each vertex. False if the mesh is not from this
  * primitive. */
 static bool match(const gltf *g, const json_t *primitive, const struct aiMesh *mesh, uint32_t *source) {
   view indices, positions;
@@ -79,7 +79,7 @@ static bool match(const gltf *g, const json_t *primitive, const struct aiMesh *m
   return true;
 }
 
-/* Turns the file's numbers into the places of a list without gaps; vertices that nothing uses come last. */
+/* Compacts the file's numbers to indices without gaps; unused vertices come last. */
 static bool rank(uint32_t *source, unsigned count) {
   uint32_t end = 0;
   for (unsigned i = 0; i < count; i++)
@@ -89,7 +89,7 @@ static bool rank(uint32_t *source, unsigned count) {
   for (uint32_t s = 0; s < end; s++) slots[s] = unused;
   for (unsigned i = 0; i < count; i++)
     if (source[i] != unused) slots[source[i]] = i;
-  bool once = true; /* two vertices of one number: not what assimp does */
+  bool once = true; /* assimp never gives two vertices one number */
   for (unsigned i = 0; i < count; i++) once = once && (source[i] == unused || slots[source[i]] == i);
   for (uint32_t s = 0; s < end; s++)
     if (slots[s] != unused) source[slots[s]] = next++;
@@ -122,7 +122,7 @@ static void apply(struct aiMesh *mesh, const uint32_t *slots) {
   for (unsigned i = 0; good && i < mesh->mNumAnimMeshes; i++)
     if (mesh->mAnimMeshes[i]->mNumVertices == n)
       good = reorder(mesh->mAnimMeshes[i]->mVertices, sizeof *mesh->mAnimMeshes[i]->mVertices, slots, n);
-  if (!good) abort(); /* half of a mesh in another order: the parent reports that the importer broke down */
+  if (!good) abort(); /* a half reordered mesh is unusable: the parent reports a crash of the importer */
   for (unsigned f = 0; f < mesh->mNumFaces; f++)
     for (unsigned k = 0; k < mesh->mFaces[f].mNumIndices; k++)
       mesh->mFaces[f].mIndices[k] = slots[mesh->mFaces[f].mIndices[k]];

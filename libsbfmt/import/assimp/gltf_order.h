@@ -1,16 +1,16 @@
-/* The order of a glTF file's vertices.
+/* Restores the vertex order of a glTF file.
  *
- * From 5.3 on assimp numbers the vertices of a primitive by their first use in its triangles, and leaves out
- * those that are not used. Numbers of points (`source_points`, lists of weights) are to be the file's. */
+ * From version 5.3 on assimp numbers the vertices of a primitive by their first use in its triangles, and
+ * drops unused ones. Indices of points (`source_points`, lists of weights) must be those of the file. */
 #ifndef GLTF_ORDER_H
 #define GLTF_ORDER_H
 
 #include <assimp/scene.h>
 
-/* Puts the vertices of each mesh back into the order that the glTF file `path` has them in; vertices that no
- * triangle uses stay left out. A mesh is found in the file by its triangles and the bits of its positions, so
- * a mesh that is already in that order stays as it is. Files of other formats, and primitives whose numbers
- * are compressed, sparse or inside of a data URI, keep the importer's order. */
+/* Reorders the vertices of each mesh as in the glTF file `path`; vertices without triangles stay dropped.
+ * Finds a mesh in the file by its triangles and exact positions, so a mesh in file order does not change.
+ * Other formats, and primitives with compressed or sparse numbers or in a data URI, keep the importer's
+ * order. */
 void restore_gltf_order(struct aiScene *scene, const char *path);
 
 #endif

@@ -26,8 +26,8 @@ bool metadata_number(const struct aiMetadataEntry *entry, double *to) {
   }
 }
 
-/* The numbers found under a key, at most `capacity`. A list of glTF comes either as one metadata block or as
- * several entries of the same key. */
+/* Reads up to `capacity` numbers of a key. A list of glTF is either one metadata block or several entries
+ * with one key. */
 static unsigned numbers_of(
     const struct aiMetadata *data, const char *key, float *to, unsigned capacity, bool inner) {
   unsigned count = 0;

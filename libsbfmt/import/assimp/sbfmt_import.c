@@ -1,7 +1,7 @@
-/* sbfmt-import FILE: reads FILE with assimp and writes the scene to standard output as
- * import/scene/stream_format.h says. A process of its own, because assimp aborts or crashes on some damaged
- * files; the only place that knows assimp. No step that welds, triangulates, splits or merges is asked for.
- */
+/* sbfmt-import FILE: reads FILE with assimp and writes the scene to standard output in the format of
+ * import/scene/stream_format.h. It is a separate process because assimp aborts or crashes on some damaged
+ * files, and the only code that uses assimp. It requests no post-processing that welds, triangulates,
+ * splits or merges. */
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -67,7 +67,7 @@ static bool is_camera_or_light(const struct aiScene *scene, const struct aiNode 
 
 static declared_joints joints;
 
-/* FBX keeps limbs, nulls and meshes apart; of that assimp hands on only whether a node is a null. */
+/* FBX distinguishes limbs, nulls and meshes; assimp only reports whether a node is a null. */
 static sbfi_stream_kind kind_of(const struct aiScene *scene, const struct aiNode *node) {
   const struct aiMetadataEntry *is_null = find_entry(node->mMetaData, "IsNull");
   if (is_camera_or_light(scene, node)) return SBFI_STREAM_NO_BONE;
@@ -82,7 +82,7 @@ static uint32_t count_nodes(const struct aiNode *node) {
   return count;
 }
 
-/* Writes the node as number *next and everything below it; -1 stands for no parent. */
+/* Writes a node and its descendants in depth-first order, numbered from *next; -1 for no parent. */
 static void write_nodes(
     const struct aiScene *scene, const struct aiNode *node, int32_t parent, int32_t *next) {
   int32_t number = (*next)++;
@@ -120,7 +120,7 @@ static void write_bones(const struct aiMesh *mesh) {
   }
 }
 
-/* A shape that leaves the positions alone, or has another number of them, is none. */
+/* Ignores a shape without positions or with a different number of them. */
 static bool is_shape(const struct aiMesh *mesh, const struct aiAnimMesh *shape) {
   return shape->mVertices && shape->mNumVertices == mesh->mNumVertices;
 }
@@ -169,8 +169,8 @@ static bool color_of(const struct aiMaterial *material, const char *key, struct 
   return aiGetMaterialColor(material, key, 0, 0, color) == AI_SUCCESS;
 }
 
-/* assimp turns about the middle of the image and counts upwards; its glTF reader makes up for both in the
- * translation. Here that is undone. */
+/* assimp rotates about the middle of the image with v upwards; its glTF reader compensates in the
+ * translation. This restores the original values. */
 static void write_uv_transform(const struct aiMaterial *material, enum aiTextureType type) {
   struct aiUVTransform in = {{0, 0}, {1, 1}, 0};
   aiGetMaterialUVTransform(material, "$tex.uvtrafo", (unsigned)type, 0, &in);
@@ -205,7 +205,7 @@ static void write_material(const struct aiMaterial *material) {
   bool physical = color_of(material, "$clr.base", &base);
   if (!physical) color_of(material, "$clr.diffuse", &base);
   color_of(material, "$clr.emissive", &emissive);
-  /* Elsewhere than in glTF exporters disagree on what 0 means, and nobody wants an invisible character. */
+  /* Outside glTF exporters disagree about the meaning of 0, and an invisible character is never intended. */
   float opacity = float_of(material, "$mat.opacity", 1);
   if (!physical) base.a = opacity > 0 ? opacity : 1;
   uint32_t alpha_mode = strcmp(mode.data, "MASK") == 0    ? 1
@@ -219,7 +219,7 @@ static void write_material(const struct aiMaterial *material) {
       float_of(material, "$mat.gltf.alphaCutoff", 0.5f)};
   write_f32s(rest, 3);
   write_u32(alpha_mode);
-  int two_sided = 1; /* what says nothing of it is drawn from both sides by the programs that wrote it */
+  int two_sided = 1; /* without a statement the authoring programs draw both sides */
   aiGetMaterialIntegerArray(material, "$mat.twosided", 0, 0, &two_sided, NULL);
   write_u32(two_sided != 0);
   write_image_of(material, aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE);
@@ -228,7 +228,8 @@ static void write_material(const struct aiMaterial *material) {
   write_image_of(material, aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA);
 }
 
-/* Height 0: the bytes of an image file. Else bare pixels, which no importer of a form in use gives. */
+/* Height 0: the bytes of an image file. Otherwise raw pixels, which no importer of a common format
+ * returns. */
 static void write_image(const struct aiTexture *texture) {
   size_t size = texture->mHeight == 0 && texture->pcData ? texture->mWidth : 0;
   const char *hint = texture->achFormatHint, *end = memchr(hint, 0, sizeof texture->achFormatHint);
@@ -288,7 +289,7 @@ static bool ends_in(const char *path, const char *ending) {
   return length >= more && strcasecmp(path + length - more, ending) == 0;
 }
 
-/* The file's bytes; NULL where they cannot be had. */
+/* Content of the file; NULL if it cannot be read. */
 static char *read_whole(const char *path, size_t *size) {
   FILE *file = fopen(path, "rb");
   long length = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
@@ -298,14 +299,14 @@ static char *read_whole(const char *path, size_t *size) {
   return text;
 }
 
-/* Reads the file with assimp, as it is or put right; a status where text_forms.h refuses it. */
+/* Reads the file with assimp, possibly after text repairs; an error status if text_forms.h rejects it. */
 static int read_scene(const char *path, const struct aiScene **scene, const struct aiPropertyStore *with) {
   static const char *const of_text[] = {".dae", ".fbx", ".ply", ".bvh", ".x", ".ase", ".stl", ".md5mesh"};
   char why[TEXT_WHY] = "", *text = NULL, *rewritten = NULL;
   size_t size = 0, rewritten_size = 0;
   for (size_t i = 0; !text && i < sizeof of_text / sizeof *of_text; i++)
     if (ends_in(path, of_text[i])) text = read_whole(path, &size);
-  bool is_text = text && !memchr(text, 0, size); /* others are binary, and hold numbers as they are */
+  bool is_text = text && !memchr(text, 0, size); /* other files are binary and contain binary numbers */
   text_verdict verdict = is_text ? text_find_not_finite(text, size, why) : TEXT_AS_IT_IS;
   if (is_text && verdict == TEXT_AS_IT_IS && ends_in(path, ".dae"))
     verdict = collada_name_joints(text, size, &rewritten, &rewritten_size, why);
@@ -321,7 +322,7 @@ static int read_scene(const char *path, const struct aiScene **scene, const stru
   return SBFI_CHILD_DONE;
 }
 
-/* Whether assimp would hand out wrong vertices; says so. */
+/* Whether assimp would return wrong vertices; reports it. */
 static bool is_packed(const char *path) {
   gltf g;
   if (!is_gltf_path(path)) return false;
@@ -333,11 +334,11 @@ static bool is_packed(const char *path) {
   return extension;
 }
 
-/* Never freed: to free a damaged scene is a further chance to crash. Static, so that leak checkers see it. */
+/* Never freed: freeing a damaged scene could crash. Static, so that leak checkers can reach it. */
 static struct aiPropertyStore *properties;
 static const struct aiScene *scene_read;
 
-/* From this version on assimp numbers the vertices of glTF anew. */
+/* From this version on assimp renumbers the vertices of glTF. */
 static bool renumbers_gltf(void) {
   unsigned major = aiGetVersionMajor(), minor = aiGetVersionMinor();
   return major > 5 || (major == 5 && minor >= 3);

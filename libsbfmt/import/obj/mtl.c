@@ -1,5 +1,5 @@
-/* Source: Wavefront, "MTL material format", and the metallic-roughness words (Pr, Pm, map_Pr, norm) that
- * exporters add to it. */
+/* Source: Wavefront, "MTL material format", and the metallic-roughness keywords (Pr, Pm, map_Pr, norm)
+ * that exporters add. */
 #include "import/obj/mtl.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 typedef struct library {
   sbfi_scene *scene;
-  sbfi_scene_material *current; /* NULL where the file's material is not one of ours */
+  sbfi_scene_material *current; /* NULL if no mesh uses the file's current material */
   bool roughness_stated;
   sbfi_array *images;
   bool out_of_memory;
@@ -38,7 +38,7 @@ static bool read_fraction(sbfi_span *rest, float *value) {
   return true;
 }
 
-/* One number stands for all three; "spectral" and "xyz" are not read. */
+/* A single number sets all three components; "spectral" and "xyz" are ignored. */
 static void read_color(sbfi_span rest, float color[3]) {
   float read[3];
   if (!read_fraction(&rest, &read[0])) return;
@@ -46,20 +46,20 @@ static void read_color(sbfi_span rest, float color[3]) {
   memcpy(color, read, sizeof read);
 }
 
-/* How many arguments an option of a map has, at most; the numbers beyond the first may be missing. */
+/* Maximum number of arguments of a map option; those after the first may be missing. */
 static uint32_t option_arguments(sbfi_span option) {
   if (sbfi_span_is(option, "-o") || sbfi_span_is(option, "-s") || sbfi_span_is(option, "-t")) return 3;
   if (sbfi_span_is(option, "-mm")) return 2;
   return 1;
 }
 
-/* `-o` and `-s` in v upwards, to glTF's transform, where v goes downwards. */
+/* Converts `-o` and `-s` with v upwards to glTF's transform with v downwards. */
 static void resolve_image(sbfi_scene_uv_transform *uv, const float offset[3], const float scale[3]) {
   *uv = (sbfi_scene_uv_transform){
       .offset = {offset[0], 1 - scale[1] - offset[1]}, .scale = {scale[0], scale[1]}};
 }
 
-/* Leaves the file name of a map: what stands after its options. It may hold blanks. */
+/* Reads the options of a map and returns the file name after them. It may contain blanks. */
 static sbfi_span read_options(sbfi_span rest, sbfi_scene_uv_transform *uv) {
   float offset[3] = {0, 0, 0}, scale[3] = {1, 1, 1}, ignored[3];
   for (;;) {

@@ -98,9 +98,9 @@ static void visit_used(const division *d, uint32_t kind, uint32_t *marks,
 
 typedef struct usage {
   uint32_t *mesh_counts; /* items of each mesh */
-  uint32_t *users;       /* meshes of each item, then where its next mesh goes in item_meshes */
+  uint32_t *users;       /* number of meshes of each item, then the next index into item_meshes */
   uint32_t *first;       /* first mesh of each item, 1-based, 0: none; NULL: not needed */
-  uint32_t *item_meshes; /* the meshes of each item, item after item */
+  uint32_t *item_meshes; /* meshes of each item, concatenated */
 } usage;
 
 static void count_use(void *state, uint32_t mesh, uint32_t item) {

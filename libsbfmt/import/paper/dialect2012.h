@@ -1,19 +1,19 @@
-/* The 2012 dialect, <model>: the form of a paper of that year, an element for each vertex (section 16 of the
- * specification). What a file says, in the file's words: numbers are ids, angles degrees. */
+/* The 2012 dialect, <model>: the format of a paper of that year, with one element per vertex (section 16
+ * of the specification). The model keeps the file's values: ids as numbers, angles in degrees. */
 #ifndef SBFI_DIALECT2012_H
 #define SBFI_DIALECT2012_H
 
 #include "base/memory.h"
 #include "import/convert/conversion.h"
 
-/* Things with a number and a place: ids beside values, in the order of the file. */
+/* Numbered items with positions: ids and values as parallel arrays in file order. */
 typedef struct sbfi_paper_items {
   sbfi_array ids;    /* uint32_t */
   sbfi_array values; /* sbf_vec3, or sbf_vec2 of texture coordinates */
 } sbfi_paper_items;
 
 typedef struct sbfi_paper_corner {
-  uint32_t vertex, normal, coordinate; /* ids; 0: none, for the last two */
+  uint32_t vertex, normal, coordinate; /* ids; 0: none (normal and coordinate only) */
 } sbfi_paper_corner;
 
 typedef struct sbfi_paper_surface {
@@ -22,7 +22,7 @@ typedef struct sbfi_paper_surface {
   sbfi_array corners; /* sbfi_paper_corner */
 } sbfi_paper_surface;
 
-/* A vertex of the surface in a tetrahedron: weights of its first three nodes. */
+/* A surface vertex embedded in a tetrahedron: weights of its first three nodes. */
 typedef struct sbfi_paper_carried {
   uint32_t vertex, tetrahedron; /* ids */
   float weights[3];
@@ -38,11 +38,11 @@ typedef enum sbfi_paper_attribute {
   SBFI_PAPER_ATTRIBUTES
 } sbfi_paper_attribute;
 
-/* A soft body or a rigid one; the latter has a surface and attributes only. */
+/* A soft or rigid body; a rigid one has only a surface and attributes. */
 typedef struct sbfi_paper_body {
   uint32_t id;
   sbfi_paper_items lattice;
-  sbfi_array nodes;           /* uint32_t, ids, four a tetrahedron */
+  sbfi_array nodes;           /* uint32_t, ids, four per tetrahedron */
   sbfi_array tetrahedron_ids; /* uint32_t */
   sbfi_paper_surface surface;
   sbfi_array carried; /* sbfi_paper_carried */
@@ -52,7 +52,7 @@ typedef struct sbfi_paper_body {
 
 typedef struct sbfi_paper_limit {
   sbf_joint_axis target;
-  float angle; /* degrees, or lengths of linear motions */
+  float angle; /* degrees; a length for linear motions */
 } sbfi_paper_limit;
 
 typedef struct sbfi_paper_joint {
@@ -65,12 +65,11 @@ typedef struct sbfi_paper_model {
   sbf_allocator allocator;
   sbfi_array soft_bodies, rigid_bodies; /* sbfi_paper_body */
   sbfi_array joints, limits;            /* sbfi_paper_joint, sbfi_paper_limit */
-  uint32_t ignored_count,
-      ignored_line; /* elements that the dialect does not have, and the first one's line */
+  uint32_t ignored_count, ignored_line; /* unknown elements, and the line of the first */
   char ignored_name[64];
 } sbfi_paper_model;
 
-/* Whether the file is of this dialect: its name ends in .xml and its root is <model>. */
+/* Whether the file has this dialect: its name ends in .xml and its root is <model>. */
 bool sbfi_paper_knows(const char *path);
 
 /* Reads the file; on failure the model is empty. */
@@ -78,11 +77,11 @@ sbf_status sbfi_paper_read(
     sbfi_paper_model *model, const char *path, const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_paper_free(sbfi_paper_model *model);
 
-/* Where the item of a number stands; false, with the failure in c->error, where there is none. `what` names
- * the item in the message. A table is made once for each list. */
+/* Looks up the index of an item by id; false, with c->error filled, if it does not exist. `what` names the
+ * item in the message. Each list needs one table. */
 typedef struct sbfi_paper_table {
   const uint32_t *ids; /* as in the file */
-  uint64_t *sorted;    /* id and place; NULL: the ids count from 1 */
+  uint64_t *sorted;    /* id and index; NULL: the ids count from 1 */
   uint32_t count;
 } sbfi_paper_table;
 bool sbfi_paper_table_make(
@@ -90,7 +89,7 @@ bool sbfi_paper_table_make(
 bool sbfi_paper_find(
     sbfi_conversion *c, const sbfi_paper_table *table, uint32_t id, const char *what, uint32_t *slots);
 
-/* The status that goes with c->error after one of the two has failed. */
+/* Status for c->error after one of the two functions has failed. */
 static inline sbf_status sbfi_paper_fault(const sbfi_conversion *c) {
   return c->error->code == SBF_CODE_OUT_OF_MEMORY ? SBF_FAILED : SBF_BAD_INPUT;
 }
@@ -99,9 +98,9 @@ static inline sbf_status sbfi_paper_fault(const sbfi_conversion *c) {
 sbf_status sbfi_paper_polygons(
     sbfi_conversion *c, const sbfi_paper_surface *surface, const char *what, sbf_polygon_mesh *mesh);
 
-/* Fills the conversion's asset; c->scene is not read. */
+/* Fills the conversion's asset without use of c->scene. */
 sbf_status sbfi_convert_paper(sbfi_conversion *c, const sbfi_paper_model *model, const char *name);
-/* The rigid bodies and joints, before the soft bodies. */
+/* Converts rigid bodies and joints, before the soft bodies. */
 sbf_status sbfi_convert_paper_skeleton(sbfi_conversion *c, const sbfi_paper_model *model);
 
 #endif

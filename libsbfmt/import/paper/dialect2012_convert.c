@@ -1,4 +1,4 @@
-/* A model of the 2012 dialect to an asset: soft bodies, their meshes and what carries them. */
+/* Converts a model of the 2012 dialect to an asset: soft bodies, meshes and attachments. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "import/paper/dialect2012.h"
 #include "interchange/paper_units.h"
 
-/* Corners that name a normal, and those that name a texture coordinate. */
+/* Number of corners with a normal, and with a texture coordinate. */
 typedef struct corner_counts {
   size_t normals, coordinates;
 } corner_counts;
@@ -23,7 +23,7 @@ static corner_counts count_corners(const sbfi_paper_surface *surface) {
   return counts;
 }
 
-/* Places that the corners name by `id_of`, which all of them do. */
+/* Indices of the items that the corners refer to with `id_of`; every corner must have one. */
 static uint32_t *named_indices(sbfi_conversion *c, const sbfi_paper_surface *surface, const sbfi_array *ids,
     size_t id_offset, const char *what) {
   uint32_t *indices = sbfi_convert_allocate(c, surface->corners.count, sizeof *indices);
@@ -54,7 +54,7 @@ static sbf_status fill_normals(sbfi_conversion *c, const sbfi_paper_surface *sur
   sbf_vec3 *normals = sbfi_convert_allocate(c, count, sizeof *normals);
   if (!indices) return sbfi_paper_fault(c);
   if (!normals) return sbfi_convert_no_memory(c);
-  /* Axes turn normals, the unit must not stretch them. */
+  /* Rotates normals with the axes but without the unit's scale. */
   sbfi_matrix axes = c->to_asset;
   double unit = axes.at[0][0] != 0 ? axes.at[0][0] : 1;
   for (int r = 0; r < 3; r++)
@@ -125,7 +125,7 @@ static sbf_status fill_tet_mesh(sbfi_conversion *c, const sbfi_paper_body *from,
   return sbfi_tet_mesh_repair(mesh, c->scene->file, c->error);
 }
 
-/* `nodes`: places of each tetrahedron's four, as the file has them. */
+/* `nodes`: indices of each tetrahedron's four nodes as in the file. */
 static sbf_status fill_embedding(sbfi_conversion *c, const sbfi_paper_body *from, const sbf_uint4 *nodes,
     const uint32_t *new_from_old, int32_t mesh, sbf_level *level) {
   uint32_t count = (uint32_t)from->carried.count;
@@ -166,7 +166,7 @@ static sbf_status fill_lattice(
   sbf_uint4 *nodes = NULL;
   sbf_status status = fill_tet_mesh(c, from, &tets);
   if (status == SBF_OK) {
-    /* Mending may drop or turn tetrahedra; the weights are about those of the file. */
+    /* Repair may drop or flip tetrahedra; the weights refer to the original ones. */
     nodes = sbfi_arena_allocate(&c->scratch, from->tetrahedron_ids.count, sizeof *nodes);
     sbfi_paper_table table;
     if (!nodes || !sbfi_paper_table_make(c, &table, &from->lattice.ids, "vertices of the lattice"))
@@ -223,7 +223,7 @@ static sbf_status fill_attributes(sbfi_conversion *c, const sbfi_paper_body *fro
   return SBF_OK;
 }
 
-/* The paper's second way: whatever is rigid and meets the flesh holds it. */
+/* The paper's second method: every rigid body attaches the soft bodies that it overlaps. */
 static sbf_status fill_attachments(sbfi_conversion *c, sbf_soft_body *body) {
   uint32_t count = c->asset->rigid_bodies.count;
   if (!count) return SBF_OK;

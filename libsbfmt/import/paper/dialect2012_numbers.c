@@ -1,4 +1,4 @@
-/* Ids of the 2012 dialect to places: mostly they count from 1, then no table is needed. */
+/* Maps ids of the 2012 dialect to indices. Most files count from 1 and need no table. */
 #include <stdlib.h>
 
 #include "import/paper/dialect2012.h"

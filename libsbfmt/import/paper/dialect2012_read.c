@@ -1,4 +1,4 @@
-/* The text of the 2012 dialect, event by event. */
+/* Parses the text of the 2012 dialect, event by event. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,7 +42,8 @@ typedef enum location {
   PASSED_OVER
 } location;
 
-/* What may stand where, and what it then is. Joints and attributes have names of their own. */
+/* Transitions: which element may be inside which, and what it means. Joints and attributes are recognized
+ * by separate rules. */
 static const struct {
   location inside;
   const char *name;
@@ -87,7 +88,7 @@ typedef struct paper_reader {
   sbfi_paper_model *model;
   sbfi_xml_events events;
   location stack[DEEPEST];
-  uint32_t depth, passed_over_depth; /* passed over: elements inside one that is */
+  uint32_t depth, passed_over_depth; /* number of open elements; depth within a skipped element */
   sbfi_paper_body *body;
   uint32_t nodes_of_tetrahedron;
   sbfi_paper_attribute attribute;
@@ -133,7 +134,7 @@ static bool read_f32(paper_reader *r, sbfi_span text, const char *name, float *v
   return fail(r, SBF_CODE_XML_BAD_VALUE, "%s is no number: \"%s\"", name, sbfi_quote_of(text).text);
 }
 
-/* `fallback` is what an attribute stands for that is not given; 0: it must be. */
+/* `fallback` is the value of a missing attribute; 0: it is required. */
 static bool read_id(
     paper_reader *r, attribute_list attributes, const char *name, uint32_t fallback, uint32_t *value) {
   sbfi_span text = value_of(attributes, name);
@@ -291,7 +292,7 @@ static bool begin(paper_reader *r, location is, attribute_list attributes) {
   }
 }
 
-static void pass_over(paper_reader *r, const char *name) {
+static void skip_element(paper_reader *r, const char *name) {
   if (r->model->ignored_count++ == 0) {
     r->model->ignored_line = r->events.line;
     sbfi_copy_text(r->model->ignored_name, sizeof r->model->ignored_name, name);
@@ -336,7 +337,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *at,
   if (r->depth == 0 && is != MODEL)
     return fail(r, SBF_CODE_IO_UNKNOWN_FORMAT, "the root is <%.64s>, not <model>", name);
   if (is == PASSED_OVER || kind < 0) {
-    pass_over(r, name);
+    skip_element(r, name);
     r->passed_over_depth = 1;
     return true;
   }
@@ -414,17 +415,17 @@ sbf_status sbfi_paper_read(
 
 /* ---- Which dialect ---- */
 
-static bool see_root(void *user, const char *name, const sbfi_xml_attribute *attributes, uint32_t count) {
+static bool peek_root(void *user, const char *name, const sbfi_xml_attribute *attributes, uint32_t count) {
   bool **is_model = user;
   (void)attributes, (void)count;
   **is_model = strcmp(name, "model") == 0;
   return false;
 }
-static bool see_text(void *user, const char *text, size_t length) {
+static bool peek_text(void *user, const char *text, size_t length) {
   (void)user, (void)text, (void)length;
   return true;
 }
-static bool see_end(void *user) {
+static bool peek_end(void *user) {
   (void)user;
   return true;
 }
@@ -433,6 +434,6 @@ bool sbfi_paper_knows(const char *path) {
   size_t length = strlen(path);
   bool is_model = false, *seen = &is_model;
   if (length < 5 || strcmp(path + length - 4, ".xml") != 0) return false;
-  sbfi_xml_events events = {see_root, see_text, see_end, &seen, 0};
+  sbfi_xml_events events = {peek_root, peek_text, peek_end, &seen, 0};
   return parse(path, &events, NULL, NULL) == SBF_OK && is_model;
 }

@@ -1,4 +1,4 @@
-/* Rigid bodies and joints of the 2012 dialect. */
+/* Converts rigid bodies and joints of the 2012 dialect. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-/* Of what the hull encloses, else the mean of its points. */
+/* Centre of the hull's volume, or the mean of its points if it encloses none. */
 static sbf_vec3 center_of(const sbf_polygon_mesh *hull) {
   sbf_solid solid;
   sbf_solid_measure(hull, &solid);

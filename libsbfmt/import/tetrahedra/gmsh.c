@@ -1,5 +1,5 @@
-/* Gmsh .msh: version 1 ($NOD, $ELM), 2.2 and 4.1, text or binary. Nodes have numbers of their own with gaps;
- * elements of other types than the linear tetrahedron (4) are passed over. */
+/* Reads Gmsh .msh: version 1 ($NOD, $ELM), 2.2 and 4.1, text or binary. Node numbers may have gaps;
+ * elements other than linear tetrahedra (type 4) are skipped. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 enum { GMSH_TETRAHEDRON = 4 };
 
-/* Nodes of an element, by Gmsh's number of its type; 0: not known. */
+/* Number of nodes of an element by Gmsh's type; 0: unknown type. */
 static uint32_t nodes_of_type(uint32_t type) {
   static const uint8_t counts[] = {0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
   return type < sizeof counts ? counts[type] : 0;
@@ -21,7 +21,7 @@ typedef struct numbered {
 typedef struct gmsh {
   sbfi_word_reader *r;
   sbfi_tet_mesh *mesh;
-  sbfi_array numbers; /* numbered, sorted once all nodes are read */
+  sbfi_array numbers; /* numbered, sorted after all nodes are read */
   bool binary;
   unsigned version; /* 1, 2, 4 */
 } gmsh;
@@ -47,7 +47,7 @@ static bool read_u32(gmsh *g, uint32_t *value, const char *what) {
   return g->binary ? sbfi_binary_u32(g->r, value, what) : sbfi_word_u32(g->r, value, what);
 }
 
-/* Counts and numbers of version 4 are 64 bits wide in binary. */
+/* Counts and numbers of version 4 are 64 bits wide in binary files. */
 static bool read_wide(gmsh *g, uint64_t *value, const char *what) {
   uint32_t narrow = 0;
   if (g->binary && g->version == 4) return sbfi_binary_u64(g->r, value, what);
@@ -89,7 +89,7 @@ static bool add_number(gmsh *g, uint64_t number) {
   return true;
 }
 
-/* Versions 1 and 2: a count, then number and place of each. */
+/* Versions 1 and 2: a count, then number and position of each node. */
 static bool read_nodes_plain(gmsh *g) {
   uint32_t count, number;
   sbfi_span rest;
@@ -104,7 +104,7 @@ static bool read_nodes_plain(gmsh *g) {
   return true;
 }
 
-/* Version 4: blocks, in each all numbers and then all places. */
+/* Version 4: blocks, each with all numbers followed by all positions. */
 static bool read_nodes_blocks(gmsh *g) {
   uint64_t blocks, total, min, max, count, number;
   uint32_t parametric;
@@ -130,7 +130,7 @@ static bool read_nodes_blocks(gmsh *g) {
   return true;
 }
 
-/* The nodes of one element, which becomes a tetrahedron if it is one. */
+/* Reads the nodes of one element; adds it if it is a tetrahedron. */
 static bool read_element_nodes(gmsh *g, uint32_t type, uint32_t count) {
   sbf_uint4 tetrahedron = {{0}};
   for (uint32_t k = 0; k < count; k++) {
@@ -151,8 +151,7 @@ static bool unknown_type(gmsh *g, uint32_t type) {
   return sbfi_word_fail(g->r, SBF_CODE_IMPORT_REFUSED, "elements of type %u are not known", type);
 }
 
-/* Version 1: number, type, two tags, count, nodes. Version 2: number, type, tags behind their count, nodes.
- */
+/* Version 1: number, type, two tags, count, nodes. Version 2: number, type, tag count, tags, nodes. */
 static bool read_elements_text(gmsh *g, uint32_t count) {
   for (uint32_t i = 0; i < count; i++) {
     uint32_t number, type, tags = 2, nodes;
@@ -170,7 +169,7 @@ static bool read_elements_text(gmsh *g, uint32_t count) {
   return true;
 }
 
-/* Version 2, binary: runs of elements of one type and number of tags. */
+/* Version 2, binary: runs of elements with equal type and number of tags. */
 static bool read_elements_runs(gmsh *g, uint32_t count) {
   for (uint32_t done = 0; done < count;) {
     uint32_t type, run, tags, number;
@@ -241,8 +240,8 @@ static bool read_format(gmsh *g) {
   return true;
 }
 
-/* Passes over a section that nobody needs, to behind its end mark; a binary one may hold anything. */
-static bool pass_over(gmsh *g, sbfi_span name) {
+/* Skips a section to its end mark; a binary section may contain any bytes. */
+static bool skip_section(gmsh *g, sbfi_span name) {
   char mark[64];
   if (name.length + 4 > sizeof mark)
     return sbfi_word_fail(g->r, SBF_CODE_IMPORT_SYNTAX, "a section's name is too long");
@@ -263,7 +262,7 @@ static bool read_section(gmsh *g, sbfi_span name) {
   if (sbfi_span_is(name, "$MeshFormat")) return read_format(g);
   sbfi_span rest;
   bool counted = sbfi_span_is(name, "$Nodes") || sbfi_span_is(name, "$Elements");
-  if (counted && g->binary && g->version == 4) sbfi_word_line(g->r, &rest); /* the bytes begin behind it */
+  if (counted && g->binary && g->version == 4) sbfi_word_line(g->r, &rest); /* the bytes begin after it */
   bool old_nodes = sbfi_span_is(name, "$NOD"), old_elements = sbfi_span_is(name, "$ELM");
   if (old_nodes || old_elements) g->version = 1;
   if (old_nodes || sbfi_span_is(name, "$Nodes")) {
@@ -273,7 +272,7 @@ static bool read_section(gmsh *g, sbfi_span name) {
   }
   if (old_elements || sbfi_span_is(name, "$Elements"))
     return g->version == 4 ? read_elements_blocks(g) : read_elements_plain(g);
-  return pass_over(g, name);
+  return skip_section(g, name);
 }
 
 bool sbfi_read_gmsh(sbfi_word_reader *r, sbfi_tet_mesh *mesh) {

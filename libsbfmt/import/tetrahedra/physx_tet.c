@@ -1,4 +1,4 @@
-/* PhysX 2.x .tet: lines `v x y z` and `t a b c d`, counted from 0; `#` begins a comment. */
+/* Reads PhysX 2.x .tet: lines `v x y z` and `t a b c d`, counted from 0; `#` starts a comment. */
 #include "import/tetrahedra/tet_mesh.h"
 
 bool sbfi_read_physx_tet(sbfi_word_reader *r, sbfi_tet_mesh *mesh) {

@@ -1,6 +1,5 @@
-/* Tetrahedra of another program: TetGen, Gmsh, VTK, PhysX. What a loaded mesh promises: indices in range,
- * numbers finite, every tetrahedron of positive volume
- * and listed once. */
+/* Tetrahedra of another program: TetGen, Gmsh, VTK, PhysX. A loaded mesh has indices in range, finite
+ * numbers, and unique tetrahedra of positive volume. */
 #ifndef SBFI_TET_MESH_H
 #define SBFI_TET_MESH_H
 
@@ -9,33 +8,33 @@
 typedef struct sbfi_tet_mesh {
   sbf_allocator allocator;
   const char *format;    /* "tetgen", "gmsh", "vtk", "vtu", "physx tet" */
-  sbfi_array points;     /* sbf_vec3, in the file's unit and axes, in its order */
+  sbfi_array points;     /* sbf_vec3, in the file's unit, axes and order */
   sbfi_array tetrahedra; /* sbf_uint4 */
-  uint32_t turned_count; /* listed the other way round in the file: two corners were exchanged */
-  uint32_t flat_count;   /* without volume: left out */
-  uint32_t repeat_count; /* with the four points of another: left out */
-  uint32_t passed_over;  /* elements of other kinds */
+  uint32_t turned_count; /* inverted in the file: two corners were swapped */
+  uint32_t flat_count;   /* without volume: dropped */
+  uint32_t repeat_count; /* duplicates of another's four points: dropped */
+  uint32_t passed_over;  /* skipped elements of other kinds */
 } sbfi_tet_mesh;
 
-/* Whether a path's ending is one of those read here: .node .ele .msh .vtk .vtu .tet */
+/* Whether a path has a supported extension: .node .ele .msh .vtk .vtu .tet */
 bool sbfi_tet_mesh_knows(const char *path);
 
-/* Reads the file; of TetGen's pair either may be named and both must be there. On failure the mesh is empty.
- */
+/* Reads the file. Either file of TetGen's pair may be given, but both must exist. On failure the mesh is
+ * empty. */
 sbf_status sbfi_tet_mesh_read(sbfi_tet_mesh *mesh, const char *path, const sbf_allocator *allocator,
     uint64_t limit_bytes, sbf_diagnostic *error);
-/* The same from memory: `name` has the ending that says which form. Of TetGen's pair `first` is the .node,
- * `second` the .ele; of the others `first` is all. */
+/* Reads from memory; the extension of `name` selects the format. For TetGen's pair `first` is the .node
+ * and `second` the .ele; for others `first` is the whole file. */
 sbf_status sbfi_tet_mesh_read_memory(sbfi_tet_mesh *mesh, const char *name, sbfi_span first, sbfi_span second,
     const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh);
 
-/* Checks every index, turns what is listed the other way round, leaves out what is flat or
- * repeats another; an error where nothing is left. `path` is the file's, for messages. */
+/* Checks every index, flips inverted tetrahedra, and drops flat and duplicate ones; fails if none is left.
+ * `path` is used in messages. */
 sbf_status sbfi_tet_mesh_repair(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error);
 
-/* Triangles that bound the tetrahedra, each once, facing outwards, in the order of the tetrahedra: appended
- * to an array of uint32_t, three each. False where memory runs out. */
+/* Appends the boundary triangles of the tetrahedra, outward facing and in the order of the tetrahedra, to
+ * an array of uint32_t, three each. False if memory runs out. */
 bool sbfi_tet_mesh_boundary(const sbfi_tet_mesh *mesh, sbfi_array *triangles);
 
 /* ---- The readers: each fills points and tetrahedra as the file has them ---- */

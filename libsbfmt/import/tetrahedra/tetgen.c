@@ -1,9 +1,9 @@
-/* TetGen's .node and .ele: a line of counts, then a line an item that begins with its number. Numbers begin
- * with that of the first node, 0 or 1. After '#' nothing counts. */
+/* Reads TetGen's .node and .ele: a line of counts, then one line per item that starts with its number.
+ * Numbers start at that of the first node, 0 or 1. '#' starts a comment. */
 #include "import/tetrahedra/tet_mesh.h"
 
-/* Passes over words that the counts announce and nobody needs: attributes, markers. */
-static bool pass_over(sbfi_word_reader *r, uint32_t count) {
+/* Skips words that the counts include but we do not use: attributes, markers. */
+static bool skip_words(sbfi_word_reader *r, uint32_t count) {
   sbfi_span word;
   for (uint32_t i = 0; i < count; i++)
     if (!sbfi_word_next(r, &word))
@@ -29,7 +29,7 @@ bool sbfi_read_tetgen_nodes(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *
           r, SBF_CODE_IMPORT_SYNTAX, "node %u stands where node %u should", number, *first_number + i);
     if (!sbfi_word_f32(r, &points[i].x, "a node's place") ||
         !sbfi_word_f32(r, &points[i].y, "a node's place") ||
-        !sbfi_word_f32(r, &points[i].z, "a node's place") || !pass_over(r, attributes + markers))
+        !sbfi_word_f32(r, &points[i].z, "a node's place") || !skip_words(r, attributes + markers))
       return false;
   }
   return r->status == SBF_OK;
@@ -49,9 +49,10 @@ bool sbfi_read_tetgen_elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_
     if (!sbfi_word_u32(r, &number, "a tetrahedron's number")) return false;
     for (int k = 0; k < 4; k++) {
       if (!sbfi_word_u32(r, &number, "a tetrahedron's node")) return false;
-      tetrahedra[i].at[k] = number - first_number; /* too small a number wraps, and is found out of range */
+      tetrahedra[i].at[k] =
+          number - first_number; /* numbers that are too small wrap around and fail the range check */
     }
-    if (!pass_over(r, nodes - 4 + attributes)) return false;
+    if (!skip_words(r, nodes - 4 + attributes)) return false;
   }
   return r->status == SBF_OK;
 }

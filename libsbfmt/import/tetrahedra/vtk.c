@@ -1,4 +1,5 @@
-/* Legacy VTK files, text or binary (big-endian): an unstructured grid's points and its cells of type 10. */
+/* Reads legacy VTK files, text or binary (big-endian): points of an unstructured grid and cells of type
+ * 10. */
 #include <string.h>
 
 #include "import/tetrahedra/tet_mesh.h"
@@ -9,7 +10,7 @@ typedef struct vtk {
   sbfi_word_reader *r;
   sbfi_tet_mesh *mesh;
   bool binary;
-  sbfi_array cells; /* uint32_t: size, then points, cell after cell */
+  sbfi_array cells; /* uint32_t: size, then points, for each cell */
   sbfi_array types; /* uint32_t */
 } vtk;
 
@@ -26,7 +27,7 @@ static bool read_coordinate(vtk *v, bool is_double, float *value) {
   return true;
 }
 
-/* Binary numbers begin behind the line's end. */
+/* Binary numbers begin after the end of the line. */
 static bool end_line(vtk *v) {
   sbfi_span rest;
   if (v->binary) sbfi_word_line(v->r, &rest);
@@ -100,7 +101,7 @@ static bool read_sections(vtk *v) {
     } else if (sbfi_span_is(word, "CELL_TYPES")) {
       if (!read_types(v)) return false;
     } else if (sbfi_span_is(word, "POINT_DATA") || sbfi_span_is(word, "CELL_DATA")) {
-      break; /* what follows is data on what has been read */
+      break; /* the rest is data of these points and cells */
     }
   }
   return v->r->status == SBF_OK && take_tetrahedra(v);

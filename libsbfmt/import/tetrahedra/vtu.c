@@ -1,5 +1,5 @@
-/* VTK XML files of unstructured grids (.vtu): points and cells of type 10, of all pieces. Numbers as text, as
- * base64 or appended behind the document; plain or compressed by zlib. */
+/* Reads VTK XML files of unstructured grids (.vtu): points and cells of type 10 of all pieces. Numbers are
+ * text, base64, or appended after the document; uncompressed or with zlib. */
 #include <string.h>
 
 #include "base/number.h"
@@ -16,10 +16,10 @@ typedef struct vtu {
   sbfi_tet_mesh *mesh;
   sbfi_xml_events events;
   location at, array_in;
-  uint32_t passed_over; /* depth below an element that is not read */
+  uint32_t passed_over; /* depth below a skipped element */
   sbfi_vtu_coding coding;
   sbfi_vtu_array arrays[ARRAYS], *open;
-  uint32_t point_count, cell_count; /* of the piece */
+  uint32_t point_count, cell_count; /* of the current piece */
 } vtu;
 
 static bool fail(vtu *v, sbf_code code, const char *message) {
@@ -222,14 +222,14 @@ static const char *find(sbfi_span in, const char *what) {
   return NULL;
 }
 
-/* Raw bytes make no XML: the document is what stands before them, closed by ourselves. Fills `document` where
- * there are any. */
+/* Raw bytes are invalid XML: cuts the document before them and appends the closing tags. Fills `document`
+ * if there are any. */
 static bool cut_appended(vtu *v, sbfi_text *document) {
   sbfi_span all = {v->r->at, (size_t)(v->r->end - v->r->at)};
   const char *tag = find(all, "<AppendedData");
   if (!tag) return true;
   const char *end = memchr(tag, '>', (size_t)(v->r->end - tag));
-  if (!end) return true; /* XML that breaks off, which the parser says */
+  if (!end) return true; /* truncated XML, which the parser reports */
   sbfi_span attributes = {tag, (size_t)(end - tag)}, data = {end + 1, (size_t)(v->r->end - end - 1)};
   const char *underscore = memchr(data.at, '_', data.length);
   if (!underscore)

@@ -25,12 +25,12 @@ typedef struct byte_source {
   sbfi_word_reader *r;
   sbfi_span from;
   bool is_text;
-  size_t read; /* characters of the text */
+  size_t read; /* number of consumed characters */
   sbfi_base64_reader base64;
   sbfi_array decoded; /* uint8_t */
 } byte_source;
 
-/* Decodes a piece; a new base64 text may begin where one has ended. False where it is none. */
+/* Decodes a piece; a new base64 text may follow a finished one. False if it is invalid. */
 static bool decode_some(byte_source *s, size_t length) {
   size_t size, kept = s->decoded.count;
   if (!sbfi_word_push(s->r, &s->decoded, SBFI_BASE64_CAPACITY(length))) return false;
@@ -45,9 +45,9 @@ static bool decode_some(byte_source *s, size_t length) {
   return true;
 }
 
-/* The first `count` bytes, NULL with the failure recorded where there are fewer. */
+/* First `count` bytes; NULL with a recorded failure if there are fewer. */
 static const uint8_t *need(byte_source *s, uint64_t count) {
-  if (count > s->from.length) goto short_of_bytes; /* base64 is the longer, so this holds for both */
+  if (count > s->from.length) goto short_of_bytes; /* base64 text is longer, so the check is valid for both */
   if (!s->is_text) return (const uint8_t *)s->from.at;
   while (s->decoded.count < count && s->read < s->from.length) {
     size_t left = s->from.length - s->read;
@@ -126,12 +126,12 @@ static bool inflate_blocks(byte_source *s, sbfi_vtu_coding *c, sbfi_array *to) {
   if (b.size == 0 || b.last > b.size)
     return sbfi_word_fail(s->r, SBF_CODE_IMPORT_SYNTAX, "the header of a compressed array is damaged");
   if (b.count > SBFI_VTU_ARRAY_BYTES / b.size) return too_large(s->r, UINT64_MAX);
-  if (b.count > s->from.length / word) return need(s, UINT64_MAX) != NULL; /* which says so */
+  if (b.count > s->from.length / word) return need(s, UINT64_MAX) != NULL; /* reports the failure */
   uint64_t at = (3 + b.count) * word, end = at;
   head = need(s, at);
   for (uint64_t i = 0; head && i < b.count; i++) {
     uint64_t stored = header_word(c, head, 3 + i);
-    if (stored > s->from.length) stored = s->from.length; /* too much in any case */
+    if (stored > s->from.length) stored = s->from.length; /* too large anyway */
     end += stored;
   }
   head = head ? need(s, end) : NULL;
@@ -155,7 +155,7 @@ static bool copy_plain(byte_source *s, sbfi_vtu_coding *c, sbfi_array *to) {
   return head && (destination || size == 0);
 }
 
-/* The array's bytes as VTK had them in memory. */
+/* Copies the array's bytes as they were in VTK's memory. */
 static bool take_bytes(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
   byte_source s = {.r = r, .is_text = true, .from = {from->text.at, from->text.length}};
   if (from->format == SBFI_VTU_APPENDED) {
