@@ -7,7 +7,8 @@
 #include "mechanics/vector.h"
 
 static const double TICK = 1.0 / 60;
-static const double MAX = 0.999; /* of an error that a tick takes off: a slider at 1 would be rigid */
+static const double MAX =
+    0.999; /* maximum fraction of an error that a tick removes: a slider at 1 would be rigid */
 
 static int compare_edges(const void *a, const void *b) {
   uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
@@ -45,7 +46,7 @@ bool sbfi_paper_measure(sbf_vec3_list positions, sbf_uint4_list tetrahedra, cons
   return true;
 }
 
-/* What `iterations` of a slider take off an error in a tick, and the slider for it. */
+/* Fraction of an error that `iterations` of a slider remove per tick, and the inverse. */
 static double fraction_of(double slider, uint32_t iterations) {
   double left = slider < 1 ? pow(1 - slider, iterations > 1 ? iterations : 1) : 0;
   return 1 - left < MAX ? 1 - left : MAX;
@@ -56,7 +57,7 @@ static double slider_of(double fraction, uint32_t iterations) {
   return 1 - pow(1 - limited, 1.0 / (iterations > 1 ? iterations : 1));
 }
 
-/* Pa at a share of one half. */
+/* Pa at a fraction of one half. */
 static double modulus_scale(double mass, const sbfi_paper_sums *sums) {
   return mass / sums->point_count / (2 * TICK * TICK) * sums->edge_squares / (6 * sums->volume);
 }

@@ -1,4 +1,4 @@
-/* Life of an asset: one arena that holds all of it. */
+/* Creates and frees assets: one arena owns everything. */
 #include "sbfmt/asset.h"
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* What stands around an asset: the arena that everything in it lives in, and a mapped file. */
+/* Owner of an asset: the arena of all its content, and a mapped file. */
 #ifndef SBFI_ASSET_BOX_H
 #define SBFI_ASSET_BOX_H
 
@@ -10,7 +10,8 @@
 
 typedef struct sbfi_asset_box {
   sbfi_arena arena;
-  void (*release)(void *released); /* called when the asset is freed, as to unmap a file; may be NULL */
+  void (*release)(
+      void *released); /* called when the asset is freed, for example to unmap a file; may be NULL */
   void *released;
   sbf_asset asset;
 } sbfi_asset_box;

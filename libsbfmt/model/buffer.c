@@ -1,4 +1,4 @@
-/* Bytes that a call has made for its caller. */
+/* Buffers that are returned to the caller. */
 #include "base/memory.h"
 #include "sbfmt/packed.h"
 

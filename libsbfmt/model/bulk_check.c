@@ -1,9 +1,9 @@
 #include "model/bulk_check.h"
 
-/* A block whose length the compiler knows becomes straight vector code without a branch on the data: long
- * blocks, then short ones behind the last whole long one. Only a short block with a fault in it, and the rest
- * behind the last whole one, are looked at item by item. The code is made twice where the compiler can: as
- * for every processor, and for those with registers twice as wide. */
+/* Blocks of a constant length compile to vector code without data-dependent branches: long blocks, then
+ * short ones for the rest. Only a short block with a fault, and the items after the last block, are
+ * scanned one by one. If the compiler supports it, the code exists twice: for all processors, and for
+ * those with registers of twice the width. */
 enum { LONG = 512, SHORT = 32 };
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -13,8 +13,8 @@ enum { LONG = 512, SHORT = 32 };
 #define INTO_BOTH static inline
 #endif
 
-/* Asks for what will be looked at soon, a page ahead, since processors look ahead within a page only. As a
- * number: there may be nothing so far on. */
+/* Prefetches a page ahead, because processors prefetch within a page only. Uses integer arithmetic,
+ * because the address may be out of bounds. */
 INTO_BOTH void announce(const void *at, size_t item_count) {
 #ifdef __GNUC__
   for (size_t i = 0; i < item_count; i += 16)
@@ -28,7 +28,7 @@ INTO_BOTH bool f32_outside(float value, float low, float high) {
   return !(value >= low) | !(value <= high);
 }
 
-/* How many blocks of `size` items, from the first on, are without fault, in items. */
+/* Number of leading items in blocks of `size` without a fault. */
 INTO_BOTH size_t pass_f32(const float *at, size_t count, float low, float high, size_t size) {
   size_t done = 0;
   for (; count - done >= size; done += size) {
@@ -41,14 +41,14 @@ INTO_BOTH size_t pass_f32(const float *at, size_t count, float low, float high, 
 }
 
 INTO_BOTH size_t find_f32(const float *at, size_t count, float low, float high) {
-  if (count == 0) return 0; /* then there may be no list at all */
+  if (count == 0) return 0; /* then the list may be NULL */
   size_t done = pass_f32(at, count, low, high, LONG);
   done += pass_f32(at + done, count - done, low, high, SHORT);
   while (done < count && !f32_outside(at[done], low, high)) done++;
   return done;
 }
 
-/* `span` is the range's length: below its beginning an item wraps around to far above it. */
+/* `span` is the length of the range: an item below the range wraps around to a large value. */
 INTO_BOTH size_t pass_u32(const uint32_t *at, size_t count, uint32_t low, uint32_t span, size_t size) {
   size_t done = 0;
   for (; count - done >= size; done += size) {
@@ -92,8 +92,8 @@ size_t sbfi_find_u32_outside(const uint32_t *at, size_t count, uint32_t low, uin
   return find_u32(at, count, low, high - low);
 }
 
-/* In double: differences of nearby float32 are exact there, so the sign is wrong only for a tetrahedron so
- * flat that nothing could be computed with it. */
+/* In double, where differences of nearby float32 are exact: the sign is wrong only for a tetrahedron too
+ * flat for any computation. */
 static bool is_positive(const sbf_vec3 *p0, const sbf_vec3 *p1, const sbf_vec3 *p2, const sbf_vec3 *p3) {
   double ax = (double)p1->x - p0->x, ay = (double)p1->y - p0->y, az = (double)p1->z - p0->z;
   double bx = (double)p2->x - p0->x, by = (double)p2->y - p0->y, bz = (double)p2->z - p0->z;

@@ -1,4 +1,4 @@
-/* The structural check: everything that a load promises, from the schema's tables alone. */
+/* Structural check: all guarantees of a load, from the schema's tables alone. */
 #include "model/check.h"
 
 #include <float.h>
@@ -18,8 +18,8 @@ typedef struct checker {
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user;
   uint32_t limit, found;
-  bool outline;  /* a list may have a count and no items */
-  bool mendable; /* what sbf_fix mends is no fault */
+  bool outline;  /* lists may have a count but no items */
+  bool mendable; /* skips faults that sbf_fix repairs */
   sbfi_ids ids;
 } checker;
 
@@ -44,7 +44,7 @@ __attribute__((format(printf, 6, 7))) static void fault(checker *c, sbf_code cod
 
 /* --- texts --- */
 
-/* The characters that XML 1.0 has no way to write. `text` is well-formed UTF-8. */
+/* Finds characters that XML 1.0 cannot represent. `text` is well-formed UTF-8. */
 static const char *find_forbidden(const char *text) {
   for (; *text; text++) {
     unsigned char byte = (unsigned char)*text;
@@ -103,7 +103,7 @@ static void check_id(checker *c, const sbfi_element_path *path, const sbfi_field
 
 /* --- numbers --- */
 
-/* The float32 next to `value`, upwards or downwards. */
+/* Next float32 above or below `value`. */
 static float next_float(float value, bool up) {
   uint32_t bits;
   if (value == 0) return up ? FLT_TRUE_MIN : -FLT_TRUE_MIN;
@@ -117,8 +117,8 @@ typedef struct bounds {
   float low, high;
 } bounds;
 
-/* The least and the greatest float32 that a field may hold. A bound counts as the float32 that it reads as,
- * so that a file may state the bound itself. */
+/* Smallest and largest float32 of a field. Bounds are rounded to float32 first, so that a file may contain
+ * the bound itself. */
 static bounds bounds_of(const sbfi_field *field) {
   bounds b = {-FLT_MAX, FLT_MAX};
   if (!field->has_range) return b;
@@ -129,7 +129,7 @@ static bounds bounds_of(const sbfi_field *field) {
   return b;
 }
 
-/* Numbers for messages: the locale's decimal sign must not show. */
+/* Numbers for messages, independent of the locale's decimal separator. */
 typedef struct number_text {
   char at[SBFI_F32_TEXT_SIZE + 1];
 } number_text;
@@ -157,7 +157,7 @@ static bool is_finite(float value) {
   return value >= -FLT_MAX && value <= FLT_MAX;
 }
 
-/* Lists of weights that sbf_fix brings back into their range. */
+/* Lists of weights that sbf_fix clamps to their range. */
 static bool is_mendable(const sbfi_element_path *path, const sbfi_field *field) {
   static const char *const lists[][2] = {
       {"skin", "weights"}, {"pin_set", "weights"}, {"embedding", "blends"}};

@@ -1,11 +1,11 @@
-/* A deep copy of an asset along the schema tables. */
+/* Deep copy of an asset along the schema tables. */
 #include "model/asset_box.h"
 #include "model/schema.h"
 #include "sbfmt/asset.h"
 
 static bool clone_element(sbfi_arena *arena, const sbfi_element *element, void *to, const void *from);
 
-/* Copies `count` elements standing in a row; NULL where memory runs out. */
+/* Copies an array of `count` elements; NULL if memory runs out. */
 static void *clone_row(sbfi_arena *arena, const sbfi_element *element, const void *from, uint32_t count) {
   char *row = sbfi_arena_allocate(arena, count, element->struct_size);
   for (uint32_t i = 0; row && i < count; i++) {
@@ -15,7 +15,7 @@ static void *clone_row(sbfi_arena *arena, const sbfi_element *element, const voi
   return row;
 }
 
-/* `to` holds the fields of `from` as they are; what they point at is replaced by copies. */
+/* `to` is a shallow copy of `from`; replaces its pointers by copies. */
 static bool clone_field(sbfi_arena *arena, const sbfi_field *field, void *to, const void *from) {
   char *destination = (char *)to + field->offset;
   sbfi_list list;

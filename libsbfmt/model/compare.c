@@ -1,4 +1,4 @@
-/* Equality of two assets: one walk over both along the schema tables. */
+/* Compares two assets in one walk along the schema tables. */
 #include "model/compare.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 #include "sbfmt/asset.h"
 
 typedef struct comparison {
-  char *path; /* receives where they differ; NULL: not wanted */
+  char *path; /* receives the path of the first difference; NULL: not needed */
   size_t path_size;
 } comparison;
 

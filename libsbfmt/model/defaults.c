@@ -6,7 +6,7 @@ static bool object_is_default(const sbfi_element_path *path) {
   return true;
 }
 
-/* The value the place demands, where it does, else the schema's default. */
+/* Value required by the parent, or the schema's default. */
 static int32_t expected_integer(const sbfi_element_path *path, const sbfi_field *field) {
   const sbfi_field *holder = path->field;
   bool fixed = holder && holder->fixed_name && strcmp(holder->fixed_name, field->name) == 0;

@@ -1,11 +1,11 @@
-/* Whether something says no more than its default, and so can be left out of a file. */
+/* Whether a value equals its default and can be omitted from a file. */
 #ifndef SBFI_DEFAULTS_H
 #define SBFI_DEFAULTS_H
 
 #include "model/element_path.h"
 
-/* Bit by bit: -0 is not 0. A field that its place fixes counts as at its default when it has that value;
- * lists and children when there are none, a `one` child when all in it is. */
+/* Bit by bit: -0 differs from 0. A field fixed by its parent is at its default with that value; lists and
+ * children if empty; a `one` child if all its fields are. */
 bool sbfi_field_is_default(const sbfi_element_path *path, const sbfi_field *field);
 
 #endif

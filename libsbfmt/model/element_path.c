@@ -32,7 +32,7 @@ sbfi_element_path sbfi_element_path_child(
   return child;
 }
 
-/* XPath numbers siblings of the same name; where the name comes from the child, only some of them have it. */
+/* XPath numbers siblings of equal names; if the child defines the name, only some siblings share it. */
 static uint32_t sibling_number(const sbfi_element_path *path) {
   const sbfi_field *field = path->field;
   if (!field->suffix) return path->index + 1;
@@ -86,7 +86,7 @@ bool sbfi_field_is_attribute(const sbfi_field *field) {
 static const sbfi_element_path *path_above(const sbfi_element_path *path, int up) {
   while (path->up && up != 0) {
     path = path->up;
-    up--; /* from -1 on it never comes to 0: that means the root */
+    up--; /* -1 never reaches 0: continues to the root */
   }
   return path;
 }

@@ -11,7 +11,7 @@ void sbfi_ids_free(sbfi_ids *ids) {
   *ids = (sbfi_ids){.allocator = ids->allocator, .key = ids->key};
 }
 
-/* Which slot an id gets never shows outside the table, so a key that differs from run to run does no harm. */
+/* The slot of an id is never visible outside the table, so a key that differs between runs is harmless. */
 static uint64_t hash_of(const sbfi_ids *ids, const char *id) {
   uint64_t hash = ids->key, word;
   for (size_t left = strlen(id); left; id += sizeof word) {

@@ -1,4 +1,4 @@
-/* Ids of an asset: a hash table from id to where it stands, and references from id to place and back. */
+/* Ids of an asset: a hash table from id to index, and conversion of references between id and index. */
 #ifndef SBFI_IDS_H
 #define SBFI_IDS_H
 
@@ -7,13 +7,13 @@
 #include "sbfmt/model.h"
 
 typedef struct sbfi_id_entry {
-  const char *id; /* the asset's own string */
+  const char *id; /* owned by the asset */
   uint64_t hash;
-  const sbfi_field *collection; /* field of the root it stands in; NULL: deeper down */
+  const sbfi_field *collection; /* field of the root; NULL: nested deeper */
   uint32_t index;               /* in that collection */
 } sbfi_id_entry;
 
-/* Open addressing; the hash is keyed by an address, so that a file cannot be made to collide. */
+/* Open addressing; the hash key is an address, so that a file cannot force collisions. */
 typedef struct sbfi_ids {
   sbf_allocator allocator;
   uint64_t key;
@@ -24,18 +24,18 @@ typedef struct sbfi_ids {
 void sbfi_ids_init(sbfi_ids *ids, const sbf_allocator *allocator);
 void sbfi_ids_free(sbfi_ids *ids);
 
-/* Adds the entry, unless its id is there already: then *first becomes the one that was, else NULL. False
- * where memory runs out. `entry.hash` is filled in here. */
+/* Adds the entry unless its id exists: then *first receives the existing entry, else NULL. False if memory
+ * runs out. Fills in `entry.hash`. */
 bool sbfi_ids_add(sbfi_ids *ids, sbfi_id_entry entry, const sbfi_id_entry **first);
-/* Adds all ids of the root's collections; of several that are equal the first stays. */
+/* Adds all ids of the root's collections; the first of duplicates wins. */
 bool sbfi_ids_add_collections(sbfi_ids *ids, const sbf_asset *asset);
 const sbfi_id_entry *sbfi_ids_find(const sbfi_ids *ids, const char *id);
 
-/* The root's field that a reference looks into. */
+/* Collection of the root that a reference refers to. */
 const sbfi_field *sbfi_ref_collection(const sbfi_field *ref);
-/* How many items that has. */
+/* Number of items in that collection. */
 uint32_t sbfi_ref_count(const sbf_asset *asset, const sbfi_field *ref);
-/* The id that a reference stands for; NULL for SBF_NONE and what is out of range. */
+/* Id that a reference refers to; NULL for SBF_NONE and out of range values. */
 const char *sbfi_ref_id(const sbf_asset *asset, const sbfi_field *ref, int32_t value);
 
 #endif

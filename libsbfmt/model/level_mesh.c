@@ -5,7 +5,7 @@
 typedef struct taking {
   const sbf_render_mesh *full;
   const sbf_render_level *level;
-  const uint32_t *corners; /* (corners of the level) those of the full mesh that they look like */
+  const uint32_t *corners; /* (corners of the level) corresponding corners of the full mesh */
   sbfi_level_mesh *made;
   sbfi_arena *arena;
 } taking;
@@ -42,7 +42,7 @@ static bool find_vertices(taking *t) {
   return true;
 }
 
-/* Where the level names no corners, the first of the full mesh at each point. */
+/* If the level has no corner list, uses the full mesh's first corner at each point. */
 static bool find_corners(taking *t) {
   const sbf_u32_list full = t->full->mesh.polygon_points, here = t->level->polygon_points;
   t->corners = t->level->corners.at;
@@ -55,7 +55,7 @@ static bool find_corners(taking *t) {
   return true;
 }
 
-/* What the full mesh names for its corners, of the level's; or NULL, where memory runs out. */
+/* Reduces a corner attribute of the full mesh to the level's corners; NULL if memory runs out. */
 static const uint32_t *taken_of_corners(const taking *t, const sbf_u32_list *of_full) {
   uint32_t *taken = new_list(t, t->level->polygon_points.count);
   for (uint32_t c = 0; taken && c < t->level->polygon_points.count; c++)
@@ -63,7 +63,7 @@ static const uint32_t *taken_of_corners(const taking *t, const sbf_u32_list *of_
   return taken;
 }
 
-/* What the full mesh has of its vertices, items of `size` bytes, of the level's. */
+/* Reduces a vertex attribute of the full mesh, with items of `size` bytes, to the level's vertices. */
 static const void *taken_of_vertices(const taking *t, const void *of_full, size_t size) {
   char *taken = sbfi_arena_allocate(t->arena, (size_t)t->made->vertex_count + 1, size);
   for (uint32_t v = 0; taken && v < t->made->vertex_count; v++)

@@ -1,7 +1,7 @@
-/* The shape of the asset as data: what the generated tables describe and every generic pass walks.
+/* The schema of the asset as data: the generated tables describe it, and all generic passes walk it.
  *
- * One walk over these tables is the XML reader, the writer, the packed codec, the structural check, equality,
- * hashing and copying: none of them knows an element by name. */
+ * The XML reader, the writer, the packed codec, the structural check, equality, hashing and copying are
+ * walks over these tables, without knowledge of individual elements. */
 #ifndef SBFI_SCHEMA_H
 #define SBFI_SCHEMA_H
 
@@ -20,10 +20,10 @@ typedef enum sbfi_type {
   SBFI_QUAT,
   SBFI_STRING,   /* const char *, never NULL; an XML attribute */
   SBFI_TEXT,     /* the same, as an XML element's content */
-  SBFI_ID,       /* a string that is unique in the file and not empty */
+  SBFI_ID,       /* a non-empty string that is unique in the file */
   SBFI_ENUM,     /* int32_t */
-  SBFI_REF,      /* int32_t: place in a collection of the root, or SBF_NONE */
-  SBFI_LIST,     /* pointer and count; `item` says of what */
+  SBFI_REF,      /* int32_t: index into a collection of the root, or SBF_NONE */
+  SBFI_LIST,     /* pointer and count; `item` is the item type */
   SBFI_ONE,      /* a child by value */
   SBFI_OPTIONAL, /* a pointer to a child, or NULL */
   SBFI_MANY      /* pointer and count of children */
@@ -31,7 +31,7 @@ typedef enum sbfi_type {
 
 typedef enum sbfi_item { SBFI_ITEM_U8, SBFI_ITEM_U32, SBFI_ITEM_F32 } sbfi_item;
 
-/* What every list looks like, whatever its items are. */
+/* Common layout of all lists. */
 typedef struct sbfi_list {
   const void *at;
   uint32_t count;
@@ -46,8 +46,8 @@ typedef enum sbfi_term_kind {
 } sbfi_term_kind;
 typedef struct sbfi_term {
   sbfi_term_kind kind;
-  int up;         /* elements above this one; -1: the root */
-  uint32_t value; /* the number, or the offset of the list counted or summed */
+  int up;         /* number of levels above this element; -1: the root */
+  uint32_t value; /* the number, or the offset of the counted or summed list */
 } sbfi_term;
 typedef struct sbfi_length {
   uint32_t term_count;
@@ -57,7 +57,7 @@ typedef struct sbfi_length {
 
 typedef struct sbfi_element sbfi_element;
 
-/* Four letters as a number that reads so in a little-endian file. */
+/* Four letters as a number that is readable in a little-endian file. */
 #define SBFI_KIND(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
 
 typedef struct sbfi_field {
@@ -66,17 +66,17 @@ typedef struct sbfi_field {
   const char *wrapper;  /* element around the children; NULL: none */
   const char *suffix;   /* the children's element name is the value of their field `by` with this suffix */
   const char *by;       /* with suffix: the children's enum field */
-  const char *unit;     /* "" where there is none */
+  const char *unit;     /* "" if there is none */
   uint16_t number;      /* in the packed form */
-  uint16_t since_minor; /* version 1.x that brought it */
+  uint16_t since_minor; /* first version 1.x with it */
   sbfi_type type;
   sbfi_item item;  /* of a list */
-  uint32_t width;  /* scalars in an item of a list, or in a vector; else 1 */
+  uint32_t width;  /* scalars in an item of a list, or in a vector; otherwise 1 */
   uint32_t offset; /* in the struct */
   bool required, volatile_, has_range, min_open, max_open;
-  bool earlier;    /* a reference to an item that stands before this one */
+  bool earlier;    /* a reference to an item before this one */
   bool positive;   /* the four points of each item span a positive volume */
-  double min, max; /* of each scalar, infinite where open-ended */
+  double min, max; /* of each scalar, infinite if unbounded */
   float defaults[4];
   uint32_t default_integer;
   const char *default_text;
@@ -89,17 +89,17 @@ typedef struct sbfi_field {
   const char *target_name; /* its name */
   uint32_t length_count;   /* a list has one of these lengths; 0: any */
   const sbfi_length *lengths;
-  const sbfi_length *index; /* every item is below it; NULL: no index */
+  const sbfi_length *index; /* upper bound of the items; NULL: not indices */
 } sbfi_field;
 
 struct sbfi_element {
   const char *name;
   const char *xml;
   uint32_t struct_size;
-  uint32_t kind; /* of a part, which has a record of its own in the packed form; 0: not a part */
+  uint32_t kind; /* of a part, which has its own record in the packed form; 0: not a part */
   uint32_t field_count;
   const sbfi_field *fields;
-  const sbfi_length *size; /* what an index into it may name; NULL: not asked */
+  const sbfi_length *size; /* number of items that indices may refer to; NULL: not needed */
 };
 
 extern const sbfi_element sbfi_asset_element;
@@ -109,16 +109,17 @@ static inline uint32_t sbfi_item_size(const sbfi_field *field) {
   return (field->item == SBFI_ITEM_U8 ? 1u : 4u) * field->width;
 }
 
-/* The field of that name, or NULL. */
+/* Field with that name, or NULL. */
 const sbfi_field *sbfi_element_field(const sbfi_element *element, const char *name);
 
-/* Every field at its default; `memory` is struct_size bytes. */
+/* Sets every field to its default; `memory` has struct_size bytes. */
 void sbfi_element_init(const sbfi_element *element, void *memory);
 
-/* Sets what the parent fixes in a child (as a mesh's target); true where it already was so. */
+/* Sets the value that the parent fixes in a child (as a mesh's target); returns true if it was set
+ * already. */
 bool sbfi_child_fix(const sbfi_field *field, void *child);
 
-/* Name of a child as XML writes it: with a suffix it is put together in `buffer`. */
+/* Element name of a child in XML: one with a suffix is composed in `buffer`. */
 const char *sbfi_child_xml_name(const sbfi_field *field, const void *child, char *buffer, size_t size);
 
 static inline sbfi_list sbfi_get_list(const void *object, const sbfi_field *field) {

@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "model/defaults.h"
 
-/* Digits only: a sign, which the number reader would take, has no place in a version. */
+/* Digits only: the number parser would accept a sign. */
 static bool read_part(const char **text, uint32_t *value) {
   size_t used;
   if (**text < '0' || **text > '9') return false;

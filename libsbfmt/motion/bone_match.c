@@ -1,5 +1,5 @@
-/* Names of bones in other programs: which part of a body they mean. Prefixes, separators, capitals and the
- * way a side is written differ; the words for the parts are few. */
+/* Interprets bone names of other programs: which part of a body they mean. Prefixes, separators, case and
+ * the notation of sides differ; the words for parts are few. */
 #include <string.h>
 
 #include "motion/carried_motion.h"
@@ -8,7 +8,7 @@ enum { WORD_SIZE = 64 };
 typedef enum side { NO_SIDE, LEFT, RIGHT } side;
 
 typedef struct meaning {
-  char part[WORD_SIZE]; /* words in small letters, joined; "" where nothing is left */
+  char part[WORD_SIZE]; /* lower case words, joined; "" if none is left */
   side side;
 } meaning;
 
@@ -19,7 +19,7 @@ static bool is_letter(char c) {
   return is_upper(c) || (c >= 'a' && c <= 'z');
 }
 
-/* Takes the next word of a name in small letters: what separators, digits or a capital divide. */
+/* Reads the next word of a name in lower case; separators, digits and capitals divide words. */
 static bool next_word(const char **at, char word[WORD_SIZE]) {
   const char *c = *at;
   size_t length = 0;
@@ -104,7 +104,7 @@ static uint32_t count_part(const meaning *all, uint32_t count, const char *part,
   return found;
 }
 
-/* The bones of a side called `part` become, in their order, those of `parts`, from `first` on. */
+/* Renames the bones of a side called `part` in order to `parts`, from `first` on. */
 static void rename_parts(
     meaning *all, uint32_t count, const char *part, side s, const char *const *parts, uint32_t first) {
   for (uint32_t i = 0; i < count; i++) {
@@ -113,7 +113,7 @@ static void rename_parts(
   }
 }
 
-/* Whether the bones of a side called hip run down as thighs do, and not outwards to where thighs begin. */
+/* Whether the bones of a side called hip point down as thighs do, and not outwards to the thighs. */
 static bool hips_run_down(const sbf_asset *asset, const meaning *all, side s) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     const sbf_quat q = asset->bones.at[i].rotation;
@@ -153,7 +153,7 @@ static bool same_meaning(const meaning *a, const meaning *b) {
   return a->side == b->side && a->part[0] && strcmp(a->part, b->part) == 0;
 }
 
-/* Of `m` bones the one that goes with number `k` of `n`: by share, the last with the last. */
+/* Index among `m` bones for number `k` of `n`, proportionally; the last matches the last. */
 static uint32_t fraction_of(uint32_t k, uint32_t n, uint32_t m) {
   return (uint32_t)(((uint64_t)(k + 1) * m + n - 1) / n) - 1;
 }
@@ -214,8 +214,8 @@ static bool has_hips(const sbf_asset *asset, const sbfi_bone_match *matches) {
   return false;
 }
 
-/* What the bones of a chain called leg or arm are, where their own names do not tell: the two that swing,
- * what comes before (a collar bone), what comes after (hand or foot). Legs hang on hips. */
+/* Parts of a chain called leg or arm if their own names are unknown: the two main bones, those before (a
+ * collar bone), those after (hand or foot). Legs hang on hips. */
 static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) {
   for (uint32_t i = 0; i < to->retarget_chains.count; i++) {
     const sbf_u32_list bones = to->retarget_chains.at[i].bones;

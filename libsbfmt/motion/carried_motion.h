@@ -1,4 +1,5 @@
-/* Motion of one skeleton onto another: which bones stand for which, poses of the one, tracks of the other. */
+/* Retargets motion from one skeleton to another: matching bones, poses of the source, tracks of the
+ * target. */
 #ifndef SBFI_CARRIED_MOTION_H
 #define SBFI_CARRIED_MOTION_H
 
@@ -7,7 +8,7 @@
 #include "motion/turn.h"
 #include "sbfmt/asset.h"
 
-/* What a bone is in a body, as far as poses are told apart by it. */
+/* Part of a body, as far as retargeting distinguishes them. */
 typedef enum sbfi_part {
   SBFI_PART_OTHER,
   SBFI_PART_HIPS,
@@ -17,21 +18,21 @@ typedef enum sbfi_part {
 } sbfi_part;
 
 typedef struct sbfi_bone_match {
-  int32_t source; /* the other skeleton's bone whose motion it takes, or SBF_NONE */
+  int32_t source; /* bone of the other skeleton whose motion it takes, or SBF_NONE */
   sbfi_part part;
 } sbfi_bone_match;
 
 /* For each bone of `to` the bone of `from` that it follows, `matches` (to->bones.count). In this order:
- * retarget chains of one name, by share of their bones; the same name; names that mean the same part of the
- * same side, as LeftUpLeg, thigh.L and mixamorig:LeftUpLeg; where a part has several bones, by their order.
- * Returns how many follow one, -1 where memory runs out. */
+ * retarget chains of equal names, proportionally by bones; equal names; names of the same part and side,
+ * such as LeftUpLeg, thigh.L and mixamorig:LeftUpLeg; in order if a part has several bones. Returns the
+ * number of matches, -1 if memory runs out. */
 int64_t sbfi_match_bones(
     const sbf_asset *from, const sbf_asset *to, sbfi_arena *scratch, sbfi_bone_match *matches);
 
-/* The side that a bone's name says, as thigh.L and RightFoot do: 1 left, -1 right, 0 none. */
+/* Side in a bone's name, as in thigh.L and RightFoot: 1 left, -1 right, 0 none. */
 int sbfi_name_side(const char *name);
 
-/* A bone's frame in asset space: a turn (x y z w) and a place. */
+/* A bone's frame in asset space: rotation (x y z w) and position. */
 typedef struct sbfi_bone_frame {
   double rotation[4], position[3];
 } sbfi_bone_frame;
@@ -39,11 +40,11 @@ typedef struct sbfi_bone_frame {
 /* Frames at rest, (asset->bones.count). */
 void sbfi_compute_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames);
 
-/* A clip laid out by bone. Scales are left out: they carry no pose from one body to another. */
+/* A clip indexed by bone. Ignores scales, because they do not transfer between bodies. */
 typedef struct sbfi_clip_poses {
   const sbf_asset *asset;
-  const sbf_track **translations, **rotations; /* (bones.count), NULL where the clip has none */
-  sbfi_bone_frame *rest, *rest_local;          /* (bones.count) in asset space, in the parent's frame */
+  const sbf_track **translations, **rotations; /* (bones.count), NULL if the clip has none */
+  sbfi_bone_frame *rest, *rest_local;          /* (bones.count) in asset space, and in the parent's frame */
 } sbfi_clip_poses;
 
 bool sbfi_clip_poses_init(
@@ -51,9 +52,9 @@ bool sbfi_clip_poses_init(
 /* Frames in asset space at a time, (bones.count). */
 void sbfi_clip_pose(const sbfi_clip_poses *poses, float time_s, sbfi_bone_frame *frames);
 
-/* Carries the clips of `from` over to the bones of an asset under construction and adds them to it: how, says
- * sbr_asset_retarget_clips. `file` names where they come from, in messages and where a clip has no name. On
- * failure the asset has the clips it had. */
+/* Retargets the clips of `from` to the bones of an asset under construction and adds them, as described
+ * for sbr_asset_retarget_clips. `file` names the origin in messages and unnamed clips. On failure the
+ * asset's clips do not change. */
 sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
     const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error);
 

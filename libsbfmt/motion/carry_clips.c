@@ -1,11 +1,11 @@
-/* Clips of another skeleton, onto the bones of an asset.
+/* Retargets clips of another skeleton to the bones of an asset.
  *
- * A matched bone turns in asset space as its source has turned away from its own rest pose: with T0 and S0
- * the rest rotations and S the source's, T = S S0^-1 A T0. A is no turn, but for thighs, shins, upper and
- * lower arms: there it lays the bone along its source's rest direction, so that a figure with its arms down
- * takes on the pose of one with its arms out; a hand goes with the arm above it. Bones in between go along
- * with their parents. The hips move as the source's do, times the ratio of the two heights of the hips above
- * the lowest point of the skeleton; a clip begins where the asset stands. */
+ * A matched bone rotates in asset space as its source has rotated from its own rest pose: with rest
+ * rotations T0 and S0 and the source's rotation S, T = S S0^-1 A T0. A is the identity except for thighs,
+ * shins, upper and lower arms: there it aligns the bone with its source's rest direction, so that a figure
+ * with lowered arms takes the pose of one with extended arms; a hand uses its arm's A. Bones in between
+ * follow their parents. The hips move as the source's do, scaled by the ratio of the hips' heights above
+ * the lowest point of the skeletons; a clip begins at the asset's position. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,19 +19,19 @@ enum { PIVOTS = 4 };
 typedef struct motion {
   sbf_asset *to;
   const sbf_asset *from;
-  const char *file; /* where they come from */
+  const char *file; /* origin of the clips */
   sbfi_arena scratch;
   sbfi_bone_match *matches;
-  sbfi_bone_frame *rest; /* of the asset */
-  double (*aligned)[4];  /* (bones) A T0 of each matched bone, before it S0^-1: S times this is T */
-  double (*align)[4];    /* (bones) A */
-  int32_t traveller;     /* the bone that also moves */
-  int32_t leader;        /* the source's bone after which it does */
-  double ratio;          /* of the ways they go */
-  int32_t pivots[PIVOTS], leaders[PIVOTS]; /* bones whose middle goes the way, there and here */
+  sbfi_bone_frame *rest;                   /* of the asset */
+  double (*aligned)[4];                    /* (bones) S0^-1 A T0 of each matched bone: S times this is T */
+  double (*align)[4];                      /* (bones) A */
+  int32_t traveller;                       /* the bone that also translates */
+  int32_t leader;                          /* the source's bone that it follows */
+  double ratio;                            /* scale of translations */
+  int32_t pivots[PIVOTS], leaders[PIVOTS]; /* bones whose centre is moved, in the target and in the source */
   uint32_t pivot_count;
-  double pivot[3], arm[3]; /* that middle at rest, in asset space and in the traveller's frame */
-  float *times;            /* of the clip at hand */
+  double pivot[3], arm[3]; /* rest position of that centre, in asset space and in the traveller's frame */
+  float *times;            /* of the current clip */
   uint32_t time_count;
   sbfi_reporter *reporter;
   sbf_diagnostic *error;
@@ -54,7 +54,7 @@ static void say(motion *m, sbf_code code, const char *format, ...) {
 
 /* --- What is the same for all clips ------------------------------------------------------------------- */
 
-/* Cosine of the angle between rest directions from which on two limbs are not the same thing. */
+/* Minimum cosine between rest directions for two limbs to correspond. */
 static const double MIN_ALIKE = -0.2;
 
 static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
@@ -94,7 +94,7 @@ static double lowest(const sbf_asset *asset, const sbfi_bone_frame *rest) {
   return low;
 }
 
-/* The middle of some bones' heads. */
+/* Centre of the heads of some bones. */
 static void middle_of(const sbfi_bone_frame *frames, const int32_t *bones, uint32_t count, double *to) {
   for (int k = 0; k < 3; k++) {
     to[k] = 0;
@@ -102,9 +102,8 @@ static void middle_of(const sbfi_bone_frame *frames, const int32_t *bones, uint3
   }
 }
 
-/* Who travels: the hips, else the root that matched bones hang on. What is carried along the source's way is
- * the middle between the thighs, where there are some, and not the traveller's own head, which may lie
- * anywhere. */
+/* The hips translate, or else the root above matched bones. The tracked point is the centre between the
+ * thighs if they exist, because the head of the translating bone may be anywhere. */
 static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
   double here = lowest(m->to, m->rest), there = lowest(m->from, from_rest), own[3], other[3];
   m->traveller = SBF_NONE;
@@ -203,7 +202,7 @@ static int compare_times(const void *a, const void *b) {
   return x < y ? -1 : x > y;
 }
 
-/* All times at which anything is keyed, each once; 0 where nothing is. */
+/* Collects all distinct key times; there may be none. */
 static bool gather_times(motion *m, const sbf_clip *clip, sbfi_arena *scratch) {
   size_t count = 1, kept = 1;
   for (uint32_t i = 0; i < clip->tracks.count; i++) count += clip->tracks.at[i].times.count;
@@ -224,10 +223,10 @@ static bool gather_times(motion *m, const sbf_clip *clip, sbfi_arena *scratch) {
 }
 
 typedef struct bone_keys {
-  float *rotations, *positions; /* NULL where the bone has none */
+  float *rotations, *positions; /* NULL if the bone has none */
 } bone_keys;
 
-/* A key of the shorter way round from the one before. */
+/* Chooses the sign for the shorter arc from the previous key. */
 static void put_rotation(float *to, const double *q, bool first) {
   double dot = 1;
   if (!first) {
@@ -237,8 +236,7 @@ static void put_rotation(float *to, const double *q, bool first) {
   for (int k = 0; k < 4; k++) to[k] = (float)(dot < 0 ? -q[k] : q[k]);
 }
 
-/* The pose of the asset in one frame of the source. `start`: where the source's hips were at the beginning.
- */
+/* Poses the asset in one frame of the source. `start`: initial position of the source's hips. */
 static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_frame *source,
     const double *start, uint32_t key, sbfi_bone_frame *frames, const bone_keys *keys) {
   for (uint32_t i = 0; i < m->to->bones.count; i++) {
@@ -269,8 +267,8 @@ static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_fra
   }
 }
 
-/* Where the source's pivot stands when it is at rest on the ground its clip walks on. A file may have its
- * skeleton around the hips and its motion on the ground. */
+/* Position of the source's pivot at rest on the ground of its clip. A file may have its skeleton around
+ * the hips and its motion on the ground. */
 static void find_start(
     const motion *m, const sbfi_clip_poses *poses, const sbfi_bone_frame *first, double *start) {
   double rest[3];
@@ -340,7 +338,7 @@ static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena 
   return true;
 }
 
-/* The file's name without folders and ending, where the clip has none of its own. */
+/* The file's name without folders and extension, for a clip without a name. */
 static const char *name_clip(motion *m, const sbf_clip *from) {
   if (from->name && from->name[0]) return sbf_asset_copy_text(m->to, from->name);
   const char *slash = strrchr(m->file, '/'), *name = slash ? slash + 1 : m->file, *dot = strrchr(name, '.');
@@ -349,7 +347,7 @@ static const char *name_clip(motion *m, const sbf_clip *from) {
   return copy;
 }
 
-/* An id holds no white space. */
+/* Ids contain no white space. */
 static const char *clip_id(motion *m, sbfi_ids *ids, const char *name, uint32_t index) {
   char *word = sbfi_arena_string(&m->scratch, *name ? name : "motion", strlen(*name ? name : "motion"));
   for (char *c = word; c && *c; c++)

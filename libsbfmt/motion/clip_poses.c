@@ -1,4 +1,4 @@
-/* Poses of a clip at any time, in double precision. */
+/* Evaluates poses of a clip at any time, in double precision. */
 #include <math.h>
 
 #include "motion/carried_motion.h"
@@ -41,7 +41,7 @@ bool sbfi_clip_poses_init(
   return true;
 }
 
-/* The key at or before a time; the first where all are later. */
+/* Last key at or before a time; the first if all are later. */
 static uint32_t key_before(const sbf_track *track, float time_s) {
   uint32_t low = 0, high = track->times.count;
   while (high - low > 1) {
@@ -63,7 +63,7 @@ static void cubic(const sbf_track *track, uint32_t key, uint32_t width, double t
             (t3 - t2) * span * (double)b[k];
 }
 
-/* A track's value as the specification has it (14.1): three numbers, or four of unit length. */
+/* Value of a track as defined in the specification (14.1): three numbers, or four of unit length. */
 static void value_at(const sbf_track *track, float time_s, uint32_t width, double *to) {
   bool is_cubic = track->interpolation == SBF_INTERPOLATION_CUBIC;
   uint32_t key = key_before(track, time_s), stride = is_cubic ? 3 * width : width;

@@ -28,7 +28,7 @@ void sbfi_turn_vector(const double a[4], const double v[3], double to[3]) {
 
 void sbfi_turn_between(const double from[3], const double to[3], double rotation[4]) {
   double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2], length = 0;
-  if (dot < -0.999999) { /* opposite: about any axis across */
+  if (dot < -0.999999) { /* opposite: about any perpendicular axis */
     const double spare[3] = {fabs(from[0]) < 0.9, fabs(from[0]) >= 0.9, 0};
     rotation[0] = from[1] * spare[2] - from[2] * spare[1];
     rotation[1] = from[2] * spare[0] - from[0] * spare[2];

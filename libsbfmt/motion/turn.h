@@ -1,13 +1,14 @@
-/* Turns, x y z w, unit length, in double precision. */
+/* Rotations, x y z w, unit length, in double precision. */
 #ifndef SBFI_TURN_H
 #define SBFI_TURN_H
 
-void sbfi_turn_product(const double a[4], const double b[4], double to[4]); /* b first; `to` may be either */
+void sbfi_turn_product(
+    const double a[4], const double b[4], double to[4]); /* b first; `to` may alias either */
 void sbfi_turn_undo(const double a[4], double to[4]);
 void sbfi_turn_vector(const double a[4], const double v[3], double to[3]);
-/* The least turn from one unit vector to another. */
+/* Shortest rotation from one unit vector to another. */
 void sbfi_turn_between(const double from[3], const double to[3], double rotation[4]);
-/* Along the shorter arc at constant speed; t from 0 to 1. The same bits on every machine. */
+/* Along the shorter arc at constant speed; t from 0 to 1. Bit-identical on every machine. */
 void sbfi_turn_mix(const double a[4], const double b[4], double t, double to[4]);
 
 #endif

@@ -5,7 +5,7 @@
 #include "packed/packed_codec.h"
 
 typedef struct sbfi_packed_attempt {
-  uint8_t *best, *spare; /* each of the capacity given to the attempts */
+  uint8_t *best, *spare; /* each has the capacity passed to the attempts */
   size_t size;           /* size of the best; 0: none was small enough */
   sbfi_packed_filter filter;
 } sbfi_packed_attempt;

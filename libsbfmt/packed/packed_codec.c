@@ -68,12 +68,12 @@ static bool ready_block(sbfi_packed_coder *coder) {
   return coder->block != NULL;
 }
 
-/* zlib counts in 32 bits: input and output are handed over in pieces. */
+/* zlib sizes have 32 bits: passes input and output in pieces. */
 static uInt piece_of(size_t size) {
   return (uInt)(size < PIECE ? size : PIECE);
 }
 
-/* Inflates the next `size` bytes; Z_OK or Z_STREAM_END where all came. */
+/* Inflates the next `size` bytes; Z_OK or Z_STREAM_END if all were produced. */
 static int inflate_some(z_stream *stream, const uint8_t **in, size_t *in_size, uint8_t *out, size_t size) {
   int result = Z_OK;
   while (size && result == Z_OK) {
@@ -108,7 +108,7 @@ sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, 
     if (result == Z_STREAM_END && done < raw_size) result = Z_DATA_ERROR;
   }
   uint8_t beyond;
-  if (result == Z_OK) { /* all bytes came: only the end mark and its checksum may follow */
+  if (result == Z_OK) { /* all bytes were produced: only the end mark and its checksum may follow */
     stream->next_in = stored;
     stream->avail_in = piece_of(stored_size);
     stream->next_out = &beyond;
@@ -121,7 +121,7 @@ sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, 
   return result == Z_STREAM_END && stored_size == 0 ? SBFI_CODED : SBFI_CODED_DAMAGED;
 }
 
-/* Deflates `size` bytes more; false where the room is used up. */
+/* Deflates `size` more bytes; false if the capacity is exhausted. */
 static bool deflate_some(z_stream *stream, const uint8_t *in, size_t size, size_t *buffer, bool last) {
   do {
     uInt given = piece_of(size), free_bytes = piece_of(*buffer);

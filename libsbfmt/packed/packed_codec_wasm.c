@@ -1,4 +1,4 @@
-/* Chunks to bytes where there is no zlib: they are read in any codec, and written as they are. */
+/* Codec for targets without zlib: reads chunks of every codec, writes them uncompressed. */
 #include "packed/packed_codec.h"
 #include "packed/packed_filter.h"
 #include "packed/packed_inflate.h"

@@ -1,4 +1,5 @@
-/* Which chunks are compressed, and how: the same bytes for the same content, level and zlib. */
+/* Selects which chunks to compress and with which filter. The result is deterministic for equal content,
+ * level and zlib version. */
 #include "packed/packed_attempt.h"
 #include "packed/packed_plan.h"
 

@@ -2,7 +2,7 @@
 
 #include "packed/packed_recent.h"
 
-enum { STEP = 2048 }; /* scalars joined and summed up while they lie in the first-level cache */
+enum { STEP = 2048 }; /* scalars joined and summed at once; they fit in the L1 cache */
 
 bool sbfi_host_is_little_endian(void) {
   const uint32_t one = 1;
@@ -42,7 +42,7 @@ bool sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t do
   return true;
 }
 
-/* Both loops become vector code: bytes of four streams widened and put together. */
+/* The compiler vectorizes both loops: widens bytes of four streams and combines them. */
 static void join_planes(const uint8_t *restrict planes, size_t stride, size_t count, uint32_t *restrict to) {
   const uint8_t *p0 = planes, *p1 = p0 + stride, *p2 = p1 + stride, *p3 = p2 + stride;
   for (size_t i = 0; i < count; i++)

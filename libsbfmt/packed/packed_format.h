@@ -1,5 +1,5 @@
-/* The bytes of a packed file, as spec/packed.md lays them out: numbers, sizes, and the header and a table
- * entry in decoded form. */
+/* Byte format of a packed file as in spec/packed.md: numbers, sizes, and the decoded header and table
+ * entry. */
 #ifndef SBFI_PACKED_FORMAT_H
 #define SBFI_PACKED_FORMAT_H
 
@@ -60,17 +60,17 @@ typedef enum sbfi_packed_form {
   SBFI_FORM_VALUE,   /* scalars of four bytes */
   SBFI_FORM_TEXT,    /* UTF-8 without an end mark */
   SBFI_FORM_LIST,    /* items */
-  SBFI_FORM_CHUNK,   /* number of the chunk that holds the items */
+  SBFI_FORM_CHUNK,   /* index of the chunk with the items */
   SBFI_FORM_RECORD,  /* fields of one child */
   SBFI_FORM_RECORDS, /* count, then size and fields of each child */
   SBFI_FORM_PARTS,   /* count, then chunk number, size and label fields of each part */
   SBFI_FORM_PLANES,  /* items, through SBFI_FILTER_PLANES */
   SBFI_FORM_DELTA,   /* items, through SBFI_FILTER_DELTA */
-  SBFI_FORM_COUNT    /* how many items there are; in an outline */
+  SBFI_FORM_COUNT    /* number of items; in an outline */
 } sbfi_packed_form;
 
-/* Whether the field belongs to the label that a part's parent keeps for it, so that a part is found by id or
- * name without being read. */
+/* Whether the field belongs to the label that a part's parent stores for it, so that a part can be found
+ * by id or name without being read. */
 static inline bool sbfi_packed_is_label(const sbfi_field *field) {
   return field->type == SBFI_ID || (field->type == SBFI_STRING && strcmp(field->name, "name") == 0);
 }
@@ -96,7 +96,7 @@ static inline void sbfi_put_u64(uint8_t *at, uint64_t value) {
   sbfi_put_u32(at + 4, (uint32_t)(value >> 32));
 }
 
-/* The four letters of a kind, made printable. */
+/* The four letters of a kind in printable form. */
 typedef struct sbfi_kind_name {
   char text[5];
 } sbfi_kind_name;

@@ -1,5 +1,5 @@
-/* The format: P. Deutsch, RFC 1951 (deflate) and RFC 1950 (zlib), 1996. Codes of up to FAST_BITS bits are
- * looked up; longer ones are counted off length by length. */
+/* The format: P. Deutsch, RFC 1951 (deflate) and RFC 1950 (zlib), 1996. Codes of up to FAST_BITS bits use
+ * a lookup table; longer ones are decoded by length. */
 #include "packed/packed_inflate.h"
 
 #include <string.h>
@@ -9,14 +9,14 @@ enum { FAST_BITS = 9, LONGEST = 15, LITERALS = 288, DISTANCES = 30, LENGTH_CODES
 typedef struct stream {
   const uint8_t *in, *in_end;
   uint8_t *begin, *out, *out_end;
-  uint64_t bits; /* read ahead, the next one lowest */
+  uint64_t bits; /* lookahead, the next bit lowest */
   uint32_t bit_count;
-  uint32_t missing; /* bits that were asked for behind the end, taken as 0 */
+  uint32_t missing; /* bits requested beyond the end, read as 0 */
 } stream;
 
 typedef struct huffman {
-  uint16_t fast[1 << FAST_BITS]; /* symbol << 4 | length; 0: longer, or none */
-  uint16_t count[LONGEST + 1];   /* codes of each length */
+  uint16_t fast[1 << FAST_BITS]; /* symbol << 4 | length; 0: longer, or invalid */
+  uint16_t count[LONGEST + 1];   /* number of codes of each length */
   uint16_t symbols[LITERALS];    /* in the order of their codes */
 } huffman;
 
@@ -30,7 +30,7 @@ static void fill(stream *s) {
   }
 }
 
-/* Up to 16 bits; `fill` has to come before every second call at the latest. */
+/* Reads up to 16 bits. `fill` is required at least before every second call. */
 static uint32_t take(stream *s, uint32_t count) {
   uint32_t value = (uint32_t)(s->bits & ((1u << count) - 1));
   s->bits >>= count;
@@ -38,12 +38,12 @@ static uint32_t take(stream *s, uint32_t count) {
   return value;
 }
 
-/* Whether bits behind the end were used, not only read ahead. */
+/* Whether bits beyond the end were consumed, not only read ahead. */
 static bool is_beyond(const stream *s) {
   return s->missing > s->bit_count;
 }
 
-/* A set of codes may leave out some of the bit patterns only where it is of a single code, or none. */
+/* An incomplete code is valid only with a single symbol or none. */
 static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
   uint32_t first[LONGEST + 1], indices[LONGEST + 1], code = 0, index = 0, used = 0;
   int32_t left = 1;
@@ -73,7 +73,7 @@ static bool make_huffman(huffman *h, const uint8_t *lengths, uint32_t count) {
   return true;
 }
 
-/* The next symbol; -1 where the bits are no code. Uses at most 15 bits. */
+/* Decodes the next symbol; -1 for an invalid code. Uses at most 15 bits. */
 static int32_t decode(stream *s, const huffman *h) {
   uint32_t entry = h->fast[s->bits & ((1u << FAST_BITS) - 1)];
   if (entry) {
@@ -101,7 +101,7 @@ static bool stored_block(stream *s) {
   fill(s);
   uint32_t size = take(s, 16), inverse = take(s, 16);
   if (size != (inverse ^ 0xFFFF) || is_beyond(s)) return false;
-  /* What was read ahead goes back. */
+  /* Returns the lookahead to the input. */
   s->in -= (s->bit_count - s->missing) / 8;
   s->bits = s->bit_count = s->missing = 0;
   if (size > (size_t)(s->in_end - s->in) || size > (size_t)(s->out_end - s->out)) return false;
@@ -119,7 +119,7 @@ static bool copy_match(stream *s, uint32_t length, const huffman *distances) {
   size_t distance = bases[code] + take(s, code < 4 ? 0 : (uint32_t)code / 2 - 1);
   if (distance > (size_t)(s->out - s->begin) || length > (size_t)(s->out_end - s->out)) return false;
   const uint8_t *from = s->out - distance;
-  while (length--) *s->out++ = *from++; /* they may overlap: what was just written is read again */
+  while (length--) *s->out++ = *from++; /* ranges may overlap: reads bytes that were just written */
   return true;
 }
 
@@ -164,7 +164,7 @@ static bool dynamic_block(stream *s) {
     fill(s);
     lengths[order[i]] = (uint8_t)take(s, 3);
   }
-  huffman *codes = &distances; /* until those are known */
+  huffman *codes = &distances; /* reuses the memory until the distances are decoded */
   if (!make_huffman(codes, lengths, LENGTH_CODES)) return false;
   for (uint32_t i = 0; i < literal_count + distance_count;) {
     fill(s);

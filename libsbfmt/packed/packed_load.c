@@ -1,4 +1,4 @@
-/* Packed files to assets. */
+/* Loads packed files. */
 #include <stdio.h>
 
 #include "base/diagnostic.h"
@@ -9,7 +9,7 @@
 #include "model/version.h"
 #include "packed/packed_reader.h"
 
-/* Every chunk that a reader of this version must understand is part of the asset. */
+/* Every chunk of a kind that this version must understand has to be referenced by the asset. */
 static sbf_status check_all_used(sbfi_packed_reader *reader) {
   const sbfi_packed_table *table = &reader->table;
   if (table->newer || reader->options.selection) return SBF_OK;
@@ -31,7 +31,7 @@ static sbf_status fault_at(sbfi_packed_reader *reader, sbf_code code, uint64_t o
   return status;
 }
 
-/* Gaps hold zeros (spec/packed.md, 1); the table may lie in one. Other versions may use them. */
+/* Gaps are filled with zeros (spec/packed.md, 1); the table may be in one. Other versions may use them. */
 static sbf_status check_gap(sbfi_packed_reader *reader, uint64_t begin, uint64_t end) {
   const sbfi_packed_header *h = &reader->table.header;
   for (uint64_t at = begin; at < end && !reader->table.newer; at++) {
@@ -43,7 +43,7 @@ static sbf_status check_gap(sbfi_packed_reader *reader, uint64_t begin, uint64_t
   return SBF_OK;
 }
 
-/* Chunks that nothing named, of kinds that a newer version brought. */
+/* Counts unreferenced chunks of kinds from a newer version. */
 static void count_unknown_chunks(sbfi_packed_reader *reader) {
   for (uint32_t i = 0; i < reader->table.chunk_count && reader->table.newer; i++) {
     const sbfi_packed_chunk *chunk = &reader->table.chunks[i];
@@ -73,8 +73,8 @@ static sbf_status check_unread(sbfi_packed_reader *reader) {
   return check_gap(reader, end, table->header.file_size);
 }
 
-/* Loads from `bytes`; `*in_place` says whether the asset points into them. */
-/* The header's version decides which fields may follow, so an asset that states an earlier one gets that. */
+/* Loads from `bytes`; `*in_place` tells whether the asset points into them. */
+/* The header's version defines the known fields, so an asset with an earlier version gets the header's. */
 static sbf_status take_header_version(
     sbf_asset *made, const sbfi_packed_header *header, sbf_diagnostic *error) {
   char stated[16];
@@ -108,7 +108,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
   }
   if (status == SBF_OK) status = sbfi_check_loaded(made, options, error);
   box->arena.limit_bytes = 0;
-  /* What the file says beyond this version has been passed over. */
+  /* Content of a newer version was skipped. */
   if (status == SBF_OK) {
     char stated[16];
     snprintf(stated, sizeof stated, "1.%u", reader.table.header.minor);
@@ -142,7 +142,7 @@ static void release_content(void *content) {
   sbfi_file_content_free(content);
 }
 
-/* Lets the asset keep the file that its lists lie in. */
+/* Makes the asset own the file that its lists point into. */
 static sbf_status keep_content(sbf_asset *asset, sbfi_file_content *content, sbf_diagnostic *error) {
   sbfi_asset_box *box = sbfi_asset_box_of(asset);
   sbfi_file_content *kept = sbfi_arena_copy(&box->arena, content, 1, sizeof *content);

@@ -1,11 +1,11 @@
-/* Structs to records: the walk along the schema tables that packed_record.c undoes. */
+/* Structs to records: the inverse of packed_record.c, one walk along the schema tables. */
 #include "packed/packed_plan.h"
 
 #include "base/memory.h"
 #include "packed/packed_attempt.h"
 #include "packed/packed_filter.h"
 
-/* A part whose record is to be written; parts stand in a queue, the root first. */
+/* A part whose record is still to be written; the queue starts with the root. */
 typedef struct queued_part {
   const sbfi_element *element;
   const void *object;
@@ -20,9 +20,9 @@ typedef struct planner {
   sbfi_array lists;         /* sbfi_planned_chunk */
   uint32_t part_count;
   size_t outline_begin;
-  bool outline; /* counts for lists, and parts in the record itself */
+  bool outline; /* writes counts instead of lists, and parts inline */
   sbfi_packed_chunk
-      address; /* of the part being written; field: the part's field that the walk is inside of */
+      address; /* of the current part; field: the part's field that contains the current object */
   sbfi_planned result;
 } planner;
 
@@ -34,7 +34,7 @@ static void put_u32(planner *p, uint32_t value) {
   sbfi_text_append(p->to, bytes, sizeof bytes);
 }
 
-/* Room for a size that is known only after what it measures. */
+/* Reserves a size that end_size fills in. */
 static size_t begin_size(planner *p) {
   put_u32(p, 0);
   return p->to->length;
@@ -94,7 +94,7 @@ static bool is_default(const sbfi_field *field, const void *object) {
     return sbfi_get_pointer(object, field) == NULL;
   case SBFI_ONE:
     return false;
-  default: /* floats and vectors, bit by bit: -0 is not 0 */
+  default: /* floats and vectors, compared bit by bit: -0 differs from 0 */
     return memcmp(destination, field->defaults, field->width * sizeof(float)) == 0;
   }
 }
@@ -134,10 +134,10 @@ static void write_chunk_list(planner *p, const sbfi_field *field, sbfi_list list
   end_field(p, begin);
 }
 
-/* Of fewer bytes a filter makes nothing of note. */
+/* Filters do not pay off for fewer bytes. */
 enum { FILTERED_FROM = 64 };
 
-/* Writes the list as it will compress best with the rest of the record; false where that is unfiltered. */
+/* Writes the list with the filter that compresses best with the rest of the record; false if that is none. */
 static bool write_filtered_list(planner *p, const sbfi_field *field, sbfi_list list) {
   size_t size = (size_t)list.count * sbfi_item_size(field);
   sbfi_packed_filter filter;
@@ -196,7 +196,7 @@ static void write_records(planner *p, const sbfi_field *field, const void *objec
   end_field(p, begin);
 }
 
-/* The parts themselves are put into the queue. */
+/* The parts themselves are queued. */
 static void write_parts(planner *p, const sbfi_field *field, const void *object) {
   sbfi_list children = sbfi_get_list(object, field);
   bool in_root = p->address.kind == sbfi_asset_element.kind;
@@ -267,7 +267,7 @@ static void write_fields(planner *p, const sbfi_element *element, const void *ob
 
 /* --- the plan --- */
 
-/* Lists are numbered behind all parts, so those are counted first. */
+/* Lists are numbered after all parts, so counts the parts first. */
 static uint64_t count_parts(const sbfi_element *element, const void *object) {
   uint64_t count = 1;
   for (uint32_t i = 0; i < element->field_count; i++) {
@@ -296,14 +296,14 @@ static void write_queue(planner *p, const sbf_asset *asset) {
     size_t begin = p->to->length;
     write_fields(p, part->element, part->object,
         part->address.kind == sbfi_asset_element.kind ? ALL_FIELDS : FIELDS_BUT_LABEL);
-    part = (queued_part *)p->parts.at + i; /* the queue may have moved */
+    part = (queued_part *)p->parts.at + i; /* the queue may have been reallocated */
     part->record_begin = begin;
     part->record_end = p->to->length;
   }
   if (p->to->failed) p->result = SBFI_PLANNED_NO_MEMORY;
 }
 
-/* Another record of the whole asset, behind the others. */
+/* A second record of the whole asset, after all others. */
 static void write_outline(planner *p, const sbf_asset *asset) {
   p->outline = true;
   p->outline_begin = p->to->length;
@@ -325,7 +325,7 @@ static void gather_outline(planner *p, sbfi_packed_plan *plan) {
   chunk->count = chunk->raw_size = chunk->stored_size = p->to->length - p->outline_begin;
 }
 
-/* Parts and lists, in this order, become the chunks. */
+/* Parts and lists become chunks, in this order. */
 static void gather(planner *p, sbfi_packed_plan *plan) {
   for (size_t i = 0; i < p->parts.count; i++) {
     const queued_part *part = (const queued_part *)p->parts.at + i;

@@ -14,8 +14,8 @@ typedef struct sbfi_planned_chunk {
 
 typedef struct sbfi_packed_plan {
   sbfi_array chunks; /* sbfi_planned_chunk: records of all parts, then lists */
-  sbfi_text records; /* bytes of the records, one after the other */
-  sbfi_arena arena;  /* bytes of what was compressed */
+  sbfi_text records; /* bytes of the records, concatenated */
+  sbfi_arena arena;  /* compressed bytes */
 } sbfi_packed_plan;
 
 typedef enum sbfi_planned { SBFI_PLANNED, SBFI_PLANNED_NO_MEMORY, SBFI_PLANNED_TOO_LARGE } sbfi_planned;

@@ -4,7 +4,7 @@
 #include "model/options.h"
 #include "packed/packed_filter.h"
 
-/* The table of what is to be read: of an outline, where the file has one, its entry alone. */
+/* Reads the table; for an outline only its entry, if the file has one. */
 static sbf_status read_table(
     sbfi_packed_reader *reader, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error) {
   const sbf_limits *limits = &reader->options.limits;
@@ -19,7 +19,7 @@ static sbf_status read_table(
   return status;
 }
 
-/* A fault of a chunk as a whole. */
+/* A fault of a whole chunk. */
 __attribute__((format(printf, 4, 5))) static sbf_status fault(
     sbfi_packed_reader *reader, sbf_code code, uint32_t number, const char *format, ...) {
   va_list arguments;
@@ -39,7 +39,7 @@ static sbf_status inflates_too_far(sbfi_packed_reader *reader, uint32_t number) 
       (unsigned long long)reader->options.limits.inflated_bytes);
 }
 
-/* Of a file that is read as a whole: refused before any of it is inflated. */
+/* For a complete read: rejects the file before anything is inflated. */
 static sbf_status check_inflated(sbfi_packed_reader *reader) {
   uint64_t left = reader->options.limits.inflated_bytes;
   if (reader->options.selection || reader->options.outline) return SBF_OK;
@@ -100,8 +100,7 @@ sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const 
   return SBF_OK;
 }
 
-/* What is checked before a byte of a chunk is used: its checksum where asked for, and what it would become.
- */
+/* Checks a chunk before use: its checksum if requested, and its inflated size. */
 static sbf_status admit(sbfi_packed_reader *reader, uint32_t number) {
   const sbfi_packed_chunk *c = &reader->table.chunks[number];
   const sbf_limits *limits = &reader->options.limits;

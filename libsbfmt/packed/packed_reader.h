@@ -10,12 +10,12 @@ typedef struct sbfi_packed_reader {
   const uint8_t *bytes;
   sbfi_packed_table table;
   sbfi_packed_coder coder;
-  sbf_load_options options; /* filled */
-  sbfi_arena *arena;        /* of the asset being made */
+  sbf_load_options options; /* with defaults filled in */
+  sbfi_arena *arena;        /* of the new asset */
   uint8_t *used;            /* one byte per chunk: 1 once a record refers to it */
   uint64_t read_bytes;      /* bytes read so far: header, table and chunks */
   uint64_t inflated_bytes;
-  bool has_outline;  /* the file's outline is read, and is chunk 0 */
+  bool has_outline;  /* reads the file's outline, which is chunk 0 */
   bool in_place;     /* some list points into `bytes` */
   uint32_t left_out; /* number of skipped fields and chunks of a newer version */
   char first_left_out[160];
@@ -27,16 +27,15 @@ sbf_status sbfi_packed_reader_open(sbfi_packed_reader *reader, const uint8_t *by
     const sbf_load_options *filled, const sbf_allocator *allocator, sbfi_arena *arena, sbf_diagnostic *error);
 void sbfi_packed_reader_close(sbfi_packed_reader *reader);
 
-/* Claims the chunk that a record refers to; a second claim fails. `wanted` states its kind, owner, level,
+/* Claims the chunk that a record refers to; a second claim fails. `wanted` has its kind, owner, level,
  * field and list. */
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted);
 
-/* Items of a list's chunk: in the file's bytes if they can be used directly, else in the arena; NULL for an
- * outline. */
+/* Items of a list's chunk: in the file's bytes if possible, otherwise in the arena; NULL for an outline. */
 sbf_status sbfi_packed_fetch_list(
     sbfi_packed_reader *reader, uint32_t number, const sbfi_field *field, const void **items);
 
-/* The bytes of a record: in the file, or in memory to be given back with sbfi_packed_release_record. */
+/* Bytes of a record: in the file, or in memory that sbfi_packed_release_record frees. */
 typedef struct sbfi_packed_record {
   uint32_t number;
   const uint8_t *at;

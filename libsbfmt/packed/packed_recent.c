@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-/* The scalars used last, newest first, and the last new one, from which the next new one is a difference. */
+/* The most recent scalars, newest first, and the last new one: the next new one is stored as a difference
+ * from it. */
 typedef struct recent {
   uint32_t at[SBFI_RECENT_COUNT];
   uint32_t last_new;
@@ -19,7 +20,7 @@ static void begin(recent *r, const uint8_t *scalars, size_t done) {
   r->last_new = done ? load_scalar(scalars, done - 1) : 0;
 }
 
-/* Puts the value before the first `index` others. */
+/* Moves the value in front of the first `index` others. */
 static void put_first(recent *r, size_t index, uint32_t value) {
   memmove(r->at + 1, r->at, index * sizeof *r->at);
   r->at[0] = value;

@@ -1,4 +1,4 @@
-/* Records to structs: one walk along the schema tables, in which no element is known by name. */
+/* Records to structs: one walk along the schema tables, without knowledge of individual elements. */
 #include <stdio.h>
 
 #include "base/diagnostic.h"
@@ -14,12 +14,13 @@ typedef struct span {
 
 /* The part whose record is being read. */
 typedef struct part_context {
-  sbfi_packed_chunk address; /* kind, owner, level; field: the part's field that the walk is inside of */
-  uint32_t depth;            /* elements inside each other so far */
-  bool without_lists;        /* lists of the part stay empty */
+  sbfi_packed_chunk
+      address;        /* kind, owner, level; field: the part's field that contains the current object */
+  uint32_t depth;     /* current nesting depth of elements */
+  bool without_lists; /* lists of the part stay empty */
 } part_context;
 
-/* The fields of an element that its record holds: a part's label is in its parent's. */
+/* Which fields of an element a record contains: a part's label is in its parent's record. */
 typedef enum field_set { ALL_FIELDS, LABEL_FIELDS, FIELDS_BUT_LABEL } field_set;
 
 static bool is_in(field_set set, const sbfi_field *field) {
@@ -55,7 +56,7 @@ static sbf_status no_memory(const reading *r, const span *s, const sbfi_field *f
 
 static sbf_status read_fields(const reading *r, span s, field_set set);
 
-/* Reads the fields of a child whose fields are in this record. */
+/* Reads a child whose fields are in this record. */
 static sbf_status read_child(
     const reading *r, span s, const sbfi_field *field, uint32_t index, void *child, field_set set) {
   sbfi_element_path path = sbfi_element_path_child(r->path, field, index);
@@ -144,7 +145,7 @@ static sbf_status read_list(
   return SBF_OK;
 }
 
-/* The number of a chunk, and the list in it. */
+/* Reads the index of a chunk and the number of the list in it. */
 static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *field) {
   if (s.end - s.at != 4)
     return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` does not name a chunk", field->name);
@@ -163,7 +164,7 @@ static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *fi
   return status;
 }
 
-/* How many items a list of an outline has; where they are nobody needs to know. */
+/* Reads the item count of a list in an outline, which has no items. */
 static sbf_status read_count(const reading *r, span s, const sbfi_field *field) {
   if (s.end - s.at != 4)
     return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` does not state its count", field->name);
@@ -186,7 +187,7 @@ static sbf_status read_optional(const reading *r, const span *s, const sbfi_fiel
   return read_child(r, *s, field, 0, child, ALL_FIELDS);
 }
 
-/* Reads the number of children and allocates them; each takes at least `least` bytes of the record. */
+/* Reads the number of children and allocates them; each takes at least `min` bytes of the record. */
 static sbf_status make_children(
     const reading *r, span *s, const sbfi_field *field, size_t min, char **children, uint32_t *count) {
   *count = 0;
@@ -210,7 +211,7 @@ static sbf_status make_children(
   return SBF_OK;
 }
 
-/* Reads a size and takes a piece of that size off the front of `s`. */
+/* Reads a size and splits a piece of that size off the front of `s`. */
 static sbf_status take_piece(const reading *r, span *s, const sbfi_field *field, span *piece) {
   if (s->end - s->at < 4)
     return fault(r, SBF_CODE_PACKED_RECORD, s, field, "one of the `%s` is cut short", field->name);
@@ -354,7 +355,7 @@ static sbf_status check_required(const reading *r, const span *s, field_set set,
   return SBF_OK;
 }
 
-/* Fields stand in the order of their numbers; those that a later version brought are passed over. */
+/* Fields are ordered by number; skips those of a later version. */
 static sbf_status read_fields(const reading *r, span s, field_set set) {
   const sbfi_element *element = r->path->element;
   uint32_t last = 0;

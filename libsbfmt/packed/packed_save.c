@@ -11,7 +11,7 @@
 #include "packed/packed_table.h"
 
 typedef struct layout {
-  sbf_asset stated; /* the asset with the version to be written */
+  sbf_asset stated; /* the asset with the version to write */
   char version[SBFI_VERSION_TEXT];
   sbfi_packed_plan plan;
   sbfi_packed_header header;

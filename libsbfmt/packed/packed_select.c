@@ -1,4 +1,4 @@
-/* Which parts of a packed file are read. */
+/* Selects which parts of a packed file are read. */
 #include "packed/packed_reader.h"
 
 static bool is_among(const char *text, sbf_string_list list) {
@@ -15,8 +15,7 @@ static bool is_named(const sbfi_element_path *part, sbf_string_list names) {
   return false;
 }
 
-/* A part that must say something besides its label would not pass the check with everything at its default.
- */
+/* A part with required fields besides its label would fail the check with all fields at their defaults. */
 static bool must_be_read(const sbfi_element *element) {
   for (uint32_t i = 0; i < element->field_count; i++) {
     const sbfi_field *field = &element->fields[i];

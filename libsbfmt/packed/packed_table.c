@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "packed/packed_codec.h"
 
-/* Where the fields of the header and of an entry lie. */
+/* Byte offsets of fields in the header and in an entry. */
 enum {
   HEADER_MAJOR = 8,
   HEADER_MINOR = 10,
@@ -137,7 +137,7 @@ bool sbfi_packed_kind_is_known(uint32_t kind) {
   return kind && kind_is_in(&sbfi_asset_element, kind);
 }
 
-/* What became of the magic says what became of the file. */
+/* The damage to the magic number tells how the file was damaged. */
 static sbf_status magic_fault(sbf_diagnostic *error, const uint8_t *bytes, size_t size) {
   static const char magic[] = SBFI_PACKED_MAGIC;
   size_t same = 0;
@@ -213,7 +213,7 @@ static sbf_status check_table_crc(const sbfi_packed_header *h, const uint8_t *by
   return SBF_OK;
 }
 
-/* One entry; `previous_end` is where the chunk before it ended. */
+/* Checks one entry; `previous_end` is the end of the previous chunk. */
 static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, const uint8_t *entry,
     uint64_t previous_end, sbf_diagnostic *error) {
   const sbfi_packed_header *h = &table->header;
@@ -279,7 +279,7 @@ static sbf_status read_entries(sbfi_packed_table *table, const uint8_t *bytes, s
   return SBF_OK;
 }
 
-/* Reads the header of the table and allocates as many entries as are to be read. */
+/* Reads the header of the table and allocates the entries to read. */
 static sbf_status begin_table(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, bool last_only, sbf_diagnostic *error) {
   *table = (sbfi_packed_table){.allocator = sbfi_allocator_or_default(allocator)};

@@ -7,19 +7,19 @@
 
 typedef struct sbfi_packed_table {
   sbfi_packed_header header;
-  sbfi_packed_chunk *chunks; /* chunk_count of them, in the order of their offsets */
-  uint32_t chunk_count;      /* header.chunk_count, or 1 where only the outline's entry was read */
-  bool newer;                /* of a later minor version: may hold what we do not know */
+  sbfi_packed_chunk *chunks; /* (chunk_count) ordered by offset */
+  uint32_t chunk_count;      /* header.chunk_count, or 1 if only the outline's entry was read */
+  bool newer;                /* a later minor version: may have unknown content */
   sbf_allocator allocator;
 } sbfi_packed_table;
 
-/* Reads and checks header and table including checksums. Then every chunk is aligned and inside the file,
- * none overlaps another, sizes agree with counts, and kinds, filters and codecs are known or may be skipped.
- * The first chunk is the root's record. Does not keep `bytes`. On failure there is nothing to free. */
+/* Reads and checks header and table including checksums. Afterwards every chunk is aligned and inside the
+ * file, none overlap, sizes match counts, and kinds, filters and codecs are known or may be skipped. The
+ * first chunk is the root's record. Does not keep `bytes`. On failure there is nothing to free. */
 sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
-/* Reads only the header and the last entry, if it is an outline: `chunks` then has this entry, else it is
- * NULL. The entry's checksum guards the outline; the table's checksum is not checked. */
+/* Reads only the header and the last entry, if it is an outline: `chunks` then has this entry, otherwise
+ * it is NULL. The entry's checksum protects the outline; the table's checksum is not checked. */
 sbf_status sbfi_packed_table_read_outline(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_packed_table_free(sbfi_packed_table *table);
@@ -27,7 +27,7 @@ void sbfi_packed_table_free(sbfi_packed_table *table);
 /* Whether the schema has a part of that kind. */
 bool sbfi_packed_kind_is_known(uint32_t kind);
 
-/* 64 bytes each; the header's own checksum is put in. */
+/* 64 bytes each; inserts the header's own checksum. */
 void sbfi_packed_header_put(uint8_t *to, const sbfi_packed_header *header);
 void sbfi_packed_chunk_put(uint8_t *to, const sbfi_packed_chunk *chunk);
 

@@ -1,4 +1,4 @@
-/* Either form of the format: told apart by the first bytes when read, by the name when written. */
+/* Loads and saves both forms of the format: the first bytes select the reader, the file name the writer. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -13,7 +13,7 @@ typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED } form;
 static bool begins_packed(const uint8_t *bytes, size_t size) {
   static const uint8_t magic[] = {0x89, 'S', 'B', 'F'};
   size_t compared = size < sizeof magic ? size : sizeof magic;
-  /* one whose first byte lost its high bit still counts: its reader says what happened to it */
+  /* a magic number whose first byte lost its high bit still counts: the reader reports the cause */
   return (bytes[0] | 0x80) == magic[0] && memcmp(bytes + 1, magic + 1, compared - 1) == 0;
 }
 
@@ -24,7 +24,7 @@ static form form_of(const uint8_t *bytes, size_t size) {
   if (sbfi_span_begins(rest, "\xef\xbb\xbf")) rest = (sbfi_span){rest.at + 3, rest.length - 3};
   rest = sbfi_span_trim(rest);
   if (rest.length && rest.at[0] == '<') return FORM_XML;
-  /* other encodings: the XML reader refuses them with advice */
+  /* other encodings: the XML reader rejects them with advice */
   bool wide = sbfi_span_begins(rest, "\xfe\xff") || sbfi_span_begins(rest, "\xff\xfe") || bytes[0] == 0;
   return wide && memchr(bytes, '<', size < 4 ? size : 4) ? FORM_XML : FORM_UNKNOWN;
 }
@@ -42,7 +42,7 @@ static void release_content(void *content) {
   sbfi_file_content_free(content);
 }
 
-/* A packed asset may lie in the bytes it was read from: it keeps them. */
+/* A packed asset may point into the bytes that it was read from: it keeps them. */
 static sbf_status load_packed_content(
     sbfi_file_content *content, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   sbf_status status = sbf_packed_load_memory(content->at, content->size, options, asset, error);
@@ -60,7 +60,7 @@ static sbf_status load_packed_content(
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
 }
 
-/* From bytes that have been read whole, as from a pipe. */
+/* Loads from bytes read completely, as from a pipe. */
 static sbf_status load_content(const char *path, sbfi_file_content *content, form found,
     const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   sbf_load_options named = *options;
@@ -74,11 +74,11 @@ sbf_status sbf_load_file_findings(const char *path, const sbf_load_options *opti
   sbf_load_options filled = sbfi_load_options_of(options);
   sbfi_file_content content;
   *asset = NULL;
-  *count = 1; /* all but the XML reader stop at the first */
+  *count = 1; /* all but the XML reader stop at the first finding */
   sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, findings);
   if (status != SBF_OK) return status;
   form found = form_of(content.at, content.size);
-  bool is_mapped = content.size && !content.allocated_bytes; /* then it can be opened again */
+  bool is_mapped = content.size && !content.allocated_bytes; /* then it can be reopened */
   if (found == FORM_EMPTY || found == FORM_UNKNOWN)
     status = refuse(found, path, findings);
   else if (!is_mapped)

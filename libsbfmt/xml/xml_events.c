@@ -10,11 +10,11 @@
 
 enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256, MAX_ATTRIBUTES = 256 };
 
-/* Where the bytes read so far end, as far as tags go. */
+/* Tag state at the end of the bytes read so far. */
 typedef struct tag_counter {
   enum { OUTSIDE, BEGINNING, INSIDE } state;
-  char quote;      /* of the value begun; 0: none */
-  uint32_t values; /* of attributes */
+  char quote;      /* quote of the open attribute value; 0: none */
+  uint32_t values; /* number of attribute values */
 } tag_counter;
 
 #if LIBXML_VERSION >= 21200
@@ -29,12 +29,12 @@ typedef struct parse {
   sbfi_xml_events *events;
   xmlParserCtxtPtr context;
   sbfi_array attributes; /* sbfi_xml_attribute */
-  sbfi_text values;      /* of the attributes that had to be decoded */
+  sbfi_text values;      /* decoded attribute values */
   tag_counter tags;
   sbf_diagnostic *error;
   sbf_status status;
   bool stopped; /* by a handler or by an error */
-  bool ended;   /* the root element did */
+  bool ended;   /* the root element has ended */
   int depth;
 } parse;
 
@@ -71,10 +71,10 @@ static bool read_source(const sbfi_xml_source *source, uint64_t offset, void *to
   return *status == SBF_OK;
 }
 
-/* libxml2 (before 2.12) compares every attribute of an element with every other, so a megabyte of them takes
- * minutes; no element has more than a few dozen. Follows tags as they pass by; false where one has too many.
- * A `<` begins a tag wherever it stands, so what looks like one in a comment misleads no further than to the
- * next. */
+/* libxml2 (before 2.12) compares all pairs of attributes of an element, so a megabyte of them takes
+ * minutes; real elements have at most a few dozen. Tracks tags in the byte stream; false if one has too
+ * many attributes. Every `<` starts a tag, so text in a comment that resembles a tag has an effect only up
+ * to the next one. */
 static bool count_attributes(tag_counter *tags, const char *text, size_t size) {
   const char *end = text + size;
   while (text < end) {
@@ -105,7 +105,7 @@ static int read_some(void *user, char *to, int capacity) {
   size_t size = left < (uint64_t)capacity ? (size_t)left : (size_t)capacity;
   if (size == 0 || p->stopped) return 0;
   if (!read_source(p->source, p->offset, to, size, &p->status, p->error)) {
-    p->stopped = true; /* the parser ends with an error of its own, which nobody needs */
+    p->stopped = true; /* the parser then reports an error of its own, which we ignore */
     return -1;
   }
   if (!count_attributes(&p->tags, to, size)) {
@@ -130,7 +130,7 @@ static bool is_utf8_name(sbfi_span name) {
   return false;
 }
 
-/* The encoding that an XML declaration names; empty where it names none. */
+/* Encoding in an XML declaration; empty if there is none. */
 static sbfi_span declared_encoding(sbfi_span prolog) {
   static const char key[] = "encoding";
   sbfi_span none = {NULL, 0};
@@ -168,12 +168,12 @@ static sbf_status check_encoding(const sbfi_xml_source *source, sbf_diagnostic *
 
 /* --- libxml2's callbacks --- */
 
-/* With entities kept, which is safe, libxml2 hands out an attribute's `&` as `&#38;`, whatever way it was
- * written; no other reference is left in a value. */
+/* We keep entities, which is safe, so libxml2 returns an attribute's `&` as `&#38;` however it was
+ * written; no other references are left in a value. */
 static void decode_value(sbfi_text *values, sbfi_xml_attribute *attribute) {
   static const char reference[] = "&#38;";
   const char *from = attribute->value, *end = from + attribute->length;
-  char *to = values->at + values->length, *begin = to; /* where there is room */
+  char *to = values->at + values->length, *begin = to; /* within the capacity */
   while (from < end) {
     bool is_reference =
         (size_t)(end - from) >= sizeof reference - 1 && memcmp(from, reference, sizeof reference - 1) == 0;
@@ -204,14 +204,14 @@ static bool push_attribute(parse *p, const xmlChar **raw) {
     if (strcmp((const char *)raw[2], passed_over[i]) == 0) return true;
   sbfi_xml_attribute *attribute = sbfi_array_push(&p->attributes, 1);
   if (!attribute) return false;
-  /* one of another namespace is none that anybody here knows: its prefix alone says so */
+  /* the prefix marks an attribute of another namespace, which is unknown here */
   attribute->name = (const char *)(raw[1] ? raw[1] : raw[0]);
   attribute->value = (const char *)raw[3];
   attribute->length = (size_t)(raw[4] - raw[3]);
   return true;
 }
 
-/* A tag that breaks off is passed on all the same before the error is raised: as an element of a cut name. */
+/* libxml2 passes on a truncated tag, with a truncated name, before it raises the error. */
 static bool tag_is_closed(const parse *p) {
   const xmlParserInput *input = p->context->input;
   return input && input->cur < input->end && (*input->cur == '>' || *input->cur == '/');
@@ -271,7 +271,7 @@ static xmlEntityPtr on_entity(void *user, const xmlChar *name) {
   return NULL;
 }
 
-/* libxml2 has one code for broken UTF-8 and for characters that XML forbids. */
+/* libxml2 has one code for invalid UTF-8 and for characters that XML forbids. */
 static bool stands_on_broken_utf8(const parse *p) {
   const xmlParserInput *input = p->context->input;
   if (!input || input->cur >= input->end) return false;
@@ -307,7 +307,7 @@ static const char *advice_of(sbf_code code) {
   }
 }
 
-/* libxml2 tells of an error and may go on; we do not. */
+/* libxml2 may continue after an error; we stop. */
 static void on_error(void *user, raised_error found) {
   parse *p = user;
   if (found->level < XML_ERR_ERROR || p->stopped) return;
@@ -321,7 +321,7 @@ static void on_error(void *user, raised_error found) {
     fail(p, code, found->line > 0 ? (uint32_t)found->line : 0, "%s", advice_of(code));
 }
 
-/* Takes what libxml2 says outside any parser (as when memory runs out), which it would print. */
+/* Catches messages outside any parser (such as out of memory), which libxml2 would print. */
 static void keep_silent(void *user, raised_error found) {
   (void)user, (void)found;
 }
@@ -344,11 +344,11 @@ static void run(parse *p) {
     p->status = sbfi_diagnose(p->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the XML parser");
     return;
   }
-  *p->context->sax = handlers; /* which build no document: what the read returns is NULL */
+  *p->context->sax = handlers; /* build no document: the read returns NULL */
   p->context->userData = p;
   xmlFreeDoc(
       xmlCtxtReadIO(p->context, read_some, NULL, p, NULL, NULL, XML_PARSE_NONET | XML_PARSE_BIG_LINES));
-  /* it gives up without a word where memory for its input runs out */
+  /* it stops without an error if memory for its input runs out */
   bool no_memory = p->context->errNo == XML_ERR_NO_MEMORY || (p->context->wellFormed && !p->ended);
   if (!p->stopped && (!p->context->wellFormed || !p->ended)) {
     sbf_code code = no_memory ? SBF_CODE_OUT_OF_MEMORY : SBF_CODE_XML_SYNTAX;

@@ -19,7 +19,7 @@ static bool is_bytes(const sbfi_field *field) {
 
 void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field) {
   size_t item_size = is_bytes(field) ? 1 : sizeof(uint32_t);
-  /* the block stays, whatever it held: only how it is counted changes */
+  /* keeps the memory block and only changes the item size */
   if (item_size != list->scalars.item_size) {
     sbfi_array_free(&list->scalars);
     list->scalars.item_size = item_size;
@@ -67,7 +67,7 @@ static bool is_word_for_no_number(const char *text, size_t length) {
   return false;
 }
 
-/* Why the word that begins here is no number of the type. */
+/* Reason why this word is not a number of the type. */
 static sbfi_xml_fault check(const char *text, size_t length, sbfi_number_status status) {
   size_t word = word_length(text, length);
   if (is_word_for_no_number(text, word)) return SBFI_XML_NOT_FINITE;
@@ -87,7 +87,7 @@ static void keep_wrong(sbfi_xml_list *list, const char *text, size_t length) {
   list->wrong[kept] = 0;
 }
 
-/* Reads the numbers of `text`, in which none is cut off. */
+/* Reads the numbers of `text`, none of which is cut off. */
 static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t length, size_t *offset) {
   size_t i = 0, used = 0, scalar_limit = (size_t)list->item_limit * list->field->width;
   bool floats = list->field->item == SBFI_ITEM_F32;
@@ -108,7 +108,7 @@ static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t 
   return check(text + i, length - i, status);
 }
 
-/* A number that the last piece began goes on in this one. */
+/* Continues a number that began in the last piece. */
 static sbfi_xml_fault add_to_begun(sbfi_xml_list *list, const char *text, size_t length) {
   return sbfi_text_append(&list->begun, text, length) ? SBFI_XML_FINE : SBFI_XML_NO_MEMORY;
 }

@@ -1,4 +1,4 @@
-/* Loading XML: read, resolve, check; and where something is wrong, find its line. */
+/* Loads XML: reads, resolves references, checks; on errors finds their lines. */
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -18,7 +18,7 @@ static void add_out_of_memory(sbfi_xml_findings *findings) {
   add_finding(findings, &diagnostic);
 }
 
-/* Repeated ids stand before the references to ids that they have displaced. */
+/* Repeated ids are reported before unresolved references to the ids that they displaced. */
 typedef struct repeated_ids {
   sbfi_xml_findings *findings;
   uint32_t count;
@@ -34,7 +34,7 @@ static void add_repeated_id(void *user, const sbf_diagnostic *diagnostic) {
   *at = *diagnostic;
 }
 
-/* Adds what is wrong, step by step: a later step is not asked about what an earlier one could not make. */
+/* Adds findings of each step; skips a step if an earlier one failed. */
 static void read_into(const sbfi_xml_source *source, const sbf_load_options *options, sbf_asset *asset,
     sbfi_xml_findings *findings) {
   sbfi_array refs;
@@ -77,7 +77,7 @@ sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *
       options->limits.memory_bytes < SIZE_MAX ? (size_t)options->limits.memory_bytes : SIZE_MAX;
   read_into(source, options, made, findings);
   if (!findings->count) {
-    arena->limit_bytes = 0; /* it bounds what a file may ask for, not what the caller adds */
+    arena->limit_bytes = 0; /* the limit applies to the file's content, not to what the caller adds later */
     *asset = made;
     return SBF_OK;
   }
@@ -86,15 +86,15 @@ sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *
   return sbf_code_find(findings->at[0].code)->fault;
 }
 
-/* A file that is open as a source. */
+/* A file opened as a source. */
 typedef struct opened {
   sbfi_xml_source source;
   sbfi_file file;
   sbfi_file_content content;
 } opened;
 
-/* What can be mapped can be read in pieces, and twice. It is not kept mapped: text that an editor saves in
- * place would end the program. The rest, as a pipe, is read whole. */
+/* A file that can be mapped can be read in pieces, and twice. It is not kept mapped, because an editor
+ * that truncates it would crash the program. Other files, such as pipes, are read completely. */
 static sbf_status open_source(
     opened *o, const char *path, const sbf_load_options *options, sbf_diagnostic *error) {
   sbf_status status = sbfi_file_map(path, options->limits.file_bytes, options->allocator, &o->content, error);

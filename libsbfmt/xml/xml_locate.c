@@ -1,5 +1,5 @@
-/* Lines of findings. A load keeps no line numbers: it looks them up only when something is wrong, in a second
- * pass over the file that follows the findings' paths. */
+/* Finds lines of findings. A load keeps no line numbers: only on errors a second pass over the file
+ * follows the findings' paths. */
 #include <stdlib.h>
 
 #include "base/diagnostic.h"
@@ -9,24 +9,24 @@
 
 enum { DEEPEST = 16 };
 
-/* One finding's path cut into steps, and how far the open elements agree with it. */
+/* The path of a finding as steps, and how many the open elements match. */
 typedef struct target {
   sbf_diagnostic *diagnostic;
   sbfi_span names[DEEPEST];
   uint32_t numbers[DEEPEST]; /* among siblings of the same name, from 1 */
-  uint32_t depth;            /* steps */
-  uint32_t item_scalars;     /* of a list; 0: the element itself is what to find */
-  uint64_t scalar;           /* of a list: the one to find */
-  uint32_t matched;          /* steps that the innermost open elements took */
-  uint32_t seen[DEEPEST];    /* elements of that name so far, in each step */
-  uint64_t scalars;          /* of the list so far */
+  uint32_t depth;            /* number of steps */
+  uint32_t item_scalars;     /* of a list; 0: searches the element itself */
+  uint64_t scalar;           /* of a list: index of the scalar to find */
+  uint32_t matched;          /* steps matched by the innermost open elements */
+  uint32_t seen[DEEPEST];    /* elements with that name so far, for each step */
+  uint64_t scalars;          /* number of scalars of the list so far */
   bool in_list, in_number, found;
 } target;
 
 typedef struct locator {
   target *targets;
   size_t count, unfound;
-  uint32_t open; /* elements */
+  uint32_t open; /* number of open elements */
   sbfi_xml_events events;
 } locator;
 
@@ -47,7 +47,7 @@ static void cut_path(target *t) {
   }
 }
 
-/* Scalars in an item of the list that the path leads to; 0 where it leads to no list. */
+/* Number of scalars in an item of the path's list; 0 if it is not a list. */
 static uint32_t width_of(const target *t) {
   const sbfi_element *element = &sbfi_asset_element;
   const sbfi_field *field = NULL;
@@ -87,7 +87,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
     } else if (!t->item_scalars) {
       hit(l, t, l->events.line);
     } else {
-      t->diagnostic->line = l->events.line; /* should the item not be there */
+      t->diagnostic->line = l->events.line; /* in case the item is missing */
       t->in_list = true;
     }
   }
@@ -95,7 +95,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
   return l->unfound > 0;
 }
 
-/* Counts words until the wanted one begins. A number may go on from the piece before. */
+/* Counts words until the target begins. A number may continue from the previous piece. */
 static void count_words(locator *l, target *t, const char *text, size_t length) {
   for (size_t i = 0; i < length; i++) {
     bool space = sbfi_is_space(text[i]);
@@ -132,7 +132,7 @@ void sbfi_xml_locate(
   locator l = {.events = {.start = on_start, .text = on_text, .end = on_end, .user = &l}};
   size_t bytes = findings->count * sizeof *l.targets;
   l.targets = sbfi_allocate(allocator, bytes);
-  if (!l.targets) return; /* a finding without a line is better than none */
+  if (!l.targets) return; /* without memory findings have no line */
   for (uint32_t i = 0; i < findings->count; i++) {
     sbf_diagnostic *diagnostic = &findings->at[i];
     if (diagnostic->line || !*diagnostic->path) continue;

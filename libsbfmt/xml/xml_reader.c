@@ -1,7 +1,6 @@
-/* Objects grow in rows, one for each field of the schema that holds many children. Since no element holds
- * itself, at most one object of a field is open at a time and nothing is added before it to its row, so its
- * place stays while its own children come. When an object ends, the rows of its children move into the asset.
- */
+/* Children are collected in rows, one per schema field with many children. No element contains itself, so
+ * at most one object of a field is open and no row is reallocated while children of its last object are
+ * read. At the end of an object the rows of its children move into the asset. */
 #include "xml/xml_reader.h"
 
 #include <stdio.h>
@@ -18,11 +17,11 @@ typedef enum open_kind { OPEN_OBJECT, OPEN_WRAPPER, OPEN_LIST, OPEN_TEXT, OPEN_S
 
 typedef struct open_element {
   open_kind kind;
-  const sbfi_field *field;     /* of the object around; NULL at the root */
+  const sbfi_field *field;     /* field of the parent object; NULL at the root */
   const sbfi_element *element; /* of an object */
   void *object;
   uint32_t index; /* among the field's children */
-  uint64_t seen;  /* bit i: field i of an object */
+  uint64_t seen;  /* bit i: field i of an object occurred */
 } open_element;
 
 typedef struct row {
@@ -37,15 +36,15 @@ typedef struct reader {
   sbfi_arena *arena;
   sbfi_xml_events events;
   sbfi_array open; /* open_element, outermost first */
-  sbfi_array rows; /* row, in the order in which fields were first met */
+  sbfi_array rows; /* row, in order of first occurrence */
   sbfi_array text; /* bytes of the text element being read */
   sbfi_array *refs;
   sbfi_xml_list list;
   size_t row_bytes;
-  bool newer_minor; /* what is unknown is passed over */
-  uint32_t minor;   /* of the file: fields that came later are unknown in it */
+  bool newer_minor; /* skips unknown content */
+  uint32_t minor;   /* of the file; fields of later versions are unknown in it */
   uint32_t left_out;
-  char first_left_out[200]; /* path of the first */
+  char first_left_out[200]; /* path of the first skipped item */
   sbf_diagnostic *error;
   sbf_status status;
 } reader;
@@ -54,7 +53,7 @@ static open_element *top(const reader *r) {
   return (open_element *)r->open.at + (r->open.count - 1);
 }
 
-/* The innermost object that is open: its wrapper, list or text may be on top of it. */
+/* Innermost open object; its wrapper, list or text may be on top of it. */
 static open_element *top_object(const reader *r) {
   open_element *element = top(r);
   while (element->kind != OPEN_OBJECT) element--;
@@ -68,7 +67,7 @@ static row *find_row(const reader *r, const sbfi_field *field) {
   return NULL;
 }
 
-/* NULL where memory runs out. */
+/* NULL if memory runs out. */
 static row *row_of(reader *r, const sbfi_field *field) {
   row *known = find_row(r, field);
   if (known) return known;
@@ -81,7 +80,7 @@ static row *row_of(reader *r, const sbfi_field *field) {
 
 /* --- faults --- */
 
-/* Lets an open object show the children it has so far, as a path needs them to number siblings. */
+/* Attaches the children read so far to an open object, because a path numbers siblings. */
 static void show_children(const reader *r, const open_element *element) {
   for (uint32_t i = 0; i < element->element->field_count; i++) {
     const sbfi_field *field = &element->element->fields[i];
@@ -110,7 +109,7 @@ static void write_path(const reader *r, const sbfi_field *field, char *path, siz
   if (depth) sbfi_element_path_print(&paths[depth - 1], field ? field : wrapper, path, size);
 }
 
-/* About the element on top, or a field of the object on top. */
+/* Reports about the top element, or a field of the top object. */
 __attribute__((format(printf, 4, 5))) static bool fail(
     reader *r, sbf_code code, const sbfi_field *field, const char *format, ...) {
   va_list arguments;
@@ -127,14 +126,14 @@ static bool fail_memory(reader *r) {
       (unsigned long long)r->options->limits.memory_bytes);
 }
 
-/* Adds what has no field to the path. */
+/* Appends an unknown name to the path. */
 static bool extend_path(reader *r, const char *separator, const char *name) {
   size_t length = strlen(r->error->path);
   snprintf(r->error->path + length, sizeof r->error->path - length, "%s%s", separator, name);
   return false;
 }
 
-/* Whether what has been read fits the limit on memory; the arena itself only counts what is finished. */
+/* Whether the memory in use is within the limit; the arena counts only finished objects. */
 static bool fits_memory(const reader *r) {
   uint64_t limit = r->options->limits.memory_bytes, used = r->arena->used_bytes;
   uint64_t staged = (uint64_t)r->row_bytes + r->text.count;
@@ -142,7 +141,7 @@ static bool fits_memory(const reader *r) {
   return used <= limit && staged <= limit - used;
 }
 
-/* What the numbers of a field are. */
+/* Word for a field's type of numbers, for messages. */
 static const char *name_of_scalar(const sbfi_field *field) {
   if (field->type == SBFI_INT) return "an integer of 32 bits";
   bool is_uint = field->type == SBFI_UINT || (field->type == SBFI_LIST && field->item == SBFI_ITEM_U32);
@@ -305,7 +304,7 @@ static sbfi_span value_of(const sbfi_xml_attribute *attribute) {
   return (sbfi_span){attribute->value, attribute->length};
 }
 
-/* Every reader takes a file alike: what the stated version lacks is refused by later ones too. */
+/* All readers treat a file alike: a later reader also rejects what the stated version lacks. */
 static bool refuse_later(reader *r, const sbfi_field *field) {
   return fail(r, SBF_CODE_VERSION_FIELD, field,
       "`%s` is of version 1.%u, and the file states %.20s: state 1.%u", field->name, field->since_minor,
@@ -332,7 +331,8 @@ static bool check_attributes(reader *r) {
   for (uint32_t i = 0; i < self->element->field_count; i++) {
     const sbfi_field *field = &self->element->fields[i];
     if (!field->required || self->seen >> i & 1) continue;
-    if (!sbfi_xml_find_attribute(self->element, self->field, field->name)) continue; /* said by the name */
+    if (!sbfi_xml_find_attribute(self->element, self->field, field->name))
+      continue; /* the element's name defines it */
     return fail(r, SBF_CODE_REQUIRED_MISSING, field, "<%s> must have the attribute `%s`", self->element->xml,
         field->name);
   }
@@ -368,7 +368,7 @@ static bool begin_root(reader *r, const char *name, const sbfi_xml_attribute *at
   self->element = element;
   self->object = r->asset;
   const sbfi_field *version = sbfi_element_field(element, "version");
-  /* first of all, since it says how to take the rest */
+  /* read first, because it defines how the rest is read */
   for (uint32_t i = 0; i < count; i++)
     if (strcmp(attributes[i].name, version->name) == 0 &&
         !read_attribute(r, version, value_of(&attributes[i]), self->object))
@@ -391,7 +391,7 @@ static bool begin_root(reader *r, const char *name, const sbfi_xml_attribute *at
   return read_attributes(r, attributes, count) && check_attributes(r);
 }
 
-/* Memory for a child at its defaults. */
+/* Allocates a child with default values. */
 static void *make_child(reader *r, void *parent, const sbfi_field *field, uint32_t *index) {
   void *child = NULL;
   if (field->type == SBFI_ONE) return (char *)parent + field->offset;
@@ -426,7 +426,7 @@ static bool begin_child(reader *r, const sbfi_field *field, const char *name,
   return read_attributes(r, attributes, count) && check_attributes(r);
 }
 
-/* The list that an attribute `given` numbers. */
+/* Takes the list with the number in an attribute `given`. */
 static bool take_given(reader *r, const sbfi_xml_attribute *given) {
   uint32_t number;
   if (sbfi_parse_u32(given->value, given->length, &number) != SBFI_NUMBER_READ ||
@@ -570,7 +570,7 @@ static bool end_object(reader *r, const open_element *self) {
     const sbfi_field *field = &self->element->fields[i];
     if (field->type != SBFI_MANY || !(self->seen >> i & 1)) continue;
     row *found = find_row(r, field);
-    if (!found || !found->children.count) continue; /* a wrapper with nothing in it */
+    if (!found || !found->children.count) continue; /* an empty wrapper */
     sbfi_array *children = &found->children;
     void *kept = sbfi_arena_copy(r->arena, children->at, children->count, children->item_size);
     if (!kept) return fail_memory(r);
@@ -618,7 +618,7 @@ sbf_status sbfi_xml_read_tree(const sbfi_xml_source *source, const sbf_load_opti
     write_path(&r, NULL, error->path, sizeof error->path);
   else
     status = r.status;
-  if (status == SBF_OK && r.newer_minor) { /* the rest was passed over */
+  if (status == SBF_OK && r.newer_minor) { /* unknown content was skipped */
     sbfi_report_left_out(options, asset->version, r.left_out, r.first_left_out);
     asset->version = SBF_FORMAT_VERSION;
   }

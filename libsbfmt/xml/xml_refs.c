@@ -1,4 +1,4 @@
-/* Turns the ids that references name into places, once everything has been read. */
+/* Resolves ids in references to indices after everything has been read. */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 
 typedef struct resolver {
   sbf_asset *asset;
-  const char *const *texts; /* of the references, by the place that now stands for them */
+  const char *const *texts; /* texts of the references, indexed by the reference's current value */
   sbfi_ids ids;
   sbfi_xml_findings *findings;
 } resolver;
@@ -40,7 +40,7 @@ static void report_unknown(resolver *r, const sbfi_element_path *path, const sbf
   sbfi_element_path_print(path, field, diagnostic->path, sizeof diagnostic->path);
 }
 
-/* The item of that id in the collection referred to; another may have it too, which the check reports. */
+/* Index of the first item with that id in the collection. Duplicates are reported by the check. */
 static int32_t find_repeated(const resolver *r, const sbfi_field *field, const char *text) {
   uint32_t count = sbfi_ref_count(r->asset, field);
   for (uint32_t i = 0; i < count; i++)
@@ -57,7 +57,7 @@ static void resolve_ref(resolver *r, const sbfi_element_path *path, const sbfi_f
                   : entry                                             ? find_repeated(r, field, text)
                                                                       : SBF_NONE;
   if (index == SBF_NONE) report_unknown(r, path, field, text, entry);
-  /* the asset was made by the reader, which may write to what is read-only for everybody else */
+  /* the reader created the asset and may modify what is read-only for others */
   sbfi_set_integer((void *)(uintptr_t)path->object, field, index);
 }
 

@@ -1,4 +1,4 @@
-/* Saving XML: into memory, or into a file that is replaced as a whole. */
+/* Saves XML to memory, or to a file that is replaced atomically. */
 #include "base/diagnostic.h"
 #include "base/file.h"
 #include "model/asset_box.h"
@@ -8,7 +8,7 @@
 
 sbf_status sbf_xml_save_memory(const sbf_asset *asset, const sbf_save_options *options,
     const sbf_allocator *allocator, sbf_buffer *buffer, sbf_diagnostic *error) {
-  (void)options; /* those of this version are about the packed form */
+  (void)options; /* the options of this version concern the packed form */
   sbfi_text text;
   *buffer = (sbf_buffer){.at = NULL};
   sbf_status status = sbfi_check_saved(asset, error);

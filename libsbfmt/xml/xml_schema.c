@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-/* The name of a field's own element; NULL where several names stand for its children. */
+/* Name of a field's own element; NULL if its children have several names. */
 static const char *element_name(const sbfi_field *field) {
   if (sbfi_field_is_attribute(field)) return NULL;
   if (field->wrapper) return field->wrapper;
@@ -51,7 +51,7 @@ static void consider_children(
   }
   const sbfi_field *by = sbfi_element_field(field->element, field->by);
   for (uint32_t i = 0; i < by->value_count; i++) {
-    /* two places in turn: the best so far must stay readable */
+    /* alternates two buffers: the best name so far must stay valid */
     char *name = names[*used];
     snprintf(name, sizeof *names, "%s%s", by->values[i], field->suffix);
     sbfi_suggestion_consider(suggestion, name);

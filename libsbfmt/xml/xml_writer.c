@@ -8,8 +8,8 @@
 #include "model/version.h"
 
 enum {
-  LINE_SCALARS = 12, /* whole items, whether they have one, two, three or four scalars */
-  LINE_BYTES = 57,   /* 76 characters */
+  LINE_SCALARS = 12, /* complete items for one, two, three or four scalars */
+  LINE_BYTES = 57,   /* 76 characters of base64 */
   FLUSH_BYTES = 1 << 18
 };
 
@@ -22,12 +22,12 @@ typedef struct writer {
   sbf_status status; /* of the sink */
 } writer;
 
-/* An element being written. Its start tag stays open until something stands inside it. */
+/* An element being written. Its start tag stays open until it has content. */
 typedef struct open_element {
   const char *name;
   uint32_t depth;
   bool has_content;
-  bool says_something; /* that its defaults would not */
+  bool says_something; /* differs from its defaults */
 } open_element;
 
 static void flush(writer *w) {
@@ -36,7 +36,8 @@ static void flush(writer *w) {
   sbfi_text_clear(w->text);
 }
 
-/* Only after something was said, so that no element around is taken back: see write_child. */
+/* Flushes only after an element differs from its defaults, so that no enclosing element is removed later:
+ * see write_child. */
 static void flush_when_full(writer *w) {
   if (w->text->length >= FLUSH_BYTES) flush(w);
 }
@@ -81,11 +82,11 @@ static const char *replacement(char c, bool in_attribute) {
     return "&lt;";
   case '>':
     return "&gt;";
-  case '\r': /* a parser turns it into a line feed wherever it stands by itself */
+  case '\r': /* a parser converts it to a line feed */
     return "&#13;";
   case '"':
     return in_attribute ? "&quot;" : NULL;
-  case '\t': /* in an attribute these would come back as spaces */
+  case '\t': /* in an attribute these would be read as spaces */
     return in_attribute ? "&#9;" : NULL;
   case '\n':
     return in_attribute ? "&#10;" : NULL;
@@ -233,7 +234,7 @@ static bool is_set(const void *object, const sbfi_element *element, const char *
   return field && points_at_derivation(field) && sbfi_get_integer(object, field) != SBF_NONE;
 }
 
-/* An object says that it is derived itself; for a mesh, the object around it does. */
+/* Objects state that they are derived; for a mesh, its parent object does. */
 static bool is_derived(const sbfi_element_path *child) {
   char companion[64] = "";
   strncat(companion, child->field->name, sizeof companion - sizeof "_derived");
@@ -253,8 +254,8 @@ static bool is_source(const sbfi_element_path *path, const sbfi_field *field) {
 
 static bool write_object(writer *w, const sbfi_element_path *path, const char *name, uint32_t depth);
 
-/* A `one` child that turns out to say nothing is taken back, with the end of its parent's start tag; nothing
- * of it can have been flushed, since only lists flush. */
+/* A `one` child that equals its defaults is removed afterwards, together with the end of its parent's
+ * start tag. None of it can have been flushed, because only lists flush. */
 static void write_child(writer *w, const sbfi_element_path *child, open_element *parent) {
   char buffer[128];
   if (!is_kept(w, child)) return;
@@ -296,7 +297,7 @@ static void write_children(
   }
 }
 
-/* Whether it said more than its defaults. */
+/* Returns whether it differs from its defaults. */
 static bool write_object(writer *w, const sbfi_element_path *path, const char *name, uint32_t depth) {
   open_element self = {.name = name, .depth = depth};
   open_start_tag(w, &self);
@@ -323,7 +324,7 @@ sbf_status sbfi_xml_write(const sbf_asset *asset, const sbfi_xml_selection *sele
   sbf_asset stated = *asset;
   writer w = {.asset = &stated, .text = text, .sink = sink, .error = error};
   if (selection) w.selection = *selection;
-  /* A hash of the source: a material of a later version makes no part stale. */
+  /* In a hash of the source the version is fixed: a material of a later version makes no part stale. */
   stated.version = w.selection.source_only ? "1.0" : sbfi_version_to_state(asset, version);
   sbfi_element_path root = sbfi_element_path_root(&stated);
   sbfi_text_string(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
