@@ -9,7 +9,7 @@ double sbfi_angle(double y, double x) {
   double high = steep ? across : along;
   if (high == 0) return 0;
   double z = (steep ? along : across) / high;
-  /* The angle is halved twice, and the rest is small enough for a short series. */
+  /* Halves the angle twice; the rest is small enough for a short series. */
   z = z / (1 + sqrt(1 + z * z));
   z = z / (1 + sqrt(1 + z * z));
   double q = z * z, series = 1.0 / 13;

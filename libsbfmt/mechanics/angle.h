@@ -1,10 +1,10 @@
-/* Angles by square roots alone, so that the same bits come out on every machine. */
+/* Computes angles with square roots only, so that every machine gives the same bits. */
 #ifndef SBFI_ANGLE_H
 #define SBFI_ANGLE_H
 
 #define SBFI_PI 3.14159265358979323846
 
-/* The angle from the x axis to (x, y), in (-pi, pi], to 1e-11; 0 at the origin. */
+/* Angle from the x axis to (x, y), in (-pi, pi], to 1e-11; 0 at the origin. */
 double sbfi_angle(double y, double x);
 
 #endif

@@ -1,4 +1,4 @@
-/* Mass and extent of all that an asset holds. */
+/* Measures mass and extent of a whole asset. */
 #include "sbfmt/mechanics.h"
 
 static void grow(sbf_asset_measures *m, sbf_vec3_list points) {

@@ -5,7 +5,7 @@
 static const double GRAVITY = 9.81; /* m/s^2 */
 static const double MAX_STRAIN = 0.05;
 
-/* Of two digits, so that it reads as the round figure it is. */
+/* Rounds up to two digits, so that an estimate looks like one. */
 static double rounded_up(double value) {
   double unit = 1;
   while (value / unit >= 100) unit *= 10;
@@ -32,8 +32,8 @@ double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_lis
 
 /* ---- What stands on less than it carries ---- */
 
-/* Heights at which a surface is cut; those nearer to its ends than a twelfth are left out, where roundings
- * would make anything stand on next to nothing. */
+/* Heights of the cross-sections. Those within a twelfth of the ends are skipped, because rounded ends have
+ * tiny cross-sections. */
 enum { CUTS = 96, FIRST_CUT = 8, END_CUT = 88 };
 
 static sbf_vec3 at_height(sbf_vec3 a, sbf_vec3 b, float y) {
@@ -41,7 +41,7 @@ static sbf_vec3 at_height(sbf_vec3 a, sbf_vec3 b, float y) {
   return (sbf_vec3){a.x + (b.x - a.x) * t, y, a.z + (b.z - a.z) * t};
 }
 
-/* Twice the area that the triangle adds to the cut at a height: its edge in there, about the axis. */
+/* Twice the area that the triangle adds to the cross-section at a height. */
 static double cut_of(const sbf_vec3 corners[3], float y) {
   sbf_vec3 up = {0, 0, 0}, down = {0, 0, 0};
   int count = 0;
@@ -61,8 +61,8 @@ static void add_cuts(const sbf_vec3 corners[3], float low, float step, double ar
   for (int k = first; k < end; k++) areas[k] += 0.5 * cut_of(corners, low + ((float)k + 0.5f) * step);
 }
 
-/* The greatest height of a column of even thickness that would load its foot as the surface loads some level
- * of itself by what is above; 0 where it encloses nothing there. */
+/* Largest height of a uniform column with the same stress at its base as some cross-section of the surface
+ * has from the mass above it; 0 if the surface encloses nothing there. */
 static double column_of(const sbf_polygon_mesh *mesh) {
   double areas[CUTS] = {0}, above = 0, column = 0;
   const sbf_vec3 *x = mesh->positions.at;
@@ -83,8 +83,8 @@ static double column_of(const sbf_polygon_mesh *mesh) {
   return column;
 }
 
-/* More than so many times the column is taken for a thing that does not stand on what is thin: strands, or
- * pieces that overlap. */
+/* Above this multiple of the column the object is assumed not to stand on its thin parts: strands, or
+ * overlapping pieces. */
 static const double MAX_TIMES = 5;
 
 double sbfi_standing_modulus(const sbf_attributes *attributes, const sbf_polygon_mesh *surface) {

@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Sorted by row by counting, then within each row, which is short, by insertion; each pair stays once and
- * those on the diagonal go. Returns how many are left, or SIZE_MAX where memory runs out. */
+/* Sorts by row with a counting sort, then each row, which is short, by insertion. Removes duplicates and
+ * diagonal pairs. Returns the remaining count, or SIZE_MAX if memory runs out. */
 static size_t sort_pairs(uint32_t row_count, uint64_t *pairs, size_t count, sbfi_arena *arena) {
   size_t *ends = sbfi_arena_allocate(arena, (size_t)row_count + 1, sizeof *ends), unique = 0, begin = 0;
   uint64_t *by_row = sbfi_arena_allocate(arena, count + 1, sizeof *by_row);

@@ -1,5 +1,5 @@
-/* Volume and mass of a body, which points of a level are held, and how the mass is shared among the
- * rest. */
+/* Computes volume and mass of a body, the pinned points of a level, and the distribution of mass over the
+ * others. */
 #include "mechanics/level_points.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
@@ -40,7 +40,7 @@ uint32_t sbf_level_pinned_points(const sbf_level *level, uint8_t *pinned) {
   return count;
 }
 
-/* Tributary areas of the surface's points, at their places in the level. */
+/* Adds tributary areas of the surface's points to their points in the level. */
 static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *areas) {
   const sbf_polygon_mesh *mesh = &body->surface;
   const uint32_t *corners = mesh->polygon_points.at;
@@ -117,7 +117,7 @@ double sbf_level_masses(
     for (uint32_t i = 0; i < count; i++) masses[i] = level->masses.count ? level->masses.at[i] : 0;
     if (level->masses.count == 0) {
       add_tetrahedra(body, level, masses);
-      /* Densities that the lattice states have the maps in them. */
+      /* Densities of the lattice already include the maps. */
       if (level->lattice.densities.count < 2)
         sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
     }

@@ -6,15 +6,15 @@
 #include "mechanics/vector_sums.h"
 
 enum { MANY_POINTS = 200, PATCHES = 48, MODES = 6, MIN_PATCH = 12 };
-/* Of its diagonal, so little is left of a mode that others make up. */
+/* Minimum fraction of its diagonal for a mode that is independent of the others. */
 static const double min_pivot = 1e-9;
 
 static bool is_there(const sbfi_block_matrix *m, uint32_t row) {
   return m->blocks[9 * (size_t)m->diagonals[row]] > 0;
 }
 
-/* Patches grow from point to point, breadth first, until they are large enough; each begins beside the last,
- * where there is something left. */
+/* Grows patches breadth first until they are large enough; each starts next to the last one if points are
+ * left there. */
 static bool make_patches(sbfi_coarse_space *c, const sbfi_block_matrix *m, sbfi_arena *arena) {
   uint32_t *queue = sbfi_arena_allocate(arena, (size_t)c->point_count + 1, sizeof *queue);
   uint32_t there = 0, first = 0, beside = UINT32_MAX;
@@ -68,7 +68,7 @@ static bool index_modes(sbfi_coarse_space *c, const sbf_vec3 *positions, sbfi_ar
   return true;
 }
 
-/* The displacement of a point in each mode, column by column: three ways, three turns. */
+/* Displacement of a point in each mode by columns: three translations, three rotations. */
 static void modes_of(sbfi_d3 arm, double columns[MODES][3]) {
   const double values[MODES][3] = {
       {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -arm.z, arm.y}, {arm.z, 0, -arm.x}, {-arm.y, arm.x, 0}};
@@ -96,7 +96,7 @@ static void add_block(sbfi_coarse_space *c, const double *block, uint32_t row, u
 static void factorise(double *a, size_t size, double *row) {
   for (size_t i = 0; i < size; i++) {
     double *of = a + i * size, before = of[i], pivot = before;
-    /* row[j] = L_ij D_j as it comes. */
+    /* row[j] is L_ij D_j at first. */
     for (size_t j = 0; j < i; j++) {
       const double *other = a + j * size;
       row[j] = other[j] > 0 ? of[j] - sbfi_sum_of_products(row, other, j) : 0;

@@ -5,7 +5,7 @@
 #include "mechanics/vector_sums.h"
 
 enum { MAX_POINTS = 700 };
-/* Of its diagonal, what is left of a row that others make up. */
+/* Minimum fraction of its diagonal for a row that is independent of the others. */
 static const double min_pivot = 1e-12;
 
 bool sbfi_direct_solver_helps(uint32_t point_count) {
@@ -22,8 +22,8 @@ static uint32_t count_neighbours(const sbfi_block_matrix *m, uint32_t point) {
 
 /* ---- The order ---- */
 
-/* Appends what is connected to `start`, breadth first, neighbours with few neighbours first. Returns the last
- * point, which is far from the start. */
+/* Appends the points connected to `start`, breadth first, those with few neighbours first. Returns the
+ * last point, which is far from the start. */
 static uint32_t visit(sbfi_direct_solver *s, const sbfi_block_matrix *m, uint32_t start, uint32_t from) {
   uint32_t end = from;
   s->points[end++] = start;
@@ -52,7 +52,8 @@ static void order_points(sbfi_direct_solver *s, const sbfi_block_matrix *m) {
   for (uint32_t i = 0; i < m->row_count; i++) {
     if (!takes_part(m, i) || s->order[i] != UINT32_MAX) continue;
     uint32_t from = s->point_count, start = i;
-    /* Twice from the far end: George and Liu's search for a point at the rim, cut short. */
+    /* Two searches from the far end: a shortened version of George and Liu's search for a peripheral
+     * point. */
     for (int times = 0; times < 2; times++) {
       start = visit(s, m, start, from);
       forget(s, from);
@@ -89,7 +90,7 @@ static double diagonal_of(const sbfi_direct_solver *s, uint32_t row) {
   return s->factor[s->begins[row] + (row - s->firsts[row])];
 }
 
-/* Of three rows with a fourth. */
+/* Dot products of three rows with a fourth. */
 static void sums_of_products(const double *const rows[3], const double *other, size_t count, double sums[3]) {
   double parts[3][2] = {{0}};
   size_t i = 0;
@@ -101,7 +102,7 @@ static void sums_of_products(const double *const rows[3], const double *other, s
   for (int row = 0; row < 3; row++) sums[row] = parts[row][0] + parts[row][1];
 }
 
-/* What has become L_ij D_j becomes L_ij, and the diagonal D. */
+/* Converts L_ij D_j to L_ij, and computes the diagonal D. */
 static void finish_row(sbfi_direct_solver *s, uint32_t row) {
   double *of = row_of(s, row);
   uint32_t first = s->firsts[row];
@@ -115,7 +116,7 @@ static void finish_row(sbfi_direct_solver *s, uint32_t row) {
   s->null_count += !(of[row - first] > 0);
 }
 
-/* The three rows of a point together, whose envelopes begin at one column. */
+/* Handles the three rows of a point together, because their envelopes begin at one column. */
 static void factorise(sbfi_direct_solver *s) {
   s->null_count = 0;
   for (uint32_t i = 0; i < s->size; i += 3) {

@@ -1,11 +1,11 @@
-/* How long a set of points is. */
+/* Length of a set of points. */
 #ifndef SBFI_EXTENT_H
 #define SBFI_EXTENT_H
 
 #include "mechanics/vector.h"
 #include "sbfmt/model.h"
 
-/* The length of a set of points: the diagonal of their box. */
+/* Length of a set of points: the diagonal of the bounding box. */
 static inline double sbfi_extent(sbf_vec3_list points) {
   sbfi_d3 low = {0, 0, 0}, high = {0, 0, 0};
   for (uint32_t i = 0; i < points.count; i++) {

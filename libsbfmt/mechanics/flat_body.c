@@ -4,8 +4,8 @@
 
 #include "sbfmt/mechanics.h"
 
-/* Of the area to the power of 3/2: a plate of a square metre is flat where it is thinner than 3 micrometres.
- */
+/* Fraction of the area to the power of 3/2: a plate of one square metre is flat if it is thinner than 3
+ * micrometres. */
 static const double empty_volume = 1e-6;
 
 bool sbfi_flat_body_weigh(sbf_soft_body *body) {

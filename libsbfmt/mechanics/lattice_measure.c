@@ -1,11 +1,11 @@
-/* How good a lattice is: volumes, dihedral angles and quality of its tetrahedra. */
+/* Measures the quality of a lattice: volumes, dihedral angles and quality of its tetrahedra. */
 #include <math.h>
 
 #include "mechanics/angle.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
-/* Cosines of the bins' lower ends but the first; a bin begins with its end. */
+/* Cosines of the lower bounds of all bins but the first; bins include their lower bound. */
 static const double cosines[SBF_DIHEDRAL_BINS - 1] = {0.98480775301220806, 0.93969262078590838,
     0.86602540378443865, 0.76604444311897804, 0.64278760968653933, 0.5, 0.34202014332566873,
     0.17364817766693035, 0, -0.17364817766693035, -0.34202014332566873, -0.5, -0.64278760968653933,
@@ -24,7 +24,7 @@ static double angle_of(double cosine) {
 
 void sbf_lattice_measure(
     const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count, sbf_lattice_measures *measures) {
-  double max = -2, min = 2; /* cosines */
+  double max = -2, min = 2; /* as cosines */
   *measures = (sbf_lattice_measures){.min_dihedral_deg = 180};
   for (uint32_t t = 0; t < count; t++) {
     sbfi_d3 at[4], normals[4];

@@ -4,7 +4,7 @@
 
 static void weigh(const sbf_weight_map *map, const sbf_level *level, float *values) {
   double sum = 0;
-  /* What the map names is turned negative, so that the rest can be told without memory for marks. */
+  /* Negates the mapped values to mark them, so that the others are found without extra memory. */
   for (uint32_t i = 0; i < map->values.count; i++) {
     uint32_t point = sbfi_level_point(level, i);
     sum += map->values.at[i];

@@ -1,10 +1,10 @@
-/* From a body's source points to a level's. */
+/* Maps a body's source points to a level's points. */
 #ifndef SBFI_LEVEL_POINTS_H
 #define SBFI_LEVEL_POINTS_H
 
 #include "sbfmt/model.h"
 
-/* Place in the level of a source point; UINT32_MAX where it has none. */
+/* Level point of a source point; UINT32_MAX if it has none. */
 static inline uint32_t sbfi_level_point(const sbf_level *level, uint32_t source_point) {
   uint32_t index = source_point;
   if (level->new_from_old.count > 0)
@@ -13,7 +13,7 @@ static inline uint32_t sbfi_level_point(const sbf_level *level, uint32_t source_
 }
 
 /* Multiplies `values` (level->positions.count, none negative) by the body's weight maps of the property;
- * points that no source point became take the mean of the map. */
+ * points without a source point use the mean of the map. */
 void sbfi_level_weigh(
     const sbf_soft_body *body, const sbf_level *level, sbf_weight_property property, float *values);
 

@@ -1,6 +1,6 @@
-/* The lowest mode by Rayleigh and Ritz: the fields allowed are polynomials of second degree in the place, so
- * a body can move, turn, stretch, bend and twist as a whole, and nothing else. Inverse iteration from there.
- */
+/* Lowest mode by the Rayleigh-Ritz method with quadratic polynomials of the position as displacement
+ * fields, so that a body can translate, rotate, stretch, bend and twist as a whole; then inverse
+ * iteration. */
 #include <string.h>
 
 #include "mechanics/network.h"
@@ -11,11 +11,11 @@ enum { MONOMIALS = 10, FIELDS = 3 * MONOMIALS, MAX_NULL = 6, INVERSE_STEPS = 4, 
 
 typedef struct basis {
   const sbf_spring_network *network;
-  const double *scale_of; /* (point_count) 1 / root of the mass; 0: held, or too loose to count */
+  const double *scale_of; /* (point_count) 1 / root of the mass; 0: pinned or too loose */
   sbfi_d3 center;
   double shrink;                 /* 1 / size of the body */
-  uint32_t null_count;           /* fields that nothing resists */
-  double null[MAX_NULL][FIELDS]; /* their coefficients, monomial by monomial, orthonormal by mass */
+  uint32_t null_count;           /* number of fields without stiffness */
+  double null[MAX_NULL][FIELDS]; /* coefficients by monomial, orthonormal with respect to mass */
 } basis;
 
 static void evaluate(const basis *of, uint32_t point, double monomials[MONOMIALS]) {
@@ -30,8 +30,8 @@ static double mass_of(const basis *of, uint32_t point) {
   return scale > 0 ? 1 / (scale * scale) : 0;
 }
 
-/* A point on one spring, where others have three and more, swings loose about it: its pendulum modes say
- * nothing of the body, and it is counted as held. */
+/* A point on a single spring, where others have three or more, swings like a pendulum. Such modes are
+ * irrelevant for the body, so the point counts as pinned. */
 static void find_scales(const sbf_spring_network *network, double *scale_of) {
   double max = 0;
   for (uint32_t i = 0; i < network->point_count; i++)
@@ -64,8 +64,8 @@ static void fill_basis(basis *of, const sbf_spring_network *network, const doubl
   if (spread > 0) of->shrink = sqrt(mass / spread);
 }
 
-/* Scalar fields orthonormal by mass, `coefficients` (MONOMIALS x count) by columns. Combinations that vanish
- * at all points, as z in a flat body, are left out. */
+/* Makes scalar fields orthonormal with respect to mass, `coefficients` (MONOMIALS x count) by columns.
+ * Drops combinations that vanish at all points, such as z in a flat body. */
 static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOMIALS]) {
   double gram[MONOMIALS * MONOMIALS] = {0}, vectors[MONOMIALS * MONOMIALS], phi[MONOMIALS], max = 0;
   for (uint32_t i = 0; i < of->network->point_count; i++) {
@@ -87,14 +87,14 @@ static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOM
   return count;
 }
 
-/* Adds one element's part to the energy matrix: k g g^T. */
+/* Adds an element's term to the energy matrix: k g g^T. */
 static void add_energy(double stiffness[FIELDS * FIELDS], double k, const double g[FIELDS]) {
   for (int a = 0; a < FIELDS; a++)
     for (int b = 0; b <= a && g[a] != 0; b++) stiffness[a * FIELDS + b] += k * g[a] * g[b];
 }
 
-/* Hooke's law as a sum of squares: lambda (tr e)^2 + 2 mu sum e_ii^2 + mu sum of the squared shears, halved.
- */
+/* Hooke's law as a sum of squares: half of lambda (tr e)^2 + 2 mu sum e_ii^2 + mu sum of the squared
+ * shears. */
 static void add_tetrahedra(const basis *of, double stiffness[FIELDS * FIELDS]) {
   const sbf_spring_network *network = of->network;
   double phi[MONOMIALS], slopes[3][MONOMIALS], g[FIELDS];
@@ -179,8 +179,8 @@ static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
     for (int b = a + 1; b < FIELDS; b++) stiffness[a * FIELDS + b] = stiffness[b * FIELDS + a];
 }
 
-/* The lowest eigenvalue above nothing, with its field; the fields below go into the basis' null fields.
- * Returns 0 where there is none. */
+/* Finds the lowest eigenvalue above zero and its field; stores fields below it as null fields. Returns 0
+ * if there is none. */
 static double ritz(basis *of, double threshold, double field[FIELDS]) {
   double coefficients[MONOMIALS * MONOMIALS], full[FIELDS * FIELDS], small[FIELDS * FIELDS],
       vectors[FIELDS * FIELDS], half[FIELDS];
@@ -218,7 +218,7 @@ static double ritz(basis *of, double threshold, double field[FIELDS]) {
   return lowest < 0 ? 0 : small[lowest * (count + 1)];
 }
 
-/* The field's displacement at a point times the root of its mass. */
+/* Displacement of the field at a point times the root of its mass. */
 static void weigh(const basis *of, const double field[FIELDS], uint32_t point, double v[3]) {
   double phi[MONOMIALS], root = sqrt(mass_of(of, point));
   evaluate(of, point, phi);
@@ -244,8 +244,8 @@ static void project(const void *user, double *v) {
   }
 }
 
-/* Inverse iteration in coordinates scaled by the root of the mass; gives up, with `start`, where the quotient
- * falls to less than a quarter: then it has left the body's mode for some loose part. */
+/* Inverse iteration in mass-normalized coordinates. Returns `start` if the quotient falls below a quarter,
+ * because it then converges to a loose part instead of the body's mode. */
 static double iterate(const basis *of, double start, const double field[FIELDS], double *scratch) {
   const sbf_spring_network *network = of->network;
   size_t size = 3 * (size_t)network->point_count;
@@ -267,8 +267,8 @@ static double iterate(const basis *of, double start, const double field[FIELDS],
   return best;
 }
 
-/* Of the square of the bound, what nothing resists stays below: sheets bend a million times as easily as they
- * stretch. */
+/* Fraction of the squared bound below which a mode has no stiffness: sheets bend a million times as easily
+ * as they stretch. */
 static const double NOTHING = 1e-10, NOTHING_OF_SHEETS = 1e-14;
 
 double sbf_network_lowest(const sbf_spring_network *network, bool refine, double *scratch) {

@@ -27,8 +27,8 @@ static double tension(const sbfi_tetrahedron *t, double j) {
   return t->lame.lambda * (j - 1) - t->lame.mu;
 }
 
-/* In H = F - 1, so that small strains do not drown in what cancels at rest: J - 1 = tr H + h + det H with h
- * the sum of H's principal minors, and the terms in tr H alone cancel. */
+/* Uses H = F - 1 to avoid cancellation at small strains: J - 1 = tr H + h + det H with h the sum of H's
+ * principal minors; the terms in tr H alone cancel. */
 double sbfi_tetrahedron_energy(const sbfi_tetrahedron *t, const sbfi_d3 x[4]) {
   sbfi_columns f = sbfi_tetrahedron_gradient(t, x);
   f.at[0].x -= 1, f.at[1].y -= 1, f.at[2].z -= 1;
@@ -66,8 +66,8 @@ void sbfi_tetrahedron_product(
   products[0] = sbfi_d3_scale(sbfi_d3_add(sbfi_d3_add(products[1], products[2]), products[3]), -1);
 }
 
-/* The part of corners i and j: mu g_i.g_j 1 + lambda c_i c_j^T + s d^2 J / dx_i dx_j with c = cof F g. That
- * last is u -> u x F (g_i x g_j): take g_i = a x b in cof F (a x b) = F a x F b and vary F by u g_j^T. */
+/* Block of corners i and j: mu g_i.g_j 1 + lambda c_i c_j^T + s d^2 J / dx_i dx_j with c = cof F g. The
+ * last term is u -> u x F (g_i x g_j): set g_i = a x b in cof F (a x b) = F a x F b and vary F by u g_j^T. */
 void sbfi_tetrahedron_compute_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]) {
   sbfi_columns f = sbfi_tetrahedron_gradient(t, x), cofactors = sbfi_cofactors(&f);
   double s = tension(t, sbfi_d3_dot(f.at[0], cofactors.at[0])), v = t->volume;
@@ -100,7 +100,7 @@ sbfi_strains sbfi_tetrahedron_strains(const sbfi_tetrahedron *t, const sbfi_d3 x
   sbfi_strains strains = {0, -1};
   for (int i = 0; i < 3; i++) {
     double value = sqrt(squares[4 * i] > 0 ? squares[4 * i] : 0);
-    if (i == min && sbfi_determinant(&f) < 0) value = -value; /* turned inside out along that axis */
+    if (i == min && sbfi_determinant(&f) < 0) value = -value; /* inverted along that axis */
     if (fabs(value - 1) > strains.max) strains.max = fabs(value - 1);
     if (value - 1 > strains.stretch) strains.stretch = value - 1;
   }

@@ -1,23 +1,22 @@
-/* The neo-Hookean tetrahedron, in double precision: what every scheme, the tests and `build` take a
- * tetrahedron to be. The schemes' own kernels (runtime/solvers) are written out for eight lanes in single
- * precision and are tested against these.
+/* Neo-Hookean tetrahedron in double precision: the reference for all schemes, the tests and `build`. The
+ * schemes' own kernels (runtime/solvers) process eight lanes in single precision and are tested against it.
  *
  * With F the deformation gradient, J = det F, V the rest volume in m^3, and E in Pa and nu for small strains,
  *
  *   U = V (mu/2 (F:F - 3) + lambda/2 (J - gamma)^2 - mu^2 / (2 lambda))
  *   mu = E / (2 (1 + nu)),   lambda = E / (2 (1 + nu) (1 - 2 nu)),   gamma = 1 + mu / lambda
  *
- * which is Smith, de Goes and Kim, Stable Neo-Hookean Flesh Simulation, ACM Transactions on Graphics 37 (2),
- * 2018, without the logarithm of their equation 14, which has no closed rest state: their reparametrisation
- * lambda = lambda_Lame + mu and gamma above make F = 1 the rest state and the second derivatives there
- * Hooke's law with E and nu exactly. U is a polynomial in the places, finite and smooth for inverted
- * elements. What the logarithm would have done is to make F = 0 a saddle: here an element shrunk alike along
- * all three axes below the share a with lambda a (1 + a + a^2) = mu (a sixth for nu = 0.4) is drawn on to a
- * point. Flat, turned and scrambled ones are not.
+ * This is Smith, de Goes and Kim, Stable Neo-Hookean Flesh Simulation, ACM Transactions on Graphics 37 (2),
+ * 2018, without the logarithm of their equation 14, with which the rest state has no closed form. Their
+ * reparametrization lambda = lambda_Lame + mu and gamma above make F = 1 the rest state and the second
+ * derivatives there exactly Hooke's law with E and nu. U is a polynomial in the positions, finite and smooth
+ * for inverted elements. The logarithm would make F = 0 a saddle. Without it an element shrunk equally along
+ * all three axes below the ratio a with lambda a (1 + a + a^2) = mu (a sixth for nu = 0.4) collapses to a
+ * point. Flat, inverted and randomly deformed elements recover.
  *
  * F = sum_i x_i g_i^T with g_i the gradients of the four linear shape functions at rest, P = dU/dF / V = mu F
- * + lambda (J - gamma) cof F, and the force on corner i is -V P g_i. J is linear in each corner, so that the
- * block of second derivatives that belongs to one corner, V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T), is
+ * + lambda (J - gamma) cof F, and the force on corner i is -V P g_i. J is linear in each corner, so the
+ * diagonal block of second derivatives of a corner, V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T), is
  * positive definite in every state. */
 #ifndef SBFI_NEO_HOOKEAN_H
 #define SBFI_NEO_HOOKEAN_H
@@ -39,16 +38,16 @@ typedef struct sbfi_tetrahedron {
   sbfi_lame lame;
 } sbfi_tetrahedron;
 
-/* A 3 x 3 matrix as its columns. */
+/* A 3 x 3 matrix by columns. */
 typedef struct sbfi_columns {
   sbfi_d3 at[3];
 } sbfi_columns;
 
-/* From the corners' places at rest; false where they enclose nothing or are listed the other way round (then
- * volume is not above 0 and nothing else is set). */
+/* From the rest positions of the corners; false if the tetrahedron is flat or inverted (then volume is not
+ * above 0 and nothing else is set). */
 bool sbfi_tetrahedron_make(sbfi_tetrahedron *made, const sbfi_d3 rest[4], sbfi_lame lame);
 
-/* sum_i v_i g_i^T: F of places, dF of displacements. */
+/* sum_i v_i g_i^T: F for positions, dF for displacements. */
 static inline sbfi_columns sbfi_tetrahedron_gradient(const sbfi_tetrahedron *t, const sbfi_d3 v[4]) {
   sbfi_d3 a = sbfi_d3_sub(v[1], v[0]), b = sbfi_d3_sub(v[2], v[0]), c = sbfi_d3_sub(v[3], v[0]);
   const sbfi_d3 *g = t->gradients;
@@ -72,16 +71,17 @@ static inline sbfi_d3 sbfi_columns_times(const sbfi_columns *m, sbfi_d3 v) {
       sbfi_d3_add(sbfi_d3_scale(m->at[0], v.x), sbfi_d3_scale(m->at[1], v.y)), sbfi_d3_scale(m->at[2], v.z));
 }
 
-/* J of the places `x`: below 0 inside out. */
+/* J at positions `x`: below 0 if inverted. */
 double sbfi_tetrahedron_volume_ratio(const sbfi_tetrahedron *t, const sbfi_d3 x[4]);
-/* U in J: 0 at rest, never below. */
+/* U in J: 0 at rest, otherwise not below. */
 double sbfi_tetrahedron_energy(const sbfi_tetrahedron *t, const sbfi_d3 x[4]);
-/* Forces in N on the corners, which sum to 0 in force and moment. */
+/* Forces on the corners in N; force and moment sum to 0. */
 void sbfi_tetrahedron_compute_forces(const sbfi_tetrahedron *t, const sbfi_d3 x[4], sbfi_d3 forces[4]);
-/* The second derivatives at `x` times the displacements u, in N: minus the change of the forces. */
+/* Second derivatives at `x` times displacements u, in N: minus the change of the forces. */
 void sbfi_tetrahedron_product(
     const sbfi_tetrahedron *t, const sbfi_d3 x[4], const sbfi_d3 u[4], sbfi_d3 products[4]);
-/* v times the same at rest times u, in J: the work that the forces of small displacements u do along v. */
+/* v times the second derivatives at rest times u, in J: work of the forces of small displacements u along
+ * v. */
 static inline double sbfi_tetrahedron_rest_work(
     const sbfi_tetrahedron *t, const sbfi_d3 u[4], const sbfi_d3 v[4]) {
   sbfi_columns d = sbfi_tetrahedron_gradient(t, u), e = sbfi_tetrahedron_gradient(t, v);
@@ -92,10 +92,9 @@ static inline double sbfi_tetrahedron_rest_work(
   double traces = (d.at[0].x + d.at[1].y + d.at[2].z) * (e.at[0].x + e.at[1].y + e.at[2].z);
   return t->volume * (t->lame.mu * (2 * along + across) + (t->lame.lambda - t->lame.mu) * traces);
 }
-/* The whole matrix of second derivatives, block of corners i and j by block, N/m:
- * blocks[i][j][3 * row + column]. */
+/* Full matrix of second derivatives by blocks of corners i and j, N/m: blocks[i][j][3 * row + column]. */
 void sbfi_tetrahedron_compute_hessian(const sbfi_tetrahedron *t, const sbfi_d3 x[4], double blocks[4][4][9]);
-/* Largest |s - 1| over the singular values s of F, and their largest s - 1: what yields and what tears. */
+/* Largest |s - 1| over the singular values s of F, and largest s - 1, for yield and tear. */
 typedef struct sbfi_strains {
   double max, stretch;
 } sbfi_strains;

@@ -95,7 +95,7 @@ void sbfi_network_solve(const sbf_spring_network *network, const double *scale, 
     sbfi_network_apply(network, scale, p, q);
     double resisted = sbfi_dot(p, q, size), quotient = resisted / sbfi_dot(p, p, size);
     if (quotient > stiffest) stiffest = quotient;
-    if (!(quotient > 1e-12 * stiffest)) break; /* nothing but rounding resists this way */
+    if (!(quotient > 1e-12 * stiffest)) break; /* no stiffness in this direction beyond rounding */
     double step = left / resisted;
     for (size_t i = 0; i < size; i++) {
       y[i] += step * p[i];
@@ -105,7 +105,7 @@ void sbfi_network_solve(const sbf_spring_network *network, const double *scale, 
     left = sbfi_dot(r, r, size);
     for (size_t i = 0; i < size; i++) p[i] = r[i] + left / before * p[i];
   }
-  /* K takes nothing into the null fields, so that only rounding has to be swept out. */
+  /* K maps nothing into the null fields, so this removes only rounding errors. */
   if (null_fields.project) null_fields.project(null_fields.user, y);
 }
 
@@ -114,7 +114,7 @@ double sbf_network_static(const sbf_spring_network *network, const double *force
   uint32_t count = network->point_count;
   size_t size = 3 * (size_t)count;
   double *scale = scratch, *r = scratch + count, *work = r + size;
-  /* Scaled by the sum of what resists at each point: the cheapest preconditioner there is. */
+  /* Scales by the stiffness at each point: the cheapest preconditioner. */
   for (uint32_t i = 0; i < count; i++)
     scale[i] = network->anchors && network->masses[i] > 0 ? network->anchors[i] : 0;
   for (uint32_t s = 0; s < network->spring_count; s++)

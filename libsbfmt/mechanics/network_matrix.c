@@ -35,7 +35,7 @@ static bool take_elements(sbfi_network_matrix *m, const float *stated, sbfi_aren
   return true;
 }
 
-/* The pairs of points that act on each other, held ones left out. */
+/* Collects pairs of interacting free points. */
 static bool make_pattern(sbfi_network_matrix *m, sbfi_arena *arena) {
   const sbf_spring_network *n = m->network;
   size_t max = 12 * (size_t)n->tetrahedron_count + 2 * (size_t)n->spring_count, count = 0;
@@ -80,8 +80,8 @@ static void add_block(sbfi_network_matrix *m, uint32_t index, const double *bloc
   for (int k = 0; k < 9; k++) to[k] += factor * block[k];
 }
 
-/* A spring's block k n n^T + k (1 - l0 / l) (1 - n n^T); what resists sideways only, and negatively where it
- * is pressed, is left out there. */
+/* A spring's block k n n^T + k (1 - l0 / l) (1 - n n^T). Drops the lateral term of a compressed spring,
+ * which is negative. */
 static void spring_block(
     const sbfi_network_matrix *m, uint32_t spring, const double *positions, double block[9]) {
   const sbf_spring_network *n = m->network;

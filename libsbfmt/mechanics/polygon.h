@@ -1,4 +1,4 @@
-/* A polygon of a mesh: its middle and its vector area. */
+/* Centre and area vector of a polygon. */
 #ifndef SBFI_POLYGON_H
 #define SBFI_POLYGON_H
 
@@ -11,8 +11,9 @@ static inline sbfi_d3 sbfi_polygon_middle(const sbf_vec3 *positions, const uint3
   return sbfi_d3_scale(sum, 1.0 / size);
 }
 
-/* Half the sum of the cross products around the polygon: its length is the area, its direction the normal.
- * Taken from the middle, so that places far from the origin lose no digits. */
+/* Area vector: half the sum of the cross products around the polygon; its length is the area, its
+ * direction the normal. Computed relative to the centre, so that positions far from the origin lose no
+ * precision. */
 static inline sbfi_d3 sbfi_polygon_area(
     const sbf_vec3 *positions, const uint32_t *corners, uint32_t size, sbfi_d3 middle) {
   sbfi_d3 sum = {0, 0, 0}, last = sbfi_d3_sub(sbfi_d3_of(positions[corners[size - 1]]), middle);

@@ -1,7 +1,7 @@
-/* What a rigid body weighs, by the rules of the specification (8.2). */
+/* Mass of a rigid body by the rules of the specification (8.2). */
 #include "sbfmt/mechanics.h"
 
-/* Newton's iteration, which falls towards the root from above it. */
+/* Newton's iteration, which decreases towards the root from above. */
 static double cube_root(double value) {
   double root = value > 1 ? value : 1;
   if (!(value > 0)) return 0;
@@ -9,7 +9,7 @@ static double cube_root(double value) {
   return root;
 }
 
-/* Moment of a ball of the mass and density: for a body that states a mass and no shape. */
+/* Moment of inertia of a sphere of the mass and density, for a body with a mass but no shape. */
 static double moment_of_ball(double mass, double density) {
   double volume = density > 0 ? mass / density : 0;
   double radius = cube_root(volume * (3 / (4 * 3.14159265358979323846)));

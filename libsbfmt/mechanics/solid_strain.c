@@ -4,11 +4,11 @@
 
 #include "mechanics/symmetric_eigen.h"
 
-/* Flatter than this share of its height at rest an element does not flow. */
+/* An element flatter than this fraction of its rest height does not flow. */
 static const double MIN_STRETCH = 0.01;
 
-/* base^exponent, base > 0 and |exponent| <= 1: the logarithm of what many square roots leave near 1, by its
- * series, and the exponential likewise. */
+/* base^exponent, base > 0 and |exponent| <= 1: repeated square roots bring the base near 1, then series
+ * for logarithm and exponential. */
 static double power(double base, double exponent) {
   double root = base, factor = 2, term, sum = 0, result = 1;
   for (int i = 0; i < 40 && fabs(root - 1) > 0.02; i++) root = sqrt(root), factor *= 2;

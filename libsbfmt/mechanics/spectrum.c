@@ -1,9 +1,9 @@
-/* Largest frequency: Gershgorin's circles over the blocks of M^-1 K (Golub & Van Loan, Matrix Computations,
- * section 7.2), and power iteration (section 7.3). */
+/* Largest frequency: Gershgorin's circles over the blocks of M^-1 K (Golub & Van Loan, Matrix
+ * Computations, section 7.2), and power iteration (section 7.3). */
 #include "mechanics/network.h"
 #include "mechanics/vector.h"
 
-/* K_e = V B^T C B with |dF|^2 <= |G| |u|^2: no more than this resists at each corner. */
+/* K_e = V B^T C B with |dF|^2 <= |G| |u|^2: an upper bound of the stiffness at each corner. */
 static void add_tetrahedra(const sbf_spring_network *network, double *sums) {
   sbfi_tetrahedron element;
   for (uint32_t t = 0; t < network->tetrahedron_count; t++) {
@@ -25,7 +25,7 @@ double sbf_network_highest_bound(const sbf_spring_network *network, double *scra
   for (uint32_t s = 0; s < network->spring_count; s++) {
     uint32_t a = network->ends[s].at[0], b = network->ends[s].at[1];
     double k = network->stiffness[s];
-    /* The point's own block, and the neighbour's where that can move. */
+    /* The point's own block, and the neighbour's if that is free. */
     scratch[a] += network->masses[b] > 0 ? 2 * k : k;
     scratch[b] += network->masses[a] > 0 ? 2 * k : k;
   }
@@ -37,7 +37,7 @@ double sbf_network_highest_bound(const sbf_spring_network *network, double *scra
   return sqrt(highest);
 }
 
-/* Numbers in -1..1 without pattern, always the same ones. */
+/* Deterministic pseudo-random numbers in -1..1. */
 static double scattered(uint64_t i) {
   uint64_t mixed = (i + 1) * UINT64_C(0x9e3779b97f4a7c15);
   mixed = (mixed ^ mixed >> 30) * UINT64_C(0xbf58476d1ce4e5b9);

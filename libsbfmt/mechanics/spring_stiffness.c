@@ -1,17 +1,17 @@
-/* Stiffness of springs that stand for a material. */
+/* Stiffness of springs that represent a material. */
 #include "mechanics/level_points.h"
 #include "mechanics/symmetric_eigen.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
-/* Springs shorter than this share of the mean of their neighbours count as that long. */
+/* Springs shorter than this fraction of the mean of their neighbours count as that long. */
 static const double short_fraction = 0.5;
 
 static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
 }
 
-/* Of the springs at a point: the sum of their lengths, and how many they are. */
+/* Springs at a point: sum of their lengths, and their number. */
 typedef struct length_sum {
   double length, count;
 } length_sum;
@@ -50,17 +50,17 @@ void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_
   distribute_volumes(modulus, positions, volumes, ends, spring_count, sums, stiffness);
 }
 
-/* What is gathered of the anchored springs at one free point. */
+/* Sums over the anchored springs of one free point. */
 typedef struct anchored {
   double count, squares,
-      fourths;      /* springs, sums of c^2 and c^4; then a, b of k = a + b c^2 in the first two */
+      fourths;      /* number of springs, sums of c^2 and c^4; then a, b of k = a + b c^2 in the first two */
   double tensor[6]; /* sum of k n n^T: xx yy zz xy yz zx */
 } anchored;
 
 enum { ANCHORED_NUMBERS = 9, MAX_RAISED = 4 /* twice the frequency */ };
 static const double min_fraction = 0.05;
 
-/* The free end, or the point count where the spring does not join a held to a free point. */
+/* The free end; the point count if the spring does not connect a pinned to a free point. */
 static uint32_t free_end(const uint8_t *pinned, sbf_uint2 ends, uint32_t point_count) {
   if (!pinned[ends.at[0]] == !pinned[ends.at[1]]) return point_count;
   return pinned[ends.at[0]] ? ends.at[1] : ends.at[0];
@@ -75,30 +75,30 @@ static double squared_cosine(sbf_vec3 normal, const sbf_vec3 *positions, sbf_uin
   return c * c;
 }
 
-/* a and b of k = a + b c^2 for a trace of 1, 0.6 of it along the axis:
- * n a + S2 b = 1 and S2 a + S4 b = 0.6. Where all springs lean alike only the trace can be met; where the two
- * would have a spring push for a pull, b is cut so that the weakest keeps a tenth of the mean. */
+/* a and b of k = a + b c^2 for a trace of 1, 0.6 of it along the axis: n a + S2 b = 1 and S2 a + S4 b =
+ * 0.6. If all springs have equal angles only the trace can be matched. If the solution has negative
+ * stiffnesses, b is reduced so that the weakest keeps a tenth of the mean. */
 static void fit(anchored *at) {
   double determinant = at->count * at->fourths - at->squares * at->squares, mean = 1 / at->count;
   double b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
   double mean_square = at->squares / at->count;
-  /* With the trace kept, k = mean + b (c^2 - mean square), and c^2 lies in 0..1. */
+  /* With the trace preserved, k = mean + b (c^2 - mean square), and c^2 is in 0..1. */
   double min = b > 0 ? mean - b * mean_square : mean + b * (1 - mean_square);
   if (min < 0.1 * mean) b *= 0.9 * mean / (mean - min);
   at->count = mean - b * mean_square;
   at->squares = b;
 }
 
-/* Raises all springs of a point where some direction is next to free. */
+/* Raises all springs of a point if some direction has almost no stiffness. */
 static void raise(anchored *at) {
   const double *t = at->tensor;
   double matrix[9] = {t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]}, vectors[9];
   sbfi_symmetric_compute_eigen(3, matrix, vectors);
   double min = matrix[0] < matrix[4] ? matrix[0] : matrix[4];
   if (matrix[8] < min) min = matrix[8];
-  double wanted = min_fraction / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
+  double wanted = min_fraction / SBF_STIFFNESS_ANCHOR, raised = 1; /* for a trace of 1 */
   if (min < wanted) raised = min > wanted / MAX_RAISED ? wanted / min : MAX_RAISED;
-  if (min < 1e-6) raised = 1; /* no spring leads there: none can help */
+  if (min < 1e-6) raised = 1; /* no spring has that direction: none can help */
   at->count *= raised;
   at->squares *= raised;
 }

@@ -14,11 +14,11 @@ typedef struct statics {
   const sbf_spring_network *network;
   sbfi_arena arena;
   sbfi_network_matrix derivatives;
-  bool coarse; /* `space` is there */
+  bool coarse; /* `space` is in use */
   sbfi_coarse_space space;
-  double *load;                                              /* (3 x points) N, 0 at held points */
+  double *load;                                              /* (3 x points) N, 0 at pinned points */
   double *forces, *direction, *residual, *z, *p, *q, *trial; /* (3 x points) */
-  double rounding_j;                                         /* what the energy's sum may be wrong by */
+  double rounding_j;                                         /* rounding error of the energy's sum */
   uint32_t products, steps, max_steps;
   bool ended;
 } statics;
@@ -94,7 +94,7 @@ static double energy_of(const statics *s, const double *positions) {
   return energy;
 }
 
-/* Forces on free points, the load's included; 0 on held ones. Returns their length. */
+/* Forces on free points, including the load; 0 on pinned ones. Returns their length. */
 static double find_forces(const statics *s, const double *positions, double *forces) {
   const sbf_spring_network *n = s->network;
   size_t size = 3 * (size_t)n->point_count;
@@ -139,7 +139,7 @@ static void precondition(const statics *s) {
   if (s->coarse) sbfi_coarse_space_add(&s->space, s->residual, s->z);
 }
 
-/* Solves matrix way = forces until what remains is `fraction` of it, or curvature turns negative. */
+/* Solves matrix * direction = forces until the residual is `fraction` of it, or the curvature is negative. */
 static void find_direction(statics *s, double fraction) {
   size_t size = 3 * (size_t)s->network->point_count;
   memset(s->direction, 0, size * sizeof *s->direction);
@@ -169,7 +169,8 @@ static void find_direction(statics *s, double fraction) {
   }
 }
 
-/* Goes along the way until the energy has fallen enough. False: it does not fall any more. */
+/* Line search along the direction until the energy has decreased enough. False if it does not decrease any
+ * more. */
 static bool go(statics *s, double *positions, double *energy) {
   size_t size = 3 * (size_t)s->network->point_count;
   double slope = sbfi_dot(s->forces, s->direction, size), step = 1;
@@ -179,7 +180,7 @@ static bool go(statics *s, double *positions, double *energy) {
     for (size_t i = 0; i < size; i++) s->trial[i] = positions[i] + step * s->direction[i];
     double reached = energy_of(s, s->trial), rounding = s->rounding_j + 1e-14 * fabs(reached);
     bool falls = reached <= *energy - SUFFICIENT_FALL * step * slope;
-    /* Near the end the fall drowns in rounding; there smaller forces decide. */
+    /* Near the end the decrease is below rounding; then smaller forces decide. */
     if (!falls && fabs(reached - *energy) <= rounding) falls = find_forces(s, s->trial, s->q) < before;
     if (!falls) continue;
     memcpy(positions, s->trial, size * sizeof *positions);
@@ -201,7 +202,7 @@ static double min_ratio(const statics *s, const double *positions) {
   return min;
 }
 
-/* Its patches go by the matrix at rest. */
+/* Uses the matrix at rest for its patches. */
 static bool make_space(statics *s) {
   s->coarse = sbfi_coarse_space_helps(s->network);
   if (!s->coarse) return true;
@@ -220,7 +221,8 @@ static void iterate(statics *s, double *positions, sbfi_static_outcome *outcome)
     outcome->residual = reference > 0 ? length / reference : 0;
     outcome->converged = outcome->residual <= tolerance;
     if (outcome->converged || s->steps == s->max_steps || !continues(s)) break;
-    /* As exact as the residual is small: superlinear, and no work is lost far away. */
+    /* Accuracy proportional to the residual: superlinear convergence without wasted work far from the
+     * solution. */
     double fraction = 0.1 * sqrt(outcome->residual < 1 ? outcome->residual : 1);
     sbfi_network_matrix_fill(&s->derivatives, positions);
     if (s->coarse) sbfi_coarse_space_fill(&s->space, &s->derivatives.matrix);

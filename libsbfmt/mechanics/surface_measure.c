@@ -1,4 +1,4 @@
-/* Area, volume and opening of a surface, and normals of its points. */
+/* Measures area, volume and openness of a surface, and normals of its points. */
 #include "mechanics/polygon.h"
 #include "mechanics/symmetric_eigen.h"
 #include "sbfmt/mechanics.h"
@@ -20,8 +20,8 @@ void sbf_surface_measure(
     sbfi_d3 middle = sbfi_polygon_middle(positions, corners, size);
     sbfi_d3 area = sbfi_polygon_area(positions, corners, size, middle);
     measures->area += sbfi_d3_length(area);
-    /* The triangles from the middle to the sides all hang on the middle: their cones from `about` sum to the
-     * vector area times the middle's place. */
+    /* The triangles from the centre to the edges share the centre: their cones from `about` sum to the
+     * area vector times the centre's position. */
     measures->volume += sbfi_d3_dot(sbfi_d3_sub(middle, about), area) / 3;
     sum = sbfi_d3_add(sum, area);
   }
@@ -56,8 +56,9 @@ void sbf_surface_point_normals(const sbf_polygon_mesh *mesh, sbf_vec3 *normals) 
     normals[i] = sbfi_d3_rounded(sbfi_d3_normal(sbfi_d3_of(normals[i])));
 }
 
-/* Adds a tetrahedron from the origin: volume v, first moment v/4 (a+b+c), second moments from the closed form
- * int x y = v/20 (sum over corners of x_i y_i + sum x_i sum y_i), the origin's corner being zero. */
+/* Adds a tetrahedron from the origin: volume v, first moment v/4 (a+b+c), second moments from the closed
+ * form int x y = v/20 (sum over corners of x_i y_i + sum x_i sum y_i), with the origin's corner being
+ * zero. */
 static void add_tetrahedron(
     sbfi_d3 a, sbfi_d3 b, sbfi_d3 c, double *volume, sbfi_d3 *first, double second[6]) {
   double v = sbfi_d3_dot(a, sbfi_d3_cross(b, c)) / 6;
@@ -72,8 +73,7 @@ static void add_tetrahedron(
   second[5] += v / 20 * (a.z * a.x + b.z * b.x + c.z * c.x + s.z * s.x);
 }
 
-/* Quaternion of the rotation with the columns x, y, z: the largest of its four numbers is worked out first.
- */
+/* Quaternion of the rotation with the columns x, y, z: computes the largest of its four components first. */
 static sbf_quat quaternion_of(sbfi_d3 x, sbfi_d3 y, sbfi_d3 z) {
   double w2 = 1 + x.x + y.y + z.z, x2 = 1 + x.x - y.y - z.z, y2 = 1 - x.x + y.y - z.z,
          z2 = 1 - x.x - y.y + z.z;
@@ -91,7 +91,7 @@ static sbf_quat quaternion_of(sbfi_d3 x, sbfi_d3 y, sbfi_d3 z) {
     double r = 2 * sqrt(z2);
     q[0] = (z.x + x.z) / r, q[1] = (z.y + y.z) / r, q[2] = r / 4, q[3] = (x.y - y.x) / r;
   }
-  double sign = q[3] < 0 ? -1 : 1; /* one of the two that mean the same rotation */
+  double sign = q[3] < 0 ? -1 : 1; /* chooses one of the two quaternions of a rotation */
   return (sbf_quat){(float)(sign * q[0]), (float)(sign * q[1]), (float)(sign * q[2]), (float)(sign * q[3])};
 }
 

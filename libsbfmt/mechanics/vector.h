@@ -1,4 +1,4 @@
-/* Three doubles: what the sums of this folder run in. */
+/* Vectors of three doubles, used for the sums in this folder. */
 #ifndef SBFI_MECHANICS_VECTOR_H
 #define SBFI_MECHANICS_VECTOR_H
 

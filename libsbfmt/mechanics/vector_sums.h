@@ -1,10 +1,10 @@
-/* Loops over vectors of doubles that compilers turn into wide ones, with a fixed order of sums. */
+/* Loops over vectors of doubles that compilers vectorize, with a fixed order of summation. */
 #ifndef SBFI_VECTOR_SUMS_H
 #define SBFI_VECTOR_SUMS_H
 
 #include <stddef.h>
 
-/* Dot product, in four partial sums that do not wait for each other. */
+/* Dot product in four independent partial sums. */
 static inline double sbfi_sum_of_products(const double *a, const double *b, size_t count) {
   double sums[4] = {0};
   size_t i = 0;

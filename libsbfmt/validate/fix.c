@@ -1,5 +1,5 @@
-/* Mends what can be mended without a choice: source parts first, then what is derived from them is made
- * again. */
+/* Repairs everything that has a unique repair: source parts first, then rebuilds what is derived from
+ * them. */
 #include <string.h>
 
 #include "validate/repair/repair.h"
@@ -16,7 +16,7 @@ static void take_first(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
-/* Source parts come first: what is derived from them is made again at the end. */
+/* Source parts come first: derived parts are rebuilt at the end. */
 static sbf_status run(sbfi_repair *m, sbf_diagnostic *error) {
   static void (*const passes[])(sbfi_repair *) = {sbfi_repair_rotations, sbfi_repair_weights,
       sbfi_repair_tetrahedra, sbfi_repair_winding, sbfi_repair_points, sbfi_repair_mesh_points,

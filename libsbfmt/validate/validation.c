@@ -18,7 +18,7 @@ void *sbfi_scratch(sbfi_validation *v, size_t count, size_t size) {
   return memory;
 }
 
-/* What stands behind the colon of the code's text: what to do. */
+/* Advice after the colon of the code's text. */
 static void add_advice(sbf_diagnostic *d) {
   const char *text = sbf_code_find(d->code)->text, *advice = strstr(text, ": ");
   size_t used = strlen(d->message), length = advice ? strlen(advice) : 0;

@@ -1,4 +1,4 @@
-/* What the rules share: where findings go, and scratch memory. */
+/* Shared by the rules: destination of findings, and scratch memory. */
 #ifndef SBFI_VALIDATION_H
 #define SBFI_VALIDATION_H
 
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "sbfmt/validate.h"
 
-/* How often one code was found at one place: only the first of them are listed. */
+/* Number of findings of one code at one path: only the first ones are listed. */
 typedef struct sbfi_tally {
   sbf_code code;
   uint32_t count;
@@ -18,9 +18,9 @@ typedef struct sbfi_validation {
   const sbf_asset *asset;
   const sbf_validate_options *options;
   sbf_validate_result *result;
-  sbfi_arena scratch; /* emptied after each family of rules */
+  sbfi_arena scratch; /* reset after each family of rules */
   uint32_t repeats;
-  char path[256]; /* what `tallies` are about */
+  char path[256]; /* path of `tallies` */
   sbfi_tally tallies[SBFI_MAX_TALLIES];
   uint32_t tally_count;
   bool out_of_memory;
@@ -32,24 +32,23 @@ typedef struct sbfi_path {
 } sbfi_path;
 sbfi_path sbfi_path_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A finding at an element path, about one item of the list there (-1: about the element). The text says what
- * is wrong; what to do about it is added from the code's own text, where that has something behind a colon.
- */
+/* Reports a finding at an element path, about one item of the list there (-1: about the element). The text
+ * describes the problem; advice is appended from the code's own text, if that has any after a colon. */
 void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Says how many findings were not listed at the place that is left now. */
+/* Reports the number of unlisted findings at the current path before it changes. */
 void sbfi_report_unlisted(sbfi_validation *v);
 
-/* Zeroed scratch memory, never NULL for want of a count; NULL, with out_of_memory set, where it ran out. */
+/* Zeroed scratch memory, not NULL for a count of 0; NULL, with out_of_memory set, if memory runs out. */
 void *sbfi_scratch(sbfi_validation *v, size_t count, size_t size);
 
-/* Whether there is more than one, for messages. */
+/* Plural ending, for messages. */
 static inline const char *sbfi_plural(uint64_t count) {
   return count == 1 ? "" : "s";
 }
 
-/* What messages call an object: by its name, or by its id where it has none. */
+/* Name of an object in messages: its name, or its id if it has none. */
 static inline const char *sbfi_label(const char *name, const char *id) {
   return *name ? name : id;
 }
@@ -58,7 +57,7 @@ static inline const char *sbfi_bone_label(const sbf_asset *asset, uint32_t bone)
   return sbfi_label(asset->bones.at[bone].name, asset->bones.at[bone].id);
 }
 
-/* Each family of rules, one file each. */
+/* The families of rules, one file each. */
 void sbfi_check_surfaces(sbfi_validation *v);
 void sbfi_check_lattices(sbfi_validation *v);
 void sbfi_check_regions(sbfi_validation *v);

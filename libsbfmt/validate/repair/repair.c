@@ -45,7 +45,7 @@ void sbfi_colors_drop(sbf_u32_list *counts, const uint8_t *dropped, uint32_t cou
   uint32_t *at = sbfi_writable(counts->at);
   uint64_t sum = 0;
   for (uint32_t c = 0; c < counts->count; c++) sum += at[c];
-  if (sum != count) return; /* reported as it is */
+  if (sum != count) return; /* reported unchanged */
   for (uint32_t c = 0, i = 0; c < counts->count; c++)
     for (uint32_t left = at[c]; left > 0; left--) at[c] -= dropped[i++];
 }

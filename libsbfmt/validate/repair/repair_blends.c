@@ -1,9 +1,8 @@
-/* Blends of vertices that several bodies carry, divided by their sum: what a runtime does with them anyway.
- */
+/* Normalizes blend weights of vertices that are embedded in several bodies, as a runtime does anyway. */
 #include "validate/repair/repair.h"
 #include <math.h>
 
-/* Levels of one place belong together only where all bodies of the mesh have as many. */
+/* Levels of one index correspond only if all bodies of the mesh have equally many. */
 static bool levels_are_alike(const sbf_asset *asset, uint32_t mesh, uint32_t *count) {
   *count = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
@@ -19,7 +18,7 @@ static bool levels_are_alike(const sbf_asset *asset, uint32_t mesh, uint32_t *co
   return true;
 }
 
-/* Runs through all embeddings of a mesh in levels of one place. */
+/* Iterates over all embeddings of a mesh in levels of one index. */
 static const sbf_embedding *next_embedding(
     const sbf_asset *asset, uint32_t mesh, uint32_t level, uint32_t *body, uint32_t *number) {
   for (; *body < asset->soft_bodies.count; ++*body, *number = 0) {
@@ -36,7 +35,7 @@ static uint32_t vertex_of(const sbf_embedding *e, uint32_t i) {
   return e->vertices.count ? e->vertices.at[i] : i;
 }
 
-/* Sums over all embeddings; false where some are not what they should be. */
+/* Sums over all embeddings; false if any of them is invalid. */
 static bool add_up(
     const sbf_asset *asset, uint32_t mesh, uint32_t level, double *sums, uint32_t vertex_count) {
   uint32_t body = 0, number = 0;

@@ -1,12 +1,12 @@
-/* Stale derived parts made anew, with the settings they were made with. Parts of another program, or of
- * settings that this one does not have, stay as they are. */
+/* Rebuilds stale derived parts with their original settings. Parts of other programs, or with unknown
+ * settings, stay unchanged. */
 #include <string.h>
 
 #include "build/build_settings.h"
 #include "build/source_reading.h"
 #include "validate/repair/repair.h"
 
-/* One build makes all derived parts: it can replace one derivation of its own, not those of others. */
+/* A build replaces all derived parts, so it works only if there is one derivation, made by this program. */
 static const sbf_derivation *stale_derivation(
     const sbf_asset *asset, sbf_status *status, sbf_diagnostic *error) {
   char hash[SBFI_SHA256_TEXT_SIZE];
@@ -26,7 +26,8 @@ sbf_status sbfi_repair_derived(sbfi_repair *m, sbf_diagnostic *error) {
   if (!stale || !sbfi_build_settings_read(stale->settings, &options)) return status;
   status = sbf_build(m->asset, &options, &built, NULL, &refused);
   if (status == SBF_FAILED && error) *error = refused;
-  if (status != SBF_OK) return status == SBF_FAILED ? status : SBF_OK; /* what cannot be built stays stale */
+  if (status != SBF_OK)
+    return status == SBF_FAILED ? status : SBF_OK; /* parts that cannot be built stay stale */
   if (strcmp(built->derivations.at[0].settings, stale->settings) != 0) {
     sbf_asset_free(built);
     return SBF_OK;

@@ -1,12 +1,12 @@
-/* Points of render meshes that no polygon of any of their levels uses, taken out. */
+/* Removes points of render meshes that no polygon of any level uses. */
 #include "validate/repair/repair.h"
 #include "validate/rules/mesh_use.h"
 
 typedef struct renumbering {
   sbfi_repair *m;
   sbf_render_mesh *mesh;
-  int32_t number;         /* of the mesh */
-  uint32_t count;         /* points before */
+  int32_t number;         /* index of the mesh */
+  uint32_t count;         /* number of points before */
   uint32_t *new_position; /* (count) */
   uint8_t *dropped;       /* (count) */
 } renumbering;
@@ -16,7 +16,7 @@ static void renumber(const renumbering *r, sbf_u32_list points) {
   for (uint32_t i = 0; i < points.count; i++) at[i] = r->new_position[at[i]];
 }
 
-/* An embedding that numbers vertices the mesh does not have says nothing sure about the others. */
+/* An embedding with invalid vertex indices is unreliable as a whole. */
 static bool is_sound(const sbf_embedding *e, uint32_t count) {
   if (e->vertices.count == 0) return e->points.count == count;
   if (e->vertices.count != e->points.count) return false;
@@ -25,7 +25,7 @@ static bool is_sound(const sbf_embedding *e, uint32_t count) {
   return true;
 }
 
-/* Each embedding of the mesh, one after the other; NULL at the end. */
+/* Iterates over the embeddings of the mesh; NULL at the end. */
 static sbf_embedding *next_embedding(
     const renumbering *r, uint32_t *body, uint32_t *level, uint32_t *number) {
   const sbf_soft_body_list bodies = r->m->asset->soft_bodies;
@@ -110,7 +110,7 @@ void sbfi_repair_mesh_points(sbfi_repair *m) {
     renumbering r = {m, mesh, (int32_t)i, count, sbfi_repair_scratch(m, count, sizeof *r.new_position),
         sbfi_repair_scratch(m, count, 1)};
     if (m->out_of_memory) return;
-    if (mesh->mesh.polygon_sizes.count == 0) continue; /* nothing says which points are meant */
+    if (mesh->mesh.polygon_sizes.count == 0) continue; /* without polygons the used points are unknown */
     sbfi_mesh_use_of(mesh, r.dropped);
     for (uint32_t p = 0; p < count; p++) {
       r.dropped[p] = !r.dropped[p];

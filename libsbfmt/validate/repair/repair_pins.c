@@ -1,9 +1,8 @@
-/* Pins that never act taken out: on a point that another pin holds fast already, or the same pin once more.
- */
+/* Removes pins without effect: on a point that another pin holds rigidly already, and duplicates. */
 #include "validate/repair/repair.h"
 #include "validate/rules/holding.h"
 
-/* The pin that holds a point, by its set from 1 and its place. */
+/* The pin of a point: its set from 1 and its index. */
 typedef struct holder {
   uint32_t set, index;
   bool fast;

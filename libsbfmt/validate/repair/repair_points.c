@@ -1,5 +1,5 @@
-/* Surface points of bodies that no polygon uses and nothing else names, taken out. All that counts source
- * points is renumbered; levels keep their points. */
+/* Removes surface points of bodies without any reference. Renumbers all indices of source points; levels
+ * keep their points. */
 #include <string.h>
 
 #include "mechanics/level_points.h"
@@ -8,7 +8,7 @@
 typedef struct renumbering {
   sbfi_repair *m;
   sbf_soft_body *body;
-  uint32_t count;         /* source points before */
+  uint32_t count;         /* number of source points before */
   uint32_t *new_position; /* (count) */
   uint8_t *dropped;       /* (count) */
 } renumbering;
@@ -17,7 +17,7 @@ static void use(uint8_t *used, sbf_u32_list points) {
   for (uint32_t i = 0; i < points.count; i++) used[points.at[i]] = 1;
 }
 
-/* What neither polygons nor pins nor attachments name. */
+/* Marks points that polygons, pins and attachments do not use. */
 static uint32_t mark_unused(renumbering *r, uint32_t *first) {
   uint32_t unused = 0;
   uint8_t *used = sbfi_repair_scratch(r->m, r->count, 1);
@@ -39,7 +39,7 @@ static void renumber(const renumbering *r, sbf_u32_list points) {
   for (uint32_t i = 0; i < points.count; i++) at[i] = r->new_position[at[i]];
 }
 
-/* An empty map means that numbers are the same, which they no longer are. */
+/* An empty map means equal numbering, which is no longer true. */
 static void renumber_level(renumbering *r, sbf_level *level) {
   if (level->new_from_old.count) {
     sbfi_list_drop(&level->new_from_old, sizeof *level->new_from_old.at, r->dropped);
@@ -55,10 +55,10 @@ static void renumber_level(renumbering *r, sbf_level *level) {
   level->new_from_old = (sbf_u32_list){map, next};
 }
 
-/* Of the body's own surface: what carried a point that is gone goes too. */
+/* For the body's own surface: removes embeddings of dropped points. */
 static void renumber_embedding(renumbering *r, sbf_embedding *e) {
   uint8_t *dropped = sbfi_repair_scratch(r->m, e->points.count, 1);
-  uint32_t surface = r->body->surface.positions.count; /* as before: it shrinks last */
+  uint32_t surface = r->body->surface.positions.count; /* the original count: it shrinks last */
   if (!dropped || (e->vertices.count && e->vertices.count != e->points.count)) return;
   for (uint32_t i = 0; i < e->points.count; i++) {
     uint32_t vertex = e->vertices.count ? e->vertices.at[i] : i;

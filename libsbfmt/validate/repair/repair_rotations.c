@@ -1,5 +1,5 @@
-/* Rotations and normals of unit length. A quaternion without length stands for no rotation, as the
- * specification says, and becomes that. */
+/* Normalizes rotations and normals. A quaternion of length 0 means no rotation, as in the specification,
+ * and becomes the identity. */
 #include "model/element_path.h"
 #include "validate/repair/repair.h"
 #include "validate/rules/pose.h"
@@ -37,7 +37,7 @@ static void walk(sbfi_repair *m, const sbfi_element_path *path) {
 }
 
 static void repair_keys(sbfi_repair *m, const sbf_track *track, uint32_t clip, uint32_t number) {
-  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* tangents stand around each value */
+  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* each value has tangents around it */
   uint32_t stride = cubic ? 12 : 4, first = cubic ? 4 : 0, count = 0, at = 0;
   if (track->property != SBF_TRACK_PROPERTY_ROTATION ||
       track->values.count != (size_t)track->times.count * stride)
@@ -61,7 +61,8 @@ static void repair_normals(sbfi_repair *m, const sbf_render_mesh *mesh, uint32_t
   for (uint32_t i = 0; i < mesh->normals.count; i++) {
     sbf_vec3 *normal = (sbf_vec3 *)sbfi_writable(mesh->normals.at) + i;
     double length = sbfi_d3_length(sbfi_d3_of(*normal));
-    if (fabs(length * length - 1) <= 0.02 || !(length > 0)) continue; /* no direction: nothing to decide */
+    if (fabs(length * length - 1) <= 0.02 || !(length > 0))
+      continue; /* zero length: the direction is unknown */
     *normal = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_of(*normal), 1 / length));
     if (count++ == 0) first = i;
   }

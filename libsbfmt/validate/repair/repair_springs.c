@@ -1,10 +1,10 @@
-/* Springs that do nothing taken out: from a point to itself, between two held points; and of springs that
- * say the same all but the first. */
+/* Removes springs without effect: from a point to itself or between two pinned points; of identical
+ * springs it keeps the first. */
 #include "build/springs/pair_set.h"
 #include "validate/repair/repair.h"
 #include "validate/rules/holding.h"
 
-/* A spring by its set and place. */
+/* A spring as set and index. */
 typedef struct spring {
   const sbf_spring_set *set;
   uint32_t index;
@@ -33,7 +33,7 @@ static spring spring_of(const sbf_level *level, uint32_t number) {
 typedef struct dropping {
   sbfi_repair *m;
   const sbf_level *level;
-  uint8_t *holds, *dropped; /* dropped: of all sets, one after the other */
+  uint8_t *holds, *dropped; /* dropped: of all sets, concatenated */
   sbfi_pair_set known;      /* numbers of springs over all sets */
   const char *path;
 } dropping;

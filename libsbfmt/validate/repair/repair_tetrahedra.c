@@ -1,5 +1,5 @@
-/* Tetrahedra the right way round, flat ones and repeated ones taken out. A flat one holds no matter and no
- * energy; a repeated one is dropped where it says nothing else than the first. */
+/* Flips inverted tetrahedra; removes flat and duplicate ones. A flat one has no mass and no energy; a
+ * duplicate is dropped if its values equal the first's. */
 #include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
 #include "validate/repair/repair.h"
@@ -51,7 +51,7 @@ static void check(const sbf_level *level, sbfi_key_set *known, uint8_t *dropped,
   }
 }
 
-/* A list of one value holds for all. */
+/* A list with one value applies to all. */
 static void drop_values(sbf_f32_list *values, const uint8_t *dropped) {
   if (values->count > 1) sbfi_list_drop(values, sizeof *values->at, dropped);
 }

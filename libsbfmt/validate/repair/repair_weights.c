@@ -1,10 +1,10 @@
-/* Weights that sum to one: of skins and of embedded vertices; pins no stronger than fast. */
+/* Normalizes weights of skins and embedded vertices, and limits pin weights to 1. */
 #include "validate/repair/repair.h"
 #include "validate/rules/pose.h"
 
-static const float ROUNDING = 1e-3f; /* a negative weight as small as this is 0 */
+static const float ROUNDING = 1e-3f; /* negative weights up to this size become 0 */
 
-/* Brings the weights of one point to the sum 1; false where they do not say what they mean. */
+/* Normalizes the weights of one point; false if they are invalid. */
 static bool normalise(float *weights, uint32_t count, bool *changed) {
   double sum = 0;
   bool outside = false;
@@ -32,8 +32,8 @@ static void repair_skin(sbfi_repair *m, const sbf_skin *skin, uint32_t mesh) {
       "weights of %u point%s divided by their sum", repaired, sbfi_plural(repaired));
 }
 
-/* Divided by their sum the weights must carry the vertex to where the mesh has it, or they mean something
- * else. */
+/* Normalizes only if the normalized weights reproduce the vertex's position, because otherwise they mean
+ * something else. */
 static bool repair_vertex(
     sbf_vec4 *weights, const sbf_uint4 *points, const sbf_vec3 *positions, sbf_vec3 vertex, double near) {
   const double w[4] = {weights->x, weights->y, weights->z, weights->w};
@@ -69,7 +69,7 @@ static void repair_embedding(sbfi_repair *m, const sbf_soft_body *body, const sb
       "weights divided by their sum: %u vert%s", repaired, repaired == 1 ? "ex" : "ices");
 }
 
-/* A pin is fast from 1 on: more means the same. */
+/* Pins from 1 on are rigid: larger values have no further effect. */
 static void repair_pins(sbfi_repair *m, const sbf_pin_set_list *sets, const char *parent) {
   for (uint32_t s = 0; s < sets->count; s++) {
     uint32_t repaired = 0, first = 0;

@@ -1,8 +1,8 @@
-/* Polygons turned so that neighbours face the same way, and closed surfaces outwards.
+/* Flips polygons so that neighbours face the same side, and closed surfaces outwards.
  *
- * A surface is taken shell by shell: polygons that hang together by edges which two of them share. In a shell
- * one polygon decides for all, if the shell has two sides at all; then either it encloses something, and
- * faces outwards, or the smaller part of its area is what gets turned. */
+ * Works shell by shell: polygons connected by edges of exactly two polygons. In an orientable shell one
+ * polygon determines all others. A shell that encloses volume must face outwards; otherwise the smaller
+ * part of its area is flipped. */
 #include "build/geometry/topology.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
@@ -11,12 +11,12 @@
 typedef struct shells {
   const sbf_polygon_mesh *mesh;
   sbfi_topology t;
-  uint32_t *queue; /* (polygon_count) the shell under way */
+  uint32_t *queue; /* (polygon_count) the current shell */
   uint8_t *seen, *turned;
 } shells;
 
 typedef struct shell {
-  uint32_t begin, end; /* in the queue */
+  uint32_t begin, end; /* range of the queue */
   bool clashes, closed, one_sided;
 } shell;
 
@@ -24,7 +24,7 @@ static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
   return t->edge_polygon_begins[edge + 1] - t->edge_polygon_begins[edge];
 }
 
-/* Whether the polygon passes the edge from its end 0 to its end 1. */
+/* Whether the polygon traverses the edge from end 0 to end 1. */
 static bool is_forward(const shells *s, uint32_t polygon, uint32_t edge) {
   for (uint32_t c = s->t.corner_begins[polygon]; c < s->t.corner_begins[polygon + 1]; c++)
     if (s->t.corner_edges[c] == edge) return s->mesh->polygon_points.at[c] == s->t.edges[edge].at[0];
@@ -34,7 +34,7 @@ static bool is_forward(const shells *s, uint32_t polygon, uint32_t edge) {
 static void visit_edge(shells *s, shell *of, uint32_t polygon, uint32_t edge) {
   const uint32_t *both = &s->t.edge_polygons[s->t.edge_polygon_begins[edge]];
   uint32_t other = both[0] == polygon ? both[1] : both[0];
-  if (other == polygon) return; /* it passes the edge twice, as around a bridged hole */
+  if (other == polygon) return; /* it traverses the edge twice, as around a bridged hole */
   bool clash = is_forward(s, polygon, edge) == is_forward(s, other, edge);
   uint8_t wanted = s->turned[polygon] ^ clash;
   of->clashes |= clash;
@@ -65,7 +65,7 @@ static shell collect(shells *s, uint32_t first, uint32_t begin) {
   return of;
 }
 
-/* The volume of the shell as it would be turned, and how much of its area would be. */
+/* Volume of the shell after flipping, and the fraction of its area that would be flipped. */
 static void measure(const shells *s, const shell *of, double *volume, double *turned_fraction) {
   double area = 0, turned = 0;
   sbfi_d3 origin =
@@ -115,7 +115,7 @@ static uint32_t turn_marked(const shells *s, uint32_t *first) {
   return count;
 }
 
-/* A volume that faces inwards as a whole, now that its polygons agree. */
+/* Flips a surface that faces inwards as a whole after its polygons agree. */
 static uint32_t turn_outwards(const sbf_soft_body *body, const shells *s, bool all_closed) {
   sbf_body_measures is;
   sbf_surface_measures surface;

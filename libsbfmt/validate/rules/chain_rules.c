@@ -1,4 +1,4 @@
-/* Chains, followers and lists of bones: bones in order, each once, oscillators that come to rest. */
+/* Checks chains, followers and bone lists: order, duplicates, damped oscillators. */
 #include "validate/rules/bone_chain.h"
 #include "validate/validation.h"
 
@@ -60,7 +60,7 @@ static void check_masks(sbfi_validation *v) {
   }
 }
 
-/* Frequency in Hz and damping ratio of anything that follows as a second-order system. */
+/* Checks frequency in Hz and damping ratio of a second-order follower. */
 static void check_oscillator(
     sbfi_validation *v, const char *what, double frequency, double damping_ratio, const char *path) {
   double tick = (double)v->asset->environment.control_tick;
@@ -77,7 +77,8 @@ static bool is_same_channel(sbf_follower_channel a, sbf_follower_channel b) {
 
 static void check_followers(sbfi_validation *v) {
   const sbf_follower_list all = v->asset->followers;
-  uint32_t *first = sbfi_scratch(v, 2 * (size_t)v->asset->bones.count, sizeof *first); /* follower, from 1 */
+  uint32_t *first =
+      sbfi_scratch(v, 2 * (size_t)v->asset->bones.count, sizeof *first); /* follower number from 1 */
   for (uint32_t i = 0; first && i < all.count; i++) {
     const sbf_follower *follower = &all.at[i];
     sbfi_path path = sbfi_path_of("/sbf/followers/follower[%u]", i + 1);

@@ -1,4 +1,4 @@
-/* Clips and poses: keys in order with as many values as they need, nothing keyed twice. */
+/* Checks clips and poses: ascending keys with the required number of values, no duplicate keys. */
 #include "validate/validation.h"
 
 typedef struct played {
@@ -31,7 +31,7 @@ static void check_times(const played *p, const sbf_track *track, const char *pat
 }
 
 static void check_scales(const played *p, const sbf_track *track, const char *path) {
-  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* tangents stand around each value */
+  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* each value has tangents around it */
   uint32_t stride = components_of(track), first = cubic ? 3 : 0;
   if (track->property != SBF_TRACK_PROPERTY_SCALE) return;
   for (uint32_t i = 0; i < track->values.count / stride; i++) {
@@ -57,7 +57,8 @@ static void check_track(const played *p, const sbf_track *track, const char *pat
 
 static void check_clips(sbfi_validation *v) {
   const size_t keyed_count = (size_t)v->asset->bones.count * SBF_TRACK_PROPERTY_COUNT;
-  uint32_t *keyed = sbfi_scratch(v, keyed_count, sizeof *keyed); /* clip, from 1, that keyed it last */
+  uint32_t *keyed =
+      sbfi_scratch(v, keyed_count, sizeof *keyed); /* number from 1 of the clip that keyed it last */
   for (uint32_t c = 0; keyed && c < v->asset->clips.count; c++) {
     const sbf_clip *clip = &v->asset->clips.at[c];
     played p = {v, clip, sbfi_label(clip->name, clip->id)};
@@ -80,8 +81,8 @@ static void check_clips(sbfi_validation *v) {
 
 static void check_poses(sbfi_validation *v) {
   const sbf_pose_list poses = v->asset->poses;
-  uint32_t *set =
-      sbfi_scratch(v, v->asset->bones.count, sizeof *set); /* pose, from 1, that set the bone last */
+  uint32_t *set = sbfi_scratch(
+      v, v->asset->bones.count, sizeof *set); /* number from 1 of the pose that set the bone last */
   for (uint32_t i = 0; set && i < poses.count; i++) {
     const sbf_pose *pose = &poses.at[i];
     const char *name = sbfi_label(pose->name, pose->id);

@@ -1,12 +1,12 @@
-/* Collision: layers and masks by which things do meet, sizes that fit the body. */
+/* Checks collision: layers and masks that allow contacts, sizes that fit the body. */
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-/* Things with the same layer and mask are one kind; files hold few kinds. */
+/* Objects with equal layer and mask are one kind; files have few kinds. */
 typedef struct kind {
   uint32_t layer, mask;
   const char *name;
-  sbfi_path path; /* of the first of them */
+  sbfi_path path; /* of the first object */
 } kind;
 
 enum { MAX_KINDS = 64 };

@@ -1,4 +1,4 @@
-/* Colours: as many elements as there are, none of one colour with a point in common. */
+/* Checks colours: counts match the elements, elements of one colour share no point. */
 #include "validate/validation.h"
 
 /* Elements as runs of `width` points, in colour order. */
@@ -19,7 +19,8 @@ static void check(
         (unsigned long long)sum, c->count);
     return;
   }
-  uint32_t *last = sbfi_scratch(v, point_count, sizeof *last); /* element from 1 that named the point last */
+  uint32_t *last =
+      sbfi_scratch(v, point_count, sizeof *last); /* number from 1 of the last element with the point */
   if (!last) return;
   for (uint32_t color = 0, begin = 0; color < c->counts.count; begin += c->counts.at[color++])
     for (uint32_t i = begin; i < begin + c->counts.at[color]; i++)

@@ -1,11 +1,12 @@
-/* Springs between bodies: levels and points that are there, two bodies, some length, each pair once. */
+/* Checks springs between bodies: existing levels and points, two different bodies, positive length, no
+ * duplicates. */
 #include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
 #include "validate/rules/holding.h"
 #include "validate/validation.h"
 
 typedef struct side {
-  const sbf_level *level; /* NULL: not there */
+  const sbf_level *level; /* NULL: missing */
   uint8_t *holds;
 } side;
 

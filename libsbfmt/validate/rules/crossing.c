@@ -5,16 +5,16 @@
 enum { MAX_PAIRS = 1024 };
 
 typedef struct triangle {
-  sbfi_d3 corners[3], normal; /* unit; zero where there is no area */
+  sbfi_d3 corners[3], normal; /* unit; zero for a degenerate triangle */
 } triangle;
 
 typedef struct finder {
   const sbfi_triangle_tree *tree;
   sbfi_box *boxes;     /* of the triangles */
-  triangle *triangles; /* as numbers to compute with */
+  triangle *triangles; /* in double precision */
   uint32_t *partners;
-  double slack;    /* m: what counts as lying in a plane */
-  uint64_t budget; /* pairs of boxes that may still be compared */
+  double slack;    /* m, tolerance for points in a plane */
+  uint64_t budget; /* remaining number of box pairs to compare */
 } finder;
 
 static bool overlap(const sbfi_box *a, const sbfi_box *b) {
@@ -23,7 +23,7 @@ static bool overlap(const sbfi_box *a, const sbfi_box *b) {
   return true;
 }
 
-/* Whether a point of the triangle's plane lies strictly inside it. */
+/* Whether a point of the triangle's plane is strictly inside it. */
 static bool holds(const triangle *t, sbfi_d3 position) {
   for (int k = 0; k < 3; k++) {
     sbfi_d3 side = sbfi_d3_sub(t->corners[(k + 1) % 3], t->corners[k]);
@@ -34,7 +34,7 @@ static bool holds(const triangle *t, sbfi_d3 position) {
   return true;
 }
 
-/* Whether a side of `a` goes through `b`. */
+/* Whether an edge of `a` passes through `b`. */
 static bool pierces(const triangle *a, const triangle *b, double slack) {
   double heights[3];
   for (int k = 0; k < 3; k++) heights[k] = sbfi_d3_dot(b->normal, sbfi_d3_sub(a->corners[k], b->corners[0]));
@@ -67,8 +67,8 @@ static void compare_leaves(finder *f, const sbfi_box_node *a, const sbfi_box_nod
       compare_triangles(f, items[a->first + i], items[b->first + k]);
 }
 
-/* All pairs of leaves whose boxes overlap, each once. The larger node of a pair is opened first, so that the
- * pairs waiting stay few. */
+/* Visits all pairs of overlapping leaves once. Opens the larger node of a pair first, which keeps the
+ * stack small. */
 static void walk(finder *f) {
   sbf_uint2 waiting[MAX_PAIRS];
   const sbfi_box_node *nodes = f->tree->tree.nodes;
@@ -86,7 +86,7 @@ static void walk(finder *f) {
       waiting[count++] = (sbf_uint2){{a->first + 1, a->first + 1}};
       waiting[count++] = (sbf_uint2){{a->first, a->first + 1}};
     } else {
-      /* children stand behind their parents, so the node of lower number is the larger one as a rule */
+      /* children come after their parents, so the node with the lower number is usually larger */
       bool open_a = !a->count && (b->count || pair.at[0] < pair.at[1]);
       for (uint32_t child = 0; child < 2; child++)
         waiting[count++] = open_a ? (sbf_uint2){{a->first + child, pair.at[1]}}
@@ -114,7 +114,7 @@ static void prepare(finder *f) {
     t->normal = sbfi_d3_normal(
         sbfi_d3_cross(sbfi_d3_sub(t->corners[1], t->corners[0]), sbfi_d3_sub(t->corners[2], t->corners[0])));
   }
-  f->slack = 4e-7 * size; /* a few steps of float32 at the farthest point */
+  f->slack = 4e-7 * size; /* a few units of float32 precision at the farthest point */
 }
 
 bool sbfi_crossings_find(const sbf_polygon_mesh *mesh, uint32_t *partners, sbfi_arena *scratch) {
@@ -133,10 +133,10 @@ bool sbfi_crossings_find(const sbf_polygon_mesh *mesh, uint32_t *partners, sbfi_
   return true;
 }
 
-/* The ray runs along an axis-free direction, so that it hardly ever meets a side of a triangle. */
+/* The ray has a generic direction, so it almost never hits an edge of a triangle. */
 static const sbfi_d3 ray = {0.5377, 0.3163, 0.7816};
 
-/* Whether the ray from `position` meets the box. */
+/* Whether the ray from `position` hits the box. */
 static bool ray_hits_box(const sbfi_box *box, sbfi_d3 position) {
   const double from[3] = {position.x, position.y, position.z}, direction[3] = {ray.x, ray.y, ray.z};
   double near = 0, far = INFINITY;

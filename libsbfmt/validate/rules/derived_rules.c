@@ -1,4 +1,4 @@
-/* Derived parts remember what they were made from: another source now makes them stale. */
+/* Derived parts store a hash of their source: a different source makes them stale. */
 #include <string.h>
 
 #include "build/source_reading.h"

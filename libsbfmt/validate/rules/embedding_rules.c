@@ -1,26 +1,26 @@
-/* Embeddings: weights that sum to one and do not reach far outside, vertices where the mesh has them, every
- * one carried. */
+/* Checks embeddings: weights sum to one without large extrapolation, vertices match the mesh, every vertex
+ * is embedded. */
 #include <string.h>
 
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
 static const float SUM_TOLERANCE = 1e-4f, BLEND_TOLERANCE = 1e-3f;
-/* Weights outside these bounds make a vertex jump at small strains. */
+/* Weights outside these bounds amplify small strains visibly. */
 static const float MIN_WEIGHT = -0.5f, MAX_WEIGHT = 1.5f, WEIGHT_TOLERANCE = 1e-3f;
-static const double OFF_TOLERANCE = 0.01; /* of the mesh's size */
+static const double OFF_TOLERANCE = 0.01; /* fraction of the mesh's size */
 
-/* The mesh whose vertices are carried: a render mesh, or a body's own surface. */
+/* The mesh with embedded vertices: a render mesh, or a body's own surface. */
 typedef struct carried {
   sbfi_validation *v;
   sbf_vec3_list positions;
   const char *name;
   double size;
-  uint8_t *unseen;  /* vertices in no polygon of a mesh that has some: no one sees where they are */
-  float *fractions; /* what the bodies carry of each vertex together */
-  uint32_t *stamps; /* the embedding, from 1, that carried the vertex last */
+  uint8_t *unseen;  /* vertices without polygons, in a mesh that has polygons: invisible */
+  float *fractions; /* sum of the bodies' blend weights for each vertex */
+  uint32_t *stamps; /* number from 1 of the last embedding with the vertex */
   uint32_t stamp;
-  bool broken; /* an embedding is not read for its length: nothing can be said of the whole */
+  bool broken; /* an embedding has an invalid length: the sums are unknown */
 } carried;
 
 static void mark_seen(carried *c, const sbf_u32_list *corners) {
@@ -52,7 +52,7 @@ static double distance_off(const sbf_level *level, const sbf_embedding *e, uint3
   return sbfi_d3_length(sbfi_d3_sub(position, sbfi_d3_of(vertex)));
 }
 
-/* True where the weights are good enough for the vertex to have a place. */
+/* True if the weights are good enough to compute a position. */
 static bool check_weights(const carried *c, const sbf_embedding *e, uint32_t i, const char *path) {
   sbf_vec4 w = e->weights.at[i];
   float sum = w.x + w.y + w.z + w.w;
@@ -105,7 +105,7 @@ static void check_embedding(carried *c, const sbf_level *level, const sbf_embedd
         c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their", sbfi_plural(off), max);
 }
 
-/* The shares that all bodies take of one mesh's vertices, at each body's level `l` or its coarsest. */
+/* Sums the blend weights of one mesh's vertices over all bodies, at each body's level `l` or its coarsest. */
 static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
   const sbf_asset *asset = v->asset;
   const sbf_render_mesh *at = &asset->render_meshes.at[mesh];
@@ -139,7 +139,7 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
         none == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id), none == 1 ? "is" : "are");
 }
 
-/* Embeddings of a body's own surface, which no other body can carry. */
+/* Checks embeddings of a body's own surface, which belong to that body alone. */
 static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
   const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
   const sbf_level *level = &at->levels.at[l];

@@ -1,9 +1,9 @@
-/* What surrounds the character: a gravity that some planet has, fields that push somewhere. */
+/* Checks the environment: plausible gravity, fields with a direction. */
 #include <math.h>
 
 #include "validate/validation.h"
 
-static const double MAX_GRAVITY = 50; /* m/s^2: twice Jupiter's */
+static const double MAX_GRAVITY = 50; /* m/s^2, twice Jupiter's */
 
 static double length_of(sbf_vec3 a) {
   return sqrt((double)a.x * a.x + (double)a.y * a.y + (double)a.z * a.z);

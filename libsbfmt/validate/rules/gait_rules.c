@@ -1,5 +1,4 @@
-/* Gaits: legs that reach where they stand, steps that can be taken, bones that hang together, parts that
- * move. */
+/* Checks gaits: legs that reach the ground, feasible steps, connected bones, moving parts. */
 #include "mechanics/vector.h"
 #include "validate/rules/bone_chain.h"
 #include "validate/validation.h"
@@ -99,7 +98,7 @@ static bool has_length(sbf_vec3 axis) {
   return axis.x != 0 || axis.y != 0 || axis.z != 0;
 }
 
-/* The bones of a part: enough of them, each below the gait's body. */
+/* Checks the bones of a part: a minimum number, each below the gait's body. */
 static void check_bones(
     const walker *w, sbf_u32_list bones, uint32_t fewest, const char *part, uint32_t number) {
   sbfi_path path =
@@ -125,7 +124,7 @@ static void check_axis(const walker *w, sbf_vec3 axis, const char *part, uint32_
         part, number, w->name);
 }
 
-/* What moves a swimmer, a flier, wheels. */
+/* Checks parts that move a swimmer, a flier, or wheels. */
 static void check_parts(const walker *w) {
   const sbf_gait *gait = w->gait;
   const sbf_asset *asset = w->v->asset;

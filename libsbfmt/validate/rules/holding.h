@@ -1,4 +1,4 @@
-/* What holds the points of a level. */
+/* Pinning of a level's points. */
 #ifndef SBFI_HOLDING_H
 #define SBFI_HOLDING_H
 
@@ -6,7 +6,7 @@
 
 typedef enum sbfi_hold { SBFI_FREE = 0, SBFI_GOAL_PINNED = 1, SBFI_PINNED = 2 } sbfi_hold;
 
-/* The weight of a pin: the set's own, raised to its minimum and lowered to its maximum. */
+/* Weight of a pin: the set's own, clamped to its minimum and maximum. */
 float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin);
 
 /* How pins hold each point (level->positions.count). */

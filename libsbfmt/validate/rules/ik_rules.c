@@ -1,8 +1,8 @@
-/* IK chains: from a root to an end below it, with a length, a bend and comforts inside. */
+/* Checks IK chains: a descendant as end, positive length, a bend, comfort ranges inside limits. */
 #include "validate/rules/bone_chain.h"
 #include "validate/validation.h"
 
-static const double STRAIGHT = 1e-3; /* of the reach */
+static const double STRAIGHT = 1e-3; /* fraction of the reach */
 
 static void check_bend(
     sbfi_validation *v, const sbf_ik_chain *chain, const sbfi_bone_run *run, const char *path) {

@@ -7,7 +7,7 @@ typedef struct frame {
   sbfi_rotation rotation;
 } frame;
 
-/* A body's axes at rest are those of asset space; without a body the frame stands in asset space. */
+/* A body's axes at rest are those of asset space; without a body the frame is in asset space. */
 static frame frame_of(const sbf_asset *asset, int32_t body, const sbf_frame *local) {
   sbfi_d3 center = {0, 0, 0};
   if (body >= 0) center = sbfi_d3_of(asset->rigid_bodies.at[body].center);
@@ -18,7 +18,7 @@ static frame frame_of(const sbf_asset *asset, int32_t body, const sbf_frame *loc
 static void split(sbfi_rotation q, double *at) {
   if (q.w < 0) q = (sbfi_rotation){sbfi_d3_scale(q.v, -1), -q.w};
   double length = sqrt(q.w * q.w + q.v.x * q.v.x);
-  sbfi_rotation twist = {{1, 0, 0}, 0}; /* half a turn of swing leaves the twist open */
+  sbfi_rotation twist = {{1, 0, 0}, 0}; /* the twist is undefined at a swing of 180 degrees */
   if (length > 0) twist = (sbfi_rotation){{q.v.x / length, 0, 0}, q.w / length};
   sbfi_rotation swing = sbfi_rotation_product(q, sbfi_rotation_inverse(twist));
   double sine = sbfi_d3_length(swing.v), angle = 2 * atan2(sine, fabs(swing.w));

@@ -1,4 +1,4 @@
-/* Joints: two bodies, frames that meet at rest, limits and drives on motions that they have. */
+/* Checks joints: two bodies, frames that coincide at rest, limits and drives on free coordinates. */
 #include <math.h>
 
 #include "model/element_path.h"
@@ -19,8 +19,8 @@ static bool is_angle(sbf_joint_axis axis) {
          axis == SBF_JOINT_AXIS_SWING_Z;
 }
 
-/* What the joint holds at 0 and is not 0 at rest: the first such coordinate. A rope or rod keeps what it has.
- */
+/* Finds the first coordinate that the joint locks at 0 but that differs from 0 at rest. A rope or rod
+ * keeps its length. */
 static void check_rest(const jointed *j) {
   for (int axis = 0; axis < SBF_JOINT_AXIS_COUNT; axis++) {
     double value = fabs(j->rest.at[axis]),

@@ -1,5 +1,5 @@
-/* Tetrahedra: well shaped, each once, filling space once, all of one piece. That they are the right way out
- * is part of the structure. */
+/* Checks tetrahedra: well shaped, no duplicates, no overlaps, connected. Their orientation belongs to the
+ * structural check. */
 #include "base/union_find.h"
 #include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
@@ -7,7 +7,7 @@
 
 static const double MIN_DIHEDRAL_DEG = 5, DEG_IN_RAD = 57.29577951308232;
 
-static const int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; /* outwards */
+static const int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}; /* facing outwards */
 
 static sbfi_d3 face_normal(const sbf_vec3 *points, const uint32_t p[4], int face) {
   sbfi_d3 a = sbfi_d3_of(points[p[faces[face][0]]]), b = sbfi_d3_of(points[p[faces[face][1]]]),
@@ -15,7 +15,7 @@ static sbfi_d3 face_normal(const sbf_vec3 *points, const uint32_t p[4], int face
   return sbfi_d3_cross(sbfi_d3_sub(b, a), sbfi_d3_sub(c, a));
 }
 
-/* Largest cosine of the six dihedral angles: of the sharpest. */
+/* Largest cosine of the six dihedral angles, which is that of the sharpest. */
 static double sharpest_cosine(const sbf_vec3 *points, const uint32_t p[4]) {
   sbfi_d3 n[4];
   double sharpest = -1;
@@ -35,13 +35,13 @@ static void find_slivers(sbfi_validation *v, const sbf_level *level, const char 
   }
 }
 
-/* Which way the three points of a sorted face turn in a tetrahedron: two that share it turn opposite ways. */
+/* Orientation of a sorted face in a tetrahedron: the two tetrahedra at a face have opposite ones. */
 static bool turns_upwards(const uint32_t p[4], int face) {
   uint32_t a = p[faces[face][0]], b = p[faces[face][1]], c = p[faces[face][2]];
   return (a < b) + (b < c) + (c < a) == 2;
 }
 
-/* Of each face, the first tetrahedron at it, and whether a second has come. */
+/* For each face, its first tetrahedron, and whether there was a second. */
 typedef struct face_use {
   uint32_t first;
   bool upwards, full;
@@ -68,7 +68,7 @@ static void use_face(sbfi_validation *v, const sbf_uint4_list *tetrahedra, uint3
   use->full = true;
 }
 
-/* A tetrahedron that repeats another is reported as that alone. */
+/* Reports a duplicate tetrahedron only as that. */
 static bool is_repeated(
     sbfi_validation *v, const sbf_uint4_list *tetrahedra, uint32_t i, sbfi_key_set *whole, const char *path) {
   const uint32_t *p = tetrahedra->at[i].at;

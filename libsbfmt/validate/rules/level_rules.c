@@ -1,4 +1,4 @@
-/* Levels: at rest where their sources are, hanging together, finest first, with mass where they move. */
+/* Checks levels: rest positions at their sources, connected, finest first, mass at free points. */
 #include "base/union_find.h"
 #include "mechanics/level_points.h"
 #include "mechanics/vector.h"
@@ -40,7 +40,7 @@ static void check_positions(
         moved == 1 ? "its" : "their", sbfi_plural(moved), max);
 }
 
-/* Points joined into pieces by what acts between them. */
+/* Points joined into connected pieces by the elements between them. */
 typedef struct pieces {
   uint32_t *parents;
   uint8_t *used;
@@ -66,7 +66,7 @@ static void join_elements(pieces *p, const sbf_level *level) {
       join(p, level->regions->points.at + at, level->regions->sizes.at[r]);
 }
 
-/* Springs to other bodies hold as pins do: what they lead to is not followed. */
+/* Springs to other bodies count as pins: does not follow them. */
 static void mark_cross_springs(
     const sbf_asset *asset, uint32_t body, uint32_t level, uint32_t point_count, uint8_t *holds) {
   for (uint32_t c = 0; c < asset->cross_springs.count; c++) {
@@ -86,7 +86,7 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
     const uint8_t *holds, const char *path) {
   uint32_t n = level->positions.count, loose = 0, first = 0, adrift = 0, anchored = 0;
   pieces p = {sbfi_scratch(v, n, sizeof *p.parents), sbfi_scratch(v, n, 1)};
-  uint8_t *is_point_pinned = sbfi_scratch(v, n, 1); /* of the roots of pieces */
+  uint8_t *is_point_pinned = sbfi_scratch(v, n, 1); /* at the roots of pieces */
   if (!p.parents || !p.used || !is_point_pinned) return;
   sbfi_sets_begin(p.parents, n);
   join_elements(&p, level);
@@ -124,7 +124,7 @@ static void check_level(sbfi_validation *v, uint32_t body, uint32_t number) {
   mark_cross_springs(v->asset, body, number, level->positions.count, holds);
   check_map(v, level, sbfi_path_of("%s/new_from_old", path.text).text);
   check_positions(v, at, level, sbfi_path_of("%s/positions", path.text).text);
-  if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return; /* it moves as one piece */
+  if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return; /* it moves rigidly */
   check_pieces(v, at, level, holds, path.text);
   check_masses(v, level, holds, sbfi_path_of("%s/masses", path.text).text);
 }

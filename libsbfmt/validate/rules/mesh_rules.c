@@ -1,4 +1,4 @@
-/* Render meshes: something to see, normals and texture coordinates for every corner. */
+/* Checks render meshes: visible content, normals and texture coordinates for every corner. */
 #include <math.h>
 
 #include "validate/rules/mesh_use.h"
@@ -79,7 +79,8 @@ static void check_points(const seen *s) {
 }
 
 static void check_shape_keys(const seen *s) {
-  uint32_t *last = sbfi_scratch(s->v, s->mesh->mesh.positions.count, sizeof *last); /* key, from 1 */
+  uint32_t *last =
+      sbfi_scratch(s->v, s->mesh->mesh.positions.count, sizeof *last); /* number from 1 of the key */
   for (uint32_t k = 0; last && k < s->mesh->shape_keys.count; k++) {
     const sbf_shape_key *key = &s->mesh->shape_keys.at[k];
     for (uint32_t i = 0; i < key->points.count; i++) {

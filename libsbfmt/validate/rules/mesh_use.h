@@ -1,4 +1,4 @@
-/* Which points of a render mesh its polygons use, those of its coarser levels included. */
+/* Finds the points of a render mesh that polygons of any level use. */
 #ifndef SBFI_MESH_USE_H
 #define SBFI_MESH_USE_H
 

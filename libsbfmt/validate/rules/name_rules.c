@@ -1,4 +1,4 @@
-/* Names that two things share, names of extensions, sums that are no sums. */
+/* Checks duplicate names, names of extensions, and hashes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static int compare(const void *a, const void *b) {
   return order ? order : x->index < y->index ? -1 : x->index > y->index;
 }
 
-/* A collection of one kind: what it is called, its items, and where in each the name stands. */
+/* A collection of one kind: its word, its items, and the offset of the name in each. */
 typedef struct collection {
   const char *kind, *path;
   const void *items;

@@ -1,5 +1,5 @@
-/* What would move wrongly: no mass, matter that is none, a ratio that springs cannot show, a body that its
- * own weight crushes, too few substeps, a unit that looks wrong. */
+/* Checks physical plausibility: missing mass, impossible materials, Poisson ratios that springs cannot
+ * represent, bodies that collapse under their own weight, too few substeps, implausible units. */
 #include <stdio.h>
 
 #include "build/geometry/topology.h"
@@ -9,8 +9,8 @@
 #include "validate/rules/strain_order.h"
 #include "validate/validation.h"
 
-static const double MIN_DENSITY = 0.9, MAX_DENSITY = 30000; /* kg/m^3: air, and more than osmium */
-static const double MAX_SAG = 10; /* strain under the own weight beyond which a body is a puddle */
+static const double MIN_DENSITY = 0.9, MAX_DENSITY = 30000; /* kg/m^3: air, and above osmium */
+static const double MAX_SAG = 10; /* strain under its own weight beyond which a body collapses */
 
 static void check_size(sbfi_validation *v) {
   double size = sbfi_asset_extent(v->asset), scale = sbfi_plausible_scale(size);
@@ -20,7 +20,7 @@ static void check_size(sbfi_validation *v) {
         size * scale);
 }
 
-/* A spring network's bound on its angular frequencies needs flat arrays of all sets. */
+/* The bound on a spring network's angular frequencies needs flat arrays of all sets. */
 static void check_substeps(
     sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
   uint32_t points = level->positions.count;
@@ -48,7 +48,8 @@ static void check_substeps(
       .ends = ends,
       .stiffness = stiffness};
   double bound = sbf_network_highest_bound(&network, sums);
-  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3); /* tick * w / 2 */
+  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick -
+                       1e-3); /* half a tick times the angular frequency */
   if ((double)level->simulation.substeps < needed)
     sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
         "%u substep%s asked for and the stiffness of '%s' needs %.0f", level->simulation.substeps,
@@ -59,7 +60,7 @@ static bool is_no_matter(double density) {
   return density < MIN_DENSITY || density > MAX_DENSITY;
 }
 
-/* Under gravity a column of height h and density d strains by d g h / E at its foot. */
+/* Under gravity a column of height h and density d has a strain of d g h / E at its base. */
 static void check_weight(
     sbfi_validation *v, const sbf_soft_body *body, const sbf_body_measures *is, const char *path) {
   sbf_vec3 g = v->asset->environment.gravity;
@@ -117,8 +118,7 @@ static void check_body(sbfi_validation *v, uint32_t number) {
   }
 }
 
-/* The first level of springs in a body that asks for another Poisson ratio than they can show, from 1; 0:
- * none. */
+/* First spring level, from 1, of a body with a Poisson ratio that springs cannot represent; 0: none. */
 static uint32_t unshown_level(const sbf_soft_body *body) {
   sbf_body_measures measures;
   if (!(fabsf(body->attributes.poisson_ratio - 0.25f) > 0.2f)) return 0;
@@ -128,7 +128,7 @@ static uint32_t unshown_level(const sbf_soft_body *body) {
   return 0;
 }
 
-/* Said once, at the first of the bodies: a character's sections are mostly of one matter. */
+/* Reports only the first body, because a character's sections mostly share one material. */
 static void check_poisson(sbfi_validation *v) {
   const sbf_soft_body *first = NULL;
   sbfi_path path = {""};

@@ -1,19 +1,20 @@
-/* Pins and attachments: sets that hold something where it is, points held once, sections that are held. */
+/* Checks pins and attachments: sets whose frames match at rest, points pinned once, sections that are
+ * pinned. */
 #include "build/geometry/hulls.h"
 #include "validate/rules/holding.h"
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-typedef struct holder { /* who holds a point */
+typedef struct holder { /* the pin set of a point */
   uint32_t set;         /* from 1; 0: none */
   bool fast;
 } holder;
 
-/* The places that sets hold: of the body or of a level. */
+/* Positions of points in sets: of the body or of a level. */
 typedef struct pinned_point {
   sbfi_validation *v;
   const sbf_soft_body *body;
-  const sbf_vec3 *positions, *interior; /* interior: those behind the surface's; NULL in a level */
+  const sbf_vec3 *positions, *interior; /* interior: points after those of the surface; NULL in a level */
   uint32_t count, surface_count;
   const char *parent;
 } pinned_point;
@@ -22,7 +23,7 @@ static sbf_vec3 position_of(const pinned_point *h, uint32_t point) {
   return point < h->surface_count ? h->positions[point] : h->interior[point - h->surface_count];
 }
 
-/* The set's frame at rest; the world's where it names none. */
+/* The set's frame at rest; the world's if it has none. */
 static void frame_of(const sbf_asset *asset, const sbf_pin_set *set, sbfi_d3 *origin, sbfi_rotation *turn) {
   *origin = (sbfi_d3){0, 0, 0};
   *turn = (sbfi_rotation){{0, 0, 0}, 1};
@@ -30,7 +31,8 @@ static void frame_of(const sbf_asset *asset, const sbf_pin_set *set, sbfi_d3 *or
     *origin = sbfi_d3_of(asset->bones.at[set->bone].head);
     *turn = sbfi_rotation_of(asset->bones.at[set->bone].rotation);
   } else if (set->rigid_body >= 0) {
-    *origin = sbfi_d3_of(asset->rigid_bodies.at[set->rigid_body].center); /* its axes are asset space's */
+    *origin =
+        sbfi_d3_of(asset->rigid_bodies.at[set->rigid_body].center); /* its axes are those of asset space */
   }
 }
 
@@ -136,7 +138,7 @@ static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char
     pinned_point here = {
         v, body, level->positions.at, NULL, level->positions.count, level->positions.count, parent.text};
     check_sets(&here, &level->pins);
-    bool carried = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* by its bone, without pins */
+    bool carried = level->model == SBF_ELASTIC_MODEL_JIGGLE; /* its bone moves it, without pins */
     if (body->bone >= 0 && level->pins.count == 0 && !carried)
       sbfi_found(v, SBF_CODE_SECTION_UNHELD, parent.text, -1,
           "section '%s' has a bone and no pins, it falls off", sbfi_label(body->name, body->id));

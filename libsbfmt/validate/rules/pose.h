@@ -1,4 +1,4 @@
-/* Places and rotations at rest, in doubles. */
+/* Rest positions and rotations in double precision. */
 #ifndef SBFI_POSE_H
 #define SBFI_POSE_H
 
@@ -11,7 +11,7 @@ typedef struct sbfi_rotation {
   double w;
 } sbfi_rotation;
 
-/* Normalised; none where the quaternion has no length, as the specification says. */
+/* Normalized; the identity if the quaternion has length 0, as in the specification. */
 static inline sbfi_rotation sbfi_rotation_of(sbf_quat q) {
   double length = sqrt((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w);
   if (!(length > 0)) return (sbfi_rotation){{0, 0, 0}, 1};
@@ -32,7 +32,7 @@ static inline sbfi_rotation sbfi_rotation_product(sbfi_rotation a, sbfi_rotation
   return (sbfi_rotation){sbfi_d3_add(v, sbfi_d3_cross(a.v, b.v)), a.w * b.w - sbfi_d3_dot(a.v, b.v)};
 }
 
-/* Whether the quaternion is of unit length, as nearly as rotations written with three digits are. */
+/* Whether the quaternion has unit length, within the rounding of three digits. */
 static inline bool sbfi_is_unit(sbf_quat q) {
   return fabs((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w - 1) < 1e-3;
 }

@@ -1,4 +1,4 @@
-/* Shape matching and jiggle: regions with a shape to keep, every free point in one. */
+/* Checks shape matching and jiggle: non-degenerate regions that cover every free point. */
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 #include "validate/validation.h"
@@ -8,7 +8,7 @@ typedef struct region {
   const uint32_t *points;
 } region;
 
-/* Whether the points lie in a plane, on a line or in one place, as far as their extent shows. */
+/* Whether the points are in a plane, on a line or at one position, within rounding of their extent. */
 static bool is_flat(const sbf_vec3 *positions, const region *r) {
   sbfi_d3 origin = sbfi_d3_of(positions[r->points[0]]), along = {0, 0, 0}, across = {0, 0, 0};
   double far = 0, wide = 0, deep = 0;
@@ -30,7 +30,7 @@ static bool is_flat(const sbf_vec3 *positions, const region *r) {
 static void check_regions(sbfi_validation *v, const sbf_level *level, const char *path) {
   const sbf_shape_regions *regions = level->regions;
   uint32_t *seen =
-      sbfi_scratch(v, level->positions.count, sizeof *seen); /* number of the last region from 1 */
+      sbfi_scratch(v, level->positions.count, sizeof *seen); /* number from 1 of the last region */
   uint8_t *pinned = sbfi_scratch(v, level->positions.count, 1);
   if (!seen || !pinned) return;
   region r = {0, 0, regions->points.at};

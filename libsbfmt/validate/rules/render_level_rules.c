@@ -1,11 +1,12 @@
-/* Coarser levels of render meshes: finest first, corners at their own points, no farther off than they say.
- */
+/* Checks coarser levels of render meshes: finest first, corners at their own points, error bounds that are
+ * true. */
 #include <math.h>
 
 #include "build/geometry/triangle_tree.h"
 #include "validate/validation.h"
 
-/* What single precision and the measurement itself may add, as shares of the error and of the mesh's size. */
+/* Tolerances for single precision and for the measurement itself, as fractions of the error and of the
+ * mesh's size. */
 static const double SLACK_OF_ERROR = 1e-3, SLACK_OF_SIZE = 1e-6;
 
 typedef struct seen_level {
@@ -49,7 +50,7 @@ static double size_of(const sbfi_triangle_tree *tree) {
   return sqrt(sum);
 }
 
-/* The full mesh's points tell what a level is off at least. */
+/* The distances of the full mesh's points are a lower bound of a level's error. */
 static void check_error(const seen_level *s) {
   const sbf_polygon_mesh *full = &s->mesh->mesh;
   sbf_polygon_mesh coarse = *full;

@@ -1,4 +1,4 @@
-/* Rigid bodies: convex closed hulls, mass where they are simulated, inertia that some body could have. */
+/* Checks rigid bodies: closed convex hulls, mass if simulated, physically possible inertia. */
 #include "build/geometry/hulls.h"
 #include "sbfmt/mechanics.h"
 #include "validate/rules/convexity.h"
@@ -23,7 +23,7 @@ static void check_hull(sbfi_validation *v, const sbf_rigid_body *body, const cha
     break;
   }
   bool has_inertia =
-      body->inertia.x + body->inertia.y + body->inertia.z > 0; /* else the hull has its own centre */
+      body->inertia.x + body->inertia.y + body->inertia.z > 0; /* otherwise the hull defines the centre */
   if (has_inertia && !sbfi_hull_contains(body->hull, body->center))
     sbfi_found(v, SBF_CODE_CENTER_OUTSIDE, path, -1, "the centre of '%s' lies outside its hull",
         sbfi_label(body->name, body->id));

@@ -1,4 +1,4 @@
-/* Rotations of unit length, wherever the schema has one: found by its tables, not by name. */
+/* Checks that rotations have unit length, wherever the schema has one: uses its tables, not names. */
 #include "model/element_path.h"
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
@@ -30,9 +30,9 @@ static void walk(sbfi_validation *v, const sbfi_element_path *path) {
   }
 }
 
-/* Keys of clips are plain numbers to the schema. */
+/* Keys of clips are plain numbers in the schema. */
 static void check_keys(sbfi_validation *v, const sbf_track *track, const char *path) {
-  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* tangents stand around each value */
+  bool cubic = track->interpolation == SBF_INTERPOLATION_CUBIC; /* each value has tangents around it */
   uint32_t stride = cubic ? 12 : 4, first = cubic ? 4 : 0;
   if (track->property != SBF_TRACK_PROPERTY_ROTATION) return;
   for (uint32_t i = 0; i < track->values.count / stride; i++) {

@@ -1,9 +1,9 @@
-/* Sections: bodies on a bone, near it. */
+/* Checks sections: bodies on a bone are near it. */
 #include "validate/rules/pose.h"
 #include "validate/validation.h"
 
-/* Distance between a box around the points and the bone's line, roughly: of the box's middle, less its half
- * diagonal. */
+/* Approximate distance between the bounding box of points and the bone's line: that of its centre minus
+ * half its diagonal. */
 static double distance_from(const sbf_bone *bone, sbf_vec3_list points) {
   sbfi_d3 middle = {0, 0, 0}, head = sbfi_d3_of(bone->head);
   double radius = 0;

@@ -1,4 +1,4 @@
-/* Skins: weights that sum to one, no bone twice at a point, no point left out. */
+/* Checks skins: weights sum to one, no duplicate bones at a point, no point without weights. */
 #include <math.h>
 
 #include "validate/validation.h"
@@ -7,8 +7,8 @@ static void check_skin(sbfi_validation *v, const sbf_render_mesh *mesh, const ch
   const sbf_skin *skin = mesh->skin;
   sbfi_path counts = sbfi_path_of("%s/influence_counts", path), weights = sbfi_path_of("%s/weights", path),
             bones = sbfi_path_of("%s/bones", path);
-  uint32_t *last =
-      sbfi_scratch(v, v->asset->bones.count, sizeof *last); /* point, from 1, that named the bone last */
+  uint32_t *last = sbfi_scratch(
+      v, v->asset->bones.count, sizeof *last); /* number from 1 of the last point with the bone */
   uint32_t unweighted = 0, first = 0;
   if (!last) return;
   for (uint32_t i = 0, at = 0; i < skin->influence_counts.count; i++) {

@@ -1,4 +1,4 @@
-/* Springs: between two different points, of some length, each pair once, not between two held points. */
+/* Checks springs: two different points, positive length, no duplicates, not between two pinned points. */
 #include <math.h>
 
 #include "build/springs/pair_set.h"
@@ -6,7 +6,7 @@
 #include "validate/rules/strain_order.h"
 #include "validate/validation.h"
 
-/* A spring that starts beyond these shares of its rest length jerks. */
+/* A spring with an initial length outside these fractions of its rest length jerks. */
 static const double MAX_STRETCH = 2, MIN_STRETCH = 0.5;
 
 typedef struct spring_level {

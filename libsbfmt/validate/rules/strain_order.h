@@ -1,10 +1,10 @@
-/* Bounds on the strain of springs, which must come in an order in which each can be reached. */
+/* Limits on the strain of springs, which must be ordered so that each can be reached. */
 #ifndef SBFI_STRAIN_ORDER_H
 #define SBFI_STRAIN_ORDER_H
 
 #include "validate/validation.h"
 
-/* As attributes and spring sets state them: -1 and 0 mean no bound. */
+/* As in attributes and spring sets: -1 and 0 mean no limit. */
 typedef struct sbfi_strains {
   float min, max, yield, tear;
 } sbfi_strains;

@@ -1,6 +1,6 @@
-/* Surfaces of bodies: closed where a volume is asked for, two polygons at an edge, all facing outwards. Those
- * that a build cut from a skin are as the skin is, crossings and all, and move by lattices, which do not
- * mind: the build says what it could not close. */
+/* Checks surfaces of bodies: closed if a volume is required, two polygons at an edge, all facing outwards.
+ * Surfaces cut from a skin by a build keep the skin's faults, including intersections; they move with
+ * lattices, which tolerate that. The build reports what it could not close. */
 #include <math.h>
 
 #include "build/geometry/key_set.h"
@@ -23,7 +23,7 @@ static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
   return t->edge_polygon_begins[edge + 1] - t->edge_polygon_begins[edge];
 }
 
-/* A polygon that stands on edges which two others already share, and has an edge of its own. */
+/* Finds polygons at edges that two others already share, with an edge of their own. */
 static void find_stray_polygons(const surface *s) {
   const sbfi_topology *t = &s->t;
   for (uint32_t p = 0; p < t->polygon_count; p++) {
@@ -54,7 +54,7 @@ static void find_unused(const surface *s) {
   }
 }
 
-/* Less than the rounding of its points could make. */
+/* Whether the area is below the rounding error of its points. */
 static bool is_flat(const sbf_vec3 *positions, const uint32_t *corners, uint32_t size) {
   sbfi_d3 middle = sbfi_polygon_middle(positions, corners, size);
   double farthest = 0;
@@ -92,7 +92,7 @@ static void find_repeated(const surface *s) {
           "polygon %u of '%s' has the points of polygon %u", p, s->name, firsts[p]);
 }
 
-/* The second polygon of the first edge that two pass in the same direction. */
+/* Second polygon at the first edge that two traverse in the same direction. */
 static uint32_t first_clash(const surface *s) {
   const sbfi_topology *t = &s->t;
   const uint32_t *corners = s->body->surface.polygon_points.at;
@@ -101,7 +101,7 @@ static uint32_t first_clash(const surface *s) {
       uint32_t e = t->corner_edges[c];
       if (e == SBFI_NO_INDEX || polygons_at(t, e) != 2) continue;
       const uint32_t *both = &t->edge_polygons[t->edge_polygon_begins[e]];
-      /* the first of the two walked it from end 0 to end 1 */
+      /* the first of the two traversed it from end 0 to end 1 */
       if (both[1] == p && both[0] != p && corners[c] == t->edges[e].at[0]) return p;
     }
   return 0;
@@ -116,7 +116,7 @@ static void check_winding(const surface *s) {
       s->t.clashing_edge_count == 1 ? "s" : "", p);
 }
 
-/* Points that stand in one place, each at the border of an open surface: a seam that was never sewn. */
+/* Finds coincident points at the border of an open surface: a seam that was never welded. */
 static void find_seams(const surface *s) {
   const sbfi_topology *t = &s->t;
   sbfi_key_set positions;
@@ -156,7 +156,7 @@ static void find_crossings(const surface *s) {
           "polygon %u of '%s' passes through polygon %u", p, s->name, partners[p]);
 }
 
-/* Interior points outside, by more than rounding would put them there. */
+/* Finds interior points outside the surface by more than rounding. */
 static void find_outsiders(const surface *s, const sbf_body_measures *measures) {
   const sbf_soft_body *body = s->body;
   sbfi_triangle_tree tree;

@@ -1,4 +1,4 @@
-/* Images: paths that stay beside the file and lead to something, bytes that are what they are said to be. */
+/* Checks images: paths within the file's folder that exist, bytes of the stated media type. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@ static bool is_there(const char *folder, const char *path) {
   return true;
 }
 
-/* The first bytes of the images that have a media type of their own. */
+/* Compares the first bytes with the signatures of known media types. */
 static const struct {
   const char *media_type, *begins;
   size_t length;
@@ -29,7 +29,7 @@ static bool is_of_type(const sbf_texture *texture) {
     if (strcmp(texture->media_type, signatures[i].media_type) == 0)
       return texture->bytes.count >= signatures[i].length &&
              memcmp(texture->bytes.at, signatures[i].begins, signatures[i].length) == 0;
-  return true; /* not known here */
+  return true; /* unknown type */
 }
 
 void sbfi_check_textures(sbfi_validation *v) {

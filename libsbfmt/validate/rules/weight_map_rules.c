@@ -1,4 +1,4 @@
-/* Weight maps: factors that leave matter in the body, on attributes that are there. */
+/* Checks weight maps: factors that leave mass in the body, on attributes that are set. */
 #include "validate/rules/holding.h"
 #include "validate/validation.h"
 
@@ -11,7 +11,8 @@ static bool some_set_yields(const sbf_soft_body *body, bool tears) {
   return false;
 }
 
-/* Whether what the map scales is 0 everywhere. A bending stiffness of 0 stands for one from the modulus. */
+/* Whether the scaled attribute is 0 everywhere. A bending stiffness of 0 means that it is derived from the
+ * modulus. */
 static bool is_idle(const sbf_soft_body *body, sbf_weight_property property) {
   const sbf_attributes *is = &body->attributes;
   switch (property) {
