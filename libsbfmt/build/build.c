@@ -202,7 +202,7 @@ static sbf_status make_render_levels(sbfi_build *b) {
   return good ? SBF_OK : sbfi_build_no_memory(b);
 }
 
-/* Totals for reports without reading the geometry. Not stated beyond all bounds. */
+/* Totals for reports without reading the geometry. Omitted if they are out of range. */
 static sbf_status record_figures(sbfi_build *b) {
   sbf_asset_measures measures;
   sbf_asset_measure(b->asset, &measures);
@@ -216,7 +216,7 @@ static sbf_status record_figures(sbfi_build *b) {
   return SBF_OK;
 }
 
-/* Hash of the asset's present source parts. */
+/* Hash of the asset's current source parts. */
 static sbf_status hash_source(sbfi_build *b) {
   char text[SBFI_SHA256_TEXT_SIZE];
   sbf_status status = sbfi_build_source_hash(b->asset, text, b->error);

@@ -10,12 +10,12 @@
 #include "build/render/render_levels.h"
 
 typedef enum setting_kind {
-  WITHOUT,     /* bool, stated as its opposite */
-  UNLESS,      /* the same, stated if it is false */
+  WITHOUT,     /* bool, recorded as its opposite */
+  UNLESS,      /* the same, recorded if it is false */
   INTERIOR,    /* sbf_build_interior, by name */
-  SECTIONS,    /* sbf_build_sections, by name; automatic is not stated */
-  COUNT,       /* uint32_t; 0 is not stated */
-  MICROMETRES, /* double, metres; 0 is not stated. Integers are read alike everywhere */
+  SECTIONS,    /* sbf_build_sections, by name; automatic is not recorded */
+  COUNT,       /* uint32_t; 0 is not recorded */
+  MICROMETRES, /* double, metres; 0 is not recorded. Integers parse equally everywhere */
 } setting_kind;
 
 /* Settings that affect the result, in alphabetical order, for writing and reading. */

@@ -21,7 +21,7 @@ typedef struct sbfi_build {
   sbf_soft_body *bodies;
   uint32_t bodies_count;   /* of bodies */
   sbfi_interior_map *maps; /* (bodies) of the new levels */
-  bool *made;              /* (bodies) the level was built here, the body's only one */
+  bool *made;              /* (bodies) the level was built here and is the body's only one */
   uint32_t *frames;        /* (bodies) first frame point of the new level; SBFI_NO_INDEX: none */
   sbfi_sections sections;  /* cut here: the last of the bodies */
   uint32_t usual_elements; /* maximum number of tetrahedra of a body with automatic size */

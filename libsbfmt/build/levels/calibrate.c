@@ -7,23 +7,23 @@
 #include "build/levels/stiffness_descent.h"
 #include "mechanics/bearing_modulus.h"
 
-/* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
- */
+/* Relative accuracy of displacements under small loads; maximum unbalanced fraction of the load under
+ * gravity. */
 static const double lean_fraction = 2e-3, fall_tolerance = 1e-4;
-/* Of the one factor for all, from means over the surface. Beyond, a crumb may have made the mean: it hangs on
- * nothing, as in a lattice of a surface with holes, and gives without end. One of the level's is left out by
- * taking the median point; one of the reference's leaves nothing to fit to. */
+/* Bounds of the common factor from means over the surface. Outside them a loose crumb may have distorted
+ * the mean, as in a lattice of a surface with holes, because its displacement is unbounded. A crumb of the
+ * level is handled by a median point; with one in the reference nothing can be fitted. */
 static const double min_whole = 0.0625, max_whole = 4;
-/* Of the factor of the median point then, in so many bisections, and of the mean square of what the
- * reference's points give, below which one says nothing. */
+/* Bounds of the factor from the median point; number of bisections; minimum mean square of the reference's
+ * displacements for a point to count. */
 static const double min_median = 1.0 / 64, max_median = 64, still_fraction = 1e-4;
 enum { MEDIAN_STEPS = 24 };
 
-/* Of the modulus of each tetrahedron: more than twice would shorten the time step for little. */
+/* Bounds for the modulus of each tetrahedron: more than twice would shorten the time step for little gain. */
 static const sbfi_factor_bounds lattice_bounds = {.min = 0.125, .max = 2, .fraction = 1e-3, .rounds = 25};
 enum { ROUGH_ROUNDS = 12 };
 
-/* Of a rough reference. */
+/* For a rough reference. */
 static const double rough_tolerance = 0.3;
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
@@ -122,7 +122,7 @@ void sbfi_reference_free(sbfi_reference *reference) {
   sbfi_arena_free(&reference->arena);
 }
 
-/* The load to which it yields most; SBFI_MAX_LOADS: to none. */
+/* The load with the largest displacement; SBFI_MAX_LOADS: none. */
 static uint32_t softest(const sbfi_reference *r) {
   uint32_t max = SBFI_MAX_LOADS;
   for (uint32_t l = 0; l < r->statics.load_count; l++)
@@ -137,7 +137,7 @@ double sbfi_reference_frequency(const sbfi_reference *reference) {
 
 /* ---- The fit ---- */
 
-/* One level on its way. */
+/* State of the calibration of one level. */
 typedef struct work {
   sbf_level *level;
   const sbf_soft_body *body;
@@ -146,7 +146,7 @@ typedef struct work {
   sbfi_arena *scratch;
   sbfi_level_statics statics;
   sbfi_linear_statics linear;
-  /* Under the small loads. */
+  /* Displacements under the small loads. */
   double *gives[SBFI_MAX_LOADS]; /* (3 x surface points) m */
   double yieldings[SBFI_MAX_LOADS], frequencies[SBFI_MAX_LOADS];
   sbfi_calibration *c;
@@ -180,9 +180,9 @@ static double wanted_yielding(const work *w, uint32_t load) {
   return yielding(w, w->r->yieldings, w->r->frequencies, load);
 }
 
-/* The least factor for all. One that the slowest swing of a thin fin asks for would let the thick rest sink
- * under its own weight; where few points say nothing of what the parts ask for, what stands by itself is not
- * made softer than it takes to bear that. */
+/* Lower bound of the common factor. The slowest mode of a thin fin alone could ask for a factor with which
+ * the thicker rest sags. If few points provide no information about parts, a body that stands by itself
+ * stays stiff enough to bear its weight. */
 static double min_to_bear(const work *w) {
   sbf_attributes matter = w->body->attributes;
   double stated = (double)matter.young_modulus;
@@ -191,8 +191,8 @@ static double min_to_bear(const work *w) {
   return fmin(sbfi_bearing_modulus(&matter, &w->body->surface.positions) / stated, 1);
 }
 
-/* By how much a point of the surface gives more than the reference's does, along the reference's path and
- * over all loads; negative: the reference's hardly moves. */
+/* Relative excess of a point's displacement over the reference's, projected on the reference's and summed
+ * over all loads; negative: the reference's point hardly moves. */
 static double excess_of(const work *w, uint32_t point, double hardly) {
   double along = 0, square = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
@@ -203,7 +203,7 @@ static double excess_of(const work *w, uint32_t point, double hardly) {
   return square > hardly ? fmax(along, 0) / square : -1;
 }
 
-/* Mean over the surface and sum over the loads of the squares of what the reference gives, m^2. */
+/* Mean over the surface, summed over the loads, of the reference's squared displacements, m^2. */
 static double mean_square(const work *w) {
   double sum = 0, area = 0;
   for (uint32_t i = 0; i < w->body->surface.positions.count; i++) {
@@ -215,8 +215,8 @@ static double mean_square(const work *w) {
   return area > 0 ? sum / area : 0;
 }
 
-/* That of the points where half of the surface gives more than so and half less: a crumb does not count. 1
- * where the surface says nothing. By bisection of the factor's logarithm. */
+/* The common factor at which half of the surface by area moves more than the reference and half less:
+ * robust to crumbs. 1 if the surface gives no information. Bisects the factor's logarithm. */
 static double median_excess(const work *w) {
   uint32_t points = w->body->surface.positions.count;
   double low = min_median, high = max_median, hardly = still_fraction * mean_square(w);
@@ -255,7 +255,7 @@ static double residual_of(const work *w, double factor) {
   return max;
 }
 
-/* How much farther the level goes along the way that its reference goes, twisted likewise. */
+/* Relative excess of the level's displacement along the reference's under twists. */
 static bool find_twists(work *w, double factor) {
   size_t points = w->body->surface.positions.count, numbers = 3 * (size_t)w->statics.network.point_count;
   double *forces = sbfi_arena_allocate(w->scratch, numbers + 1, sizeof *forces);
@@ -278,7 +278,7 @@ static bool find_twists(work *w, double factor) {
   return true;
 }
 
-/* The same where the surface has too few points: by how slowly all of the body would swing that way. */
+/* The same if the surface has too few points: from the frequency of the whole body under that load. */
 static bool find_slow_twists(work *w, double factor) {
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
     double own, wanted = w->r->twist_frequencies[k];
@@ -297,7 +297,7 @@ static bool find_errors(work *w, double factor) {
   return !w->r->has_works || find_twists(w, factor);
 }
 
-/* Writes the moduli, all times `factor`, and those that they stand for: `stated`. */
+/* Writes the moduli times `factor`, and the original ones `stated`. */
 static bool write_moduli(work *w, const float *stated, double factor) {
   sbf_tetrahedron_mesh *lattice = &w->level->lattice;
   uint32_t count = lattice->tetrahedra.count, states = lattice->young_modulus.count > 1 ? count : 1;
@@ -323,7 +323,7 @@ static bool write_moduli(work *w, const float *stated, double factor) {
   return true;
 }
 
-/* What the reference does under the loads that it was given. */
+/* Displacements of the reference under the loads. */
 static sbfi_wanted wanted_of(const work *w) {
   sbfi_wanted wanted = {.gives = (const double *const *)w->r->gives};
   if (!w->r->has_works) return wanted;
@@ -400,8 +400,8 @@ static double farthest(const double *a, double a_scale, const double *b, double 
   return sqrt(max);
 }
 
-/* Under gravity along one of the axes, or bent: with large strains, or where they were not asked for or one
- * of the two does not come to rest, from the small loads. */
+/* Compares under gravity along one of the axes, or under bending: with large strains, or from the small
+ * loads if large strains were not requested or one of the two does not converge. */
 static bool compare_under(work *w, uint32_t l, bool gives, double factor, double *give, double *off) {
   uint32_t points = w->body->surface.positions.count;
   const double *fall = w->r->falls[l];
@@ -416,9 +416,9 @@ static bool compare_under(work *w, uint32_t l, bool gives, double factor, double
     *off = farthest(give, 1, fall, 1, points);
   else if (gives)
     *off = farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points);
-  else /* what does not give at all */
+  else /* does not move at all */
     *off = farthest(give, 1, w->r->gives[l], w->r->fall, points);
-  /* Small strains that move what they bend by more than its size say nothing of where it is. */
+  /* Linear displacements larger than the body's size give no information about positions. */
   if (converged || !gives || *off <= w->r->statics.size) return true;
   *off = INFINITY;
   w->c->unsettled |= farthest(w->r->gives[l], w->r->fall, give, 0, points) <= w->r->statics.size;
@@ -437,7 +437,7 @@ static bool compare(work *w, bool gives, double factor) {
   return true;
 }
 
-/* As many as are known from the first on, as floats. */
+/* Lists the leading known values as floats. */
 static bool list_errors(work *w, const double *errors, uint32_t max, sbf_f32_list *list) {
   uint32_t count = 0;
   while (count < max && isfinite(errors[count])) count++;
@@ -462,8 +462,8 @@ static bool record(work *w) {
          list_errors(w, w->c->twist_errors, SBFI_TWISTS, &made->twist_errors);
 }
 
-/* Exact solutions make the fit of many bodies several times as fast. They are not used elsewhere: fitted by
- * them, a beam of 480 elements yields too much along itself by 31 % instead of 16 %. */
+/* Exact solutions make the fit of many bodies several times as fast. They are not used elsewhere: a beam
+ * of 480 elements fitted with them is too soft along its axis by 31 % instead of 16 %. */
 static bool make_linear(work *w) {
   return w->r->is_rough ? sbfi_linear_statics_make_direct(&w->linear, &w->statics.network, w->scratch)
                         : sbfi_linear_statics_make(&w->linear, &w->statics.network, w->scratch);
@@ -504,7 +504,7 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
 }
 
 double sbfi_calibration_off(const sbfi_calibration *c) {
-  double max = 0; /* fmax leaves out what is not known */
+  double max = 0; /* fmax ignores unknown values (NaN) */
   for (uint32_t l = 0; l < SBFI_MAX_LOADS; l++) max = fmax(max, fabs(c->load_errors[l]));
   for (uint32_t k = 0; k < SBFI_TWISTS; k++) max = fmax(max, fabs(c->twist_errors[k]));
   return max;

@@ -1,11 +1,11 @@
-/* With which modulus or stiffness a level stands for what it was made of.
+/* Calibrates the moduli or stiffnesses of a level so that it represents the original material.
  *
- * Linear tetrahedra bend too stiffly, the more so the coarser they are: numerical coarsening (Kharevych et
- * al. 2009) gives them other moduli. Each element's is found by the work that its surroundings take
- * (local_fit.h) and from there by descent (stiffness_descent.h); then one factor for all makes the level give
- * as much under small loads (level_loads.h), averaged over the surface and summed over the loads, as a
- * reference of some 16,000 tetrahedra does. What is softest, mostly bending, so counts most. Springs get a
- * factor each (spring_fit.h). */
+ * Linear tetrahedra are too stiff in bending, more so if they are coarse: numerical coarsening (Kharevych
+ * et al. 2009) changes their moduli. Each element's modulus is first found from the work in its
+ * surroundings (local_fit.h) and then by descent (stiffness_descent.h). Then a common factor matches the
+ * displacements under small loads (level_loads.h), averaged over the surface and summed over the loads, to
+ * those of a reference with some 16,000 tetrahedra. The softest motions, mostly bending, count most.
+ * Springs get a factor each (spring_fit.h). */
 #ifndef SBFI_CALIBRATE_H
 #define SBFI_CALIBRATE_H
 
@@ -13,10 +13,10 @@
 #include "build/levels/level_loads.h"
 #include "build/levels/local_fit.h"
 
-/* Of lattices; and of what springs are compared with. */
+/* For lattices; and for comparison with springs. */
 enum { SBFI_REFERENCE_ELEMENTS = 16000, SBFI_SPRING_REFERENCE_ELEMENTS = 4000 };
 
-/* What a reference is for. */
+/* Purpose of a reference. */
 typedef struct sbfi_reference_use {
   bool falls;  /* errors in metres, under gravity */
   bool twists; /* errors under twists */
@@ -24,78 +24,79 @@ typedef struct sbfi_reference_use {
   sbfi_progress progress;
 } sbfi_reference_use;
 
-/* A level that others are compared with, and how it gives. */
+/* A level that others are compared with, and its displacements. */
 typedef struct sbfi_reference {
-  sbf_asset *memory; /* of a level made for it; NULL: the level is another's */
-  sbfi_arena arena;  /* of the rest */
+  sbf_asset *memory; /* owner of a level built for it; NULL: the level belongs to another asset */
+  sbfi_arena arena;  /* owner of everything else */
   sbf_level made;
   sbfi_level_statics statics;
   bool is_rough;
-  bool sound;  /* it resists; else nothing below is known */
-  double fall; /* m/s^2, of gravity */
+  bool sound;  /* it has stiffness; otherwise nothing below is known */
+  double fall; /* acceleration of gravity, m/s^2 */
   bool has_falls;
-  double *gives[SBFI_MAX_LOADS];    /* (3 x surface points) m, under small loads of 1 m/s^2 */
-  double *falls[SBFI_MAX_LOADS];    /* the same under gravity; NULL: not asked for, or it comes to no rest */
-  double yieldings[SBFI_MAX_LOADS]; /* m, under small loads */
+  double *gives[SBFI_MAX_LOADS];      /* (3 x surface points) m, displacements under small loads of 1 m/s^2 */
+  double *falls[SBFI_MAX_LOADS];      /* the same under gravity; NULL: not requested, or no convergence */
+  double yieldings[SBFI_MAX_LOADS];   /* m, mean displacement along each small load */
   double frequencies[SBFI_MAX_LOADS]; /* rad/s, by Rayleigh's quotient */
   bool has_twists;
-  double twist_frequencies[SBFI_TWISTS]; /* the same, twisted */
+  double twist_frequencies[SBFI_TWISTS]; /* the same under twists */
   bool has_works;
   sbfi_push_works works;
 } sbfi_reference;
 
-/* Whether a surface has too few points to be pushed at or looked at: a cube's corners do not move where it
- * bends. What counts is then how slowly all of its matter would swing that way, and pushes are of no use. */
+/* Whether a surface has too few points to apply pushes or measure displacements: a cube's corners do not
+ * move when it bends. Then the frequency of the whole mass counts, and pushes are useless. */
 bool sbfi_surface_is_sparse(const sbf_soft_body *body);
 
-/* Makes a lattice of about so many elements of the body, which has polygons, and measures how it gives. Where
- * nothing is enclosed it is not sound. `asset` has bones and rigid bodies. A rough one costs less, for scenes
- * of many bodies: its number of elements is off by up to 30 per cent, and moduli are fitted in half the
- * rounds, which leaves 4 per cent more of the mismatch. To be freed whatever the outcome. */
+/* Builds a lattice of the body with about this many elements and measures its displacements. The body has
+ * polygons. The result is not sound if nothing is enclosed. `asset` has bones and rigid bodies. A rough
+ * reference is cheaper, for scenes of many bodies: its number of elements is off by up to 30 per cent, and
+ * moduli are fitted in half the rounds, which leaves 4 per cent more of the mismatch. Must be freed after
+ * any result. */
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
     uint32_t elements, bool is_rough, const sbf_asset *asset, const sbfi_reference_use *use,
     const sbf_allocator *allocator);
 
-/* The same of a level that is there, and stays so as long as the reference; `interior` as for a embedder. */
+/* The same for an existing level, which must outlive the reference; `interior` as for an embedder. */
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
     const sbfi_reference_use *use, const sbf_allocator *allocator);
 
 void sbfi_reference_free(sbfi_reference *reference);
 
-/* Angular frequency of its slowest swing under one of the loads, rad/s; 0: not known. */
+/* Angular frequency of its slowest motion under one of the loads, rad/s; 0: unknown. */
 double sbfi_reference_frequency(const sbfi_reference *reference);
 
-/* How a level compares. */
+/* Result of a comparison. */
 typedef struct sbfi_calibration {
-  double
-      factor; /* on the modulus, or on the stiffness of springs inside, on the mean; 1: nothing was changed */
-  double surface;  /* on that of springs over the surface */
-  double min, max; /* over the elements */
-  double residual; /* of lattices, the greatest share by which one yields otherwise under one of the small
-                      loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
-  double residual_before; /* of springs, the same before */
-  /* Of lattices, shares by which one gives more (above 0) or less under each of the small loads, and twisted
-   * about x, y and z; NAN: not known. */
+  double factor;   /* mean factor on the modulus, or on the stiffness of interior springs; 1: unchanged */
+  double surface;  /* mean factor on the stiffness of surface springs */
+  double min, max; /* range over the elements */
+  double residual; /* for lattices the largest relative difference of displacement under one of the small
+                      loads; for springs that of the surface's displacements (spring_fit.h) */
+  double residual_before; /* for springs, the same before */
+  /* For lattices, relative excess of the displacements under each of the small loads, and under twists
+   * about x, y and z; negative: less; NAN: unknown. */
   double load_errors[SBFI_MAX_LOADS], twist_errors[SBFI_TWISTS];
-  double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
-  double error;        /* m, greatest distance of a surface point from where the reference has it under
-                          gravity along one of the axes; from small strains, where one of the two has not come to
-                          rest; INFINITY: these say nothing, as they displace it by more than the body's size, and
-                          the level states none */
-  bool unsettled; /* it comes to no rest, as parts of it turn about what holds them, or go so far where the
-                     reference's do not: it is left as it was, without a calibration */
+  double period_error; /* relative excess of the period under the load with the largest displacement; NAN:
+                          unknown */
+  double
+      error; /* m, largest distance of a surface point from its position in the reference under gravity along
+                one of the axes; from small strains, if one of the two did not converge; INFINITY: unknown,
+                because these displace it by more than the body's size, and the level gets no error */
+  bool unsettled; /* it does not converge, because parts rotate about their pins or move much farther than the
+                     reference's: it stays unchanged, without a calibration */
 } sbfi_calibration;
 
-/* A level that is farther off than that under a load is none that stands for the body. */
+/* A level with a larger relative error under any load does not represent the body. */
 #define SBFI_MAX_OFF 0.25
-/* The greatest share, of either sign, under any of the loads that are known. */
+/* Largest relative error, of either sign, under any known load. */
 double sbfi_calibration_off(const sbfi_calibration *calibration);
 
-/* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of
- * `asset`, and compares it; another level is compared alone, and one of jiggle as one that does not give.
- * Sets the level's calibration, its simulation error, and its cost for a control tick of `tick` s. `interior`
- * as for a embedder. False where memory runs out or the work is ended. */
+/* Calibrates a level of tetrahedra or, with `springs`, of springs, and compares it. Its lists become owned
+ * by `asset`. Other levels are only compared; a jiggle level counts as rigid. Sets the level's
+ * calibration, its simulation error, and its cost for a control tick of `tick` s. `interior` as for an
+ * embedder. False if memory runs out or the build is cancelled. */
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
     const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
     sbfi_calibration *calibration, sbfi_progress progress, const sbf_allocator *allocator);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The corners of a tetrahedron around the unit cube, positively oriented; three of them would be too few. */
+/* Corners of a positively oriented tetrahedron around the unit cube. */
 static const float corners[4][3] = {{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}};
 
 static float component(sbf_vec3 v, int axis) {
@@ -38,7 +38,7 @@ bool sbfi_jiggle_level_make(
   sbf_jiggle_init(jiggle);
   if (frequency > 0 && frequency < 1e6) jiggle->frequency = (float)frequency;
   jiggle->damping_ratio = body->attributes.damping_ratio;
-  jiggle->response = 2; /* what is damped is its motion against the bone: going on evenly it does not lag */
+  jiggle->response = 2; /* damps motion relative to the bone: no lag at constant velocity */
   level->model = SBF_ELASTIC_MODEL_JIGGLE;
   level->derived = derivation;
   level->positions = (sbf_vec3_list){positions, 4};

@@ -6,9 +6,11 @@
 #include "mechanics/static_solve.h"
 #include "mechanics/vector.h"
 
-/* Of Newton's method, and of its products with a matrix: what has not come to rest by then folds up. */
+/* Limits of Newton steps and of their matrix-vector products: without convergence by then the level folds
+ * up. */
 enum { MAX_STEPS = 15, MAX_PRODUCTS = 1500 };
-/* Springs and tetrahedra in all of these products, so that no level takes many seconds. */
+/* Maximum number of spring and tetrahedron evaluations in all products, so that no level takes many
+ * seconds. */
 static const double MAX_VISITS = 3e7;
 
 static double component(sbf_vec3 v, int axis) {
@@ -21,12 +23,12 @@ static void load_weights(sbf_vec4 from, double to[4]) {
 
 /* ---- Rigid motions ---- */
 
-/* A rigid motion: v + w x (r - middle). */
+/* A rigid motion: v + w x (r - centre). */
 typedef struct rigid {
   sbfi_d3 middle, v, w;
 } rigid;
 
-/* Solves the symmetric m x = r; x is 0 where m is singular, as for points on a line. */
+/* Solves the symmetric m x = r; x is 0 if m is singular, as for points on a line. */
 static sbfi_d3 solve3(const double m[6], sbfi_d3 r) {
   sbfi_d3 a = {m[0], m[3], m[5]}, b = {m[3], m[1], m[4]}, c = {m[5], m[4], m[2]};
   sbfi_d3 bc = sbfi_d3_cross(b, c), ca = sbfi_d3_cross(c, a), ab = sbfi_d3_cross(a, b);
@@ -35,7 +37,7 @@ static sbfi_d3 solve3(const double m[6], sbfi_d3 r) {
   return sbfi_d3_scale((sbfi_d3){sbfi_d3_dot(bc, r), sbfi_d3_dot(ca, r), sbfi_d3_dot(ab, r)}, 1 / det);
 }
 
-/* The rigid motion nearest to a field over weighted places. */
+/* Best fitting rigid motion of a field at weighted positions. */
 static rigid nearest_rigid(
     const sbf_vec3 *positions, const float *weights, const double *field, uint32_t count) {
   rigid motion = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -71,7 +73,7 @@ static void take_off(const rigid *motion, const sbf_vec3 *positions, double *fie
   }
 }
 
-/* Acceleration of load number `load`, of size 1, at a place, along which axis. */
+/* Axis of a load, and its acceleration of size 1 at a position. */
 static int axis_of(const sbfi_level_statics *s, uint32_t load) {
   if (s->is_pinned) return (int)load;
   return (int)(load < SBFI_BENDS ? load / 2 : load - SBFI_BENDS);
@@ -87,7 +89,7 @@ static double strength(const sbfi_level_statics *s, uint32_t load, sbf_vec3 posi
 
 /* ---- Loads ---- */
 
-/* Forces become accelerations, less the rigid motion in them, and forces again. */
+/* Converts forces to accelerations, subtracts their rigid motion, and converts back. */
 static void balance(const sbf_spring_network *n, double *forces) {
   for (size_t i = 0; i < 3 * (size_t)n->point_count; i++)
     forces[i] = n->masses[i / 3] > 0 ? forces[i] / n->masses[i / 3] : 0;
@@ -148,7 +150,7 @@ bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s
   return true;
 }
 
-/* A direction for a patch in a push, by chance but always the same. */
+/* Deterministic pseudo-random direction for a patch in a push. */
 static sbfi_d3 find_displacement(uint32_t push, uint32_t patch) {
   uint32_t h = (patch + 1) * 2654435761u + (push + 1) * 2246822519u;
   h = (h ^ h >> 15) * 3266489917u;
@@ -157,7 +159,7 @@ static sbfi_d3 find_displacement(uint32_t push, uint32_t patch) {
       (double)(h & 1023) - 511.5, (double)(h >> 10 & 1023) - 511.5, (double)(h >> 20 & 1023) - 511.5});
 }
 
-/* A twist's force on a piece of the surface of 1 m^2. */
+/* Force of a twist on a surface of 1 m^2. */
 static sbfi_d3 twist_of(const sbfi_level_statics *s, uint32_t axis, sbf_vec3 position) {
   const double from[3] = {position.x, position.y, position.z};
   double q[3], arm = 1;

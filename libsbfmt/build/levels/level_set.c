@@ -8,16 +8,16 @@
 #include "build/springs/lattice_springs_level.h"
 
 enum { COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
-/* Bodies with a smaller share are so many that a rough reference has to do. */
+/* Bodies with a smaller budget are so numerous that they use a rough reference. */
 enum { ROUGH_ELEMENTS = 128 };
 
-/* Tetrahedra of the lattice that the others are compared with. */
+/* Number of tetrahedra of the reference lattice. */
 static uint32_t reference_elements(const sbfi_level_set *l) {
   uint32_t portion = l->recipe->part;
   return portion > 0 && portion < SBFI_REFERENCE_ELEMENTS / 8 ? 8 * portion : SBFI_REFERENCE_ELEMENTS;
 }
 
-/* A lattice of so many or more is not compared: it is as fine as the reference, near enough. */
+/* A lattice from this number on is not compared: it is about as fine as the reference. */
 static uint32_t fine_elements(const sbfi_level_set *l) {
   return reference_elements(l) / 2;
 }
@@ -43,7 +43,7 @@ static bool has_falls(const sbfi_level_set *l) {
 static sbfi_reference_use use_of(const sbfi_level_set *l) {
   bool lattice = l->level_count > 0 && l->levels[0].model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   bool calibrates = l->recipe->calibrate && (lattice || l->recipe->error > 0);
-  /* Levels of springs, the fourth and later ones, are fitted by pushes whatever the surface. */
+  /* Levels of springs, from the fourth on, are always fitted by pushes. */
   bool pushes =
       !sbfi_surface_is_sparse(l->body) || sbfi_level_set_lattices(l->recipe->levels) + 1 < l->recipe->levels;
   return (sbfi_reference_use){
@@ -58,8 +58,8 @@ static sbfi_lattice_outcome make_reference(sbfi_level_set *l, uint32_t elements)
   return sbfi_reference_make(&l->reference, l->body, elements, is_rough, l->asset, &use, l->allocator);
 }
 
-/* Compares the last level, where there is something to compare it with, and takes it out again where it comes
- * to no rest or is too far off, unless it is the finest. */
+/* Compares the last level with the reference, if any, and removes it if it does not converge or its error
+ * is too large, unless it is the finest. */
 static sbfi_lattice_outcome measure(
     sbfi_level_set *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
@@ -75,7 +75,7 @@ static sbfi_lattice_outcome measure(
   return SBFI_LATTICE_MADE;
 }
 
-/* A lattice, without points where there is nothing to fill. */
+/* Builds a lattice, without points if there is nothing to fill. */
 static sbfi_lattice_outcome make_lattice(
     sbfi_level_set *l, double cell, uint32_t elements, sbf_asset *asset, sbf_level *level) {
   const sbfi_lattice_recipe recipe = {
@@ -98,7 +98,7 @@ sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements
        tried *= 4) {
     sbf_level level;
     sbfi_calibration calibration = {.factor = 1};
-    /* What is only tried takes no memory of the asset's. */
+    /* Trials must not allocate from the asset. */
     sbf_asset *memory = sbf_asset_create(set->allocator);
     if (!memory) return SBFI_LATTICE_NO_MEMORY;
     memory->bones = set->asset->bones;
@@ -119,7 +119,7 @@ sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements
   return outcome;
 }
 
-/* The finest level: calibrated, or itself what the others are compared with. */
+/* Handles the finest level: calibrates it, or makes it the reference. */
 static sbfi_lattice_outcome take_finest(sbfi_level_set *l, const sbfi_interior_map *interior) {
   sbf_level *level = &l->levels[l->level_count++];
   bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
@@ -164,8 +164,8 @@ static sbfi_lattice_outcome add_lattices(sbfi_level_set *l) {
   return SBFI_LATTICE_MADE;
 }
 
-/* The sides of a lattice of twice the coarsest one's cell, or where nothing much is left of that, of one of
- * the same: cheaper than the level before it, as a level should be. */
+/* Adds springs along the edges of a lattice with twice the coarsest one's cell, or if that becomes too
+ * small with the same cell. They must be cheaper than the previous level. */
 static sbfi_lattice_outcome add_springs(sbfi_level_set *l, sbfi_arena *arena) {
   const sbf_level *coarsest = &l->levels[l->level_count - 1];
   sbf_level *level = &l->levels[l->level_count];

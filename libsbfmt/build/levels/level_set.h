@@ -1,5 +1,5 @@
-/* The levels of one body, finest first: lattices of twice the cell each, springs along the sides of one more,
- * jiggle; each compared with what the body does as a fine lattice, lattices calibrated to it. */
+/* Builds the levels of a body, finest first: lattices with doubling cell sizes, springs along the edges of
+ * one more lattice, jiggle. Each is compared with a fine lattice; lattices are calibrated to it. */
 #ifndef SBFI_LEVEL_SET_H
 #define SBFI_LEVEL_SET_H
 
@@ -8,20 +8,20 @@
 enum { SBFI_MAX_LEVELS = 8 };
 
 typedef struct sbfi_level_set_recipe {
-  uint32_t levels; /* in all, 1 to SBFI_MAX_LEVELS */
-  double error;    /* m, that the finest may be off; 0: whatever it is */
+  uint32_t levels; /* number of levels, 1 to SBFI_MAX_LEVELS */
+  double error;    /* m, maximum error of the finest; 0: unlimited */
   bool calibrate;  /* lattices, and springs that are the finest level */
   bool flexion;    /* for a level of springs */
-  double tick;     /* s, that costs are for */
-  uint32_t part;   /* the finest lattice has no more than this unasked; its reference eight times as many */
+  double tick;     /* s, the tick for costs */
+  uint32_t part;   /* default limit of the finest lattice's elements; its reference has eight times as many */
   int32_t derivation;
 } sbfi_level_set_recipe;
 
-/* A level that comes to no rest, or is off by more than SBFI_MAX_OFF. */
+/* A level that does not converge, or has an error above SBFI_MAX_OFF. */
 typedef struct sbfi_poor_level {
-  uint32_t elements; /* tetrahedra, or of springs those along whose sides they go */
-  double off;        /* share, under the load where that is most; 0: it comes to no rest */
-  bool is_kept;      /* the finest; others are left out */
+  uint32_t elements; /* number of tetrahedra, or for springs that of their lattice */
+  double off;        /* largest relative error under a load; 0: no convergence */
+  bool is_kept;      /* the finest level; others are removed */
 } sbfi_poor_level;
 
 typedef struct sbfi_level_set {
@@ -32,32 +32,33 @@ typedef struct sbfi_level_set {
   const sbf_allocator *allocator;
   bool has_reference;
   sbfi_reference reference;
-  sbf_level *levels; /* (level_count) memory of the asset */
+  sbf_level *levels; /* (level_count) owned by the asset */
   uint32_t level_count;
-  sbfi_calibration calibrations[SBFI_MAX_LEVELS]; /* of those that say so */
+  sbfi_calibration calibrations[SBFI_MAX_LEVELS]; /* of levels with a calibration */
   sbfi_poor_level poor[SBFI_MAX_LEVELS];
   uint32_t poor_count;
 } sbfi_level_set;
 
-/* How many of `levels` are lattices, where the finest is one: with three and more the last is jiggle, with
- * four and more the one before is springs. */
+/* How many of `levels` are lattices if the finest is one: with at least three the last is jiggle, with at
+ * least four the one before is springs. */
 uint32_t sbfi_level_set_lattices(uint32_t levels);
 
-/* Everything stays the caller's. To be freed whatever comes of it. */
+/* Borrows all arguments. Must be freed after any result. */
 void sbfi_level_set_init(sbfi_level_set *set, const sbf_soft_body *body, const sbfi_level_set_recipe *recipe,
     sbf_asset *asset, sbfi_progress progress, const sbf_allocator *allocator);
 void sbfi_level_set_free(sbfi_level_set *set);
 
-/* About how many tetrahedra the coarsest lattice has that meets the recipe's error when calibrated and is off
- * by no more than SBFI_MAX_OFF under any load, in steps of four times as many. Where none is both, the
- * coarsest that meets the error; `*met` is false where none of fewer than the reference's does. */
+/* Finds the coarsest lattice, in steps of four times the elements, that meets the recipe's error when
+ * calibrated and has an error of at most SBFI_MAX_OFF under every load, and returns its approximate number
+ * of tetrahedra. If none meets both, returns the coarsest that meets the error; `*met` is false if none
+ * with fewer elements than the reference does. */
 sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements, bool *reached);
 
-/* From the finest level, of springs or tetrahedra, `interior` its map, makes the list of all and measures
- * them. A lattice that finds nothing to fill, is no coarser than the one before, comes to no rest under
- * gravity or is off by more than SBFI_MAX_OFF is left out, and springs that come to none. Springs go
- * along the sides of a lattice, whose tetrahedra they keep until embeddings are made
- * (lattice_springs_level.h). `arena` is scratch. */
+/* Builds and measures all levels from the finest, of springs or tetrahedra, whose map is `interior`. Skips
+ * a lattice that finds nothing to fill, is no coarser than the previous one, does not converge under
+ * gravity or has an error above SBFI_MAX_OFF, and springs that do not converge. Springs follow the edges
+ * of a lattice and keep its tetrahedra until embeddings are made (lattice_springs_level.h). `arena` is
+ * scratch. */
 sbfi_lattice_outcome sbfi_level_set_make(
     sbfi_level_set *set, const sbf_level *finest, const sbfi_interior_map *interior, sbfi_arena *arena);
 

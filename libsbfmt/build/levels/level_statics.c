@@ -6,8 +6,8 @@
 #include "build/levels/loose_pieces.h"
 #include "mechanics/vector.h"
 
-/* Of the square of the lowest frequency: so weakly a body that nothing holds is drawn to its place, which
- * moves nothing, the loads being balanced, and keeps the equations solvable. */
+/* Fraction of the squared lowest frequency: weak tethers on a free body keep the equations solvable. They
+ * move nothing, because loads are balanced. */
 static const double tether = 1e-3;
 
 static double component(sbf_vec3 v, int axis) {
@@ -70,7 +70,7 @@ static float weight_of(const sbf_pin_set *set, uint32_t i) {
   return fminf(fmaxf(w, set->minimum), set->maximum);
 }
 
-/* By Newton's method from above: the same bits on every machine. */
+/* Newton's method from above: the same bits on every machine. */
 static double cube_root(double x) {
   double root = x > 1 ? x : 1, before = 0;
   for (int i = 0; i < 2000 && x > 0 && root != before; i++) {
@@ -80,7 +80,7 @@ static double cube_root(double x) {
   return x > 0 ? root : 0;
 }
 
-/* Goal springs. */
+/* Adds goal springs. */
 static bool take_anchors(sbfi_level_statics *s, const float *masses, sbfi_arena *arena) {
   const sbf_attributes *matter = &s->body->attributes;
   float *anchors = sbfi_arena_allocate(arena, s->level->positions.count, sizeof *anchors);

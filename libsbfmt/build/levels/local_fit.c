@@ -8,10 +8,11 @@
 
 enum { ROUNDS = 4, SMOOTHINGS = 3 };
 static const double min_factor = 0.125, max_factor = 2, max_change = 2;
-/* How exactly pushes are solved, and what counts as no work: shares of the whole, and of the mean point's. */
+/* Relative accuracy of displacements under pushes; minimum work that counts, as fractions of the total and
+ * of the mean point's. */
 static const double push_fraction = 5e-3, no_work = 1e-6;
 
-/* Adds each element's work in the displacements, times `scale`, to its corners. */
+/* Adds each element's work for the displacements, times `scale`, to its corners. */
 static void add_works(
     const sbfi_linear_statics *linear, const double *moved, double scale, double *at_points) {
   const sbf_spring_network *n = linear->stiffness.network;
@@ -57,13 +58,13 @@ typedef struct work {
   sbfi_linear_statics *linear;
   const sbfi_push_works *works;
   double *wanted, *own;       /* (points) */
-  double *sums, *counts;      /* (points) of smoothing */
+  double *sums, *counts;      /* (points) for smoothing */
   double *forces;             /* (3 x points) */
   double *moved[SBFI_PUSHES]; /* (3 x points) */
-  float *stated;              /* (tetrahedra) Pa, before */
+  float *stated;              /* (tetrahedra) Pa, original moduli */
 } work;
 
-/* To each point the mean of what its elements have on the mean. */
+/* Smooths: each point receives the mean of its elements' means. */
 static void smooth(const work *w, double *values) {
   const sbf_spring_network *n = &w->statics->network;
   for (int times = 0; times < SMOOTHINGS; times++) {
@@ -82,7 +83,7 @@ static void smooth(const work *w, double *values) {
   }
 }
 
-/* What the points of the fine level have, at those of this one that embed them. */
+/* Maps values of the fine level's points to those of this level that embed them. */
 static void map_works(const work *w, const sbfi_level_statics *of) {
   const sbf_spring_network *n = &of->network;
   for (uint32_t i = 0; i < n->point_count; i++) {

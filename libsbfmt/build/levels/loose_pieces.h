@@ -1,20 +1,20 @@
-/* Pieces of a level that hang on nothing while others do: crumbs of a lattice of a surface with holes or of
- * one finer than its cell. Statics has no answer for them: they would give without end. */
+/* Finds unpinned pieces of a level whose other pieces are pinned: crumbs of a lattice of a surface with
+ * holes or details below its cell size. Statics has no solution for them: their displacement is unbounded. */
 #ifndef SBFI_LOOSE_PIECES_H
 #define SBFI_LOOSE_PIECES_H
 
 #include "base/memory.h"
 #include "sbfmt/mechanics.h"
 
-/* Takes the masses (point_count), which are the network's own, off every piece that nothing holds, so that it
- * counts as held where it is; where nothing is `pinned` at all, off every piece but the heaviest. `*loose_kg`
- * receives what that took. False where memory runs out. */
+/* Sets the masses (point_count) of the network's unpinned pieces to 0, so that they count as pinned; if
+ * nothing is `pinned`, of every piece but the heaviest. `*loose_kg` receives the removed mass. False if
+ * memory runs out. */
 bool sbfi_loose_pieces_hold(
     const sbf_spring_network *network, bool pinned, float *masses, double *loose_kg, sbfi_arena *scratch);
 
-/* Whether a piece with some free point is held at points of one line alone, within 1e-4 of `size_m`, or at
- * one: it turns about them, and no load that is not balanced about them finds an answer. Pieces that nothing
- * holds do not count. False where memory runs out. */
+/* Whether a piece with free points is pinned only at one point or along one line, within 1e-4 of `size_m`:
+ * it can rotate about that, so most loads have no solution. Ignores unpinned pieces. False if memory runs
+ * out. */
 bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch);
 
 #endif

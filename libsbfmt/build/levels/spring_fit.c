@@ -6,32 +6,32 @@
 #include "build/levels/stiffness_descent.h"
 
 static const double solve_fraction = 2e-3;
-/* Both factors stay between these, and so does each spring's own: what springs lack of a matter's stiffness
- * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. A
- * point that is held four times as tightly doubles the substeps at most. */
+/* Bounds of both factors and of each spring's own. Differences beyond them come from shapes that springs
+ * cannot support, and larger factors would only shorten the time step. A four times stiffer point at most
+ * doubles the substeps. */
 static const double min_factor = 0.125, max_factor = 16, max_raise = 4, move_fraction = 1e-3;
 enum { MAX_ROUNDS = 25 };
-/* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
- * step: finer ones are left to each spring by itself. */
+/* Range and step of the search for the ratio of the surface's factor to the interior one; each spring's
+ * own fit does the rest. */
 static const double step = 2, max_ratio = 4;
-/* Of more points the two get one factor to begin with: each trial takes seconds. */
+/* Above this number of points both factors are equal at first: each trial takes seconds. */
 enum { MAX_TRIED_POINTS = 4000 };
 
 typedef struct work {
   sbfi_level_statics *statics;
   sbfi_linear_statics *linear;
-  const double *const *gives; /* (loads) NULL: that one does not count */
-  float *stated;              /* (springs) N/m, before */
+  const double *const *gives; /* (loads) NULL: ignored */
+  float *stated;              /* (springs) N/m, original stiffness */
   double *moved;              /* (3 x surface points) */
   sbfi_arena *scratch;
   sbfi_progress progress;
 } work;
 
-/* What two factors come to, the second found by least squares for their ratio. */
+/* Result of two factors; the second is the least squares solution for their ratio. */
 typedef struct trial {
-  double ratio, inner; /* of the surface's factor to the inner one; that */
-  double left;         /* sum of squares */
-  double as_is;        /* the same with an inner factor of 1 */
+  double ratio, inner; /* ratio of the surface's factor to the interior one; the interior factor */
+  double left;         /* sum of squared residuals */
+  double as_is;        /* the same with an interior factor of 1 */
 } trial;
 
 static bool is_inner(const sbf_level *level, uint32_t *set, uint32_t *left) {
@@ -70,7 +70,8 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
     both += sums[1] / sums[2];
     wanted += 1;
   }
-  /* Displacements go with one over the factor c: least is own / c^2 - 2 both / c + wanted. */
+  /* Displacements are inversely proportional to the factor c: the minimum of own / c^2 - 2 both / c +
+   * wanted. */
   double inner = both > 0 && own > 0 ? own / both : 1;
   inner = fmin(fmax(inner, min_factor / fmin(ratio, 1)), max_factor / fmax(ratio, 1));
   *made = (trial){ratio, inner, wanted > 0 ? (own / inner - 2 * both) / inner + wanted : 0,

@@ -6,12 +6,12 @@
 #include "mechanics/network.h"
 #include "mechanics/vector.h"
 
-static const double adjoint_fraction = 10; /* of how exactly displacements are solved */
-/* By so much more than itself a factor grows in a round, or shrinks. */
+static const double adjoint_fraction = 10; /* relative to the accuracy of displacements */
+/* Step sizes of the logarithm of a factor: initial, minimum, maximum; their growth and reduction. */
 static const double first_step = 0.2, min_step = 1e-3, max_step = 1.5, longer = 1.2, shorter = 0.5;
-static const double smoothing = 0.1; /* of the way, each round */
-/* Blocks of the matrix that are met in all: no new round begins beyond, so that no body takes many seconds,
- * however badly its equations are conditioned. */
+static const double smoothing = 0.1; /* blend per round */
+/* Limit of matrix blocks processed before a new round, so that no body takes many seconds, however badly
+ * conditioned its equations are. */
 static const double max_visits = 3e8;
 enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MAX_WANTED = SBFI_MAX_LOADS + SBFI_PUSHES };
 
@@ -21,7 +21,7 @@ typedef struct work {
   const sbfi_wanted *wanted;
   const sbfi_factor_bounds *bounds;
   const float *stated; /* (elements) */
-  float *values;       /* (elements) the network's own */
+  float *values;       /* (elements) of the network */
   uint32_t element_count;
   bool springs;
   double *forces;                                  /* (3 x level points) */
@@ -29,11 +29,11 @@ typedef struct work {
   double *moved[MAX_WANTED], *adjoint[MAX_WANTED]; /* (3 x level points) */
   double *factors, *gradient, *before, *steps;     /* (elements) */
   float *best;                                     /* (elements) */
-  double *pinned_by;                               /* (level points) N/m, its springs added up */
+  double *pinned_by;                               /* (level points) N/m, sum over its springs */
   double max_pinned;                               /* N/m per kg */
-  double *sums, *counts;                           /* (level points) of smoothing */
-  double visits;                                   /* of blocks of the matrix, so far */
-  sbfi_progress progress;                          /* of this round */
+  double *sums, *counts;                           /* (level points) for smoothing */
+  double visits;                                   /* matrix blocks processed so far */
+  sbfi_progress progress;                          /* of the current round */
 } work;
 
 static work begin(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted) {
@@ -63,7 +63,7 @@ static void set_forces(const work *w, uint32_t load) {
     sbfi_level_push(w->statics, w->wanted->pushes, load - gravities, w->forces);
 }
 
-/* Zeros: each round starts from the answers of the one before. */
+/* Zeros; each round starts from the previous solutions. */
 static bool reserve_points(work *w, bool adjoint, sbfi_arena *arena) {
   size_t points = (size_t)w->statics->network.point_count + 1;
   size_t surface = (size_t)w->statics->body->surface.positions.count + 1;
@@ -96,8 +96,8 @@ static void solve(work *w, double fraction, double *displacements) {
   w->visits += (steps + 1.0) * matrix->begins[matrix->row_count];
 }
 
-/* Solves for a load and returns the square of what is left, as a share; `forces` become its derivatives by
- * the displacements. Negative: the load does not count. */
+/* Solves for a load and returns the squared relative residual; `forces` receives its derivatives by the
+ * displacements. Negative: the load is ignored. */
 static double mismatch(work *w, uint32_t load) {
   const sbfi_level_statics *s = w->statics;
   const double *wanted = wanted_of(w, load);
@@ -155,13 +155,13 @@ static void add_gradient_of_tetrahedra(const work *w, uint32_t load) {
   }
 }
 
-/* Negative where the work is ended. */
+/* Negative if the build is cancelled. */
 static double evaluate(work *w, bool gradient) {
   double sum = 0;
   int loads = 0;
   if (gradient) memset(w->gradient, 0, w->element_count * sizeof *w->gradient);
   for (uint32_t load = 0; load < load_count(w); load++) {
-    /* Where there are few points a round is short. */
+    /* With few points a round is short. */
     bool is_long = load == 0 || w->statics->network.point_count > POINTS_FOR_ALL;
     if (is_long && !sbfi_progress_say(w->progress, (double)load / load_count(w))) return -1;
     double left = mismatch(w, load);
@@ -185,7 +185,7 @@ static void add_pinned(const work *w, const float *stiffness) {
     for (int end = 0; end < 2; end++) w->pinned_by[n->ends[i].at[end]] += (double)stiffness[i];
 }
 
-/* Holds springs' factors down where they would hold a point too tightly. */
+/* Limits factors of springs that would make a point too stiff. */
 static void slacken(const work *w) {
   const sbf_spring_network *n = &w->statics->network;
   add_pinned(w, w->values);
@@ -201,8 +201,7 @@ static void slacken(const work *w) {
   }
 }
 
-/* Draws the factors of tetrahedra a little to those around them: what the loads say of single ones is more
- * than other loads bear out. */
+/* Smooths the factors of tetrahedra a little, because the loads overfit single ones. */
 static void smooth(const work *w) {
   const sbf_spring_network *n = &w->statics->network;
   memset(w->sums, 0, n->point_count * sizeof *w->sums);
@@ -220,7 +219,7 @@ static void smooth(const work *w) {
   }
 }
 
-/* Holds factors within their bounds and writes the stiffnesses. */
+/* Clamps factors to their bounds and writes the stiffnesses. */
 static void set_values(const work *w) {
   if (!w->springs) smooth(w);
   for (uint32_t i = 0; i < w->element_count; i++) {
@@ -254,7 +253,7 @@ static void find_factors(const work *w) {
 
 bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
     const sbfi_wanted *wanted, double *left, sbfi_arena *scratch) {
-  /* Nothing of the level is written to here. */
+  /* Does not write to the level. */
   static const sbfi_factor_bounds exact = {.fraction = 1e-3};
   work w = begin((sbfi_level_statics *)(uintptr_t)statics, linear, wanted);
   w.bounds = &exact;

@@ -1,42 +1,42 @@
-/* Each element's own stiffness or modulus, so that a surface goes where it is wanted under given loads: where
- * a few springs or coarse tetrahedra stand for matter, what each of them has to bear differs by much more
- * than one factor for all can say.
+/* Fits each element's own stiffness or modulus so that a surface has given displacements under given loads:
+ * if a few springs or coarse tetrahedra represent a material, their required stiffnesses vary much more than
+ * one common factor allows.
  *
- * Least squares over the factors' logarithms. Their gradient costs one more solution a load: with K u = f and
- * K y = dE/du, it is -y K_e u, K_e the element's own part of K, summed over the loads. Steps are those of
- * resilient backpropagation (Riedmiller and Braun, IEEE International Conference on Neural Networks, 1993),
- * which takes the gradient's signs alone, so that elements that matter little find their way as well; the
- * best of all rounds is kept. */
+ * Least squares over the factors' logarithms. The gradient costs one more solution per load: with K u = f
+ * and K y = dE/du it is -y K_e u, where K_e is the element's part of K, summed over the loads. Steps are
+ * those of resilient backpropagation (Riedmiller and Braun, IEEE International Conference on Neural
+ * Networks, 1993), which uses only the signs of the gradient, so that elements of small influence converge
+ * too. Keeps the best round. */
 #ifndef SBFI_STIFFNESS_DESCENT_H
 #define SBFI_STIFFNESS_DESCENT_H
 
 #include "build/levels/level_loads.h"
 
-/* What is wanted of a level: displacements (3 x surface points) m, NULL: that load does not count. */
+/* Target displacements of a level (3 x surface points) m, NULL: the load is ignored. */
 typedef struct sbfi_wanted {
-  const double *const *gives;      /* under the small loads of 1 m/s^2, as sbfi_level_lean gives them */
-  const sbfi_level_pushes *pushes; /* NULL: none are given */
-  const double *const *pushed;     /* (SBFI_PUSHES) under each of them */
+  const double *const *gives;      /* under the small loads of 1 m/s^2, as in sbfi_level_lean */
+  const sbfi_level_pushes *pushes; /* NULL: none */
+  const double *const *pushed;     /* (SBFI_PUSHES) under each push */
 } sbfi_wanted;
 
-/* How far factors may go. */
+/* Bounds of factors. */
 typedef struct sbfi_factor_bounds {
   double min, max;
-  double max_raise; /* of springs: none holds a point by more than this many times what the most tightly held
-                        point for its mass was: the highest frequency grows by its root at most */
-  double fraction;  /* displacements are solved right to that */
-  uint32_t rounds;  /* fewer of them where there are many points, that no body takes many seconds */
+  double max_raise; /* for springs: maximum stiffness per mass of a point, relative to that of the originally
+                       stiffest point: the highest frequency grows at most by its root */
+  double fraction;  /* relative accuracy of displacements */
+  uint32_t rounds;  /* fewer with many points, so that no body takes many seconds */
 } sbfi_factor_bounds;
 
-/* What is left of the difference to what is wanted: root of the mean over the loads of its square's integral
- * over the surface, as a share of that of the displacements wanted. As the network now is; `linear` is up to
- * date. False where memory runs out. */
+/* Remaining relative difference from the targets: root mean square over the loads of the difference
+ * integrated over the surface, relative to the target displacements. For the current network; `linear` is
+ * up to date. False if memory runs out. */
 bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
     const sbfi_wanted *wanted, double *left, sbfi_arena *scratch);
 
-/* From the moduli that `statics` has, or of a level of springs the stiffnesses, goes on to better ones, and
- * refreshes `linear`; `stated` (elements) Pa or N/m are those that factors count from. `*left` as above, in
- * the end. False where memory runs out or the work is ended. */
+/* Improves the moduli of `statics`, or the stiffnesses of a level of springs, and refreshes `linear`;
+ * factors are relative to `stated` (elements) Pa or N/m. `*left` receives the final mismatch as above.
+ * False if memory runs out or the build is cancelled. */
 bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *linear, const float *stated,
     const sbfi_wanted *wanted, const sbfi_factor_bounds *bounds, double *left, sbfi_progress progress,
     sbfi_arena *scratch);

@@ -1,4 +1,4 @@
-/* Material presets by name, from the table that the specification makes. */
+/* Material presets by name, from the table of the specification. */
 #include <string.h>
 
 #include "build/materials/material_table.h"

@@ -33,7 +33,7 @@ static bool find_positions(point_set *p, sbfi_arena *scratch) {
   return sbfi_box_tree_build(&p->interior, boxes, interior->count, scratch);
 }
 
-/* The source points that stand for a place, with their weights; of an interior point the first alone. */
+/* Source points at a position, with weights; an interior point has only the first. */
 typedef struct sources {
   uint32_t points[3];
   double weights[3];
@@ -83,7 +83,7 @@ bool sbfi_point_factors(const sbf_soft_body *body, const sbf_level *level, sbf_w
   return true;
 }
 
-/* `whole` times each tetrahedron's mean factor, none below `least` of it. */
+/* `whole` times each tetrahedron's mean factor, at least `min` of it. */
 static bool spread(const sbf_level *level, const float *factors, double whole, double min, sbf_asset *asset,
     sbf_f32_list *list) {
   const sbf_uint4_list *at = &level->lattice.tetrahedra;
@@ -98,7 +98,7 @@ static bool spread(const sbf_level *level, const float *factors, double whole, d
   return true;
 }
 
-/* Of moduli and densities a file holds no 0. */
+/* Minimum factor: files must not contain moduli and densities of 0. */
 static const double min = 1e-6;
 
 bool sbfi_lattice_weigh(sbf_level *level, const sbf_soft_body *body, sbf_asset *asset, sbfi_arena *scratch) {

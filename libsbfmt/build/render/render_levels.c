@@ -8,10 +8,10 @@
 #include "build/render/wedges.h"
 
 enum { FEWEST_TRIANGLES = 32, RULE_COUNT = 3 };
-/* A level of so many times the triangles asked for is near enough. */
+/* Accepted ratio of a level's triangles to the target. */
 static const double NEAR_ENOUGH = 1.15, MIN_STEP = 0.8;
 
-/* From what one would keep to what one must keep. */
+/* Rules from most to least preserved features. */
 static const sbfi_wedge_rule rules[RULE_COUNT] = {{true, true}, {false, true}, {false, false}};
 
 typedef struct simplified {
@@ -24,12 +24,12 @@ typedef struct leveller {
   const sbf_render_mesh *mesh;
   sbf_asset *asset;
   sbfi_arena *scratch;
-  sbfi_wedges wedges[RULE_COUNT]; /* by rule; no triangles: not yet made */
+  sbfi_wedges wedges[RULE_COUNT]; /* by rule; without triangles: not yet made */
   sbfi_triangle_tree full;
 } leveller;
 
-/* The simplifier throws where memory runs out, which nothing here could catch: whether there is what it takes
- * is asked before. */
+/* The simplifier throws if memory runs out, which C cannot catch: so this checks in advance whether enough
+ * memory is available. */
 static bool has_memory_for(const sbfi_wedges *wedges, const sbf_allocator *allocator) {
   size_t bytes = 192 * (size_t)wedges->count + 96 * (size_t)wedges->triangle_count + 4096;
   void *buffer = sbfi_allocate(allocator, bytes);
@@ -50,7 +50,7 @@ static bool simplify(leveller *l, int rule, uint32_t target, simplified *made) {
   return true;
 }
 
-/* By the first rule that lets it become as small as it shall, else by that which comes nearest. */
+/* Uses the first rule that reaches the target, otherwise the one that comes closest. */
 static bool simplify_by_rules(leveller *l, uint32_t target, simplified *best) {
   for (int rule = 0; rule < RULE_COUNT; rule++) {
     simplified made;
@@ -90,7 +90,7 @@ static bool fill_level(leveller *l, const simplified *made, sbf_render_level *le
   return true;
 }
 
-/* What is stored is never below what was measured. */
+/* Rounds up, so that a stored error is never below the measured one. */
 static float no_less(double value) {
   float near = (float)value;
   return (double)near < value ? nextafterf(near, INFINITY) : near;
@@ -149,7 +149,7 @@ bool sbfi_render_levels_make(sbf_asset *asset, const sbfi_render_recipe *recipe,
   bool good = true;
   uint32_t count = asset->render_meshes.count;
   for (uint32_t i = 0; i < count && recipe->levels && good; i++) {
-    /* The caller says that the asset's structs may be written to. */
+    /* The caller guarantees that the asset's structs are writable. */
     sbf_render_mesh *mesh = (sbf_render_mesh *)(uintptr_t)&asset->render_meshes.at[i];
     if (mesh->levels.count || mesh->mesh.polygon_sizes.count == 0) continue;
     good = level_mesh(mesh, recipe, asset, sbfi_progress_part(progress, (double)i / count, (i + 1.0) / count),

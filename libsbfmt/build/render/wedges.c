@@ -7,12 +7,12 @@
 enum { LONG_POLYGON = 64 };
 
 typedef struct splitting {
-  uint32_t *of_corner; /* the class of each corner so far */
+  uint32_t *of_corner; /* current class of each corner */
   uint32_t corner_count, class_count;
   sbfi_arena *arena;
 } splitting;
 
-/* Classes whose corners have unlike keys fall apart; `at[0]` of a key is the class's. */
+/* Splits classes whose corners have different keys; `at[0]` of a key is the class. */
 static bool split(splitting *s, sbfi_key (*key_of)(const void *user, uint32_t corner), const void *user) {
   sbfi_key_set set;
   uint32_t count = 0;
@@ -44,7 +44,7 @@ static sbfi_key key_of_coordinates(const void *user, uint32_t corner) {
 static sbfi_key key_of_color(const void *user, uint32_t corner) {
   const sbf_vec4 *at = (const sbf_vec4 *)user + corner;
   const float numbers[4] = {at->x, at->y, at->z, at->w};
-  uint32_t steps = 0; /* as fine as eight bits are */
+  uint32_t steps = 0; /* quantized to eight bits */
   for (int k = 0; k < 4; k++) steps = steps << 8 | (uint32_t)(numbers[k] * 255 + 0.5f);
   return (sbfi_key){{0, steps, 0, 0}};
 }
@@ -64,7 +64,7 @@ static bool split_by_coordinates(splitting *s, const sbf_render_mesh *mesh, cons
   return split(s, key_of_coordinates, of_corner);
 }
 
-/* Normals of points split nothing. */
+/* Normals per point split nothing. */
 static bool split_by_normals(splitting *s, const sbf_render_mesh *mesh) {
   if (!mesh->normal_corners.count) return true;
   sbf_vec3 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
@@ -73,7 +73,7 @@ static bool split_by_normals(splitting *s, const sbf_render_mesh *mesh) {
   return split(s, key_of_normal, of_corner);
 }
 
-/* Colours of points split nothing. */
+/* Colours per point split nothing. */
 static bool split_by_colors(splitting *s, const sbf_render_mesh *mesh) {
   if (!mesh->color_corners.count) return true;
   sbf_vec4 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
@@ -82,7 +82,7 @@ static bool split_by_colors(splitting *s, const sbf_render_mesh *mesh) {
   return split(s, key_of_color, of_corner);
 }
 
-/* Of each point: the bone that holds most of it, the first of several; UINT32_MAX: none. */
+/* Bone of greatest weight at each point, the first if equal; UINT32_MAX: none. */
 static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
   const sbf_skin *skin = mesh->skin;
   for (uint32_t p = 0, i = 0; p < skin->influence_counts.count; p++) {
@@ -96,7 +96,8 @@ static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
   }
 }
 
-/* The holder of most of a polygon's corners, the first of several; of a very long one that of the first. */
+/* Bone of most of a polygon's corners, the first if equal; for a very large polygon that of its first
+ * corner. */
 static uint32_t holder_of_polygon(const uint32_t *holders, const uint32_t *points, uint32_t size) {
   uint32_t best = holders[points[0]], max = 0;
   if (size > LONG_POLYGON) return best;
@@ -174,7 +175,7 @@ bool sbfi_wedges_make(
                               arena, mesh->mesh.polygon_points.at, (size_t)corner_count, sizeof(uint32_t))};
   uint32_t *slots = sbfi_arena_allocate(arena, (size_t)corner_count + 1, sizeof *slots);
   splitting s = {wedges->of_corner, corner_count, 0, arena};
-  /* The first of them, by the points themselves, numbers the classes without gaps. */
+  /* The first pass, by points, numbers the classes without gaps. */
   if (!wedges->of_corner || !slots || !split(&s, key_of_number, wedges->of_corner) ||
       !split_by_materials(&s, mesh, slots))
     return false;

@@ -7,16 +7,16 @@
 #include "build/geometry/triangle_tree.h"
 #include "mechanics/extent.h"
 
-/* At the surface: no farther than this part of the body's extent. */
+/* Maximum distance to the surface as a fraction of the body's extent. */
 static const double AT_SURFACE = 0.05;
-/* The part of a skin that its sections lie along; and of all skins of its skeleton, which one of them that is
- * a material alone may not decide for. */
+/* Minimum fraction of a skin's vertices at its sections; and minimum fraction of all skins of its
+ * skeleton, so that a skin of a single material cannot decide alone. */
 static const double SECTIONED_PART = 0.5, PART_OF_ALL = 0.2;
 
 typedef struct body_side {
   sbfi_triangle_tree surface;
-  double squared_reach; /* m2 */
-  uint32_t next;        /* the next body on the same bone; SBFI_NO_INDEX: none */
+  double squared_reach; /* m^2 */
+  uint32_t next;        /* next body on the same bone; SBFI_NO_INDEX: none */
 } body_side;
 
 typedef struct work {
@@ -40,7 +40,7 @@ static bool index_bodies(work *w, uint32_t body_count, sbfi_arena *scratch) {
     w->bodies[b].next = w->bone_bodies[body->bone];
     w->bone_bodies[body->bone] = b;
   }
-  /* Parents stand before their children. */
+  /* Parents come before their children. */
   for (uint32_t i = 0; i < bones; i++)
     if (w->bone_bodies[i] == SBFI_NO_INDEX && asset->bones.at[i].parent != SBF_NONE)
       w->bone_bodies[i] = w->bone_bodies[asset->bones.at[i].parent];
@@ -60,7 +60,7 @@ static uint32_t root_of(const sbf_asset *asset, uint32_t bone) {
   return bone;
 }
 
-/* How many of a skin's vertices lie at bodies, and the first bone of the skeleton that they hang on. */
+/* Number of a skin's vertices at bodies, and the first bone of their skeleton. */
 static uint32_t count_covered(const work *w, const sbf_render_mesh *mesh, uint32_t *root) {
   const sbf_skin *skin = mesh->skin;
   uint32_t count = mesh->mesh.positions.count, covered = 0;

@@ -5,29 +5,29 @@
 #include "mechanics/vector.h"
 
 enum { MAX_POINTS = 16384, MAX_MEMBERS = 8, NO_CLUSTER = -1 };
-/* Clusters that are more than this share of the points are no help. */
+/* Maximum ratio of clusters to points for a useful coarse level. */
 static const double MAX_CLUSTERS = 0.7;
-/* Of a coarse triangle's area, in squares of its longest side: thinner ones show no stretch of the surface.
- */
+/* Minimum area of a coarse triangle relative to its squared longest side: thinner ones do not show the
+ * surface's stretch. */
 static const double MIN_AREA = 0.1;
 
 typedef struct clusters {
   const sbfi_blend_surface *fine;
-  int64_t *of_point; /* (points) NO_CLUSTER where a point has no triangles */
+  int64_t *of_point; /* (points) NO_CLUSTER for a point without triangles */
   uint32_t count;
-  uint32_t *begins, *members; /* points of each, (count + 1) and (points) */
+  uint32_t *begins, *members; /* points of each cluster, (count + 1) and (points) */
 } clusters;
 
 /* A sum of rows. */
 typedef struct row_sum {
-  sbfi_array weights; /* sbfi_blend_weight, as they were added */
+  sbfi_array weights; /* sbfi_blend_weight, in order of addition */
 } row_sum;
 
 static bool is_fixed(const sbfi_blend_surface *s, uint32_t point) {
   return s->fixed && s->fixed[point];
 }
 
-/* A point with those around it that are in no cluster yet. */
+/* Creates a cluster of a point and its unassigned neighbours. */
 static void take_cluster(clusters *c, uint32_t first, uint32_t *next) {
   const sbfi_blend_surface *s = c->fine;
   uint32_t begin = *next;
@@ -67,7 +67,7 @@ static bool add_row(row_sum *sum, const sbfi_blend_row *row, double factor) {
   return true;
 }
 
-/* Takes what was added as a row, without what is negligible or below 0, its sum 1; and begins again. */
+/* Converts the sum to a row: drops negligible and negative weights, normalizes, and resets the sum. */
 static bool take_row(row_sum *sum, sbfi_blend_row *to, sbfi_arena *arena) {
   sbfi_blend_weight *at = sum->weights.at;
   uint32_t count = (uint32_t)sum->weights.count, merged = 0, kept = 0;
@@ -97,7 +97,7 @@ static bool take_row(row_sum *sum, sbfi_blend_row *to, sbfi_arena *arena) {
   return true;
 }
 
-/* The mean row of each cluster. */
+/* Mean row of each cluster. */
 static sbfi_blend_row *mean_rows(
     const clusters *c, const sbfi_blend_row *from, row_sum *sum, sbfi_arena *arena) {
   sbfi_blend_row *rows = sbfi_arena_allocate(arena, (size_t)c->count + 1, sizeof *rows);
@@ -127,7 +127,7 @@ static bool is_thin(const sbf_vec3 *positions, const uint32_t corners[3]) {
   return !(sbfi_d3_length(sbfi_d3_cross(sides[0], sides[1])) > 2 * MIN_AREA * longest);
 }
 
-/* The surface of the clusters. */
+/* Builds the surface of the clusters. */
 static bool make_coarse(sbfi_blend_surface *to, const clusters *c, row_sum *sum, sbfi_arena *arena) {
   const sbfi_blend_surface *s = c->fine;
   sbf_vec3 *positions = sbfi_arena_allocate(arena, (size_t)c->count + 1, sizeof *positions);
@@ -156,7 +156,7 @@ static bool make_coarse(sbfi_blend_surface *to, const clusters *c, row_sum *sum,
   return sbfi_blend_surface_index(to, arena);
 }
 
-/* Adds the mean of what was done to the clusters of the point and of its neighbours. */
+/* Adds the mean correction of the clusters of the point and of its neighbours. */
 static bool correct_point(const clusters *c, const sbfi_blend_surface *coarse, const sbfi_blend_row *old,
     uint32_t point, row_sum *sum, sbfi_arena *arena) {
   const sbfi_blend_surface *s = c->fine;
@@ -180,7 +180,7 @@ static bool correct_point(const clusters *c, const sbfi_blend_surface *coarse, c
 static bool relax_coarse(sbfi_blend_surface *surface, const clusters *c, row_sum *sum, sbfi_arena *arena) {
   sbfi_blend_surface coarse;
   uint32_t left;
-  /* Rows are changed in place: those before are made again. */
+  /* Rows are changed in place: recomputes the old ones. */
   const sbfi_blend_row *old = mean_rows(c, surface->rows, sum, arena);
   if (!old || !make_coarse(&coarse, c, sum, arena) || !sbfi_blend_levels_relax(&coarse, &left, arena))
     return false;

@@ -1,13 +1,13 @@
-/* Smooth weights on fine surfaces: solved on coarser ones first. */
+/* Smooths weights on fine surfaces by a multilevel method: coarser surfaces first. */
 #ifndef SBFI_BLEND_LEVELS_H
 #define SBFI_BLEND_LEVELS_H
 
 #include "build/sections/blend_surface.h"
 
-/* sbfi_blend_surface_relax() for surfaces of any fineness. A sweep carries weights over one triangle, so that
- * a slope as long as a limb is thick would take the square of the triangles along it. Above some 16,000
- * points the surface of clusters of neighbouring points is relaxed first, and its corrections are handed to
- * the points (a cascade of multigrid's coarse corrections). */
+/* sbfi_blend_surface_relax() for surfaces of any resolution. A sweep transports weights by one triangle,
+ * so a slope over a limb's thickness would need time quadratic in the triangles along it. Above some
+ * 16,000 points the surface of clusters of neighbouring points is relaxed first, and its corrections are
+ * transferred to the points (a cascade of multigrid's coarse corrections). */
 bool sbfi_blend_levels_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena);
 
 #endif

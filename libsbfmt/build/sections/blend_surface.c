@@ -4,20 +4,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A fixed point gives way after so many contractions of triangles at it. */
+/* A fixed point becomes free after this many contractions of its triangles. */
 enum { MAX_SWEEPS = 1000, FIXED_CONTRACTIONS = 40 };
-static const double MAX_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
+static const double MAX_STRETCH = 1.9; /* leaves a margin for rounding and dropped weights */
 static const double FLIPPED = 2.2;
-static const double HARMLESS = 0.37;                         /* see is_harmless() */
+static const double HARMLESS = 0.37;                         /* see is_harmless */
 static const double COSINE = 0.5, SINE = 0.8660254037844386; /* of 60 degrees */
 
-/* Weights that a bone and all below it have at the three corners of a triangle: now, and as authored. */
+/* Sum of weights of a bone and its descendants at the three corners of a triangle: current, and authored. */
 typedef struct branch {
   uint32_t bone;
   double now[3], before[3];
 } branch;
 
-/* Branches of the triangle at hand, ascending by bone. */
+/* Branches of the current triangle, ascending by bone. */
 typedef struct branches {
   branch *at;
   uint32_t count, capacity;
@@ -27,8 +27,8 @@ typedef struct work {
   sbfi_blend_surface *s;
   sbfi_arena *arena;
   branches open;
-  uint8_t *pending; /* (triangles) to be looked at */
-  uint8_t *fixed;   /* (points) contractions until the point gives way; 0: it is free */
+  uint8_t *pending; /* (triangles) to be checked */
+  uint8_t *fixed;   /* (points) contractions until the point becomes free; 0: it is free */
 } work;
 
 static sbfi_d3 axis_of(sbf_quat r, int axis) {
@@ -110,7 +110,7 @@ static sbfi_d3 turned(const double m[3][3], sbfi_d3 p) {
       m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z, m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};
 }
 
-/* Twice the vector area of the triangle with its corners moved by shares of a turn. */
+/* Twice the area vector of the triangle with its corners moved by fractions of a rotation. */
 static sbfi_d3 moved_normal(
     const sbfi_blend_joint *c, int pose, const sbfi_d3 corners[3], const double fractions[3]) {
   sbfi_d3 at[3];
@@ -120,7 +120,7 @@ static sbfi_d3 moved_normal(
   return sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
 }
 
-/* Whether a normal lies against what the turn, by its shares at the corners, makes of the one at rest. */
+/* Whether a normal is opposite to the rest normal rotated by the corners' fractions. */
 static bool is_flipped(
     const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double fractions[3]) {
   sbfi_d3 turn =
@@ -128,8 +128,7 @@ static bool is_flipped(
   return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
 }
 
-/* The place of the bone among the branches; one without weights is added where there was none. NULL where
- * memory runs out. */
+/* Finds or adds the branch of a bone. NULL if memory runs out. */
 static branch *branch_of(work *w, uint32_t bone) {
   branches *open = &w->open;
   uint32_t low = 0, high = open->count;
@@ -174,11 +173,12 @@ static bool open_branches(work *w, const uint32_t points[3]) {
   return true;
 }
 
-/* Whether bends about the head can neither stretch the triangle beyond 1 + HARMLESS nor turn it over. With
- * the weights s at its corners, T the turn less the unit matrix (of norm 1 for 60 degrees) and A = 1 + s_0 T,
- * its sides become A e_k + a_k, a_k = (s_k - s_0) T (p_k - head). A stretches nothing, so that the normal is
- * off cof(A) n by at most q = |a_1| |e_2| + |a_2| |e_1| + |a_1| |a_2|; and cof(A) n on (1 + m T) n, for any
- * mean weight m, is 3/8 n^2 or more, as both turn by up to 60 degrees and shrink by up to sqrt(3/4). */
+/* Whether bends about the head can neither stretch the triangle beyond 1 + HARMLESS nor flip it. With the
+ * weights s at its corners, T the rotation minus the unit matrix (of norm 1 for 60 degrees) and A = 1 +
+ * s_0 T, its edges become A e_k + a_k, a_k = (s_k - s_0) T (p_k - head). A stretches nothing, so the
+ * normal differs from cof(A) n by at most q = |a_1| |e_2| + |a_2| |e_1| + |a_1| |a_2|; and the projection
+ * of cof(A) n on (1 + m T) n, for any mean weight m, is at least 3/8 n^2, as both rotate by up to 60
+ * degrees and shrink by up to sqrt(3/4). */
 static bool is_harmless(
     const sbfi_blend_joint *j, const sbfi_d3 corners[3], const double weights[3], double area) {
   double off[3], side[3];
@@ -190,8 +190,8 @@ static bool is_harmless(
 }
 
 typedef struct bending {
-  sbfi_d3 corners[3], rest; /* rest: the normal, as long as twice the area */
-  double worst;             /* greatest square of a normal so far */
+  sbfi_d3 corners[3], rest; /* rest: the normal, with length twice the area */
+  double worst;             /* largest squared normal so far */
   bool flipped;
 } bending;
 
@@ -206,9 +206,10 @@ static void bend(const sbfi_blend_joint *j, const branch *by, bending *b) {
   }
 }
 
-/* `*stretch` receives the greatest area over that at rest; 1 where nothing differs between the corners. What
- * is turned over, and by the weights as authored is not, counts as stretched to FLIPPED. Branches are closed
- * from the tips of the skeleton on, each joining its parent's, until the rest hold all corners alike. */
+/* `*stretch` receives the largest area relative to rest; 1 if the corners have equal weights. A triangle
+ * that flips, but does not with the authored weights, counts as stretched to FLIPPED. Processes branches
+ * from the leaves of the skeleton, merging each into its parent's, until all corners have equal weights in
+ * the rest. */
 static bool find_stretch(work *w, uint32_t triangle, double *stretch) {
   const uint32_t *points = w->s->triangles[triangle];
   bending b = {.worst = 0};
@@ -240,7 +241,7 @@ static double value_in(const sbfi_blend_row *r, uint32_t *next, uint32_t bone) {
   return *next < r->count && r->at[*next].bone == bone ? r->at[*next].value : 0;
 }
 
-/* What is negligible goes to the greatest, so that rows stay short however far weights spread. */
+/* Adds negligible weights to the greatest, so that rows stay short however far weights spread. */
 static void drop_negligible(sbfi_blend_row *r) {
   uint32_t kept = 0, greatest = 0;
   double dropped = 0;
@@ -267,7 +268,7 @@ static bool reserve(sbfi_blend_row *r, uint32_t count, sbfi_arena *arena) {
   return true;
 }
 
-/* Which corners are fixed; where all are, they differ within what is fixed, and none is. */
+/* Determines which corners are fixed; if all are, treats none as fixed. */
 static uint32_t find_fixed(const work *w, const uint32_t points[3], bool is_fixed[3]) {
   uint32_t count = 0;
   for (int k = 0; k < 3; k++) count += is_fixed[k] = w->fixed[points[k]] > 0;
@@ -276,7 +277,7 @@ static uint32_t find_fixed(const work *w, const uint32_t points[3], bool is_fixe
   return 0;
 }
 
-/* The weights of the three corners side by side. False where memory runs out. */
+/* Collects the weights of the three corners side by side. False if memory runs out. */
 static bool open_weights(work *w, const uint32_t points[3]) {
   uint32_t next[3] = {0, 0, 0};
   w->open.count = 0;
@@ -289,8 +290,8 @@ static bool open_weights(work *w, const uint32_t points[3]) {
   return true;
 }
 
-/* Draws the corners towards their mean, or towards that of the fixed ones, keeping the share of the
- * differences that would just do. */
+/* Moves the corners' weights towards their mean, or that of the fixed ones, keeping the largest admissible
+ * fraction of the differences. */
 static bool contract(work *w, uint32_t triangle, double stretch) {
   const uint32_t *points = w->s->triangles[triangle];
   double kept = 0.9 * (MAX_STRETCH - 1) / (stretch - 1);
@@ -317,21 +318,20 @@ static bool contract(work *w, uint32_t triangle, double stretch) {
   return true;
 }
 
-/* The first triangle to be looked at from `from` on, going up or down; `count` where there is none. */
+/* Next pending triangle from `from` on, upwards or downwards; `count` if there is none. */
 static uint32_t next_pending(const uint8_t *pending, uint32_t from, uint32_t count, bool down) {
   static const uint8_t none[8];
   for (uint32_t n = from; n < count;) {
     uint32_t i = down ? count - 1 - n : n;
     if (pending[i]) return n;
-    /* Most sweeps find few: whole blocks without any are passed over. */
+    /* Most sweeps find few: skips whole blocks. */
     const uint8_t *block = down ? pending + i - 7 : pending + i;
     n += n + 8 <= count && memcmp(block, none, sizeof none) == 0 ? 8 : 1;
   }
   return count;
 }
 
-/* Up the surface and down again in turn, so that weights travel along a limb in one sweep, from its sole or
- * to it. */
+/* Alternates the direction along the surface, so that weights travel along a whole limb in one sweep. */
 static bool sweep_all(work *w, uint32_t *left) {
   uint32_t count = w->s->triangle_count;
   for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {

@@ -1,4 +1,4 @@
-/* Bone weights over triangles, made so smooth that the triangles bend well. */
+/* Smooths bone weights of triangles so that they deform well in bends. */
 #ifndef SBFI_BLEND_SURFACE_H
 #define SBFI_BLEND_SURFACE_H
 
@@ -8,10 +8,10 @@
 
 enum { SBFI_BLEND_POSES = 6 };
 
-/* A bone about whose head the surface is bent; zeros where it has no parent. */
+/* A joint at whose head the surface is bent; zeros if the bone has no parent. */
 typedef struct sbfi_blend_joint {
   sbfi_d3 head;
-  double turns[SBFI_BLEND_POSES][3][3]; /* rotations less the unit matrix */
+  double turns[SBFI_BLEND_POSES][3][3]; /* rotations minus the unit matrix */
 } sbfi_blend_joint;
 
 typedef struct sbfi_blend_weight {
@@ -33,26 +33,28 @@ typedef struct sbfi_blend_surface {
   sbfi_blend_row *rows;         /* (point_count) */
   const sbfi_blend_row *before; /* (point_count) as authored */
   uint32_t (*triangles)[3];
-  uint32_t *begins, *at_point; /* triangles at each point: made by sbfi_blend_surface_index() */
-  const uint8_t *soft;         /* (bones) what they hold shall bend well; NULL: what any bone holds */
-  const uint8_t *fixed; /* (point_count) that keep their weights as long as others can give way; NULL: none */
-  uint8_t *changed;     /* (point_count) receives 1 where weights were changed */
+  uint32_t *begins, *at_point; /* triangles at each point, from sbfi_blend_surface_index() */
+  const uint8_t *soft;         /* (bones) whose region should bend well; NULL: all */
+  const uint8_t
+      *fixed; /* (point_count) points that keep their weights as long as others can change; NULL: none */
+  uint8_t *changed; /* (point_count) receives 1 for changed weights */
 } sbfi_blend_surface;
 
-/* Weights below it go to the greatest of their point, so that rows stay short however far weights spread. */
+/* Smaller weights are added to the greatest of their point, so that rows stay short however far weights
+ * spread. */
 static const double SBFI_BLEND_NEGLIGIBLE = 1e-7;
 
-/* (bones) NULL where memory runs out. */
+/* (bones) NULL if memory runs out. */
 sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena *arena);
 
-/* Sorts the triangles by height and lists those at each point: what follows does not depend on the order of a
- * file. False where memory runs out. */
+/* Sorts the triangles by height and lists those at each point, so that results do not depend on the order
+ * of a file. False if memory runs out. */
 bool sbfi_blend_surface_index(sbfi_blend_surface *surface, sbfi_arena *arena);
 
-/* Contracts the weights of triangles that stretch or turn over (section_blend.h says which) towards their
- * means, in sweeps, until none is left. Begins at triangles with a corner that a soft bone holds, and goes on
- * over the neighbours of what it changes. `*left` receives how many are. Time of a sweep: linear in the
- * triangles whose weights changed and the bones between those that hold their corners. */
+/* Contracts the weights of triangles that stretch or flip (see section_blend.h) towards their means, in
+ * sweeps, until none is left. Starts at triangles with a corner of a soft bone, and continues over the
+ * neighbours of changes. `*left` receives the remaining number. Time of a sweep: linear in the triangles
+ * with changed weights and the bones between those of their corners. */
 bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena);
 
 #endif

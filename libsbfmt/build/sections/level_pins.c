@@ -6,7 +6,7 @@
 #include "mechanics/level_points.h"
 #include "sbfmt/mechanics.h"
 
-/* `v` in the frame that `q` turns out of: the conjugate's rotation, in double for the digits. */
+/* Rotates `v` by the conjugate of `q`, in double precision. */
 static sbf_vec3 turned_back(sbf_quat q, const double v[3]) {
   double x = -q.x, y = -q.y, z = -q.z, w = q.w;
   double tx = 2 * (y * v[2] - z * v[1]), ty = 2 * (z * v[0] - x * v[2]), tz = 2 * (x * v[1] - y * v[0]);
@@ -14,7 +14,7 @@ static sbf_vec3 turned_back(sbf_quat q, const double v[3]) {
       (float)(v[2] + w * tz + x * ty - y * tx)};
 }
 
-/* The body's set at the level's points; points that the level does not have are left out. */
+/* Maps a set of the body to the level's points; skips points that the level does not have. */
 static bool copy_set(sbf_pin_set *to, const sbf_pin_set *from, const sbf_level *level, sbf_asset *asset) {
   uint32_t count = from->points.count, kept = 0;
   bool with_offsets = from->offsets.count > 0, with_weights = from->weights.count > 1;
@@ -94,7 +94,7 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
   if (kept) memcpy(sets, level->pins.at, kept * sizeof *sets);
   for (uint32_t i = 0; i < body->pins.count; i++)
     if (!copy_set(&sets[count++], &body->pins.at[i], level, asset)) return false;
-  /* Attachments come last of the author's wishes, and leave alone what is held already. */
+  /* Attachments come last and skip points that are pinned already. */
   if (interior_count > 0 &&
       !sbfi_bone_pins_make(&sets[count++], "interior", level, body->bone, interior, interior_count, asset))
     return false;

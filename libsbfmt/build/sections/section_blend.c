@@ -21,7 +21,7 @@ static sbfi_blend_row *rows_of(const sbfi_skin_union *skin, sbfi_arena *arena) {
   return rows;
 }
 
-/* Those of polygons as fans whose corners all have weights. */
+/* Triangulates polygons as fans if all corners have weights. */
 static bool make_triangles(
     sbfi_blend_surface *s, const sbf_polygon_mesh *mesh, const sbfi_topology *t, sbfi_arena *arena) {
   s->triangles = sbfi_arena_allocate(arena, (size_t)mesh->polygon_points.count + 1, sizeof *s->triangles);
@@ -37,7 +37,7 @@ static bool make_triangles(
   return sbfi_blend_surface_index(s, arena);
 }
 
-/* Points that have changed get what is above MIN_WEIGHT of their rows. */
+/* Writes weights above MIN_WEIGHT of changed points. */
 static bool write_back(sbfi_skin_union *skin, const sbfi_blend_surface *s, sbfi_arena *arena) {
   uint32_t points = skin->mesh.positions.count, next = 0;
   size_t max = 1;

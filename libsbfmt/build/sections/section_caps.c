@@ -5,7 +5,7 @@
 #include "build/geometry/topology.h"
 #include "mechanics/vector.h"
 
-/* A side of a polygon that lacks a neighbour, from point to point. */
+/* An edge of a polygon without a neighbour, from point to point. */
 typedef struct side {
   uint32_t from, to;
   bool used;
@@ -13,15 +13,15 @@ typedef struct side {
 
 typedef struct work {
   sbfi_arena *arena;
-  side *sides;      /* (side_count) by `from`, then in the order of the walk over the polygons */
+  side *sides;      /* (side_count) by `from`, then in polygon order */
   uint32_t *begins; /* (points + 1) */
   uint32_t side_count;
-  uint32_t *path;                      /* points of the loop under way */
-  uint32_t *index;                     /* (points) in the path, from 1; 0: not in it */
-  sbfi_array positions, sizes, points; /* the mesh to come */
+  uint32_t *path;                      /* points of the current loop */
+  uint32_t *index;                     /* (points) index in the path, from 1; 0: not in it */
+  sbfi_array positions, sizes, points; /* the new mesh */
 } work;
 
-/* How often the edge is passed from its first end to its second, less how often the other way. */
+/* Counts traversals of each edge from its first end to its second minus reverse ones. */
 static bool count_passes(const sbfi_topology *t, const sbf_polygon_mesh *mesh, int32_t *passes) {
   for (uint32_t c = 0; c < t->corner_count; c++) {
     uint32_t edge = t->corner_edges[c];
@@ -55,7 +55,8 @@ static bool collect_sides(work *w, const sbf_polygon_mesh *mesh) {
   return true;
 }
 
-/* A polygon or a fan over the loop, which runs with the hole's sides and so against the cap's. */
+/* Adds a polygon or a fan over the loop, which has the direction of the hole's edges and so the reverse of
+ * the cap's. */
 static bool close_loop(work *w, const uint32_t *loop, uint32_t count) {
   if (count <= 4) {
     uint32_t *points = sbfi_array_push(&w->points, count);
@@ -81,7 +82,7 @@ static side *next_side(work *w, uint32_t from) {
   return NULL;
 }
 
-/* Follows sides from `start` until none is left; closes each loop as soon as it is complete. */
+/* Follows edges from `start` until none is left; closes each loop when it is complete. */
 static bool follow(work *w, uint32_t start, sbfi_caps *caps) {
   uint32_t length = 0;
   w->path[length++] = start;
@@ -89,7 +90,7 @@ static bool follow(work *w, uint32_t start, sbfi_caps *caps) {
   while (length) {
     uint32_t at = w->path[length - 1];
     side *next = next_side(w, at);
-    if (!next) { /* a dead end: the side that led here is in no loop */
+    if (!next) { /* a dead end: the edge to this point is in no loop */
       w->index[at] = 0;
       caps->left_sides += --length > 0;
       continue;

@@ -8,12 +8,12 @@
 static const double NOT_REACHED = -1e300;
 static const double TWO_PI = 6.283185307179586;
 
-/* The polygons of each bone, ascending. */
+/* Groups polygons by bone, ascending. */
 static void group_polygons(sbfi_section_cutter *c) {
   for (uint32_t p = 0; p < c->t->polygon_count; p++)
     if (c->labels[p] != SBFI_NO_INDEX) c->group_begins[c->labels[p] + 2]++;
   for (uint32_t b = 2; b < c->bone_count + 2; b++) c->group_begins[b] += c->group_begins[b - 1];
-  /* Each begin moves on to its end, which is the next one's begin. */
+  /* Each begin has advanced to its end, which is the next one's begin. */
   for (uint32_t p = 0; p < c->t->polygon_count; p++)
     if (c->labels[p] != SBFI_NO_INDEX) c->grouped[c->group_begins[c->labels[p] + 1]++] = p;
 }
@@ -52,7 +52,7 @@ static double length_of(const sbfi_section_cutter *c, uint32_t edge) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(at[ends.at[0]]), sbfi_d3_of(at[ends.at[1]])));
 }
 
-/* The label beyond an edge at which the bone's part ends; SBFI_NO_INDEX: it does not end there, or with the
+/* Label across an edge at the border of the bone's part; SBFI_NO_INDEX: no border, or the border of the
  * skin. */
 static uint32_t label_beyond(const sbfi_section_cutter *c, uint32_t edge, uint32_t bone) {
   uint32_t beyond = SBFI_NO_INDEX;
@@ -65,7 +65,7 @@ static uint32_t label_beyond(const sbfi_section_cutter *c, uint32_t edge, uint32
   return own ? beyond : SBFI_NO_INDEX;
 }
 
-/* The edges where the bone's part meets another, ascending. */
+/* Finds the edges where the bone's part borders another, ascending. */
 static void find_border(sbfi_section_cutter *c, uint32_t bone) {
   uint32_t kept = 0;
   c->border_count = 0;
@@ -78,7 +78,7 @@ static void find_border(sbfi_section_cutter *c, uint32_t bone) {
     }
   }
   qsort(c->border, c->border_count, sizeof *c->border, by_number);
-  /* Where several of its polygons share an edge, it was found by each. */
+  /* Removes duplicates: an edge of several of its polygons was found by each. */
   for (uint32_t i = 0; i < c->border_count; i++)
     if (kept == 0 || c->border[kept - 1] != c->border[i]) c->border[kept++] = c->border[i];
   c->border_count = kept;
@@ -89,7 +89,7 @@ static void raise_reach(sbfi_section_cutter *c, uint32_t point, double reach) {
   c->reach[point] = reach;
 }
 
-/* What each point of the border may spend on its way out. */
+/* Initial distance budget of each point of the border. */
 static void begin_at_border(sbfi_section_cutter *c, uint32_t bone) {
   find_border(c, bone);
   c->reached_count = 0;
@@ -105,7 +105,7 @@ static void begin_at_border(sbfi_section_cutter *c, uint32_t bone) {
   for (uint32_t i = 0; i < c->border_count; i++) c->shared[label_beyond(c, c->border[i], bone)] = 0;
 }
 
-/* Spreads the reach along edges: a queue of points whose reach has grown. */
+/* Propagates the remaining distance along edges, with a queue of updated points. */
 static void spread(sbfi_section_cutter *c) {
   uint32_t capacity = c->t->point_count + 1, head = 0, tail = 0;
   for (uint32_t i = 0; i < c->reached_count; i++) {
@@ -147,7 +147,7 @@ static void consider(sbfi_section_cutter *c, uint32_t polygon) {
   c->taken[c->taken_count++] = polygon;
 }
 
-/* The bone's polygons and those within reach, ascending. */
+/* Collects the bone's polygons and those within reach, ascending. */
 static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
   uint32_t kept = 0;
   c->taken_count = 0;
@@ -168,7 +168,7 @@ static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
   qsort(c->taken, kept, sizeof *c->taken, by_number);
 }
 
-/* Of the cut before: its points are asked for until the next one. */
+/* Clears the previous cut: its point map was kept until now. */
 static void forget_points(sbfi_section_cutter *c) {
   for (uint32_t i = 0; i < c->taken_count; i++)
     for (uint32_t k = c->t->corner_begins[c->taken[i]]; k < c->t->corner_begins[c->taken[i] + 1]; k++)

@@ -29,8 +29,8 @@ static uint32_t count_mix_points(const work *w) {
   return count;
 }
 
-/* At the corners of a regular tetrahedron: what lies within reach of the middle has weights from -0.5 to 1.
- */
+/* Places corners of a regular tetrahedron, so that positions within `reach` of the centre have weights
+ * from -0.5 to 1. */
 static void position_corners(sbf_vec3 positions[SBFI_FRAME_POINTS], sbfi_d3 middle, double reach) {
   static const double corners[SBFI_FRAME_POINTS][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   static const double root_of_three = 1.7320508075688772;
@@ -54,7 +54,7 @@ static void set_mixes(work *w, sbf_vec3 *positions) {
   }
 }
 
-/* Room for so many more points, in memory that may be written to; NULL where it runs out. */
+/* Extends the level's points in writable memory; NULL if memory runs out. */
 static sbf_vec3 *append_points(sbf_level *level, uint32_t count, sbf_asset *asset) {
   uint32_t old = level->positions.count;
   sbf_vec3 *positions = sbf_asset_allocate(asset, (size_t)old + count, sizeof *positions);
@@ -80,7 +80,7 @@ static bool add_points(work *w) {
   return true;
 }
 
-/* A set for each bone, in the order of the bones. */
+/* Adds one set per bone, in the order of the bones. */
 static bool add_pins(work *w, int32_t derivation, sbfi_arena *scratch) {
   uint32_t bone_count = w->asset->bones.count, sets_count = w->level->pins.count;
   uint32_t *counts = sbfi_arena_allocate(scratch, (size_t)bone_count + 1, sizeof *counts);
@@ -122,7 +122,7 @@ bool sbfi_bone_frame_add(sbf_level *level, int32_t bone, sbfi_d3 middle, double 
   sbf_vec3 *added = append_points(level, SBFI_FRAME_POINTS, asset);
   if (!added) return false;
   position_corners(added, middle, reach);
-  if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return true; /* its points move as one piece */
+  if (level->model == SBF_ELASTIC_MODEL_JIGGLE) return true; /* its points move rigidly */
   sbf_pin_set *sets = sbf_asset_allocate(asset, (size_t)sets_count + 1, sizeof *sets);
   if (!sets) return false;
   if (sets_count) memcpy(sets, level->pins.at, sets_count * sizeof *sets);

@@ -1,4 +1,4 @@
-/* Points by which a section carries what lies beyond it. */
+/* Frame points, with which a section moves vertices outside it. */
 #ifndef SBFI_SECTION_FRAME_H
 #define SBFI_SECTION_FRAME_H
 
@@ -7,21 +7,21 @@
 
 enum { SBFI_FRAME_POINTS = 4 };
 
-/* Their mean; the surface's. */
+/* Mean of the points; centre of a surface. */
 sbfi_d3 sbfi_points_middle(const sbf_vec3_list *points);
 sbfi_d3 sbfi_section_middle(const sbf_soft_body *body);
 
-/* Adds to a level of the section points that nothing but bones move, and that no element has:
- *   four that the section's bone holds, corners of a regular tetrahedron around the section's middle, as far
- * from it as the section reaches. A vertex in which it has a share and that lies beyond its surface hangs on
- * them and so moves with the bone as one piece. `*first` receives the place of the first;
- *   of each of the section's mixes one for every bone, held by that bone. Its `points` are filled in.
- * In pin sets "frame", one for each bone. False where memory runs out. */
+/* Adds kinematic points without elements to a level of the section. Four of them are pinned to the
+ * section's bone: corners of a regular tetrahedron around the section's centre, sized by the section's
+ * reach. A vertex outside the surface that is partly in the section is embedded in them and moves rigidly
+ * with the bone. `*first` receives the index of the first. Each of the section's mixes gets one point per
+ * bone, pinned to that bone; fills their `points`. Adds pin sets "frame", one per bone. False if memory
+ * runs out. */
 bool sbfi_section_frame_add(sbf_level *level, sbfi_sections *sections, uint32_t section, int32_t derivation,
     sbf_asset *asset, uint32_t *first, sbfi_arena *scratch);
 
-/* Adds to a level of a body on a bone four points alone, as the first ones above: for what lies within
- * `reach` of the middle. A level of jiggle takes them as its own, others hold them by a pin set "frame". */
+/* Adds only the four points, for a body on a bone: for positions within `reach` of the centre. A jiggle
+ * level uses them as its own, others get a pin set "frame". */
 bool sbfi_bone_frame_add(sbf_level *level, int32_t bone, sbfi_d3 middle, double reach, int32_t derivation,
     sbf_asset *asset, uint32_t *first);
 

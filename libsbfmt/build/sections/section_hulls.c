@@ -5,14 +5,15 @@
 #include "build/geometry/hulls.h"
 #include "sbfmt/mechanics.h"
 
-static const double MIN_FILLED = 0.05; /* of a hull: less is a shell, which has no volume to weigh it by */
+static const double MIN_FILLED =
+    0.05; /* minimum filled fraction of a hull: less is a shell without volume for its mass */
 
 typedef struct hull_list {
   sbf_rigid_body *at;
   uint32_t count, authored_count;
 } hull_list;
 
-/* A copy of the hull for one more rigid body: polygons are shared, they are never changed. */
+/* Copies the hull for another rigid body: polygons are shared because they never change. */
 static bool give_hull(
     sbf_rigid_body *to, const sbf_polygon_mesh *hull, int32_t derivation, sbf_asset *asset) {
   sbf_polygon_mesh *copy = sbf_asset_allocate(asset, 1, sizeof *copy);
@@ -23,8 +24,8 @@ static bool give_hull(
   return true;
 }
 
-/* How much of its hull a part of the skin fills that moves with its bone as it is: hulls of neighbours
- * overlap. A section's rigid body stands for all of its hull. */
+/* Fraction of its hull that a rigid part of the skin fills, because hulls of neighbours overlap. A
+ * section's rigid body represents the whole hull. */
 static float filled_of(const sbf_soft_body *body, const sbf_solid *hull) {
   if (body->levels.count || !(hull->volume > 0)) return 1;
   sbf_surface_measures own;
@@ -66,7 +67,7 @@ static void report_flat(const char *what, const char *name, sbfi_reporter *repor
   sbfi_report(reporter, &diagnostic);
 }
 
-/* Surface points of all sections of a bone, one section after the other. */
+/* Concatenates the surface points of all sections of a bone. */
 static bool points_of_bone(const sbf_asset *asset, int32_t bone, sbf_vec3_list *points, sbfi_arena *scratch) {
   size_t count = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)

@@ -1,4 +1,4 @@
-/* The rigid bodies that sections stand for. */
+/* Rigid bodies of sections. */
 #ifndef SBFI_SECTION_HULLS_H
 #define SBFI_SECTION_HULLS_H
 
@@ -7,12 +7,12 @@
 #include "model/unique_id.h"
 #include "sbfmt/asset.h"
 
-/* Gives each section a convex hull that moves with its bone: the bone's authored rigid bodies without a hull
- * get that of all its sections, marked hull_derived; where the bone has no rigid body, a kinematic one is
- * made of the section's density, with mass and inertia of the hull and the id "hull_" and the body's. `asset`
- * is under construction and holds source parts only; its rigid bodies are replaced by a list that begins with
- * the authored ones. Flat sections are reported. `*made` counts hulls. False where memory runs out or
- * `progress` ends it. */
+/* Gives each section a convex hull that moves with its bone. A bone's authored rigid bodies without a hull
+ * get that of all its sections, marked hull_derived. A bone without a rigid body gets a kinematic one with
+ * the section's density, mass and inertia of the hull, and the body's id after "hull_". `asset` is under
+ * construction and has only source parts; its list of rigid bodies is replaced by one that starts with the
+ * authored ones. Reports flat sections. Adds the number of hulls to `*made`. False if memory runs out or
+ * `progress` cancels. */
 bool sbfi_section_hulls_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids, sbfi_reporter *reporter,
     uint32_t *made, sbfi_progress progress, sbfi_arena *scratch);
 

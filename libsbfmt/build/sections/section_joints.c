@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* The bone's frame with its axes renamed in turn: right multiplication by a third of a turn about (1, 1, 1).
- */
+/* Frame of the bone with cyclically permuted axes: multiplication from the right by a rotation of 120
+ * degrees about (1, 1, 1). */
 static sbf_quat joint_rotation(sbf_quat q) {
   const double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
   double out[4] = {w + x + y - z, w - x + y + z, w + x - y + z, w - x - y - z};

@@ -6,17 +6,17 @@
 #include "mechanics/vector.h"
 
 enum { MAX_ROUNDS = 32, MAX_PIECE_ROUNDS = 4 };
-/* A piece below this share of its bone's largest one goes to a neighbour. */
+/* Minimum size of a piece as a fraction of its bone's largest; smaller ones join a neighbour. */
 static const double MIN_PIECE = 0.1;
-/* A polygon goes over only for a gain above this share of its outline: not for rounding. */
+/* Minimum gain as a fraction of the outline, so that rounding changes nothing. */
 static const double MIN_GAIN = 1e-6;
 
 typedef struct work {
   const sbfi_skin_union *skin;
   const sbfi_topology *t;
   uint32_t *labels;
-  double *weights; /* (bones) of the polygon at hand; 0 between polygons */
-  double *borders; /* (bones) likewise, length shared with each label */
+  double *weights; /* (bones) of the current polygon; 0 between polygons */
+  double *borders; /* (bones) the same for the length shared with each label */
   double *edge_lengths;
 } work;
 
@@ -26,7 +26,8 @@ static double length_of(const work *w, uint32_t edge) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(at[ends.at[0]]), sbfi_d3_of(at[ends.at[1]])));
 }
 
-/* Adds (or with -1 takes away) the polygon's corner weights, each corner counting alike; the greatest. */
+/* Adds (or with -1 subtracts) the weights of the polygon's corners, with equal corner weights; finds the
+ * greatest. */
 static void gather_weights(const work *w, uint32_t polygon) {
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
     uint32_t point = w->skin->mesh.polygon_points.at[c];
@@ -44,7 +45,7 @@ static void clear_weights(const work *w, uint32_t polygon) {
   }
 }
 
-/* The bone of the greatest weight; of equals the lowest. */
+/* Bone with the greatest weight, the lowest index if equal. */
 static uint32_t dominant(const work *w, uint32_t polygon) {
   uint32_t best = SBFI_NO_INDEX;
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
@@ -59,7 +60,7 @@ static uint32_t dominant(const work *w, uint32_t polygon) {
   return best;
 }
 
-/* Calls for each side of the polygon that another polygon shares: its label and the side's length. */
+/* Adds lengths of the polygon's shared edges to their labels, times `sign`. */
 static double visit_sides(const work *w, uint32_t polygon, double sign) {
   double outline = 0;
   for (uint32_t c = w->t->corner_begins[polygon]; c < w->t->corner_begins[polygon + 1]; c++) {
@@ -78,7 +79,7 @@ static double visit_sides(const work *w, uint32_t polygon, double sign) {
   return outline;
 }
 
-/* What a label costs the polygon: weights it loses, and border it has, less the same constant for all. */
+/* Cost of a label for the polygon: lost weights plus border, up to a constant. */
 static double cost_of(const work *w, uint32_t label, double outline) {
   return -outline * w->weights[label] - w->borders[label];
 }
@@ -113,7 +114,7 @@ static bool smooth_once(const work *w) {
   return changed;
 }
 
-/* Pieces: polygons of one label that hang together by sides. Numbers them; how many. */
+/* Numbers the connected pieces of polygons with one label. Returns their number. */
 static uint32_t number_pieces(const work *w, uint32_t *pieces, uint32_t *stack) {
   uint32_t count = 0;
   memset(pieces, 0xff, w->t->polygon_count * sizeof *pieces);
@@ -150,7 +151,7 @@ static double area_of(const work *w, uint32_t p) {
 
 typedef struct piece {
   double area;
-  uint32_t label, begin; /* begin of its polygons in the sorted list */
+  uint32_t label, begin; /* first of its polygons in the sorted list */
 } piece;
 
 static uint32_t longest_neighbour(const work *w, const uint32_t *polygons, uint32_t count, uint32_t own) {
@@ -174,7 +175,7 @@ static uint32_t longest_neighbour(const work *w, const uint32_t *polygons, uint3
   return best;
 }
 
-/* Hands over small pieces; whether there were some. */
+/* Relabels small pieces; returns whether there were any. */
 static bool hand_over(const work *w, uint32_t bone_count, uint32_t *numbers, uint32_t *sorted,
     sbfi_arena *scratch, bool *good) {
   uint32_t count = number_pieces(w, numbers, sorted);

@@ -11,9 +11,9 @@
 #include "sbfmt/mechanics.h"
 
 enum { USUAL_ELEMENTS = 160 };
-/* Of the area to the power of 3/2: a limb ten thousand times as long as thick still has more. */
+/* Fraction of the area to the power of 3/2: a limb ten thousand times as long as thick is still above it. */
 static const double MIN_VOLUME = 0.002;
-/* Of the stiffness of a point's springs, added up, that of its goal. */
+/* Stiffness of a goal relative to the sum of the point's springs. */
 static const double GOAL_FRACTION = 1.0 / 12;
 
 typedef struct work {
@@ -26,10 +26,10 @@ typedef struct work {
   sbfi_lattice lattice;
   uint32_t point_count;
   sbfi_spring_list springs;
-  float *volumes;  /* (point_count) a quarter of each tetrahedron's */
-  double volume;   /* of all */
-  uint8_t *pinned; /* (point_count) fast, by the bone's core or by the author */
-  uint8_t *taken;  /* (point_count) the author's pins have it */
+  float *volumes;  /* (point_count) a quarter of the volume of each adjacent tetrahedron */
+  double volume;   /* total volume */
+  uint8_t *pinned; /* (point_count) rigidly pinned, by the bone's core or by the author */
+  uint8_t *taken;  /* (point_count) pinned by the author */
 } work;
 
 static double volume_of(const work *w, sbf_uint4 at) {
@@ -64,7 +64,7 @@ static bool fill(work *w) {
   return true;
 }
 
-/* Takes in the greatest of each point's neighbours. */
+/* Computes the maximum over each point and its neighbours. */
 static void spread_greatest(const work *w, const double *from, double *to) {
   memcpy(to, from, w->point_count * sizeof *to);
   for (uint32_t s = 0; s < w->springs.count; s++) {
@@ -74,7 +74,8 @@ static void spread_greatest(const work *w, const double *from, double *to) {
   }
 }
 
-/* Holds what lies deep for its surroundings, so that long sections are held along all their length. */
+/* Pins points that are deep relative to their surroundings, so that long sections are pinned along their
+ * whole length. */
 static bool hold_core(work *w) {
   sbfi_triangle_tree surface;
   double *depths2 = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *depths2);
@@ -93,7 +94,7 @@ static bool hold_core(work *w) {
   return true;
 }
 
-/* What the author painted goes before all else. */
+/* Authored pins take precedence. */
 static bool hold_painted(work *w) {
   w->pinned = sbfi_arena_allocate(w->scratch, w->point_count, 1);
   w->taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
@@ -115,7 +116,8 @@ static bool pin_core(work *w, sbf_pin_set *set) {
   return true;
 }
 
-/* Springs alone are as content inside out: goals on the bone's way bring back what a blow has turned over. */
+/* Springs have no preferred orientation: goals that move with the bone restore a section that a hit has
+ * inverted. */
 static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   uint32_t *points = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *points), count = 0;
   double *sums = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *sums), greatest = 0;
@@ -130,7 +132,7 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   float *weights = sbf_asset_allocate(w->asset, (size_t)count + 1, sizeof *weights);
   if (!weights || !sbfi_bone_pins_make(set, "shape", w->level, w->body->bone, points, count, w->asset))
     return false;
-  /* A weight of 1 would hold fast: the greatest is a half. */
+  /* A weight of 1 would be rigid: the maximum is a half. */
   for (uint32_t i = 0; i < count; i++) weights[i] = (float)(0.5 * sums[points[i]] / greatest);
   set->weights = (sbf_f32_list){count ? weights : NULL, count};
   set->stiffness = (float)(2 * GOAL_FRACTION * greatest);
@@ -154,8 +156,8 @@ static bool add_pins(work *w, const float *stiffness) {
   return true;
 }
 
-/* A lattice holds a little less than the surface, or more where limbs are thin: the surface counts, where it
- * is closed. */
+/* A lattice has slightly less volume than the surface, or more for thin limbs: uses the surface's if it is
+ * closed. */
 static bool weigh(work *w) {
   sbf_body_measures measures;
   float *masses = sbf_asset_allocate(w->asset, w->point_count, sizeof *masses);

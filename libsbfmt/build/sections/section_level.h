@@ -1,4 +1,4 @@
-/* What moves a section that was cut from a skin. */
+/* Simulation model of a section cut from a skin. */
 #ifndef SBFI_SECTION_LEVEL_H
 #define SBFI_SECTION_LEVEL_H
 
@@ -6,8 +6,8 @@
 #include "sbfmt/asset.h"
 
 typedef struct sbfi_section_recipe {
-  double cell;       /* m; 0: by `elements` */
-  uint32_t elements; /* about so many tetrahedra; 0: 160 */
+  double cell;       /* m; 0: use `elements` */
+  uint32_t elements; /* approximate number of tetrahedra; 0: 160 */
   int32_t derivation;
 } sbfi_section_recipe;
 
@@ -15,16 +15,15 @@ typedef struct sbfi_section_counts {
   uint32_t points, springs, inert, pins;
 } sbfi_section_counts;
 
-/* Fills `*level` with a coarse lattice (lattice.h) of which the tetrahedra's sides are springs: so its cost
- * does not hang on how fine the skin is, and neither holes nor crossings of the surface matter. None of its
- * points are the body's own. Stiffness by sbf_stiffness_of_network with SBF_STIFFNESS_VOLUME; masses by the
- * tetrahedra, together what the closed surface holds. The body's bone holds the points
- * at least half as deep under the surface as the deepest that two springs lead to: a core along all of the
- * limb.
+/* Fills `*level` with springs along the edges of a coarse lattice (lattice.h): the cost does not depend on
+ * the skin's resolution, and holes and self-intersections do not matter. None of its points are the body's
+ * own. Stiffness from sbf_stiffness_of_network with SBF_STIFFNESS_VOLUME; masses by tetrahedra, in total that
+ * of the closed surface. The body's bone pins points at least half as deep below the surface as the deepest
+ * within two springs: a core along the whole limb.
  *
- * The level keeps the tetrahedra until the embeddings are made, which go by them; then the caller takes them
- * out, for they are no second model. A surface that encloses next to nothing, as a sheet does, leaves
- * the level without points. */
+ * The level keeps the tetrahedra until the embeddings have been computed from them; then the caller
+ * removes them, because they are not simulated. If the surface encloses almost nothing, like a sheet, the
+ * level has no points. */
 sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_body *body,
     const sbfi_section_recipe *recipe, sbf_asset *asset, sbfi_section_counts *counts, sbfi_progress progress,
     sbfi_arena *scratch);

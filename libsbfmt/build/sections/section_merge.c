@@ -6,7 +6,7 @@
 #include "mechanics/vector.h"
 
 enum { MIN_POLYGONS = 4 };
-static const double MIN_AREA = 0.005; /* of the border's length squared */
+static const double MIN_AREA = 0.005; /* fraction of the squared length of the border */
 
 typedef struct part {
   uint32_t polygons;
@@ -19,7 +19,7 @@ typedef struct work {
   const sbfi_topology *t;
   const sbf_asset *asset;
   part *parts;    /* (bones) */
-  double *shared; /* (bones) border of the part at hand with each other */
+  double *shared; /* (bones) common border of the current part with each other */
 } work;
 
 static double length_of(const work *w, uint32_t edge) {
@@ -57,7 +57,7 @@ static bool is_sliver(const part *p) {
   return p->polygons > 0 && (p->polygons < MIN_POLYGONS || p->area < MIN_AREA * p->border * p->border);
 }
 
-/* Length of border that a part shares with each other one. */
+/* Length of the common border with each other part. */
 static void measure_shared(const work *w, uint32_t bone) {
   memset(w->shared, 0, w->asset->bones.count * sizeof *w->shared);
   for (uint32_t e = 0; e < w->t->edge_count; e++) {
@@ -98,7 +98,7 @@ static void hand_over(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *
     if (w->owners[b] == bone) w->owners[b] = to;
 }
 
-/* Bones that dominate nowhere. */
+/* Finds owners of bones that dominate nowhere. */
 static void find_owners(const work *w) {
   uint32_t first = SBFI_NO_INDEX;
   for (uint32_t b = w->asset->bones.count; b-- > 0;)
@@ -106,7 +106,7 @@ static void find_owners(const work *w) {
   for (uint32_t b = 0; b < w->asset->bones.count; b++) {
     if (w->owners[b] != SBFI_NO_INDEX) continue;
     int32_t parent = w->asset->bones.at[b].parent;
-    /* Parents stand before their children, so that theirs is found already. */
+    /* Parents come before their children, so their owner is known. */
     w->owners[b] = parent != SBF_NONE ? w->owners[parent] : first;
   }
 }
@@ -128,7 +128,7 @@ bool sbfi_sections_merge(uint32_t *labels, uint32_t *owners, const sbfi_skin_uni
     if (stays[b]) continue;
     hand_over(&w, b, to, reporter);
     measure(&w);
-    b = count; /* what took it in may be none any more, what lay beside it one now */
+    b = count; /* merges can change which parts are slivers, so starts again */
   }
   find_owners(&w);
   return true;

@@ -1,4 +1,4 @@
-/* Sections too small to be bodies of their own join others. */
+/* Merges sections that are too small for bodies of their own. */
 #ifndef SBFI_SECTION_MERGE_H
 #define SBFI_SECTION_MERGE_H
 
@@ -6,15 +6,15 @@
 #include "build/geometry/topology.h"
 #include "build/sections/skin_union.h"
 
-/* A sliver is a part of fewer than four polygons, or one whose area is below a two-hundredth of its border's
- * length squared: a slice of a limb an eighth of its radius long. It joins the part of the nearest bone
- * above that it touches, else the one it shares most border with, else the nearest above, and a note says so;
- * the farthest from the root goes first. What touches nothing and has nothing above stays.
+/* A sliver is a part with fewer than four polygons, or with an area below a two-hundredth of its border's
+ * squared length: a slice of a limb an eighth of its radius long. It joins the adjacent part of the nearest
+ * ancestor bone, else the part with the longest common border, else the nearest ancestor, and is reported;
+ * the farthest from the root goes first. An isolated part without ancestor stays.
  *
- * `labels` (polygons) as sbfi_section_labels_make gives them are changed. `owners` (bones) receives for each
- * bone the bone of the section that carries its shares: its own, the one that took it in, for a bone that
- * dominates nowhere the nearest above with a section, else the first in the list; SBFI_NO_INDEX where there
- * is no section at all. False where memory runs out. */
+ * Changes the `labels` (polygons) of sbfi_section_labels_make. `owners` (bones) receives for each bone the
+ * bone of the section that moves its vertices: its own, or the one that absorbed it; for a bone that
+ * dominates nowhere the nearest ancestor with a section, else the first section; SBFI_NO_INDEX if there
+ * are no sections. False if memory runs out. */
 bool sbfi_sections_merge(uint32_t *labels, uint32_t *owners, const sbfi_skin_union *skin,
     const sbfi_topology *t, const sbf_asset *asset, sbfi_reporter *reporter, sbfi_arena *scratch);
 

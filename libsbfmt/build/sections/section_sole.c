@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-static const float BAND = 0.12f; /* of a foot's height: its sole */
+static const float BAND = 0.12f; /* fraction of a foot's height: its sole */
 
-/* The bone that a leg ends in, which a bone is or hangs on; SBF_NONE. */
+/* End bone of a leg that is the bone or its ancestor; SBF_NONE if there is none. */
 static int32_t foot_of(const sbf_asset *asset, int32_t bone) {
   for (; bone >= 0; bone = asset->bones.at[bone].parent)
     for (uint32_t g = 0; g < asset->gaits.count; g++)
@@ -15,7 +15,7 @@ static int32_t foot_of(const sbf_asset *asset, int32_t bone) {
   return SBF_NONE;
 }
 
-/* Share of a point that a foot and what hangs on it hold. */
+/* Fraction of a point's weights on a foot and its descendants. */
 static float pinned_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot) {
   float sum = 0;
   for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
@@ -23,7 +23,7 @@ static float pinned_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_
   return sum;
 }
 
-/* Copies of a point's holds those of a foot to `holds`. Returns the next free place. */
+/* Copies a point's holds by a foot to `holds`. Returns the next free index. */
 static uint32_t keep_own(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot,
     sbfi_hold *holds, uint32_t next) {
   float sum = pinned_by(skin, feet, point, foot);

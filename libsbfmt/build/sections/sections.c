@@ -17,7 +17,7 @@
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
-static const float SINGLE_WEIGHT = 0.98f; /* of a point that one bone holds */
+static const float SINGLE_WEIGHT = 0.98f; /* minimum weight of a point with a single bone */
 
 typedef struct weighted_point {
   uint32_t bone, mix;
@@ -35,11 +35,11 @@ typedef struct work {
   sbfi_topology t;
   uint32_t *labels;              /* (polygons) */
   uint32_t *owners;              /* (bones) */
-  uint8_t *rigid;                /* (bones) its part is no section */
+  uint8_t *rigid;                /* (bones) its part is not a section */
   uint32_t *contribution_begins; /* (points + 1) */
-  weighted_point *contributions; /* what sections have of each point */
+  weighted_point *contributions; /* weights of sections at each point */
   sbfi_array mixes;
-  uint32_t guessed_count; /* sections of which nobody says what they are made of */
+  uint32_t guessed_count; /* sections without a stated material */
   float min_guess, max_guess;
 } work;
 
@@ -68,9 +68,9 @@ static bool own(sbf_asset *asset, const void **at, size_t count, size_t size) {
   return copy != NULL;
 }
 
-/* All polygons turned round. */
+/* Reverses all polygons. */
 static void turn_over(sbf_polygon_mesh *mesh) {
-  uint32_t *points = (uint32_t *)(uintptr_t)mesh->polygon_points.at; /* this pass's own */
+  uint32_t *points = (uint32_t *)(uintptr_t)mesh->polygon_points.at; /* owned by this pass */
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; points += mesh->polygon_sizes.at[p++])
     for (uint32_t i = 0, j = mesh->polygon_sizes.at[p] - 1; i < j; i++, j--) {
       uint32_t point = points[i];
@@ -79,7 +79,7 @@ static void turn_over(sbf_polygon_mesh *mesh) {
     }
 }
 
-/* What of a set lies in the section just cut; false where memory runs out. */
+/* Copies the part of a pin set that is in the current section; false if memory runs out. */
 static bool take_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_set *from,
     const uint32_t *points_of, int32_t bone, sbf_pin_set *to) {
   uint32_t count = 0;
@@ -99,7 +99,7 @@ static bool take_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_
   return true;
 }
 
-/* The pins painted on the skins, where they lie in the section just cut. */
+/* Copies pins painted on the skins to the current section. */
 static bool make_pins(work *w, const sbfi_section_cutter *cutter, sbf_soft_body *body) {
   const sbf_render_mesh_list *meshes = &w->asset->render_meshes;
   uint32_t max = 0, count = 0;
@@ -145,7 +145,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     body->attributes = recipe->attributes;
     body->collision = recipe->collision;
   } else {
-    /* Nobody said what it is made of: as stiff as it has to be. */
+    /* Without a stated material: as stiff as needed to bear its weight. */
     body->attributes.young_modulus = (float)sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
     body->attributes.sag_free = true;
     float modulus = body->attributes.young_modulus;
@@ -157,7 +157,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
   return body->id != NULL;
 }
 
-/* What hulls are made of where nothing is soft. */
+/* Creates the inputs of hulls for rigid parts. */
 static bool make_rigid_parts(work *w, sbfi_section_cutter *cutter, const uint8_t *used) {
   uint32_t bones = w->asset->bones.count;
   w->made->rigid_parts = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, sizeof *w->made->rigid_parts);
@@ -206,12 +206,12 @@ static void report_guesses(const work *w) {
   sbfi_report(w->reporter, &diagnostic);
 }
 
-/* Whether what the bone holds is a section's. */
+/* Whether the bone's region belongs to a section. */
 static bool is_soft(const work *w, uint32_t bone) {
   return w->owners[bone] != SBFI_NO_INDEX && !w->rigid[w->owners[bone]];
 }
 
-/* Where no smoothing helps, as on triangles that are as good as flat, a note says so. */
+/* Reports if smoothing fails, as on nearly degenerate triangles. */
 static bool smooth_blends(work *w) {
   uint32_t left;
   sbf_diagnostic diagnostic;
@@ -231,7 +231,7 @@ static bool smooth_blends(work *w) {
   return true;
 }
 
-/* Whether what the bone holds is no section's. */
+/* Whether the bone's region belongs to no section. */
 static bool is_rigid(const work *w, uint32_t bone) {
   return w->owners[bone] != SBFI_NO_INDEX && w->rigid[w->owners[bone]];
 }
@@ -242,8 +242,8 @@ static uint32_t section_on(const work *w, uint32_t bone) {
   return section;
 }
 
-/* The mix of what `owner` has of the point, or beside it what rigid bones have; SBFI_NO_INDEX where its own
- * bone is all. */
+/* Creates the mix of `owner` at the point, or with `beside` that of rigid bones; SBFI_NO_INDEX if only its
+ * own bone has weight. */
 static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint32_t *number) {
   sbfi_mix mix = {
       .section = section_on(w, owner), .position = w->skin.mesh.positions.at[point], .beside = beside};
@@ -270,7 +270,8 @@ static bool make_mix(work *w, uint32_t point, uint32_t owner, bool beside, uint3
   return sbfi_array_append(&w->mixes, &mix, 1);
 }
 
-/* The share of rigid bones joins the section with the greatest one; without any the skin moves the point. */
+/* Adds the weights of rigid bones to the section with the greatest weight; without sections the skin moves
+ * the point. */
 static bool distribute_rest(work *w, uint32_t point, uint32_t begin, uint32_t *next) {
   uint32_t max = begin;
   float rest = 0;
@@ -284,7 +285,7 @@ static bool distribute_rest(work *w, uint32_t point, uint32_t begin, uint32_t *n
   return make_mix(w, point, beside->bone, true, &beside->mix);
 }
 
-/* What each section has of each point. */
+/* Distributes the weights of each point over sections. */
 static bool distribute_points(work *w) {
   uint32_t points = w->skin.mesh.positions.count;
   w->contribution_begins =
@@ -310,7 +311,7 @@ static bool distribute_points(work *w) {
   return true;
 }
 
-/* The shares of the points as those of a mesh's vertices. */
+/* Converts weights of points to those of a mesh's vertices. */
 static bool make_blends(work *w, uint32_t mesh, sbf_skin *skin) {
   const uint32_t *points = w->skin.points_of_mesh[mesh];
   uint32_t vertices = w->asset->render_meshes.at[mesh].mesh.positions.count, total = 0, next = 0;
@@ -357,7 +358,7 @@ static void reach_to(sbfi_sections *made, uint32_t section, sbfi_d3 middle, sbf_
   if (away > made->reaches_m[section]) made->reaches_m[section] = away;
 }
 
-/* How far from its middle each section has a surface or a share in something. */
+/* Computes each section's distance from its centre to the farthest point of its surface or its vertices. */
 static bool measure_reaches(work *w) {
   sbfi_sections *made = w->made;
   uint32_t *section_of_bone =
@@ -401,8 +402,8 @@ bool sbfi_sections_are_wanted(const sbf_asset *asset, bool *wanted, sbfi_arena *
   return choose(asset, &chosen, wanted, scratch);
 }
 
-/* Which bone's section each polygon of the skin belongs to, and who carries each bone's shares. False in
- * `*wanted` where there is nothing to cut. */
+/* Assigns the skin's polygons to sections, and bones to owners. `*wanted` is false if there is nothing to
+ * cut. */
 static bool divide(work *w, bool *wanted) {
   const sbf_asset *asset = w->asset;
   uint8_t *chosen;
@@ -425,14 +426,14 @@ static bool divide(work *w, bool *wanted) {
 
 bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, sbfi_arena *scratch) {
   sbfi_reporter nobody = {.report = NULL};
-  /* Nothing is written to the asset here. */
+  /* The asset is not modified here. */
   work w = {.asset = (sbf_asset *)(uintptr_t)asset, .reporter = &nobody, .scratch = scratch};
   bool wanted, good = divide(&w, &wanted);
   *owners = w.owners;
   return good;
 }
 
-/* Share of the points that one bone alone holds. */
+/* Fraction of the points with a single bone. */
 static double single_fraction(const work *w) {
   uint32_t pinned = 0, single = 0;
   for (uint32_t p = 0; p < w->skin.mesh.positions.count; p++) {

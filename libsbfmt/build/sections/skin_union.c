@@ -8,7 +8,7 @@
 #include "build/geometry/polygon_repeats.h"
 #include "build/geometry/topology.h"
 
-/* Vertices in one place whose weights differ by more than this share are different points. */
+/* Coincident vertices whose weights differ by more than this fraction are different points. */
 static const double MAX_DIFFERENCE = 0.5;
 
 typedef struct work {
@@ -18,16 +18,16 @@ typedef struct work {
   sbfi_arena *arena;
   uint32_t vertex_count, point_count; /* of all skinned meshes */
   sbf_vec3 *positions;                /* (point_count) */
-  uint32_t *firsts;                   /* (point_count) vertex that made the point, counted over all meshes */
-  uint32_t *numbers;                  /* (point_count) of vertices at the point */
+  uint32_t *firsts;                   /* (point_count) first vertex of the point, counted over all meshes */
+  uint32_t *numbers;                  /* (point_count) number of vertices at the point */
   uint32_t *points;                   /* (vertex_count) */
   uint32_t *begins, *counts;          /* (vertex_count + 1) holds of each vertex */
   sbfi_hold *holds;
-  uint32_t *slots, *next; /* hash of places: first point; next point in the same slot */
+  uint32_t *slots, *next; /* hash of positions: first point; next point in the same slot */
   size_t slot_count;
 } work;
 
-/* A mesh whose vertices are all points of one body is that body's picture and moves with it. */
+/* A mesh whose vertices are all points of one body shows that body and moves with it. */
 static bool is_body(const sbf_render_mesh *mesh, const sbf_soft_body *body, bool *is, sbfi_arena *arena) {
   const sbf_vec3_list *points = &body->surface.positions, *vertices = &mesh->mesh.positions;
   sbfi_key_set positions;
@@ -62,7 +62,7 @@ static int compare_holds(const void *a, const void *b) {
   return x->bone < y->bone ? -1 : x->bone > y->bone;
 }
 
-/* Sorts by bone, joins what stands twice, scales to a sum of one; the number left. */
+/* Sorts by bone, merges duplicates, normalizes the sum; returns the remaining count. */
 static uint32_t tidy(sbfi_hold *holds, uint32_t count) {
   uint32_t kept = 0;
   double sum = 0;
@@ -90,7 +90,7 @@ static void take_holds(work *w, const sbf_render_mesh *mesh, uint32_t first_vert
   }
 }
 
-/* Half the sum of the differences of two vertices' weights: 0 alike, 1 held by other bones altogether. */
+/* Half the sum of the differences of two vertices' weights: 0 equal, 1 no common bone. */
 static double difference(const work *w, uint32_t a, uint32_t b) {
   double sum = 0;
   uint32_t i = w->begins[a], j = w->begins[b];
@@ -112,7 +112,7 @@ static size_t slot_of(const work *w, sbf_vec3 position) {
 }
 
 static uint32_t find_point(work *w, uint32_t vertex, sbf_vec3 position) {
-  position = (sbf_vec3){position.x + 0, position.y + 0, position.z + 0}; /* of -0 and 0, 0 */
+  position = (sbf_vec3){position.x + 0, position.y + 0, position.z + 0}; /* -0 becomes 0 */
   size_t slot = slot_of(w, position);
   for (uint32_t p = w->slots[slot]; p != SBFI_NO_INDEX; p = w->next[p])
     if (memcmp(&w->positions[p], &position, sizeof position) == 0 &&
@@ -171,7 +171,7 @@ static bool average_holds(work *w) {
   return true;
 }
 
-/* A polygon's corners less those that fell together with the one before; 0: nothing is left. */
+/* Copies a polygon's corners without consecutive duplicates; 0: degenerate. */
 static uint32_t take_polygon(const uint32_t *corners, uint32_t size, const uint32_t *points, uint32_t *to) {
   uint32_t kept = 0;
   for (uint32_t k = 0; k < size; k++) {
@@ -182,7 +182,7 @@ static uint32_t take_polygon(const uint32_t *corners, uint32_t size, const uint3
   return kept < 3 ? 0 : kept;
 }
 
-/* Sheets drawn from both sides, and layers drawn twice, are one layer. */
+/* Two-sided sheets and duplicate layers become one layer. */
 static bool drop_repeats(sbf_polygon_mesh *mesh, uint32_t *sizes, uint32_t *points, sbfi_arena *arena) {
   uint32_t *firsts = sbfi_arena_allocate(arena, (size_t)mesh->polygon_sizes.count + 1, sizeof *firsts);
   if (!firsts || !sbfi_polygon_repeats_find(mesh, firsts, arena)) return false;

@@ -6,8 +6,8 @@
 
 typedef struct bridge_search {
   const sbfi_body_grid *grid;
-  uint32_t *parents; /* (cell_count) sets of cells that hang together */
-  uint32_t *nearest; /* (box_count) the nearest cell, UINT32_MAX: not reached */
+  uint32_t *parents; /* (cell_count) sets of connected cells */
+  uint32_t *nearest; /* (box_count) nearest cell, UINT32_MAX: not reached */
 } bridge_search;
 
 static void join_neighbours(const bridge_search *b) {
@@ -27,7 +27,7 @@ static uint32_t count_sets(const bridge_search *b) {
   return count;
 }
 
-/* Gives each box the cell from which the flood came first. */
+/* Flood fill: gives each box the cell that reaches it first. */
 static bool flood(bridge_search *b, sbfi_arena *arena) {
   const sbfi_body_grid *g = b->grid;
   uint32_t *queue = sbfi_arena_allocate(arena, g->box_count, sizeof *queue), count = 0;
@@ -60,7 +60,7 @@ static int compare_ends(const void *left, const void *right) {
   return a->to < b->to ? -1 : a->to > b->to;
 }
 
-/* Where floods from two sets meet, their cells could be joined. */
+/* Fronts from two sets that touch give candidates for bridges. */
 static bool find_candidates(bridge_search *b, sbfi_array *candidates) {
   const sbfi_body_grid *g = b->grid;
   for (uint32_t box = 0; box < g->box_count; box++)

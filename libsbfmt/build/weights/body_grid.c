@@ -27,7 +27,7 @@ uint32_t sbfi_body_box_at(const sbfi_body_grid *g, sbfi_d3 point) {
   return box;
 }
 
-/* Marks the boxes that a triangle meets, halving a block of boxes along each side while it meets it. */
+/* Marks the boxes that a triangle intersects, by recursive subdivision of a block of boxes. */
 static void mark_block(const marking *m, const uint32_t low[3], const uint32_t high[3]) {
   sbfi_d3 middle = {(low[0] + high[0]) / 2.0 - 1, (low[1] + high[1]) / 2.0 - 1, (low[2] + high[2]) / 2.0 - 1};
   sbfi_d3 half = {(high[0] - low[0]) / 2.0, (high[1] - low[1]) / 2.0, (high[2] - low[2]) / 2.0};
@@ -84,8 +84,7 @@ static void mark_caps(const sbfi_body_grid *g, const sbfi_soup *soup, uint8_t *m
   }
 }
 
-/* Inside by winding number: one evaluation for each run of boxes in a row that neither surface nor cap cuts.
- */
+/* Inside by winding number: one evaluation for each run of boxes in a row without surface or cap. */
 static void mark_solid(const sbfi_body_grid *g, const sbfi_winding *winding, uint8_t *marks) {
   int closed = 0;
   for (uint32_t box = 0; box < g->box_count; box++) {
@@ -99,8 +98,8 @@ static void mark_solid(const sbfi_body_grid *g, const sbfi_winding *winding, uin
   }
 }
 
-/* What cannot be reached from the border without crossing the surface is inside, however the surface faces.
- */
+/* Boxes that are unreachable from the border without crossing the surface are inside, whatever its
+ * orientation. */
 static bool mark_enclosed(const sbfi_body_grid *g, uint8_t *marks, sbfi_arena *arena) {
   uint32_t *queue = sbfi_arena_allocate(arena, g->box_count, sizeof *queue), count = 0;
   if (!queue) return false;
@@ -110,7 +109,7 @@ static bool mark_enclosed(const sbfi_body_grid *g, uint8_t *marks, sbfi_arena *a
   for (uint32_t next = 0; next < count; next++)
     for (int k = 0; k < 6; k++) {
       int64_t box = queue[next] + (k & 1 ? steps[k / 2] : -steps[k / 2]);
-      /* Over a side's end the next row begins, which is margin too. */
+      /* Beyond the end of a row the next row begins, which is margin too. */
       if (box < 0 || box >= g->box_count || marks[box] & (SURFACE | REACHED)) continue;
       marks[box] |= REACHED;
       queue[count++] = (uint32_t)box;

@@ -1,7 +1,7 @@
 #include "build/weights/body_paths.h"
 
-/* Dijkstra's algorithm with buckets one cell wide (Dial 1969). No step is shorter than a bucket, so that
- * cells of one bucket do not improve each other; none is longer than all buckets but one. */
+/* Dijkstra's algorithm with buckets one cell wide (Dial 1969). No step is shorter than a bucket, so cells
+ * of one bucket do not improve each other; none is longer than all buckets but one. */
 enum { BUCKETS = 128 };
 
 bool sbfi_body_paths_make(sbfi_body_paths *p, const sbfi_body_grid *grid, sbfi_arena *arena) {
@@ -46,7 +46,7 @@ static double distance_in_cells(const sbfi_body_grid *g, const sbfi_bone_segment
   return sqrt(sbfi_segment_distance2(bone, middle)) * SBFI_BODY_CELLS;
 }
 
-/* Begins at the cells that a bone runs through. Returns how many are new. */
+/* Starts at the cells that a bone crosses. Returns how many are new. */
 static uint32_t begin_inside(sbfi_body_paths *p, const sbfi_bone_segment *bone) {
   const sbfi_body_grid *g = p->grid;
   sbfi_d3 along = sbfi_d3_sub(bone->tail, bone->head);
@@ -74,7 +74,7 @@ static uint32_t begin_nearest(sbfi_body_paths *p, const sbfi_bone_segment *bone)
   return improve(p, nearest, (float)fmin(min, 1e6));
 }
 
-/* The cells of all segments; where the first has none, the nearest. Returns how many there are. */
+/* Starts at the cells of all segments; if the first has none, at the nearest. Returns their number. */
 static uint32_t begin(sbfi_body_paths *p, const sbfi_bone_segment *segments, uint32_t segment_count) {
   uint32_t count = begin_inside(p, &segments[0]);
   if (!count) count = begin_nearest(p, &segments[0]);
@@ -107,7 +107,8 @@ void sbfi_body_paths_from(sbfi_body_paths *p, const sbfi_bone_segment *segments,
   for (uint32_t b = 0; b < BUCKETS; b++) p->first[b] = UINT32_MAX;
   if (!p->grid->cell_count) return;
   uint32_t waiting = begin(p, segments, segment_count), bucket = UINT32_MAX;
-  for (uint32_t b = 0; b < BUCKETS && bucket == UINT32_MAX; b++) /* a single far cell may lie in any */
+  for (uint32_t b = 0; b < BUCKETS && bucket == UINT32_MAX;
+       b++) /* a single distant cell may be in any bucket */
     if (p->first[b] != UINT32_MAX) bucket = b;
   for (; waiting; bucket = (bucket + 1) % BUCKETS)
     while (p->first[bucket] != UINT32_MAX) {

@@ -1,6 +1,6 @@
 #include "build/weights/body_rays.h"
 
-/* Surfaces passed on the way out; how far behind one the search goes on. */
+/* Maximum number of surfaces to pass on the way out; offset behind one at which the search continues. */
 enum { MAX_PASSED = 32 };
 static const double STEP = 1e-5;
 
@@ -15,7 +15,7 @@ bool sbfi_body_holds(const sbfi_body_rays *rays, sbfi_d3 point) {
   return sbfi_winding_inside(closed, sbfi_winding_of_caps(&rays->winding, point));
 }
 
-/* Distance to the first surface ahead, and its triangle, UINT32_MAX and INFINITY where there is none. */
+/* Distance to the first surface ahead and its triangle; INFINITY and UINT32_MAX if there is none. */
 static double first_hit(const sbfi_triangle_tree *tree, sbfi_d3 from, sbfi_d3 direction, uint32_t *hit) {
   sbf_vec3 origin = sbfi_d3_rounded(from), through = sbfi_d3_rounded(sbfi_d3_add(from, direction));
   uint32_t triangle = sbfi_triangle_tree_pierced(tree, origin, through, 1e3);
@@ -44,7 +44,7 @@ double sbfi_body_exit_distance(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3
   return travel;
 }
 
-/* How often a ray crosses a shell, and where first. */
+/* Number of crossings of a ray with a shell, and the first one. */
 typedef struct shell_crossing {
   uint32_t shell, count;
   double first;
@@ -67,7 +67,7 @@ static double shell_end(
     nearest = fmin(nearest, travel);
     travel += STEP;
   }
-  /* Inside what is crossed an odd number of times. */
+  /* Inside shells with an odd number of crossings. */
   for (int k = 0; k < count; k++)
     if (shells[k].count % 2) end = fmax(end, shells[k].first);
   return end > 0 ? end : nearest;
@@ -75,7 +75,7 @@ static double shell_end(
 
 double sbfi_body_shell_end(
     const sbfi_body_rays *rays, const sbfi_weight_mesh *mesh, sbfi_d3 from, sbfi_d3 direction) {
-  /* Bones in a plane of symmetry aim at edges, where a ray may slip through. */
+  /* Bones in a plane of symmetry point at edges, where a ray may slip through. */
   static const double tilts[][3] = {{0, 0, 0}, {0.011, 0.007, 0.005}, {-0.011, 0.005, -0.007}};
   double end = INFINITY;
   for (size_t i = 0; i < sizeof tilts / sizeof *tilts && !isfinite(end); i++) {

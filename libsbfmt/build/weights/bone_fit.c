@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 enum { SAMPLES = 8, MAX_RAYS = 8192 };
-/* Share of the surface beyond each end of its extent: spears and whiskers do not count. */
+/* Fraction of the surface ignored at each end of its extent: spears and whiskers. */
 static const double TAIL = 0.01;
-/* Where rays start below the surface. */
+/* Offset below the surface at which rays start. */
 static const double BELOW = 1e-4;
 
 typedef struct measured {
@@ -17,7 +17,7 @@ static int compare_measured(const void *left, const void *right) {
   return a < b ? -1 : a > b;
 }
 
-/* The value below which a share of the area lies. */
+/* Value at a fraction of the area. */
 static double at_fraction(const measured *sorted, uint32_t count, double fraction) {
   double all = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) all += sorted[i].area;
@@ -32,7 +32,7 @@ static double coordinate(sbfi_d3 p, int axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-/* The longest side of the surface, and of the bones. */
+/* Longest side of the surface, and of the bones. */
 static double extent_of_surface(const sbfi_weight_mesh *mesh, measured *buffer) {
   double longest = 0;
   for (int axis = 0; axis < 3; axis++) {
@@ -75,8 +75,9 @@ static double inside_fraction(
   return all > 0 ? inside / all : 1;
 }
 
-/* How far the surface is from its bones, by half of how thick the body is there. Where no ray meets a far
- * side there is no thickness. Of a dense surface every nth site has a ray: a median needs no more. */
+/* Median distance of the surface from its bones, relative to half the local thickness of the body. Sites
+ * without a hit of the far side are skipped. On a dense surface only every nth site casts a ray, which is
+ * enough for a median. */
 static double median_distance(const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays,
     const sbfi_nearest_bone *nearest, measured *buffer, uint32_t *ray_count) {
   uint32_t count = 0, step = mesh->site_count / MAX_RAYS + 1;

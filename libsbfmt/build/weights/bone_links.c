@@ -1,7 +1,7 @@
 #include "build/weights/bone_links.h"
 
-/* Nearer to its carrier, in units of the longest side, a limb needs no link; a shell is the limb's where it
- * holds an eighth of it. */
+/* Minimum distance of a limb from its carrier for a link, in units of the longest side; minimum fraction
+ * of a limb in a shell for the shell to belong to it. */
 static const double BESIDE = 0.01, PINNED_FRACTION = 0.125;
 
 bool sbfi_bone_links_make(sbfi_bone_links *l, uint32_t bone_count, sbfi_arena *arena) {
@@ -10,7 +10,7 @@ bool sbfi_bone_links_make(sbfi_bone_links *l, uint32_t bone_count, sbfi_arena *a
   return l->segments && l->limbs;
 }
 
-/* The bone that moves a limb: the first above it that holds points. */
+/* Bone that moves a limb's root: the nearest ancestor that deforms. */
 static int32_t carrier_of(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t limb) {
   int32_t bone = in->bones[limb].parent;
   while (bone != SBF_NONE && !segments[bone].is_deforming) bone = in->bones[bone].parent;

@@ -1,7 +1,7 @@
-/* Links: straight lines from a bone to limbs that begin beside it, as from the spine to the hips.
+/* Links: line segments from a bone to limbs that begin beside it, such as from the spine to the hips.
  *
- * An artist gives what lies before a limb's joint to the bone that carries the limb. In a skin around both
- * the surface decides; a shell of its own there, as the pad over a machine's hip, would follow the limb,
+ * Artists assign the region before a limb's joint to the bone that carries the limb. In a common skin the
+ * surface decides. A separate shell there, such as a pad over a machine's hip, would follow the limb,
  * whose joint is nearer than the carrier. */
 #ifndef SBFI_BONE_LINKS_H
 #define SBFI_BONE_LINKS_H
@@ -10,18 +10,18 @@
 
 typedef struct sbfi_bone_links {
   sbfi_bone_segment *segments; /* (count + 1) the carrier first, then its links */
-  uint32_t *limbs;             /* (count) bone that begins at the end of each link */
+  uint32_t *limbs;             /* (count) bone at the end of each link */
   uint32_t count;
 } sbfi_bone_links;
 
-/* Room for any bone of the rig. False where memory runs out. */
+/* Allocates for any bone of the rig. False if memory runs out. */
 bool sbfi_bone_links_make(sbfi_bone_links *links, uint32_t bone_count, sbfi_arena *arena);
 
 /* Replaces the links by those of one deforming bone. */
 void sbfi_bone_links_find(sbfi_bone_links *links, const sbfi_weights_input *in,
     const sbfi_bone_segment *segments, uint32_t carrier);
 
-/* Whether a link counts in a shell: not where the limb runs through it. */
+/* Whether a link counts in a shell: not if the limb passes through it. */
 bool sbfi_bone_link_counts(
     const sbfi_bone_links *links, uint32_t link, const sbfi_bone_reach *reach, uint32_t shell);
 

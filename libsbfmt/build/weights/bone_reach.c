@@ -5,8 +5,8 @@
 #include "build/geometry/winding_number.h"
 
 enum { RAYS_AT = 3, RAYS_ROUND = 8, RAYS = RAYS_AT * RAYS_ROUND, SAMPLES = 16 };
-/* A shell is a bone's where it holds an eighth of it; a bone without a next one keeps its own thickness where
- * it is so much thicker than its chain, as heads are. */
+/* Minimum fraction of a bone in a shell for the shell to belong to it; ratio of thicknesses from which a
+ * last bone keeps its own instead of its chain's, as for heads. */
 static const double PINNED_FRACTION = 0.125, THICK_LEAF = 1.5;
 
 static int compare_numbers(const void *left, const void *right) {
@@ -14,10 +14,10 @@ static int compare_numbers(const void *left, const void *right) {
   return a < b ? -1 : a > b;
 }
 
-/* Median distance from a bone to the surface, over rays across it at a quarter, half and three quarters; 0
- * where none meets it. */
+/* Median distance from a bone to the surface over rays across it at a quarter, half and three quarters; 0
+ * without hits. */
 static double thickness_of(const sbfi_body_rays *rays, const sbfi_bone_segment *bone) {
-  /* Eight ways round the circle. */
+  /* Eight directions around the bone. */
   static const double root = 0.70710678118654752440;
   const double directions[RAYS_ROUND][2] = {
       {1, 0}, {root, root}, {0, 1}, {-root, root}, {-1, 0}, {-root, -root}, {0, -1}, {root, -root}};
@@ -61,7 +61,7 @@ static int compare_chains(const void *left, const void *right) {
   return a->bone < b->bone ? -1 : a->bone > b->bone;
 }
 
-/* The length-weighted median of each chain replaces its bones' own; `chain` is sorted by thickness. */
+/* Replaces the thickness of a chain's bones by the length-weighted median; `chain` is sorted by thickness. */
 static void level_chain(
     const chain_bone *chain, uint32_t count, const sbfi_bone_segment *segments, double *thickness) {
   double whole = 0, so_far = 0, middle = chain[0].thickness;
@@ -77,8 +77,8 @@ static void level_chain(
   }
 }
 
-/* Bones beside their parent, and those after them, reach no farther than it: skin that both could hold is the
- * parent's. */
+/* Limits the thickness of bones beside their parent, and of their descendants, to the parent's: ambiguous
+ * skin belongs to the parent. */
 static bool bound_beside(
     double *thickness, const sbfi_weights_input *in, const sbfi_bone_segment *segments, sbfi_arena *arena) {
   int32_t *beside = sbfi_arena_allocate(arena, in->bone_count, sizeof *beside);
@@ -92,7 +92,7 @@ static bool bound_beside(
   return true;
 }
 
-/* A chain: bones each of which has one child, and the last. */
+/* A chain: consecutive bones with one child each, and the last. */
 static bool find_thickness(sbfi_bone_reach *r, const sbfi_weights_input *in, const sbfi_body_rays *rays,
     const sbfi_bone_segment *segments, sbfi_arena *arena) {
   chain_bone *bones = sbfi_arena_allocate(arena, in->bone_count, sizeof *bones);
@@ -132,7 +132,7 @@ static bool may_hold(const sbfi_shell *shell, const sbfi_bone_segment *bone) {
          fmin(bone->head.z, bone->tail.z) <= shell->high.z;
 }
 
-/* Share of a bone's length inside a closed surface, or what its caps close. */
+/* Fraction of a bone's length inside a closed surface, possibly closed by caps. */
 static double inside_fraction(
     const sbfi_winding *winding, const sbfi_shell *shell, const sbfi_bone_segment *bone) {
   uint32_t inside = 0;

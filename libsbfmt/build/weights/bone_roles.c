@@ -4,13 +4,13 @@
 
 #include "model/bone_ends.h"
 
-/* In units of the longest side: how far outside a joint aims rather than holds; how near two are one place.
- */
+/* In units of the longest side: distance outside the body at which a joint is a control; tolerance for
+ * equal positions. */
 static const double OUTSIDE = 0.05, SAME_POSITION = 0.002;
 
 enum { NAME_SIZE = 64 };
 
-/* The letters of a name, in small. */
+/* Lower case letters of a name. */
 static void take_letters(const char *name, char letters[NAME_SIZE]) {
   size_t count = 0;
   for (; name && *name && count + 1 < NAME_SIZE; name++) {
@@ -46,7 +46,7 @@ bool sbfi_bone_is_end(const sbfi_weights_input *in, uint32_t bone) {
          sbfi_name_is_end(name, strlen(name));
 }
 
-/* Whether no bone hangs on it but marks of ends. */
+/* Whether the bone has no children but end marks. */
 static bool is_last(const sbfi_weights_input *in, uint32_t bone) {
   for (uint32_t i = bone + 1; i < in->bone_count; i++)
     if (in->bones[i].parent == (int32_t)bone && !sbfi_bone_is_end(in, i)) return false;
@@ -64,7 +64,7 @@ static bool is_outside(const sbfi_body_rays *rays, sbfi_d3 at) {
          !sbfi_body_holds(rays, at);
 }
 
-/* Whether a bone that hangs on another limb begins in the same place. */
+/* Whether a bone of another limb begins at the same position. */
 static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, uint32_t bone) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
     if (i == bone || (int32_t)i == in->bones[bone].parent || sbfi_bone_is_on_root(in, i)) continue;
@@ -91,8 +91,8 @@ static uint32_t largest_tree(const sbfi_weights_input *in) {
   return best;
 }
 
-/* Trees of several bones beside the skeleton's, with a joint in the place of one of the skeleton's: they are
- * what an animator pulls its feet and hands by. */
+/* Drops other trees of several bones with a joint at the position of one of the skeleton's: animators
+ * control feet and hands with them. */
 static void drop_helper_trees(
     const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, bool *is_deforming) {
   uint32_t skeleton = largest_tree(in);
@@ -143,6 +143,6 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
       is_deforming[parent] = false;
   }
   drop_helper_trees(in, mesh, is_deforming);
-  /* A rig of so few bones has no controls and no frames. */
+  /* A rig with so few bones has no controls and no frames. */
   if (!has_any(is_deforming, in->bone_count)) set_all(is_deforming, in->bone_count);
 }

@@ -2,8 +2,9 @@
 
 #include "build/weights/bone_roles.h"
 
-/* Cosine of the angle within which a bone points at its child; distance within which a joint lies on the axis
- * of a bone without children; how far such a bone goes towards the skin; how near another bone it ends. */
+/* Minimum cosine between a bone's axis and its child; maximum distance of a joint from the axis of a bone
+ * without children; length of such a bone as a fraction of the distance to the skin; minimum distance to
+ * another bone. */
 static const double ALIGNED = 0.9, STRAIGHT = 0.995, ON_AXIS = 0.02, EXIT_DISTANCE = 0.9, CLEARANCE = 0.07,
                     PASSING = 0.6;
 static const double TINY = 1e-6;
@@ -25,8 +26,8 @@ double sbfi_segment_distance2(const sbfi_bone_segment *s, sbfi_d3 point) {
   return sbfi_d3_dot(separation, separation);
 }
 
-/* The child that continues each bone: the nearest on its axis, else the one best aligned. The first bones of
- * a left and a right limb, or of an ear, continue none in the middle. */
+/* Finds the child that continues each bone: the nearest on its axis, else the best aligned one. The first
+ * bone of a left or right limb, or of an ear, does not continue a middle bone. */
 static void find_next(const sbfi_weights_input *in, sbfi_bone_segment *segments, double *fit) {
   for (uint32_t i = 0; i < in->bone_count; i++) {
     int32_t parent = in->bones[i].parent;
@@ -49,7 +50,7 @@ static bool is_below(const sbfi_weights_input *in, uint32_t bone, uint32_t above
   return false;
 }
 
-/* How far a bone without a next one may run along its axis before it comes to another bone. */
+/* Distance that a bone without a continuation may extend along its axis before another bone. */
 static double free_length(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone,
     sbfi_d3 axis, double length) {
   const int steps = 32;
@@ -74,7 +75,7 @@ bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *
          sbfi_d3_length(sbfi_d3_sub(segments[bone].head, segments[parent].head)) < TINY;
 }
 
-/* Whether a bone, or one above it, lies beside `above`. */
+/* Whether a bone or one of its ancestors is beside `above`. */
 static bool hangs_beside(
     const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone, uint32_t above) {
   for (int32_t b = (int32_t)bone; b != SBF_NONE; b = in->bones[b].parent)
@@ -82,7 +83,7 @@ static bool hangs_beside(
   return false;
 }
 
-/* How far an axis stays inside a body that is open ahead. */
+/* Length of an axis inside a body that is open ahead. */
 static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 axis) {
   const double step = 1.0 / 64;
   double length = 0;
@@ -91,7 +92,7 @@ static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 ax
   return length;
 }
 
-/* Along the axis to a joint that lies on it, else nine tenths of the way to the skin. */
+/* Length along the axis to a joint on it, else nine tenths of the distance to the skin. */
 static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_bone_segment *segments, const sbfi_body_rays *rays, uint32_t bone, sbfi_d3 axis) {
   double stated = in->bones[bone].length * mesh->scale, joint = INFINITY;
@@ -109,7 +110,7 @@ static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *
   return joint < out + ON_AXIS ? joint : EXIT_DISTANCE * out;
 }
 
-/* Where a rig marks the end of a bone, or SBF_NONE. */
+/* Child that marks the end of a bone, or SBF_NONE. */
 static int32_t marked_end(const sbfi_weights_input *in, const sbfi_d3 *heads, uint32_t bone) {
   for (uint32_t i = bone + 1; i < in->bone_count; i++)
     if (in->bones[i].parent == (int32_t)bone && sbfi_bone_is_end(in, i) &&
@@ -118,7 +119,7 @@ static int32_t marked_end(const sbfi_weights_input *in, const sbfi_d3 *heads, ui
   return SBF_NONE;
 }
 
-/* Exporters make up ends where they know none: a bone ends in the body, or before a mark outside it. */
+/* Exporters invent ends if they know none: a bone ends in the body, or before a mark outside it. */
 static sbfi_d3 tail_to_mark(
     const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays, sbfi_d3 head, sbfi_d3 mark) {
   sbfi_d3 displacement = sbfi_d3_sub(mark, head);

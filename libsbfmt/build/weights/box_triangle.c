@@ -1,6 +1,6 @@
 #include "build/weights/box_triangle.h"
 
-/* Whether box and triangle, both about the box's middle, lie apart along an axis. */
+/* Whether an axis separates the box and the triangle, both relative to the box's centre. */
 static bool is_separated(sbfi_d3 axis, sbfi_d3 half, const sbfi_d3 corners[3]) {
   double a = sbfi_d3_dot(axis, corners[0]), b = sbfi_d3_dot(axis, corners[1]),
          c = sbfi_d3_dot(axis, corners[2]);

@@ -4,7 +4,8 @@
 
 enum { LANES = SBFI_HEAT_LANES };
 
-/* So much of what the factorisation drops is added to the diagonal; all of it may leave too little there. */
+/* Fraction of the dropped fill-in that is added to the diagonal; all of it may leave the diagonal too
+ * small. */
 static const double KEPT = 0.98;
 
 bool sbfi_heat_preconditioner_make(sbfi_heat_preconditioner *p, const sbfi_surface_laplacian *l,

@@ -6,17 +6,17 @@
 #include "build/weights/laplacian_order.h"
 
 enum { LANES = SBFI_HEAT_LANES, MAX_ITERATIONS = 1000 };
-/* How fast heat flows from the bone; the least distance that counts; the residual at which it is solved,
- * against that of the right side; what is too little to keep. */
+/* Rate of heat flow from the bone; minimum distance; relative residual of a solution; minimum weight to
+ * keep. */
 static const double HEAT = 3, MIN_DISTANCE = 0.02, TOLERANCE = 5e-4, MIN_WEIGHT = 5e-4;
 
-/* Single precision: a solution to some thousandths needs no more, and memory is what limits the speed. Sums
- * are double. */
+/* Single precision is enough for an accuracy of some thousandths, and memory bandwidth limits the speed.
+ * Sums are double. */
 typedef sbfi_heat_lanes lanes;
 typedef double sums[LANES];
 
 typedef struct heat_system {
-  sbfi_surface_laplacian laplacian; /* its rows in an order of their own */
+  sbfi_surface_laplacian laplacian; /* its rows are reordered */
   uint32_t count;
   uint32_t *sites; /* (count) of each row */
   double *heat;    /* (count) c M / d^2 */
@@ -105,7 +105,7 @@ static void turn_search(const heat_system *s, const sums beta) {
     for (int k = 0; k < LANES; k++) s->p[i][k] = s->z[i][k] + factor[k] * s->p[i][k];
 }
 
-/* Each lane with coefficients of its own (Shewchuk 1994, B3). */
+/* Each lane has its own coefficients (Shewchuk 1994, B3). */
 static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES]) {
   sums rz, limits, pq, alpha, beta, rz_next;
   begin(s, nearest, bones, rz, limits);
@@ -127,7 +127,7 @@ static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const ui
   return MAX_ITERATIONS;
 }
 
-/* Takes a weight in among the greatest of a site; of equals the first stays before. */
+/* Inserts a weight among the greatest of a site; the first comes first if equal. */
 static void insert(sbfi_site_weights *to, uint32_t bone, float weight) {
   int index = SBFI_SITE_BONES;
   while (index > 0 && weight > to->weights[index - 1]) index--;

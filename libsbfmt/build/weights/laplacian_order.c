@@ -1,7 +1,7 @@
 #include "build/weights/laplacian_order.h"
 
-/* Appends the part of `first` breadth first; `order` is UINT32_MAX for what no part holds yet. Returns the
- * new end of `order`. */
+/* Appends the connected part of `first` breadth first; `order` is UINT32_MAX for unassigned sites. Returns
+ * the new end of `order`. */
 static uint32_t append_part(
     const sbfi_surface_laplacian *l, uint32_t first, uint32_t *order, uint32_t end, uint32_t *slots) {
   uint32_t next = end;
@@ -17,7 +17,7 @@ static uint32_t append_part(
   return end;
 }
 
-/* From the site that a first pass reaches last: it lies at an end of the part. */
+/* Starts at the site that a first pass reaches last, which is at an end of the part. */
 static void find_order(const sbfi_surface_laplacian *l, uint32_t count, uint32_t *order, uint32_t *slots) {
   for (uint32_t i = 0; i < count; i++) slots[i] = UINT32_MAX;
   for (uint32_t i = 0, end = 0; i < count; i++) {
@@ -28,7 +28,7 @@ static void find_order(const sbfi_surface_laplacian *l, uint32_t count, uint32_t
   }
 }
 
-/* Entries of one row ascending by column: there are few. */
+/* Sorts the entries of one row by column: there are few. */
 static void sort_row(uint32_t *columns, double *values, uint32_t count) {
   for (uint32_t i = 1; i < count; i++)
     for (uint32_t k = i; k > 0 && columns[k] < columns[k - 1]; k--) {

@@ -3,11 +3,11 @@
 #include "build/weights/body_paths.h"
 #include "build/weights/bone_links.h"
 
-/* Paths from cell to cell are longer than straight ones by up to an eleventh. Distances are divided by the
- * root of the body's radius plus this; a shell that holds less than a quarter of a bone is up to eleven times
+/* Cell paths are up to an eleventh longer than straight ones. Distances are divided by the root of the
+ * body's radius plus this; a shell that contains less than a quarter of a bone counts up to eleven times
  * as far from it. */
 static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, WHOLE_FRACTION = 0.25, SHELL_PENALTY = 10, TIE = 1e-5;
-/* Relative differences: of straight distances to one joint, and of distances that count as even there. */
+/* Relative tolerances: of straight distances to one joint, and of equal distances. */
 static const double AT_JOINT = 1e-4, NEARLY = 0.1;
 
 /* Factors of the distance from one bone to each shell. */
@@ -25,32 +25,32 @@ static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t 
   }
 }
 
-/* Whether a point that is nearest to the joint between two bones lies on the far side of it: there the second
- * bone holds it, as the foot holds the heel. */
+/* Whether a point nearest to the joint between two bones is beyond it: then it belongs to the second bone,
+ * as the heel belongs to the foot. */
 static bool is_past_joint(const sbfi_bone_segment *parent, const sbfi_bone_segment *child, sbfi_d3 at) {
   sbfi_d3 along = sbfi_d3_add(sbfi_d3_normal(sbfi_d3_sub(parent->tail, parent->head)),
       sbfi_d3_normal(sbfi_d3_sub(child->tail, child->head)));
   return sbfi_d3_dot(sbfi_d3_sub(at, child->head), along) > 0;
 }
 
-/* Whether a bone is nearer than the nearest so far. `least` is the distance of that. */
+/* Whether a bone is nearer than the nearest so far, whose distance is `min`. */
 static bool is_nearer(const sbfi_bone_segment *segments, const sbfi_nearest_bone *nearest, double min,
     uint32_t bone, double straight, double distance, sbfi_d3 at) {
   if (isfinite(min) && segments[nearest->bone].next == (int32_t)bone &&
       fabs(straight - (double)nearest->distance) <= AT_JOINT * straight &&
       fabs(distance - min) <= NEARLY * min)
     return is_past_joint(&segments[nearest->bone], &segments[bone], at);
-  return distance < min * (1 - TIE); /* of equals the first */
+  return distance < min * (1 - TIE); /* the first wins if equal */
 }
 
-/* How much farther a bone counts than it is: skin that faces away from it, as the arm's beside the chest
- * does, is another's. */
+/* Factor on a bone's distance: skin that faces the bone instead of away from it, such as the arm's beside
+ * the chest, belongs to another. */
 static double facing_factor(const sbfi_bone_segment *segment, sbfi_d3 at, sbfi_d3 normal) {
   sbfi_d3 from = sbfi_d3_normal(sbfi_d3_sub(at, sbfi_segment_nearest(segment, at)));
   return 2 - sbfi_d3_dot(from, normal);
 }
 
-/* What distances from one bone have in common. */
+/* Constant data for distances from one bone. */
 typedef struct bone_search {
   const sbfi_weight_mesh *mesh;
   const sbfi_bone_reach *reach;
@@ -70,8 +70,8 @@ static void find_links(
     s->link_scales[k] = 1 / sqrt(fmin(thickness[bone], thickness[s->links.limbs[k]]) + RADIUS_OFFSET);
 }
 
-/* How far a site counts from the bone; `path` leads there through the body, or is 0 where no cell holds the
- * site. */
+/* Effective distance of a site from the bone; `path` is the path length through the body, 0 if no cell
+ * contains the site. */
 static double distance_to_site(const bone_search *s, uint32_t site, double path) {
   const sbfi_bone_segment *segments = s->links.segments, *best = &segments[0];
   sbfi_d3 at = sbfi_d3_of(s->mesh->sites[site]);

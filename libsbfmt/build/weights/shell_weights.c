@@ -5,23 +5,22 @@
 
 #include "build/geometry/box_tree.h"
 
-/* Sizes in units of the longest side. A small shell follows its leading bone; a middling one where that bone
+/* Sizes in units of the longest side. A small shell follows its leading bone; a medium one if that bone
  * leads clearly. */
 static const double SMALL = 0.15, MIDDLING = 0.5, CLEAR_LEAD = 0.85;
-/* A machine: the squares of its shells' shares of the area sum to less than one in so many, as those of as
- * many equal shells do. All its shells are rigid. */
+/* A machine has many shells: the sum of squared area fractions is below one over this number, as for as
+ * many equal shells. All its shells are rigid. */
 static const double MACHINE_SHELLS = 12.5;
-/* A shell over which both sides hold so much, the lesser as a share of the greater, is neither's. */
+/* Minimum ratio of the smaller to the greater weight of both sides over a shell that belongs to neither. */
 static const double BOTH_SIDES = 0.5;
-/* How near its middle, as a share of its size, the joint of a hinge lies. */
+/* Maximum distance of a hinge's joint from a shell's centre, as a fraction of its size. */
 static const double HINGE_MIDDLE = 0.025;
-/* As shares of its size: how far beyond the end of a bone, and how near it, a shell lies that follows the
- * next bone; how far ahead of the joint of a bone without a next one a shell lies that is its own. */
+/* As fractions of its size: distance beyond the end of a bone, and distance from it, for a shell that
+ * follows the next bone; distance ahead of the joint of a last bone for a shell that follows it. */
 static const double BEYOND = 0.15, NEAR_END = 0.75, AHEAD = 0.25;
-/* Share of a bone behind which shells may be of the bone without a next one that follows. */
+/* Fraction of a bone after which shells may belong to the last bone that follows. */
 static const double LAST_PART = 0.75;
-/* An axle is so many times longer than wide, and lies across its bone where the cosine between them is less.
- */
+/* Minimum ratio of length to width of an axle, and maximum cosine between it and its bone. */
 static const double ELONGATED = 2, ACROSS = 0.5;
 
 static void sort_weights(sbfi_site_weights *w) {
@@ -40,7 +39,7 @@ static void set_single(sbfi_site_weights *w, uint32_t bone) {
   w->weights[0] = 1;
 }
 
-/* Where bones of one side weigh more than those of the other, the other's go. */
+/* Removes weights of the side with the smaller sum. */
 static void erase_other_side(const sbfi_bone_segment *segments, sbfi_site_weights *w) {
   double sums[3] = {0, 0, 0};
   for (int k = 0; k < SBFI_SITE_BONES; k++)
@@ -67,7 +66,7 @@ static double site_distance(const void *user, uint32_t site, const double point[
   return sbfi_d3_dot(separation, separation);
 }
 
-/* Whether a mesh consists of many parts, as machines and jointed dolls do, and no skin over them. */
+/* Whether a mesh consists of many separate parts, as machines and jointed dolls do. */
 static bool is_machine(const sbfi_weight_mesh *mesh) {
   double whole = 0, squares = 0;
   for (uint32_t s = 0; s < mesh->shell_count; s++) {
@@ -80,8 +79,8 @@ static bool is_machine(const sbfi_weight_mesh *mesh) {
   return whole * whole > MACHINE_SHELLS * squares;
 }
 
-/* Small shells without a bone inside take the weights of the nearest sites that have one, as eyes do in a
- * head. */
+/* Small shells without a bone inside take the weights of the nearest sites of shells with one, such as
+ * eyes in a head. */
 static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
     sbfi_site_weights *weights, sbfi_arena *arena) {
   sbf_vec3 *positions = sbfi_arena_allocate(arena, mesh->site_count, sizeof *positions);
@@ -110,7 +109,7 @@ static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reac
   return true;
 }
 
-/* Where bones of both sides hold much of a shell, those in the middle lead, if any holds some. */
+/* If bones of both sides have much weight in a shell, middle bones lead, if any has weight. */
 static void drop_sides(const sbfi_bone_segment *segments, double *sums, uint32_t bone_count) {
   double sides[3] = {0, 0, 0};
   for (uint32_t b = 0; b < bone_count; b++) sides[segments[b].side + 1] += sums[b];
@@ -119,7 +118,7 @@ static void drop_sides(const sbfi_bone_segment *segments, double *sums, uint32_t
     if (segments[b].side) sums[b] = 0;
 }
 
-/* The bone with the greatest weight over a shell, by area, and its share of all. */
+/* Bone with the greatest weight over a shell, by area, and its fraction of the total. */
 static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const sbfi_bone_segment *segments,
     const sbfi_site_weights *weights, double *sums, uint32_t bone_count, double *fraction) {
   const uint32_t *sites = mesh->sites_by_shell + mesh->shells[shell].first_site;
@@ -139,7 +138,7 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
   return best;
 }
 
-/* Mean of a shell's surface; false where it has no area. */
+/* Centroid of a shell's surface; false if it has no area. */
 static bool middle_of(const sbfi_weight_mesh *mesh, const sbfi_shell *shell, sbfi_d3 *middle) {
   double whole = 0;
   *middle = (sbfi_d3){0, 0, 0};
@@ -152,8 +151,8 @@ static bool middle_of(const sbfi_weight_mesh *mesh, const sbfi_shell *shell, sbf
   return whole > 0;
 }
 
-/* The one bone that begins in the middle of a shell: that is the ball or the hinge of its joint, and moves
- * with it. UINT32_MAX: none does, or several. */
+/* The only bone that begins in the centre of a shell: the shell is the ball or hinge of its joint and
+ * moves with it. UINT32_MAX: none, or several. */
 static uint32_t bone_of_hinge(
     const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments, uint32_t bone_count) {
   uint32_t found = UINT32_MAX;
@@ -167,8 +166,8 @@ static uint32_t bone_of_hinge(
   return found;
 }
 
-/* A shell at the end of the bone that leads, as a kneecap or the block of an ankle, moves with the next bone.
- * UINT32_MAX: it is none. */
+/* A shell at the end of the leading bone, such as a kneecap or an ankle block, moves with the next bone.
+ * UINT32_MAX: not such a shell. */
 static uint32_t bone_behind(
     const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments, uint32_t bone) {
   const sbfi_bone_segment *leading = &segments[bone];
@@ -179,15 +178,15 @@ static uint32_t bone_behind(
   return sbfi_d3_length(left) > NEAR_END * shell->size ? UINT32_MAX : (uint32_t)leading->next;
 }
 
-/* Whether a chain that begins with `bone` holds the other. */
+/* Whether the other bone is in the chain that begins with `bone`. */
 static bool is_above(const sbfi_bone_segment *segments, uint32_t bone, uint32_t other) {
   for (int32_t b = (int32_t)bone; b != SBF_NONE; b = segments[b].next)
     if (b == (int32_t)other) return true;
   return false;
 }
 
-/* A long shell across the bone that leads, around its joint, is the axle that it turns on, and moves with
- * what lies at its inner end. UINT32_MAX: it is none. */
+/* A long shell across the leading bone, around its joint, is its axle and moves with the parts at its
+ * inner end. UINT32_MAX: not an axle. */
 static uint32_t bone_of_axle(const sbfi_shell *shell, sbfi_d3 middle, const sbfi_bone_segment *segments,
     uint32_t bone_count, uint32_t bone) {
   const sbfi_bone_segment *leading = &segments[bone];
@@ -219,9 +218,9 @@ static void stiffen(
     set_single(&weights[mesh->sites_by_shell[shell->first_site + i]], bone);
 }
 
-/* Parts of a foot lie around the end of the lower leg as much as around the foot's joint, and so do those of
- * a claw: shells there, ahead of that joint, move with the last bone. `leaders` (shells): the bone that moves
- * each. */
+/* Parts of a foot are around the end of the lower leg as much as around the foot's joint; the same holds
+ * for claws. Shells there, ahead of that joint, move with the last bone. `leaders` (shells): bone that
+ * moves each. */
 static void give_to_last_bones(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
     const uint32_t *leaders, sbfi_site_weights *weights) {
   for (uint32_t s = 0; s < mesh->shell_count; s++) {

@@ -4,8 +4,8 @@
 
 #include "build/geometry/box_tree.h"
 
-/* Sites of a shell are tied to the nearest site of another where that is no farther than twice the least such
- * distance of the shell, or than this. */
+/* Minimum distance up to which sites of a shell are tied to the nearest site of another; otherwise up to
+ * twice the smallest such distance of the shell. */
 static const double TIE_DISTANCE = 0.01, TIE_WEIGHT = 2;
 
 typedef struct entry {
@@ -30,8 +30,8 @@ static bool add_both(sbfi_array *entries, uint32_t a, uint32_t b, double value) 
   return sbfi_array_append(entries, pair, 2);
 }
 
-/* Half the cotangent of each corner belongs to the side opposite; obtuse ones count as right angles, so that
- * no weight is below zero. */
+/* Half the cotangent of each corner belongs to the opposite edge; obtuse corners count as right angles, so
+ * that no weight is negative. */
 static bool add_triangles(const sbfi_weight_mesh *m, sbfi_array *entries) {
   for (uint32_t t = 0; t < m->triangle_count; t++) {
     const uint32_t *c = m->triangles[t];
@@ -74,7 +74,7 @@ static bool tie_shells(const sbfi_weight_mesh *m, sbfi_array *entries, sbfi_aren
     double min = INFINITY;
     for (uint32_t i = 0; i < m->shells[s].site_count; i++) {
       sbf_vec3 at = m->sites[sites[i]];
-      /* No farther than would be tied. */
+      /* The maximum distance at which sites are tied. */
       double within = fmax(4 * min, TIE_DISTANCE * TIE_DISTANCE);
       squared[i] = isfinite(min) ? within * (1 + 1e-9) : INFINITY;
       other[i] = sbfi_box_tree_nearest(

@@ -60,7 +60,7 @@ static bool find_shells(
     m->shells[s].size = fmax(size.x, fmax(size.y, size.z));
     m->shells[s].first_site = next;
   }
-  uint32_t *next = parents; /* done with */
+  uint32_t *next = parents; /* parents are no longer needed */
   for (uint32_t s = 0; s < m->shell_count; s++) next[s] = m->shells[s].first_site;
   for (uint32_t i = 0; i < m->site_count; i++) {
     m->index_of_site[i] = next[m->shell_of_site[i]]++;
@@ -69,7 +69,7 @@ static bool find_shells(
   return true;
 }
 
-/* Puts the triangles in the order of their shells, and turns shells that face inwards. */
+/* Sorts the triangles by shell, and flips shells that face inwards. */
 static bool order_triangles(
     sbfi_weight_mesh *m, const uint32_t (*triangles)[3], uint32_t count, sbfi_arena *arena) {
   m->triangles = sbfi_arena_allocate(arena, count, sizeof *m->triangles);
@@ -102,7 +102,7 @@ static bool order_triangles(
   return true;
 }
 
-/* Means of the triangles around, by area. */
+/* Area-weighted means of the surrounding triangles. */
 static bool find_normals(sbfi_weight_mesh *m, sbfi_arena *arena) {
   m->normals = sbfi_arena_allocate(arena, m->site_count, sizeof *m->normals);
   if (!m->normals) return false;
@@ -121,7 +121,7 @@ static double site_distance(const void *user, uint32_t site, const double point[
   return sbfi_d3_dot(separation, separation);
 }
 
-/* Points in no triangle follow the nearest site. */
+/* Points without triangles follow the nearest site. */
 static bool position_loose_points(sbfi_weight_mesh *m, const sbfi_weights_input *in, sbfi_arena *arena) {
   sbfi_box_tree tree = {0};
   for (uint32_t i = 0; i < in->point_count; i++) {

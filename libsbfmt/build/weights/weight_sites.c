@@ -4,7 +4,7 @@
 
 #include "base/union_find.h"
 
-/* Points nearer than this, in units of the longest side, are in one place. */
+/* Maximum distance of coincident points in units of the longest side. */
 static const double JOIN_DISTANCE = 1.0 / (1 << 17);
 
 typedef struct keyed_point {
@@ -12,7 +12,7 @@ typedef struct keyed_point {
   uint32_t point;
 } keyed_point;
 
-/* An edge from the lower of two places to the higher, with a point of the piece that it belongs to. */
+/* An edge from the lower of two positions to the higher, with a point of its piece. */
 typedef struct edge {
   uint32_t low, high, point;
 } edge;
@@ -31,7 +31,7 @@ static int compare_edges(const void *left, const void *right) {
   return a->point < b->point ? -1 : a->point > b->point;
 }
 
-/* Sorts by key, and gives each point the first of its key. */
+/* Sorts by key, and gives each point the first point with its key. */
 static void find_first(keyed_point *keyed, uint32_t count, uint32_t *first) {
   qsort(keyed, count, sizeof *keyed, compare_keys);
   for (uint32_t i = 0; i < count; i++) {
@@ -83,7 +83,7 @@ bool sbfi_weight_sites_find(sbfi_weight_mesh *m, const sbfi_weights_input *in, s
   }
   find_first(keyed, count, first);
   if (!join_pieces(in, first, pieces, arena)) return false;
-  for (uint32_t i = 0; i < count; i++) { /* again, by place and piece */
+  for (uint32_t i = 0; i < count; i++) { /* second pass: by position and piece */
     uint32_t point = keyed[i].point;
     keyed[i] = (keyed_point){{(int32_t)first[point], (int32_t)sbfi_set_root(pieces, point), 0}, point};
   }
