@@ -1,8 +1,8 @@
-/* A mesh that names neither weights nor a bone may be carried by sections: each of them has a bone, and says
- * how much of a vertex is its own. */
+/* Computes a skin for a mesh without weights or a bone that sections embed: each section has a bone and
+ * blend weights of its vertices. */
 #include "export/exporting.h"
 
-/* Calls for every vertex that a section's finest level carries. */
+/* Visits every vertex embedded in a section's finest level. */
 typedef struct carried {
   uint32_t *counts; /* by vertex */
   uint32_t *bones;  /* NULL: only count */

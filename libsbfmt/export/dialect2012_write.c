@@ -1,4 +1,5 @@
-/* The 2012 dialect, <model>: section 16 of the specification. Ids count from 1; angles are degrees. */
+/* Writes the 2012 dialect, <model>: section 16 of the specification. Ids count from 1; angles are in
+ * degrees. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ typedef struct paper_writer {
   sbfi_export *e;
   sbfi_arena scratch;
   uint32_t lost_vertices; /* embedded in no tetrahedron of the level */
-  uint32_t skewed_limits; /* with bounds that are not symmetric */
+  uint32_t skewed_limits; /* limits with asymmetric bounds */
   uint32_t lost_embeddings;
 } paper_writer;
 
@@ -65,7 +66,7 @@ static void write_vertices(paper_writer *w, int depth, sbf_vec3_list points) {
   line(w, depth, "</vertices>");
 }
 
-/* `mesh` gives the corners normals and coordinates; NULL: none. */
+/* `mesh` provides the corners' normals and coordinates; NULL: none. */
 static void write_faces(
     paper_writer *w, int depth, const sbf_polygon_mesh *faces, const sbf_render_mesh *mesh) {
   const sbf_uv_set *uv =
@@ -114,8 +115,8 @@ static void write_render_mesh(paper_writer *w, const sbf_render_mesh *mesh) {
 
 /* ---- The lattice ---- */
 
-/* Where the body's points stood in the file they were read from: the surface's by source_points, the others
- * in the places left. NULL: as they stand. */
+/* Index of the body's points in the original file: the surface's by source_points, the others in the
+ * remaining indices. NULL: unchanged. */
 static const uint32_t *source_order(paper_writer *w, const sbf_soft_body *body, const sbf_level *level) {
   uint32_t count = level->positions.count, surface = body->surface.positions.count;
   if (level->new_from_old.count || body->source_points.count != surface || surface > count ||
@@ -184,7 +185,7 @@ static void write_lattice(paper_writer *w, const sbf_level *level, const uint32_
   line(w, 2, "</tetrahedron_mesh>");
 }
 
-/* The weight that the embedding gives a point; one that stands twice is not asked for. */
+/* Weight of a point in the embedding; duplicates are excluded. */
 static float weight_at(const sbf_embedding *embedding, uint32_t i, uint32_t point) {
   const sbf_vec4 weight = embedding->weights.at[i];
   const float weights[4] = {weight.x, weight.y, weight.z, weight.w};
@@ -245,7 +246,7 @@ static sbf_status write_attributes(paper_writer *w, const sbf_soft_body *body, c
   return SBF_OK;
 }
 
-/* The mesh that the level carries; where none, one of the body's name. */
+/* Mesh embedded in the level; if none, one with the body's name. */
 static const sbf_render_mesh *mesh_of(
     paper_writer *w, const sbf_soft_body *body, const sbf_level *level, const sbf_embedding **embedding) {
   const sbf_asset *asset = w->e->asset;
@@ -278,7 +279,7 @@ static sbf_status write_soft_body(paper_writer *w, const sbf_soft_body *body, co
 
 /* ---- Rigid bodies and joints ---- */
 
-/* Bodies that were read from this dialect have their number as their name; else they count from 1. */
+/* Bodies read from this dialect are named by their number; otherwise they count from 1. */
 static uint32_t *body_numbers(paper_writer *w) {
   sbf_rigid_body_list bodies = w->e->asset->rigid_bodies;
   uint32_t *numbers = sbfi_arena_allocate(&w->scratch, bodies.count, sizeof *numbers);
@@ -318,7 +319,7 @@ static void write_rigid_body(paper_writer *w, const sbf_rigid_body *body, uint32
   line(w, 2, "</rigid_body>");
 }
 
-/* The shortest number of degrees that reads back as these radians. */
+/* Shortest number of degrees that converts back to these radians. */
 static float degrees_of(float radians) {
   double exact = (double)radians / DEGREE;
   for (double scale = 1; scale < 1e7; scale *= 10) {
@@ -379,7 +380,7 @@ static sbf_status write_skeleton(paper_writer *w) {
 
 /* ---- The whole ---- */
 
-static void say_what_is_left_out(paper_writer *w, uint32_t without_lattice) {
+static void report_unsupported(paper_writer *w, uint32_t without_lattice) {
   const sbf_asset *a = w->e->asset;
   uint32_t drives = 0;
   for (uint32_t i = 0; i < a->joints.count; i++) drives += a->joints.at[i].drives.count;
@@ -410,7 +411,7 @@ static sbf_status write_model(paper_writer *w) {
   if (without_lattice == asset->soft_bodies.count && !asset->rigid_bodies.count)
     return sbfi_diagnose(w->e->error, SBF_CODE_EXPORT_EMPTY,
         "the file holds neither tetrahedra nor rigid bodies: there is nothing to write to %s", w->e->path);
-  say_what_is_left_out(w, without_lattice);
+  report_unsupported(w, without_lattice);
   return sbfi_export_commit(w->e, w->e->path);
 }
 

@@ -1,4 +1,4 @@
-/* Which writer a file's ending stands for. */
+/* Selects the writer by the file's extension. */
 #include <string.h>
 
 #include "export/exporting.h"

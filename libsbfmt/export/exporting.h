@@ -1,4 +1,4 @@
-/* What the writers of other programs' forms share. */
+/* Shared by the writers of other programs' formats. */
 #ifndef SBFI_EXPORTING_H
 #define SBFI_EXPORTING_H
 
@@ -15,12 +15,12 @@ typedef struct sbfi_export {
   /* As in the options. */
   uint32_t render_level;
   const char *folder;
-  const sbf_export_motion *motion; /* NULL where it has no frames */
+  const sbf_export_motion *motion; /* NULL if it has no frames */
   sbfi_text text;                  /* of the file */
   sbf_diagnostic *error;
 } sbfi_export;
 
-/* Each fills e->text and writes it, and what belongs to it. */
+/* Each fills e->text and writes the file with its companions. */
 sbf_status sbfi_export_paper(sbfi_export *e);
 sbf_status sbfi_export_glb(sbfi_export *e);
 sbf_status sbfi_export_html(sbfi_export *e);
@@ -35,38 +35,38 @@ sbf_status sbfi_export_weights_csv(sbfi_export *e);
 sbf_status sbfi_export_weights_json(sbfi_export *e);
 
 sbf_status sbfi_export_no_memory(sbfi_export *e);
-/* Writes e->text to `path` and empties it. */
+/* Writes e->text to `path` and clears it. */
 sbf_status sbfi_export_commit(sbfi_export *e, const char *path);
 
-/* Things of the asset that a form has no place for. */
+/* Parts of the asset that a format cannot represent. */
 typedef struct sbfi_left_out {
   uint32_t count;
   const char *what; /* plural */
 } sbfi_left_out;
-/* One warning that names all those of a count above 0; `form` as in "OBJ". */
+/* One warning with all counts above 0; `form` is the format, as "OBJ". */
 void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out *things, size_t count);
 void sbfi_export_warn(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Pieces of text, up to 255 bytes each. */
+/* Appends text of up to 255 bytes. */
 void sbfi_export_print(sbfi_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_export_format(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each behind a space */
+void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each after a space */
 
 /* The body's first level of tetrahedra, or NULL. */
 const sbf_level *sbfi_export_lattice(const sbf_soft_body *body);
 /* Its first level of springs, or NULL. */
 const sbf_level *sbfi_export_network(const sbf_soft_body *body);
-/* Place in the level of a surface point; SBFI_NOT_IN_LEVEL: it has none there. */
+/* Level point of a surface point; SBFI_NOT_IN_LEVEL if it has none. */
 #define SBFI_NOT_IN_LEVEL UINT32_MAX
 uint32_t sbfi_export_index(const sbf_level *level, uint32_t point);
-/* Whether the body is a sheet whose surface the level has every point of. */
+/* Whether the body is a sheet and the level has all its surface points. */
 bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level);
-/* The lattice, or the springs of a sheet; NULL: neither. */
+/* The first lattice, or the springs of a sheet; NULL: neither. */
 const sbf_level *sbfi_export_level(const sbf_soft_body *body);
-/* The weight of a pin, within the set's bounds; 1 holds. */
+/* Weight of a pin, clamped to the set's bounds; 1 is rigid. */
 float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k);
-/* The skin of a mesh that sections carry, each by its bone; NULL: none does. Of `arena`; false where memory
- * runs out. */
+/* Skin of a mesh that sections embed, from their bones; NULL: none does. Allocates from `arena`; false if
+ * memory runs out. */
 bool sbfi_export_carried_skin(
     const sbf_asset *asset, uint32_t render_mesh, sbfi_arena *arena, const sbf_skin **made);
 

@@ -1,4 +1,4 @@
-/* Materials, which both forms define alike, and their images, in the file's own bytes. */
+/* Writes materials, which both formats define alike, and their images as original bytes. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 enum { LARGEST_IMAGE_BYTES = 1 << 28 };
 
-/* By how the bytes begin; NULL: no form that glTF takes. */
+/* From the first bytes; NULL: not a format of glTF. */
 static const char *media_type(const uint8_t *bytes, size_t size) {
   if (size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0) return "image/png";
   if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0) return "image/jpeg";
@@ -79,7 +79,7 @@ static void write_texture(
   sbfi_text_char(text, '}');
 }
 
-/* Glow beyond 1 is a factor on the colour, by an extension. */
+/* Emission above 1 uses an extension with a factor. */
 static void write_glow(sbfi_glb *g, sbfi_text *text, sbf_vec3 glow) {
   float max = glow.x > glow.y ? glow.x : glow.y;
   max = glow.z > max ? glow.z : max;

@@ -1,6 +1,6 @@
-/* Clips, and a motion that a host has simulated: bones move as joints, and what the flesh does beside them is
- * a morph target a frame, each weighted as a hat over its own frame, so that between two the mesh is between
- * both. */
+/* Writes clips, and a simulated motion: bones are joints, and the remaining soft deformation is one morph
+ * target per frame, each with a triangular weight over its own frame, so that the mesh is interpolated
+ * between frames. */
 #include <math.h>
 #include <string.h>
 
@@ -43,7 +43,8 @@ static void end(sbfi_glb *g, channels *c, const char *name) {
   sbfi_text_free(&c->samplers);
 }
 
-/* glTF wants keys at increasing times from 0 on, as many values as they need, and each property once. */
+/* glTF requires keys at increasing times from 0 on, the right number of values, and no duplicate
+ * properties. */
 static bool fits(const sbf_clip *clip, uint32_t index) {
   const sbf_track *t = &clip->tracks.at[index];
   uint32_t width = t->property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
@@ -108,7 +109,7 @@ static void write_bone(
     sbfi_glb_transform parent = up >= 0 ? write_position_at(g, f, (uint32_t)up) : (sbfi_glb_transform){0};
     sbfi_glb_compute_local(
         write_position_at(g, f, bone), up >= 0 ? &parent : NULL, translations + 3 * (size_t)f, q);
-    /* The nearer of the two signs, for players that mix without asking. */
+    /* Chooses the nearer sign, for players that interpolate without a check. */
     const float *last = q - 4;
     if (f && q[0] * last[0] + q[1] * last[1] + q[2] * last[2] + q[3] * last[3] < 0)
       for (int k = 0; k < 4; k++) q[k] = -q[k];
@@ -119,7 +120,7 @@ static void write_bone(
   add_channel(c, bone, "rotation", "LINEAR", times, values);
 }
 
-/* Meshes of as many shape keys share one list. */
+/* Meshes with equal numbers of shape keys share one list. */
 static uint32_t write_weights(sbfi_glb *g, uint32_t keys) {
   uint32_t frames = g->e->motion->frame_count, count = keys + frames;
   float *weights = sbfi_glb_allocate(g, (size_t)frames * count, sizeof *weights);

@@ -1,4 +1,4 @@
-/* Bones as nodes, the skin that they are the joints of, and which meshes hang on what. */
+/* Writes bones as nodes, their skin, and the meshes' parents. */
 #include <math.h>
 
 #include "export/glb.h"
@@ -33,8 +33,8 @@ sbfi_glb_transform sbfi_glb_rest(const sbf_asset *asset, uint32_t bone) {
   return (sbfi_glb_transform){asset->bones.at[bone].head, asset->bones.at[bone].rotation};
 }
 
-/* Whether some point of a skin is held by no bone. */
-static bool leaves_points(const sbf_skin *skin, uint32_t points) {
+/* Whether some point of a skin has no bone. */
+static bool has_unweighted_points(const sbf_skin *skin, uint32_t points) {
   for (uint32_t p = 0, at = 0; p < points; p++) {
     bool pinned = false;
     for (uint32_t i = 0; i < skin->influence_counts.at[p]; i++) pinned |= skin->weights.at[at++] > 0;
@@ -77,7 +77,8 @@ void sbfi_glb_choose_meshes(sbfi_glb *g) {
       return;
     }
     if (!mesh->skin) mesh->bone = mesh->full->bone;
-    if (mesh->skin && leaves_points(mesh->skin, mesh->full->mesh.positions.count)) g->root_is_joint = true;
+    if (mesh->skin && has_unweighted_points(mesh->skin, mesh->full->mesh.positions.count))
+      g->root_is_joint = true;
   }
   g->root_node = node;
 }
@@ -141,8 +142,8 @@ static void write_root(sbfi_glb *g) {
   sbfi_text_string(text, "]}");
 }
 
-/* One for all meshes; its joints are all bones. It is written where no mesh has weights too: a node is a bone
- * to those who read it by being somebody's joint. */
+/* One skin for all meshes; its joints are all bones. Written even if no mesh has weights, because readers
+ * recognize a bone by its use as a joint. */
 static void write_skin(sbfi_glb *g) {
   const sbf_asset *asset = g->e->asset;
   uint32_t count = asset->bones.count + (g->root_is_joint ? 1 : 0);

@@ -1,6 +1,5 @@
-/* Normals of morph targets. What its corners around a point share, one authored normal, is turned as the
- * faces around them turn: by the least turn between the sums of their area vectors before and after. Hard
- * edges stay hard. */
+/* Normals of morph targets. A normal shared by corners of a point rotates with the surrounding faces: by
+ * the smallest rotation between the sums of their area vectors before and after. Hard edges stay hard. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +8,7 @@
 
 struct sbfi_glb_normals {
   const sbf_render_mesh *mesh;
-  uint32_t count;               /* of pairs of a point and a normal */
+  uint32_t count;               /* number of pairs of a point and a normal */
   uint32_t *pairs;              /* (corners) */
   double (*rest)[3], (*now)[3]; /* (pairs) area vectors */
 };
@@ -25,7 +24,7 @@ static sbf_vec3 moved(const sbfi_glb_normals *n, uint32_t corner, const sbf_vec3
   return p;
 }
 
-/* Of each polygon to all its corners' pairs; `offsets` NULL: at rest. */
+/* Adds each polygon to the pairs of all its corners; `offsets` NULL: at rest. */
 static void add_areas(const sbfi_glb_normals *n, const sbf_vec3 *offsets, double (*to)[3]) {
   const sbf_polygon_mesh *mesh = &n->mesh->mesh;
   memset(to, 0, n->count * sizeof *to);
@@ -46,7 +45,7 @@ static void add_areas(const sbfi_glb_normals *n, const sbf_vec3 *offsets, double
   }
 }
 
-/* Numbers the pairs: those of one point as a chain. */
+/* Numbers the pairs: those of one point form a chain. */
 static bool number_pairs(sbfi_glb *g, sbfi_glb_normals *n) {
   const sbf_polygon_mesh *mesh = &n->mesh->mesh;
   uint32_t corners = mesh->polygon_points.count;

@@ -1,6 +1,6 @@
-/* What a joint's blend has to be given so that it ends at a wanted place: with M the blend of the bones'
- * motions from rest, M (rest + offset) = wanted. Where M folds a place flat (two bones turned against each
- * other by half a turn) no offset would do, and the nearest of bounded length is taken. */
+/* Offset of a point before its joint blend so that it ends at a target: with M the blend of the bones'
+ * motions from rest, M (rest + offset) = target. If M is singular (two bones rotated by 180 degrees
+ * against each other) there is no exact offset, and the best of bounded length is used. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 typedef sbfi_glb_affine affine;
 
-/* How a bone has moved from its rest at a frame. */
+/* Motion of a bone from rest in a frame. */
 static affine motion_of(const sbfi_glb *g, uint32_t frame, uint32_t bone) {
   const sbf_bone *rest = &g->e->asset->bones.at[bone];
   size_t at = (size_t)frame * g->e->asset->bones.count + bone;
@@ -46,7 +46,7 @@ static void identity_scaled(affine *to, double weight) {
   add_scaled(to, &still, weight);
 }
 
-/* By Cramer's rule; false where the determinant is below `least`. */
+/* Cramer's rule; false if the determinant is below `min`. */
 static bool solve(const affine *of, const double r[3], double min, double x[3]) {
   double c[3];
   for (int k = 0; k < 3; k++) {
@@ -67,7 +67,7 @@ static bool solve(const affine *of, const double r[3], double min, double x[3]) 
   return true;
 }
 
-/* Least of |M x - r|^2 + damping |x|^2. */
+/* Minimizes |M x - r|^2 + damping |x|^2. */
 static void solve_damped(const affine *of, const double r[3], double damping, double x[3]) {
   const double(*m)[3] = of->m;
   affine a;
@@ -99,7 +99,7 @@ static sbf_vec3 offset_to(sbfi_glb *g, const affine *blend, sbf_vec3 rest, sbf_v
   return (sbf_vec3){(float)x[0], (float)x[1], (float)x[2]};
 }
 
-/* The blend of one point, whose influences begin at `from`. */
+/* Blend of one point, whose influences begin at `from`. */
 static affine blend_of(const sbf_skin *skin, uint32_t from, uint32_t count, const affine *motions) {
   affine blend = {.t = {0, 0, 0}};
   double sum = 0;

@@ -1,4 +1,4 @@
-/* Pieces of a glTF file: room in its binary part, items of its lists, strings. */
+/* Building blocks of a glTF file: memory in its binary part, items of its lists, strings. */
 #include <string.h>
 
 #include "export/glb.h"
@@ -39,7 +39,7 @@ void sbfi_glb_write_numbers(sbfi_text *text, const float *numbers, uint32_t coun
   sbfi_text_char(text, ']');
 }
 
-/* A view of the `size` bytes that are appended next. */
+/* Adds a view of the next `size` bytes. */
 static uint32_t open_view(sbfi_glb *g, size_t size, uint32_t target) {
   sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
   uint32_t number;
@@ -57,7 +57,7 @@ uint32_t sbfi_glb_view(sbfi_glb *g, const void *bytes, size_t size) {
   return number;
 }
 
-/* Little-endian, as the form wants it, on any machine. */
+/* Little-endian on every machine, as the format requires. */
 static void store(uint8_t *to, const void *items, size_t words, bool shorts) {
   for (size_t i = 0; i < words; i++) {
     uint32_t bits;

@@ -1,5 +1,5 @@
-/* Meshes as a graphics processor has them: a primitive for each material with vertices of its own, one for
- * each point with its normal and texture coordinates; polygons cut into fans from their first corner. */
+/* Writes meshes for graphics processors: one primitive per material with its own vertices, one for each
+ * combination of point, normal and texture coordinates; polygons are fans from their first corner. */
 #include <math.h>
 #include <string.h>
 
@@ -7,18 +7,18 @@
 
 enum { MAX_UV_SETS = 4 };
 
-/* The polygons of one material being written. */
+/* Vertices of the current material. */
 typedef struct vertices {
   sbfi_glb *g;
   const sbfi_glb_mesh *mesh;
   sbfi_glb_normals *normals; /* of its targets; NULL: none */
   uint32_t slot;
   uint32_t count;
-  uint32_t uv_count; /* sets that have coordinates */
+  uint32_t uv_count; /* number of sets with coordinates */
   uint32_t uv_sets[MAX_UV_SETS];
-  uint32_t *corners;      /* (count) the first corner that is this vertex */
-  uint32_t *first, *next; /* vertices at one point, as chains; UINT32_MAX ends */
-  uint32_t *indices;      /* three a triangle */
+  uint32_t *corners;      /* (count) first corner of each vertex */
+  uint32_t *first, *next; /* vertices of one point, as linked lists; UINT32_MAX: end */
+  uint32_t *indices;      /* three per triangle */
   uint32_t index_count;
 } vertices;
 
@@ -26,7 +26,7 @@ static uint32_t coordinate_of(const sbf_render_mesh *m, const sbf_uv_set *set, u
   return set->corners.count ? set->corners.at[corner] : m->mesh.polygon_points.at[corner];
 }
 
-/* Whose place among the colours a corner has; UINT32_MAX: there is none. */
+/* Index of a corner's colour; UINT32_MAX: none. */
 static uint32_t color_of(const sbf_render_mesh *m, uint32_t corner) {
   uint32_t at = m->color_corners.count ? m->color_corners.at[corner] : m->mesh.polygon_points.at[corner];
   return at < m->colors.count ? at : UINT32_MAX;
@@ -111,7 +111,7 @@ static uint32_t write_colors(const vertices *v) {
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC4, SBFI_GLB_VERTICES);
 }
 
-/* Their origin is the upper left corner there. */
+/* glTF has the origin at the upper left corner. */
 static uint32_t write_coordinates(const vertices *v, const sbf_uv_set *set) {
   sbf_vec2 *at = sbfi_glb_allocate(v->g, v->count, sizeof *at);
   if (!at) return 0;
@@ -122,7 +122,7 @@ static uint32_t write_coordinates(const vertices *v, const sbf_uv_set *set) {
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC2, SBFI_GLB_VERTICES);
 }
 
-/* The bones of one point, each once, the strongest first, with weights that sum to one. */
+/* Unique bones of one point, by descending weight, normalized. */
 typedef struct influences {
   uint32_t *bones;
   double *weights;
@@ -160,7 +160,7 @@ static void gather(const sbf_skin *skin, uint32_t from, uint32_t count, uint32_t
   }
 }
 
-/* Sets of four; returns their number, and appends them to the attributes. */
+/* Appends attributes in sets of four. */
 static void write_skin(const vertices *v, sbfi_text *attributes) {
   const sbf_skin *skin = v->mesh->skin;
   uint32_t points = v->mesh->full->mesh.positions.count, max = 1, sets = 0;
@@ -197,7 +197,7 @@ static void write_skin(const vertices *v, sbfi_text *attributes) {
   }
 }
 
-/* Offsets of the points of `shown` in a target: a shape key's, then those of the motion's frames. */
+/* Offsets of the points of `shown` in a target: shape keys come first, then the motion's frames. */
 static void take_target(const vertices *v, uint32_t target, sbf_vec3 *of_full, sbf_vec3 *of_shown) {
   const sbfi_glb_mesh *mesh = v->mesh;
   uint32_t keys = mesh->full->shape_keys.count;

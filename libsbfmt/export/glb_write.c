@@ -1,4 +1,4 @@
-/* Binary glTF 2.0: render meshes with skin, joints, materials, shape keys and clips; and a motion. */
+/* Writes binary glTF 2.0: render meshes with skin, joints, materials, shape keys and clips; and a motion. */
 #include <string.h>
 
 #include "base/file.h"
@@ -80,7 +80,7 @@ static sbf_status write_chunks(sbfi_glb *g, const sbfi_text *json) {
   return status;
 }
 
-static void say_what_is_left_out(const sbfi_glb *g) {
+static void report_unsupported(const sbfi_glb *g) {
   const sbf_asset *a = g->e->asset;
   uint32_t uv_sets = 0, inherit = 0;
   for (uint32_t i = 0; i < a->render_meshes.count; i++)
@@ -118,7 +118,7 @@ static sbf_status write_all(sbfi_glb *g) {
   if (g->failed || json.failed || g->bytes.failed)
     status = sbfi_export_no_memory(e);
   else if ((status = write_chunks(g, &json)) == SBF_OK)
-    say_what_is_left_out(g);
+    report_unsupported(g);
   sbfi_text_free(&json);
   return status;
 }

@@ -1,5 +1,5 @@
-/* A page of its own: the packed asset, the runtime as WebAssembly and what shows it, from a template whose
- * {{words}} name what goes there. The template and its parts are made by runtime/hosts/web. */
+/* Writes a standalone page: the packed asset, the runtime as WebAssembly and its viewer, from a template
+ * with {{words}} as placeholders. runtime/hosts/web builds the template and its parts. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,8 @@ static bool is_file(const char *folder, const char *destination, char *to, size_
   return length > 0 && (size_t)length < size;
 }
 
-/* From an installed program, an installed library (its folder may have the machine's name), a build tree. */
+/* Searches from an installed program, an installed library (its folder may include the architecture), a
+ * build tree. */
 static bool find_from(const char *folder, char *to, size_t size) {
   static const char *const positions[] = {"/../share/sbfmt/web", "/../../share/sbfmt/web", "/../web"};
   for (size_t i = 0; i < sizeof positions / sizeof *positions; i++)
@@ -55,7 +56,7 @@ static void append_base64(sbfi_text *text, const uint8_t *bytes, size_t size) {
   if (!sbfi_base64_encode(text, bytes, size)) text->failed = true;
 }
 
-/* The text of a page may hold neither tags nor quotes. */
+/* Page text must not contain tags or quotes. */
 static void append_escaped(sbfi_text *text, const char *from) {
   for (; *from; from++) {
     const char *escaped = *from == '<'   ? "&lt;"
@@ -70,7 +71,7 @@ static void append_escaped(sbfi_text *text, const char *from) {
   }
 }
 
-/* A script, without the lines by which it asks for others that stand in the page already. */
+/* Appends a script without the lines that import others, which the page already contains. */
 static void append_script(sbfi_text *text, const uint8_t *bytes, size_t size) {
   sbfi_span rest = {(const char *)bytes, size}, line;
   while (sbfi_span_next_line(&rest, &line)) {
@@ -102,7 +103,7 @@ static sbf_status append_bundle(sbfi_export *e) {
   return status;
 }
 
-/* Images that lie beside the asset go into the page. */
+/* Embeds image files of the asset into the page. */
 static void append_images(sbfi_export *e) {
   for (uint32_t i = 0; i < e->asset->textures.count; i++) {
     const sbf_texture *texture = &e->asset->textures.at[i];
@@ -122,7 +123,7 @@ static void append_images(sbfi_export *e) {
   }
 }
 
-/* What stands between {{ and }}. */
+/* Replaces a word between {{ and }}. */
 static sbf_status append_word(sbfi_export *e, const char *folder, sbfi_span word) {
   static const char file[] = "file ", bytes[] = "bytes ";
   const char *title = e->asset->info.title;

@@ -1,10 +1,10 @@
-/* Who touches whom. As in the runtime, what belongs together does not: parts on a joint, flesh and what holds
- * it, a section and kinematic bodies, sections that touch at rest, and what lies in each other at rest, which
- * MuJoCo would drive apart at hundreds of metres a second.
+/* Selects contact pairs. As in the runtime, related parts do not collide: bodies at a joint, soft tissue and
+ * its holder, a section and kinematic bodies, sections in contact at rest, and parts that overlap at rest,
+ * which MuJoCo would separate at hundreds of metres per second.
  *
- * Bodies are told apart by `exclude`, but flexes by bits alone. Bit 0 is for what the host adds (a plane's
- * default), bit 1 is of all hulls, the others are one flex each; where they do not suffice the last flexes
- * share one, and meet what all of them meet. */
+ * `exclude` separates bodies, but flexes only have bits. Bit 0 is for objects of the host (a plane's
+ * default), bit 1 for all hulls, the others for one flex each; if there are too many, the last flexes
+ * share one bit and collide with the union of their partners. */
 #include <math.h>
 
 #include "export/mjcf.h"
@@ -14,14 +14,13 @@ enum { FIRST_CLASS_BIT = 2, CLASSES = 31 - FIRST_CLASS_BIT, DIRECTIONS = 13 };
 
 #define HOST_BIT 1u
 #define HULL_BIT 2u
-/* Lying in each other begins this share of the smaller one's least width deep: what lies on another touches.
- */
+/* Minimum overlap as a fraction of the smaller one's smallest width; less counts as contact. */
 #define SUNK_FRACTION 0.01f
 
 struct mjcf_extent {
   const sbf_vec3 *points;
   uint32_t count;
-  float min[DIRECTIONS], max[DIRECTIONS]; /* m, along each */
+  float min[DIRECTIONS], max[DIRECTIONS]; /* m, along each direction */
 };
 typedef struct mjcf_extent extent;
 
@@ -63,7 +62,7 @@ static float sunk_depth(const extent *a, const extent *b) {
   return SUNK_FRACTION * fminf(min_width(a), min_width(b));
 }
 
-/* Whether some face of the hull is `gap` from all of the other's points. */
+/* Whether some face of the hull is separated by `gap` from all of the other's points. */
 static bool is_outside(const sbf_polygon_mesh *hull, const extent *other, float gap) {
   for (uint32_t i = 0, corner = 0; i < hull->polygon_sizes.count; i++) {
     const uint32_t *points = hull->polygon_points.at + corner, size = hull->polygon_sizes.at[i];
@@ -81,8 +80,8 @@ static bool is_outside(const sbf_polygon_mesh *hull, const extent *other, float 
   return false;
 }
 
-/* Whether they are further than `gap` (negative: less deep in each other) from each other at rest. Hulls:
- * NULL for a flex. May say no where they are. */
+/* Whether two parts at rest are farther apart than `gap` (negative: overlap less than that). Hulls: NULL
+ * for a flex. May return false for separated parts. */
 static bool are_separated(const extent *a, const sbf_polygon_mesh *hull_a, const extent *b,
     const sbf_polygon_mesh *hull_b, float gap) {
   for (int k = 0; k < DIRECTIONS; k++)
@@ -220,7 +219,7 @@ static void write_exclude(mjcf_writer *w, uint32_t a, uint32_t b) {
   sbfi_text_string(&w->e->text, "\"/>\n");
 }
 
-/* MuJoCo lets no two bodies touch that stand still or are led: those are not named. */
+/* MuJoCo never lets two static or mocap bodies collide: these need no exclude. */
 void sbfi_mjcf_write_excludes(mjcf_writer *w) {
   const sbf_asset *asset = w->e->asset;
   enum { MAY_COLLIDE = 1, JOINED = 2 };

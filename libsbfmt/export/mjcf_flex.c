@@ -1,5 +1,5 @@
-/* Soft bodies: a point is a body with three slides, a held point belongs to what holds it, and a flex of
- * tetrahedra, of a sheet's triangles or of springs lies over them. */
+/* Writes soft bodies: a free point is a body with three slide joints, a pinned point belongs to its
+ * holder, and a flex of tetrahedra, of a sheet's triangles or of springs connects them. */
 #include "export/mjcf.h"
 #include "sbfmt/mechanics.h"
 
@@ -22,7 +22,7 @@ static void choose_level(mjcf_flex *flex, const sbf_soft_body *body) {
   if (flex->level) flex->dim = sbfi_export_is_sheet(body, flex->level) ? 2 : 1;
 }
 
-/* Marks the set's points, and puts each at its offset in the frame. */
+/* Marks the set's points, and places each at its offset in the frame. */
 static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
   const sbf_pin_set *set = &flex->level->pins.at[s];
   const sbf_asset *asset = w->e->asset;
@@ -91,7 +91,7 @@ static void write_point(mjcf_writer *w, const mjcf_flex *flex, uint32_t b, uint3
   float radius = flex->body->collision.particle_radius;
   if (!(flex->masses[p] > 0)) w->massless++;
   if (radius < 1e-3f) radius = 1e-3f;
-  /* Slides alone: the moments are never felt, but have to be there. */
+  /* Slide joints only: moments have no effect, but are required. */
   float moment = 0.4f * mass * radius * radius;
   if (moment < 1e-12f) moment = 1e-12f;
   sbfi_text_string(text, "    <body name=\"");
@@ -196,7 +196,7 @@ static bool is_point_pinned(const mjcf_flex *flex) {
   return false;
 }
 
-/* Of all its springs or tetrahedra together, as a flex has one of each number. */
+/* One value for all its springs or tetrahedra, because a flex has only one. */
 static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
   const sbf_attributes *matter = &flex->body->attributes;
   bool differ = false;
@@ -213,7 +213,7 @@ static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
     sbfi_mjcf_write_f32(w, "poisson", sbfi_mjcf_ratio(flex->body));
     sbfi_mjcf_write_f32(w, "damping", matter->stiffness_damping);
     if (flex->dim == 2) {
-      /* MuJoCo's compiler refuses bending where a point hangs on what is held. */
+      /* MuJoCo's compiler rejects bending if a point is pinned. */
       bool pinned = is_point_pinned(flex);
       w->bending += pinned;
       sbfi_mjcf_write_f32(w, "thickness", matter->thickness);
@@ -273,7 +273,7 @@ bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
     write_vertices(w, flex, b);
     write_elements(w, flex);
     sbfi_text_char(text, '>');
-    /* Springs that cross lie in each other at rest. */
+    /* Crossing springs overlap at rest. */
     bool self = collision->self && flex->dim > 1;
     w->selves += collision->self && !self;
     sbfi_export_format(w->e, "<contact selfcollide=\"%s\"", self ? "auto" : "none");

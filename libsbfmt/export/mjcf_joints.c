@@ -1,4 +1,4 @@
-/* Joints: slides, hinges and balls between a body and what it hangs on; equalities and tendons elsewhere. */
+/* Writes joints: slides, hinges and balls between a body and its parent; equalities and tendons elsewhere. */
 #include <math.h>
 
 #include "export/mjcf.h"
@@ -44,7 +44,7 @@ static void coordinates_at_rest(const sbf_asset *asset, const sbf_joint *joint, 
   c[5] = (float)(factor * swing.z);
 }
 
-/* What bounds and drives one coordinate; a cone of swings bounds both. */
+/* Limits and drives of one coordinate; a cone limits both swings. */
 typedef struct motion {
   bool free, bounded, driven;
   float min, max, stiffness, damping, position;
@@ -90,8 +90,8 @@ static void begin_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t index, 
   sbfi_mjcf_write_vec3(w, "pos", anchor);
 }
 
-/* MJCF moves the first joint of a body with what it hangs on, the last with the body. Slides and swings are
- * body a's, the twist is body b's. */
+/* MJCF's first joint of a body moves with the parent, the last with the body. Slides and swings belong to
+ * body a, the twist to body b. */
 void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t index, bool forward) {
   static const char *const parts[6] = {"linear_x", "linear_y", "linear_z", "twist", "swing_y", "swing_z"};
   static const int order[6] = {0, 1, 2, 5, 4, 3};
@@ -138,7 +138,7 @@ void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t inde
 /* ---- What is not in the tree ---- */
 
 static void write_pair(mjcf_writer *w, const sbf_joint *joint) {
-  /* body2 is the world where it is not said, and body1 must be there. */
+  /* body2 defaults to the world, and body1 is required. */
   bool turned = joint->body_a < 0;
   sbfi_text_string(&w->e->text, " body1=\"");
   sbfi_mjcf_rigid_name(w, turned ? joint->body_b : joint->body_a);
@@ -160,7 +160,7 @@ static void write_connect(
   sbfi_text_string(&w->e->text, "/>\n");
 }
 
-/* The bounds of a distance; false where it stays as it is at rest. */
+/* Limits of a distance; false if it keeps its rest value. */
 static bool range_of(const sbf_joint *joint, float *min, float *max) {
   for (uint32_t i = 0; i < joint->limits.count; i++) {
     const sbf_limit *limit = &joint->limits.at[i];

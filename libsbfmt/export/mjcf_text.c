@@ -1,4 +1,4 @@
-/* The text of MJCF: attributes and names. */
+/* Writes the text of MJCF: attributes and names. */
 #include <string.h>
 
 #include "export/mjcf.h"

@@ -1,12 +1,12 @@
-/* MuJoCo steps flexes explicitly: a step too long for their fastest mode ends in huge accelerations. This one
- * is half of the longest that symplectic Euler bears, with damping taken in: w^2 h^2 + 2 b w^2 h < 4 for
+/* MuJoCo integrates flexes explicitly: a step too long for their fastest mode gives huge accelerations.
+ * This one is half of the stability limit of symplectic Euler with damping: w^2 h^2 + 2 b w^2 h < 4 for
  * stiffness-proportional damping b, from its characteristic polynomial at -1. */
 #include <math.h>
 
 #include "export/mjcf.h"
 #include "sbfmt/mechanics.h"
 
-/* As MuJoCo's own, where nothing asks for less. */
+/* MuJoCo's default, unless a smaller one is required. */
 #define LONGEST_STEP_S 0.002
 
 static bool fastest_of_lattice(
@@ -42,8 +42,8 @@ static bool fastest_of_lattice(
   return true;
 }
 
-/* Of a sheet: a triangle's stiffness is at most E t / (1 - nu) times the sum of its shape functions' squared
- * gradients times its area, which is the sum of its squared sides over four times the area. */
+/* For a sheet: a triangle's stiffness is at most E t / (1 - nu) times the sum of its shape functions'
+ * squared gradients times its area, which is the sum of its squared edges over four times the area. */
 static double fastest_of_sheet(
     const mjcf_flex *flex, float modulus, float thickness, const float *mass, double *sums) {
   const sbf_polygon_mesh *mesh = &flex->body->surface;

@@ -1,5 +1,5 @@
-/* Rigid bodies as MJCF nests them: each hangs by the joints' order on the first body that it is joined to,
- * which goes back to the world, a kinematic body, or a body that floats freely. */
+/* Rigid bodies nested as in MJCF: in the order of joints, each is a child of the first body on a path to
+ * the world, a kinematic body, or a free floating body. */
 #include "base/union_find.h"
 #include "export/mjcf.h"
 #include "sbfmt/mechanics.h"
@@ -8,7 +8,7 @@ static bool is_kinematic(const sbf_asset *asset, int32_t body) {
   return body < 0 || asset->rigid_bodies.at[body].motion == SBF_BODY_MOTION_KINEMATIC;
 }
 
-/* Ends are numbered 2 * joint for body a and one more for body b. */
+/* Ends are numbered 2 * joint for body a, plus one for body b. */
 static int32_t body_at(const sbf_asset *asset, uint32_t end) {
   const sbf_joint *joint = &asset->joints.at[end / 2];
   return end & 1 ? joint->body_b : joint->body_a;
@@ -36,7 +36,7 @@ bool sbfi_mjcf_take_joints(mjcf_writer *w) {
     w->is_tree[j] = sbfi_set_root(sets, a) != sbfi_set_root(sets, b);
     if (w->is_tree[j]) sbfi_sets_join(sets, a, b);
   }
-  /* From the last on, so that each list runs in the joints' order. */
+  /* Reversed, so that each list is in the order of the joints. */
   for (uint32_t end = 2 * joints; end-- > 0;) {
     int32_t body = body_at(asset, end);
     uint32_t at = body < 0 ? bodies : (uint32_t)body;
@@ -65,7 +65,7 @@ void sbfi_mjcf_write_meshes(mjcf_writer *w) {
 }
 
 static void write_quaternion(mjcf_writer *w, sbf_quat q) {
-  /* (1, 1, 0, 0) / sqrt 2 times q: the quarter turn behind it. */
+  /* (1, 1, 0, 0) / sqrt 2 times q: applies the rotation by 90 degrees after it. */
   const float h = 0.70710678f;
   const float wxyz[4] = {h * (q.w - q.x), h * (q.x + q.w), h * (q.y - q.z), h * (q.z + q.y)};
   sbfi_text_string(&w->e->text, " quat=\"");
@@ -98,7 +98,7 @@ static void write_matter(mjcf_writer *w, const sbf_rigid_body *body) {
   sbfi_text_string(text, "\"/>\n");
 }
 
-/* The tags and what lies in it but the bodies that hang on it. `joint`: MJCF_END for none. */
+/* Writes the tag and the content except child bodies. `joint`: MJCF_END for none. */
 static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) {
   const sbf_asset *asset = w->e->asset;
   const sbf_rigid_body *body = &asset->rigid_bodies.at[i];
@@ -116,7 +116,7 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   if (body->gravity_scale != 1) sbfi_mjcf_write_f32(w, "gravcomp", 1 - body->gravity_scale);
   sbfi_text_string(text, ">\n");
   if (end != MJCF_END) {
-    /* `end` is the parent's: the joint runs forward where that is body a. */
+    /* `end` is the parent's: the joint points forward if that is body a. */
     sbfi_mjcf_write_joint(w, &asset->joints.at[end / 2], end / 2, !(end & 1));
   } else if (!kinematic) {
     sbfi_text_string(text, "      <freejoint name=\"");
@@ -135,7 +135,7 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   }
 }
 
-/* Where the distance joints' ends are fixed. */
+/* Writes the anchors of distance joints. */
 static void write_sites(mjcf_writer *w, uint32_t at) {
   const sbf_asset *asset = w->e->asset;
   for (uint32_t end = w->first[at]; end != MJCF_END; end = w->next[end]) {
@@ -149,7 +149,7 @@ static void write_sites(mjcf_writer *w, uint32_t at) {
   }
 }
 
-/* The body and all that hangs on it. A body's list of ends is used up as its children are written. */
+/* Writes a body with its descendants. Consumes the lists of ends as children are written. */
 static void write_tree(mjcf_writer *w, uint32_t root, uint32_t end) {
   const sbf_asset *asset = w->e->asset;
   open_body(w, root, -1, end);

@@ -1,4 +1,4 @@
-/* MuJoCo's MJCF: rigid bodies as a tree with its joints, loops as equalities, soft bodies as flexes. */
+/* Writes MuJoCo's MJCF: rigid bodies as a tree with joints, loops as equalities, soft bodies as flexes. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,16 +1,16 @@
-/* Wavefront OBJ with its MTL beside: render meshes at rest, or where there are none the bodies' surfaces. */
+/* Writes Wavefront OBJ with its MTL: render meshes at rest, or the bodies' surfaces if there are none. */
 #include <stdio.h>
 #include <string.h>
 
 #include "export/exporting.h"
 #include "model/level_mesh.h"
 
-/* Numbers of OBJ count over the whole file, from 1. */
+/* OBJ numbers count over the whole file, from 1. */
 typedef struct obj_counts {
   uint32_t points, coordinates, normals;
 } obj_counts;
 
-/* A name on a line of its own: no control characters, and no blanks where `word`. */
+/* Writes a name on its own line: without control characters, and without blanks if `word`. */
 static void write_name(sbfi_export *e, const char *name, bool word) {
   if (!*name) name = "unnamed";
   for (; *name; name++) {
@@ -31,7 +31,7 @@ static void write_points(sbfi_export *e, sbf_vec3_list points) {
   }
 }
 
-/* Materials are named by id, which no two share. */
+/* Materials are named by their unique id. */
 static const sbf_material *material_of(
     const sbf_asset *asset, const sbf_render_mesh *mesh, uint32_t polygon) {
   uint32_t slot = mesh->polygon_materials.count ? mesh->polygon_materials.at[polygon] : 0;
@@ -92,7 +92,7 @@ static void write_mesh(sbfi_export *e, const sbf_render_mesh *mesh, obj_counts *
   before->normals += mesh->normals.count;
 }
 
-/* The level that is asked for, or the last there is; 0: the mesh itself. */
+/* Writes the requested level, or the last if there are fewer; 0: the mesh itself. */
 static sbf_status write_render_mesh(sbfi_export *e, const sbf_render_mesh *mesh, obj_counts *before) {
   uint32_t number = e->render_level < mesh->levels.count ? e->render_level : mesh->levels.count;
   if (number == 0) {
@@ -108,7 +108,7 @@ static sbf_status write_render_mesh(sbfi_export *e, const sbf_render_mesh *mesh,
   return good ? SBF_OK : sbfi_export_no_memory(e);
 }
 
-/* A surface as the mesh that shows it. */
+/* Writes a surface through the same code as a mesh. */
 static void write_surface(sbfi_export *e, const sbf_soft_body *body, obj_counts *before) {
   sbf_render_mesh mesh;
   sbf_render_mesh_init(&mesh);
@@ -144,7 +144,7 @@ static void write_material(sbfi_export *e, const sbf_material *m) {
   sbfi_text_char(&e->text, '\n');
 }
 
-static void say_what_is_left_out(sbfi_export *e, bool surfaces) {
+static void report_unsupported(sbfi_export *e, bool surfaces) {
   const sbf_asset *a = e->asset;
   uint32_t embedded = 0, uv_sets = 0, keys = 0, skins = 0;
   for (uint32_t i = 0; i < a->textures.count; i++) embedded += a->textures.at[i].bytes.count > 0;
@@ -161,7 +161,7 @@ static void say_what_is_left_out(sbfi_export *e, bool surfaces) {
   sbfi_export_left_out(e, "OBJ", things, sizeof things / sizeof *things);
 }
 
-/* The library's path: the file's with another ending. */
+/* Path of the library: the file's with another extension. */
 static bool library_path(const char *path, char *to, size_t size) {
   size_t stem = strlen(path) - 4;
   int length = snprintf(to, size, "%.*s.mtl", (int)stem, path);
@@ -201,6 +201,6 @@ sbf_status sbfi_export_obj(sbfi_export *e) {
   }
   for (uint32_t i = 0; surfaces && i < asset->soft_bodies.count; i++)
     write_surface(e, &asset->soft_bodies.at[i], &before);
-  say_what_is_left_out(e, surfaces);
+  report_unsupported(e, surfaces);
   return sbfi_export_commit(e, e->path);
 }

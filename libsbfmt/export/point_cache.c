@@ -1,5 +1,6 @@
-/* Point caches. PC2, little-endian: "POINTCACHE2" and a zero, version, points, first frame, frames a sample,
- * samples; then the places. MDD, big-endian: samples, points, the samples' times; then the places. */
+/* Point caches. PC2, little-endian: "POINTCACHE2" and a zero byte, version, points, first frame, frames
+ * per sample, samples; then positions. MDD, big-endian: samples, points, the samples' times; then
+ * positions. */
 #include <string.h>
 
 #include "base/file.h"

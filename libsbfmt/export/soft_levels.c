@@ -1,4 +1,4 @@
-/* Which level of a soft body other programs get, and what lies where in it. */
+/* Selects the level of a soft body for other programs, and maps its points. */
 #include "export/exporting.h"
 #include "sbfmt/mechanics.h"
 

@@ -1,11 +1,11 @@
-/* The bodies' first levels of tetrahedra, one after the other, in the forms of other programs, each as read
- * by import/tetrahedra: PhysX's .tet, TetGen's .node and .ele, Gmsh's .msh 2.2, VTK's .vtu. */
+/* Writes the bodies' first levels of tetrahedra, concatenated, in formats that import/tetrahedra reads:
+ * PhysX's .tet, TetGen's .node and .ele, Gmsh's .msh 2.2, VTK's .vtu. */
 #include <stdio.h>
 #include <string.h>
 
 #include "export/exporting.h"
 
-/* What all lattices hold together. */
+/* Totals over all lattices. */
 typedef struct lattices {
   uint32_t bodies, points, tetrahedra;
 } lattices;
@@ -22,8 +22,8 @@ static lattices count_lattices(const sbf_asset *asset) {
   return all;
 }
 
-/* Calls back for every point, and then for every tetrahedron with its points' numbers among all and its
- * body's, from 0 among those that have a lattice. Either may be NULL. */
+/* Visits every point, then every tetrahedron with its points' global numbers and its body's number, from 0
+ * among those with a lattice. Either may be NULL. */
 typedef void write_point(sbfi_export *e, uint32_t number, sbf_vec3 at);
 typedef void write_tetrahedron(sbfi_export *e, uint32_t number, const uint32_t points[4], uint32_t body);
 
@@ -87,7 +87,7 @@ sbf_status sbfi_export_tet(sbfi_export *e) {
   sbf_status status = begin(e, &all);
   if (status != SBF_OK) return status;
   sbfi_text_string(&e->text, "# tetrahedra of sbfmt: metres, +Y up\n");
-  /* Body by body, so that points stand before what uses them and bodies stay together. */
+  /* Body by body, so that points come before their uses and bodies stay together. */
   visit(e, physx_point, physx_tetrahedron);
   return end(e, &all, ".tet");
 }
@@ -102,7 +102,7 @@ static void tetgen_tetrahedron(sbfi_export *e, uint32_t number, const uint32_t p
   sbfi_export_format(e, "%u %u %u %u %u %u\n", number, p[0], p[1], p[2], p[3], body + 1);
 }
 
-/* Two files of one name: points, and tetrahedra with their body's number from 1 as region. */
+/* Two files with one name: points, and tetrahedra with their body's number from 1 as region. */
 sbf_status sbfi_export_tetgen(sbfi_export *e) {
   lattices all;
   char points[4096], elements[4096];
@@ -132,7 +132,7 @@ static void gmsh_tetrahedron(sbfi_export *e, uint32_t number, const uint32_t p[4
       p[2] + 1, p[3] + 1);
 }
 
-/* Each body is a physical volume of its name. */
+/* Each body is a physical volume with its name. */
 sbf_status sbfi_export_msh(sbfi_export *e) {
   lattices all;
   uint32_t number = 0;

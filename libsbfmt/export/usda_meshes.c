@@ -1,4 +1,4 @@
-/* Render meshes, as authored or at a render level, on a skeleton of UsdSkel's. */
+/* Writes render meshes, original or at a render level, with a UsdSkel skeleton. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "model/level_mesh.h"
 #include "motion/turn.h"
 
-/* The body that carries a mesh, SBF_NONE for none; -2 for several. */
+/* Body that embeds a mesh, SBF_NONE for none; -2 for several. */
 static int32_t carrier_of(const sbf_asset *asset, uint32_t mesh) {
   int32_t found = SBF_NONE;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
@@ -72,7 +72,7 @@ static void turn_of(sbf_quat q, double rotation[4]) {
   for (int k = 0; k < 4; k++) rotation[k] = length > 0 ? parts[k] / length : k == 3;
 }
 
-/* Rows are the axes, as USD's vectors are multiplied from the left. */
+/* Rows are the axes, because USD multiplies vectors from the left. */
 static void write_matrix(usda_writer *w, const double rotation[4], const double at[3]) {
   float row[4] = {0, 0, 0, 0};
   sbfi_text_char(&w->e->text, '(');
@@ -138,7 +138,7 @@ static uint32_t max_influences(const usda_mesh *mesh) {
   return max;
 }
 
-/* A row of `size` a point: of bones, or of weights; points without one get the first bone with weight 1. */
+/* A row of `size` bones or weights per point; points without weights get the first bone with weight 1. */
 static void write_influences(
     usda_writer *w, const usda_mesh *mesh, const uint32_t *begins, uint32_t size, bool weights) {
   sbfi_usda_begin(
@@ -157,7 +157,7 @@ static void write_influences(
   sbfi_export_format(w->e, "] (elementSize = %u interpolation = \"vertex\")\n", size);
 }
 
-/* The same of a mesh that hangs on one bone: readers that know no constant binding take this one. */
+/* The same for a mesh with one bone: for readers without support for constant bindings. */
 static void write_one_bone(usda_writer *w, const usda_mesh *mesh) {
   for (int weights = 0; weights < 2; weights++) {
     sbfi_usda_begin(
@@ -213,7 +213,7 @@ static void write_normals(usda_writer *w, const sbf_render_mesh *m) {
       w->e, "] (interpolation = \"%s\")\n", m->normal_corners.count ? "faceVarying" : "vertex");
 }
 
-/* Names of shape keys are for people, and two may be the same. */
+/* Shape keys have display names, which may be duplicates. */
 static void write_key_name(usda_writer *w, const sbf_shape_key_list keys, uint32_t k) {
   bool again = false;
   for (uint32_t i = 0; i < k; i++) again = again || strcmp(keys.at[i].name, keys.at[k].name) == 0;
@@ -281,7 +281,7 @@ static void bind_material(usda_writer *w, const sbf_render_mesh *m, uint32_t slo
   sbfi_usda_end(w);
 }
 
-/* The polygons of each slot, where there are several. */
+/* Polygons of each slot, if there are several. */
 static void write_subsets(usda_writer *w, const sbf_render_mesh *m) {
   for (uint32_t slot = 0; slot < m->material_slots.count; slot++) {
     const char *gap = "";

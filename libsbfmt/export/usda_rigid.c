@@ -1,5 +1,5 @@
-/* Rigid bodies with hulls, and joints with limits and drives, by UsdPhysics. Bodies are not turned at rest,
- * as here. */
+/* Writes rigid bodies with hulls, and joints with limits and drives, as UsdPhysics. Bodies have no
+ * rotation at rest, as in assets. */
 #include <math.h>
 #include <stdio.h>
 
@@ -68,7 +68,7 @@ void sbfi_usda_write_rigid_bodies(usda_writer *w) {
 
 static const char *const axis_names[6] = {"transX", "transY", "transZ", "rotX", "rotY", "rotZ"};
 
-/* What bounds and drives each coordinate; a cone of swings bounds both. */
+/* Limits and drives of each coordinate; a cone limits both swings. */
 typedef struct motion {
   bool free, bounded;
   float min, max;
@@ -134,7 +134,8 @@ static void write_ends(usda_writer *w, const sbf_joint *joint) {
   if (joint->collide) sbfi_usda_write_line(w, "bool physics:collisionEnabled = true");
 }
 
-/* "\"PhysicsLimitAPI:rotX\", ...": of what a plain joint holds or bounds, and of the drives. */
+/* "\"PhysicsLimitAPI:rotX\", ...": schemas of locked or limited coordinates of a generic joint, and of
+ * drives. */
 static const char *schemas_of(const motion motions[6], char *to, size_t size) {
   size_t length = 0;
   *to = 0;
@@ -148,7 +149,7 @@ static const char *schemas_of(const motion motions[6], char *to, size_t size) {
   return to;
 }
 
-/* Any joint as one of six coordinates; a limit whose low end is above its high one holds its coordinate. */
+/* A joint with six coordinates; a limit with low above high locks its coordinate. */
 static void write_plain(usda_writer *w, const sbf_joint *joint, uint32_t index, const motion motions[6]) {
   char schemas[480];
   sbfi_usda_open(w, "PhysicsJoint", joint->id, index, schemas_of(motions, schemas, sizeof schemas));
@@ -169,7 +170,7 @@ static void write_plain(usda_writer *w, const sbf_joint *joint, uint32_t index, 
   sbfi_usda_close(w);
 }
 
-/* One that turns about or slides along +X. */
+/* A joint that rotates about or slides along +X. */
 static void write_single(
     usda_writer *w, const sbf_joint *joint, uint32_t index, const motion *one, bool turns) {
   const char *name = turns ? "angular" : "linear";
@@ -187,7 +188,7 @@ static void write_single(
   sbfi_usda_close(w);
 }
 
-/* A distance stays what it is at rest where no limit bounds it. */
+/* A distance keeps its rest value unless a limit bounds it. */
 static void write_distance(usda_writer *w, const sbf_joint *joint, uint32_t index, const float bounds[2]) {
   const sbf_asset *asset = w->e->asset;
   float low = bounds[0], high = bounds[1];
@@ -206,7 +207,7 @@ static void write_distance(usda_writer *w, const sbf_joint *joint, uint32_t inde
   sbfi_usda_close(w);
 }
 
-/* A ball whose one limit is a cone, or which has none. */
+/* Whether a ball joint has only a cone limit, or none. */
 static bool is_cone(const sbf_joint *joint) {
   if (joint->kind != SBF_JOINT_KIND_SPHERICAL || joint->drives.count || joint->limits.count > 1) return false;
   return !joint->limits.count || joint->limits.at[0].target == SBF_JOINT_AXIS_SWING;

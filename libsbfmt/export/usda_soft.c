@@ -1,5 +1,5 @@
-/* Soft bodies by the proposal's schemas: the first lattice as a TetMesh, a sheet's springs as a Mesh of
- * triangles; what holds their points as attachments to the transform of what holds them. */
+/* Writes soft bodies with the proposal's schemas: the first lattice as a TetMesh, a sheet's springs as a
+ * Mesh of triangles; pins as attachments to the transform of their holder. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -30,7 +30,7 @@ static void sort_key(uint32_t key[3]) {
   }
 }
 
-/* Faces of one tetrahedron alone, turned outwards. */
+/* Faces of only one tetrahedron, facing outwards. */
 static bool write_surface(usda_writer *w, const sbf_level *level) {
   static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   uint32_t count = level->lattice.tetrahedra.count, kept = 0;
@@ -90,7 +90,7 @@ static bool write_matter(usda_writer *w, const sbf_soft_body *body, const sbf_le
   sbfi_usda_write_f32(w, "float physics:dynamicFriction", matter->friction);
   sbfi_usda_write_f32(w, "float physics:staticFriction", matter->friction);
   if (sheet) {
-    /* All three are moduli there; a stated rigidity becomes the modulus that gives it. */
+    /* All three are moduli there; a stated bending stiffness is converted to the equivalent modulus. */
     float bend = matter->bending_stiffness > 0
                      ? matter->bending_stiffness * 12 * (1 - ratio * ratio) / (thick * thick * thick)
                      : modulus;
@@ -121,7 +121,7 @@ static bool write_masses(usda_writer *w, const sbf_soft_body *body, const sbf_le
   return true;
 }
 
-/* A sheet's polygons as fans, on the level's points. */
+/* A sheet's polygons as fans, with the level's points. */
 static bool write_triangles(usda_writer *w, const sbf_soft_body *body, const sbf_level *level) {
   const sbf_polygon_mesh *mesh = &body->surface;
   uint32_t *points = sbfi_arena_allocate(&w->scratch, mesh->polygon_points.count, 3 * sizeof *points);

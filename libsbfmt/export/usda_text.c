@@ -1,4 +1,4 @@
-/* The text of USD: prims, names, arrays. */
+/* Writes the text of USD: prims, names, arrays. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

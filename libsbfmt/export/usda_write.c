@@ -1,6 +1,6 @@
-/* USD as text: meshes with UsdSkel, rigid bodies and joints by UsdPhysics, tetrahedra as UsdGeomTetMesh with
- * the schemas of the proposal "Deformable Body Physics in USD" (OpenUSD-proposals, pull request 111, June
- * 2026). */
+/* Writes USD as text: meshes with UsdSkel, rigid bodies and joints with UsdPhysics, tetrahedra as
+ * UsdGeomTetMesh with the schemas of the proposal "Deformable Body Physics in USD" (OpenUSD-proposals,
+ * pull request 111, June 2026). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* Results for ParaView: VTK's XML unstructured grids (VTK User's Guide, "VTK File Formats"), one a frame, and
- * the collection that lists them. Arrays are base64 behind the count of their bytes as 64 bits; both little-
- * endian. */
+/* Results for ParaView: VTK's XML unstructured grids (VTK User's Guide, "VTK File Formats"), one per
+ * frame, and a collection that lists them. Arrays are base64 after their size in bytes as 64 bits, both
+ * little-endian. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,10 +16,10 @@ struct sbf_result_series {
   sbf_allocator allocator;
   const sbf_result_mesh *mesh;
   char path[PATH_BYTES];
-  size_t stem;          /* length of the path without its ending */
-  sbfi_text collection; /* the entries of the frames so far */
-  sbfi_text frame;      /* that is written */
-  sbfi_text bytes;      /* of its array that is written */
+  size_t stem;          /* length of the path without its extension */
+  sbfi_text collection; /* entries of the frames so far */
+  sbfi_text frame;      /* the current frame */
+  sbfi_text bytes;      /* its current array */
   uint32_t written;
 };
 
@@ -137,7 +137,7 @@ sbf_status sbf_result_series_open(
   return SBF_OK;
 }
 
-/* Of a file name in an attribute. */
+/* Escapes a file name for an attribute. */
 static void put_escaped(sbfi_text *to, const char *text) {
   for (; *text; text++) {
     const char *as = *text == '&' ? "&amp;" : *text == '<' ? "&lt;" : *text == '"' ? "&quot;" : NULL;
@@ -188,7 +188,7 @@ static void end(sbf_result_series *s) {
   sbfi_free(&allocator, s, sizeof *s);
 }
 
-/* A name that stands is replaced where the system's rename does not do so. */
+/* Replaces an existing file even if the system's rename does not. */
 static bool take_name(const char *from, const char *to) {
   if (rename(from, to) == 0) return true;
   return remove(to) == 0 && rename(from, to) == 0;

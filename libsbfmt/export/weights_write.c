@@ -1,12 +1,12 @@
-/* Skin weights as CSV or JSON, a row for each vertex and bone: what `convert --weights FILE` reads. Vertices
- * are numbered from 0 as the lines `v` of the OBJ of the same asset (obj_write.c). */
+/* Writes skin weights as CSV or JSON, a row for each vertex and bone, as `convert --weights FILE` reads.
+ * Vertices are numbered from 0 like the `v` lines of the OBJ of the same asset (obj_write.c). */
 #include <string.h>
 
 #include "export/exporting.h"
 
 typedef void (*write_row)(sbfi_export *e, uint32_t vertex, const char *bone, float weight);
 
-/* Quoted where it has to be: RFC 4180. */
+/* Quotes only if necessary: RFC 4180. */
 static void csv_text(sbfi_text *text, const char *name) {
   bool plain = !strpbrk(name, ",\"\r\n");
   if (!plain) sbfi_text_char(text, '"');

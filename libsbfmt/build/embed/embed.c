@@ -8,11 +8,11 @@
 #include "build/sections/authored_sections.h"
 #include "build/sections/section_frame.h"
 
-/* One body's share in one vertex. */
+/* One body's part of one vertex. */
 typedef struct weighted_point {
   uint32_t vertex, body;
   float blend;
-  const sbfi_mix *mix; /* by which the body embeds it; NULL: by its embedder */
+  const sbfi_mix *mix; /* mix that embeds it; NULL: the embedder does */
 } weighted_point;
 
 static bool is_beside(const weighted_point *s) {
@@ -27,14 +27,14 @@ typedef struct work {
   sbfi_embed_report *report;
   sbfi_arena *scratch;
   sbfi_embedder *embedders; /* (target_count) */
-  uint32_t *finest;         /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
+  uint32_t *finest;         /* (bodies) first target of each; SBFI_NO_INDEX: none */
   uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
-  uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
-  uint32_t *bone_sections; /* (bones) the body cut along the bone; SBFI_NO_INDEX: none */
+  uint32_t *next_of_bone; /* (bodies) next body on the same bone */
+  uint32_t *bone_sections; /* (bones) body cut along the bone; SBFI_NO_INDEX: none */
   uint8_t *sectioned;      /* (render meshes) the skin has authored sections */
   const sbfi_sections *sections;
-  sbfi_array contributions; /* of the mesh at hand, in vertex order */
-  sbfi_far_vertices far;    /* of it */
+  sbfi_array contributions; /* of the current mesh, in vertex order */
+  sbfi_far_vertices far;    /* of the current mesh */
 } work;
 
 static bool index_bodies(work *w) {
@@ -59,7 +59,7 @@ static bool index_bodies(work *w) {
     w->next_of_bone[b] = w->bone_bodies[bone];
     w->bone_bodies[bone] = b;
   }
-  /* Parents stand before their children. */
+  /* Parents come before their children. */
   for (uint32_t i = 0; i < bones; i++)
     if (w->bone_bodies[i] == SBFI_NO_INDEX && w->asset->bones.at[i].parent != SBF_NONE)
       w->bone_bodies[i] = w->bone_bodies[w->asset->bones.at[i].parent];
@@ -70,7 +70,7 @@ static double distance_to(const work *w, uint32_t body, sbf_vec3 position, doubl
   return sbfi_embedder_distance(&w->embedders[w->finest[body]], position, min);
 }
 
-/* Of the bodies on one bone, the nearest. */
+/* Nearest of the bodies on one bone. */
 static uint32_t choose_on_bone(const work *w, uint32_t first, sbf_vec3 position) {
   if (first == SBFI_NO_INDEX || w->next_of_bone[first] == SBFI_NO_INDEX) return first;
   double min = INFINITY;
@@ -87,7 +87,8 @@ static uint32_t choose_on_bone(const work *w, uint32_t first, sbf_vec3 position)
 static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely) {
   double min = INFINITY;
   uint32_t chosen = SBFI_NO_INDEX;
-  /* The last vertex's body first: it bounds the search in the others. Of equals the lowest wins. */
+  /* Tries the last vertex's body first, because its distance bounds the search in the others. The lowest
+   * index wins if equal. */
   if (likely != SBFI_NO_INDEX) {
     min = distance_to(w, likely, position, min);
     chosen = likely;
@@ -102,7 +103,7 @@ static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely
   return chosen;
 }
 
-/* Adds a body's share, joined with what it has in that vertex already; `begin` is the vertex's first. */
+/* Adds a body's part, merged with its existing one in that vertex; `begin` is the vertex's first. */
 static bool add_contribution(
     work *w, size_t begin, uint32_t vertex, uint32_t body, float blend, const sbfi_mix *mix) {
   weighted_point *contributions = w->contributions.at;
@@ -114,8 +115,7 @@ static bool add_contribution(
   return sbfi_array_append(&w->contributions, &(weighted_point){vertex, body, blend, mix}, 1);
 }
 
-/* `mixes`: of each weight its place among those of the sections that the skin was cut into; NULL: it was not.
- */
+/* `mixes`: index of each weight's mix of the sections that the skin was cut into; NULL: it was not cut. */
 static bool distribute_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin,
     const uint32_t *mixes, sbfi_progress progress) {
   uint32_t influence = 0;
@@ -149,7 +149,7 @@ static bool is_body_of(const work *w, uint32_t body, const sbf_vec3_list *positi
   return true;
 }
 
-/* The body that the mesh shows; SBFI_NO_INDEX: none as a whole. */
+/* Body that has the shape of the mesh; SBFI_NO_INDEX: none. */
 static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
   for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
     int32_t bone = w->asset->soft_bodies.at[b].bone;
@@ -183,12 +183,12 @@ static bool has_embedding(const sbf_level *level, int32_t mesh) {
   return false;
 }
 
-/* The stretch of one of several levels. */
+/* Progress range of one of several levels. */
 static sbfi_progress part_of(sbfi_progress progress, uint32_t number, uint32_t count) {
   return sbfi_progress_part(progress, (double)number / count, (number + 1.0) / count);
 }
 
-/* Gives the level one more embedding. The list has room: see reserve. */
+/* Adds an embedding to the level. The list has capacity: see reserve. */
 static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t derivation) {
   sbf_embedding *list = (sbf_embedding *)(uintptr_t)level->embeddings.at;
   sbf_embedding *embedding = &list[level->embeddings.count++];
@@ -198,7 +198,7 @@ static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t deri
   return embedding;
 }
 
-/* Room for an embedding of each mesh and of the surface, in memory that may be written to. */
+/* Reserves writable memory for an embedding of each mesh and of the surface. */
 static bool reserve(const work *w, sbf_level *level) {
   uint32_t count = level->embeddings.count;
   sbf_embedding *list =
@@ -216,7 +216,8 @@ static sbfi_embedded_vertex embedded_mixed(const sbfi_mix *mix) {
   return embedded;
 }
 
-/* Attaches to the body's bone what the level's own points are too far from to embed in place. */
+/* Attaches vertices to the body's bone if they are too far from the level's own points for an accurate
+ * embedding. */
 static bool attach_to_bone(const work *w, uint32_t target, const sbf_vec3_list *positions,
     const weighted_point *list, sbfi_array *items) {
   sbf_level *level = w->targets[target].level;
@@ -236,7 +237,7 @@ static bool attach_to_bone(const work *w, uint32_t target, const sbf_vec3_list *
   return true;
 }
 
-/* Whether a derived level follows its body's bone. A body without pins does not: pins on further points
+/* Whether a derived level follows its body's bone. A body without pins does not: pins on added points
  * would turn it into a pinned one. */
 static bool follows_bone(const sbf_soft_body *body, const sbf_level *level) {
   bool is_pinned = level->model == SBF_ELASTIC_MODEL_JIGGLE;
@@ -244,14 +245,14 @@ static bool follows_bone(const sbf_soft_body *body, const sbf_level *level) {
   return is_pinned && body->bone != SBF_NONE && level->derived != SBF_NONE;
 }
 
-/* How the target's level embeds each vertex of `list`. */
+/* Embeds each vertex of `list` in the target's level. */
 static bool embed_all(work *w, uint32_t target, const sbf_vec3_list *positions, const weighted_point *list,
     uint32_t count, sbfi_array *items, sbfi_progress progress) {
   const sbfi_embed_target *to = &w->targets[target];
   for (uint32_t i = 0; i < count; i++) {
     uint32_t v = list[i].vertex;
     if (!sbfi_progress_step(progress, i, count)) return false;
-    /* What the sections mixed are points of the finest level. */
+    /* Mixes of the sections are points of the finest level. */
     bool mixed = list[i].mix && w->finest[to->body] == target && to->frame != SBFI_NO_INDEX;
     sbfi_embedded_vertex embedded =
         mixed ? embedded_mixed(list[i].mix) : sbfi_embedder_embed(&w->embedders[target], positions->at[v], v);
@@ -261,7 +262,7 @@ static bool embed_all(work *w, uint32_t target, const sbf_vec3_list *positions, 
          attach_to_bone(w, target, positions, list, items);
 }
 
-/* Counts what lies far outside or is embedded off its place. */
+/* Counts vertices that are far outside or are embedded inaccurately. */
 static bool note_embedded(work *w, uint32_t target, uint32_t vertex, const sbfi_embedded_vertex *embedded) {
   const sbf_level *level = w->targets[target].level;
   if (embedded->outside > w->report->farthest) w->report->farthest = embedded->outside;
@@ -271,7 +272,7 @@ static bool note_embedded(work *w, uint32_t target, uint32_t vertex, const sbfi_
          sbfi_far_vertices_add(&w->far, vertex, embedded->outside, w->targets[target].body, w->scratch);
 }
 
-/* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
+/* Embeds the vertices of `list` (all of them in order if `whole`) in one target's level. */
 static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
     const weighted_point *list, uint32_t count, bool count_it, sbfi_progress progress) {
   sbf_level *level = w->targets[target].level;
@@ -303,8 +304,8 @@ static bool embed_list(work *w, uint32_t target, int32_t mesh, const sbf_vec3_li
   return true;
 }
 
-/* The same; what rigid bones have beside the body's own share goes to an embedding of its own, since none
- * names a vertex twice. The list comes back with that part last. */
+/* The same; parts of rigid bones in addition to the body's own go to a separate embedding, because an
+ * embedding contains a vertex only once. Reorders the list so that those come last. */
 static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
     weighted_point *list, uint32_t count, bool count_it, sbfi_progress progress) {
   const sbf_level *level = w->targets[target].level;
@@ -322,7 +323,7 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
          (others == 0 || embed_list(w, target, mesh, positions, list + own, others, false, progress));
 }
 
-/* Hands the shares of a mesh to their bodies' levels, body by body. */
+/* Distributes the parts of a mesh to their bodies' levels, body by body. */
 static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi_progress progress) {
   uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->contributions.count;
   const weighted_point *contributions = w->contributions.at;
@@ -355,7 +356,7 @@ static bool embed_surfaces(work *w, sbfi_progress progress) {
   return true;
 }
 
-/* Whether recipes leave all that holds the skin rigid: it is meant to move with its bones. */
+/* Whether recipes make all bones of the skin rigid: then it is meant to move with its bones. */
 static bool is_rigid_by_recipe(const sbf_asset *asset, const sbf_skin *skin) {
   for (uint32_t i = 0; i < skin->bones.count; i++) {
     const sbf_section_recipe *recipe = sbfi_section_recipe_find(asset, (int32_t)skin->bones.at[i]);
@@ -376,7 +377,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
   w->contributions.count = 0;
   uint32_t flat_before = w->report->flat;
   w->far = (sbfi_far_vertices){.mesh = mesh};
-  /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
+  /* A skin whose mesh has the shape of a body, pinned by its weights, follows that body. */
   bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
   sbfi_progress sharing = sbfi_progress_part(progress, 0, 0.3);
   bool by_bones = by_skin && !mixes && !w->sectioned[number];

@@ -36,7 +36,7 @@ static bool hash_positions(sbfi_embedder *c, sbfi_arena *arena) {
   return true;
 }
 
-/* Directions in which points are sought that lie farthest out: the axes, then the diagonals of a box. */
+/* Directions in which extreme points are searched: the axes, then the diagonals of a box. */
 static const int8_t directions[SBFI_EMBEDDER_EXTREMES][3] = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {1, 0, 0},
     {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1},
     {-1, 1, 1}, {1, 1, 1}};
@@ -59,7 +59,7 @@ static void find_extremes(sbfi_embedder *c) {
   }
 }
 
-/* A body without polygons embeds by its points. */
+/* A body without polygons uses its points. */
 static bool box_points(sbfi_embedder *c, sbfi_arena *arena) {
   const sbf_vec3_list *points = &c->level->positions;
   if (c->surface.triangle_count > 0 || points->count == 0) return true;
@@ -72,24 +72,25 @@ static bool box_points(sbfi_embedder *c, sbfi_arena *arena) {
   return sbfi_box_tree_build(&c->points, boxes, points->count, arena);
 }
 
-/* A choice of four points: the weights that give the position, and how large they are. */
+/* A choice of four points: the weights of the position, and their size. */
 typedef struct choice {
   uint32_t points[4];
-  double weights[4], size; /* sum of squares: 1 and below inside, growing with the distance outside */
+  double weights[4], size; /* sum of squares: at most 1 inside, growing with the distance outside */
 } choice;
 
 static sbfi_d3 at_rest(const sbfi_embedder *c, uint32_t point) {
   return sbfi_d3_of(c->level->positions.at[point]);
 }
 
-/* What lies farther outside would be thrown about at the least strain, and no file may hold it. */
+/* Vertices farther outside would be thrown about at small strains, and files must not contain such
+ * weights. */
 static bool is_bounded(const choice *of) {
   for (int k = 0; k < 4; k++)
     if (!(of->weights[k] >= SBFI_MIN_EMBEDDED && of->weights[k] <= SBFI_MAX_EMBEDDED)) return false;
   return true;
 }
 
-/* Weights of a position in a tetrahedron; false where that is as good as flat. */
+/* Weights of a position in a tetrahedron; false if that is nearly degenerate. */
 static bool weigh(const sbfi_embedder *c, choice *in, sbfi_d3 position) {
   if (!sbfi_tetrahedron_weigh(c->level->positions.at, in->points, position, in->weights)) return false;
   in->size = 0;
@@ -97,18 +98,18 @@ static bool weigh(const sbfi_embedder *c, choice *in, sbfi_d3 position) {
   return true;
 }
 
-/* Sum of the squares of a load's weights that is small enough; 1 and below inside. */
+/* Acceptable sum of squares of a load's weights; at most 1 inside. */
 static const double MAX_LOAD_SIZE = 3;
 
 static bool is_good(const sbfi_embedder *c, const choice *of) {
   return c->use == SBFI_EMBEDS_LOADS ? of->size <= MAX_LOAD_SIZE : is_bounded(of);
 }
 
-/* Keeps it in `best` where its weights are smaller, or good where those were not. */
+/* Replaces `best` if the weights are smaller, or good while the best's are not. */
 static void try_choice(const sbfi_embedder *c, choice *tried, sbfi_d3 position, choice *best) {
   if (!weigh(c, tried, position)) return;
   bool good = is_good(c, tried), other = best->size < INFINITY && is_good(c, best);
-  /* A little smaller will not do: then the choice would depend on rounding. */
+  /* A tiny improvement must not count: the choice would depend on rounding. */
   if (good != other ? good : tried->size < best->size * (1 - 1e-6)) *best = *tried;
 }
 
@@ -142,7 +143,7 @@ static sbfi_embedded_vertex written(const sbfi_embedder *c, const choice *chosen
   return embedded;
 }
 
-/* As near to the position as weights in bounds reach from the middle of the four points. */
+/* Comes as close to the position as bounded weights allow, on the line from the centre of the four points. */
 static sbfi_embedded_vertex embedded_bounded(const sbfi_embedder *c, const choice *chosen, sbfi_d3 position) {
   choice near = *chosen;
   double fraction = 1;
@@ -173,7 +174,7 @@ static sbfi_embedded_vertex embed_by_points(const sbfi_embedder *c, sbf_vec3 pos
   return embedded_alone(nearest != SBFI_NO_INDEX ? nearest : 0, sqrt(min));
 }
 
-/* Without a fourth point out of the plane: the place on the triangle nearest to the vertex. */
+/* Without a fourth point off the plane: uses the triangle's point nearest to the vertex. */
 static sbfi_embedded_vertex embedded_flat(
     const sbfi_embedder *c, const uint32_t corners[3], sbfi_d3 position) {
   sbfi_d3 a = at_rest(c, corners[0]), b = at_rest(c, corners[1]), d = at_rest(c, corners[2]);
@@ -181,13 +182,13 @@ static sbfi_embedded_vertex embedded_flat(
   sbfi_triangle_closest((double[]){a.x, a.y, a.z}, (double[]){b.x, b.y, b.z}, (double[]){d.x, d.y, d.z},
       (double[]){position.x, position.y, position.z}, flat.weights);
   sbfi_embedded_vertex embedded = written(c, &flat, position);
-  /* What rounding left for the fourth goes to the first, which is the same point. */
+  /* The fourth point equals the first, so merges the rounding remainder. */
   embedded.weights.x += embedded.weights.w;
   embedded.weights.w = 0;
   return embedded;
 }
 
-/* How far weights are out of bounds, all together. */
+/* Sum of the amounts by which weights are out of bounds. */
 static double excess(const choice *of) {
   double sum = 0;
   for (int k = 0; k < 4; k++)
@@ -195,8 +196,8 @@ static double excess(const choice *of) {
   return sum;
 }
 
-/* Times half a field's greatest second derivative, the error of its value at the position by these four
- * points: what lies near gives less than what leaves small weights. */
+/* Bound of the interpolation error by these four points, in units of half the largest second derivative of
+ * a field: near points are better than small weights. */
 static double interpolation_error(const sbfi_embedder *c, const choice *of, sbfi_d3 position) {
   double sum = 0;
   for (int k = 0; k < 4; k++) {
@@ -206,8 +207,8 @@ static double interpolation_error(const sbfi_embedder *c, const choice *of, sbfi
   return sum;
 }
 
-/* Exchanges one of the four after the other for whichever of the points (NULL: all of the level's, or of many
- * some) brings the weights nearest to their bounds, until they are within. */
+/* Exchanges the four points one by one with the candidate (NULL: all points of the level, or a sample of
+ * many) that brings the weights closest to their bounds, until they are within. */
 static void exchange(
     const sbfi_embedder *c, const uint32_t *points, uint32_t count, sbfi_d3 position, choice *best) {
   enum { MAX_ROUNDS = 6, MAX_TRIED = 4096 };
@@ -244,7 +245,7 @@ static void try_neighbour(void *user, uint32_t tetrahedron) {
   *n->best = tried;
 }
 
-/* A tetrahedron beside that one whose weights are in bounds. */
+/* Tries tetrahedra next to that one with weights in bounds. */
 static void try_neighbours(const sbfi_embedder *c, uint32_t tetrahedron, sbfi_d3 position, choice *best) {
   neighbour_search n = {c, position, INFINITY, best};
   if (c->use == SBFI_EMBEDS_LOADS) return;
@@ -252,8 +253,8 @@ static void try_neighbours(const sbfi_embedder *c, uint32_t tetrahedron, sbfi_d3
   for (int k = 0; k < 4; k++) sbfi_find_tetrahedra_about(&c->lattice, corners.at[k], try_neighbour, &n);
 }
 
-/* The four of the level's first `count` extremes with the smallest weights, where those are smaller than the
- * given ones. */
+/* Tries four of the level's first `count` extremes, and takes those with the smallest weights if they are
+ * smaller than the current ones. */
 static void try_four_of(const sbfi_embedder *c, int count, sbfi_d3 position, choice *best) {
   for (int i = 0; i < count; i++)
     for (int j = i + 1; j < count; j++)
@@ -272,7 +273,7 @@ static void try_extremes(const sbfi_embedder *c, sbfi_d3 position, choice *best)
 }
 
 static sbfi_embedded_vertex embed_on_surface(const sbfi_embedder *c, sbf_vec3 position) {
-  const double deep = 2; /* weights of this size call for another triangle */
+  const double deep = 2; /* weights of this size require another triangle */
   double min = INFINITY;
   sbfi_d3 at = sbfi_d3_of(position);
   uint32_t corners[3], triangle = sbfi_triangle_tree_nearest(&c->surface, position, &min);
@@ -300,8 +301,8 @@ sbfi_embedded_vertex sbfi_embedder_embed_by_frame(const sbfi_embedder *c, uint32
                                              : embedded_alone(frame, 0);
 }
 
-/* Points farther and farther from each other around the tetrahedron, until the weights are small enough: a
- * small tetrahedron would throw about what lies outside of it. */
+/* Tries points in growing rings around the tetrahedron until the weights are small enough: a small
+ * tetrahedron would amplify the motion of a vertex outside it. */
 static void try_rings(const sbfi_embedder *c, uint32_t tetrahedron, sbfi_d3 position, choice *best) {
   sbfi_point_rings rings;
   sbfi_point_rings_begin(&rings, &c->lattice, tetrahedron);
@@ -313,9 +314,9 @@ static void try_rings(const sbfi_embedder *c, uint32_t tetrahedron, sbfi_d3 posi
   }
 }
 
-/* What lies far outside hangs on the frame points where there are some. Else what lies outside by no more
- * than a tetrahedron is wide hangs on points around it, and what lies beyond on points far apart, which take
- * it along with the body as a whole: a small tetrahedron would throw it about. */
+/* A vertex far outside uses the frame points if there are any. Otherwise a vertex outside by at most a
+ * tetrahedron's width uses points around it, and one farther away uses widely spaced points, with which it
+ * follows the body as a whole: a small tetrahedron would amplify its motion. */
 static sbfi_embedded_vertex embed_in_lattice(const sbfi_embedder *c, sbf_vec3 position) {
   sbfi_d3 at = sbfi_d3_of(position);
   sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
@@ -333,7 +334,7 @@ static sbfi_embedded_vertex embed_in_lattice(const sbfi_embedder *c, sbf_vec3 po
   return embedded;
 }
 
-/* A render mesh mostly is the surface: what embeds that is found once. */
+/* A render mesh mostly equals the surface: its embedding is computed once. */
 static bool find_in_lattice(sbfi_embedder *c, sbfi_arena *arena) {
   const sbf_uint4_list *tetrahedra = &c->level->lattice.tetrahedra;
   const sbf_vec3_list *surface = &c->body->surface.positions;

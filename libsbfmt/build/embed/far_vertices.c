@@ -19,7 +19,7 @@ bool sbfi_far_vertices_add(
     to->farthest_m = outside_m;
     to->body = body;
   }
-  if (to->known[vertex] & COUNTED) return true; /* of another body's share in it */
+  if (to->known[vertex] & COUNTED) return true; /* in another body's part of it */
   to->known[vertex] |= COUNTED;
   to->in_polygons += to->known[vertex] & IN_POLYGON;
   if (to->count < SBFI_FAR_VERTICES_NAMED) to->named[to->count] = vertex;

@@ -29,8 +29,8 @@ bool sbfi_point_rings_widen(sbfi_point_rings *rings) {
   return rings->count > before && !rings->full;
 }
 
-/* Squared, times what all have in common: from a point, from the line through two, from the plane of three.
- */
+/* Squared distance up to a common factor: from a point, from the line through two, from the plane of
+ * three. */
 static double distance2(const sbfi_d3 *from, int count, sbfi_d3 point) {
   sbfi_d3 displacement = sbfi_d3_sub(point, from[0]);
   if (count == 1) return sbfi_d3_dot(displacement, displacement);
@@ -45,7 +45,7 @@ static uint32_t farthest(const sbfi_point_rings *r, const sbfi_d3 *from, int cou
   uint32_t best = r->points[0];
   for (uint32_t i = 0; i < r->count; i++) {
     double here = distance2(from, count, sbfi_d3_of(r->finder->positions[r->points[i]]));
-    /* A little farther will not do: then the choice would hang on rounding. */
+    /* A tiny difference must not count: the choice would depend on rounding. */
     if (!(here > max * (1 + 1e-6))) continue;
     max = here;
     best = r->points[i];

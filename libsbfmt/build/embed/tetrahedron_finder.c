@@ -2,7 +2,7 @@
 
 #include "build/geometry/triangle_tree.h"
 
-static const double slack = 1e-9; /* of a weight: a point between two tetrahedra is in both */
+static const double slack = 1e-9; /* weight tolerance: a point between two tetrahedra is in both */
 
 static void solve(sbfi_solved_tetrahedron *of, const sbf_vec3 *positions, const uint32_t corners[4]) {
   sbfi_d3 origin = sbfi_d3_of(positions[corners[3]]), edges[3];
@@ -54,7 +54,7 @@ static size_t bin_of(const sbfi_tetrahedron_finder *f, sbfi_d3 at) {
   return (z * f->counts[1] + y) * f->counts[0] + x;
 }
 
-/* The bins' width, `min_width` radii at least, and number; false where there is none for so many. */
+/* Chooses the bins' width, at least `min_width` radii, and number; false if there are too many. */
 static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width, size_t *bins) {
   sbfi_d3 low = middle_of(f, 0), high = low;
   double radius2 = 0, max_spread = 0;
@@ -76,7 +76,7 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width
   f->radius = sqrt(radius2) * (1 + 1e-6) + f->rounding;
   f->spread = sqrt(max_spread) * (1 + 1e-6);
   f->origin = low;
-  /* No more bins than four times the tetrahedra, however long and thin the body lies. */
+  /* At most four bins per tetrahedron, however long and thin the body is. */
   for (f->width = fmax(min_width * f->radius, 1e-30);; f->width *= 1.25) {
     double all = 1;
     for (int k = 0; k < 3; k++) all *= floor(sizes[k] / f->width) + 1;
@@ -87,8 +87,8 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double min_width
   }
 }
 
-/* A search weighs some tens of tetrahedra: where there are no more than this for each, they are better solved
- * beforehand. */
+/* A search evaluates some tens of tetrahedra: if there are no more than this per search, solving them in
+ * advance is faster. */
 enum { PER_SEARCH = 16 };
 
 static bool solve_all(sbfi_tetrahedron_finder *f, uint32_t count, sbfi_arena *arena) {
@@ -119,7 +119,7 @@ bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec
   return !prepare || solve_all(finder, count, arena);
 }
 
-/* The bins that may hold middles within `reach` of the point. */
+/* Range of bins that may contain centres within `reach` of the point. */
 static void bins_around(
     const sbfi_tetrahedron_finder *f, sbfi_d3 at, double reach, uint32_t first[3], uint32_t last[3]) {
   const double position[3] = {at.x, at.y, at.z}, origin[3] = {f->origin.x, f->origin.y, f->origin.z};
@@ -135,24 +135,24 @@ typedef void visitor(search *s, uint32_t tetrahedron, double middle2);
 struct search {
   const sbfi_tetrahedron_finder *finder;
   sbfi_d3 at;
-  double within2; /* squared distance of the middles that are looked at; visitors may lower it */
+  double within2; /* squared distance of centres to visit; visitors may reduce it */
   uint32_t best;
-  double distance, max, size; /* m; m; what is to be small in the best one */
+  double distance, max, size; /* m; m; quantity that is minimized */
 };
 
-/* From a place to the nearest of a bin's, along one axis, both from the origin. The outermost bins hold
- * nothing that lies farther out. */
+/* Distance from a coordinate to a bin along one axis, both relative to the origin. Nothing is beyond the
+ * outermost bins. */
 static double gap_to_bin(double coordinate, uint32_t bin, double width) {
   double below = bin * width - coordinate, above = coordinate - (bin + 1.0) * width;
   return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* Calls for each tetrahedron whose middle lies so near. */
+/* Visits each tetrahedron whose centre is within the distance. */
 static void visit_within(search *s, double within, visitor *visit) {
   const sbfi_tetrahedron_finder *f = s->finder;
   uint32_t first[3], last[3];
   sbfi_d3 at = sbfi_d3_sub(s->at, f->origin);
-  double spare = 1e-6 * (f->width + within); /* for what rounding does to the middles */
+  double spare = 1e-6 * (f->width + within); /* margin for rounding of the centres */
   s->within2 = within * within;
   bins_around(f, s->at, within, first, last);
   for (uint32_t z = first[2]; z <= last[2]; z++) {
@@ -174,7 +174,7 @@ static void visit_within(search *s, double within, visitor *visit) {
   }
 }
 
-/* What weighs points in a tetrahedron: solved beforehand, or now and here. */
+/* Solution of a tetrahedron: precomputed, or computed now. */
 static const sbfi_solved_tetrahedron *solved_of(
     const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_solved_tetrahedron *now) {
   if (f->solved) return &f->solved[tetrahedron];
@@ -186,7 +186,7 @@ static bool any_below(const double weights[4], double limit) {
   return weights[0] < limit || weights[1] < limit || weights[2] < limit || weights[3] < limit;
 }
 
-/* Whether one of the first three weights is clearly below 0: most tetrahedra are left out so, without a
+/* Whether one of the first three weights is clearly negative: this excludes most tetrahedra without a
  * division. */
 static bool is_clearly_outside(const sbfi_solved_tetrahedron *in, sbf_vec3 last_corner, sbfi_d3 point) {
   sbfi_d3 from = sbfi_d3_sub(point, sbfi_d3_of(last_corner));
@@ -208,8 +208,8 @@ static void find_inside(search *s, uint32_t tetrahedron, double middle2) {
   if (!any_below(weights, -slack)) s->best = tetrahedron;
 }
 
-/* Whether one side's plane has the tetrahedron on its one side and, farther off than that, a point of these
- * weights on the other. */
+/* Whether a face's plane separates the tetrahedron from a point with these weights by more than the
+ * distance. */
 static bool is_farther(const sbfi_solved_tetrahedron *in, const double weights[4], double distance) {
   sbfi_d3 last = sbfi_d3_add(sbfi_d3_add(in->cofactors[0], in->cofactors[1]), in->cofactors[2]);
   for (int k = 0; k < 4; k++) {
@@ -220,8 +220,8 @@ static bool is_farther(const sbfi_solved_tetrahedron *in, const double weights[4
   return false;
 }
 
-/* To the nearest of the sides that look towards the point, whose weights are negative; of all where none
- * does. NULL: nobody knows the weights. */
+/* Distance to the nearest of the faces towards the point, whose weights are negative; to all faces if none
+ * is. NULL: the weights are unknown. */
 static double distance_to(
     const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, const double *weights) {
   static const int faces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}; /* opposite to each corner */
@@ -239,7 +239,7 @@ static double distance_to(
   return sqrt(min);
 }
 
-/* The middle nearest to the point, for a first distance. */
+/* Nearest centre to the point, for an initial distance. */
 static void find_middle(search *s, uint32_t tetrahedron, double middle2) {
   if (middle2 == s->within2 && tetrahedron > s->best) return;
   s->within2 = middle2;
@@ -261,9 +261,9 @@ static void find_nearby(search *s, uint32_t tetrahedron, double middle2) {
   s->within2 = within * within;
 }
 
-/* How far from the point a tetrahedron's middle may lie if the squares of the point's weights sum up to no
- * more than that: the way between them is that of the corners from the middle, each by what its weight has
- * beyond a quarter (Cauchy and Schwarz). */
+/* Maximum distance of a tetrahedron's centre from the point if the sum of squares of the point's weights
+ * is at most `size`: the offset is the sum of the corners' offsets from the centre, each times its weight
+ * minus a quarter (Cauchy-Schwarz inequality). */
 static double within_of_size(const sbfi_tetrahedron_finder *f, double size) {
   return f->spread * sqrt(size > 0.25 ? size - 0.25 : 0) * (1 + 1e-9) + f->rounding;
 }
@@ -291,10 +291,10 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   if (s.best != UINT32_MAX) return (sbfi_found_tetrahedron){s.best, 0};
   for (double reach = finder->radius; s.best == UINT32_MAX; reach *= 2) visit_within(&s, reach, find_middle);
   s.distance = distance_to(finder, s.best, s.at, NULL);
-  /* What is nearer has its middle within that way and a radius. */
+  /* Anything nearer has its centre within that distance plus a radius. */
   visit_within(&s, s.distance + finder->radius, find_nearby);
   s.max = s.distance + finder->radius / 2;
-  /* The nearest itself first: few others have smaller weights, and of those alone the distance is asked. */
+  /* The nearest first: few others have smaller weights, and only for those the distance is computed. */
   uint32_t nearest = s.best;
   s.best = UINT32_MAX;
   find_small(&s, nearest, 0);
@@ -303,7 +303,7 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
 }
 
 typedef struct corner_search {
-  search s; /* the first: its visitor is given that */
+  search s; /* first member, so that visitors can cast to it */
   uint32_t corner;
   sbfi_tetrahedron_visitor *visit;
   void *user;

@@ -12,7 +12,7 @@ static void grow(sbfi_box *box, const sbfi_box *by) {
   }
 }
 
-/* Ten bits with two free places after each. */
+/* Spreads ten bits with two zero bits after each. */
 static uint32_t spread(uint32_t x) {
   x = (x | x << 16) & 0x030000ffu;
   x = (x | x << 8) & 0x0300f00fu;
@@ -32,7 +32,7 @@ static uint32_t curve_index(const sbfi_box *box, const sbfi_box *all) {
   return code;
 }
 
-/* Sorts the items by their places on the curve, those of one place by number: a radix sort is stable. */
+/* Sorts the items along the curve, ties by number: a radix sort is stable. */
 static bool sort_items(sbfi_box_tree *tree, const sbfi_box *boxes, const sbfi_box *all, sbfi_arena *arena) {
   uint32_t count = tree->item_count;
   uint32_t *codes = sbfi_arena_allocate(arena, count, sizeof *codes);
@@ -109,12 +109,12 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
       uint32_t item = tree->items[node->first + i];
       double d = distance(user, item, point);
       if (d > *min || (d == *min && item > nearest)) continue;
-      if (d == *min && nearest == UINT32_MAX) continue; /* not below what the caller has */
+      if (d == *min && nearest == UINT32_MAX) continue; /* not below the caller's bound */
       *min = d;
       nearest = item;
     }
     if (node->count > 0) continue;
-    /* The nearer child is looked at first, so it goes on the stack last. */
+    /* The nearer child is visited first, so it is pushed last. */
     const double both[2] = {sbfi_box_distance(&tree->nodes[node->first].box, point),
         sbfi_box_distance(&tree->nodes[node->first + 1].box, point)};
     uint32_t nearer = both[1] < both[0];
@@ -128,7 +128,7 @@ uint32_t sbfi_box_tree_nearest(const sbfi_box_tree *tree, const double point[3],
   return nearest;
 }
 
-/* Factor of `direction` at which the ray enters the box; negative where it passes by. */
+/* Factor of `direction` at which the ray enters the box; negative without a hit. */
 static double enter(const sbfi_box *box, const double origin[3], const double direction[3]) {
   double near = 0, far = INFINITY;
   for (int k = 0; k < 3; k++) {
@@ -170,7 +170,7 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
       first = item;
     }
     if (node->count > 0) continue;
-    /* The child that the ray enters first is looked at first, so it goes on the stack last. */
+    /* The child that the ray enters first is visited first, so it is pushed last. */
     double left = enter(&tree->nodes[node->first].box, origin, direction);
     double right = enter(&tree->nodes[node->first + 1].box, origin, direction);
     bool right_first = right < left;

@@ -11,7 +11,7 @@
 
 static const double flat_fraction = 1e-4;
 
-/* The point farthest from what `from` measures; its distance in `*farthest`. */
+/* Finds the point farthest from a point, line or plane; stores its distance in `*farthest`. */
 static uint32_t find_farthest(const sbf_vec3 *points, uint32_t count, sbfi_d3 base, sbfi_d3 direction,
     int dimension, double *farthest) {
   uint32_t found = 0;
@@ -42,7 +42,7 @@ static bool is_flat(const sbf_vec3 *points, uint32_t count) {
   return !(distance > flat_fraction * extent);
 }
 
-/* A polygon while the hull is put in order. */
+/* A polygon during the ordering of the hull. */
 typedef struct ring {
   uint32_t *corners;
   uint32_t size;
@@ -55,7 +55,7 @@ static int compare_rings(const void *a, const void *b) {
   return (x->size > y->size) - (x->size < y->size);
 }
 
-/* Turns the ring so that it runs counter-clockwise seen from outside and begins with its lowest point. */
+/* Orders the ring counter-clockwise seen from outside, starting at its lowest point. */
 static void straighten(ring *r, const sbf_vec3 *points, sbfi_d3 inside, uint32_t *spare) {
   sbfi_d3 middle = sbfi_polygon_middle(points, r->corners, r->size);
   sbfi_d3 area = sbfi_polygon_area(points, r->corners, r->size, middle);
@@ -98,7 +98,7 @@ static bool take_rings(
   return true;
 }
 
-/* Outside qh_new_qhull an error of qhull's would end the process, were it not caught. */
+/* Catches qhull's errors, which outside qh_new_qhull would end the process. */
 static sbfi_hull_outcome take_guarded(
     qhT *qh, const sbf_vec3 *points, uint32_t count, ring_list *rings, sbfi_arena *scratch) {
   if (setjmp(qh->errexit)) {
@@ -152,7 +152,7 @@ sbfi_hull_outcome sbfi_hull_make(
     coordinates[3 * (size_t)i + 1] = points[i].y;
     coordinates[3 * (size_t)i + 2] = points[i].z;
   }
-  /* qhull writes what it thinks of the input to a file of the caller's; its outcome is all we ask. */
+  /* qhull writes remarks about the input to the caller's file; only its result matters. */
   FILE *remarks = tmpfile();
   char command[] = "qhull Pp";
   qh_zero(qh, remarks ? remarks : stderr);
@@ -177,7 +177,8 @@ bool sbfi_hull_contains(const sbf_polygon_mesh *hull, sbf_vec3 point) {
   for (uint32_t p = 0; p < hull->polygon_sizes.count; corners += hull->polygon_sizes.at[p++]) {
     sbfi_d3 middle = sbfi_polygon_middle(hull->positions.at, corners, hull->polygon_sizes.at[p]);
     sbfi_d3 area = sbfi_polygon_area(hull->positions.at, corners, hull->polygon_sizes.at[p], middle);
-    double size = sqrt(sbfi_d3_length(area)); /* slack in proportion to the face: single precision rounds */
+    double size = sqrt(
+        sbfi_d3_length(area)); /* tolerance in proportion to the face, for rounding in single precision */
     if (sbfi_d3_dot(sbfi_d3_sub(sbfi_d3_of(point), middle), sbfi_d3_normal(area)) > 1e-5 * size) return false;
   }
   return hull->polygon_sizes.count > 0;

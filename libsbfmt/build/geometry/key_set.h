@@ -1,4 +1,4 @@
-/* A set of keys of four numbers, each with a value: which faces, which positions have been seen before. */
+/* Hash map with keys of four numbers, for faces and positions. */
 #ifndef SBFI_KEY_SET_H
 #define SBFI_KEY_SET_H
 
@@ -14,16 +14,16 @@ typedef struct sbfi_key_set {
   size_t slot_count;
 } sbfi_key_set;
 
-/* Room for `capacity` keys in memory of the arena; false where memory runs out. */
+/* Allocates for `capacity` keys from the arena; false if memory runs out. */
 bool sbfi_key_set_init(sbfi_key_set *set, size_t capacity, sbfi_arena *arena);
 
-/* Where the value of the key stands, which is UINT32_MAX where the key is new: the caller then writes one. */
+/* Pointer to the value of the key, which is UINT32_MAX for a new key: the caller then writes one. */
 uint32_t *sbfi_key_set_find(sbfi_key_set *set, sbfi_key key);
 
 /* The key with its first `count` numbers in ascending order. */
 sbfi_key sbfi_key_sorted(sbfi_key key, int count);
 
-/* Places in space are equal where their numbers are; 0 and -0 are. */
+/* Positions are equal if their numbers are; 0 equals -0. */
 sbfi_key sbfi_key_of_position(sbf_vec3 position);
 
 #endif

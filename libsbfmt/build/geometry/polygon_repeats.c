@@ -8,7 +8,7 @@ static int compare(uint32_t a, uint32_t b) {
   return a < b ? -1 : a > b;
 }
 
-/* Heap sort: polygons have a handful of corners, but a hostile one may have millions. */
+/* Heap sort: polygons have few corners, but a hostile one may have millions. */
 static void sift(uint32_t *at, uint32_t root, uint32_t count) {
   for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
     if (child + 1 < count && compare(at[child], at[child + 1]) < 0) child++;

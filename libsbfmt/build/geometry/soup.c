@@ -6,12 +6,12 @@
 #include "base/union_find.h"
 #include "build/geometry/topology.h"
 
-/* A side of triangles, and the first two that pass it. */
+/* An edge of triangles, and the first two triangles that traverse it. */
 typedef struct side {
-  uint32_t uses[2]; /* 3 * triangle + side */
+  uint32_t uses[2]; /* 3 * triangle + edge number */
   uint32_t use_count;
   uint32_t ends[2]; /* points, the lower first */
-  int32_t balance;  /* uses upwards less uses downwards */
+  int32_t balance;  /* upward minus downward traversals */
 } side;
 
 typedef struct work {
@@ -34,14 +34,14 @@ static size_t table_size(size_t count) {
   return size;
 }
 
-/* Numbers for the places: `new_from_old` receives each point's. */
+/* Numbers the positions: `new_from_old` receives each point's. */
 static bool weld(work *w, const sbf_vec3_list *from, uint32_t *new_from_old) {
   size_t size = table_size(from->count);
   uint32_t *slots = sbfi_arena_allocate(w->arena, size, sizeof *slots);
   if (!slots) return false;
   memset(slots, 0xff, size * sizeof *slots);
   for (uint32_t i = 0; i < from->count; i++) {
-    /* Adding nothing makes a zero of either sign the same. */
+    /* Adding zero makes both zeros equal. */
     const sbf_vec3 p = {from->at[i].x + 0.0f, from->at[i].y + 0.0f, from->at[i].z + 0.0f};
     const sbfi_d3 position = sbfi_d3_of(p);
     uint32_t bits[3];
@@ -119,8 +119,8 @@ static double area_of(const sbfi_soup *soup, uint32_t triangle) {
 
 enum { UNSEEN = 2 };
 
-/* Walks over the piece of the triangle; `facing` receives 0, or 1 for those that face against it. The piece
- * is left in `waiting`. Returns its number of triangles. */
+/* Walks over the piece of the triangle; `facing` receives 0, or 1 for opposite orientation. Leaves the
+ * piece in `waiting`. Returns its number of triangles. */
 static uint32_t walk_piece(const work *w, uint32_t first, uint8_t *facing, uint32_t *waiting) {
   uint32_t count = 0;
   facing[first] = 0;
@@ -164,8 +164,7 @@ static bool turn_patches(work *w) {
   return true;
 }
 
-/* After the turning: the sides keep their triangles, but not their places in them. Returns by how many uses
- * the sides are out of balance. */
+/* Updates the edges after the flips, which changed edge numbers. Returns the sum of their imbalances. */
 static uint32_t balance_sides(const work *w) {
   static const uint32_t indices[3] = {2, 1, 0};
   const sbfi_soup *soup = w->soup;
@@ -186,7 +185,7 @@ static uint32_t balance_sides(const work *w) {
   return missing;
 }
 
-/* An apex for each piece of rim, and a triangle from it to each use that a side lacks. */
+/* Adds an apex for each piece of rim, and a triangle from it for each missing traversal of an edge. */
 static bool cap_holes(work *w, uint32_t missing) {
   sbfi_soup *soup = w->soup;
   uint32_t count = soup->point_count;
@@ -217,7 +216,7 @@ static bool cap_holes(work *w, uint32_t missing) {
     for (int k = 0; k < 2; k++) *apex = sbfi_d3_add(*apex, points[w->sides[s].ends[k]]);
     sums[root] += 2;
   }
-  /* In single precision, as all points are. */
+  /* In single precision, like all points. */
   for (uint32_t i = 0; i < count; i++)
     if (sums[i])
       points[apexes[i]] = sbfi_d3_of(sbfi_d3_rounded(sbfi_d3_scale(points[apexes[i]], 1.0 / sums[i])));
@@ -240,7 +239,7 @@ bool sbfi_soup_make(sbfi_soup *soup, const sbf_polygon_mesh *mesh, sbfi_arena *a
   size_t max = 0;
   for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) max += mesh->polygon_sizes.at[p] - 2;
   if (max == 0) return true;
-  if (max > UINT32_MAX / 8) return false; /* three uses each are counted in 32 bits */
+  if (max > UINT32_MAX / 8) return false; /* at most three traversals per triangle are counted in 32 bits */
   uint32_t *new_from_old = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *new_from_old);
   soup->points = sbfi_arena_allocate(arena, mesh->positions.count, sizeof *soup->points);
   soup->triangles = sbfi_arena_allocate(arena, max, sizeof *soup->triangles);

@@ -1,4 +1,4 @@
-/* The triangles of a surface, made ready for questions of inside and outside. */
+/* Triangles of a surface prepared for inside tests. */
 #ifndef SBFI_SOUP_H
 #define SBFI_SOUP_H
 
@@ -7,20 +7,20 @@
 #include "sbfmt/model.h"
 
 typedef struct sbfi_soup {
-  sbfi_d3 *points;          /* (point_count) one for each place, bit by bit */
-  uint32_t (*triangles)[3]; /* (triangle_count + cap_count), the caps last */
+  sbfi_d3 *points;          /* (point_count) one for each exact position */
+  uint32_t (*triangles)[3]; /* (triangle_count + cap_count), caps last */
   uint32_t point_count, triangle_count, cap_count;
-  sbfi_d3 low, high;     /* of the triangles' points; the caps stay within */
-  uint32_t turned_count; /* triangles that faced against their neighbours */
+  sbfi_d3 low, high;     /* bounds of the triangles' points; caps stay within */
+  uint32_t turned_count; /* number of flipped triangles */
 } sbfi_soup;
 
-/* Fans the polygons into triangles from their first corners, joins points in one place, leaves out triangles
- * with less than three places. In each piece whose triangles hang together by sides that two of them share,
- * those that face against the greater part of its area are turned.
+/* Triangulates polygons as fans from their first corners, merges coincident points, drops degenerate
+ * triangles. In each piece connected by edges of exactly two triangles, flips the triangles that face against
+ * the larger part of its area.
  *
- * Holes get caps: where a side is passed more often one way than the other, triangles that make up for it,
- * to the mean of the piece of rim that it belongs to. Surface and caps together are closed, whatever else
- * they are. Memory of `arena`; false where it runs out. */
+ * Caps holes: for an edge with unbalanced traversals adds triangles that balance it, to the mean of its
+ * piece of rim. Surface and caps together are always closed. Allocates from `arena`; false if memory runs
+ * out. */
 bool sbfi_soup_make(sbfi_soup *soup, const sbf_polygon_mesh *mesh, sbfi_arena *arena);
 
 #endif

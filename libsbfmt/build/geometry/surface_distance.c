@@ -9,8 +9,8 @@ static const double MIN_FRACTION = 1e-5, SLACK = 1.05;
 
 typedef struct comparison {
   const sbfi_triangle_tree *to;
-  double reached; /* some place is so far off */
-  double bound;   /* none is farther off of those looked at */
+  double reached; /* lower bound: some position has this distance */
+  double bound;   /* upper bound for the visited parts */
   double no_less; /* a bound below it is good enough */
 } comparison;
 
@@ -29,7 +29,7 @@ static double square_from(const comparison *c, const double at[3], uint32_t tria
   return sbfi_triangle_closest(t[0], t[1], t[2], at, weights);
 }
 
-/* Distance to the surface. `*triangle` is one that is likely near, and becomes the nearest. */
+/* Distance to the surface. `*triangle` is a guess, and becomes the nearest. */
 static double nearest(const comparison *c, const double at[3], uint32_t *triangle) {
   sbf_vec3 position = {(float)at[0], (float)at[1], (float)at[2]};
   double squared = square_from(c, at, *triangle);
@@ -38,7 +38,7 @@ static double nearest(const comparison *c, const double at[3], uint32_t *triangl
   return sqrt(squared);
 }
 
-/* The greatest distance of three corners from one triangle. */
+/* Largest distance of three corners from one triangle. */
 static double farthest_corner(const comparison *c, const double corners[3][3], uint32_t triangle) {
   double max = 0;
   for (int k = 0; k < 3; k++) {
@@ -81,7 +81,7 @@ static void check(comparison *c, const double corners[3][3], uint32_t *near, int
   }
 }
 
-/* One without area shows nothing. */
+/* Skips triangles without area. */
 static bool has_area(const double corners[3][3]) {
   double a[3], b[3], normal = 0, sides = 0;
   for (int k = 0; k < 3; k++) {
@@ -96,7 +96,7 @@ static bool has_area(const double corners[3][3]) {
   return sqrt(normal) > 1e-6 * sides;
 }
 
-/* Corners first: they tell soon how far it is at least. */
+/* Corners first: they give a lower bound quickly. */
 static bool compare(comparison *c, const sbfi_triangle_tree *from, sbfi_progress progress) {
   uint32_t near = 0;
   for (int pass = 0; pass < 2; pass++)

@@ -1,19 +1,17 @@
-/* How far two surfaces are from each other. */
+/* Distance between two surfaces. */
 #ifndef SBFI_SURFACE_DISTANCE_H
 #define SBFI_SURFACE_DISTANCE_H
 
 #include "base/progress.h"
 #include "build/geometry/triangle_tree.h"
 
-/* Hausdorff's distance of the two surfaces, each polygon a fan from its first corner: no place of either is
- * farther from the other,
- * triangles without area left out. Never understated; overstated by 5 per cent, by a hundred-thousandth of
- * the surfaces' size, or by a hundredth of a triangle's longest side, whichever is most. 0 where one has no
- * triangles.
+/* Hausdorff distance of two surfaces; polygons are fans from their first corner; ignores triangles without
+ * area. Never underestimated; overestimated by at most the maximum of 5 per cent, a hundred-thousandth of the
+ * surfaces' size, and a hundredth of a triangle's longest edge. 0 if one has no triangles.
  *
- * Triangles are halved along their sides until none can hold a greater distance: the distance from a triangle
- * is convex, so that it is greatest in a corner, what the other surface covers is near it, and no distance
- * grows faster than the place moves. * False where `progress` ends it. */
+ * Triangles are bisected until none can contain a larger distance: the distance from a triangle is convex,
+ * so it is largest at a corner; parts that the other surface covers are near it; and no distance grows
+ * faster than the position moves. False if `progress` cancels. */
 bool sbfi_surface_distance(
     double *distance, const sbfi_triangle_tree *a, const sbfi_triangle_tree *b, sbfi_progress progress);
 

@@ -3,7 +3,7 @@
 #include "base/union_find.h"
 #include "build/springs/pair_set.h"
 
-/* Begins of groups from their sizes, which stand one place to the right: a running sum. */
+/* Converts group sizes, stored at index + 1, to begins: a running sum. */
 static void sum_up(uint32_t *begins, size_t count) {
   for (size_t i = 0; i < count; i++) begins[i + 1] += begins[i];
 }
@@ -75,8 +75,8 @@ static bool group_by_point(sbfi_topology *t, sbfi_arena *arena) {
   return true;
 }
 
-/* Components by merging the ends of each edge; the root is the lowest point, so that numbers follow points.
- */
+/* Finds components by union of the ends of each edge; the root is the lowest point, so that components are
+ * numbered by point. */
 static bool number_components(sbfi_topology *t, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
   t->point_components = sbfi_arena_allocate(arena, (size_t)t->point_count + 1, sizeof(uint32_t));
   uint32_t *parents = sbfi_arena_allocate(arena, (size_t)t->point_count + 1, sizeof(uint32_t));

@@ -2,20 +2,20 @@
 
 #include <math.h>
 
-enum { MAX_CORNERS = 9 }; /* a triangle cut three times has six */
+enum { MAX_CORNERS = 9 }; /* a triangle clipped three times has six */
 static const double AREA_SLACK = 1e-6;
 
-/* The triangle in its own plane: its first corner the origin, x along its first side, z above it. */
+/* Coordinate system of a triangle: origin at its first corner, x along its first edge, z above it. */
 typedef struct plane_frame {
   double origin[3], axes[3][3];
   double corners[3][2];
-  double area; /* twice */
+  double area; /* twice the area */
 } plane_frame;
 
 typedef struct covering {
   const sbfi_triangle_tree *by;
   plane_frame frame;
-  double max, area; /* twice what is covered so far */
+  double max, area; /* twice the area covered so far */
 } covering;
 
 typedef struct outline {
@@ -57,7 +57,7 @@ static bool make_frame(plane_frame *f, const double corners[3][3]) {
   return true;
 }
 
-/* Keeps what lies left of the side from `a` to `b` (Sutherland and Hodgman). */
+/* Clips to the left of the edge from `a` to `b` (Sutherland and Hodgman). */
 static void cut(outline *o, const double a[2], const double b[2]) {
   outline kept = {.count = 0};
   for (int i = 0; i < o->count; i++) {
@@ -87,7 +87,7 @@ static bool add_cover(void *user, uint32_t triangle) {
   }
   double turn = (o.at[1][0] - o.at[0][0]) * (o.at[2][1] - o.at[0][1]) -
                 (o.at[1][1] - o.at[0][1]) * (o.at[2][0] - o.at[0][0]);
-  if (!(turn > 0)) return true; /* faces away */
+  if (!(turn > 0)) return true; /* it faces away */
   for (int k = 0; k < 3; k++) cut(&o, c->frame.corners[k], c->frame.corners[(k + 1) % 3]);
   double area = 0;
   for (int i = 0; i < o.count; i++) {

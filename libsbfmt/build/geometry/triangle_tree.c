@@ -20,7 +20,7 @@ static void load(sbf_vec3 from, double to[3]) {
   to[0] = from.x, to[1] = from.y, to[2] = from.z;
 }
 
-/* Nearest point of the side a b: the share of b goes to `fraction`; returns the squared distance. */
+/* Nearest point of the edge a b: `fraction` receives the weight of b; returns the squared distance. */
 static double closest_on_side(const double a[3], const double b[3], const double point[3], double *fraction) {
   double side[3], direction[3], left[3];
   minus(b, a, side);
@@ -48,7 +48,7 @@ double sbfi_triangle_closest(
     double height = dot(ap, normal);
     if (weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0) return height * height / squared;
   }
-  /* Beside the triangle, or it has no area: the nearest of its sides. */
+  /* Beside the triangle, or it has no area: the nearest of its edges. */
   const double *corners[3] = {a, b, c};
   double best = INFINITY;
   for (int k = 0; k < 3; k++) {
@@ -72,7 +72,7 @@ static double distance(const void *user, uint32_t triangle, const double point[3
   return sbfi_triangle_closest(corners[0], corners[1], corners[2], point, weights);
 }
 
-/* Möller and Trumbore's test, both sides. */
+/* Möller and Trumbore's test, two-sided. */
 static double collide(
     const void *user, uint32_t triangle, const double origin[3], const double direction[3]) {
   double corners[3][3], ab[3], ac[3], to_origin[3], p[3], q[3];

@@ -27,12 +27,12 @@ static double half_angle(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 point
   double rest = lengths[0] * lengths[1] * lengths[2] + sbfi_d3_dot(corners[0], corners[1]) * lengths[2] +
                 sbfi_d3_dot(corners[1], corners[2]) * lengths[0] +
                 sbfi_d3_dot(corners[2], corners[0]) * lengths[1];
-  /* In the triangle itself both sides have a say. */
+  /* In the triangle's own plane the volume is 0. */
   return volume != 0 ? sbfi_angle(volume, rest) : 0;
 }
 
-/* Sums of a node from its children or triangles: the middle still times the weight. Children stand behind
- * their parents, so one walk from the end meets them first. */
+/* Sums of a node from its children or triangles: the centre is not yet divided by the weight. Children
+ * come after their parents, so a reverse pass visits them first. */
 static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sbfi_box_node *from,
     uint32_t index, double *weights) {
   sbfi_d3 moment = {0, 0, 0};
@@ -66,7 +66,7 @@ static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sb
 static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
   for (int k = 0; k < 3; k++) {
     sbfi_d3 p = soup->points[soup->triangles[triangle][k]];
-    /* Places come from single precision, so nothing is lost. */
+    /* Positions come from single precision, so nothing is lost. */
     const float at[3] = {(float)p.x, (float)p.y, (float)p.z};
     for (int axis = 0; axis < 3; axis++) {
       if (k == 0 || at[axis] < box->low[axis]) box->low[axis] = at[axis];
@@ -75,7 +75,7 @@ static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
   }
 }
 
-/* Over the soup's triangles from `first` on. */
+/* Builds the tree over the soup's triangles from `first` on. */
 static bool make_tree(
     sbfi_winding_tree *made, const sbfi_soup *soup, uint32_t first, uint32_t end, sbfi_arena *arena) {
   uint32_t count = end - first;
@@ -131,6 +131,6 @@ double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point) {
 }
 
 bool sbfi_winding_inside(int closed, double caps) {
-  /* On a single sheet it is a half: that is not inside, however it is rounded. */
+  /* On a single sheet it is a half, which must not count as inside after rounding. */
   return fabs(closed - caps) > 0.5001;
 }

@@ -1,22 +1,22 @@
-/* How often a surface goes round a point: 1 inside, 0 outside, something between behind a hole.
+/* Winding number of a surface about a point: 1 inside, 0 outside, in between near a hole.
  *
- * The generalised winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013) is the sum of the
- * solid angles of its triangles over 4 pi. Far groups of triangles count as one dipole each, the sum of
- * their vector areas at the middle of their area (Barill, Dickson, Schmidt, Levin, Jacobson 2018), where the
- * point is farther off than twice the group's radius: an error of some 1e-2. Angles are worked out with
- * square roots alone, so that the same bits come out on every machine.
+ * The generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013) is the sum of the
+ * solid angles of its triangles over 4 pi. Distant groups of triangles count as one dipole each, the sum of
+ * their area vectors at their centroid (Barill, Dickson, Schmidt, Levin, Jacobson 2018), if the distance
+ * exceeds twice the group's radius, with an error of about 1e-2. Angles use only square roots, so that every
+ * machine gives the same bits.
  *
- * With caps on its holes (soup.h) a surface is closed, and its winding number whole: it needs rounding, not
- * precision, and is one and the same wherever no triangle lies between. What the caps add to it is known
- * from the caps alone, which are few, and next to nothing far from them. */
+ * With caps on its holes (soup.h) a surface is closed, and its winding number is an integer: rounding is
+ * enough, and it is constant in regions without triangles. The caps' part comes from the caps alone, which
+ * are few, and is almost 0 far from them. */
 #ifndef SBFI_WINDING_NUMBER_H
 #define SBFI_WINDING_NUMBER_H
 
 #include "build/geometry/soup.h"
 
 typedef struct sbfi_winding_node {
-  sbfi_d3 middle, area;  /* dipole: vector area at the middle */
-  double far2;           /* m^2; beyond this squared distance the dipole will do */
+  sbfi_d3 middle, area;  /* dipole: area vector at the centroid */
+  double far2;           /* m^2, squared distance beyond which the dipole is used */
   uint32_t first, count; /* as in a box tree: leaf triangles, or (count 0) the left of two children */
 } sbfi_winding_node;
 
@@ -33,14 +33,15 @@ typedef struct sbfi_winding {
   sbfi_winding_tree caps;
 } sbfi_winding;
 
-/* `soup` must outlive it. Memory of `arena`; false where it runs out. */
+/* `soup` must outlive it. Allocates from `arena`; false if memory runs out. */
 bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena *arena);
 
-/* Of surface and caps, a whole number; and of the caps alone. The surface's own is the difference. */
+/* Winding number of surface and caps, an integer; and of the caps alone. The surface's own is the
+ * difference. */
 int sbfi_winding_of_closed(const sbfi_winding *winding, sbfi_d3 point);
 double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point);
 
-/* Whether a point with those two numbers counts as inside: nearer to 1 or -1, as in a surface that faces
+/* Whether a point with these two numbers counts as inside: nearer to 1, or -1 for a surface that faces
  * inwards, than to 0. */
 bool sbfi_winding_inside(int closed, double caps);
 

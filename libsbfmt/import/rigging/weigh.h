@@ -20,7 +20,7 @@ void sbfi_weigh_by_own_skin(sbfi_rigging *r);
 /* By position: points at points of the rig's meshes. `moved` is the input in asset space. */
 bool sbfi_weigh_by_position(sbfi_rigging *r, const sbfi_scene_surface *moved);
 
-/* By proximity: remaining points take weights of the nearby surface of the rig's meshes. `*share` is the
+/* By proximity: remaining points take weights of the nearby surface of the rig's meshes. `*fraction` is the
  * fraction of all points that then have weights. Below `min` the input is not similar to the rig's mesh,
  * and nothing changes. */
 bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double min, double *fraction);
