@@ -6,13 +6,13 @@
 
 #include "chart/stability_map.h"
 
-/* Which maps are asked for, and how fine. */
+/* Requested maps and their resolution. */
 typedef struct wanted {
   uint32_t *numbers, count;
   long columns;
 } wanted;
 
-/* Tables first: where gnuplot is not there they stay. */
+/* Tables first: they stay if gnuplot is missing. */
 static int write_maps(cli_call *call, const chart_map *maps, uint32_t count, const chart_machine *machine,
     const char *path, bool drawn) {
   chart_folder folder;
@@ -50,7 +50,7 @@ static int report(const cli_call *call, const chart_map *maps, uint32_t count, c
   return status;
 }
 
-/* Those that --case names, or all. */
+/* The maps in --case, or all. */
 static bool choose(cli_call *call, wanted *w) {
   int at = 0;
   const char *name;
@@ -95,7 +95,7 @@ static int fill(cli_call *call, const wanted *w, const char *path) {
   return result;
 }
 
-/* One line a map: what a batch runs side by side. */
+/* One line per map, so that a batch can run them in parallel. */
 static int print_jobs(const cli_call *call, const wanted *w, const char *path) {
   for (uint32_t i = 0; i < w->count; i++)
     printf("sbfmt chart --map --case %s --cells %ld%s -o '%s'\n", chart_map_axes[w->numbers[i]].name,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOAD_FINDINGS = 100 }; /* where a file does not load, it is not asked for more */
+enum { LOAD_FINDINGS = 100 }; /* limit for a file that does not load */
 
 void findings_add(findings *to, const sbf_diagnostic *diagnostic) {
   if (to->count == to->capacity) {
@@ -44,7 +44,7 @@ static sbf_status load(checked *result, sbf_asset **asset) {
   return status;
 }
 
-/* Where images that belong to the file are looked for. */
+/* Folder for image files of the asset. */
 static void folder_of(const char *path, char *folder, size_t size) {
   const char *slash = strrchr(path, '/');
   size_t length = slash ? (size_t)(slash - path) : 0;
@@ -68,7 +68,7 @@ void check_file(const char *path, checked *result) {
   sbf_asset *asset;
   *result = (checked){.path = path};
   result->status = load(result, &asset);
-  uint32_t left_out = (uint32_t)result->found.count; /* of a newer version: a warning, where it loads */
+  uint32_t left_out = (uint32_t)result->found.count; /* of a newer version: a warning if it loads */
   if (result->status != SBF_OK) return;
   check_loaded(asset, path, result);
   result->result.warnings += left_out;

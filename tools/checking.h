@@ -1,4 +1,4 @@
-/* One file checked against all rules, with what was found. */
+/* A file checked against all rules, with its findings. */
 #ifndef CHECKING_H
 #define CHECKING_H
 
@@ -9,11 +9,11 @@
 typedef struct findings {
   sbf_diagnostic *at;
   size_t count, capacity;
-  bool lost; /* memory ran out: counted, but not listed */
+  bool lost; /* memory ran out: findings are counted, but not listed */
 } findings;
 
 void findings_add(findings *to, const sbf_diagnostic *diagnostic);
-/* As a callback: `user` is the findings. */
+/* Callback: `user` is the findings. */
 void findings_take(void *user, const sbf_diagnostic *diagnostic);
 void findings_free(findings *f);
 
@@ -21,18 +21,18 @@ typedef struct checked {
   const char *path;
   findings found;
   sbf_validate_result result;
-  sbf_status status; /* SBF_FAILED: could not be read, or memory ran out */
+  sbf_status status; /* SBF_FAILED: the file could not be read, or memory ran out */
 } checked;
 
 /* Loads and checks a file. Thread safe on different results. */
 void check_file(const char *path, checked *result);
 
-/* Only the rules, for an asset whose file is, or will be, at `path`; without line numbers. */
+/* Checks only the rules, for an asset whose file is, or will be, at `path`; without line numbers. */
 void check_loaded(const sbf_asset *asset, const char *path, checked *result);
 
 bool checked_is_valid(const checked *one, bool strict);
 
-/* Prints what was found, or adds it to `messages` where that is not NULL. */
+/* Prints the findings, or adds them to `messages` unless that is NULL. */
 void checked_report(const cli_call *call, checked *one, json_t *messages);
 
 #endif

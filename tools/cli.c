@@ -17,7 +17,7 @@ const cli_option cli_common_options[] = {
 const char *cli_value(const cli_call *call, const char *name) {
   for (int i = 0; call->verb->options[i].name; i++)
     if (strcmp(call->verb->options[i].name, name) == 0) return call->values[i];
-  abort(); /* a verb asks for an option that is not in its table */
+  abort(); /* the verb's table lacks the option */
 }
 
 const char *cli_next_value(const cli_call *call, const char *name, int *at) {
@@ -110,10 +110,11 @@ static void print_finding(const cli_call *call, const sbf_diagnostic *d) {
   fprintf(stderr, "\n");
 }
 
-/* Findings of one kind in the file at hand: of one code, whose messages differ in names and numbers alone. */
+/* Findings of one kind in the current file: with one code and messages that differ only in names and
+ * numbers. */
 typedef struct counted {
   sbf_diagnostic first, last;
-  uint32_t count; /* behind the first, which was printed */
+  uint32_t count; /* findings after the first, which was printed */
 } counted;
 static counted *counts;
 static size_t kind_count;
@@ -122,7 +123,7 @@ static bool is_letter(char c) {
   return isalnum((unsigned char)c) != 0;
 }
 
-/* Past the name in quotes or the number that the text begins with; `before` is the character ahead of it. */
+/* Skips a quoted name or a number at the start of the text; `before` is the preceding character. */
 static const char *skip_name(const char *text, char before) {
   if (isdigit((unsigned char)*text)) return text + strspn(text, "0123456789.e+-");
   if ((*text != '"' && *text != '\'') || is_letter(before)) return text;
@@ -141,7 +142,7 @@ static bool is_alike(const char *a, const char *b) {
   }
 }
 
-/* True where a finding of that kind was printed before: then it is counted. */
+/* True if a finding of that kind was printed before: then it is only counted. */
 static bool count_repeated(const sbf_diagnostic *d) {
   for (size_t i = 0; i < kind_count; i++)
     if (counts[i].first.code == d->code && is_alike(counts[i].first.message, d->message)) {
@@ -150,7 +151,7 @@ static bool count_repeated(const sbf_diagnostic *d) {
       return true;
     }
   counted *grown = realloc(counts, (kind_count + 1) * sizeof *grown);
-  if (!grown) return false; /* printed, each */
+  if (!grown) return false; /* prints each one */
   counts = grown;
   counts[kind_count++] = (counted){.first = *d};
   return false;

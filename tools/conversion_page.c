@@ -1,4 +1,4 @@
-/* The report of a conversion as a page: no script, no font, no picture from elsewhere. */
+/* The report of a conversion as a page without scripts, fonts or images from elsewhere. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +63,7 @@ static double real(const json_t *object, const char *key) {
   return json_number_value(get(object, key));
 }
 
-/* Text as it stands, in an element or a quoted attribute. */
+/* Escapes text for an element or a quoted attribute. */
 static void put(FILE *to, const char *s) {
   for (; *s; s++) switch (*s) {
     case '&':
@@ -173,14 +173,14 @@ static void put_pictures(FILE *to, const json_t *r) {
   fputs("</div></section>\n", to);
 }
 
-/* How a unit or axes came to be known. */
+/* Source of a unit or of axes. */
 static const char *said_by(const char *who, const char *assumed) {
   return strcmp(who, "assumed") == 0 ? assumed
          : strcmp(who, "call") == 0  ? "by the call"
                                      : "as the file states";
 }
 
-/* Neither a word nor a number above 0 in any source. */
+/* No source has a word or a number above 0. */
 static bool is_empty(const json_t *sources, const char *key) {
   for (size_t i = 0; i < json_array_size(sources); i++)
     if (text(json_array_get(sources, i), key)[0] || whole(json_array_get(sources, i), key)) return false;
@@ -245,7 +245,7 @@ static void put_messages(FILE *to, const json_t *list) {
   fputs("</ul>\n", to);
 }
 
-/* What no message says, because nothing is wrong with it: a form that states no unit or axes. */
+/* Explains formats without a unit or axes, which no message reports because they are valid. */
 static size_t count_assumed(const json_t *sources) {
   size_t count = 0;
   for (size_t i = 0; i < json_array_size(sources); i++) {
@@ -301,7 +301,7 @@ static void put_findings(FILE *to, const json_t *r) {
   }
 }
 
-/* Bars of a histogram; `low` and `high` are what its ends mean. */
+/* Bars of a histogram; `low` and `high` label its ends. */
 static void put_chart(FILE *to, const char *title, const json_t *bins, const char *low, const char *high) {
   size_t count = json_array_size(bins);
   double max = 1, width = 300.0 / (double)(count ? count : 1);

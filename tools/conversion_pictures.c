@@ -16,8 +16,8 @@
 
 enum { WIDTH = 960, HEIGHT = 720 };
 
-/* Polygons as fans of triangles: those of one material slot, or all where `slots` is NULL. An image needs the
- * mesh that the polygons are of. */
+/* Polygons as fans of triangles: those of one material slot, or all if `slots` is NULL. An image needs the
+ * polygons' mesh. */
 static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const sbf_u32_list *slots,
     uint32_t slot, const skin_material *style, const sbf_render_mesh *unwrapped, float transparency) {
   size_t capacity = 3 * (size_t)mesh->polygon_points.count + 1;
@@ -55,7 +55,7 @@ static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const 
   free(normals);
 }
 
-/* What a view shows. */
+/* Content of a view. */
 typedef struct subject {
   const sbf_asset *asset;
   const skin_images *images;
@@ -77,7 +77,7 @@ static bool add_whole_skin(const subject *of, draw_scene *scene) {
   return add_skin(of, scene, 0);
 }
 
-/* Hues a golden angle apart, so that neighbours in the list never look alike. */
+/* Hues are spaced by the golden angle, so that neighbours in the list are always distinct. */
 static draw_colour colour_of_section(uint32_t i) {
   double hue = fmod(0.08 + i * 0.6180339887, 1) * 6, rgb[3];
   for (int k = 0; k < 3; k++) {
@@ -107,7 +107,7 @@ static const sbf_level *finest(const sbf_soft_body *body) {
 
 static const float PITCH_OF_FLAT = 0.9f; /* rad */
 
-/* The side from which the camera looks: what lies before the middle, along +X and +Z, is left out. */
+/* Removes the half towards the camera, in front of the middle along +X and +Z. */
 static bool is_kept(const sbf_level *level, const uint32_t *p, float middle) {
   float at = 0;
   for (int k = 0; k < 4; k++) at += level->positions.at[p[k]].x / 4;
@@ -123,8 +123,8 @@ static void middle_of(const sbf_level *level, float *x) {
   *x = (low + high) / 2;
 }
 
-/* All sides of the tetrahedra kept, each with points of its own to bear its tetrahedron's colour: those
- * inside are hidden by those outside. */
+/* All faces of the remaining tetrahedra, with separate points for their colours: outer faces hide inner
+ * ones. */
 static bool add_cut(const sbf_level *level, const draw_colour_map *map, draw_scene *scene) {
   static const int sides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   const sbf_uint4_list *all = &level->lattice.tetrahedra;
@@ -227,7 +227,7 @@ typedef struct easel {
   draw_scene *scene;
   uint8_t *rgb;
   skin_images images;
-  char *notes; /* of images that are not drawn, a sentence each after a blank; NULL: none */
+  char *notes; /* images that are not drawn, one sentence each after a blank; NULL: none */
 } easel;
 
 static sbf_status open_easel(easel *e, sbf_diagnostic *error) {
@@ -250,7 +250,7 @@ static void close_easel(easel *e) {
   free(e->rgb);
 }
 
-/* What lies flat is seen from well above, over a floor that it does not lie in. */
+/* Flat objects are seen from well above, with a floor below them. */
 static sbf_status paint(easel *e, sbf_diagnostic *error) {
   draw_camera camera;
   box3 box = draw_scene_bounds(e->scene);
@@ -263,7 +263,7 @@ static sbf_status paint(easel *e, sbf_diagnostic *error) {
   return status == SBF_OK ? draw_canvas_read(e->canvas, e->rgb, error) : status;
 }
 
-/* As RFC 4648 has it. */
+/* As in RFC 4648. */
 static char *base64_of(const uint8_t *bytes, size_t size) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   char *text = malloc((size + 2) / 3 * 4 + 1), *to = text;
@@ -280,7 +280,7 @@ static char *base64_of(const uint8_t *bytes, size_t size) {
   return text;
 }
 
-/* The first view is of the skin. */
+/* The first view shows the skin. */
 static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png, size_t size) {
   char *text = base64_of(png, size);
   json_t *one =
@@ -292,7 +292,7 @@ static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png
   return one && json_array_append_new(list, one) == 0;
 }
 
-/* Without memory a note is lost, not the picture. */
+/* If memory runs out, the note is lost but not the picture. */
 static void keep_note(void *user, const sbf_diagnostic *note) {
   easel *e = user;
   size_t before = e->notes ? strlen(e->notes) : 0, more = strlen(note->message) + 3;

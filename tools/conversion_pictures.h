@@ -1,4 +1,5 @@
-/* Still pictures of an asset at rest, for a report: its skin, its sections, what moves them, its bones. */
+/* Still pictures of an asset at rest, for a report: its skin, its sections, its simulation models, its
+ * bones. */
 #ifndef CONVERSION_PICTURES_H
 #define CONVERSION_PICTURES_H
 
@@ -6,9 +7,9 @@
 
 #include "sbfmt/asset.h"
 
-/* `file`: where the asset was written, beside which its images are. Appends an object for each picture that
- * there is something for: name, title, caption, width, height and png, base64. Where nothing can be drawn
- * here `*why` becomes the reason, new text to be freed; else NULL. False where memory runs out. */
+/* `file`: path of the written asset, for its image files. Appends an object for each available picture:
+ * name, title, caption, width, height and png, base64. If nothing can be drawn, `*why` receives the reason
+ * as an allocated text; else NULL. False if memory runs out. */
 bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *list, char **why);
 
 #endif

@@ -88,7 +88,7 @@ static bool is_among(const char *code, const char *const *list) {
   return false;
 }
 
-/* The messages of a kind; of none of the three where `codes` is NULL. */
+/* Messages of a kind; those of none of the three if `codes` is NULL. */
 static json_t *messages_of(const json_t *messages, const char *const *codes) {
   json_t *list = json_array();
   for (size_t i = 0; i < json_array_size(messages); i++) {
@@ -104,7 +104,7 @@ static void add_proposed(json_t *list, const char *what, const char *id, const c
   json_array_append_new(list, json_pack("{s:s, s:s, s:s}", "what", what, "id", id, "name", name ? name : ""));
 }
 
-/* What is marked as proposed, for a person to confirm. */
+/* Parts marked as proposed, for a person to confirm. */
 static json_t *proposed(const sbf_asset *a) {
   json_t *list = json_array();
   for (uint32_t i = 0; i < a->rigid_bodies.count; i++)

@@ -12,20 +12,20 @@ typedef struct conversion_report {
   const char *input, *rig, *output;
   const sbf_convert_options *options;
   const sbf_convert_summary *summary;
-  const sbf_asset *asset; /* as it was written */
-  const json_t *messages; /* all that was said */
+  const sbf_asset *asset; /* as written */
+  const json_t *messages; /* all messages */
 } conversion_report;
 
-/* Whether a report can have this name: .html or .json. */
+/* Whether the name has a report's extension: .html or .json. */
 bool conversion_report_knows(const char *path);
 
-/* The object; NULL where memory runs out. Draws the pictures, if it can. */
+/* Creates the object; NULL if memory runs out. Draws the pictures if possible. */
 json_t *conversion_report_make(const conversion_report *of);
 
-/* Into a file that is there whole or not at all; which form, its ending says. */
+/* Writes a file atomically; the extension selects the format. */
 sbf_status conversion_report_write(const json_t *report, const char *path, sbf_diagnostic *error);
 
-/* The page, to an open file; false where it cannot be written. */
+/* Prints the page to an open file; false if it cannot be written. */
 bool conversion_page_print(const json_t *report, FILE *to);
 
 #endif

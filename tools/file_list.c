@@ -15,7 +15,7 @@ static bool out_of_memory(void) {
   return false;
 }
 
-/* Takes the path over, also where it fails. */
+/* Takes ownership of the path, also on failure. */
 static bool keep(file_list *list, char *path) {
   if (!path) return out_of_memory();
   if (list->count == list->capacity) {
@@ -41,7 +41,7 @@ static int by_name(const void *a, const void *b) {
   return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Everything in the folder but what begins with a dot, by name. */
+/* All files of the folder, sorted by name, without hidden ones. */
 static bool read_folder(const char *folder, file_list *entries) {
   DIR *directory = opendir(folder);
   if (!directory) {

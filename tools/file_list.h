@@ -1,4 +1,4 @@
-/* Files named on the command line, and those below the folders named there. */
+/* Files named on the command line, and those in the folders named there. */
 #ifndef FILE_LIST_H
 #define FILE_LIST_H
 
@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 typedef struct file_list {
-  char **paths; /* in the order given; those of a folder by name */
+  char **paths; /* in command line order; those of a folder by name */
   size_t count, capacity;
 } file_list;
 

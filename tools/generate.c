@@ -25,8 +25,7 @@ static int close_file(FILE *file) {
   return SBF_FAILED;
 }
 
-/* Words that an option's value must be one of, as in "y|z"; false where its argument names a kind of value.
- */
+/* Choices of an option's value, as in "y|z"; false if its argument names a kind of value. */
 static bool has_words(const char *argument) {
   return argument && strchr(argument, '|') &&
          strcspn(argument, ".ABCDEFGHIJKLMNOPQRSTUVWXYZ") == strlen(argument);
@@ -40,15 +39,14 @@ static bool takes_path(const char *argument) {
   return argument && (strstr(argument, "FILE") || strstr(argument, "OUT"));
 }
 
-/* The words with blanks between them. */
+/* The choices separated by blanks. */
 static void put_words(FILE *file, const char *words) {
   for (; *words; words++) fputc(*words == '|' ? ' ' : *words, file);
 }
 
 /* ---- Manual pages, in the man macros ---- */
 
-/* Text of a paragraph: hyphens and backslashes as themselves, no line taken for a request; `backquoted` words
- * in bold. */
+/* Text of a paragraph: escapes hyphens, backslashes and leading dots; `backquoted` words in bold. */
 static void put_roff(FILE *file, const char *text) {
   bool line_start = true, bold = false;
   for (; *text; text++) {

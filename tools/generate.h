@@ -1,4 +1,4 @@
-/* Manual pages and shell completion, made from the table of verbs. */
+/* Manual pages and shell completion, generated from the table of verbs. */
 #ifndef GENERATE_H
 #define GENERATE_H
 

@@ -66,7 +66,7 @@ void level_description_print(const json_t *level, char *text, size_t size) {
   if (json_is_object(calibration))
     snprintf(
         left, sizeof left, residual < 10 ? ", calibrated to %.2g %%" : ", calibrated to %.0f %%", residual);
-  /* What is counted says by itself that a level is of springs, or of tetrahedra. */
+  /* The counts imply whether a level has springs or tetrahedra. */
   bool implied = *parts && strcmp(model, tetrahedra > 0 ? "tetrahedra" : "springs") == 0;
   bool named = name && *name && strcmp(name, model) != 0;
   snprintf(text, size, "%s%s%s%s%s%s%s%s%s", named ? name : "", named ? ": " : "", implied ? "" : model,

@@ -1,4 +1,4 @@
-/* sbfmt: one program, a verb a file. */
+/* sbfmt: one program with one file per verb. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static void print_help(void) {
 
 enum { HELP_COLUMN = 27, HELP_WIDTH = 100 };
 
-/* From the column on, in as many lines as it takes; an empty line parts paragraphs. */
+/* Prints wrapped text from the column on; an empty line separates paragraphs. */
 static void print_wrapped(const char *text, int column) {
   int at = column;
   while (*text) {
@@ -64,8 +64,7 @@ static const cli_verb *find_verb(const char *name) {
   return NULL;
 }
 
-/* The option an argument names, and its value where it is written as --name=value. -1: not one of the verb's.
- */
+/* Index of the option in an argument, and its value if written as --name=value. -1: not one of the verb's. */
 static int find_option(const cli_verb *verb, const char *argument, const char **value) {
   size_t length = strcspn(argument, "=");
   *value = argument[length] ? argument + length + 1 : NULL;
@@ -75,7 +74,7 @@ static int find_option(const cli_verb *verb, const char *argument, const char **
   return -1;
 }
 
-/* Sorts the arguments into options and inputs; false, with a message, where they do not fit the verb. */
+/* Parses the arguments into options and inputs; false, with a message, if they are invalid for the verb. */
 static bool parse(cli_call *call, int count, char **arguments) {
   const cli_verb *verb = call->verb;
   bool options_over = false;
@@ -175,7 +174,7 @@ static int run_call(int argc, char **argv) {
   return status;
 }
 
-/* Whatever was printed has to have arrived: a full disk is told, of text as of JSON. */
+/* Checks that all output was written, to report a full disk for text and JSON. */
 int main(int argc, char **argv) {
   int status = run_call(argc, argv);
   if (fflush(stdout) == 0 && !ferror(stdout)) return status;

@@ -5,8 +5,7 @@
 #include "sbfmt/build.h"
 #include "sbfmt/materials.h"
 
-/* The material's name; `*body` receives where the body's begins, NULL for all, and `*length` how long it is.
- */
+/* Name of the material; `*body` receives the body's name, NULL for all, and `*length` its length. */
 static const char *divide(const char *value, const char **body, size_t *length) {
   const char *equals = strrchr(value, '=');
   *body = equals ? value : NULL;
@@ -37,14 +36,14 @@ static bool is(const char *text, const char *wanted, size_t length) {
   return strlen(text) == length && memcmp(text, wanted, length) == 0;
 }
 
-/* A copy of the list that may be written to, with `more` behind it. */
+/* A writable copy of the list with a capacity for `more` items. */
 static void *own(sbf_asset *asset, const void *at, size_t count, size_t more, size_t size) {
   char *copy = sbf_asset_allocate(asset, count + more + 1, size);
   if (copy && count) memcpy(copy, at, count * size);
   return copy;
 }
 
-/* Of source bodies; those that a build made, it makes again. */
+/* Source bodies only: a build recreates derived ones. */
 static uint32_t apply_to_bodies(const sbf_asset *asset, sbf_soft_body *bodies, const char *name,
     size_t length, const sbf_material_preset *preset) {
   uint32_t found = 0;
@@ -57,7 +56,7 @@ static uint32_t apply_to_bodies(const sbf_asset *asset, sbf_soft_body *bodies, c
   return found;
 }
 
-/* The recipe of the sections on a bone, a new one, like that of all others, where there is none. */
+/* Recipe of the sections on a bone: if there is none, a new one, with the values of the recipe for all. */
 static sbf_section_recipe *recipe_for(sbf_asset *asset, sbf_section_recipe *recipes, int32_t bone) {
   sbf_section_recipe *general = NULL, *made = &recipes[asset->section_recipes.count];
   for (uint32_t i = 0; i < asset->section_recipes.count; i++) {
@@ -65,14 +64,14 @@ static sbf_section_recipe *recipe_for(sbf_asset *asset, sbf_section_recipe *reci
     if (recipes[i].bone == SBF_NONE) general = &recipes[i];
   }
   sbf_section_recipe_init(made);
-  made->attributes.sag_free = true; /* as drawn when it stands */
+  made->attributes.sag_free = true; /* authored shape when standing */
   if (general) *made = *general;
   made->bone = bone;
   asset->section_recipes.count++;
   return made;
 }
 
-/* On a bone of that name or id, of which there may be several; NULL: whatever has no recipe of its own. */
+/* On bones of that name or id, possibly several; NULL: all without their own recipe. */
 static uint32_t apply_to_sections(sbf_asset *asset, sbf_section_recipe *recipes, const char *name,
     size_t length, const sbf_material_preset *preset) {
   uint32_t found = 0;
@@ -81,7 +80,7 @@ static uint32_t apply_to_sections(sbf_asset *asset, sbf_section_recipe *recipes,
     if (!is(bone->name, name, length) && !is(bone->id, name, length)) continue;
     sbf_section_recipe *recipe = recipe_for(asset, recipes, (int32_t)b);
     sbf_material_apply(preset, &recipe->attributes);
-    recipe->rigid = false; /* who says what it is made of wants it soft */
+    recipe->rigid = false; /* a stated material implies that it is soft */
     recipe->proposed = false;
     found++;
   }

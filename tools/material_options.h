@@ -1,5 +1,5 @@
-/* `--material NAME` and `--material BODY=NAME`: presets onto the bodies of an asset, and onto the sections
- * that a build will cut from its skins. */
+/* `--material NAME` and `--material BODY=NAME`: applies presets to the bodies of an asset, and to the
+ * sections that a build will cut from its skins. */
 #ifndef MATERIAL_OPTIONS_H
 #define MATERIAL_OPTIONS_H
 
@@ -13,15 +13,14 @@
         "may be given again: cotton, denim, fat, flesh, jelly, leather, muscle, rubber, silk"                \
   }
 
-/* False, with a message, where a material is named that there is none of. */
+/* False, with a message, if a material does not exist. */
 bool materials_check(const cli_call *call);
 
-/* Whether the call says what every body is made of. */
+/* Whether the call sets the material of every body. */
 bool materials_of_all(const cli_call *call);
 
-/* Sets the attributes of the asset's soft bodies, or its section recipes where sections are to be cut, in the
- * order of the options. False, with a message, where the asset has no such body or bone, or memory runs out.
- */
+/* Sets the attributes of the asset's soft bodies, or its section recipes if sections will be cut, in the
+ * order of the options. False, with a message, if the asset has no such body or bone, or memory runs out. */
 bool materials_apply(const cli_call *call, sbf_asset *asset);
 
 #endif

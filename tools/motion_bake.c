@@ -68,7 +68,7 @@ int motion_bake(cli_call *call, sbf_export_motion *motion) {
   return status;
 }
 
-/* They were made here. */
+/* They were allocated here. */
 static void free_list(const void *list) {
   free((void *)(uintptr_t)list);
 }

@@ -1,16 +1,16 @@
-/* What a file that is written may be called: its ending says its form, and keeps a slip of the pen from
- * writing over the mesh that was read. */
+/* Checks names of output files: the extension selects the format, and the check prevents overwriting an
+ * input mesh by a typing error. */
 #ifndef OUTPUT_NAME_H
 #define OUTPUT_NAME_H
 
 #include "cli.h"
 
-/* Whether the value of an option, if it has one, ends as one of `endings` (with their points; the last is
- * NULL), in capitals or not; false, with a message, where it does not. What is there and no regular file, as
- * a device, a pipe or a folder, may be called anything. */
+/* Whether the value of an option, if present, has one of the extensions `endings` (with dots; the last is
+ * NULL), ignoring case; false, with a message, otherwise. Existing devices, pipes and folders may have any
+ * name. */
 bool output_name_check(const cli_call *call, const char *option, const char *const *endings);
 
-/* Of a bundle: .sbf or .sbfz. */
+/* For a bundle: .sbf or .sbfz. */
 bool output_name_of_bundle(const cli_call *call, const char *option);
 
 #endif

@@ -17,7 +17,7 @@ static bool read_goal(const cli_call *call, sbf_convert_options *options) {
   return false;
 }
 
-/* The values of one option, in memory of its own. */
+/* Values of one option, in allocated memory. */
 static bool read_names(
     const cli_call *call, const char *option, sbf_convert_pin **pins, char **text, uint32_t *count) {
   const char *value;
@@ -72,7 +72,7 @@ static bool read_shells(const cli_call *call, pin_options *pins, sbf_convert_opt
   return true;
 }
 
-/* Names between commas, of every value of the option, in memory of its own. */
+/* Comma separated names in all values of the option, in allocated memory. */
 static bool read_bones(
     const cli_call *call, const char *option, const char ***bones, char **text, uint32_t *count) {
   const char *value;

@@ -1,5 +1,5 @@
 /* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL`, `--shell OBJECT=BONE`, the bounds and stiffness of
- * goals, and what is soft (`--soft`, `--rigid`, `--firmness`), for sbf_convert. */
+ * goals, and softness (`--soft`, `--rigid`, `--firmness`), for sbf_convert. */
 #ifndef PIN_OPTIONS_H
 #define PIN_OPTIONS_H
 
@@ -32,12 +32,12 @@ typedef struct pin_options {
   sbf_convert_pin *pins, *holds, *shells;
   sbf_convert_attachment *attachments;
   const char **soft, **rigid;                         /* bones */
-  char *text, *pin_text, *attached_text, *shell_text; /* of all names */
+  char *text, *pin_text, *attached_text, *shell_text; /* storage of all names */
   char *soft_text, *rigid_text;
 } pin_options;
 
-/* Sets the pins of the command line in `*options`; "world" or an empty value means the world. Returns false,
- * with a message, if a value is wrong. Free `*pins` in either case. */
+/* Sets the pins of the command line in `*options`; "world" or an empty value means the world. Returns
+ * false, with a message, if a value is wrong. Free `*pins` in either case. */
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options);
 void pin_options_free(pin_options *pins);
 

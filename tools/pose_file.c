@@ -24,7 +24,7 @@ sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_
   return status;
 }
 
-/* A name as a field of CSV: one that holds what parts fields or lines stands in quotes, its own doubled. */
+/* A name as a CSV field: quoted, with doubled quotes, if it contains separators. */
 static bool put_name(FILE *file, const char *name) {
   if (!strpbrk(name, ",\"\r\n")) return fputs(name, file) >= 0;
   bool good = fputc('"', file) != EOF;

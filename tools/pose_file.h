@@ -11,10 +11,10 @@ typedef struct pose_file {
   sbr_transform *bones;
 } pose_file;
 
-/* `path` must stay until the end. */
+/* `path` must stay valid until the end. */
 sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_diagnostic *error);
 sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error);
-/* Puts the complete file into its place, or removes what was written. Fine when never opened. */
+/* Renames the complete file to its final path, or deletes it. Does nothing if never opened. */
 sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error);
 
 #endif

@@ -5,10 +5,10 @@
 #include <string.h>
 
 static void write_bytes(void *user, const void *bytes, size_t size) {
-  fwrite(bytes, 1, size, user); /* whether all went well is asked at the end */
+  fwrite(bytes, 1, size, user); /* errors are checked at the end */
 }
 
-/* The whole file; NULL, with a message, where that cannot be. */
+/* Reads the whole file; NULL, with a message, on failure. */
 static unsigned char *read_all(const cli_call *call, const char *path, size_t *size) {
   FILE *file = fopen(path, "rb");
   unsigned char *bytes = NULL, *grown;

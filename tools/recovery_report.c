@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-/* An element with less of its volume is crushed; a body is that has one for so many frames. */
+/* Volume ratio below which an element is crushed, and number of frames after which its body counts as
+ * crushed. */
 static const float CRUSHED_RATIO = 0.2f;
 enum { CRUSHED_FRAMES = 30 };
 

@@ -1,4 +1,4 @@
-/* Which of a run's soft bodies lost their shape: put back into their rest shape, or crushed. */
+/* Reports which of a run's soft bodies lost their shape: reset to their rest shape, or crushed. */
 #ifndef RECOVERY_REPORT_H
 #define RECOVERY_REPORT_H
 
@@ -6,12 +6,12 @@
 
 typedef struct recovery_count {
   uint32_t last;         /* sbr_body_health.recoveries of the last frame */
-  uint32_t total;        /* since the run began */
+  uint32_t total;        /* total of the run */
   uint32_t rigid;        /* frames in which it moved as a rigid body */
-  uint32_t row, longest; /* frames in a row in which it was put back, up to now and at most */
+  uint32_t row, longest; /* consecutive frames with a reset, current and maximum */
   uint32_t crushed;      /* frames in which an element had less than a fifth of its volume */
-  uint32_t crushed_row;  /* of these, up to now without one between */
-  float min_ratio;       /* least sbr_body_health.min_element_ratio */
+  uint32_t crushed_row;  /* of these, current consecutive ones */
+  float min_ratio;       /* minimum sbr_body_health.min_element_ratio */
 } recovery_count;
 
 typedef struct recovery_report {
@@ -19,17 +19,17 @@ typedef struct recovery_report {
   uint32_t body_count;
 } recovery_report;
 
-/* False where memory runs out. */
+/* False if memory runs out. */
 bool recovery_report_begin(recovery_report *r, const sbf_asset *asset);
 void recovery_report_end(recovery_report *r);
-/* Once a frame and body. */
+/* Once per frame and body. */
 void recovery_report_measure(recovery_report *r, uint32_t body, const sbr_body_health *health);
-/* Of all bodies since the run began. */
+/* Total of all bodies in the run. */
 uint64_t recovery_report_total(const recovery_report *r);
 /* Adds `recoveries`, the sum over all bodies, `recovered`, the bodies with one, and `crushed`, the bodies
  * with a crushed element in any frame. */
 void recovery_report_add(const recovery_report *r, const sbf_asset *asset, json_t *to);
-/* Warns on standard error of each body that was put back so often that it moved as a rigid body, and of each
+/* Warns on standard error about each body that was reset so often that it moved as a rigid body, and each
  * that ends crushed. */
 void recovery_report_warn(const recovery_report *r, const sbf_asset *asset);
 

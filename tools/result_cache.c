@@ -9,7 +9,7 @@
 #include "sbfmt/export.h"
 #include "sbrun/soft_body.h"
 
-/* A simulated body: where its points and cells begin among those of all. */
+/* A simulated body: first index of its points and cells in the arrays of all. */
 typedef struct result_body {
   uint32_t soft_body, first_point, point_count, first_cell, tetrahedron_count, spring_count;
 } result_body;
@@ -26,7 +26,8 @@ struct result_cache {
   uint8_t *sizes;
   sbf_vec3 *read; /* (points of the largest body) */
   double *first, *points;
-  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS], *fractions; /* shares: volume about each point */
+  float *cells[CELL_ARRAYS], *nodes[POINT_ARRAYS],
+      *fractions; /* fractions: of the volume around each point */
   sbr_tetrahedron_state *tetrahedra;
   sbr_spring_state *springs;
   bool begun;
@@ -105,7 +106,7 @@ static void read_elements(const result_cache *r, const session *s, const result_
   sbr_character_get_springs(s->world, s->character, b->soft_body, r->springs, b->spring_count);
 }
 
-/* Which points each cell has. */
+/* Writes the points of each cell. */
 static void fill_mesh(result_cache *r, const session *s) {
   uint32_t at = 0;
   for (uint32_t i = 0; i < r->body_count; i++) {

@@ -1,4 +1,4 @@
-/* Results of a run for ParaView: displacement, stress, strain energy, frame by frame. */
+/* Writes results of a run for ParaView: displacement, stress, strain energy, frame by frame. */
 #ifndef RESULT_CACHE_H
 #define RESULT_CACHE_H
 
@@ -6,14 +6,14 @@
 
 typedef struct result_cache result_cache;
 
-/* Whether the path ends as such results do: .pvd. */
+/* Whether the path has the extension .pvd. */
 bool result_cache_named(const char *path);
-/* A cell for each tetrahedron and spring of all simulated bodies; for each point of one that has neither.
- * NULL, and *error, where nothing is simulated or memory runs out. */
+/* One cell per tetrahedron and spring of all simulated bodies; one per point of a body with neither. NULL,
+ * and *error, if nothing is simulated or memory runs out. */
 result_cache *result_cache_open(const session *s, const char *path, sbf_diagnostic *error);
-/* The session's present frame; displacements count from the first. */
+/* Adds the session's current frame; displacements are relative to the first. */
 sbf_status result_cache_add(result_cache *cache, const session *s, sbf_diagnostic *error);
-/* Both end the cache; commit leaves nothing new where it fails. */
+/* Both end the cache; a failed commit leaves no new files. */
 sbf_status result_cache_commit(result_cache *cache, sbf_diagnostic *error);
 void result_cache_abandon(result_cache *cache);
 

@@ -1,4 +1,4 @@
-/* How rigid parts fared over a run: joints, limits, and since when they lie still. */
+/* Reports errors of rigid bodies in a run: joints, limits, and time at rest. */
 #ifndef RIGID_REPORT_H
 #define RIGID_REPORT_H
 
@@ -7,10 +7,10 @@
 #include "session.h"
 
 typedef struct rigid_report {
-  bool asked;             /* the call has rigid parts simulated */
-  double angle_violation; /* rad, by which the worst hard limit of an angle was broken */
-  double separation;      /* m, by which the worst joint was off in place */
-  double moving_s;        /* time at which something last moved faster than REST_M_S */
+  bool asked;             /* the call requests simulated rigid bodies */
+  double angle_violation; /* rad, maximum violation of a hard angle limit */
+  double separation;      /* m, maximum separation of a joint */
+  double moving_s;        /* last time at which something moved faster than REST_M_S */
 } rigid_report;
 
 /* Before the first frame. */

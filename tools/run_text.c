@@ -32,7 +32,7 @@ static void print_value(const char *key, json_t *value) {
   free(text);
 }
 
-/* The members of an object, as "key value, key value"; how many there are. */
+/* Members of an object, as "key value, key value"; returns their number. */
 static int print_members(json_t *object) {
   const char *key;
   json_t *value;
@@ -51,7 +51,7 @@ static bool has_members(json_t *value) {
   return false;
 }
 
-/* A measure of each leg: in one line, or, of several, in a line a leg. */
+/* A measure of each leg: in one line, or one line per leg if there are several. */
 static void print_of_each(const char *key, json_t *each) {
   const char *name;
   json_t *of_one;

@@ -1,4 +1,4 @@
-/* The report of `sbfmt run` for people: a line a measure, with its unit. */
+/* Prints the report of `sbfmt run` as text: one line per measure, with units. */
 #ifndef RUN_TEXT_H
 #define RUN_TEXT_H
 

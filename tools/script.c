@@ -10,7 +10,7 @@
 typedef struct command {
   const char *word;
   script_kind kind;
-  int min, max; /* numbers */
+  int min, max; /* count of arguments */
 } command;
 
 enum { LAYERS = 4 }; /* of sbr_character_play_clip */
@@ -22,19 +22,19 @@ static const command commands[] = {
     {"reach", SCRIPT_REACH, 4, 5},     /* chain, x, y, z, weight */
     {"release", SCRIPT_RELEASE, 1, 1}, /* chain */
     {"play", SCRIPT_PLAY, 1, 4},       /* clip, weight, fade, layer */
-    {"pivot", SCRIPT_PIVOT, 1, 1},     /* leg, or -1 */
+    {"pivot", SCRIPT_PIVOT, 1, 1},     /* index of a leg, or -1 */
     {"pause", SCRIPT_PAUSE, 0, 0},
     {"resume", SCRIPT_RESUME, 0, 0},
 };
 
-/* What the runtime takes all numbers for: so far away or so fast is a slip of the pen. */
+/* Limit of all numbers: larger positions and speeds are typing errors. */
 static const double MAX = 1e9;
 
 static bool is_number(const char *text, const char *end, double value) {
-  return end != text && fabs(value) <= MAX; /* false of what is none */
+  return end != text && fabs(value) <= MAX; /* false for NaN */
 }
 
-/* Reads `SECONDS COMMAND NUMBERS`; false where the text is something else. */
+/* Reads `SECONDS COMMAND NUMBERS`; false if the text has another form. */
 static bool parse_line(char *text, script_line *line) {
   char *rest, *word, *end;
   line->at_s = strtod(text, &rest);
@@ -56,8 +56,8 @@ static bool parse_line(char *text, script_line *line) {
   return false;
 }
 
-/* Reads the next line, whatever its length; what is behind a '#', or too long for a command, is dropped, and
- * `whole` tells of the latter. */
+/* Reads the next line of any length; drops comments after '#' and what is too long for a command, which
+ * `whole` reports. */
 static bool read_line(FILE *file, char *text, size_t size, bool *whole) {
   size_t length = 0;
   bool comment = false, any = false;
@@ -102,7 +102,7 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
   return good;
 }
 
-/* Whether there is a thing of that number; -1 is none of them, where that may be said. */
+/* Whether an item with that index exists; -1 means none, if allowed. */
 static bool has(const cli_call *call, const char *path, const script_line *line, double number,
     const char *what, uint32_t count, bool none) {
   if ((number >= 0 && number < count && number == floor(number)) || (none && number == -1)) return true;

@@ -1,4 +1,4 @@
-/* A small text of commands over time, one a line: `SECONDS COMMAND NUMBERS`, in order of time. */
+/* A text of timed commands, one per line: `SECONDS COMMAND NUMBERS`, in order of time. */
 #ifndef SCRIPT_H
 #define SCRIPT_H
 
@@ -21,30 +21,30 @@ typedef struct script_line {
   double at_s;
   script_kind kind;
   double numbers[5];
-  int count;       /* of them */
-  unsigned number; /* of the line in the file */
+  int count;       /* number of arguments */
+  unsigned number; /* number of the line in the file */
 } script_line;
 
 typedef struct script {
   script_line *lines;
   uint32_t count, next;
   double up;             /* vertical speed of the last drive, m/s */
-  double speed, since_s; /* that the character is driven at by the last drive, m/s, and when that came */
+  double speed, since_s; /* m/s, speed of the last drive, and its start time */
 } script;
 
-/* False, with a message that names the line, where the file cannot be read or a line is not understood;
- * *status then says whose fault it is. */
+/* False, with a message that names the line, if the file cannot be read or a line is invalid; *status then
+ * has the kind of error. */
 bool script_load(script *s, cli_call *call, const char *path, int *status);
 void script_free(script *s);
 
-/* Whether the file has the chains, clips and legs that the script names; false, with a message. */
+/* Whether the file has the chains, clips and legs of the script; false, with a message. */
 bool script_fits(const script *s, const cli_call *call, const char *path, const sbf_asset *asset);
 
 /* Drives the character from `time_s` on: forward, sideways and up, m/s, and turning, rad/s. */
 void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,
     double sideways, double turn, double up);
 
-/* Plays what is due at `time_s`. */
+/* Executes commands that are due at `time_s`. */
 void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character);
 
 #endif

@@ -5,11 +5,11 @@
 
 typedef struct location {
   sbf_vec3 at;
-  uint32_t mesh, vertex; /* vertex in the skin */
+  uint32_t mesh, vertex; /* index in the skin */
 } location;
 
 struct seams {
-  location *sorted; /* by mesh and place at rest, of the same the first vertex first */
+  location *sorted; /* sorted by mesh and rest position, ties by vertex */
   uint32_t count;
   double gap_m;
 };

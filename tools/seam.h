@@ -1,4 +1,4 @@
-/* How far a skin comes apart where it is joined at rest. */
+/* Measures gaps in a skin between vertices that coincide at rest. */
 #ifndef SEAM_H
 #define SEAM_H
 
@@ -6,14 +6,14 @@
 
 typedef struct seams seams;
 
-/* NULL where memory runs out. */
+/* NULL if memory runs out. */
 seams *seams_create(const session *s);
 void seams_destroy(seams *all);
 
-/* Measures the present skin: `skin` has the vertices of all render meshes one after the other. */
+/* Measures the current skin: `skin` has the vertices of all render meshes, concatenated. */
 void seams_measure(seams *all, const sbf_vec3 *skin);
 
-/* m: the greatest distance, at any time, between vertices of one mesh that are in one place at rest. */
+/* m: maximum distance over time between vertices of one mesh that coincide at rest. */
 double seams_gap(const seams *all);
 
 #endif

@@ -10,13 +10,14 @@
 #include "sbrun/detail.h"
 #include "tune/yardstick.h"
 
-/* Coarsest first; the finest that all are measured against. */
+/* Coarsest first; the last is the reference of all. */
 static const uint32_t sizes[] = {40, 80, 160};
 enum { SIZE_COUNT = sizeof sizes / sizeof *sizes, FINEST = 640 };
 static const double NEAR_FRACTION = 0.01, MIN_VOLUME = 0.9, MAX_STRAIN = 0.5;
-static const double ALIKE = 1.15;         /* ratio of volumes of left and right */
-static const double SKIN_VISITS = 2;      /* that the skin takes for a vertex, with its normal: 8 to 14 ns */
-static const double SOFT_FRACTION = 0.25; /* of the budget that is for soft parts, whatever the skin takes */
+static const double ALIKE = 1.15;    /* maximum ratio of volumes of left and right */
+static const double SKIN_VISITS = 2; /* element visits per skin vertex with its normal: 8 to 14 ns */
+static const double SOFT_FRACTION =
+    0.25; /* minimum fraction of the budget for soft parts, whatever the skin costs */
 
 typedef struct candidate {
   uint32_t elements;
@@ -39,7 +40,7 @@ bool section_budget_applies(const sbf_asset *source, const sbf_build_options *bu
          build->sections == SBF_BUILD_SECTIONS_AUTOMATIC;
 }
 
-/* Of the skin alone, with its normals. */
+/* Cost of the skin with its normals. */
 static double skin_visits_of(const sbf_asset *asset) {
   double skin = 0;
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)
@@ -47,7 +48,7 @@ static double skin_visits_of(const sbf_asset *asset) {
   return skin;
 }
 
-/* Of a tick of the whole character, with its skin; NAN where the runtime refuses it. */
+/* Cost of a tick of the whole character with its skin; NAN if the runtime does not support it. */
 static double visits_of(const sbf_asset *asset) {
   sbr_model *model = NULL;
   sbf_diagnostic why;
@@ -75,7 +76,7 @@ static bool is_near(const candidate *c, double size_m) {
   return is_firm(c) && c->is.off.p99_m <= NEAR_FRACTION * size_m;
 }
 
-/* What keeps its shape goes before what is near. */
+/* Valid shapes take precedence over accuracy. */
 static bool is_better(const candidate *c, const candidate *than) {
   if (!than->elements || !than->is.sound) return true;
   if (!c->is.sound || is_firm(c) != is_firm(than)) return c->is.sound && is_firm(c);
@@ -89,7 +90,7 @@ static void take(section_budget *choice, const candidate *c, double size_m) {
   choice->near = c->is.sound && is_near(c, size_m);
 }
 
-/* One number of elements; `*best` is the better of the two. */
+/* Evaluates one number of elements; `*best` is the better of the two. */
 static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elements,
     const tune_yardstick *yard, candidate *best, sbf_diagnostic *error) {
   candidate c = {.elements = elements, .visits = visits};
@@ -98,8 +99,8 @@ static sbf_status try_one(const sbf_asset *built, double visits, uint32_t elemen
   return status;
 }
 
-/* The cheapest within the budget that is near the finest, else the best; elements stay 0 where none is
- * within. */
+/* Selects the cheapest within the budget that is close to the finest, else the best; elements stay 0 if
+ * none is within. */
 static sbf_status choose(
     const sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   sbf_asset *finest = NULL;
@@ -127,7 +128,7 @@ static sbf_status choose(
   return status;
 }
 
-/* Only a part that the conversion proposed: what somebody asked for stays soft. */
+/* Only parts that the conversion proposed: requested parts stay soft. */
 static bool may_leave_out(const sbf_asset *source, int32_t bone) {
   for (uint32_t i = source->section_recipes.count; i-- > 0;)
     if (source->section_recipes.at[i].bone == bone)
@@ -136,10 +137,10 @@ static bool may_leave_out(const sbf_asset *source, int32_t bone) {
 }
 
 static sbf_section_recipe *recipe_at(sbf_asset *source, uint32_t index) {
-  return (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[index]; /* the caller's */
+  return (sbf_section_recipe *)(uintptr_t)&source->section_recipes.at[index]; /* owned by the caller */
 }
 
-/* Its name goes to what is reported. */
+/* Adds its name to the report. */
 static void leave_out(sbf_asset *source, int32_t bone, section_budget *choice) {
   for (uint32_t i = 0; i < source->section_recipes.count; i++)
     if (recipe_at(source, i)->bone == bone) recipe_at(source, i)->rigid = true;
@@ -155,8 +156,8 @@ static double volume_of(const sbf_soft_body *body) {
   return fabs(is.volume);
 }
 
-/* The smallest section becomes rigid, and those of about its size, as left and right; false: there is none.
- */
+/* Makes the smallest section rigid, with those of similar size such as left and right; false if there is
+ * none. */
 static bool leave_out_smallest(sbf_asset *source, const sbf_asset *built, section_budget *choice) {
   double min = INFINITY;
   uint32_t before = choice->left_out;
@@ -171,7 +172,7 @@ static bool leave_out_smallest(sbf_asset *source, const sbf_asset *built, sectio
   return choice->left_out > before;
 }
 
-/* Parts become rigid until the coarsest of all fits. */
+/* Makes parts rigid until the coarsest choice fits. */
 static sbf_status fit(
     sbf_asset *source, const sbf_build_options *build, section_budget *choice, sbf_diagnostic *error) {
   choice->elements = sizes[0];
@@ -220,7 +221,7 @@ void section_budget_state_costs(sbf_asset *built) {
   for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
     const sbf_soft_body *body = &built->soft_bodies.at[i];
     double cost = chart_body_visits(model, built, i, &setting);
-    sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at; /* the build's own */
+    sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at; /* owned by the build */
     if (body->derived != SBF_NONE && body->levels.count && isfinite(cost))
       level->simulation.cost = (float)cost;
   }

@@ -1,40 +1,41 @@
-/* How fine the sections of a skin have to be, and how many there may be, within a budget. */
+/* Chooses the resolution and number of a skin's sections within a budget. */
 #ifndef SECTION_BUDGET_H
 #define SECTION_BUDGET_H
 
 #include "sbfmt/build.h"
 
-/* Time of an element visit on the reference machine, ns (sbrun/detail.h): a budget in microseconds is one in
- * element visits, which are the same on every machine. */
+/* Time of an element visit on the reference machine, ns (sbrun/detail.h): converts a budget in
+ * microseconds to element visits, which are the same on every machine. */
 #define SECTION_BUDGET_NS_PER_VISIT 6.0
 
 typedef struct section_budget {
-  uint32_t elements;   /* tetrahedra of the lattice that a section's springs follow; 0: nothing to choose */
-  double visits;       /* of the whole character with skin, a tick */
-  double skin_visits;  /* of the skin alone */
-  double max_visits;   /* the budget, or the skin and a quarter of it, where that is more */
-  bool exceeds;        /* the latter */
-  double p99_fraction; /* of the size: 99 of 100 vertices and ticks are no farther off the finest */
-  uint32_t finest;     /* elements of that */
-  uint32_t soft;       /* parts that are soft in the end */
-  bool near;           /* within 1 % of the size, nine tenths of its volume, strains of half */
-  uint32_t left_out;   /* parts that were made rigid to keep the budget */
-  char names[160];     /* of those */
+  uint32_t
+      elements; /* tetrahedra of the lattice whose edges are the springs of a section; 0: nothing to choose */
+  double visits;       /* per tick, of the whole character with skin */
+  double skin_visits;  /* of the skin only */
+  double max_visits;   /* the budget, or the skin plus a quarter of the budget if that is more */
+  bool exceeds;        /* the latter applies */
+  double p99_fraction; /* 99th percentile over vertices and ticks of the distance from the finest, as a
+                          fraction of the size */
+  uint32_t finest;     /* number of elements of the finest */
+  uint32_t soft;       /* final number of soft parts */
+  bool near;           /* within 1 % of the size, at least nine tenths of the volume, strains up to a half */
+  uint32_t left_out;   /* parts made rigid to keep the budget */
+  char names[160];     /* names of those */
 } section_budget;
 
-/* Whether there is anything to choose: soft parts of a skin that are to be cut, and nothing else that is
- * soft. */
+/* Whether there is a choice: soft parts of a skin that will be cut, and no other soft bodies. */
 bool section_budget_applies(const sbf_asset *source, const sbf_build_options *build);
 
-/* Builds the sections with several numbers of elements, runs each through the character's own walk, hop and
- * shake, and takes the cheapest that stays near the finest; else the best within the budget. Where nothing is
- * within it, the smallest parts that the conversion proposed become rigid until it is kept. A quarter of the
- * budget is for soft parts even where the skin takes all of it. Writes the choice into the section recipes of
+/* Builds the sections with several numbers of elements, runs each with the character's own walk, hop and
+ * shake, and selects the cheapest that is close to the finest; else the best within the budget. If none is
+ * within it, makes the smallest parts that the conversion proposed rigid until one is. A quarter of the
+ * budget is for soft parts even if the skin needs all of it. Writes the choice into the section recipes of
  * `source`, which is the caller's own. */
 sbf_status section_budget_choose(sbf_asset *source, const sbf_build_options *build, double budget_us,
     section_budget *choice, sbf_diagnostic *error);
 
-/* States the cost of each level in element visits, where section recipes state elements. */
+/* Stores the cost of each level in element visits if section recipes have elements. */
 void section_budget_state_costs(sbf_asset *built);
 
 #endif

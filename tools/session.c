@@ -9,10 +9,10 @@
 #include "sbrun/rigid.h"
 #include "standing.h"
 
-/* A clip begins in another pose than that of rest: bones take so long to go there. */
+/* A clip begins in another pose than the rest pose: time to blend. */
 static const float CLIP_FADE_S = 0.5f;
 
-/* Numbers separated by commas; false where there are not `count` of them. */
+/* Numbers separated by commas; false unless there are `count`. */
 static bool parse_numbers(const char *text, int count, double *numbers) {
   for (int i = 0; i < count; i++) {
     char *end;
@@ -75,7 +75,7 @@ static bool parse_instructions(cli_call *call, sbr_instructions *instructions) {
   return true;
 }
 
-/* By name or id, else by number from 0; SBF_NONE: there is no such clip. */
+/* By name or id, else by number from 0; SBF_NONE if there is no such clip. */
 static int32_t find_clip(const sbf_asset *asset, const char *text) {
   for (uint32_t i = 0; i < asset->clips.count; i++)
     if (strcmp(asset->clips.at[i].name, text) == 0 || strcmp(asset->clips.at[i].id, text) == 0)
@@ -86,7 +86,7 @@ static int32_t find_clip(const sbf_asset *asset, const char *text) {
                                                                                   : SBF_NONE;
 }
 
-/* The clip that is to be played, whose bones are left to it: by gait and chains. */
+/* The played clip controls its bones, instead of gait and chains. */
 static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
   const char *text = cli_value(call, "--clip");
   *clip = SBF_NONE;
@@ -156,7 +156,7 @@ static void loosen_rigid_parts(session *s) {
         s->world, s->character, -1, s->settings.driven ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
 }
 
-/* What the options ask of it from the start, unless a recording does. */
+/* Applies the initial options, unless a recording does. */
 static void begin(session *s) {
   const session_settings *set = &s->settings;
   if (s->recording.bytes) {
@@ -269,7 +269,7 @@ bool session_step_by(session *s, double seconds) {
 
 bool session_step(session *s) {
   if (!session_step_by(s, 1 / s->fps)) return false;
-  if (!s->recording.bytes) s->time_s = s->frame / s->fps; /* without the sum's rounding */
+  if (!s->recording.bytes) s->time_s = s->frame / s->fps; /* avoids accumulated rounding */
   return true;
 }
 

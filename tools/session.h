@@ -1,4 +1,4 @@
-/* One character brought to life as the options of `run` and `render` say: loaded, placed, driven, stepped. */
+/* One character simulated with the options of `run` and `render`: loaded, placed, driven, stepped. */
 #ifndef SESSION_H
 #define SESSION_H
 
@@ -36,17 +36,17 @@
     "--script", "FILE", "timed commands; see docs/scripts.md"                                                \
   }
 
-/* What the options say of the world and of the character in it. */
+/* Settings of the world and its character from the options. */
 typedef struct session_settings {
   sbr_model_options model;
   double drive[3]; /* m/s, rad/s, m/s upwards */
   double raise;    /* m */
   double gravity;  /* m/s^2, downward */
-  double strength; /* of `driven`, as sbr_rigid_drive has it */
+  double strength; /* of `driven`, as in sbr_rigid_drive */
   long threads;
   int32_t clip; /* SBF_NONE: none */
   bool hold;
-  bool ragdoll, driven; /* rigid bodies swing by their joints alone, or are drawn to their pose */
+  bool ragdoll, driven; /* rigid bodies are simulated with free joints, or driven to their pose */
 } session_settings;
 
 typedef struct session {
@@ -64,8 +64,8 @@ typedef struct session {
   uint32_t frame_count, frame;
 } session;
 
-/* `seconds` and `fps` are what the verb takes where the call does not say. False, with a message printed and
- * *status set, where the options or the file do not allow it. */
+/* `seconds` and `fps` are the verb's defaults. False, with a message printed and *status set, if the
+ * options or the file are invalid. */
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status);
 void session_close(session *s);
 
@@ -73,14 +73,13 @@ void session_close(session *s);
  * end. After a failure the session can only be closed. */
 sbf_status session_restart(session *s, const cli_call *call, sbf_diagnostic *error);
 
-/* Plays the script's commands that are due, or what was recorded, and advances by one frame; false after the
- * last. */
+/* Executes the script's due commands, or the recording, and advances by one frame; false after the last. */
 bool session_step(session *s);
-/* The same for a frame of so many seconds, > 0, beyond the planned end too. A replayed frame has its recorded
- * length. */
+/* The same for a frame of this length in seconds, > 0, also beyond the planned end. A replayed frame has
+ * its recorded length. */
 bool session_step_by(session *s, double seconds);
 
-/* After the last: ends a recording; false, with a message printed, where it could not be written. */
+/* After the last frame: ends a recording; false, with a message printed, if it could not be written. */
 bool session_finish(session *s, const cli_call *call);
 
 #endif

@@ -3,13 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The triangles of one mesh that bear one material. */
+/* The triangles of one mesh with one material. */
 typedef struct patch {
-  uint32_t *triangles, *whole;          /* all, and room for those that no tear has opened */
-  uint32_t *polygons;                   /* (triangle_count) which each is of */
-  sbf_vec2 *uvs, *whole_uvs;            /* (3 triangle_count) likewise, on the image; NULL: there is none */
-  draw_colour *colours, *whole_colours; /* (3 triangle_count) likewise; NULL: the look's */
-  uint32_t *corners, *whole_corners; /* (3 triangle_count) likewise, of the polygons; NULL: no hard edges */
+  uint32_t *triangles, *whole;          /* all, and a buffer for those that are not torn */
+  uint32_t *polygons;                   /* (triangle_count) polygon of each */
+  sbf_vec2 *uvs, *whole_uvs;            /* (3 triangle_count) the same for texture coordinates; NULL: none */
+  draw_colour *colours, *whole_colours; /* (3 triangle_count) the same for colours; NULL: the material's */
+  uint32_t *corners,
+      *whole_corners; /* (3 triangle_count) the same for corners of the polygons; NULL: no hard edges */
   uint32_t triangle_count;
   skin_material style;
 } patch;
@@ -18,15 +19,15 @@ typedef struct mesh_style {
   patch *patches;
   uint32_t patch_count;
   uint8_t *torn;  /* (polygons) */
-  uint32_t level; /* of the mesh that is shown */
+  uint32_t level; /* displayed level of the mesh */
 } mesh_style;
 
 struct shown_skin {
   mesh_style *meshes;
   uint32_t mesh_count;
-  sbf_vec3 *positions, *normals; /* room for the largest mesh */
-  sbf_vec3 *of_corners;          /* room for the corners of the largest mesh or level with hard edges */
-  sbf_vec3 *of_triangles;        /* likewise for those of its triangles, three each */
+  sbf_vec3 *positions, *normals; /* buffers for the largest mesh */
+  sbf_vec3 *of_corners;          /* buffer for the corners of the largest mesh or level with hard edges */
+  sbf_vec3 *of_triangles;        /* the same for its triangles, three each */
   uint32_t capacity, corner_capacity;
 };
 
@@ -34,11 +35,11 @@ struct shown_skin {
 typedef struct shown_polygons {
   sbf_u32_list sizes, points, materials;
   uint32_t *position_of; /* (vertices of the mesh); NULL: all are written */
-  uint32_t *corner_of;   /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
+  uint32_t
+      *corner_of; /* (displayed corners) corner of the full mesh with the same attributes; NULL: the same */
 } shown_polygons;
 
-/* A level may leave unsaid which corner of the full mesh each of its own looks like: then the first there is.
- */
+/* A level may have no map of its corners to the full mesh: then uses the first corner at each point. */
 static bool find_corners(const sbf_render_mesh *mesh, const sbf_render_level *from, shown_polygons *shown) {
   const sbf_u32_list *points = &mesh->mesh.polygon_points;
   uint32_t *first = malloc((mesh->mesh.positions.count + 1u) * sizeof *first);
@@ -71,7 +72,7 @@ static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, sho
   return good && find_corners(mesh, from, shown);
 }
 
-/* Cuts the polygons of one material slot into fans of triangles. */
+/* Triangulates the polygons of one material slot as fans. */
 static bool cut_patch(
     const sbf_render_mesh *mesh, const shown_polygons *shown, bool hard, uint32_t slot, patch *p) {
   size_t max = 3 * (size_t)shown->points.count + 1;
@@ -114,7 +115,7 @@ static bool cut_patch(
   return true;
 }
 
-/* Whether corners of polygons state normals that differ at one point by more than a degree. */
+/* Whether normals of corners at one point differ by more than a degree. */
 static bool has_hard_edges(const sbf_render_mesh *mesh, bool *hard) {
   const sbf_u32_list *points = &mesh->mesh.polygon_points, *of = &mesh->normal_corners;
   *hard = false;
@@ -152,7 +153,7 @@ static bool style_of_mesh(
   return good;
 }
 
-/* Room for what is written anew in each frame. */
+/* Allocates the buffers that are rewritten in each frame. */
 static bool reserve(shown_skin *skin, const sbf_asset *asset) {
   uint32_t corners = 0;
   skin->capacity = 1;
@@ -213,7 +214,7 @@ void shown_skin_destroy(shown_skin *skin) {
   free(skin);
 }
 
-/* Those of the patch's triangles that no tear has opened, in p->whole and its like; returns how many. */
+/* Copies the patch's triangles that are not torn to p->whole and related buffers; returns their number. */
 static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < p->triangle_count; i++) {
@@ -228,7 +229,7 @@ static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
   return count;
 }
 
-/* The normals of the corners of so many whole triangles; NULL: the patch has no hard edges. */
+/* Normals of the corners of these triangles; NULL: the patch has no hard edges. */
 static const sbf_vec3 *normals_of(shown_skin *skin, const patch *p, uint32_t triangles) {
   if (!p->corners) return NULL;
   for (uint32_t k = 0; k < 3 * triangles; k++) skin->of_triangles[k] = skin->of_corners[p->whole_corners[k]];

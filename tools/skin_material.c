@@ -132,7 +132,7 @@ skin_material skin_material_of(
   return style;
 }
 
-/* As sections 7 of the specification has it: lower left coordinates to those of glTF and back. */
+/* As in section 7 of the specification: converts lower left coordinates to glTF's and back. */
 static sbf_vec2 transformed(const sbf_uv_transform *by, sbf_vec2 uv) {
   double c = cos((double)by->rotation), s = sin((double)by->rotation);
   double u = (double)by->scale.x * (double)uv.x, v = (double)by->scale.y * (1 - (double)uv.y);

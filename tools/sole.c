@@ -4,16 +4,16 @@
 #include <stdlib.h>
 
 enum { MAX_LEGS = 16 };
-static const float FIRM = 0.99f, MOSTLY = 0.5f; /* shares of a vertex that the foot carries */
-static const double BAND = 0.12;                /* the lowest part of a foot's height is its sole */
+static const float FIRM = 0.99f, MOSTLY = 0.5f; /* weights of a vertex on the foot */
+static const double BAND = 0.12;                /* fraction of a foot's height: its sole */
 
 typedef struct sole {
-  uint32_t *vertices; /* places in the skin; the first `firm_count` are the foot's alone */
-  double *rest_y;     /* height of each above the lowest, at rest */
+  uint32_t *vertices; /* indices in the skin; the first `firm_count` have weights of the foot only */
+  double *rest_y;     /* rest height of each above the lowest */
   uint32_t count, firm_count;
-  double rest_low; /* of the lowest vertex against the ground at rest */
+  double rest_low; /* rest height of the lowest vertex above the ground */
   bool planted;
-  double x, z; /* where the stance began */
+  double x, z; /* start of the stance */
 } sole;
 
 struct soles {
@@ -34,7 +34,7 @@ static uint32_t skin_offset(const sbf_asset *asset, int32_t mesh) {
   return offset;
 }
 
-/* Vertices of the skin carried mostly by a bone or what hangs on it. */
+/* Vertices of the skin that follow mostly a bone or its descendants. */
 static bool gather(const sbf_asset *asset, int32_t foot, sole *s) {
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
@@ -57,8 +57,8 @@ static bool gather(const sbf_asset *asset, int32_t foot, sole *s) {
   return true;
 }
 
-/* The same of skinned meshes, where nothing soft hangs on the foot: those of which it carries more than
- * `above` and at most `up_to`. */
+/* The same for skinned meshes, if the foot has no soft parts: those with a weight on it above `above` and
+ * at most `up_to`. */
 static bool gather_skinned(const sbf_asset *asset, int32_t foot, float above, float up_to, sole *s) {
   for (uint32_t m = 0; m < asset->render_meshes.count; m++) {
     const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
@@ -76,7 +76,7 @@ static bool gather_skinned(const sbf_asset *asset, int32_t foot, float above, fl
   return true;
 }
 
-/* What gives as the leg bends comes last. */
+/* Vertices that also follow the leg come last. */
 static bool gather_firm_first(const sbf_asset *asset, int32_t foot, sole *s) {
   if (!gather_skinned(asset, foot, FIRM, INFINITY, s)) return false;
   s->firm_count = s->count;
@@ -94,7 +94,7 @@ static double rest_height(const sbf_asset *asset, uint32_t vertex) {
   return (double)rest_position(asset, vertex).y;
 }
 
-/* Keeps the lowest vertices and notes their heights. */
+/* Keeps the lowest vertices and records their heights. */
 static bool keep_lowest(const sbf_asset *asset, sole *s) {
   double low = INFINITY, high = -INFINITY;
   for (uint32_t i = 0; i < s->count; i++) {

@@ -1,28 +1,27 @@
-/* What a walk does to the ground, measured on the skin: the sole of each foot, its slip and how deep it goes.
- */
+/* Measures a walk's contact with the ground on the skin: slip and penetration of each foot's sole. */
 #ifndef SOLE_H
 #define SOLE_H
 
 #include "session.h"
 
 typedef struct sole_report {
-  double slip_m;        /* farthest that a planted sole moved over the ground during one stance */
-  double penetration_m; /* deepest that a sole went below the ground, its rest height taken off */
+  double slip_m;        /* maximum distance that a planted sole moved over the ground during one stance */
+  double penetration_m; /* maximum depth of a sole below the ground, relative to its rest height */
 } sole_report;
 
 typedef struct soles soles;
 
-/* NULL where the character has no legs, or memory runs out. */
+/* NULL if the character has no legs, or memory runs out. */
 soles *soles_create(const session *s);
 void soles_destroy(soles *soles);
 
-/* Measures the present skin: `skin` has the vertices of all render meshes one after the other. */
+/* Measures the current skin: `skin` has the vertices of all render meshes, concatenated. */
 void soles_measure(soles *soles, const session *s, const sbf_vec3 *skin);
-/* Places in the skin of a leg's sole; returns how many. */
+/* Indices in the skin of a leg's sole; returns their number. */
 uint32_t soles_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
-/* Those of them with weights of the foot only: others move as the leg bends. */
+/* Those with weights of the foot only: others move as the leg bends. */
 uint32_t soles_firm_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
-/* Its radius around its centre at rest, seen from above, m; 0: no skin follows it. */
+/* Radius around its centre at rest, seen from above, m; 0: it has no skin. */
 double soles_radius(const soles *soles, const session *s, uint32_t leg);
 sole_report soles_report(const soles *soles);
 

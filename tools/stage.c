@@ -10,14 +10,15 @@
 #include "sole.h"
 
 typedef struct body_style {
-  sbf_uint2 *edges; /* of its tetrahedra, each once */
+  sbf_uint2 *edges; /* unique edges of its tetrahedra */
   uint32_t edge_count;
 } body_style;
 
 enum { MAX_LEGS = 16, PRINTS = 64 };
-static const float AROUND = 1.3f; /* of a sole: its footprint is drawn so wide, to be seen round it */
+static const float AROUND =
+    1.3f; /* radius of a drawn footprint relative to the sole, so that it is visible around it */
 
-/* Where a foot came down. */
+/* Position where a foot touched down. */
 typedef struct footprint {
   sbf_vec3 position, normal;
   float radius; /* m */
@@ -26,17 +27,17 @@ typedef struct footprint {
 
 struct stage {
   footprint prints[PRINTS];
-  uint32_t print_count;        /* ever; the last PRINTS are kept */
-  uint32_t print_of[MAX_LEGS]; /* of all ever, the last that each has left */
+  uint32_t print_count;        /* total number; the last PRINTS are kept */
+  uint32_t print_of[MAX_LEGS]; /* index of each leg's last footprint */
   bool was_planted[MAX_LEGS];
   float sole_radii[MAX_LEGS]; /* m, at rest */
   unsigned show;
   shown_skin *skin;
   body_style *bodies;
   uint32_t body_count;
-  sbf_vec3 *positions; /* room for the points of the largest level */
+  sbf_vec3 *positions; /* buffer for the points of the largest level */
   sbr_transform *bones;
-  draw_colour *colours; /* room for the largest set of springs */
+  draw_colour *colours; /* buffer for the largest set of springs */
   draw_colour_map strains;
   uint32_t capacity;
 };
@@ -45,7 +46,7 @@ static int compare_edges(const void *a, const void *b) {
   return memcmp(a, b, sizeof(sbf_uint2));
 }
 
-/* The level of a body that the session simulates, as far as its points' number tells. */
+/* The level of a body that the session simulates, identified by its number of points. */
 static const sbf_level *level_of(const session *s, uint32_t b) {
   const sbf_soft_body *body = &s->asset->soft_bodies.at[b];
   uint32_t count = sbr_character_get_points(s->world, s->character, b, NULL, 0);
@@ -211,7 +212,7 @@ static void show_bones(stage *st, const session *s, draw_scene *scene) {
   }
 }
 
-/* The bone below a leg's first, or that one where its foot hangs on it. */
+/* The bone below a leg's first, or the first itself if its foot is its child. */
 static int32_t leg_knee(const sbf_asset *asset, uint32_t leg) {
   const sbf_ik_chain *chain = &asset->ik_chains.at[asset->gaits.at[0].legs.at[leg].ik];
   int32_t knee = asset->bones.at[chain->end].parent >= 0 ? asset->bones.at[chain->end].parent : chain->end;
@@ -221,7 +222,7 @@ static int32_t leg_knee(const sbf_asset *asset, uint32_t leg) {
   return knee;
 }
 
-/* Those of feet that still stand there can be seen through what stands before them. */
+/* Footprints of planted feet are visible through objects in front of them. */
 static void show_prints(const stage *st, const sbr_leg_state *legs, draw_scene *scene) {
   uint32_t first = st->print_count > PRINTS ? st->print_count - PRINTS : 0;
   for (uint32_t p = first; p < st->print_count; p++) {
@@ -232,14 +233,14 @@ static void show_prints(const stage *st, const sbr_leg_state *legs, draw_scene *
   }
 }
 
-/* A line, and a dot where it ends. */
+/* A line with a dot at its end. */
 static void mark_line(draw_scene *scene, sbf_vec3 from, sbf_vec3 to, float dot, draw_colour colour) {
   draw_scene_add_mark(scene, &(draw_line){from, to, colour, colour, 3});
   draw_scene_add_mark(scene, &(draw_line){to, to, colour, colour, dot});
 }
 
-/* Footprints as rings; from every knee a line to its pole; of a foot in the air where it goes, and the ray
- * from it down to the ground. */
+/* Footprints as rings; a line from every knee to its pole; for a foot in the air its target and the ray
+ * down to the ground. */
 static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   sbr_leg_state legs[MAX_LEGS];
   uint32_t count = sbr_character_get_legs(s->world, s->character, legs, MAX_LEGS);
@@ -263,7 +264,7 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
     st->was_planted[i] = legs[i].planted;
   }
   show_prints(st, legs, scene);
-  for (uint32_t i = 0; i < count; i++) /* bones are in the world */
+  for (uint32_t i = 0; i < count; i++) /* bones are in world space */
     mark_line(scene, st->bones[leg_knee(s->asset, i)].position, legs[i].pole, 9, draw_colour_of_pole());
   for (uint32_t i = 0; i < count; i++) {
     if (legs[i].planted) continue;
@@ -278,7 +279,7 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
   draw_scene_add_legend(scene, "where a foot came down", draw_colour_of_contact());
 }
 
-/* A hull's polygons as triangles, fans of each. It lies where its bone is, or where it went by itself. */
+/* A hull's polygons as triangle fans, at its bone, or where it was simulated. */
 static void show_hull(stage *st, const session *s, sbf_vec3 origin, uint32_t number, draw_scene *scene) {
   const sbf_rigid_body *body = &s->asset->rigid_bodies.at[number];
   const sbf_polygon_mesh *hull = body->hull;
@@ -313,7 +314,7 @@ static sbf_vec3 single(sbr_double3 x) {
   return (sbf_vec3){(float)x.x, (float)x.y, (float)x.z};
 }
 
-/* Over all else: contacts and joints lie inside of bodies. */
+/* On top of everything: contacts and joints are inside bodies. */
 static void add_debug_line(void *user, sbr_double3 from, sbr_double3 to, uint32_t color) {
   draw_colour colour = draw_colour_rgb(color);
   draw_scene_add_mark(user, &(draw_line){single(from), single(to), colour, colour, 1.5f});

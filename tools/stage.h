@@ -1,5 +1,4 @@
-/* The scene that the renderer draws of a session: the character's present skin, and its parts under the skin.
- */
+/* The scene of a session for the renderer: the character's current skin, and its parts under the skin. */
 #ifndef STAGE_H
 #define STAGE_H
 
@@ -14,22 +13,22 @@ enum {
   STAGE_BONES = 8,
   STAGE_HULLS = 16,
   STAGE_STRAIN = 32,    /* springs coloured by strain rather than kind */
-  STAGE_FEET = 64,      /* footprints, where steps go, rays to the ground */
+  STAGE_FEET = 64,      /* footprints, targets of steps, rays to the ground */
   STAGE_CONTACTS = 128, /* contact points and impulses */
   STAGE_JOINTS = 256,   /* frames of joints and their limits */
-  STAGE_BOUNDS = 512,   /* boxes around soft bodies that are stepped together; grey where they sleep */
+  STAGE_BOUNDS = 512,   /* boxes around soft bodies that are stepped together; grey if asleep */
   STAGE_LAYER_COUNT = 10
 };
 
 typedef struct stage stage;
 
-/* `images` stay with the caller, until the stage is gone. `render_level` of each mesh: 0 the full one; where
- * there are fewer, the last. NULL: no memory. */
+/* `images` must outlive the stage. `render_level` of each mesh: 0 the full one; the last if there are
+ * fewer. NULL if memory runs out. */
 stage *stage_create(const session *s, const skin_images *images, unsigned show, uint32_t render_level);
 void stage_destroy(stage *st);
 
-/* Fills the scene with the present frame, ground included. Places are relative to where the world's origin
- * is. */
+/* Fills the scene with the current frame, including the ground. Positions are relative to the world's
+ * origin. */
 void stage_show(stage *st, const session *s, draw_scene *scene);
 
 #endif

@@ -16,7 +16,7 @@ static bool is_loose(const sbf_asset *asset) {
   return asset->bones.count == 0 && asset->soft_bodies.count > 0;
 }
 
-/* The highest ground below the box, looked at in a grid of places. */
+/* Highest ground below the box, sampled on a grid. */
 static double highest(const sbr_ground *ground, sbf_vec3 low, sbf_vec3 high) {
   enum { GRID_POINTS = 33 };
   double top = 0;

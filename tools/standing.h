@@ -1,12 +1,12 @@
-/* How high a character must be set for none of it to begin below the ground. */
+/* Height to raise a character so that nothing of it starts below the ground. */
 #ifndef STANDING_H
 #define STANDING_H
 
 #include "sbfmt/model.h"
 #include "sbrun/sbrun.h"
 
-/* m, >= 0, for a character at the world's origin. Only bodies that nothing holds are lifted: bones stand
- * where the file puts them, and what is pinned to the world hangs there. */
+/* m, >= 0, for a character at the world's origin. Only considers bodies without pins: bones keep the
+ * file's positions, and so do points pinned to the world. */
 double standing_lift(const sbf_asset *asset, const sbr_ground *ground);
 
 #endif

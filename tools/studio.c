@@ -73,7 +73,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
 }
 
 sbf_status studio_dress(studio *st, sbf_diagnostic *error) {
-  /* A skin that is seen through shows its colours alone. */
+  /* A transparent skin has colours only. */
   if (!st->has_images && !(st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET))) {
     skin_images_load(&st->images, st->s.asset, st->call->inputs[0], cli_report, st->call);
     st->has_images = true;
@@ -83,7 +83,7 @@ sbf_status studio_dress(studio *st, sbf_diagnostic *error) {
   return st->stage ? SBF_OK : out_of_memory(error);
 }
 
-/* What there is to see of it, where nobody says what to show. */
+/* Default selection of the visible parts. */
 static unsigned usual_show(const sbf_asset *asset) {
   if (asset->render_meshes.count || asset->soft_bodies.count) return STAGE_SURFACE;
   return asset->bones.count ? STAGE_BONES : STAGE_HULLS;

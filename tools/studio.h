@@ -20,7 +20,7 @@
 
 typedef struct studio {
   session s;
-  unsigned show; /* STAGE_SURFACE and so on; 0 until studio_open where the call does not say */
+  unsigned show; /* STAGE_SURFACE and so on; 0 until studio_open if the call does not set it */
   uint32_t render_level;
   float yaw, pitch; /* initial direction of the camera, rad */
   stage *stage;
@@ -33,12 +33,12 @@ typedef struct studio {
   cli_call *call;
 } studio;
 
-/* By STUDIO_OPTIONS, and --size as WxH, which is `width` and `height` where the call does not say. False,
- * with a message, where they are wrong. */
+/* Reads STUDIO_OPTIONS, and --size as WxH with defaults `width` and `height`. False, with a message, if
+ * they are invalid. */
 bool studio_options(studio *st, cli_call *call);
 bool studio_size(cli_call *call, uint32_t *width, uint32_t *height);
 
-/* For the session, which is open, on a canvas, which the studio closes; NULL is ignored, and fails. */
+/* For an open session, on a canvas, which the studio closes; a NULL canvas fails. */
 sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diagnostic *error);
 /* Rebuilds the scene: after the session was recreated, or to show other parts (st->show) or another render
  * level. */
@@ -47,7 +47,7 @@ sbf_status studio_dress(studio *st, sbf_diagnostic *error);
 float studio_aspect(const studio *st);
 void studio_close(studio *st); /* the session too */
 
-/* Paints the present frame; the camera frames the first and follows. */
+/* Paints the current frame; the camera frames the first and follows. */
 sbf_status studio_paint(studio *st, sbf_diagnostic *error);
 
 #endif

@@ -9,7 +9,7 @@ struct thread_pool {
   pthread_cond_t work, done;
   pthread_t threads[64];
   uint32_t helper_count;
-  uint64_t round; /* counts the calls of run, so that a thread knows a new one */
+  uint64_t round; /* counts the calls of run, so that threads detect a new one */
   uint32_t busy;
   bool ending;
   sbr_task *task;

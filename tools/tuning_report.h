@@ -1,4 +1,4 @@
-/* What a tuning found, said as text or as JSON. */
+/* Reports the result of a tuning as text or JSON. */
 #ifndef TUNING_REPORT_H
 #define TUNING_REPORT_H
 
@@ -11,21 +11,21 @@ typedef struct tuning {
   const char *path, *out;
   tune_goal goal;
   double size_m;        /* of the character */
-  double error_percent; /* of the size, where the goal was given so; else 0 */
+  double error_percent; /* of the size, if the goal was given so; else 0 */
   tune_by by;
   bool written;
   tune_meshes meshes;
-  tune_yardstick yard, other; /* of the usual drive and of a harsher one */
+  tune_yardstick yard, other; /* for the usual and a harsher drive */
   tune_trials trials;
   tune_verdict verdict;
-  uint32_t chosen; /* on the front */
+  uint32_t chosen; /* index on the front */
   tune_level levels[TUNE_MAX_MESHES];
   uint32_t level_count;
   chart_machine machine;
 } tuning;
 
 enum { TUNING_TEXT = 512 };
-/* Why the goal is not met, and the closest that can be had. */
+/* Reason why the goal is not met, and the closest alternative. */
 void tuning_describe_unmet(const tuning *t, char text[TUNING_TEXT]);
 void tuning_print(const tuning *t);
 json_t *tuning_json(const tuning *t);

@@ -14,13 +14,13 @@
 #include "render/fault.h"
 #include "sbfmt/io.h"
 
-/* What the call asks for. */
+/* Options of the call. */
 typedef struct request {
   const char *path;
-  sbf_asset *asset; /* of the file, if one was given */
+  sbf_asset *asset; /* of the file, if any */
   chart_bundle bundle;
   chart_case bundle_cases[CHART_BUNDLE_CASES];
-  const chart_case *all; /* that there are to choose from */
+  const chart_case *all; /* available cases */
   uint32_t all_count;
   const chart_case **cases;
   uint32_t case_count;
@@ -44,7 +44,7 @@ static const chart_case *case_named(const request *r, const char *name) {
   return NULL;
 }
 
-/* Those that --case names, or all: of the file, where there is one. */
+/* The cases in --case, or all: of the file, if any. */
 static bool choose_cases(cli_call *call, request *r) {
   int at = 0;
   const char *name;
@@ -66,7 +66,7 @@ static bool choose_cases(cli_call *call, request *r) {
   return true;
 }
 
-/* What there is to choose from: SBF_OK, or the exit status, with a message printed. */
+/* Finds the available cases: SBF_OK, or the exit status, with a message printed. */
 static int gather_cases(cli_call *call, request *r) {
   sbf_diagnostic error;
   r->all = chart_cases, r->all_count = chart_case_count;
@@ -101,7 +101,7 @@ static bool parse(cli_call *call, request *r) {
   return true;
 }
 
-/* One line a case: what a batch runs side by side. */
+/* One line per case, so that a batch can run them in parallel. */
 static int print_jobs(const cli_call *call, const request *r) {
   const char *path = r->path ? r->path : "charts";
   for (uint32_t i = 0; i < r->case_count; i++)
@@ -112,7 +112,7 @@ static int print_jobs(const cli_call *call, const request *r) {
   return SBF_OK;
 }
 
-/* Tables first: where gnuplot is not there they stay. */
+/* Tables first: they stay if gnuplot is missing. */
 static int write_all(cli_call *call, const request *r) {
   chart_folder folder;
   sbf_diagnostic error, undrawn;

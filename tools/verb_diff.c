@@ -1,4 +1,4 @@
-/* sbfmt diff: whether two files hold the same. */
+/* sbfmt diff: compares two files. */
 #include "cli.h"
 #include "sbfmt/io.h"
 

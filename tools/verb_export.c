@@ -1,4 +1,4 @@
-/* sbfmt export: bundles to foreign files, at rest or in motion. */
+/* sbfmt export: converts bundles to other formats, at rest or in motion. */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
   cli_print_diagnostic(user, diagnostic);
 }
 
-/* The input's folder, which its images are relative to. */
+/* The input's folder, to which its images are relative. */
 static const char *folder_of(const char *path, char *to, size_t size) {
   const char *slash = strrchr(path, '/');
   int length = slash ? snprintf(to, size, "%.*s", slash == path ? 1 : (int)(slash - path), path)

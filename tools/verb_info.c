@@ -1,4 +1,4 @@
-/* sbfmt info: what a file holds. */
+/* sbfmt info: describes a file. */
 #include <string.h>
 #include <sys/stat.h>
 
@@ -12,10 +12,10 @@ static json_t *integer(uint64_t value) {
   return json_integer((json_int_t)value);
 }
 
-/* Files below this size are read whole, and their figures are computed. */
+/* Smaller files are read completely, and their figures are computed. */
 enum { READ_WHOLE_BYTES = 1 << 16 };
 
-/* Triangles that the polygons fall into; by the counts alone, so that no item need have been read. */
+/* Number of triangles of the polygons, from the counts alone, so lists need not be loaded. */
 static int64_t triangle_count(const sbf_polygon_mesh *mesh) {
   return (int64_t)mesh->polygon_points.count - 2 * (int64_t)mesh->polygon_sizes.count;
 }
@@ -73,7 +73,7 @@ static json_t *render_meshes(const sbf_asset *asset) {
   return list;
 }
 
-/* The joint that holds a bone's body to another, by its id; null where there is none. */
+/* Id of the joint that connects a bone's body to another; null if there is none. */
 static json_t *joint_of_bone(const sbf_asset *asset, uint32_t bone) {
   for (uint32_t i = 0; i < asset->joints.count; i++) {
     const sbf_joint *joint = &asset->joints.at[i];
@@ -147,7 +147,7 @@ static uint64_t leg_count(const sbf_asset *asset) {
   return legs;
 }
 
-/* Of the gait that moves the character: the first. */
+/* For the gait that moves the character: the first. */
 static const char *gait_kind(const sbf_asset *asset) {
   return asset->gaits.count ? sbf_gait_kind_name(asset->gaits.at[0].kind) : "none";
 }
@@ -181,7 +181,7 @@ json_t *bundle_description(const sbf_asset *asset, const sbf_asset_measures *mea
   return object;
 }
 
-/* Shape of the tetrahedra of all finest levels together. */
+/* Shape of the tetrahedra of all finest levels. */
 static json_t *quality(const sbf_asset *asset) {
   sbf_lattice_measures all = {.min_dihedral_deg = 180};
   uint64_t count = 0;
@@ -227,7 +227,7 @@ static void print_levels(const json_t *levels) {
   }
 }
 
-/* The columns that the texts of a list need. */
+/* Column widths for a list of texts. */
 static int widest(const json_t *rows, const char *key) {
   size_t i, max = 0;
   json_t *row;
@@ -313,7 +313,7 @@ static bool take_stated(float mass, sbf_vec3 low, sbf_vec3 high, sbf_asset_measu
   return bounded;
 }
 
-/* The figures that the last build stated, or the conversion; false where none did. */
+/* Figures stored by the last build or conversion; false if there are none. */
 static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   for (uint32_t i = asset->derivations.count; i-- > 0;) {
     const sbf_derivation *d = &asset->derivations.at[i];
@@ -322,7 +322,7 @@ static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   return take_stated(asset->info.mass, asset->info.low, asset->info.high, m);
 }
 
-/* What an outline leaves out: which points of the surface are points of the springs. */
+/* Data that an outline omits: which surface points are points of the springs. */
 static bool tells_interior(const sbf_asset *asset) {
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_level *level = finest(&asset->soft_bodies.at[i]);
@@ -349,7 +349,7 @@ static sbf_status load(cli_call *call, const char *path, bool whole, loaded *l, 
       .user = call};
   sbf_status status = sbf_load_file(path, &options, &l->asset, error);
   if (status != SBF_OK) return status;
-  bool is_outline = options.outline && l->read_bytes > 0; /* XML counts nothing */
+  bool is_outline = options.outline && l->read_bytes > 0; /* XML does not count bytes */
   if (is_outline && tells_interior(l->asset) && stated_measures(l->asset, &l->measures)) return SBF_OK;
   if (is_outline) {
     sbf_asset_free(l->asset);

@@ -1,10 +1,10 @@
-/* sbfmt pack and unpack: from XML to the packed form and back. */
+/* sbfmt pack and unpack: converts from XML to the packed form and back. */
 #include <string.h>
 
 #include "output_name.h"
 #include "saving.h"
 
-/* Loads the call's input and saves it under a name of that ending, which says in which form. */
+/* Loads the call's input and saves it under a name whose extension selects the form. */
 static int transcode(cli_call *call, const char *ending, const sbf_save_options *options) {
   const char *out = cli_value(call, "-o");
   if (!out) return cli_wrong(call, "say where to write: -o FILE%s", ending);

@@ -1,4 +1,4 @@
-/* sbfmt render: pictures and films without a window. */
+/* sbfmt render: renders pictures and films without a window. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ static bool parse_output(cli_call *call, output *kind) {
   return false;
 }
 
-/* An option that one kind of film has. */
+/* An option of one kind of film only. */
 static bool parse_own(
     cli_call *call, const shooting *shot, const char *option, output kind, long min, long max, unsigned *to) {
   long value = 0;

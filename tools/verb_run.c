@@ -1,4 +1,4 @@
-/* sbfmt run: simulates a character, reports the result and writes the files asked for. */
+/* sbfmt run: simulates a character, reports the result and writes the requested files. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 #include "session.h"
 #include "walk_report.h"
 
-/* What a run gathers beside the session. */
+/* Data of a run in addition to the session. */
 typedef struct run_state {
   session s;
   soles *soles;
@@ -30,7 +30,7 @@ typedef struct run_state {
   result_cache *results;
   bool cache_of_surface;
   pose_file poses;
-  double busy_s;                 /* spent stepping and skinning */
+  double busy_s;                 /* time spent stepping and skinning */
   double min_volume, max_strain; /* over all frames */
   double end_volume;
   bool valid;
@@ -78,7 +78,7 @@ static double energy(const run_state *r) {
   return sum;
 }
 
-/* The skin, or the surfaces, in world space into the cache. */
+/* Adds the skin, or the surfaces, in world space to the cache. */
 static bool add_to_cache(run_state *r, sbf_diagnostic *error) {
   sbr_double3 origin = sbr_character_get_origin(r->s.world, r->s.character);
   uint32_t count = r->cache_of_surface ? r->surface_count : r->skin_count, at = 0;
@@ -131,7 +131,7 @@ static bool open_outputs(run_state *r, cli_call *call) {
   return profile_report_begin(&r->profile, &r->s, call);
 }
 
-/* Keeps what was written, or none of it; false where it cannot be kept. */
+/* Commits all written files, or none; false on failure. */
 static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
   sbf_diagnostic error;
   bool good = true;
@@ -146,7 +146,7 @@ static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
   return good;
 }
 
-/* Distance of a character without legs. */
+/* Distance covered by a character without legs. */
 static void add_distance(const run_state *r, json_t *o) {
   const sbf_gait_list gaits = r->s.asset->gaits;
   if (gaits.count && gaits.at[0].kind != SBF_GAIT_KIND_WALK)
@@ -191,7 +191,8 @@ static json_t *report(const run_state *r) {
   add_distance(r, o);
   add_steps(r, o);
   profile_report_add(&r->profile, &r->s, o);
-  rigid_report_add(&r->rigid, &r->s, o); /* of what is simulated the limits of its joints, not of its pose */
+  rigid_report_add(
+      &r->rigid, &r->s, o); /* for simulated bodies the limits of their joints, not of the pose */
   return o;
 }
 
@@ -213,7 +214,7 @@ static bool play(run_state *r, cli_call *call) {
   return good;
 }
 
-/* The exit status of what was played. */
+/* Exit status of a replay. */
 static int check_replay(const recording *r, const cli_call *call) {
   if (!r->replay.differs) return SBF_OK;
   cli_wrong(call, "the motion is not the one that was recorded, at tick %llu at the latest",

@@ -1,4 +1,4 @@
-/* sbfmt tune: the cheapest levels within an error, or the nearest within a budget. */
+/* sbfmt tune: finds the cheapest levels within an error, or the most accurate within a budget. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static void show(void *user, const char *what, double fraction) {
   (void)user;
   cli_progress(what, fraction);
 }
-/* `user` says of which drive. */
+/* `user` names the drive. */
 static void show_reference(void *user, const char *motion, uint32_t substeps, double fraction) {
   char what[96];
   snprintf(what, sizeof what, "%s: %s by %u substeps", (const char *)user, motion, (unsigned)substeps);
@@ -26,13 +26,13 @@ typedef struct request {
   tune_grid grid;
   tune_effort effort;
   bool on_one_core;
-  bool nearest; /* is written where nothing keeps the goal */
+  bool nearest; /* written even if nothing meets the goal */
 } request;
 
-/* What is asked for where nothing is, of the size. */
+/* Default goal relative to the size. */
 static const double USUAL_PERCENT = 1;
 
-/* Metres, or a percentage of the size, which is known later; 0 of either: the nearest of all. */
+/* Metres, or a percentage of the size, which is known later; both 0: the most accurate. */
 static bool read_error(const cli_call *call, tuning *t) {
   const char *text = cli_value(call, "--error");
   if (!text) {
@@ -82,7 +82,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
       !cli_integer(call, "--reference", 12, 100000, &reference) ||
       !cli_integer(call, "--core", 0, 1023, &core) || !read_sizes(call, &r->grid))
     return false;
-  /* A bound in metres holds for every vertex; one in percent of the size for the 99th percentile. */
+  /* A bound in metres applies to every vertex; one in percent of the size to the 99th percentile. */
   t->by = cli_value(call, "--measure") ? (tune_by)measure : t->error_percent > 0 ? TUNE_BY_P99 : TUNE_BY_MAX;
   r->nearest = cli_switch(call, "--nearest");
   r->grid.reference = (uint32_t)reference;
@@ -96,7 +96,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
   return true;
 }
 
-/* What is about to happen, and how long it takes. */
+/* Prints the plan and its estimated duration. */
 static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic *error) {
   tune_forecast forecast;
   char time[48];
@@ -158,7 +158,7 @@ static bool choose(tuning *t) {
   return true;
 }
 
-/* The one that is chosen first, and what is cheaper behind it. */
+/* The chosen one first, and cheaper ones after it. */
 static void take_levels(tuning *t) {
   for (uint32_t i = t->chosen + 1; i-- > 0 && t->level_count < TUNE_MAX_MESHES;) {
     const tune_trial *trial = &t->trials.at[t->trials.front[i]];
@@ -166,7 +166,7 @@ static void take_levels(tuning *t) {
   }
 }
 
-/* Settings as a derivation has them, in alphabetical order. */
+/* Settings as stored in a derivation, in alphabetical order. */
 static void say_settings(const tuning *t, char *text, size_t size) {
   char budget[32] = "", error[32] = "";
   if (t->goal.budget_us > 0) snprintf(budget, sizeof budget, "budget_us=%.9g ", t->goal.budget_us);
@@ -233,7 +233,7 @@ static int run(cli_call *call) {
   t->machine = chart_this_machine();
   int status = SBF_FAILED;
   if (parse(call, t, &r)) {
-    status = (int)chart_check_writable(t->out, &error); /* before minutes of work */
+    status = (int)chart_check_writable(t->out, &error); /* checked before minutes of work */
     if (status == SBF_OK) status = (int)sweep(call, t, &r, &error);
     cli_progress_end();
     if (status == SBF_OK)

@@ -1,4 +1,4 @@
-/* sbfmt validate: findings of files, several at a time, and mending. */
+/* sbfmt validate: reports findings of files in parallel, and repairs. */
 #include <pthread.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -8,12 +8,12 @@
 #include "output_name.h"
 #include "thread_pool.h"
 
-enum { BATCH = 64 }; /* files whose findings are in memory at one time */
+enum { BATCH = 64 }; /* files whose findings are in memory at a time */
 
 typedef struct batch {
   char **paths;
   checked *results;
-  size_t done, all; /* files, of all batches */
+  size_t done, all; /* number of files, over all batches */
   pthread_mutex_t mutex;
 } batch;
 
@@ -123,7 +123,7 @@ static sbf_status load_for_repair(const char *path, sbf_asset **asset, checked *
   sbf_status status = sbf_load_file(path, &loading, asset, &error);
   if (status == SBF_OK) return SBF_OK;
   findings_free(&refused->found);
-  check_file(path, refused); /* for all that is wrong, as without --fix */
+  check_file(path, refused); /* lists all findings, as without --fix */
   return status;
 }
 

@@ -12,7 +12,7 @@
 
 #ifdef SBFMT_WINDOW
 
-static const double FRAME_MAX_S = 0.05; /* a slower machine shows it in slow motion */
+static const double FRAME_MAX_S = 0.05; /* a slower machine shows slow motion */
 
 typedef struct viewing {
   viewer v;
@@ -34,7 +34,7 @@ static sbf_status write_shot(viewing *g, const char *path, sbf_diagnostic *error
   return status == SBF_OK ? draw_picture_write_png(path, g->rgb, width, height, error) : status;
 }
 
-/* The script's, then the window's. */
+/* Handles the script's events, then the window's. */
 static sbf_status take_events(viewer *v, uint32_t frame, const char **shot, sbf_diagnostic *error) {
   SDL_Event event;
   sbf_status status = SBF_OK;
@@ -44,7 +44,7 @@ static sbf_status take_events(viewer *v, uint32_t frame, const char **shot, sbf_
   return status;
 }
 
-/* A frame: what happened, the time since the last, the picture. *more: false after the last. */
+/* A frame: events, time step, picture. *more: false after the last. */
 static sbf_status show_frame(viewing *g, uint32_t frame, double seconds, bool *more, sbf_diagnostic *error) {
   viewer *v = &g->v;
   const char *shot = NULL;

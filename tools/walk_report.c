@@ -8,9 +8,9 @@
 
 enum { MAX_LEGS = 16, MAX_HULL = 512 };
 static const double DEGREES = 57.29577951308232;
-static const double FRAME_S = 1.0 / 60;  /* changes are counted per frame of this length */
-static const double STARTS_S = 1;        /* after a drive begins: then it should go as fast as it is driven */
-static const double SKATING_SPEED = 0.2; /* leg lengths a second, of a planted sole */
+static const double FRAME_S = 1.0 / 60; /* changes are counted per frame of this length */
+static const double STARTS_S = 1;       /* time after the start of a drive until the full speed is expected */
+static const double SKATING_SPEED = 0.2; /* leg lengths per second, of a planted sole */
 
 typedef struct point2 {
   double x, z;
@@ -23,7 +23,7 @@ typedef struct leg_track {
   bool seen, planted;
   double knee, knee_speed; /* deg, deg a second */
   int knee_samples;
-  point2 sole; /* middle of the sole a frame ago */
+  point2 sole; /* centre of the sole in the previous frame */
   double up_s;
   /* Of whole cycles, from one touchdown to the next. */
   double last_down_s, last_down_x, last_down_z;
@@ -39,7 +39,7 @@ struct walk_report {
   double leg_length;
   double knee_step, limit_excess, support_margin, body_step, body_turn_step;
   bool has_margin;
-  double driven_m, gone_m, distance_m; /* once it should be at its speed; how far it had come a frame ago */
+  double driven_m, gone_m, distance_m; /* after the start-up time; distance in the previous frame */
   point2 *points;                      /* (MAX_HULL) */
   sbr_transform *bones;
   int body_samples;
@@ -221,7 +221,7 @@ static double length3(const double v[3]) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Rotation vector from a to b over dt, deg a second. */
+/* Rotation vector from a to b over dt, degrees per second. */
 static void turn_rate(sbf_quat a, sbf_quat b, double dt, double rate[3]) {
   double w = (double)a.w * b.w + (double)a.x * b.x + (double)a.y * b.y + (double)a.z * b.z;
   double v[3] = {(double)a.w * b.x - (double)b.w * a.x - (double)b.y * a.z + (double)b.z * a.y,

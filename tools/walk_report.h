@@ -1,4 +1,4 @@
-/* How well a character walks: rhythm, knees, balance, body, limits; frame by frame. */
+/* Measures the quality of a character's walk: rhythm, knees, balance, body, limits; frame by frame. */
 #ifndef WALK_REPORT_H
 #define WALK_REPORT_H
 
@@ -6,11 +6,11 @@
 
 typedef struct walk_report walk_report;
 
-/* NULL where the character has no legs, or memory runs out. `feet` must outlive it. */
+/* NULL if the character has no legs, or memory runs out. `feet` must outlive it. */
 walk_report *walk_report_create(const session *s, const soles *feet);
 void walk_report_destroy(walk_report *r);
 
-/* Measures the present frame: `skin` has the vertices of all render meshes one after the other. */
+/* Measures the current frame: `skin` has the vertices of all render meshes, concatenated. */
 void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin);
 
 /* Adds its keys to the report of a run. */

@@ -7,9 +7,9 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 
-/* Times are of its beginning: the first step, hop or turn. */
+/* Times are taken over its beginning: the first step, hop or turn. */
 enum { TICKS = 120, TIMED_TICKS = 30 };
-static const double SIMILAR_M = 2; /* size up to which the drive is as stated */
+static const double SIMILAR_M = 2; /* maximum size for which the drive is as stated */
 
 const chart_drive chart_usual_drive = {.speed = 0.5,
     .curve_rad_s = 0,
@@ -23,7 +23,7 @@ static void walk(void *user, sbr_world *world, sbr_character_id character, uint3
   if (tick == 0) sbr_character_set_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
 }
 
-/* The tick within a hop or turn, and how many have been before it. */
+/* The tick within a hop or turn, and the number of those before it. */
 typedef struct beat {
   uint32_t tick, ticks, number;
 } beat;
@@ -33,8 +33,8 @@ static beat beat_at(const uint32_t ticks[2], uint32_t tick) {
   return (beat){at - second * ticks[0], ticks[second], 2 * (tick / both) + second};
 }
 
-/* What it stands on goes up and down along parabolas. Feet that are planted stay where they are, so that it
- * presses into their soles: a tenth of its height would crush the hands of a lizard flat. */
+/* The ground rises and falls along parabolas. Planted feet stay in place, so it presses into their soles:
+ * a tenth of its height would flatten the hands of a lizard. */
 static void hop(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   chart_bundle *b = user;
   beat now = beat_at(b->drive.hop_ticks, tick);
@@ -43,7 +43,7 @@ static void hop(void *user, sbr_world *world, sbr_character_id character, uint32
   if (tick == 0) sbr_character_wake(world, character);
 }
 
-/* From side to side. */
+/* Turns from side to side. */
 static void shake(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_drive *d = &((const chart_bundle *)user)->drive;
   beat now = beat_at(d->turn_ticks, tick);
@@ -62,7 +62,7 @@ static double ground_height(const sbr_ground *ground, double x, double z, sbf_ve
   return b->ground_m;
 }
 
-/* The drive of a character of this size (largest extent, m): its times grow with the square root of it. */
+/* Drive of a character of this size (largest extent, m): its times grow with the square root of it. */
 static chart_drive similar_drive(chart_drive drive, double size_m) {
   double slower = sqrt(fmax(size_m / SIMILAR_M, 1));
   drive.turn_rad_s = (float)((double)drive.turn_rad_s / slower);
@@ -73,19 +73,19 @@ static chart_drive similar_drive(chart_drive drive, double size_m) {
   return drive;
 }
 
-/* Whose motion it is, without what means something to gnuplot. */
+/* Name of the character, without characters that are special in gnuplot. */
 static void entitle(char *title, size_t size, const char *whose, const char *motion) {
   char name[48];
   size_t length = 0;
   for (; whose && *whose && length + 1 < sizeof name; whose++)
     if (!strchr("{}_^@&~\\'\"`$%", *whose) && (unsigned char)*whose > 31) name[length++] = *whose;
-  if (whose && (*whose & 0xc0) == 0x80) /* within a letter of several bytes */
+  if (whose && (*whose & 0xc0) == 0x80) /* within a multi-byte character */
     while (length && (name[--length] & 0xc0) == 0x80) continue;
   name[length] = 0;
   snprintf(title, size, "%s%s%s", name, length ? ", " : "", motion);
 }
 
-/* What happens by the usual drive, as slow as it is for this character. */
+/* Title with the usual drive, slowed down for this character. */
 static void say_motion(const chart_bundle *b, uint32_t number, char *text, size_t size) {
   static const double tick_s = 1.0 / 60;
   const chart_drive *d = &b->drive;

@@ -19,13 +19,13 @@ static sbf_status make_spring(uint32_t number, chart_subject *subject, sbf_diagn
   return made(subject, chart_mass_on_spring(2, 50), "springs", error);
 }
 
-/* Twenty masses: the lowest mode turns by 5 rad/s, the highest by 67. */
+/* Twenty masses: the lowest mode has 5 rad/s, the highest 67. */
 static sbf_status make_chain(uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
   if (number) return SBF_OK;
   return made(subject, chart_pinned_chain(20, 0.1f, 0.05f, 56), "springs", error);
 }
 
-/* Its spring turns by 100 rad/s, and stretches by 3 thousandths at most. */
+/* Its spring has 100 rad/s, and stretches by at most 3 thousandths. */
 static sbf_status make_pendulum(uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
   if (number) return SBF_OK;
   return made(subject, chart_level_pendulum(1, 1, 10000), "springs", error);
@@ -37,7 +37,7 @@ static const chart_matter BODY_AT_REST = {1000, 1e5f, 0.4f, 1};
 static const chart_matter BAR_AT_REST = {1000, 1e6f, 0.4f, 1}, BAR_FREE = {1000, 1e6f, 0.4f, 0};
 static const chart_matter SOFT_BALL = {1000, 5e4f, 0.4f, 0.1f};
 
-/* Of the three models the `number`-th. */
+/* Body number `number` of the three models. */
 static sbf_status fill_model(uint32_t number, sbf_asset *surface, uint32_t elements, double spring_m,
     chart_subject *subject, sbf_diagnostic *error) {
   static const sbf_build_interior interiors[] = {
@@ -65,7 +65,7 @@ static sbf_status make_hung(uint32_t number, chart_subject *subject, sbf_diagnos
   return number < 3 ? fill_model(number, chart_figure(&BODY_AT_REST), 500, 0.1, subject, error) : SBF_OK;
 }
 
-/* A skin of springs about gas: 1 kPa above the outside, which the springs are not loaded for. */
+/* A skin of springs around gas: 1 kPa above the outside, without prestress in the springs. */
 static sbf_status make_pressure(uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
   static const chart_matter skin = {1000, 5e4f, 0.3f, 0.05f};
   sbf_asset *filled = NULL, *ball = number ? NULL : chart_ball(0.2f, &skin);
@@ -83,7 +83,7 @@ static sbf_status make_pressure(uint32_t number, chart_subject *subject, sbf_dia
 
 /* ---- The same matter in several meshes ---- */
 
-/* The reference first, then each size as it is and calibrated. */
+/* The reference first, then each size unchanged and calibrated. */
 static sbf_status make_mesh(
     uint32_t number, const chart_matter *matter, chart_subject *subject, sbf_diagnostic *error) {
   static const uint32_t sizes[] = {60, 120, 240, 480, 960, 1920, 3840};

@@ -27,7 +27,7 @@ sbf_status chart_gnuplot(const char *script, size_t size, const char *name, sbf_
       error, SBF_CODE_IO_CANNOT_RUN, name, "gnuplot failed: %s", said[0] ? said : "it gave no reason");
 }
 
-/* Text between single quotes of gnuplot's. */
+/* Escapes text for gnuplot's single quotes. */
 static bool quotable(const char *path) {
   return !strpbrk(path, "'\n");
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Whether p is at least as good as q in both and better in one, or the same and listed before. */
+/* Whether p is at least as good as q in both values and better in one, or equal and listed before. */
 static bool beats(const chart_point *points, uint32_t p, uint32_t q) {
   const chart_point *a = &points[p], *b = &points[q];
   if (!(a->cost <= b->cost && a->error <= b->error)) return false;

@@ -13,12 +13,12 @@
 
 const char *const chart_elastic_names[] = {"springs", "tetrahedra", "regions"};
 
-/* How far it sags: single precision tells a ten-thousandth of that, and ten times its energy strains nothing
- * by as much as the runtime damps (docs/solvers.md). */
+/* Sag: single precision resolves a ten-thousandth of it, and ten times its energy causes less strain than
+ * the runtime's damping threshold (docs/solvers.md). */
 static const double SAG_M = 0.0015;
-/* Steps that stand for what is exact: the lowest mode turns far less in one. */
+/* Step size that counts as exact: a small fraction of the lowest mode's period. */
 static const double FINE_TURN = 0.1;
-/* A look each time the lowest mode has turned by so much, so often; and the most ticks. */
+/* Phase of the lowest mode between samples, number of samples, and maximum number of ticks. */
 static const double VIEW_TURN = 0.3;
 enum { SAMPLES = 32, MAX_TICKS = 8000 };
 
@@ -35,7 +35,7 @@ static sbf_level *level_of(const sbf_asset *asset) {
   return (sbf_level *)(uintptr_t)asset->soft_bodies.at[0].levels.at;
 }
 
-/* Multiplies the masses at the free end; returns by how much it grew, kg, negative where memory runs out. */
+/* Multiplies the masses at the free end; returns the added mass, kg, negative if memory runs out. */
 static double load_end(sbf_asset *asset, double mass_ratio) {
   sbf_level *level = level_of(asset);
   uint32_t count = level->positions.count;
@@ -57,13 +57,13 @@ static double load_end(sbf_asset *asset, double mass_ratio) {
   return masses && pinned ? more : -1;
 }
 
-/* The sag per m/s^2 of a bar by Euler and Bernoulli, with that much more at its end. */
+/* Sag per m/s^2 of a bar by Euler-Bernoulli theory, with the additional mass at its end. */
 static double bar_sag(double more_kg) {
   double bends = YOUNG_PA * pow(WIDE_M, 4) / 12;
   return DENSITY * WIDE_M * WIDE_M / (8 * bends) + more_kg / (3 * bends);
 }
 
-/* `stiffer`: by so much its modulus is greater, and the sag is not told. */
+/* `stiffer`: factor on its modulus; the sag is then unknown. */
 static sbf_status fill(chart_elastic elastic, double mass_ratio, double poisson_ratio, double stiffer,
     sbf_asset **asset, double *sag, sbf_diagnostic *error) {
   if (elastic == CHART_OF_SPRINGS) {
@@ -120,8 +120,8 @@ static sbf_status highest_of_network(const sbf_asset *asset, double *highest, sb
   return good ? SBF_OK : no_memory(error);
 }
 
-/* Of regions: from how many substeps of a tick of 1/60 s the runtime gives the same body where it is a
- * million times as stiff, undamped; docs/solvers.md has its margin. */
+/* For regions: number of substeps of a 1/60 s tick that the runtime chooses for the same undamped body at
+ * a million times the stiffness; docs/solvers.md has its margin. */
 static sbf_status highest_of_regions(
     double mass_ratio, double poisson_ratio, double *highest, sbf_diagnostic *error) {
   static const double MARGIN = 1.02, STIFFER = 1e6;
@@ -143,9 +143,9 @@ static sbf_status highest_of_regions(
 
 /* ---- What is seen ---- */
 
-/* x[n+1] = a x[n] + b x[n-1] + c, by least squares. */
+/* Least squares fit of x[n+1] = a x[n] + b x[n-1] + c. */
 typedef struct fit {
-  double complex rate; /* 1/s: of the root that fades the slowest */
+  double complex rate; /* 1/s: of the slowest decaying root */
   double rests_at;
 } fit;
 
@@ -180,7 +180,7 @@ static bool fit_to(const double *x, uint32_t count, double every_s, fit *f) {
   return isfinite(creal(f->rate)) && isfinite(f->rests_at);
 }
 
-/* A run of it: how far points are from where they were, a look after the other. */
+/* A run: projected displacements of the points, one per sample. */
 typedef struct run {
   chart_motion motion;
   double every_s;
@@ -216,8 +216,8 @@ static sbf_status run_open(
   return chart_motion_open(&r->motion, &scene, &setting, error);
 }
 
-/* Goes on until the next look; the farthest that any point is from its place at rest, m. NAN: numbers that
- * are none, or the body was put back into its shape; *why says which. */
+/* Advances to the next sample; returns the largest distance of a point from rest, m. NAN: invalid numbers,
+ * or the body was reset to its rest shape; *why has the reason. */
 static double run_on(run *r, uint32_t points, const char **why) {
   chart_motion *m = &r->motion;
   double max = 0;
@@ -248,7 +248,7 @@ static double measured(const chart_hung_body *body, const run *r) {
 
 /* ---- The row's own ---- */
 
-/* The lowest mode: how it hangs the farthest from rest, in steps that are fine for all modes. */
+/* Lowest mode: the displacement at maximum sag, with steps that are accurate for all modes. */
 static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
   run r;
   const char *why = NULL;
@@ -276,8 +276,7 @@ static sbf_status take_shape(chart_hung_body *body, sbf_diagnostic *error) {
   return status;
 }
 
-/* Runs it through all looks, and until as many ticks as a cell of one mass has are over; false where it is
- * dead. */
+/* Runs all samples, and at least as many ticks as a cell of one mass; false if it breaks. */
 static bool check(const chart_hung_body *body, run *r, double x[SAMPLES], chart_verdict *v) {
   const char *why = NULL;
   for (uint32_t n = 0; n < SAMPLES || n * r->ticks_per_sample < CHART_CELL_TICKS; n++) {

@@ -8,7 +8,7 @@
 #include "sbfmt_commit.h"
 #include "sbrun/sbrun.h"
 
-/* A field of CSV: without what would end it. */
+/* Writes a CSV field without characters that would end it. */
 static void clean(char *text) {
   for (char *at = text; *at; at++)
     if (*at == ',' || *at == '"' || *at == '\n') *at = ' ';

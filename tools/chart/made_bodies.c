@@ -6,7 +6,7 @@
 
 enum { MAX_POINTS = 4096 };
 
-/* A surface that is being put together. */
+/* A surface under construction. */
 typedef struct skin_draft {
   sbf_asset *asset;
   sbf_vec3 *points;
@@ -57,7 +57,7 @@ static sbf_asset *finish(skin_draft *s, const chart_matter *matter) {
 
 enum { ALONG = 20, ACROSS = 4 };
 
-/* The number of the point at grid place (i, j, k) of the bar's surface, made when first asked for. */
+/* Index of the point at grid position (i, j, k) of the bar's surface; created at the first use. */
 static uint32_t bar_point(skin_draft *s, uint32_t *numbers, const uint32_t at[3]) {
   uint32_t *number = &numbers[(at[0] * (ACROSS + 1) + at[1]) * (ACROSS + 1) + at[2]];
   if (*number) return *number - 1;
@@ -94,7 +94,7 @@ sbf_asset *chart_bar(const chart_matter *matter) {
 
 /* ---- Ellipsoids ---- */
 
-/* Rings from the bottom to the top; points above `pinned_from` are held. */
+/* Rings from the bottom to the top; points above `pinned_from` are pinned. */
 static void add_ellipsoid(
     skin_draft *s, sbf_vec3 middle, sbf_vec3 radii, uint32_t rings, uint32_t sides, float pinned_from) {
   static const double pi = 3.14159265358979323846;

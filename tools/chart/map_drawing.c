@@ -1,4 +1,4 @@
-/* Draws stability maps: a coloured box for each case, and the bound that theory gives. */
+/* Draws stability maps: a coloured box for each case, and the theoretical bound. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,10 +8,10 @@
 #include "chart/stability_map.h"
 #include "render/fault.h"
 
-/* By outcome: colours that eyes of every kind tell apart, also as greys. */
+/* By outcome: colours that are distinct for all kinds of colour vision, also in greyscale. */
 static const unsigned COLOURS[] = {0x56b4e9, 0xf0c430, 0x40302c, 0xffffff};
 
-/* Cells of one outcome that stand beside each other are one box. */
+/* Merges adjacent cells of one outcome into one box. */
 static void write_boxes(FILE *to, const chart_map *map, uint32_t scheme) {
   const chart_map_axis *a = map->axis;
   fprintf(to, "$cells%u << EOD\n", (unsigned)scheme);
@@ -35,14 +35,14 @@ static void write_boxes(FILE *to, const chart_map *map, uint32_t scheme) {
   fprintf(to, "EOD\n");
 }
 
-/* The bound along the axis; false: there is none within the map. */
+/* The bound along the axis; false if there is none within the map. */
 static bool write_bound(FILE *to, const chart_map *map, uint32_t scheme) {
   enum { POINTS = 96 };
   const chart_map_axis *a = map->axis;
   bool some = false;
   fprintf(to, "$bound%u << EOD\n", (unsigned)scheme);
   for (int i = 0; i <= POINTS; i++) {
-    double fraction = (double)i * i / POINTS / POINTS; /* closer at the foot, where bounds bend */
+    double fraction = (double)i * i / POINTS / POINTS; /* denser near zero, where bounds curve */
     double at =
         a->logarithmic ? a->low * pow(a->high / a->low, fraction) : a->low + (a->high - a->low) * fraction;
     double damping = strcmp(a->name, "damping") == 0 ? at : chart_map_cell(map, scheme, 0, 0).damping;
@@ -74,7 +74,7 @@ static void write_panel(FILE *to, const chart_map *map, uint32_t scheme) {
   fputs(refused ? "\nunset label 9\n" : "\n", to);
 }
 
-/* Words with their colours above all panels, what both axes are beside them. */
+/* Legend above all panels, and labels of both axes. */
 static void write_legend(FILE *to, const chart_map *map) {
   static const struct {
     const char *words;
@@ -100,7 +100,7 @@ static void write_legend(FILE *to, const chart_map *map) {
       map->axis->kind == CHART_MAP_OF_ONE_MASS ? "" : ", ω of the stiffest mode", map->axis->label);
 }
 
-/* Panels stand side by side, with numbers along the outer ones alone. */
+/* Panels are side by side, with numbers only along the outer ones. */
 static void write_position(FILE *to, uint32_t scheme) {
   uint32_t column = scheme % 3, row = scheme / 3;
   fprintf(to,

@@ -17,14 +17,15 @@ typedef struct cell {
   double volume, mu, lambda, gamma;
 } cell;
 
-/* State: places and velocities, three numbers a point each. */
+/* State: positions and velocities, three numbers per point. */
 typedef struct network {
   uint32_t point_count, bar_count, cell_count;
-  double *masses; /* 0: held */
+  double *masses; /* 0: pinned */
   bar *bars;
   cell *cells;
   double gravity[3];
-  double *positions, *velocities, *moments, *begin, *sum; /* moments: accelerations; begin and sum: both */
+  double *positions, *velocities, *moments, *begin,
+      *sum; /* moments: accelerations; begin and sum: positions and velocities */
 } network;
 
 static void cross(const double a[3], const double b[3], double to[3]) {
@@ -37,7 +38,7 @@ static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Adds forces to `force` (NULL: none wanted); returns the energy. */
+/* Adds forces to `force` (NULL: not needed); returns the energy. */
 static double pull_bar(const bar *b, const double *x, double *force) {
   const double *p = x + 3 * (size_t)b->ends[0], *q = x + 3 * (size_t)b->ends[1];
   const double d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};

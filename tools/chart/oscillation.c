@@ -8,7 +8,7 @@ static double cubic(const double y[4], double x) {
          y[2] * ((x + 1) * x * (x - 2)) / -2 + y[3] * ((x + 1) * x * (x - 1)) / 6;
 }
 
-/* Where between samples i - 1 and i the signal rises through the level, in steps from the first. */
+/* Time of the upward crossing of the level between samples i - 1 and i, in steps from the first. */
 static double crossing(const double *signal, uint32_t count, uint32_t i, double level) {
   double before = signal[i - 1] - level, now = signal[i] - level, low = 0, high = 1;
   if (i < 2 || i + 1 >= count) return i - 1 + before / (before - now);
@@ -23,8 +23,8 @@ static double crossing(const double *signal, uint32_t count, uint32_t i, double 
   return i - 1 + (low + high) / 2;
 }
 
-/* Greatest of sign times the signal within [from, to) samples, between them by the parabola through the
- * greatest and its neighbours. */
+/* Maximum of sign times the signal within [from, to) samples, interpolated by a parabola through the
+ * largest sample and its neighbours. */
 static double extreme(const double *signal, uint32_t count, uint32_t from, uint32_t to, double sign) {
   uint32_t best = from;
   for (uint32_t i = from; i < to; i++)

@@ -16,7 +16,7 @@ static sbf_status cannot(sbf_diagnostic *error, const char *path, const char *wh
   return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "%s: %s", what, strerror(errno));
 }
 
-/* The folder that `path` is in. */
+/* Folder that contains `path`. */
 static void parent_of(const char *path, char *to, size_t size) {
   size_t length = strlen(path);
   while (length > 1 && path[length - 1] == '/') length--;
@@ -65,7 +65,7 @@ bool chart_folder_file(const chart_folder *folder, const char *name, char *path,
   return snprintf(path, size, "%s/%s", folder->temporary, name) < (int)size;
 }
 
-/* Calls `act` for every file in the temporary folder, until it returns false. */
+/* Calls `act` for every file in the temporary folder until it returns false. */
 static bool each_file(const chart_folder *folder, bool (*act)(const chart_folder *folder, const char *name)) {
   DIR *listing = opendir(folder->temporary);
   bool good = listing != NULL;
@@ -93,8 +93,8 @@ static bool delete_one(const chart_folder *folder, const char *name) {
 sbf_status chart_folder_commit(chart_folder *folder, sbf_diagnostic *error) {
   mode_t mask = umask(0);
   umask(mask);
-  chmod(folder->temporary, 0777 & ~mask);                   /* which mkdtemp kept for its owner */
-  if (rename(folder->temporary, folder->final_path) == 0) { /* it was not there, or was empty */
+  chmod(folder->temporary, 0777 & ~mask);                   /* mkdtemp restricts it to its owner */
+  if (rename(folder->temporary, folder->final_path) == 0) { /* it did not exist, or was empty */
     folder->open = false;
     return SBF_OK;
   }

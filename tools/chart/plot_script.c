@@ -9,10 +9,10 @@
 
 static const double BUDGETS_US[] = {100, 1000, 4000};
 enum { BUDGETS = 3, MAX_LINES = 64 };
-/* Of a panel's height, for a scheme's failures on its top. */
+/* Fraction of a panel's height for the strip of failures at the top. */
 static const double STRIP = 0.034;
 static const unsigned FRONT = 0xffd966;
-/* Pixels: of the drawing without its key, of a row of the key, and of what stands below panels and key. */
+/* Pixels: drawing without its key, a row of the key, and the space below panels and key. */
 enum { WIDTH = 1000, REST_HEIGHT = 478, KEY_ROW = 21, KEY_COLUMNS = 5, BELOW_PANELS = 58, FOOT = 30 };
 
 unsigned chart_scheme_colour(const char *scheme) {
@@ -27,7 +27,7 @@ unsigned chart_scheme_colour(const char *scheme) {
   return 0x56b4e9;
 }
 
-/* Rows that are one line of the drawing: one model, one scheme, one kind of setting. */
+/* Rows that form one line of the drawing: one model, one scheme, one kind of setting. */
 typedef struct line {
   const char *model, *scheme;
   bool by_error;
@@ -39,12 +39,11 @@ typedef struct plot {
   line lines[MAX_LINES];
   int line_count;
   bool *front;
-  double bottom, top, failed; /* of the axis; from `failed` on stands what failed */
-  int failing[MAX_LINES],
-      failing_count; /* lines of schemes that failed somewhere, a place in the strip each */
+  double bottom, top, failed;            /* of the axis; failures are above `failed` */
+  int failing[MAX_LINES], failing_count; /* lines of schemes with failures, one row in the strip each */
   double cheapest[2], dearest[2];
   bool several_models;
-  int key_rows, foot, height; /* pixels but for the rows */
+  int key_rows, foot, height; /* pixels without the rows */
 } plot;
 
 static bool is_of(const line *l, const chart_row *row) {
@@ -71,7 +70,7 @@ static bool has_failed(const plot *p, const chart_row *row) {
   return !row->refused && !chart_row_counts(row, p->axis);
 }
 
-/* The place of its scheme among those that failed, from below; -1: it has none. */
+/* Index of its scheme among those with failures, from below; -1: none. */
 static int position_of(const plot *p, const char *scheme) {
   for (int i = 0; i < p->failing_count; i++)
     if (strcmp(p->lines[p->failing[i]].scheme, scheme) == 0) return i;
@@ -118,7 +117,7 @@ static void find_range(plot *p) {
   p->dearest[0] = fmax(p->dearest[0], 8000);
 }
 
-/* Where its failures are marked: in the strip on top, a line a scheme. */
+/* Position of its failures: in the strip at the top, one row per scheme. */
 static double mark_at(const plot *p, const chart_row *row) {
   return p->failed * pow(p->top / p->failed, (position_of(p, row->scheme) + 1.0) / (p->failing_count + 1.0));
 }
@@ -173,7 +172,7 @@ static bool write_front(FILE *to, const plot *p, int panel) {
   return true;
 }
 
-/* Points by model, so that lines of one scheme keep their colour. */
+/* Point type by model; lines of one scheme share their colour. */
 static int mark_of(const plot *p, const char *model) {
   static const int marks[] = {7, 5, 9, 13, 11, 15};
   int models = 0;
@@ -184,7 +183,7 @@ static int mark_of(const plot *p, const char *model) {
   return marks[models % 6];
 }
 
-/* How far the references are off themselves, at worst. */
+/* Maximum error of the references themselves. */
 static const chart_reference *worst_reference(const chart_sheet *s, chart_axis axis) {
   const chart_reference *worst = NULL;
   for (uint32_t i = 0; i < s->reference_count; i++)
@@ -197,7 +196,7 @@ static bool shows_reference(const plot *p) {
   return own && own->errors[p->axis] > p->bottom && own->errors[p->axis] < p->failed;
 }
 
-/* What lies under the points: the strip of failures, what games may spend, how far off the reference is. */
+/* Background: strip of failures, time budget of games, error of the reference. */
 static void write_marks(FILE *to, const plot *p, int panel) {
   fprintf(to, "unset arrow\nunset label\nunset object\n");
   if (p->failing_count) {
@@ -223,7 +222,7 @@ static void write_marks(FILE *to, const plot *p, int panel) {
   }
 }
 
-/* An entry of the key, by number: a line or not, a mark (0: none) and words. */
+/* Entry of the key, by number: a line or not, a mark (0: none) and text. */
 static void write_entry(FILE *to, const plot *p, int number, unsigned colour, const char *line_of, int mark,
     const char *words, const char *more) {
   if (!to) return;
@@ -238,8 +237,8 @@ static void write_entry(FILE *to, const plot *p, int number, unsigned colour, co
   fprintf(to, "set label '%s%s' at screen %.4g,%.4g left noenhanced font ',12'\n", words, more, x + 0.036, y);
 }
 
-/* Below both panels: each scheme once, in its colour, then each model, by its mark. Returns how many there
- * are; `to` NULL: writes none. */
+/* Below both panels: each scheme once, in its colour, then each model, with its mark. Returns their
+ * number; `to` NULL: writes nothing. */
 static int write_key(FILE *to, const plot *p) {
   int count = 0;
   for (int k = 0; k < p->line_count; k++) {
@@ -261,7 +260,7 @@ static int write_key(FILE *to, const plot *p) {
   return count;
 }
 
-/* What the runtime does not step so: of each model, in a line at the foot. */
+/* Footer: combinations of models and schemes that the runtime does not support. */
 static void write_refused(FILE *to, const plot *p) {
   const char *model = NULL, *scheme = "";
   for (uint32_t i = 0; i < p->sheet->row_count; i++) {

@@ -7,13 +7,14 @@
 #include "chart/network_motion.h"
 #include "render/fault.h"
 
-enum { MIN_SUBSTEPS = 32, MAX_SUBSTEPS = 1024 }; /* of what is swept; of the runtime */
+enum { MIN_SUBSTEPS = 32, MAX_SUBSTEPS = 1024 }; /* relative to the sweep; limit of the runtime */
 static const double TICK_S = 1.0 / 60;
 static const char BODY_ADVICE[] = "its matter folds up or its lattice is unsound";
-/* How far the two tracks of a reference may be apart, as a share of how far things move, for it to be left as
- * it is. */
+/* Maximum distance of the two tracks of a reference, relative to the displacement, that needs no
+ * refinement. */
 static const double CONVERGED = 0.001;
-static const double RICHARDSON = 15; /* 2^4 - 1: the fine one of two of fourth order is so much nearer */
+static const double RICHARDSON =
+    15; /* 2^4 - 1: ratio of errors for half the step of a fourth order method, minus 1 */
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
@@ -35,7 +36,7 @@ static sbf_status find_in_double(chart_truth *truth, const chart_case *charted, 
   return SBF_OK;
 }
 
-/* `hint`: what to do where it fails. */
+/* `hint`: advice if it fails. */
 static sbf_status check(chart_track *track, const chart_scene *scene, sbf_scheme scheme, uint32_t substeps,
     const char *hint, sbf_diagnostic *error) {
   chart_motion motion;
@@ -50,7 +51,7 @@ static sbf_status check(chart_track *track, const chart_scene *scene, sbf_scheme
   return status;
 }
 
-/* Two tracks of one motion, of which the second is the better one or as good. */
+/* Two tracks of one motion; the second is at least as good. */
 typedef struct reference_pair {
   const chart_case *charted;
   const chart_scene *scene;
@@ -59,14 +60,14 @@ typedef struct reference_pair {
   uint32_t substeps[2];
 } reference_pair;
 
-/* How far the two are apart, as a share of how far things move. */
+/* Distance of the two relative to the displacement. */
 static double separation(const reference_pair *p, const chart_track *track, const double *errors) {
   if (!(p->charted->axes & 1u << CHART_PATH)) return errors[CHART_SHAPE];
   double extent = chart_extent_of(track, p->rest);
   return extent > 0 ? errors[CHART_PATH] / extent : 0;
 }
 
-/* `first` is the first of them where it is there already; NULL: it is not. */
+/* `first` is the first of them if it exists; NULL otherwise. */
 static sbf_status sample_both(const reference_pair *p, const chart_track *first, chart_track tracks[2],
     double *errors, const char *hint, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
@@ -80,8 +81,8 @@ static sbf_status sample_both(const reference_pair *p, const chart_track *first,
   return status;
 }
 
-/* Twice the substeps until both hold and have converged, there are no more to be had, or more come no nearer:
- * then what was nearest is kept. `tracks` and `errors` are of `substeps`. */
+/* Doubles the substeps until both are sound and have converged, the limit is reached, or the distance
+ * stops decreasing: then keeps the best. `tracks` and `errors` are of `substeps`. */
 static sbf_status refine(
     reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
   sbf_status status = sample_both(p, NULL, tracks, errors, hint, error);

@@ -41,8 +41,8 @@ double chart_stable_below(sbf_scheme scheme, double damping) {
 
 /* ---- What is seen ---- */
 
-/* x[n+1] = a x[n] + b x[n-1], by least squares over whatever three ticks in turn were seen. Of a spring along
- * its own line every scheme's step is linear, so that this holds exactly, and no period need be whole. */
+/* Least squares fit of x[n+1] = a x[n] + b x[n-1] over all triples of consecutive ticks. For a spring
+ * along its own line every scheme's step is linear, so it is exact and needs no complete period. */
 typedef struct recurrence {
   double xx, xy, yy, xz, yz;
 } recurrence;
@@ -52,7 +52,7 @@ static void take(recurrence *r, double before, double now, double next) {
   r->xz += now * next, r->yz += before * next;
 }
 
-/* How far its slowest fading root is off the exact rate, over w. */
+/* Error of its slowest decaying root relative to the exact rate, divided by w. */
 static double off_of(const recurrence *r, const chart_cell *cell) {
   double determinant = r->xx * r->yy - r->xy * r->xy;
   if (!(fabs(determinant) > 1e-12 * r->xx * r->yy)) return NAN;
@@ -64,15 +64,15 @@ static double off_of(const recurrence *r, const chart_cell *cell) {
   return cabs(creal(rate) + I * fabs(cimag(rate)) - exact);
 }
 
-/* The next frame's length; `state` is that of a generator of equal shares. */
+/* Length of the next frame; `state` is that of a uniform random generator. */
 static double frame_s(const chart_cell *cell, uint32_t frame, uint32_t *state) {
   *state = *state * 1664525u + 1013904223u;
   double chance = 2.0 * (*state >> 8) / 0x1p24 - 1;
   return TICK_S * (1 + cell->jitter * chance + (frame == 15 ? cell->hitch_ticks : 0));
 }
 
-/* How far its mass is above where it would rest, at the last tick's end: by its weight's energy, for points
- * are shown between two ticks where frames do not end with one. */
+/* Height of its mass above equilibrium at the end of the last tick: from its weight's energy, because
+ * displayed points are interpolated if frames do not end with a tick. */
 static double height_of(const chart_motion *m, const chart_cell *cell, const sbr_body_health *health) {
   double origin = sbr_character_get_origin(m->world, m->character).y;
   return health->potential_j / (-MASS_KG * (double)m->scene.gravity.y) - origin + 1 + cell->stretch;
@@ -118,7 +118,7 @@ sbf_status chart_cell_evaluate(const chart_cell *cell, chart_verdict *verdict, s
   if (!asset) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a body to chart");
   sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)asset->soft_bodies.at;
   body->attributes.stiffness_damping = (float)(2 * cell->damping / w);
-  /* It is let go unstretched, under a weight that would stretch it so far. */
+  /* Released unstretched, under a weight for this equilibrium stretch. */
   const chart_scene scene = {.asset = asset,
       .has_gravity = true,
       .gravity = {0, (float)(-w * w * cell->stretch), 0},

@@ -100,7 +100,7 @@ uint32_t chart_map_named(const char *name) {
   return i;
 }
 
-/* A row of one scheme; of a body, which all cells of a row share. */
+/* A row of one scheme; for bodies, all cells of a row share one. */
 static sbf_status fill_row(
     chart_map *map, uint32_t scheme, uint32_t row, const chart_hung_body *body, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;

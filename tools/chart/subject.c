@@ -1,6 +1,6 @@
 #include "chart/subject.h"
 
-/* A body of bare points with springs between, of which some are held. */
+/* A body of points with springs between them, some of which are pinned. */
 static sbf_asset *make(const sbf_vec3 *points, uint32_t count, float mass_kg, const sbf_uint2 *ends,
     uint32_t spring_count, float stiffness, const uint32_t *pinned, uint32_t pinned_count) {
   sbf_asset *asset = sbf_asset_create(NULL);

@@ -9,7 +9,7 @@
 #include "render/fault.h"
 
 static const double TICK_S = 1.0 / 60;
-/* Farther off the path, in units of how far the reference moves, is no error but a failure. */
+/* Larger path errors, relative to the reference's displacement, count as failures. */
 static const double LOST = 3;
 
 typedef struct sweep {
@@ -85,7 +85,7 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
   return judged ? SBF_OK : no_memory(error);
 }
 
-/* All settings of all schemes; `springs` have one more scheme. */
+/* Runs all settings of all schemes; `springs` support one more scheme. */
 static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const chart_scene *scene,
     const chart_truth *truth, const sbf_vec3 *rest, sbf_diagnostic *error) {
   static const sbf_scheme by_substeps[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
@@ -96,7 +96,7 @@ static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const ch
     for (uint32_t n = 1; status == SBF_OK && n <= s->effort->max_substeps; n *= 2) {
       const chart_setting setting = {.scheme = by_substeps[i], .substeps = n};
       status = add_row(s, subject, scene, &setting, truth, rest, error);
-      /* What is refused at one number of substeps is at all. */
+      /* A scheme unsupported at one number of substeps is unsupported at all. */
       if (status == SBF_OK && s->sheet->rows[s->sheet->row_count - 1].refused) break;
     }
   for (int i = 0; status == SBF_OK && i < 5; i++) {
@@ -135,7 +135,7 @@ static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diag
   return status;
 }
 
-/* Meshes of one body: the first is what the others are measured against. */
+/* Meshes of one body: the first is the reference of the others. */
 static sbf_status sweep_meshes(
     sweep *s, const chart_subject *subjects, uint32_t count, sbf_diagnostic *error) {
   const chart_setting own = {.scheme = SBF_SCHEME_AUTOMATIC};
@@ -182,7 +182,7 @@ static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
   return good ? SBF_OK : no_memory(error);
 }
 
-/* The character of a file is the only body of its case. */
+/* The character from a file is the only body of its case. */
 static sbf_status take(
     const chart_case *charted, uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
   if (number) return SBF_OK;

@@ -8,7 +8,7 @@
 
 enum { MAX_COLUMNS = 64, MAX_ROUNDS = 10000 };
 
-/* One table, a line at a time; columns are found by their heads. */
+/* A table read line by line; columns are found by name. */
 typedef struct table {
   FILE *file;
   const char *path;
@@ -57,7 +57,7 @@ static sbf_status table_open(table *t, const char *path, sbf_diagnostic *error) 
   return SBF_OK;
 }
 
-/* The next line's fields; `*some` false at the end. */
+/* Reads the next line's fields; `*some` is false at the end. */
 static sbf_status table_next(table *t, bool *some, sbf_diagnostic *error) {
   t->line_number++;
   *some = getline(&t->line, &t->capacity, t->file) > 0;
@@ -66,14 +66,14 @@ static sbf_status table_next(table *t, bool *some, sbf_diagnostic *error) {
   return SBF_OK;
 }
 
-/* Text in that column; NULL: there is no such column. */
+/* Text in that column; NULL if there is no such column. */
 static const char *text_of(const table *t, const char *column) {
   for (int i = 0; i < t->column_count; i++)
     if (strcmp(t->heads[i], column) == 0) return t->fields[i];
   return NULL;
 }
 
-/* NAN where the field is empty or no number. */
+/* NAN if the field is empty or not a number. */
 static double number_of(const table *t, const char *column) {
   const char *text = text_of(t, column);
   char *end;
@@ -177,7 +177,7 @@ static sbf_status read_rows(
   return status == SBF_OK && !sheet->row_count ? fault(t, error, "it has no rows") : status;
 }
 
-/* The times of every run, which stand in the order of the rows. */
+/* Reads the times of every run, in the order of the rows. */
 static sbf_status read_runs(
     table *t, chart_sheet *sheet, const chart_machine *machine, sbf_diagnostic *error) {
   bool some = true, first = true;

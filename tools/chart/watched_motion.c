@@ -66,7 +66,7 @@ void chart_motion_run(void *motion) {
   for (uint32_t t = 0; t < ticks; t++) advance(m, t);
 }
 
-/* The lists of points that are looked at: the `number`-th; NULL: there are no more. */
+/* List number `number` of the observed points; NULL if there are no more. */
 static const sbf_vec3_list *watched_list(const chart_scene *scene, uint32_t number) {
   const sbf_asset *asset = scene->asset;
   if (scene->watch == CHART_WATCH_POINTS)
@@ -95,7 +95,7 @@ sbf_vec3 *chart_motion_begins(const chart_scene *scene) {
   return positions;
 }
 
-/* How often a substep of the scheme visits each element. */
+/* Visits of each element per substep of the scheme. */
 static double visits_a_substep(sbf_scheme scheme, const sbf_level *level) {
   enum { SWEEPS = 4 }; /* of block descent, each from every point of an element */
   bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
@@ -122,7 +122,7 @@ double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const cha
   return sum;
 }
 
-/* Relative to the character's origin, but for the skin: that is in world space, where it walks to. */
+/* Relative to the character's origin, except for the skin, which is in world space. */
 static void read_positions(const chart_motion *m, sbf_vec3 *positions, uint32_t count) {
   const sbf_asset *asset = m->scene.asset;
   uint32_t at = 0;
@@ -163,8 +163,8 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
   snprintf(track->why, sizeof track->why, "%s (%.40s, tick %u)", why, of, (unsigned)tick);
 }
 
-/* That a pass looks at: each once, but for relaxation, which goes to structural and shear springs from
- * either end, and to none of flexion. */
+/* Elements visited per pass: each once, except for relaxation, which visits structural and shear springs
+ * from both ends, and no flexion springs. */
 static double visits_a_pass(sbf_scheme scheme, const sbf_soft_body *body) {
   const sbf_level *level = body->levels.count ? &body->levels.at[0] : NULL;
   if (level && scheme == SBF_SCHEME_AUTOMATIC) scheme = level->simulation.scheme;
@@ -178,7 +178,7 @@ static double visits_a_pass(sbf_scheme scheme, const sbf_soft_body *body) {
   return sum;
 }
 
-/* Since the character was made, of all bodies. */
+/* Total over all bodies since the character was created. */
 static double visits_until_now(const chart_motion *m) {
   const sbf_asset *asset = m->scene.asset;
   double sum = 0;

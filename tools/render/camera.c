@@ -1,7 +1,8 @@
 #include "render/camera.h"
 
-static const float margin = 1.12f;           /* picture over subject */
-static const float half_height = 0.2493280f; /* tan 14 degrees: long enough that nothing looks bulged */
+static const float margin = 1.12f; /* margin of the picture around the subject */
+static const float half_height =
+    0.2493280f; /* tangent of 14 degrees: a long lens without perspective distortion */
 
 sbf_vec3 draw_camera_back(const draw_camera *camera) {
   float level = cosf(camera->pitch);
@@ -21,12 +22,12 @@ matrix4 draw_camera_projection(const draw_camera *camera, float aspect, float re
   return matrix4_perspective(camera->half_height, aspect, near > min ? near : min, camera->distance + reach);
 }
 
-/* A point p, in the axes right, over and back of the picture, is inside a picture whose half width is w at
- * distance 1, seen from (shift, distance), when |p.right - shift| <= w (distance - p.back). The nearest
+/* A point p, in the axes right, over and back of the picture, is inside a picture with half width w at
+ * distance 1, seen from (shift, distance), if |p.right - shift| <= w (distance - p.back). The minimum
  * distance makes both sides tight: with A = max(p.right + w p.back) and B = max(-p.right + w p.back),
- * distance = (A + B) / 2w and shift = (A - B) / 2; and likewise upwards. */
+ * distance = (A + B) / 2w and shift = (A - B) / 2; the same holds upwards. */
 typedef struct frame_extent {
-  float right, left, over, under; /* the maxima A and B of both ways */
+  float right, left, over, under; /* the maxima A and B in both directions */
 } frame_extent;
 
 static void frame_point(frame_extent *extent, sbf_vec3 p, float wide, float high) {
@@ -71,8 +72,8 @@ void draw_camera_frame(draw_camera *camera, const box3 *box, float aspect, float
   draw_camera_frame_points(camera, corners, box3_is_empty(box) ? 0 : 8, aspect, yaw, pitch);
 }
 
-/* e'' = -w^2 e - 2 w e', where e is the way from where x should be, which is taken to move evenly over the
- * step: solved exactly, so any frame rate shows the same path. */
+/* e'' = -w^2 e - 2 w e', where e is the offset from the target, which moves evenly over the step: the
+ * exact solution, so every frame rate gives the same path. */
 static void follow_axis(float *x, float *velocity, float before, float now, float seconds) {
   float w = 1 / DRAW_CAMERA_FOLLOW_SECONDS, pace = (now - before) / seconds;
   float error = *x - before, decay = expf(-w * seconds), slope = *velocity - pace + w * error;
@@ -80,8 +81,8 @@ static void follow_axis(float *x, float *velocity, float before, float now, floa
   *velocity = pace + (slope - w * (error + slope * seconds)) * decay;
 }
 
-/* How far the eye must be from the subject it has, to show what is best seen around another: as far off as
- * there, and farther by what the picture's middle is aside. */
+/* Distance of the eye from the subject that shows the content of another framing: that framing's distance
+ * plus the sideways offset of its centre. */
 static float safe_distance(const draw_camera *camera, const draw_camera *best) {
   sbf_vec3 off = v3_sub(best->subject, camera->subject), back = draw_camera_back(camera);
   float nearer = v3_dot(off, back), aside = v3_length(v3_sub(off, v3_scale(back, nearer)));

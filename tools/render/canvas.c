@@ -11,12 +11,12 @@ struct draw_canvas {
   draw_context context;
   gl_api gl;
   draw_canvas_quality quality;
-  GLint samples, largest; /* of what the driver does */
+  GLint samples, largest; /* limits of the driver */
   uint32_t width, height; /* of the picture */
-  uint32_t scale;         /* of the drawing surface to it */
+  uint32_t scale;         /* of the drawing surface relative to it */
   GLuint drawn, drawn_colour, drawn_depth;
-  GLuint resolved, resolved_colour; /* one sample a pixel, same size as drawn */
-  GLuint reduced, reduced_colour;   /* the picture's size; 0 where scale is 1 */
+  GLuint resolved, resolved_colour; /* one sample per pixel, size of the drawing surface */
+  GLuint reduced, reduced_colour;   /* size of the picture; 0 if scale is 1 */
   uint8_t *rgba;                    /* read back, rows from the bottom */
   char renderer[128];
 };
@@ -76,7 +76,7 @@ sbf_status draw_canvas_resize(
   if (canvas->drawn && canvas->width == width && canvas->height == height) return SBF_OK;
   free_surfaces(canvas);
   canvas->width = width, canvas->height = height;
-  /* Twice the size is four times the memory and the time; a big picture needs it least. */
+  /* Twice the size needs four times the memory and time; a large picture needs it least. */
   bool doubled =
       canvas->quality == DRAW_CANVAS_STILL && longest <= 2048 && 2 * longest <= (uint32_t)canvas->largest;
   canvas->scale = doubled ? 2 : 1;
@@ -169,14 +169,14 @@ static void blit(const gl_api *gl, GLuint from, GLuint to, GLint width, GLint he
   gl->BlitFramebuffer(0, 0, width, height, 0, 0, to_width, to_height, GL_COLOR_BUFFER_BIT, filter);
 }
 
-/* One sample a pixel, of the picture's size; returns where it is. */
+/* Resolves to one sample per pixel at the picture's size; returns the framebuffer. */
 static GLuint resolve(draw_canvas *canvas) {
   const gl_api *gl = &canvas->gl;
   GLint width = (GLint)canvas->width, height = (GLint)canvas->height, scale = (GLint)canvas->scale;
   blit(gl, canvas->drawn, canvas->resolved, width * scale, height * scale, width * scale, height * scale,
       GL_NEAREST);
   if (canvas->scale == 1) return canvas->resolved;
-  /* Halving with linear filtering takes the mean of each four pixels. */
+  /* Halving with linear filtering averages each four pixels. */
   blit(gl, canvas->resolved, canvas->reduced, width * scale, height * scale, width, height, GL_LINEAR);
   return canvas->reduced;
 }

@@ -17,7 +17,7 @@ static int spawn(child_pipe *child, char *const *arguments, int input) {
   if (error) return error;
   error = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   if (!error) error = posix_spawn_file_actions_adddup2(&actions, fileno(child->said), STDERR_FILENO);
-  /* Nothing of the child may mix with what this program prints for others to read. */
+  /* The child's output must not mix with this program's. */
   if (!error) error = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   if (!error) error = posix_spawnp(&child->process, arguments[0], &actions, NULL, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -26,7 +26,7 @@ static int spawn(child_pipe *child, char *const *arguments, int input) {
 
 int child_pipe_start(child_pipe *child, char *const *arguments) {
   *child = (child_pipe){.input = -1};
-  /* A socket rather than a pipe: sending on it can be asked not to raise SIGPIPE. */
+  /* A socket instead of a pipe, because sends can suppress SIGPIPE. */
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
   child->said = tmpfile();

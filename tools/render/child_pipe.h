@@ -1,5 +1,5 @@
-/* A program started to be fed: what is written goes to its standard input, and what it says on standard error
- * is kept. POSIX; the only file of the renderer that knows of processes. */
+/* Runs a child program whose standard input this program writes; keeps its standard error. POSIX; the
+ * renderer's only file with processes. */
 #ifndef RENDER_CHILD_PIPE_H
 #define RENDER_CHILD_PIPE_H
 
@@ -11,21 +11,21 @@
 typedef struct child_pipe {
   pid_t process; /* 0: none */
   int input;     /* its standard input; -1: closed */
-  FILE *said;    /* its standard error */
+  FILE *said;    /* file of its standard error */
 } child_pipe;
 
-/* `arguments` ends with NULL; arguments[0] is looked up in PATH. 0, or the errno that says why not:
- * ENOENT where there is no such program. */
+/* `arguments` ends with NULL; arguments[0] is searched in PATH. Returns 0, or an errno: ENOENT if the
+ * program does not exist. */
 int child_pipe_start(child_pipe *child, char *const *arguments);
 
-/* False when the child no longer takes it. Raises no SIGPIPE. */
+/* False if the child has closed its input. Raises no SIGPIPE. */
 bool child_pipe_write(child_pipe *child, const void *bytes, size_t size);
 
-/* Closes its input, waits, copies the end of what it said (cut to whole lines joined by "; ").
- * True when it ended by itself with status 0. */
+/* Closes its input, waits, copies the end of its error output (whole lines joined by "; "). True if it
+ * exited with status 0. */
 bool child_pipe_finish(child_pipe *child, char *said, size_t said_size);
 
-/* Ends it at once. Fine when none is running. */
+/* Kills it. Does nothing if none is running. */
 void child_pipe_kill(child_pipe *child);
 
 #endif

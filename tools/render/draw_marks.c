@@ -1,13 +1,14 @@
-/* Marks: lines and dots over all else, each with a pale rim; and prints, which lie on the ground. */
+/* Marks: lines and dots on top of everything, with a pale rim; and prints, which are on the ground. */
 #include "render/draw_scene_data.h"
 
 enum { RING_SEGMENTS = 40 };
 
 static const float full_turn = 6.28318531f;
-static const float rim_width = 2.4f; /* of both sides together */
-static const float lifted = 0.08f;   /* of a print's radius: so that the ground does not cut through it */
+static const float rim_width = 2.4f; /* sum of both sides */
+static const float lifted =
+    0.08f; /* fraction of a print's radius, so that the ground does not cut through it */
 
-/* A vertex of no triangle: the picture is framed so that it is in it. */
+/* Adds a vertex without triangle, which framing includes. */
 static void keep_in_picture(draw_scene *scene, sbf_vec3 position) {
   draw_scene_space space;
   if (!draw_scene_reserve(scene, 1, 0, &space)) return;

@@ -1,4 +1,4 @@
-/* The little vector arithmetic that drawing needs; matrices are column by column, as OpenGL takes them. */
+/* Vector arithmetic for drawing; matrices are column-major, as in OpenGL. */
 #ifndef RENDER_DRAW_MATH_H
 #define RENDER_DRAW_MATH_H
 
@@ -29,13 +29,13 @@ static inline sbf_vec3 v3_cross(sbf_vec3 a, sbf_vec3 b) {
   return v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* `fallback` where `a` has no direction. */
+/* `fallback` if `a` has no direction. */
 static inline sbf_vec3 v3_unit(sbf_vec3 a, sbf_vec3 fallback) {
   float length = v3_length(a);
   return length > 1e-20f ? v3_scale(a, 1 / length) : fallback;
 }
 
-/* A unit vector at right angles to the unit vector `a`. */
+/* A unit vector perpendicular to the unit vector `a`. */
 static inline sbf_vec3 v3_side(sbf_vec3 a) {
   return v3_unit(v3_cross(a, fabsf(a.y) < 0.9f ? v3(0, 1, 0) : v3(1, 0, 0)), v3(1, 0, 0));
 }
@@ -52,12 +52,12 @@ typedef struct matrix4 {
 
 matrix4 matrix4_product(const matrix4 *a, const matrix4 *b);
 matrix4 matrix4_view(
-    sbf_vec3 eye, sbf_vec3 back, sbf_vec3 up); /* `back`: unit, from what is seen to the eye */
+    sbf_vec3 eye, sbf_vec3 back, sbf_vec3 up); /* `back`: unit vector from the subject to the eye */
 matrix4 matrix4_perspective(
     float half_height, float aspect, float near, float far); /* tangent of half the angle */
 matrix4 matrix4_orthographic(float left, float right, float bottom, float top, float near, float far);
 
-/* An axis-aligned box; empty while min > max. */
+/* Axis-aligned box; empty if min > max. */
 typedef struct box3 {
   sbf_vec3 min, max;
 } box3;
@@ -69,7 +69,7 @@ static inline bool box3_is_empty(const box3 *box) {
   return !(box->min.x <= box->max.x);
 }
 
-/* Points that are not finite are left out: a broken simulation must still be seen. */
+/* Ignores points that are not finite, so that a broken simulation can still be drawn. */
 static inline void box3_add(box3 *box, sbf_vec3 p) {
   if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) return;
   box->min = v3(fminf(box->min.x, p.x), fminf(box->min.y, p.y), fminf(box->min.z, p.z));

@@ -43,8 +43,7 @@ box3 draw_scene_bounds(const draw_scene *scene) {
   return scene->bounds;
 }
 
-/* Lines and dots may be drawn without the surface they lie in: then the surfaces' points do not tell the
- * size. */
+/* Lines and dots may be drawn without their surface: then the surfaces' points do not give the size. */
 static bool lines_reach_beyond(const draw_scene *scene) {
   const box3 *all = &scene->bounds, *solid = &scene->casters;
   if (box3_is_empty(all) || box3_is_empty(solid)) return !box3_is_empty(all);
@@ -138,9 +137,9 @@ void draw_scene_close_part(draw_scene *scene, const draw_scene_space *space, uin
       box3_add(&scene->casters, box.max);
     }
   }
-  /* Meshes of one look that follow each other are one thing: one call, and one skin when seen through, where
-   * the sections of a body do not show inside each other. What throws no shadow, and what blends, stays
-   * apart, to be drawn in order. */
+  /* Merges consecutive meshes with one look: one draw call, and one skin if transparent, in which sections
+   * of a body do not show inside each other. Parts without shadow, and blended parts, stay separate and
+   * are drawn in order. */
   draw_scene_part *last =
       scene->parts.count ? (draw_scene_part *)scene->parts.at + scene->parts.count - 1 : NULL;
   if (last && is_same_style(last, &part) && part.alpha != DRAW_BLEND &&
@@ -198,7 +197,7 @@ static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scen
   draw_scene_close_part(scene, &space, mesh->vertex_count, index_count, style);
 }
 
-/* Of the mesh's vertices, before it is placed; `indices`: room for all its triangles. */
+/* Of the mesh's vertices before its transform; `indices` has a capacity for all its triangles. */
 static const sbf_vec3 *find_smooth_normals(draw_scene *scene, const draw_mesh *mesh, uint32_t *indices) {
   uint32_t count = 0;
   scene->smooth_normals.count = 0;
@@ -213,8 +212,7 @@ static const sbf_vec3 *find_smooth_normals(draw_scene *scene, const draw_mesh *m
   return normals;
 }
 
-/* Each corner a vertex of its own: for facets, hard edges, and where an image parts along lines that the
- * surface does not. */
+/* Uses a separate vertex for each corner: for facets, hard edges, and seams of images. */
 static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *style) {
   draw_scene_space space;
   uint32_t count = 0;
@@ -255,7 +253,7 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
 void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
   draw_scene_part style = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
   if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
-  if (mesh->transparency <= 0) { /* seen through, it shows its shape alone */
+  if (mesh->transparency <= 0) { /* a transparent one has no texture */
     style.image = mesh->corner_uvs ? mesh->image : NULL;
     style.alpha = mesh->alpha;
     style.cutoff = mesh->cutoff;

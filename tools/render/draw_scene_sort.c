@@ -1,4 +1,4 @@
-/* What is blended must be drawn from far to near. */
+/* Blended items must be drawn from far to near. */
 #include "render/draw_scene_data.h"
 
 enum { BUCKET_COUNT = 1024 };
@@ -7,13 +7,13 @@ static float line_depth(const draw_line *line, sbf_vec3 eye, sbf_vec3 back) {
   return v3_dot(v3_sub(eye, v3_scale(v3_add(line->from, line->to), 0.5f)), back);
 }
 
-/* Not a number goes to the front, where the painter leaves it out. */
+/* NaN goes to the front, where the painter skips it. */
 static unsigned bucket_of(float depth, float farthest, float scale) {
   float coordinate = (farthest - depth) * scale;
   return coordinate >= 0 && coordinate < BUCKET_COUNT - 1 ? (unsigned)coordinate : BUCKET_COUNT - 1;
 }
 
-/* By counting, in slices of a thousandth of the depth there is: linear time, and lines in one slice keep
+/* Counting sort in slices of a thousandth of the depth range: linear time, and lines in one slice keep
  * their order, so that they do not flicker. */
 static void sort_lines(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
   const draw_line *lines = scene->lines.at;
@@ -35,7 +35,7 @@ static void sort_lines(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
     sorted[starts[bucket_of(line_depth(&lines[i], eye, back), farthest, scale)]++] = lines[i];
 }
 
-/* Few enough that inserting each at its place is best. */
+/* They are few, so insertion sort is best. */
 static void sort_parts(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
   const draw_scene_part *parts = scene->parts.at;
   scene->sorted_parts.count = scene->veil_count = 0;

@@ -1,4 +1,4 @@
-/* The ready-made things of a scene: spheres, bones, hulls. */
+/* Predefined shapes of a scene: spheres, bones, hulls. */
 #include <stdlib.h>
 
 #include "render/draw_scene_data.h"
@@ -85,7 +85,7 @@ void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t 
   for (uint32_t t = 0; t < triangle_count; t++)
     for (int k = 0; k < 3; k++) {
       uint32_t from = triangles[3 * (size_t)t + k], to = triangles[3 * (size_t)t + (k + 1) % 3];
-      if (from >= to) continue; /* the triangle on the other side sees it the right way round */
+      if (from >= to) continue; /* the triangle on the other side has the other direction */
       uint32_t other = neighbour(triangles, triangle_count, from, to);
       if (other < triangle_count && v3_dot(facet_normal(positions, triangles + 3 * (size_t)t),
                                         facet_normal(positions, triangles + 3 * (size_t)other)) > same_plane)

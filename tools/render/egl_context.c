@@ -8,8 +8,8 @@
 
 #include "render/fault.h"
 
-/* libEGL is opened at run time and stays open: Mesa keeps threads and thread-local storage of its own, and
- * unloading it under them has crashed programs at exit. */
+/* libEGL is loaded at run time and stays loaded: Mesa has threads and thread-local storage of its own, and
+ * unloading it has crashed programs at exit. */
 #define EGL_MEMBERS(X)                                                                                       \
   X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                                \
   X(PFNEGLQUERYSTRINGPROC, QueryString)                                                                      \
@@ -35,7 +35,7 @@ typedef struct egl_context {
 } egl_context;
 
 static gl_function symbol_of(void *library, const char *name) {
-  /* POSIX promises that the bits survive; ISO C has no cast between data and function pointers. */
+  /* POSIX guarantees this conversion; ISO C has no cast between data and function pointers. */
   void *symbol = dlsym(library, name);
   gl_function function = NULL;
   if (symbol) memcpy(&function, &symbol, sizeof function);
@@ -62,7 +62,7 @@ static bool names_extension(const char *list, const char *name) {
   return false;
 }
 
-/* Without a surface or a window system where EGL can; else whatever it takes as its default. */
+/* Without a surface or a window system if EGL supports that; otherwise EGL's default display. */
 static EGLDisplay find_display(const egl_api *egl) {
   const char *extensions = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display =
@@ -109,8 +109,7 @@ static gl_function find_function(const char *name, void *user) {
 static void close_context(void *user) {
   egl_context *made = user;
   if (made->display != EGL_NO_DISPLAY) {
-    /* The display itself stays, to be had again: ending it unloads Mesa's driver, which then leaks what it
-     * still held. */
+    /* The display stays open for reuse: terminating it unloads Mesa's driver, which then leaks memory. */
     made->egl.MakeCurrent(made->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (made->context != EGL_NO_CONTEXT) made->egl.DestroyContext(made->display, made->context);
   }
@@ -121,7 +120,7 @@ sbf_status draw_egl_context(draw_context *context, sbf_diagnostic *diagnostic) {
   egl_context *made = calloc(1, sizeof *made);
   if (!made) return fault_set(diagnostic, SBF_CODE_OUT_OF_MEMORY, "no memory for a canvas");
   made->display = EGL_NO_DISPLAY, made->context = EGL_NO_CONTEXT;
-  /* Mesa tells standard error of every driver it tried; what counts is said in our own message. */
+  /* Mesa logs every driver that it tries; our own message has the relevant error. */
   setenv("EGL_LOG_LEVEL", "fatal", 0);
   sbf_status status = load_egl(&made->egl, diagnostic);
   if (status == SBF_OK) status = open_context(made, diagnostic);

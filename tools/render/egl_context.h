@@ -7,8 +7,8 @@
 #define DRAW_INSTALL_OPENGL                                                                                  \
   "install Mesa's EGL and OpenGL (Debian, Ubuntu: apt install libegl1 libgl1-mesa-dri)"
 
-/* Makes one, current for this thread; what comes of it closes it. SBF_FAILED, with a message that says what
- * to install, where there is none to be had. */
+/* Creates a context, current for this thread; closing it is up to the receiver. SBF_FAILED, with a message
+ * that says what to install, if there is none. */
 sbf_status draw_egl_context(draw_context *context, sbf_diagnostic *diagnostic);
 
 #endif

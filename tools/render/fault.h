@@ -1,14 +1,14 @@
-/* How drawing reports what went wrong. */
+/* Error reports of drawing. */
 #ifndef RENDER_FAULT_H
 #define RENDER_FAULT_H
 
 #include "sbfmt/codes.h"
 
-/* Fills `*to` (may be NULL), and returns the status that goes with the code. */
+/* Fills `*to` (may be NULL) and returns the status of the code. */
 sbf_status fault_set(sbf_diagnostic *to, sbf_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The same about a file. */
+/* The same for a file. */
 sbf_status fault_set_file(sbf_diagnostic *to, sbf_code code, const char *file, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

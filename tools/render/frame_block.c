@@ -1,6 +1,6 @@
 #include "render/frame_block.h"
 
-/* Vogel's spiral: the golden angle from each point to the next covers a disc evenly. */
+/* Vogel's spiral: points at the golden angle cover a disc evenly. */
 void frame_block_begin(frame_block *frame) {
   for (int i = 0; i < DISC_POINTS; i++) {
     float radius = sqrtf(((float)i + 0.5f) / DISC_POINTS), angle = 2.39996323f * (float)i;
@@ -13,7 +13,7 @@ static void set4(float *to, sbf_vec3 v, float w) {
   to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = w;
 }
 
-/* A direction given as seen by the camera where it first stood. */
+/* Converts a direction relative to the camera's initial view. */
 static sbf_vec3 towards(float home_yaw, float yaw, float pitch) {
   float level = cosf(pitch);
   return v3(level * sinf(home_yaw + yaw), sinf(pitch), level * cosf(home_yaw + yaw));
@@ -48,7 +48,7 @@ void frame_block_fill(frame_block *frame, uint32_t width, uint32_t height, const
       maps->ground_side / GROUND_MAP_SIDE);
   set4(frame->heights, v3(maps->low, maps->high, 0), 0);
   set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.07f * size), 0);
-  /* A light 14 degrees across: the penumbra is that share of the way from what throws the shadow. */
+  /* A light 14 degrees wide: the penumbra is that fraction of the distance from the caster. */
   float texel = 1.0f / SHADOW_MAP_SIDE, growth = 0.125f * maps->shadow_depth / maps->shadow_side;
   set4(frame->shadow, v3(0.028f, growth, 1.5f * texel), 2.0f * texel * maps->shadow_side);
 }

@@ -1,5 +1,5 @@
-/* The OpenGL 3.3 core functions that drawing uses, fetched at run time: the program starts, and does all its
- * other work, on a machine that has no OpenGL at all. */
+/* The OpenGL 3.3 core functions that drawing uses, loaded at run time: the program starts, and does
+ * everything else, on a machine without OpenGL. */
 #ifndef RENDER_GL_API_H
 #define RENDER_GL_API_H
 
@@ -90,7 +90,7 @@ typedef struct gl_api {
 #undef RENDER_GL_MEMBER
 } gl_api;
 
-/* Fills every member through `find`; returns the name of the first function missing, NULL if none is. */
+/* Fills every member through `find`; returns the name of the first missing function, NULL if none is. */
 const char *gl_api_load(gl_api *gl, gl_function (*find)(const char *name, void *user), void *user);
 
 #endif

@@ -9,7 +9,7 @@
 #include <jpeglib.h>
 #include <setjmp.h>
 
-/* A progressive file of some kilobytes can ask for thousands of scans over all of its pixels. */
+/* A progressive file of a few kilobytes can request thousands of scans over all of its pixels. */
 enum { MAX_SCANS = 100 };
 
 typedef struct reading {
@@ -17,7 +17,7 @@ typedef struct reading {
   struct jpeg_progress_mgr progress;
   jmp_buf failed;
   char *why;
-  uint8_t *row; /* of a file of four inks */
+  uint8_t *row; /* of a CMYK file */
   draw_image *image;
 } reading;
 
@@ -32,8 +32,7 @@ static void fail(j_common_ptr jpeg) {
   longjmp(reading_of(jpeg)->failed, 1);
 }
 
-/* Data that is missing is a fault, which the library repairs with grey; what else it warns of shows nowhere.
- */
+/* Missing data, which the library replaces by grey, is an error; its other warnings are invisible. */
 static void note(j_common_ptr jpeg, int level) {
   int code = jpeg->err->msg_code;
   if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_NOT_SEQUENTIAL))
@@ -46,7 +45,7 @@ static void count_scans(j_common_ptr jpeg) {
   longjmp(reading_of(jpeg)->failed, 1);
 }
 
-/* Inks as Adobe's programs store them, who write most such files: 255 is none. */
+/* CMYK as stored by Adobe's programs, which write most such files: 255 is no ink. */
 static void write_inks(const uint8_t *inks, uint32_t width, bool inverted, uint8_t *rgba) {
   for (uint32_t x = 0; x < width; x++, inks += 4, rgba += 4) {
     int black = inverted ? inks[3] : 255 - inks[3];
@@ -63,7 +62,7 @@ static void read_rows(struct jpeg_decompress_struct *jpeg, reading *r) {
     JSAMPROW row = inks ? r->row : to;
     jpeg_read_scanlines(jpeg, &row, 1);
     if (inks) write_inks(r->row, width, jpeg->saw_Adobe_marker, to);
-    for (uint32_t x = width; !inks && x-- > 0;) { /* from three bytes to four, from the end on */
+    for (uint32_t x = width; !inks && x-- > 0;) { /* expands three bytes to four in place, from the end */
       const uint8_t rgb[3] = {to[3 * x], to[3 * x + 1], to[3 * x + 2]};
       memcpy(to + 4 * (size_t)x, rgb, 3);
       to[4 * (size_t)x + 3] = 255;
@@ -71,7 +70,7 @@ static void read_rows(struct jpeg_decompress_struct *jpeg, reading *r) {
   }
 }
 
-/* The library leaves an error by a long jump: what must be freed then is reached through `r`. */
+/* The library reports errors by longjmp; `r` holds the resources to free then. */
 static bool decode(
     struct jpeg_decompress_struct *jpeg, reading *r, const uint8_t *bytes, unsigned long size) {
   if (setjmp(r->failed)) return false;

@@ -1,4 +1,4 @@
-/* Images as textures of OpenGL, each made once. */
+/* Textures of images, each created once. */
 #ifndef RENDER_IMAGE_TEXTURES_H
 #define RENDER_IMAGE_TEXTURES_H
 
@@ -13,8 +13,8 @@ typedef struct image_textures {
   size_t count;
 } image_textures;
 
-/* The image's texture, smoothed and repeated; of NULL a white one; 0 where there is none to be had. Takes the
- * place of what is bound to the active unit where it makes one. */
+/* Texture of the image, filtered and repeated; for NULL a white one; 0 on failure. A new texture replaces
+ * the binding of the active unit. */
 GLuint image_textures_of(image_textures *textures, const gl_api *gl, const draw_image *image);
 void image_textures_destroy(image_textures *textures, const gl_api *gl);
 

@@ -1,5 +1,5 @@
-/* Pictures of the drawing surface's size that go into it: depths of what is seen through, and the lines. Made
- * when first needed. */
+/* Intermediate render targets of the drawing surface's size: depth of transparent surfaces, and lines.
+ * Created at first use. */
 #ifndef RENDER_LAYERS_H
 #define RENDER_LAYERS_H
 
@@ -8,13 +8,14 @@
 
 typedef struct layer_set {
   GLsizei width, height;           /* pixels of the drawing surface */
-  GLuint veil_texture, veil_frame; /* depths of the nearest surface that is seen through */
-  /* Lines have edges of their own making, and gain nothing from four samples a pixel: drawn by themselves
-   * with one, they cost half. */
+  GLuint veil_texture, veil_frame; /* depth of the nearest transparent surface */
+  /* Lines are anti-aliased by their shader and need no multisampling: a separate target with one sample
+   * halves their cost. */
   GLuint line_texture, line_frame, line_depth;
 } layer_set;
 
-/* For a surface of this size. SBF_FAILED, with a message, where OpenGL has no room; made before is fine. */
+/* Creates them for a surface of this size. SBF_FAILED, with a message, if OpenGL has no memory; existing
+ * ones are reused. */
 sbf_status layers_make(
     layer_set *set, const gl_api *gl, GLsizei width, GLsizei height, sbf_diagnostic *diagnostic);
 void layers_destroy(layer_set *set, const gl_api *gl);

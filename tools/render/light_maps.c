@@ -100,7 +100,7 @@ void light_maps_update_view(light_maps *maps, const box3 *casters, const box3 *g
   sbf_vec3 middle = v3_scale(v3_add(box.min, box.max), 0.5f);
   float radius = 0.5f * v3_length(v3_sub(box.max, box.min));
 
-  /* A square about the sphere around everything, seen along the light. */
+  /* A square around the bounding sphere of everything, seen along the light. */
   maps->shadow_side = grown(maps->shadow_side, 2.1f * radius);
   projections->shadow_side = maps->shadow_side;
   float texel = projections->shadow_side / SHADOW_MAP_SIDE, half = 0.5f * projections->shadow_side;
@@ -113,8 +113,7 @@ void light_maps_update_view(light_maps *maps, const box3 *casters, const box3 *g
       -at.z - half + projections->shadow_depth);
   projections->shadow_clip_from_world = matrix4_product(&projection, &light);
 
-  /* Straight from below: under the subject, where its shadow falls, and around, for it hides sky there too.
-   */
+  /* Seen straight from below: the area of the subject, of its shadow, and around it, where it hides sky. */
   float tall = box.max.y - (box3_is_empty(ground) ? box.min.y : ground_near);
   float cast = fminf(fmaxf(tall, 0) / fmaxf(to_key.y, 0.1f), 4 * radius);
   float around = 0.1f * radius + 0.3f * fmaxf(fminf(tall, radius), 0);

@@ -19,7 +19,7 @@ static bool is_solid(const draw_scene_part *part) {
   return part->transparency <= 0 && part->alpha != DRAW_BLEND;
 }
 
-/* 0 where this OpenGL cannot hold the image; no image is white. */
+/* 0 if OpenGL cannot hold the image; without an image, white. */
 static GLuint texture_of(const mesh_parts *parts, const draw_scene_part *part) {
   return image_textures_of(parts->images, parts->gl, part->image);
 }
@@ -38,7 +38,7 @@ static void begin_depth(const mesh_parts *parts, bool mask, const matrix4 *map_f
 
 void mesh_parts_cast(const mesh_parts *parts, const matrix4 *map_from_world) {
   const draw_scene_part *part = parts->scene->parts.at;
-  bool any = !box3_is_empty(&parts->scene->casters); /* else all do */
+  bool any = !box3_is_empty(&parts->scene->casters); /* otherwise all parts count */
   for (int mask = 0; mask < 2; mask++) {
     begin_depth(parts, mask, map_from_world);
     for (size_t i = 0; i < parts->scene->parts.count; i++) {

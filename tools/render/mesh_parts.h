@@ -1,4 +1,4 @@
-/* The parts of a scene's meshes, each drawn as its material says. The meshes' vertex array must be bound. */
+/* Draws the parts of a scene's meshes by their materials. The meshes' vertex array must be bound. */
 #ifndef RENDER_MESH_PARTS_H
 #define RENDER_MESH_PARTS_H
 
@@ -14,16 +14,16 @@ typedef struct mesh_parts {
   const draw_scene *scene;
 } mesh_parts;
 
-/* Depth alone of what throws shadows; where nothing does, of all but what blends. Holes stay open. */
+/* Depth of shadow casters; if there are none, of all parts that do not blend. Holes stay open. */
 void mesh_parts_cast(const mesh_parts *parts, const matrix4 *map_from_world);
 
-/* Depth alone of what is neither seen through nor blends: opaque parts, then (`holes`) those with holes. */
+/* Depth of parts that are neither transparent nor blend: opaque parts, then (`holes`) those with holes. */
 void mesh_parts_fill_depth(const mesh_parts *parts, const matrix4 *clip_from_world, bool holes);
 
-/* Colour of what is neither seen through nor blends. Parts with holes write their own depth. */
+/* Colour of parts that are neither transparent nor blend. Parts with holes write their own depth. */
 void mesh_parts_colour(const mesh_parts *parts);
 
-/* One part that blends with what is behind it, its own far sides first. */
+/* A blended part, back faces first. */
 void mesh_parts_blend(const mesh_parts *parts, const draw_scene_part *part);
 
 void mesh_parts_draw(const gl_api *gl, const draw_scene_part *part);

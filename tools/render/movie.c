@@ -16,11 +16,11 @@ struct draw_movie {
   uint32_t frames;
 };
 
-/* One palette for all frames must have seen them all first, and ffmpeg keeps them in memory until then:
- * beyond this many bytes a palette is made for each frame instead. */
+/* A single palette requires all frames, which ffmpeg keeps in memory: above this number of bytes each
+ * frame gets its own palette. */
 #define PALETTE_BYTES_MAX ((uint64_t)1 << 30)
 
-/* Ordered dithering stands still where the picture does, which keeps a GIF both calm and small. */
+/* Ordered dithering is static where the picture is, which keeps a GIF steady and small. */
 static void write_gif_filter(const draw_movie_options *options, char *filter, size_t size) {
   uint64_t bytes = (uint64_t)options->width * options->height * 3 * options->frame_count;
   bool one = options->frame_count && bytes <= PALETTE_BYTES_MAX;
@@ -57,7 +57,7 @@ static int start(draw_movie *movie, const draw_movie_options *options, const cha
       "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate,
       "-i", "pipe:0"};
   const char *const gif[] = {"-filter_complex", gif_filter, "-loop", "0", "-f", "gif"};
-  /* yuv420p halves the colour both ways, so sides must be even: an odd last row or column is cut. */
+  /* yuv420p halves the colour resolution, so sizes must be even: crops an odd last row or column. */
   const char *const mp4[] = {"-vf",
       "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",
       "libx264", "-preset", "medium", "-crf", "17", "-colorspace", "bt709", "-color_primaries", "bt709",
@@ -70,7 +70,7 @@ static int start(draw_movie *movie, const draw_movie_options *options, const cha
   for (size_t i = 0; i < own_count[options->kind]; i++) arguments[count++] = own[options->kind][i];
   arguments[count++] = file;
   arguments[count] = NULL;
-  /* posix_spawn takes char *const * for the sake of old programs; it changes nothing. */
+  /* posix_spawn takes char *const * for compatibility; it does not modify the strings. */
   return child_pipe_start(&movie->child, (char *const *)(uintptr_t)arguments);
 }
 
@@ -87,7 +87,7 @@ sbf_status draw_movie_open(
     free(made);
     return status;
   }
-  /* "file:" keeps a colon or a leading dash in the name from meaning something to ffmpeg. */
+  /* "file:" prevents ffmpeg from interpreting a colon or a leading dash in the name. */
   size_t size = strlen(made->output.written_path) + 6;
   char *file = malloc(size);
   int error = ENOMEM;
@@ -113,9 +113,9 @@ sbf_status draw_movie_open(
   return SBF_OK;
 }
 
-/* True when it ended well. */
+/* True if it succeeded. */
 static bool end_child(draw_movie *movie, char *said, size_t size) {
-  output_file_tie(0); /* its number may go to another process once it has been waited for */
+  output_file_tie(0); /* after waiting its number may be reused */
   return child_pipe_finish(&movie->child, said, size);
 }
 

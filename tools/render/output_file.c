@@ -12,8 +12,8 @@
 
 #include "render/fault.h"
 
-/* A signal handler sees only what is static: what it is to remove and to end. Set before the handlers are in
- * place, and cleared after they are gone. */
+/* A signal handler only has static data: the file to delete and the process to kill. Set before the
+ * handlers are installed, and cleared after their removal. */
 static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 enum { ENDING_SIGNAL_COUNT = 3 };
 static const char *volatile pending_path;
@@ -24,12 +24,12 @@ static struct sigaction previous_actions[ENDING_SIGNAL_COUNT];
 static void remove_and_end(int signal_number) {
   pid_t process = pending_process;
   if (process > 0) {
-    /* Waited for, lest it make the file anew. */
+    /* Waits for it, so that it cannot recreate the file. */
     kill(process, SIGKILL);
     waitpid(process, NULL, 0);
   }
   if (pending_path) unlink(pending_path);
-  /* SA_RESETHAND has given the default action back: raising again ends this process as the sender meant. */
+  /* SA_RESETHAND has restored the default action: raising again ends this process as intended. */
   raise(signal_number);
 }
 
@@ -77,7 +77,7 @@ static sbf_status out_of_memory(output_file *output, sbf_diagnostic *diagnostic)
   return status;
 }
 
-/* `there`: the file that stands there, or NULL. 0, or the errno. */
+/* `there`: an existing file, or NULL. Returns 0, or the errno. */
 static int make_temporary(const char *path, const struct stat *there) {
   int why = 0;
   int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -95,7 +95,7 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
         diagnostic, SBF_CODE_BAD_CALL, path, "another file is being written: one at a time");
   struct stat there, link;
   bool exists = stat(path, &there) == 0;
-  /* Renaming would put the file in the place of a link that names nothing. */
+  /* Renaming would replace a dangling link by the file. */
   if (!exists && lstat(path, &link) == 0 && S_ISLNK(link.st_mode))
     return cannot_write(output, ENOENT, diagnostic);
   if (exists && S_ISDIR(there.st_mode)) return cannot_write(output, EISDIR, diagnostic);

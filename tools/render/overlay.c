@@ -1,10 +1,10 @@
-/* Words and colours in a corner of the picture: letters of a few strokes, drawn as lines are. */
+/* Text and colours in a corner of the picture: letters of a few strokes, drawn as lines. */
 #include <string.h>
 
 #include "render/draw_scene_data.h"
 
-/* Strokes of a letter: figures x and y of a point by turns, points joined up, a space lifts the pen. Letters
- * stand on y = 2; small ones reach 6, tall ones 8, tails 0. */
+/* Strokes of a letter: digit pairs x and y of points, connected; a space lifts the pen. The baseline is y
+ * = 2; small letters reach 6, tall ones 8, descenders 0. */
 typedef struct letter {
   char name;
   const char *strokes;
@@ -63,7 +63,7 @@ static const letter letters[] = {
 static const float letter_scale = 1.9f, letter_gap = 3.6f, word_gap = 7.0f, stroke = 1.35f; /* units */
 static const float left = 22, bottom = 26, row = 23, swatch = 26;
 static const draw_colour ink = {52, 58, 68, 255};
-/* Around what is written, lest it be lost before something dark. */
+/* Rim around text, for contrast with dark backgrounds. */
 static const draw_colour halo = {236, 238, 240, 110};
 static const float halo_width = 5;
 
@@ -80,7 +80,8 @@ static void add_overlay_line(draw_scene *scene, sbf_vec2 from, sbf_vec2 to, draw
   if (stored) *stored = (draw_line){{from.x, from.y, side}, {to.x, to.y, side}, colour, colour, width};
 }
 
-/* Draws one letter with its left foot at `at`, or only measures it where there is no scene; its width. */
+/* Draws one letter with its lower left corner at `at`, or only measures it without a scene; returns its
+ * width. */
 static float add_letter(
     draw_scene *scene, const char *strokes, sbf_vec2 at, draw_colour colour, float width) {
   float wide = 0;
@@ -107,7 +108,7 @@ static float add_run(draw_scene *scene, const char *words, sbf_vec2 at, draw_col
   return at.x > start ? at.x - start - letter_gap : 0;
 }
 
-/* Its width. */
+/* Returns its width. */
 static float add_words(draw_scene *scene, const char *words, sbf_vec2 at) {
   if (scene) add_run(scene, words, at, halo, halo_width);
   return add_run(scene, words, at, ink, stroke);
@@ -161,15 +162,16 @@ void draw_scene_arrange_overlay(
   sbf_vec3 back = draw_camera_back(camera);
   sbf_vec3 right = v3_unit(v3_cross(v3(0, 1, 0), back), v3(1, 0, 0)), over = v3_cross(back, right);
   sbf_vec3 middle = v3_sub(draw_camera_eye(camera), v3_scale(back, camera->distance));
-  float pixels = fmaxf((float)height / 720, 0.7f);                          /* a unit */
-  float metre = 2 * camera->distance * camera->half_height / (float)height; /* a pixel */
+  float pixels = fmaxf((float)height / 720, 0.7f);                          /* per unit */
+  float metre = 2 * camera->distance * camera->half_height / (float)height; /* per pixel */
   sbf_vec3 corner = v3_sub(v3_sub(middle, v3_scale(right, 0.5f * metre * (float)width)),
       v3_scale(over, 0.5f * metre * (float)height));
   sbf_vec3 top = v3_add(corner, v3_scale(over, metre * (float)height));
   for (size_t i = 0; i < count; i++) {
     sbf_vec3 from = lines[i].from.z > 0 ? top : corner;
     placed[i] = lines[i];
-    placed[i].width *= pixels * 720 / (float)height; /* a line's own unit shrinks with any picture */
+    placed[i].width *=
+        pixels * 720 / (float)height; /* compensates for the line's own scaling with the picture */
     sbf_vec3 *ends[2] = {&placed[i].from, &placed[i].to};
     for (int k = 0; k < 2; k++)
       *ends[k] = v3_add(from,

@@ -20,7 +20,7 @@ struct draw_painter {
   layer_set layers;
   image_textures images;
   frame_block frame;
-  GLsizei ground_indices; /* in this frame */
+  GLsizei ground_indices; /* in the current frame */
 };
 
 sbf_status draw_painter_create(draw_painter **created, draw_canvas *canvas, sbf_diagnostic *diagnostic) {
@@ -62,7 +62,7 @@ void draw_painter_destroy(draw_painter *painter) {
   free(painter);
 }
 
-/* A floor without end is a square about the subject, as far as the ground is seen. */
+/* An infinite floor is a square around the subject, as large as the visible ground. */
 static void upload_floor(
     draw_painter *painter, const gl_api *gl, const draw_scene *scene, sbf_vec3 subject, float radius) {
   static uint32_t triangles[6] = {0, 2, 1, 0, 3, 2};
@@ -139,7 +139,7 @@ static void paint_ground_light(const draw_painter *painter, const gl_api *gl) {
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
   } else {
     begin_light_map(gl, maps->light_frame, GROUND_MAP_SIDE);
-    gl->ClearColor(1, 1, 1, 1); /* no ground, no shade on it */
+    gl->ClearColor(1, 1, 1, 1); /* no shade without ground */
     gl->Clear(GL_COLOR_BUFFER_BIT);
   }
   begin_light_map(gl, maps->softened_frame, GROUND_MAP_SIDE);
@@ -177,8 +177,8 @@ static void paint_maps(
   paint_ground_light(painter, gl);
 }
 
-/* Depth alone, a hair behind where it is: colour drawn afterwards passes in front of it, and what lies
- * farther back is never lit, which without a graphics card is most of the work. */
+/* Depth only, slightly behind its position: colour drawn afterwards passes, and farther surfaces are never
+ * lit, which without a graphics card is most of the work. */
 static void begin_depth_first(const gl_api *gl) {
   gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl->DepthMask(GL_TRUE);
@@ -204,18 +204,17 @@ static void paint_solid(draw_painter *painter, const gl_api *gl, const draw_scen
   mesh_parts_fill_depth(&parts, &painter->frame.clip_from_world, false);
   end_depth_first(gl);
   mesh_parts_colour(&parts);
-  /* After what stands before them, so that what is hidden is not painted in vain. */
+  /* After objects in front of it, so that hidden pixels are not shaded. */
   gl->UseProgram(painter->programs.at[PROGRAM_GROUND]);
   gl->BindVertexArray(painter->ground.array);
   draw_indices(gl, 0, painter->ground_indices);
-  gl->DepthFunc(GL_LEQUAL); /* the backdrop is as far as the cleared depth */
+  gl->DepthFunc(GL_LEQUAL); /* the backdrop is at the cleared depth */
   gl->UseProgram(painter->programs.at[PROGRAM_BACKDROP]);
   gl->BindVertexArray(painter->empty_array);
   gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/* The nearest layer of a surface that is seen through: depth first, so that its own far side does not pile up
- * in it. */
+/* The nearest layer of a transparent surface: depth first, so that its back does not accumulate. */
 static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
   use_depth(painter, gl);
   begin_depth_first(gl);
@@ -227,8 +226,8 @@ static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw
   mesh_parts_draw(gl, part);
 }
 
-/* Each line goes to OpenGL four times, a corner of its rectangle each; instancing would say it once, but
- * costs llvmpipe a call of its own for every line. */
+/* Each line is sent four times, once per corner of its rectangle; instancing would send it once, but
+ * llvmpipe handles each instance as a separate draw. */
 static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *scene,
     const draw_scene_list *list, float murk, float thinness) {
   const draw_line *lines = list->at;
@@ -249,8 +248,7 @@ static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *sce
   draw_indices(gl, 0, (GLsizei)(6 * list->count));
 }
 
-/* How deep the nearest surface lies that is seen through: lines behind it fade by the way light has inside.
- */
+/* Depth of the nearest transparent surface: lines behind it fade with the path length inside. */
 static void paint_veil_depths(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
   const draw_scene_part *parts = scene->parts.at;
   begin_depth_map(gl, painter->layers.veil_frame, painter->layers.width, painter->layers.height, 1);
@@ -278,7 +276,7 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->DepthMask(GL_FALSE);
   gl->Enable(GL_BLEND);
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  /* Twice the lines on the same body leave half the room between them. */
+  /* Twice the lines on the same body have half the space between them. */
   float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.35f), 1);
   paint_lines(painter, gl, scene, &scene->sorted_lines, scene->veil_count ? 1.0f : 0.0f, thinness);
   gl->Disable(GL_BLEND);
@@ -318,7 +316,7 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->Disable(GL_BLEND);
 }
 
-/* The box of the ground, and the lowest height it has about the casters. */
+/* Bounds of the ground, and its lowest height near the casters. */
 static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *ground) {
   const sbf_vec3 *at = scene->ground_positions.at;
   box3 near = box3_empty();
@@ -336,7 +334,7 @@ static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *
   return box3_is_empty(&near) ? ground->min.y : near.min.y;
 }
 
-/* How far the ground is seen: six times the picture's height, and not to where it ends. */
+/* Visible radius of the ground: six times the picture's height, but not up to its border. */
 static float fade_radius(const draw_scene *scene, const draw_camera *camera, const box3 *ground) {
   float radius = 12 * camera->distance * camera->half_height;
   if (scene->has_floor || box3_is_empty(ground)) return radius;
@@ -367,13 +365,13 @@ sbf_status draw_painter_paint(
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
   uint32_t scale = draw_canvas_bind(painter->canvas);
-  if (scene->sorted_lines.count) { /* before the maps, whose textures it would take out of their units */
+  if (scene->sorted_lines.count) { /* before the maps, because it changes their texture units */
     GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
     GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
     sbf_status status = layers_make(&painter->layers, gl, width, height, diagnostic);
     if (status != SBF_OK) return status;
   }
-  /* What stands inside a veil is to be seen in full light. */
+  /* Objects inside a transparent surface are fully lit. */
   frame_block_fill(&painter->frame, draw_canvas_width(painter->canvas) * scale,
       draw_canvas_height(painter->canvas) * scale, camera, &maps, ground_radius, scene->veil_count == 0);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);

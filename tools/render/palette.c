@@ -1,5 +1,5 @@
-/* OKLab: B. Ottosson, "A perceptual color space for image processing", 2020: lightness and two opponent axes
- * in which equal steps look equally far apart. */
+/* OKLab: B. Ottosson, "A perceptual color space for image processing", 2020: lightness and two opponent
+ * axes with perceptually uniform distances. */
 #include "render/palette.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ draw_colour draw_colour_mix(draw_colour from, draw_colour to, float t) {
 }
 
 const draw_spring_style *draw_spring_style_of(draw_spring_style_kind kind) {
-  /* Hues that stay apart for the common kinds of colour blindness, of like lightness. */
+  /* Hues that are distinct for the common kinds of colour blindness, with similar lightness. */
   static const draw_spring_style styles[DRAW_SPRING_STYLE_COUNT] = {
       {"structural", {24, 95, 200, 255}, 1.7f},
       {"shear", {238, 140, 20, 255}, 1.3f},
@@ -82,7 +82,8 @@ static oklab oklab_from_polar(float lightness, float chroma, float hue_degrees) 
   return (oklab){lightness, chroma * cosf(hue), chroma * sinf(hue)};
 }
 
-/* Both halves fall from the same pale grey to the same lightness and chroma, so neither sign looks louder. */
+/* Both halves decrease from the same pale grey to the same lightness and chroma, so both signs have equal
+ * weight. */
 void draw_colour_map_init_diverging(draw_colour_map *map) {
   for (int i = 0; i < DRAW_COLOUR_MAP_SIZE; i++) {
     float t = 2 * (float)i / (DRAW_COLOUR_MAP_SIZE - 1) - 1, amount = fabsf(t);

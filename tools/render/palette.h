@@ -1,18 +1,18 @@
-/* Colours as a picture file has them (sRGB, 8 bit), and what the project's pictures use them for. */
+/* sRGB colours with 8 bits, and their uses in the project's pictures. */
 #ifndef RENDER_PALETTE_H
 #define RENDER_PALETTE_H
 
 #include "sbfmt/base.h"
 
 typedef struct draw_colour {
-  uint8_t r, g, b, a; /* sRGB, not premultiplied; a = 255 is opaque */
+  uint8_t r, g, b, a; /* sRGB, straight alpha; a = 255 is opaque */
 } draw_colour;
 
 draw_colour draw_colour_rgb(uint32_t hex); /* 0xrrggbb, opaque */
 draw_colour draw_colour_mix(
-    draw_colour from, draw_colour to, float t); /* plain blend of the stored values; t is clamped to 0..1 */
+    draw_colour from, draw_colour to, float t); /* linear blend of the stored values; t is clamped to 0..1 */
 
-/* Colour of the kind of a spring, and how wide a line shows it: thin where there are many. */
+/* Colour of a kind of spring, and its line width: thin for numerous kinds. */
 typedef enum draw_spring_style_kind {
   DRAW_SPRING_STYLE_STRUCTURAL,
   DRAW_SPRING_STYLE_SHEAR,
@@ -31,19 +31,19 @@ typedef struct spring_style {
 /* Never NULL; a kind out of range gives that of structural springs. */
 const draw_spring_style *draw_spring_style_of(draw_spring_style_kind kind);
 
-/* Further colours of the house, so that every picture looks alike. */
-draw_colour draw_colour_of_skin(void); /* where the asset names none */
+/* Further colours, so that all pictures look alike. */
+draw_colour draw_colour_of_skin(void); /* if the asset has none */
 draw_colour draw_colour_of_bone(void);
 draw_colour draw_colour_of_hull(void);
 draw_colour draw_colour_of_tetrahedron(void);
-draw_colour draw_colour_of_target(void);  /* where a foot wants to go */
-draw_colour draw_colour_of_contact(void); /* where it stands */
+draw_colour draw_colour_of_target(void);  /* target of a foot */
+draw_colour draw_colour_of_contact(void); /* contact of a foot */
 draw_colour draw_colour_of_ray(void);     /* down to the ground */
-draw_colour draw_colour_of_pole(void);    /* that a knee points to */
+draw_colour draw_colour_of_pole(void);    /* target of a knee */
 
-/* Two maps from numbers to colours, both running through OKLab in even steps of seen difference:
- * diverging for signed strain (blue compressed, pale at rest, red stretched), sequential for magnitudes
- * (dark violet, blue, green, yellow). Fill once, look up often. */
+/* Two colour maps with perceptually uniform steps in OKLab: diverging for signed strain (blue compressed,
+ * pale at rest, red stretched), sequential for magnitudes (dark violet, blue, green, yellow). Fill once,
+ * look up often. */
 enum { DRAW_COLOUR_MAP_SIZE = 256 };
 typedef struct draw_colour_map {
   draw_colour at[DRAW_COLOUR_MAP_SIZE];
@@ -52,7 +52,7 @@ typedef struct draw_colour_map {
 void draw_colour_map_init_diverging(draw_colour_map *map);
 void draw_colour_map_init_sequential(draw_colour_map *map);
 
-/* `t` from 0 to 1, clamped; not a number gives magenta, which no map holds. */
+/* `t` from 0 to 1, clamped; NaN gives magenta, which no map contains. */
 draw_colour draw_colour_map_at(const draw_colour_map *map, float t);
 
 /* Diverging: strain (l - l0) / l0, full colour at +-full_strain. */

@@ -10,8 +10,8 @@
 #include "render/fault.h"
 #include "render/output_file.h"
 
-/* libpng leaves an error by a long jump, past everything but volatile state: so the call that jumps stands
- * alone here, and owns nothing but libpng's own structures. */
+/* libpng reports errors by longjmp, which keeps only volatile state: so this function contains only the
+ * call that jumps, and owns nothing but libpng's structures. */
 static bool encode(FILE *file, const uint8_t *rgb, uint32_t width, uint32_t height) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
   png_infop info = png ? png_create_info_struct(png) : NULL;

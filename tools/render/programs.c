@@ -39,7 +39,7 @@ static GLuint link(const gl_api *gl, const char *vertex_text, const char *const 
       program = 0;
     }
   }
-  /* Shaders live on in the program they are attached to. */
+  /* Shaders stay alive in the program that they are attached to. */
   if (vertex) gl->DeleteShader(vertex);
   if (fragment) gl->DeleteShader(fragment);
   return program;

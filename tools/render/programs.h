@@ -14,9 +14,9 @@ typedef enum program_name {
   PROGRAM_SOFTEN,
   PROGRAM_GROUND,
   PROGRAM_MESH,
-  PROGRAM_MESH_IMAGE, /* with an image on it */
-  PROGRAM_MESH_ALPHA, /* likewise, with holes or blended */
-  PROGRAM_VEIL,       /* a mesh that is seen through */
+  PROGRAM_MESH_IMAGE, /* with a texture */
+  PROGRAM_MESH_ALPHA, /* the same, with holes or blended */
+  PROGRAM_VEIL,       /* a transparent mesh */
   PROGRAM_LINE,
   PROGRAM_LAYER,
   PROGRAM_COUNT
@@ -44,7 +44,7 @@ typedef struct program_set {
   GLint murk, thinness;                   /* uniforms of PROGRAM_LINE */
 } program_set;
 
-/* On failure what was made is destroyed again. The uniform block Frame is bound to point 0. */
+/* On failure everything is destroyed. The uniform block Frame is bound to point 0. */
 sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnostic *diagnostic);
 void programs_destroy(program_set *programs, const gl_api *gl);
 

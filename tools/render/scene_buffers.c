@@ -68,7 +68,7 @@ void line_buffers_destroy(const line_buffers *buffers, const gl_api *gl) {
   gl->DeleteVertexArrays(1, &buffers->array);
 }
 
-/* Corners 0 1 2 and 2 1 3 of every line, for as many as were ever shown. */
+/* Corners 0 1 2 and 2 1 3 of every line, for the largest number so far. */
 bool line_buffers_grow(line_buffers *lines, const gl_api *gl, size_t line_count) {
   gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, lines->indices);
   if (line_count <= lines->capacity) return true;

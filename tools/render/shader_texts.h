@@ -1,4 +1,4 @@
-/* The texts of shaders/, put into the program when it is built. */
+/* The texts of shaders/, embedded into the program at build time. */
 #ifndef RENDER_SHADER_TEXTS_H
 #define RENDER_SHADER_TEXTS_H
 

@@ -1,8 +1,7 @@
-/* A height field into triangles: a grid of lines along x and z, dense near the middle and sparse far out. The
- * lines keep to whole multiples of their spacing in the world, so that the ground stays put when its middle
- * moves. Where the height jumps between two lines, the place of the jump is searched out and gets lines of
- * its own on both sides, twice each: what meets there shares no corner, so tread and riser keep their
- * shading. */
+/* Triangulates a height field: grid lines along x and z, dense near the centre and sparse farther out.
+ * Lines are at multiples of their spacing in the world, so that the ground does not change when its centre
+ * moves. If the height jumps between two lines, the position of the jump is searched and gets double lines
+ * on both sides, without shared corners, so that tread and riser have separate shading. */
 #include "render/draw_scene_data.h"
 
 enum { LINES_MAX = 320, JUMPS_MAX = 24, PROBES = 9, HALVINGS = 16 };
@@ -24,7 +23,7 @@ static void add_terrain_line(terrain_grid *grid, int axis, float coordinate) {
   if (grid->counts[axis] < LINES_MAX) grid->lines[axis][grid->counts[axis]++] = coordinate;
 }
 
-/* Halves the stretch until it is narrow; a slope has by then no difference left, a jump all of it. */
+/* Bisects the interval until it is narrow; then a slope has no difference left, a jump all of it. */
 static bool find_jump(
     const terrain_grid *grid, int axis, float from, float to, float across, float *position) {
   float a = height_at(grid, axis, from, across), b = height_at(grid, axis, to, across);
@@ -55,7 +54,7 @@ static void add_jump(terrain_grid *grid, int axis, float from, float to) {
   }
 }
 
-/* Spacing 1 cell to 48 cells out, then 2 to 96, then 4. */
+/* Spacing 1 up to 48 cells from the centre, then 2 up to 96, then 4. */
 static float next_line(const terrain_grid *grid, int axis, float coordinate) {
   float out = fabsf(coordinate - grid->middle[axis]) / grid->cell;
   float step = grid->cell * (out < 48 ? 1.0f : out < 96 ? 2.0f : 4.0f);

@@ -11,7 +11,7 @@ double tune_distance_by(const tune_distances *distances, tune_by by) {
   return by == TUNE_BY_RMS ? distances->rms_m : by == TUNE_BY_P99 ? distances->p99_m : distances->max_m;
 }
 
-/* The value that would stand at `index` if they were sorted (Hoare, Algorithm 65: Find, 1961). */
+/* Value at `index` of the sorted order (Hoare, Algorithm 65: Find, 1961). */
 static float value_at(float *values, size_t count, size_t index) {
   size_t low = 0, high = count - 1;
   while (low < high) {
@@ -49,7 +49,7 @@ bool tune_distances_between(const chart_track *is, const chart_track *wanted, tu
     sbf_vec3 p = is->positions[i], q = wanted->positions[i];
     double x = (double)p.x - (double)q.x, y = (double)p.y - (double)q.y, z = (double)p.z - (double)q.z;
     double square = x * x + y * y + z * z;
-    /* What is no number is infinitely far off, and has a place in the order. */
+    /* NaN counts as infinitely far, and has a position in the order. */
     if (!(square >= 0)) square = INFINITY;
     sum += square;
     max = fmax(max, square);

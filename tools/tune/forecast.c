@@ -6,10 +6,10 @@
 #include "chart/rounds.h"
 #include "render/fault.h"
 
-/* Drives: that which it is tuned by, and another. Looks at the reference by so many times the substeps it
- * needs: once and twice, and 4 times where it is refined. */
+/* Drives: the one for tuning, and another. The reference runs with one and two times its required
+ * substeps, and 4 times if it is refined. */
 enum { DRIVES = 2, LOOKED_TICKS = 3, CHECKS = 3, REFINED_SAMPLES = 7 };
-/* Of what is tried, that which is sound to the end of a motion and not beaten there. */
+/* Expected fraction of trials that are sound to the end of a motion and not beaten there. */
 static const double LAST = 0.15;
 
 sbf_status tune_forecast_make(
@@ -27,7 +27,7 @@ sbf_status tune_forecast_make(
   status = chart_motion_open(&motion, &scene, &setting, error);
   if (status == SBF_OK) {
     chart_track track;
-    chart_motion_run(&motion); /* what is used for the first time is slower */
+    chart_motion_run(&motion); /* the first use is slower */
     double begin = chart_now_s();
     if (chart_motion_sample(&motion, &track))
       chart_track_free(&track);

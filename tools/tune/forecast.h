@@ -1,12 +1,12 @@
-/* How long a tuning will take, from what it is going to look at. */
+/* Estimates the duration of a tuning. */
 #ifndef TUNE_FORECAST_H
 #define TUNE_FORECAST_H
 
 #include "tune/trials.h"
 
 typedef struct tune_forecast {
-  double min_s, max_s; /* on a core of its own: most of what is tried is soon beaten; nothing is, and the
-                             reference has to be refined in each motion */
+  double min_s, max_s; /* on one core: most trials are soon beaten; none is, and the reference must be refined
+                          in each motion */
 } tune_forecast;
 
 /* Times some ticks of the reference. */

@@ -14,7 +14,7 @@ tune_verdict tune_choose(const tune_offer *front, uint32_t count, const tune_goa
     uint32_t i = 0;
     while (i < count && !(front[i].error_m <= goal->error_m)) i++;
     if (i == count) return TUNE_TOO_FINE;
-    /* Times are measured and the order is that of visits: a later one may be quicker. */
+    /* Times are measured but the order is by visits: a later one may be faster. */
     while (goal->budget_us > 0 && i + 1 < count && front[i].us > goal->budget_us) i++;
     if (!(goal->budget_us > 0) || front[i].us <= goal->budget_us) {
       *chosen = i;

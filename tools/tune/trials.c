@@ -8,7 +8,7 @@
 #include "render/fault.h"
 #include "sbrun/detail.h"
 
-/* Of the walk, that are timed. */
+/* Timed ticks of the walk. */
 enum { TIMED_TICKS = 30 };
 
 typedef struct sweep {
@@ -44,8 +44,8 @@ static void keep_finding(void *user, const sbf_diagnostic *diagnostic) {
   snprintf(trial->error.why, sizeof trial->error.why, "%.120s", diagnostic->message);
 }
 
-/* What a tick of it costs, without a clock; false, with why, where the runtime refuses it. What it would call
- * biased is refused as well, but more substeps may help. */
+/* Cost of a tick without a clock; false, with the reason, if the runtime does not support it. Also rejects
+ * what it would report as biased, though more substeps may help. */
 static bool count_visits(const sweep *s, tune_trial *trial) {
   const sbf_asset *asset = s->meshes->at[trial->mesh].asset;
   sbr_model_options options = sbr_default_model_options();
@@ -67,8 +67,8 @@ static bool count_visits(const sweep *s, tune_trial *trial) {
   return true;
 }
 
-/* The runtime's own choice first: what looks at as many elements as that follows the same energy no better,
- * and is not tried. */
+/* The runtime's default first: a setting with as many visits follows the same energy no better, and is
+ * skipped. */
 static sbf_status plan_mesh(sweep *s, uint32_t mesh) {
   static const sbf_scheme others[] = {
       SBF_SCHEME_POSITION_BASED, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_SYMPLECTIC};
@@ -94,7 +94,7 @@ static double order_of(const tune_trial *trial) {
   return trial->refused ? INFINITY : trial->visits;
 }
 
-/* Of as many visits those that were planned first. */
+/* For equal visits in order of planning. */
 static void sort(tune_trials *t) {
   for (uint32_t i = 1; i < t->count; i++) {
     tune_trial one = t->at[i];
@@ -114,7 +114,7 @@ sbf_status tune_trials_plan(
   return status;
 }
 
-/* Beats that neither drive has came to 17 % more. */
+/* Cases outside both drives had up to 17 % more. */
 static const double PROMISED = 1.25;
 
 static double promise_of(double usual, double usual_own, double harsher, double harsher_own) {
@@ -133,15 +133,15 @@ static sbf_status drive_harder(sweep *s, bool far, tune_trial *trial) {
   return status;
 }
 
-/* Why nothing holds: of what the file has as it is. */
+/* Reason why nothing is stable: that of the file's unchanged mesh. */
 static const char *why_not(const sweep *s) {
   uint32_t i = 0;
   while (s->to->at[i].mesh != 0 || s->to->at[i].setting.scheme != SBF_SCHEME_AUTOMATIC) i++;
   return s->to->at[i].driven_harder ? s->to->at[i].other.why : s->to->at[i].error.why;
 }
 
-/* One trial by both drives, and onto the front where it belongs there: `best` is the least that what is there
- * promises. */
+/* Runs one trial with both drives, and adds it to the front if it belongs there: `best` is the smallest
+ * promised error on the front. */
 static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
   tune_trial *trial = &s->to->at[number];
   tune_error *is = &trial->error;
@@ -161,7 +161,7 @@ static sbf_status hold(sweep *s, uint32_t number, tune_bar *bar, double *best) {
   return SBF_OK;
 }
 
-/* In order of visits, so that what is on the front is in order of falling promises as well. */
+/* In order of visits, so promised errors on the front decrease. */
 static sbf_status hold_each(sweep *s, bool far) {
   tune_trials *t = s->to;
   tune_bar bar = {.error_m = INFINITY, .by = s->effort->by, .far = far};
@@ -179,7 +179,7 @@ static sbf_status hold_each(sweep *s, bool far) {
   return status;
 }
 
-/* Where all are far off, the nearest of them is better than none. */
+/* If all have large errors, the closest is better than none. */
 static sbf_status hold_all(sweep *s) {
   tune_trials *t = s->to;
   t->front = calloc((size_t)t->count + 1, sizeof *t->front);

@@ -8,7 +8,7 @@
 
 static const char ID[] = "tune";
 
-/* Memory of what is written goes into an asset of its own, which the copy that is handed out does without. */
+/* Writes into a separate asset, so that the copy for the caller has no unused memory. */
 typedef struct writer {
   const sbf_asset *base;
   const tune_level *levels;
@@ -19,7 +19,7 @@ typedef struct writer {
   sbr_model *models[TUNE_MAX_MESHES];
 } writer;
 
-/* The settings of an earlier tuning make room for these. */
+/* Replaces the settings of an earlier tuning. */
 static bool write_derivation(writer *w, const char *settings, sbf_asset *view) {
   const sbf_derivation_list *were = &w->base->derivations;
   sbf_derivation *list = sbf_asset_allocate(w->memory, (size_t)were->count + 1, sizeof *list);
@@ -39,7 +39,7 @@ static bool write_derivation(writer *w, const char *settings, sbf_asset *view) {
   return list[at].settings != NULL;
 }
 
-/* Marks the level, and what it holds, as made by this tuning. */
+/* Marks the level and its content as derived by this tuning. */
 static bool mark(const writer *w, sbf_level *level) {
   int32_t by = (int32_t)w->derivation;
   sbf_pin_set *pins = sbf_asset_allocate(w->memory, (size_t)level->pins.count + 1, sizeof *pins);
@@ -66,7 +66,7 @@ static bool mark(const writer *w, sbf_level *level) {
   return true;
 }
 
-/* A time of the whole character, shared out by what each body costs. */
+/* Distributes the time of the whole character by the cost of each body. */
 static bool state_time(const writer *w, sbf_level *level, double us) {
   sbf_measured *measured = sbf_asset_allocate(w->memory, 1, sizeof *measured);
   if (!measured) return false;

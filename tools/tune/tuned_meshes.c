@@ -41,7 +41,7 @@ static bool is_derived(const sbf_soft_body *body) {
   return body->levels.count > 0 && body->levels.at[0].derived != SBF_NONE;
 }
 
-/* A copy of the base in which each body has one level: `pick`'s. */
+/* A copy of the base in which each body has one level, chosen by `pick`. */
 static sbf_asset *with_levels(
     const sbf_asset *base, const sbf_level *(*pick)(uint32_t body, const void *user), const void *user) {
   sbf_asset *memory = sbf_asset_create(NULL), *made = NULL;
@@ -64,7 +64,7 @@ typedef struct of_base {
   uint32_t level;
 } of_base;
 
-/* Where a body has fewer, its coarsest. */
+/* For a body with fewer levels uses its coarsest. */
 static const sbf_level *pick_of_base(uint32_t body, const void *user) {
   const of_base *from = user;
   const sbf_soft_body *of = &from->base->soft_bodies.at[body];
@@ -83,7 +83,7 @@ static const sbf_level *pick_of_built(uint32_t body, const void *user) {
                          : (was->levels.count ? &was->levels.at[0] : NULL);
 }
 
-/* Whether what was built again has the base's parts, in its order. */
+/* Whether a rebuilt asset has the base's parts in its order. */
 static bool same_parts(const sbf_asset *a, const sbf_asset *b) {
   if (a->soft_bodies.count != b->soft_bodies.count || a->bones.count != b->bones.count ||
       a->rigid_bodies.count != b->rigid_bodies.count || a->render_meshes.count != b->render_meshes.count)
@@ -105,11 +105,11 @@ static sbf_status name_mesh(maker *m, tune_mesh *mesh, const char *name) {
   return SBF_OK;
 }
 
-/* Moduli as they were before they were calibrated: false where none were. */
+/* Restores moduli before calibration: false if there was none. */
 static bool uncalibrate(sbf_asset *asset) {
   bool any = false;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
-    /* The asset is this file's own copy. */
+    /* This file owns the copy. */
     sbf_level *level = (sbf_level *)(uintptr_t)asset->soft_bodies.at[b].levels.at;
     if (!asset->soft_bodies.at[b].levels.count || !level->calibration) continue;
     if (level->model != SBF_ELASTIC_MODEL_TETRAHEDRA || !level->lattice.reference_modulus.count) continue;

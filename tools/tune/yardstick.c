@@ -14,9 +14,9 @@ const chart_drive tune_harsher_drive = {.speed = 0.5,
     .turn_rad_s = 12,
     .turn_ticks = {20, 9}};
 
-/* Farther off than this share of the character's size is no level but a failure. */
+/* Larger errors, as a fraction of the character's size, count as failures. */
 static const double LOST = 0.05;
-/* A reference that is off itself by more than this share of it tells nothing. */
+/* Maximum error of a usable reference as a fraction of the size. */
 static const double TELLS = 0.005;
 
 double tune_size_of(const sbf_asset *asset) {
@@ -38,11 +38,11 @@ static void show(void *user, uint32_t substeps, uint32_t tick) {
   f->measure->progress(f->measure->user, f->motion, substeps, (double)tick / f->ticks);
 }
 
-/* What it is off itself counts where something is measured by it. */
+/* The reference's own error only counts if something is measured with it. */
 static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
   const chart_reference *stated = &yard->stated[number];
   double rms = stated->errors[CHART_PATH], max = stated->errors[CHART_FARTHEST];
-  /* No more than one in k^2 is off by k times the root of the mean square (Chebyshev). */
+  /* At most one in k^2 exceeds k times the root mean square (Chebyshev). */
   const tune_distances own = {rms, fmin(10 * rms, max), max};
   double is = tune_distance_by(&own, by);
   if (!(is < TELLS * yard->size_m)) {
@@ -54,7 +54,7 @@ static void add_own_error(tune_yardstick *yard, int number, tune_by by) {
   yard->own = tune_distances_larger(&yard->own, &own);
 }
 
-/* SBF_OK with `unmeasured` said, where the reference does not hold. */
+/* SBF_OK with `unmeasured` filled, if the reference is unusable. */
 static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *reference,
     const tune_measure *measure, sbf_diagnostic *error) {
   measurement f = {measure, yard->cases[number].name, yard->cases[number].ticks};
@@ -100,7 +100,7 @@ static void fail(tune_error *is, const char *motion, const char *why) {
   snprintf(is->why, sizeof is->why, "%s: %.110s", motion, why);
 }
 
-/* One motion more. */
+/* Measures one more motion. */
 static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset *asset,
     const chart_setting *setting, bool far, tune_error *is, sbf_diagnostic *error) {
   const chart_case *motion_case = &yard->cases[number];
@@ -119,7 +119,7 @@ static sbf_status check(const tune_yardstick *yard, int number, const sbf_asset 
   bool good = chart_motion_sample(&motion, &track);
   chart_motion_close(&motion);
   if (good && !track.sound) fail(is, motion_case->name, track.why);
-  /* What is inside out for a moment is drawn so, and `run` calls it not valid. */
+  /* Momentarily inverted elements are visible, and `run` reports them as invalid. */
   if (good && track.sound && track.turned_over) fail(is, motion_case->name, "elements turn inside out");
   for (uint32_t i = 0; good && track.sound && i < track.ticks; i++)
     is->min_volume = fmin(is->min_volume, track.volume[i]);

@@ -12,7 +12,7 @@ static bool parse_position(const char *rest, input_line *line) {
          line->fraction[0] >= 0 && line->fraction[0] <= 1 && line->fraction[1] >= 0 && line->fraction[1] <= 1;
 }
 
-/* What is wrong, or NULL. `rest`: what stands behind the word. */
+/* Error message, or NULL. `rest`: text after the word. */
 static const char *parse_action(const sdl_api *sdl, const char *word, const char *rest, input_line *line) {
   char more;
   line->down = strcmp(word, "down") == 0 || strcmp(word, "tap") == 0;
@@ -102,7 +102,7 @@ void input_script_free(input_script *script) {
   *script = (input_script){.lines = NULL};
 }
 
-/* SDL_Event is a union: a member is initialized as a whole, since its first one does not cover the others. */
+/* SDL_Event is a union: initializes the whole member, because its first one does not cover the others. */
 static SDL_Event key_event(SDL_Keycode key, bool down) {
   return (SDL_Event){.key = {.type = down ? SDL_KEYDOWN : SDL_KEYUP,
                          .state = down ? SDL_PRESSED : SDL_RELEASED,

@@ -28,7 +28,7 @@ typedef struct input_line {
   uint32_t frame;
   input_kind kind;
   SDL_Keycode key;
-  bool down, up; /* of a key: either or both */
+  bool down, up; /* of a key: one or both */
   float fraction[2];
   int notches;
   char shot[INPUT_SHOT_PATH];
@@ -37,18 +37,18 @@ typedef struct input_line {
 typedef struct input_script {
   input_line *lines;
   uint32_t count, next;
-  float pointer[2]; /* where it last was */
-  bool is_pressed;  /* the key of line `next`, which is to be released at once */
+  float pointer[2]; /* its last position */
+  bool is_pressed;  /* the key of line `next` is pressed and must be released */
 } input_script;
 
-/* False, with a message and *status set, where the file cannot be read (SBF_FAILED) or is wrong
+/* False, with a message and *status set, if the file cannot be read (SBF_FAILED) or is invalid
  * (SBF_BAD_INPUT). */
 bool input_script_load(
     input_script *script, const sdl_api *sdl, const cli_call *call, const char *path, int *status);
 void input_script_free(input_script *script);
 
-/* The next event that is due at the frame; false where none is left. `*shot` becomes the path of a picture
- * that is asked for. Events do not go through SDL's queue: SDL 3 behind SDL 2's calls drops made-up keys. */
+/* Next event of the frame; false if there is none. `*shot` receives the path of a requested picture.
+ * Events bypass SDL's queue, because SDL 3 behind SDL 2's interface drops synthetic keys. */
 bool input_script_next(
     input_script *script, const window *w, uint32_t frame, SDL_Event *event, const char **shot);
 

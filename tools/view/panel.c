@@ -1,4 +1,4 @@
-/* What is switched on, what a frame costs, which keys there are. */
+/* Text of the picture: enabled views, frame times, keys. */
 #include "view/panel.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static void add_switch(const viewer *v, draw_scene *scene, unsigned what, const 
   add(scene, v->st.show & what ? &ON : &OFF, "%s", words);
 }
 
-/* The greatest error that the simulated level of a body states, m; negative where none does. */
+/* Largest error stored in the simulated levels, m; negative if there is none. */
 static float stated_error(const session *s) {
   float max = -1;
   for (uint32_t i = 0; i < s->asset->soft_bodies.count; i++) {

@@ -1,4 +1,4 @@
-/* The words in the picture. */
+/* Text in the picture. */
 #ifndef VIEW_PANEL_H
 #define VIEW_PANEL_H
 

@@ -6,7 +6,8 @@
 #include "sbrun/rigid.h"
 
 static const float GRAVITY = 9.80665f;
-static const float BALL_FRACTION = 0.07f, FINGER_FRACTION = 0.04f; /* radii, of the character's size */
+static const float BALL_FRACTION = 0.07f,
+                   FINGER_FRACTION = 0.04f; /* radii relative to the character's size */
 static const sbf_quat UNTURNED = {0, 0, 0, 1};
 
 static sbr_double3 to_world(sbf_vec3 v) {
@@ -56,7 +57,7 @@ void player_close(player *p) {
 }
 
 static sbf_vec3 middle_of_points(const player *p) {
-  enum { MAX = 1024 }; /* of each body: its middle is no matter of millimetres */
+  enum { MAX = 1024 }; /* maximum per body: enough for an approximate centre */
   sbf_vec3 points[MAX];
   sbf_vec3 sum = {0, 0, 0};
   uint32_t count = 0;
@@ -93,7 +94,7 @@ static sbr_rigid_state state_of(const player *p, int32_t rigid) {
   return sbr_character_get_rigid_state(p->s->world, p->s->character, (uint32_t)rigid);
 }
 
-/* The rigid body that was hit, or whose bone carries the flesh that was; -1: none. */
+/* The rigid body that was hit, or the one of the hit soft body's bone; -1: none. */
 static int32_t rigid_behind(const player *p, const sbr_hit *hit) {
   if (hit->object.rigid_body >= 0) return hit->object.rigid_body;
   int32_t bone = hit->object.soft_body >= 0 ? p->s->asset->soft_bodies.at[hit->object.soft_body].bone : -1;
@@ -144,8 +145,8 @@ void player_release(player *p) {
   p->holds = false;
 }
 
-/* Draws what is held towards the pointer, strongly enough to lift all of it: at a speed, by impulses that
- * this body alone can take, and most of the weight of all that hangs on it. */
+/* Pulls the grabbed object towards the pointer, strongly enough to lift all of it: limits the speed, and
+ * impulses to what this body and most of the weight attached to it can take. */
 static void pull(player *p, float seconds) {
   if (!p->holds) return;
   if (p->dragged_rigid < 0) {
@@ -192,7 +193,7 @@ float player_ball_radius(const player *p) {
   return BALL_FRACTION * p->size;
 }
 
-/* A ball that meets the character knocks it and comes back. */
+/* A ball that hits the character transfers its impulse and bounces back. */
 static void collide(player *p, player_ball *one, const sbr_hit *hit) {
   sbf_vec3 change = v3_scale(hit->normal, -1.4f * v3_dot(one->velocity, hit->normal));
   int32_t rigid = p->mass > 0 ? rigid_behind(p, hit) : -1;

@@ -13,7 +13,7 @@ sbf_status sdl_api_load(sdl_api *sdl, sbf_diagnostic *error) {
   if (!library)
     return fault_set(
         error, SBF_CODE_NO_WINDOW, "the window needs SDL 2, which is not on this machine: " INSTALL_HINT);
-/* POSIX promises that the bits survive; ISO C has no cast between data and function pointers. */
+/* POSIX guarantees this conversion; ISO C has no cast between data and function pointers. */
 #define SDL_LOAD(name)                                                                                       \
   if (!(symbol = dlsym(library, "SDL_" #name)))                                                              \
     return fault_set(                                                                                        \

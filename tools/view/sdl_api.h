@@ -1,4 +1,4 @@
-/* The functions of SDL2 that the window uses, fetched at run time: the program does all its other work on a
+/* The functions of SDL2 that the window uses, loaded at run time: the program does everything else on a
  * machine without SDL. */
 #ifndef VIEW_SDL_API_H
 #define VIEW_SDL_API_H
@@ -38,7 +38,7 @@ typedef struct sdl_api {
 #undef VIEW_SDL_MEMBER
 } sdl_api;
 
-/* SBF_FAILED, with a message that says what to install, where SDL is not on this machine. */
+/* SBF_FAILED, with a message that says what to install, if SDL is missing. */
 sbf_status sdl_api_load(sdl_api *sdl, sbf_diagnostic *error);
 
 #endif

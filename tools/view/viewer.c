@@ -6,9 +6,9 @@
 #include "view/viewer_choices.h"
 
 static const float PITCH_MIN = 0.02f, PITCH_MAX = 1.5f;
-static const float FRAMING_MARGIN = 1.7f; /* as far again as would fill the picture */
+static const float FRAMING_MARGIN = 1.7f; /* distance relative to the one that fills the picture */
 
-/* Keys that walk while they are down. */
+/* Keys that walk while pressed. */
 static const struct move {
   SDL_Keycode key;
   float forward, side, turn, up;
@@ -28,7 +28,7 @@ enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
 
 /* ---- Beginning ---- */
 
-/* Far enough for it to have somewhere to go. */
+/* Far enough to leave space for walking. */
 static void frame_camera(viewer *v) {
   studio *st = &v->st;
   stage_show(st->stage, &st->s, st->scene);
@@ -139,7 +139,7 @@ static void steer(viewer *v) {
 static void throw_ball(viewer *v) {
   const draw_camera *camera = &v->st.camera;
   sbf_vec3 eye = draw_camera_eye(camera), back = draw_camera_back(camera);
-  /* From so near that it is seen to come. */
+  /* From close by, so that its flight is visible. */
   player_throw(&v->p, v3_sub(eye, v3_scale(back, fmaxf(camera->distance - 1.6f * v->size, 0))));
 }
 

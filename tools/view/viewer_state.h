@@ -1,4 +1,4 @@
-/* What a window with a character in it is at a moment. */
+/* State of a window with a character. */
 #ifndef VIEW_VIEWER_STATE_H
 #define VIEW_VIEWER_STATE_H
 
@@ -9,7 +9,7 @@
 
 typedef enum viewer_panel { PANEL_FIGURES, PANEL_KEYS, PANEL_HIDDEN, PANEL_COUNT } viewer_panel;
 
-/* What the last half second, or all that was run by frames, cost. */
+/* Times over the last half second, or over all frames of a limited run. */
 typedef struct viewer_costs {
   double physics_s, picture_s; /* sums */
   double since_s;              /* on the window's clock */
@@ -22,18 +22,18 @@ typedef struct viewer {
   player p;
   cli_call *call;
   input_script input;
-  viewer_costs costs, reported; /* being gathered; as shown */
-  double reported_s;            /* how long that took */
-  float home;                   /* m: of the camera at first */
-  float rise;                   /* m: of the camera's subject above the character's middle */
+  viewer_costs costs, reported; /* being accumulated; as displayed */
+  double reported_s;            /* duration of the latter */
+  float home;                   /* m: initial distance of the camera */
+  float rise;                   /* m: height of the camera's subject above the character's centre */
   float size;                   /* m: of the character */
-  unsigned keys;                /* pressed, of those that walk */
-  int ground;                   /* place among the grounds to choose from; -1: as the call says */
-  sbr_ground own_ground;        /* that one */
+  unsigned keys;                /* pressed walking keys */
+  int ground;                   /* index among the grounds to choose from; -1: that of the call */
+  sbr_ground own_ground;        /* ground of the call */
   viewer_panel panel;
   bool paused, quit, orbits, grabs;
-  float depth;      /* m: of what is held, before the eye */
-  float pointer[2]; /* where it is, as shares */
+  float depth;      /* m: of the grabbed object, from the eye */
+  float pointer[2]; /* its position as fractions */
 } viewer;
 
 #endif

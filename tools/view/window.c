@@ -18,12 +18,11 @@ static void ask_for_opengl(const sdl_api *sdl) {
   sdl->GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
   sdl->GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
   sdl->GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
-  /* The picture is drawn beside, edges smoothed, and copied here. */
+  /* The picture is drawn offscreen with anti-aliasing and copied here. */
   sdl->GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
 }
 
-/* Without a desktop SDL takes a screen that nobody sees and no key reaches, unless it is told to: nobody
- * could close the window. */
+/* Without a desktop SDL would use an invisible screen without keys, whose window nobody could close. */
 static sbf_status open_display(const sdl_api *sdl, sbf_diagnostic *error) {
   bool works = sdl->Init(SDL_INIT_VIDEO) == 0;
   const char *driver = works ? sdl->GetCurrentVideoDriver() : NULL, *asked = getenv("SDL_VIDEODRIVER");

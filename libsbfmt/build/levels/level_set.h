@@ -50,7 +50,7 @@ void sbfi_level_set_free(sbfi_level_set *set);
 
 /* Finds the coarsest lattice, in steps of four times the elements, that meets the recipe's error when
  * calibrated and has an error of at most SBFI_MAX_OFF under every load, and returns its approximate number
- * of tetrahedra. If none meets both, returns the coarsest that meets the error; `*met` is false if none
+ * of tetrahedra. If none meets both, returns the coarsest that meets the error; `*reached` is false if none
  * with fewer elements than the reference does. */
 sbfi_lattice_outcome sbfi_level_set_pick(sbfi_level_set *set, uint32_t *elements, bool *reached);
 
